@@ -1,0 +1,36 @@
+# palpate_room(NAME SOURCES ... [USES room...] [PUBLIC lib...] [PRIVATE lib...])
+# One static library per room (docs/architecture.md): palpate_NAME, collected by palpate::palpate.
+# USES are rooms; the include-rule test checks that the #include lines agree.
+function(palpate_room name)
+  cmake_parse_arguments(room "" "" "SOURCES;USES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(palpate_${name} STATIC ${room_SOURCES})
+  add_library(palpate::${name} ALIAS palpate_${name})
+  target_include_directories(palpate_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include
+                             PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  list(TRANSFORM room_USES PREPEND palpate::)
+  target_link_libraries(palpate_${name} PUBLIC ${room_USES} ${room_PUBLIC}
+                        PRIVATE palpate_warnings ${room_PRIVATE})
+  set_property(GLOBAL APPEND PROPERTY PALPATE_ROOMS palpate::${name})
+endfunction()
+
+# palpate_test(ROOM FILE [SLOW] [LIBS lib...] [SOURCES extra...] [MAIN main.cpp])
+# Builds tests/ROOM/FILE.cpp; each TEST becomes a ctest entry "ROOM/FILE.Suite.Name" that counts as
+# skipped by itself when it calls GTEST_SKIP.
+function(palpate_test room file)
+  cmake_parse_arguments(test "SLOW;GUI" "" "LIBS;SOURCES" ${ARGN})
+  set(target ${room}_${file})
+  add_executable(${target} ${CMAKE_CURRENT_SOURCE_DIR}/${file}.cpp ${test_SOURCES})
+  target_link_libraries(${target} PRIVATE palpate::palpate palpate_warnings palpate_testing
+                        ${test_LIBS})
+  set(labels fast)
+  if(test_SLOW)
+    set(labels slow)
+  endif()
+  if(test_GUI)
+    list(APPEND labels gui)
+  else()
+    target_link_libraries(${target} PRIVATE GTest::gtest_main)
+  endif()
+  gtest_discover_tests(${target} TEST_PREFIX "${room}/${file}." DISCOVERY_MODE PRE_TEST
+    DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${labels}" TIMEOUT 300)
+endfunction()

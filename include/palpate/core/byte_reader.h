@@ -1,0 +1,38 @@
+// A bounds-checked cursor over bytes, little-endian. Reading past the end never touches memory
+// outside: it sets a sticky failure and returns zero, so a parser checks once at its end.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace palpate {
+
+class ByteReader {
+ public:
+  explicit ByteReader(std::span<const std::byte> bytes) noexcept : bytes_(bytes) {}
+
+  std::uint8_t u8() noexcept { return static_cast<std::uint8_t>(little(1)); }
+  std::uint16_t u16() noexcept { return static_cast<std::uint16_t>(little(2)); }
+  std::uint32_t u32() noexcept { return static_cast<std::uint32_t>(little(4)); }
+  std::uint64_t u64() noexcept { return little(8); }
+  std::int64_t i64() noexcept { return static_cast<std::int64_t>(little(8)); }
+  float f32() noexcept;    // IEEE 754 binary32
+  double f64() noexcept;   // IEEE 754 binary64
+  // The next `count` bytes; empty and failed when fewer are left.
+  std::span<const std::byte> take(std::size_t count) noexcept;
+
+  std::size_t position() const noexcept { return position_; }
+  std::size_t remaining() const noexcept { return bytes_.size() - position_; }
+  // False once anything was read past the end.
+  bool ok() const noexcept { return !failed_; }
+
+ private:
+  std::uint64_t little(std::size_t count) noexcept;
+
+  std::span<const std::byte> bytes_;
+  std::size_t position_ = 0;
+  bool failed_ = false;
+};
+
+}  // namespace palpate

@@ -1,0 +1,52 @@
+// The errors of the house. A broken contract is std::invalid_argument or std::out_of_range; when the
+// world fails (a file, a port), a leaf of Error says what, where, and what to do. Bad data that is
+// normal (a wrong checksum, a saturated taxel) is counted, never thrown.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace palpate {
+
+// Base of all failures of the world. what() is one line, fit for a person.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// A file can't be opened, read or written. what(): "PATH: message".
+class FileError : public Error {
+ public:
+  FileError(const std::filesystem::path& path, const std::string& message);
+  const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// A file was read, but its content is not what it should be. what(): "PATH: message (at byte N)".
+class FormatError : public Error {
+ public:
+  // offset [bytes] counts from the start of the content (of the decompressed text, where the file is
+  // compressed); absent where no place can be named.
+  FormatError(const std::filesystem::path& path,
+              const std::string& message,
+              std::optional<std::uint64_t> offset = std::nullopt);
+  const std::filesystem::path& path() const noexcept { return path_; }
+  std::optional<std::uint64_t> offset() const noexcept { return offset_; }
+
+ private:
+  std::filesystem::path path_;
+  std::optional<std::uint64_t> offset_;
+};
+
+// A long piece of work was cancelled by its caller: nothing was left half-done.
+class Cancelled : public Error {
+ public:
+  Cancelled() : Error("cancelled") {}
+};
+
+}  // namespace palpate

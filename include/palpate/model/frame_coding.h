@@ -1,0 +1,26 @@
+// Run-length coding of a frame's values, for memory and disk. Two codings:
+//   counts: u16 units, little-endian, run << 12 | value, run 1..15, value 0..4095 (as on the wire of
+//           the DSACON32-M, wire protocol document section 2)
+//   floats: pairs (u8 run 1..255, f32 value little-endian)
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace palpate {
+
+enum class FrameCoding : std::uint8_t { kCounts = 0, kFloats = 1 };
+
+// Counts where every value is a whole number 0..4095, else floats.
+FrameCoding codingFor(std::span<const float> values) noexcept;
+// Appends the coded values to `out`. Throws std::invalid_argument when kCounts can't hold a value.
+void encodeFrame(std::span<const float> values, FrameCoding coding, std::vector<std::byte>& out);
+// Decodes exactly values.size() values from the start of `bytes`. Returns the number of bytes used;
+// 0 when the bytes are not a frame of that size (then `values` is unspecified). Never throws.
+std::size_t decodeFrame(std::span<const std::byte> bytes,
+                        FrameCoding coding,
+                        std::span<float> values) noexcept;
+
+}  // namespace palpate

@@ -1,0 +1,57 @@
+// A hand as data: its sensor matrices, axes and temperature sensors. Algorithms know none of these
+// numbers; another hand, or a single pad, is another description.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <palpate/model/matrix_layout.h>
+
+namespace palpate {
+
+struct MatrixDescription {
+  std::string name;       // "finger 0 distal"
+  std::string shortName;  // "0 distal"
+  int finger = 0;         // finger it sits on
+  std::string segment;    // "proximal", "distal"; empty for a pad
+  // Where a picture of the whole sensor draws it: column and row of a grid, fingertips on top.
+  int pictureColumn = 0;
+  int pictureRow = 0;
+};
+
+struct AxisDescription {
+  std::string name;        // "finger 1 proximal"
+  double minimumDeg = 0.0;  // range of motion [deg]
+  double maximumDeg = 0.0;
+};
+
+struct TemperatureSensorDescription {
+  std::string name;  // "motor 0", "FPGA", "circuit board"
+};
+
+struct HandDescription {
+  std::string name;                                  // "SCHUNK SDH-2 with Weiss DSA"
+  std::shared_ptr<const SensorLayout> layout;        // never null
+  std::vector<MatrixDescription> matrices;           // one per matrix of the layout
+  std::vector<AxisDescription> axes;
+  std::vector<TemperatureSensorDescription> temperatureSensors;
+  float maximumCounts = 4095.0F;     // full scale of the converter [counts]
+  float saturationCounts = 4095.0F;  // a taxel at or above is saturated [counts]
+
+  // "finger 0 distal", or "matrix 7" where the description has no such matrix.
+  std::string matrixName(std::size_t matrix) const;
+};
+
+// The SDH-2 with its six DSA matrices: 14x6 proximal (0, 2, 4), 13x6 distal (1, 3, 5), 3.4 mm, 12 bit.
+// Sources: .dsa survey of 1052 recordings; SDH-2 manual for the axis ranges.
+const HandDescription& sdh2();
+
+// A description for a layout that was found in a file. The SDH-2's, when sizes agree (with the file's
+// own masks and pitch); otherwise matrices are named by number and drawn side by side.
+HandDescription describeHand(const SensorLayout& layout,
+                             std::size_t numAxes,
+                             std::size_t numTemperatureSensors);
+
+}  // namespace palpate

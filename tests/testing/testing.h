@@ -1,0 +1,42 @@
+// What several tests share.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace palpate::testing {
+
+// A folder of its own for each object, removed with all its content.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const noexcept { return path_; }
+  std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// The folder of real recordings ($PALPATE_RECORDINGS, else ../shared/data/recordings beside the
+// project), or of independent numbers ($PALPATE_GOLDEN, else ../shared/golden); nothing when missing.
+// With PALPATE_REQUIRE_DATA=1 a missing folder throws.
+std::optional<std::filesystem::path> recordingsFolder();
+std::optional<std::filesystem::path> goldenFolder();
+// The project's own folder data/.
+std::filesystem::path dataFolder();
+
+std::string readFile(const std::filesystem::path& path);
+void writeFile(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace palpate::testing
+
+// Ends the test as skipped where the real recordings (or golden numbers) are missing.
+#define PALPATE_NEED(folder) \
+  if (!(folder)) GTEST_SKIP() << "shared data is missing: set PALPATE_RECORDINGS and PALPATE_GOLDEN"
