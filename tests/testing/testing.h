@@ -1,12 +1,12 @@
 // What several tests share.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include <gtest/gtest.h>
 
 namespace palpate::testing {
 
@@ -25,8 +25,8 @@ class TemporaryFolder {
 };
 
 // The folder of real recordings ($PALPATE_RECORDINGS, else ../shared/data/recordings beside the
-// project), or of independent numbers ($PALPATE_GOLDEN, else ../shared/golden); nothing when missing.
-// With PALPATE_REQUIRE_DATA=1 a missing folder throws.
+// project), or of independent numbers ($PALPATE_GOLDEN, else ../shared/golden); nothing when
+// missing. With PALPATE_REQUIRE_DATA=1 a missing folder throws.
 std::optional<std::filesystem::path> recordingsFolder();
 std::optional<std::filesystem::path> goldenFolder();
 // The project's own folder data/.
@@ -38,5 +38,6 @@ void writeFile(const std::filesystem::path& path, std::string_view bytes);
 }  // namespace palpate::testing
 
 // Ends the test as skipped where the real recordings (or golden numbers) are missing.
-#define PALPATE_NEED(folder) \
-  if (!(folder)) GTEST_SKIP() << "shared data is missing: set PALPATE_RECORDINGS and PALPATE_GOLDEN"
+#define PALPATE_NEED(folder)                                                           \
+  if (!(folder)) GTEST_SKIP() << "shared data is missing: set PALPATE_RECORDINGS and " \
+                                 "PALPATE_GOLDEN"

@@ -1,6 +1,6 @@
-// Playback of a recording by its real time stamps: which frame belongs to "now". A virtual clock that
-// runs at a speed over the recording's own time; it knows nothing of threads and screens, and is moved
-// by whoever pulls (a window's refresh, a replay thread, a test).
+// Playback of a recording by its real time stamps: which frame belongs to "now". A virtual clock
+// that runs at a speed over the recording's own time; it knows nothing of threads and screens, and
+// is moved by whoever pulls (a window's refresh, a replay thread, a test).
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,8 @@ class Playback {
   void seekTime(std::int64_t timeUs);
   // One frame (or `frames`) forward or back, clamped at both ends; pauses.
   void step(std::ptrdiff_t frames);
-  // Lets `elapsedUs` of real time pass. At the end: starts over (loop) or pauses on the last frame.
+  // Lets `elapsedUs` of real time pass; stops at the last frame. There it pauses, or (loop) starts
+  // over at the next call, so that the last frame is seen.
   // Gaps in the recording are played through in real time, too; see skipGaps.
   void advance(std::int64_t elapsedUs);
   // Whether gaps longer than max(1 s, 5 median intervals) are jumped over; off by default.

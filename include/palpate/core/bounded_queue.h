@@ -1,6 +1,6 @@
-// A bounded, blocking, counting queue: one of the only two ways to hand things from thread to thread
-// (the other is the latest-value mailbox). It never grows and never drops silently: what didn't fit
-// is counted.
+// A bounded, blocking, counting queue: one of the only two ways to hand things from thread to
+// thread (the other is the latest-value mailbox). It never grows and never drops silently: what
+// didn't fit is counted.
 #pragma once
 
 #include <condition_variable>

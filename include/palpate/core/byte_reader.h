@@ -17,8 +17,8 @@ class ByteReader {
   std::uint32_t u32() noexcept { return static_cast<std::uint32_t>(little(4)); }
   std::uint64_t u64() noexcept { return little(8); }
   std::int64_t i64() noexcept { return static_cast<std::int64_t>(little(8)); }
-  float f32() noexcept;    // IEEE 754 binary32
-  double f64() noexcept;   // IEEE 754 binary64
+  float f32() noexcept;   // IEEE 754 binary32
+  double f64() noexcept;  // IEEE 754 binary64
   // The next `count` bytes; empty and failed when fewer are left.
   std::span<const std::byte> take(std::size_t count) noexcept;
 

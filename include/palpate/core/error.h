@@ -1,6 +1,6 @@
-// The errors of the house. A broken contract is std::invalid_argument or std::out_of_range; when the
-// world fails (a file, a port), a leaf of Error says what, where, and what to do. Bad data that is
-// normal (a wrong checksum, a saturated taxel) is counted, never thrown.
+// The errors of the house. A broken contract is std::invalid_argument or std::out_of_range; when
+// the world fails (a file, a port), a leaf of Error says what, where, and what to do. Bad data that
+// is normal (a wrong checksum, a saturated taxel) is counted, never thrown.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +30,8 @@ class FileError : public Error {
 // A file was read, but its content is not what it should be. what(): "PATH: message (at byte N)".
 class FormatError : public Error {
  public:
-  // offset [bytes] counts from the start of the content (of the decompressed text, where the file is
-  // compressed); absent where no place can be named.
+  // offset [bytes] counts from the start of the content (of the decompressed text, where the file
+  // is compressed); absent where no place can be named.
   FormatError(const std::filesystem::path& path,
               const std::string& message,
               std::optional<std::uint64_t> offset = std::nullopt);

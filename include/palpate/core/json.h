@@ -30,8 +30,8 @@ class Json {
 
   static Json object();
   static Json array();
-  // Throws palpate::Error with line and column when `text` is not one JSON value; nesting is bounded
-  // (512 levels).
+  // Throws palpate::Error with line and column when `text` is not one JSON value; nesting is
+  // bounded (512 levels).
   static Json parse(std::string_view text);
 
   bool isNull() const;
@@ -47,12 +47,12 @@ class Json {
   std::int64_t asInteger() const;
   std::string asString() const;
 
-  std::size_t size() const;                      // items of an array or object, else 0
-  std::vector<std::string> keys() const;         // of an object, in order
+  std::size_t size() const;               // items of an array or object, else 0
+  std::vector<std::string> keys() const;  // of an object, in order
   bool contains(std::string_view key) const;
   // The value under `key` (null when absent or no object), or at `index` of an array.
   Json at(std::string_view key) const;
-  Json at(std::size_t index) const;              // throws std::out_of_range
+  Json at(std::size_t index) const;  // throws std::out_of_range
 
   // Building; a null value becomes an object or an array. Returns *this for chaining.
   Json& set(std::string_view key, Json value);

@@ -1,5 +1,5 @@
-// Numbers as text and back, the same in every locale: '.' decimals, shortest form that reads back to
-// the same number.
+// Numbers as text and back, the same in every locale: '.' decimals, shortest form that reads back
+// to the same number.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ void appendNumber(std::string& out, double value);
 void appendNumber(std::string& out, float value);
 void appendNumber(std::string& out, std::int64_t value);
 
-// The whole of `text` as a number (blanks around it allowed, a leading + not); nothing when it isn't
-// one, has trailing characters, or doesn't fit. Accepts no NaN and no infinity.
+// The whole of `text` as a number (blanks around it allowed, a leading + not); nothing when it
+// isn't one, has trailing characters, or doesn't fit. Accepts no NaN and no infinity.
 std::optional<double> parseDouble(std::string_view text) noexcept;
 std::optional<std::int64_t> parseInteger(std::string_view text) noexcept;
 

@@ -1,5 +1,5 @@
-// A file that appears whole or not at all: written under a temporary name in the same folder, synced,
-// then renamed. An existing file is replaced only when asked.
+// A file that appears whole or not at all: written under a temporary name in the same folder,
+// synced, then renamed. An existing file is replaced only when asked.
 #pragma once
 
 #include <filesystem>

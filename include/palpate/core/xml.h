@@ -23,8 +23,8 @@ class XmlHandler {
 };
 
 struct XmlLimits {
-  int maxDepth = 64;                         // nested elements
-  std::size_t maxMarkupBytes = 1u << 20;     // one tag, comment or instruction [bytes]
+  int maxDepth = 64;                      // nested elements
+  std::size_t maxMarkupBytes = 1u << 20;  // one tag, comment or instruction [bytes]
 };
 
 // The document is not well-formed or breaks a limit. offset [bytes] from the document's start.

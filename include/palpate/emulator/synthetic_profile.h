@@ -10,16 +10,17 @@
 namespace palpate {
 
 struct SyntheticOptions {
-  double durationS = 12.0;      // [s], > 0, at most 86,400
-  double rateHz = 31.7;         // tactile frames [Hz], 0.1..1000
-  double angleRateHz = 160.0;   // joint angles [Hz], 0..1000; 0: none
+  double durationS = 12.0;         // [s], > 0, at most 86,400
+  double rateHz = 31.7;            // tactile frames [Hz], 0.1..1000
+  double angleRateHz = 160.0;      // joint angles [Hz], 0..1000; 0: none
   double temperatureRateHz = 1.0;  // [Hz], 0..100; 0: none
-  int grasps = 3;               // 0..10,000, spread evenly over the time
-  double peakCounts = 1800.0;   // value under the middle of the contact [counts], 1..3500
-  double contactRadiusTaxels = 2.4;  // standard deviation of the contact's pressure [taxels], 0.5..5
-  double thresholdCounts = 100.0;    // subtracted by the sensor; lower values read 0 [counts]
-  double noiseCounts = 0.0;     // standard deviation of the noise on loaded taxels [counts]
-  std::uint32_t seed = 1;       // of the noise
+  int grasps = 3;                  // 0..10,000, spread evenly over the time
+  double peakCounts = 1800.0;      // value under the middle of the contact [counts], 1..3500
+  double contactRadiusTaxels =
+      2.4;                         // standard deviation of the contact's pressure [taxels], 0.5..5
+  double thresholdCounts = 100.0;  // subtracted by the sensor; lower values read 0 [counts]
+  double noiseCounts = 0.0;        // standard deviation of the noise on loaded taxels [counts]
+  std::uint32_t seed = 1;          // of the noise
   std::int64_t startUs = 1'700'000'000'000'000;  // first frame [us since 1970]
 
   // Throws std::invalid_argument with the field's name.

@@ -22,7 +22,7 @@ struct MatrixDescription {
 };
 
 struct AxisDescription {
-  std::string name;        // "finger 1 proximal"
+  std::string name;         // "finger 1 proximal"
   double minimumDeg = 0.0;  // range of motion [deg]
   double maximumDeg = 0.0;
 };
@@ -32,9 +32,9 @@ struct TemperatureSensorDescription {
 };
 
 struct HandDescription {
-  std::string name;                                  // "SCHUNK SDH-2 with Weiss DSA"
-  std::shared_ptr<const SensorLayout> layout;        // never null
-  std::vector<MatrixDescription> matrices;           // one per matrix of the layout
+  std::string name;                            // "SCHUNK SDH-2 with Weiss DSA"
+  std::shared_ptr<const SensorLayout> layout;  // never null
+  std::vector<MatrixDescription> matrices;     // one per matrix of the layout
   std::vector<AxisDescription> axes;
   std::vector<TemperatureSensorDescription> temperatureSensors;
   float maximumCounts = 4095.0F;     // full scale of the converter [counts]
@@ -44,12 +44,12 @@ struct HandDescription {
   std::string matrixName(std::size_t matrix) const;
 };
 
-// The SDH-2 with its six DSA matrices: 14x6 proximal (0, 2, 4), 13x6 distal (1, 3, 5), 3.4 mm, 12 bit.
-// Sources: .dsa survey of 1052 recordings; SDH-2 manual for the axis ranges.
+// The SDH-2 with its six DSA matrices: 14x6 proximal (0, 2, 4), 13x6 distal (1, 3, 5), 3.4 mm, 12
+// bit. Sources: .dsa survey of 1052 recordings; SDH-2 manual for the axis ranges.
 const HandDescription& sdh2();
 
-// A description for a layout that was found in a file. The SDH-2's, when sizes agree (with the file's
-// own masks and pitch); otherwise matrices are named by number and drawn side by side.
+// A description for a layout that was found in a file. The SDH-2's, when sizes agree (with the
+// file's own masks and pitch); otherwise matrices are named by number and drawn side by side.
 HandDescription describeHand(const SensorLayout& layout,
                              std::size_t numAxes,
                              std::size_t numTemperatureSensors);

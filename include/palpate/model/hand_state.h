@@ -8,8 +8,8 @@ namespace palpate {
 
 // One sample of all joints, in the order of the hand's axes (HandDescription::axes).
 struct JointAngles {
-  std::int64_t hostUs = 0;   // host time [us since 1970]
-  std::vector<double> deg;   // joint angles [deg]
+  std::int64_t hostUs = 0;  // host time [us since 1970]
+  std::vector<double> deg;  // joint angles [deg]
 };
 
 // One sample of all temperature sensors, in the order of HandDescription::temperatureSensors.

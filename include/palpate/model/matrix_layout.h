@@ -1,8 +1,8 @@
 // Where taxels are: the layout of one sensor matrix, and of all matrices of a sensor.
 //
-// A matrix is rows x columns places, row 0 at the fingertip, stored row by row. Not every place holds
-// a taxel: the static mask (hardware) says which exist, the dynamic mask (a setting) which are
-// scanned. A frame stores a value for every place; places without a taxel hold 0.
+// A matrix is rows x columns places, row 0 at the fingertip, stored row by row. Not every place
+// holds a taxel: the static mask (hardware) says which exist, the dynamic mask (a setting) which
+// are scanned. A frame stores a value for every place; places without a taxel hold 0.
 #pragma once
 
 #include <cstddef>
@@ -24,9 +24,9 @@ struct MatrixLayout {
   // A full matrix without masked places.
   static MatrixLayout full(int rows, int columns, double pitchMm);
 
-  std::size_t numPlaces() const noexcept;   // rows * columns
-  std::size_t numTaxels() const noexcept;   // existing ones (static mask)
-  std::size_t numEnabled() const noexcept;  // existing and scanned ones
+  std::size_t numPlaces() const noexcept;     // rows * columns
+  std::size_t numTaxels() const noexcept;     // existing ones (static mask)
+  std::size_t numEnabled() const noexcept;    // existing and scanned ones
   bool exists(int y, int x) const noexcept;   // in range and on in the static mask
   bool enabled(int y, int x) const noexcept;  // exists and on in the dynamic mask
   double taxelAreaMm2() const noexcept { return pitchMm * pitchMm; }

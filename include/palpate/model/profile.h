@@ -20,11 +20,11 @@ enum class ValueType { kCounts, kFloat };
 
 // What a recording says about itself.
 struct ProfileInfo {
-  std::string format;                    // "dsa", "palpate", "synthetic"
-  std::string serial;                    // tactile controller, as written ("1D9B0057"); may be empty
-  std::string firmware;                  // generated_by, as written; may be empty
+  std::string format;    // "dsa", "palpate", "synthetic"
+  std::string serial;    // tactile controller, as written ("1D9B0057"); may be empty
+  std::string firmware;  // generated_by, as written; may be empty
   ValueType valueType = ValueType::kCounts;
-  std::vector<std::string> warnings;     // oddities that cost nothing ("declared 12 frames, found 10")
+  std::vector<std::string> warnings;  // oddities that cost nothing ("declared 12 frames, found 10")
 };
 
 // Where the data lies: memory, or a file. Indices are checked by Profile. Const calls may come from
@@ -44,8 +44,8 @@ class ProfileStorage {
   virtual Temperatures temperatures(std::size_t sample) const = 0;
 };
 
-// Cheap to copy (shared storage). Const member functions may be called from several threads at once.
-// All accessors throw std::out_of_range for an index that isn't there.
+// Cheap to copy (shared storage). Const member functions may be called from several threads at
+// once. All accessors throw std::out_of_range for an index that isn't there.
 class Profile {
  public:
   Profile(ProfileInfo info, HandDescription hand, std::shared_ptr<const ProfileStorage> storage);
@@ -70,8 +70,8 @@ class Profile {
 
   // The last frame at or before a time, clamped at both ends; nothing in an empty profile.
   std::optional<std::size_t> frameAt(std::int64_t timeUs) const;
-  // Angles and temperatures that belong to a time or a frame: the last sample at or before it, before
-  // the first one the first, after the last one the last; nothing where there are none.
+  // Angles and temperatures that belong to a time or a frame: the last sample at or before it,
+  // before the first one the first, after the last one the last; nothing where there are none.
   std::optional<std::size_t> angleSampleAt(std::int64_t timeUs) const;
   std::optional<std::size_t> temperatureSampleAt(std::int64_t timeUs) const;
   std::optional<JointAngles> anglesAtFrame(std::size_t frame) const;

@@ -1,11 +1,12 @@
 // A tactile frame: the values of all taxels at one instant.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include <palpate/model/matrix_layout.h>
 
@@ -20,7 +21,7 @@ struct TactileFrame {
   std::shared_ptr<const SensorLayout> layout;
   std::optional<std::int64_t> deviceMs;  // controller's clock, unwrapped [ms]; absent in .dsa
   std::int64_t hostUs = 0;               // host time [us since 1970]
-  std::vector<float> values;             // layout->numPlaces() values: counts, or what a filter made
+  std::vector<float> values;  // layout->numPlaces() values: counts, or what a filter made
 
   TactileFrame() = default;
   // All zero.

@@ -16,7 +16,7 @@ struct Gap {
 };
 
 struct TimingReport {
-  double durationS = 0.0;  // first to last frame [s]
+  double durationS = 0.0;   // first to last frame [s]
   double rateHz = 0.0;      // 1 / median interval; 0 with fewer than two frames
   double meanRateHz = 0.0;  // (frames - 1) / duration; 0 with fewer than two frames
   std::vector<Gap> gaps;    // intervals longer than max(1 s, 5 median intervals)

@@ -1,0 +1,82 @@
+#include "palpate/capture/playback.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "palpate/model/timing.h"
+
+namespace palpate {
+
+Playback::Playback(Profile profile) : profile_(std::move(profile)) {
+  positionUs_ = firstUs();
+  for (const Gap& gap : timingOf(profile_).gaps)
+    gapsUs_.emplace_back(profile_.frameTimeUs(gap.frame), profile_.frameTimeUs(gap.frame + 1));
+}
+
+std::int64_t Playback::firstUs() const {
+  return profile_.numFrames() == 0 ? 0 : profile_.frameTimeUs(0);
+}
+
+std::int64_t Playback::lastUs() const {
+  return profile_.numFrames() == 0 ? 0 : profile_.frameTimeUs(profile_.numFrames() - 1);
+}
+
+std::size_t Playback::frame() const { return profile_.frameAt(positionUs_).value_or(0); }
+
+void Playback::play() {
+  if (lastUs() == firstUs()) return;  // nothing to play: no frame, or just one
+  if (positionUs_ >= lastUs()) seekFrame(0);
+  playing_ = true;
+}
+
+void Playback::setSpeed(double factor) {
+  if (!(factor >= kMinimumSpeed && factor <= kMaximumSpeed))
+    throw std::invalid_argument("Playback: speed must be 0.1..16, is " + std::to_string(factor));
+  speed_ = factor;
+}
+
+void Playback::seekFrame(std::size_t frame) {
+  if (profile_.numFrames() == 0) return;
+  seekTime(profile_.frameTimeUs(std::min(frame, profile_.numFrames() - 1)));
+}
+
+void Playback::seekTime(std::int64_t timeUs) {
+  positionUs_ = std::clamp(timeUs, firstUs(), lastUs());
+  remainderUs_ = 0.0;
+}
+
+void Playback::step(std::ptrdiff_t frames) {
+  pause();
+  if (profile_.numFrames() == 0) return;
+  const auto last = static_cast<std::ptrdiff_t>(profile_.numFrames()) - 1;
+  const auto now = static_cast<std::ptrdiff_t>(frame());
+  // Clamped before the sum is taken: no overflow.
+  const std::ptrdiff_t to = now + std::clamp(frames, -now, last - now);
+  seekFrame(static_cast<std::size_t>(to));
+}
+
+void Playback::advance(std::int64_t elapsedUs) {
+  if (!playing_ || elapsedUs <= 0) return;
+  if (positionUs_ >= lastUs()) {  // looping: the last frame has been shown, start over
+    seekFrame(0);
+    return;
+  }
+  const double moved = static_cast<double>(elapsedUs) * speed_ + remainderUs_;
+  const double whole = std::floor(moved);
+  std::int64_t toUs = lastUs();
+  if (whole < static_cast<double>(lastUs() - positionUs_))
+    toUs = positionUs_ + static_cast<std::int64_t>(whole);
+  remainderUs_ = moved - whole;
+  if (skipGaps_) {
+    for (const auto& [begin, end] : gapsUs_)
+      if (toUs > begin && toUs < end) toUs = end;
+  }
+  positionUs_ = toUs;
+  if (positionUs_ < lastUs()) return;
+  remainderUs_ = 0.0;
+  playing_ = loop_;
+}
+
+}  // namespace palpate

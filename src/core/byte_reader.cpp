@@ -1,0 +1,28 @@
+#include "palpate/core/byte_reader.h"
+
+#include <bit>
+
+namespace palpate {
+
+std::uint64_t ByteReader::little(std::size_t count) noexcept {
+  const auto bytes = take(count);
+  std::uint64_t value = 0;
+  for (std::size_t i = bytes.size(); i > 0; --i)
+    value = value << 8 | std::to_integer<std::uint64_t>(bytes[i - 1]);
+  return value;
+}
+
+float ByteReader::f32() noexcept { return std::bit_cast<float>(u32()); }
+double ByteReader::f64() noexcept { return std::bit_cast<double>(u64()); }
+
+std::span<const std::byte> ByteReader::take(std::size_t count) noexcept {
+  if (failed_ || count > remaining()) {
+    failed_ = true;
+    return {};
+  }
+  const auto bytes = bytes_.subspan(position_, count);
+  position_ += count;
+  return bytes;
+}
+
+}  // namespace palpate

@@ -1,0 +1,16 @@
+#include "palpate/core/error.h"
+
+namespace palpate {
+
+FileError::FileError(const std::filesystem::path& path, const std::string& message)
+    : Error(path.string() + ": " + message), path_(path) {}
+
+FormatError::FormatError(const std::filesystem::path& path,
+                         const std::string& message,
+                         std::optional<std::uint64_t> offset)
+    : Error(path.string() + ": " + message +
+            (offset ? " (at byte " + std::to_string(*offset) + ")" : std::string())),
+      path_(path),
+      offset_(offset) {}
+
+}  // namespace palpate

@@ -1,0 +1,64 @@
+#include "palpate/core/time.h"
+
+#include <chrono>
+#include <cstdio>
+
+namespace palpate {
+namespace {
+
+class SystemClock final : public Clock {
+ public:
+  std::int64_t monotonicUs() const override {
+    return microseconds(std::chrono::steady_clock::now().time_since_epoch());
+  }
+  std::int64_t wallUs() const override {
+    return microseconds(std::chrono::system_clock::now().time_since_epoch());
+  }
+
+ private:
+  template <typename Duration>
+  static std::int64_t microseconds(Duration duration) {
+    return std::chrono::duration_cast<std::chrono::microseconds>(duration).count();
+  }
+};
+
+}  // namespace
+
+const Clock& systemClock() {
+  static const SystemClock clock;
+  return clock;
+}
+
+HostTime::HostTime(const Clock& clock)
+    : clock_(clock), wallStartUs_(clock.wallUs()), monotonicStartUs_(clock.monotonicUs()) {}
+
+std::int64_t HostTime::nowUs() const {
+  return wallStartUs_ + (clock_.monotonicUs() - monotonicStartUs_);
+}
+
+std::int64_t HostTime::wallOffsetUs() const { return clock_.wallUs() - nowUs(); }
+
+std::string utcText(std::int64_t hostUs) {
+  using std::chrono::days;
+  using std::chrono::floor;
+  using std::chrono::microseconds;
+  using std::chrono::milliseconds;
+  const std::chrono::sys_time<microseconds> time{microseconds(hostUs)};
+  const auto day = floor<days>(time);
+  const std::chrono::year_month_day date(day);
+  const std::chrono::hh_mm_ss clock(floor<milliseconds>(time - day));
+  char text[64];
+  std::snprintf(text,
+                sizeof text,
+                "%04d-%02u-%02u %02d:%02d:%02d.%03d",
+                static_cast<int>(date.year()),
+                static_cast<unsigned>(date.month()),
+                static_cast<unsigned>(date.day()),
+                static_cast<int>(clock.hours().count()),
+                static_cast<int>(clock.minutes().count()),
+                static_cast<int>(clock.seconds().count()),
+                static_cast<int>(clock.subseconds().count()));
+  return text;
+}
+
+}  // namespace palpate

@@ -1,0 +1,120 @@
+#include "palpate/filter/characteristic_signals.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "palpate/core/error.h"
+#include "palpate/filter/gaussian.h"
+
+namespace palpate {
+namespace {
+
+// Sums over the active taxels; several matrices can be added up before the means are taken.
+struct ActiveTaxels {
+  double sum = 0.0;
+  double minimum = 0.0;
+  double maximum = 0.0;
+  int count = 0;
+
+  void add(const Eigen::Ref<const MatrixValues>& values) {
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      const double value = static_cast<double>(values.data()[i]);
+      if (!(value > 0.0)) continue;
+      minimum = count == 0 ? value : std::min(minimum, value);
+      maximum = std::max(maximum, value);
+      sum += value;
+      ++count;
+    }
+  }
+  double mean() const { return count == 0 ? 0.0 : sum / count; }
+};
+
+CharacteristicSignals signalsFrom(const ActiveTaxels& raw,
+                                  const ActiveTaxels& filtered,
+                                  double areaMm2) {
+  return {raw.mean(), filtered.mean(), raw.minimum, raw.maximum, raw.sum, raw.count, areaMm2};
+}
+
+// Adds the Gaussian-filtered matrix; an unloaded one stays unloaded, which saves nearly all the
+// work.
+void addFiltered(ActiveTaxels& filtered,
+                 const Eigen::Ref<const MatrixValues>& values,
+                 const MatrixLayout& layout,
+                 int active) {
+  if (active > 0) filtered.add(gaussianFiltered(values, layout));
+}
+
+}  // namespace
+
+CharacteristicSignals characteristicSignals(const Eigen::Ref<const MatrixValues>& values,
+                                            const MatrixLayout& layout) {
+  ActiveTaxels raw;
+  ActiveTaxels filtered;
+  raw.add(values);
+  addFiltered(filtered, values, layout, raw.count);
+  return signalsFrom(raw, filtered, raw.count * layout.taxelAreaMm2());
+}
+
+std::vector<CharacteristicSignals> characteristicSignals(const TactileFrame& frame) {
+  std::vector<CharacteristicSignals> signals;
+  for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m)
+    signals.push_back(characteristicSignals(frame.matrix(m), frame.layout->matrix(m)));
+  return signals;
+}
+
+CharacteristicSignals wholeFrameSignals(const TactileFrame& frame) {
+  ActiveTaxels raw;
+  ActiveTaxels filtered;
+  double areaMm2 = 0.0;
+  for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) {
+    const MatrixLayout& layout = frame.layout->matrix(m);
+    const int before = raw.count;
+    raw.add(frame.matrix(m));
+    const int active = raw.count - before;
+    addFiltered(filtered, frame.matrix(m), layout, active);
+    areaMm2 += active * layout.taxelAreaMm2();
+  }
+  return signalsFrom(raw, filtered, areaMm2);
+}
+
+SignalTable SignalTable::of(const Profile& profile, const Progress& progress) {
+  constexpr std::size_t kFramesPerReport = 256;
+  SignalTable table;
+  table.numFrames_ = profile.numFrames();
+  table.numMatrices_ = profile.layout().numMatrices();
+  table.rows_.reserve(table.numFrames_ * table.numMatrices_);
+  TactileFrame frame;
+  for (std::size_t i = 0; i < table.numFrames_; ++i) {
+    if (progress && i % kFramesPerReport == 0 &&
+        !progress(static_cast<double>(i) / static_cast<double>(table.numFrames_)))
+      throw Cancelled();
+    profile.readFrame(i, frame);
+    for (std::size_t m = 0; m < table.numMatrices_; ++m)
+      table.rows_.push_back(characteristicSignals(frame.matrix(m), profile.layout().matrix(m)));
+  }
+  return table;
+}
+
+const CharacteristicSignals& SignalTable::at(std::size_t frame, std::size_t matrix) const {
+  if (frame >= numFrames_ || matrix >= numMatrices_)
+    throw std::out_of_range("SignalTable: no frame " + std::to_string(frame) + ", matrix " +
+                            std::to_string(matrix));
+  return rows_[frame * numMatrices_ + matrix];
+}
+
+std::size_t SignalTable::frameOfLargestSum() const {
+  std::size_t best = 0;
+  double largest = -1.0;
+  for (std::size_t i = 0; i < numFrames_; ++i) {
+    double sum = 0.0;
+    for (std::size_t m = 0; m < numMatrices_; ++m) sum += rows_[i * numMatrices_ + m].sum;
+    if (sum > largest) {
+      largest = sum;
+      best = i;
+    }
+  }
+  return best;
+}
+
+}  // namespace palpate

@@ -1,0 +1,106 @@
+#include "palpate/filter/gaussian.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace palpate {
+namespace {
+
+constexpr int kLargestSize = 31;
+constexpr double kFwhmPerSigma = 2.3548;  // full width at half maximum of a Gaussian, in sigmas
+
+using Kernel = std::array<float, kLargestSize>;  // the first `size` entries are used
+
+Kernel kernelOf(const GaussianOptions& options) {
+  Kernel kernel{};
+  const double sigma = options.effectiveSigma();
+  const int radius = options.size / 2;
+  double sum = 0.0;
+  for (int i = 0; i < options.size; ++i) {
+    const double t = (i - radius) / sigma;
+    kernel[static_cast<std::size_t>(i)] = static_cast<float>(std::exp(-0.5 * t * t));
+    sum += static_cast<double>(kernel[static_cast<std::size_t>(i)]);
+  }
+  for (float& weight : kernel) weight = static_cast<float>(static_cast<double>(weight) / sum);
+  return kernel;
+}
+
+// Weighted sum along one direction of a rows x columns array, border replicated.
+void convolve(const float* in,
+              float* out,
+              int rows,
+              int columns,
+              bool alongX,
+              std::span<const float> kernel) {
+  const int radius = static_cast<int>(kernel.size()) / 2;
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      float sum = 0.0F;
+      for (int k = -radius; k <= radius; ++k) {
+        const int fromY = alongX ? y : std::clamp(y + k, 0, rows - 1);
+        const int fromX = alongX ? std::clamp(x + k, 0, columns - 1) : x;
+        sum += kernel[static_cast<std::size_t>(k + radius)] * in[fromY * columns + fromX];
+      }
+      out[y * columns + x] = sum;
+    }
+  }
+}
+
+MatrixValues convolvedBothWays(const MatrixValues& in, std::span<const float> kernel) {
+  const int rows = static_cast<int>(in.rows());
+  const int columns = static_cast<int>(in.cols());
+  MatrixValues alongX(rows, columns);
+  MatrixValues out(rows, columns);
+  convolve(in.data(), alongX.data(), rows, columns, true, kernel);
+  convolve(alongX.data(), out.data(), rows, columns, false, kernel);
+  return out;
+}
+
+}  // namespace
+
+void GaussianOptions::validate() const {
+  if (size < 1 || size > kLargestSize || size % 2 == 0)
+    throw std::invalid_argument("gaussian: size must be odd, 1..31, is " + std::to_string(size));
+  if (!std::isfinite(sigma) || sigma < 0.0)
+    throw std::invalid_argument("gaussian: sigma must be 0 (automatic) or above, is " +
+                                std::to_string(sigma));
+}
+
+double GaussianOptions::effectiveSigma() const {
+  return sigma > 0.0 ? sigma : (size + 1) / 2.0 / kFwhmPerSigma;
+}
+
+MatrixValues gaussianFiltered(const Eigen::Ref<const MatrixValues>& values,
+                              const MatrixLayout& layout,
+                              const GaussianOptions& options) {
+  options.validate();
+  if (values.rows() != layout.rows || values.cols() != layout.columns)
+    throw std::invalid_argument("gaussian: the matrix has not the size of its layout");
+  const Kernel weights = kernelOf(options);
+  const auto kernel = std::span(weights).first(static_cast<std::size_t>(options.size));
+  if (layout.numEnabled() == layout.numPlaces()) return convolvedBothWays(values, kernel);
+
+  // Normalised convolution: what masked taxels would have weighed goes to the others.
+  MatrixValues read(layout.rows, layout.columns);
+  MatrixValues weight(layout.rows, layout.columns);
+  for (int y = 0; y < layout.rows; ++y) {
+    for (int x = 0; x < layout.columns; ++x) {
+      const bool on = layout.enabled(y, x);
+      read(y, x) = on ? values(y, x) : 0.0F;
+      weight(y, x) = on ? 1.0F : 0.0F;
+    }
+  }
+  const MatrixValues sum = convolvedBothWays(read, kernel);
+  const MatrixValues total = convolvedBothWays(weight, kernel);
+  MatrixValues out(layout.rows, layout.columns);
+  for (int y = 0; y < layout.rows; ++y)
+    for (int x = 0; x < layout.columns; ++x)
+      out(y, x) = layout.enabled(y, x) ? sum(y, x) / total(y, x) : 0.0F;
+  return out;
+}
+
+}  // namespace palpate

@@ -1,0 +1,82 @@
+#include "palpate/model/frame_coding.h"
+
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "palpate/core/byte_reader.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kLongestCountsRun = 15;
+constexpr std::size_t kLongestFloatsRun = 255;
+constexpr float kMaxCounts = 4095.0F;
+
+bool isCounts(float value) noexcept {
+  return value >= 0.0F && value <= kMaxCounts &&
+         value == static_cast<float>(static_cast<int>(value));
+}
+
+void putLittle(std::vector<std::byte>& out, std::uint32_t value, int bytes) {
+  for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> 8 * i & 0xFF));
+}
+
+// Same bits: a NaN equals itself, and -0 is not 0.
+bool same(float a, float b) noexcept {
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+
+}  // namespace
+
+FrameCoding codingFor(std::span<const float> values) noexcept {
+  for (float value : values)
+    if (!isCounts(value)) return FrameCoding::kFloats;
+  return FrameCoding::kCounts;
+}
+
+void encodeFrame(std::span<const float> values, FrameCoding coding, std::vector<std::byte>& out) {
+  const std::size_t longest =
+      coding == FrameCoding::kCounts ? kLongestCountsRun : kLongestFloatsRun;
+  for (std::size_t i = 0; i < values.size();) {
+    std::size_t run = 1;
+    while (run < longest && i + run < values.size() && same(values[i + run], values[i])) ++run;
+    if (coding == FrameCoding::kCounts) {
+      if (!isCounts(values[i]))
+        throw std::invalid_argument("encodeFrame: not a number of counts 0..4095: " +
+                                    std::to_string(values[i]));
+      putLittle(
+          out, static_cast<std::uint32_t>(run << 12) | static_cast<std::uint32_t>(values[i]), 2);
+    } else {
+      putLittle(out, static_cast<std::uint32_t>(run), 1);
+      putLittle(out, std::bit_cast<std::uint32_t>(values[i]), 4);
+    }
+    i += run;
+  }
+}
+
+std::size_t decodeFrame(std::span<const std::byte> bytes,
+                        FrameCoding coding,
+                        std::span<float> values) noexcept {
+  ByteReader in(bytes);
+  std::size_t filled = 0;
+  while (filled < values.size()) {
+    std::size_t run = 0;
+    float value = 0.0F;
+    if (coding == FrameCoding::kCounts) {
+      const unsigned unit = in.u16();
+      run = unit >> 12;
+      value = static_cast<float>(unit & 0xFFF);
+    } else {
+      run = in.u8();
+      value = in.f32();
+    }
+    if (!in.ok() || run == 0 || run > values.size() - filled) return 0;
+    for (std::size_t i = 0; i < run; ++i) values[filled + i] = value;
+    filled += run;
+  }
+  return in.position();
+}
+
+}  // namespace palpate

@@ -1,0 +1,77 @@
+#include "palpate/model/matrix_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace palpate {
+namespace {
+constexpr int kMaxSide = 256;
+}
+
+MatrixLayout MatrixLayout::full(int rows, int columns, double pitchMm) {
+  MatrixLayout layout{rows, columns, pitchMm, {}, {}};
+  if (rows >= 1 && rows <= kMaxSide && columns >= 1 && columns <= kMaxSide) {
+    layout.staticMask.assign(layout.numPlaces(), 1);
+    layout.dynamicMask = layout.staticMask;
+  }
+  layout.validate();
+  return layout;
+}
+
+std::size_t MatrixLayout::numPlaces() const noexcept {
+  return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+}
+
+std::size_t MatrixLayout::numTaxels() const noexcept {
+  return static_cast<std::size_t>(
+      std::count_if(staticMask.begin(), staticMask.end(), [](auto on) { return on != 0; }));
+}
+
+std::size_t MatrixLayout::numEnabled() const noexcept {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < staticMask.size(); ++i) count += staticMask[i] && dynamicMask[i];
+  return count;
+}
+
+bool MatrixLayout::exists(int y, int x) const noexcept {
+  return y >= 0 && y < rows && x >= 0 && x < columns &&
+         staticMask[static_cast<std::size_t>(y * columns + x)] != 0;
+}
+
+bool MatrixLayout::enabled(int y, int x) const noexcept {
+  return exists(y, x) && dynamicMask[static_cast<std::size_t>(y * columns + x)] != 0;
+}
+
+void MatrixLayout::validate() const {
+  const auto side = [](const char* name, int value) {
+    if (value < 1 || value > kMaxSide)
+      throw std::invalid_argument("MatrixLayout: " + std::string(name) + " must be 1..256, is " +
+                                  std::to_string(value));
+  };
+  side("rows", rows);
+  side("columns", columns);
+  if (!std::isfinite(pitchMm) || pitchMm <= 0.0 || pitchMm > 1000.0)
+    throw std::invalid_argument("MatrixLayout: pitchMm must be above 0 and at most 1000 mm, is " +
+                                std::to_string(pitchMm));
+  if (staticMask.size() != numPlaces() || dynamicMask.size() != numPlaces())
+    throw std::invalid_argument("MatrixLayout: a mask has not rows * columns places");
+}
+
+SensorLayout::SensorLayout(std::vector<MatrixLayout> matrices) : matrices_(std::move(matrices)) {
+  if (matrices_.empty()) throw std::invalid_argument("SensorLayout: no matrix");
+  for (const MatrixLayout& matrix : matrices_) {
+    matrix.validate();
+    offsets_.push_back(numPlaces_);
+    numPlaces_ += matrix.numPlaces();
+  }
+}
+
+std::size_t SensorLayout::numTaxels() const noexcept {
+  std::size_t count = 0;
+  for (const MatrixLayout& matrix : matrices_) count += matrix.numTaxels();
+  return count;
+}
+
+}  // namespace palpate

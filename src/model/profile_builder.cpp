@@ -1,0 +1,159 @@
+#include "palpate/model/profile_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "palpate/model/frame_coding.h"
+
+namespace palpate {
+namespace {
+
+// Samples are kept in chunks: appending never copies what is there, so memory has no peak.
+constexpr std::size_t kFramesPerChunk = 1024;
+
+struct FrameChunk {
+  std::vector<std::int64_t> hostUs;
+  std::vector<std::uint32_t> begin;  // of each frame in `bytes`
+  std::vector<FrameCoding> coding;
+  std::vector<std::byte> bytes;
+};
+
+// One time series of samples with a fixed number of values each.
+class Series {
+ public:
+  void add(const char* what, std::int64_t hostUs, std::span<const double> values) {
+    if (!hostUs_.empty() && hostUs <= hostUs_.back())
+      throw std::invalid_argument(std::string(what) +
+                                  ": time must be later than the last sample's");
+    if (values.empty() || (width_ != 0 && values.size() != width_))
+      throw std::invalid_argument(std::string(what) + ": expected " + std::to_string(width_) +
+                                  " values, got " + std::to_string(values.size()));
+    if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
+      throw std::invalid_argument(std::string(what) + ": a value is not a number");
+    width_ = values.size();
+    hostUs_.push_back(hostUs);
+    values_.insert(values_.end(), values.begin(), values.end());
+  }
+  std::size_t size() const noexcept { return hostUs_.size(); }
+  std::size_t width() const noexcept { return width_; }
+  std::int64_t timeUs(std::size_t sample) const { return hostUs_[sample]; }
+  std::vector<double> values(std::size_t sample) const {
+    const auto first = values_.begin() + static_cast<std::ptrdiff_t>(sample * width_);
+    return {first, first + static_cast<std::ptrdiff_t>(width_)};
+  }
+  std::optional<std::int64_t> lastUs() const {
+    return hostUs_.empty() ? std::nullopt : std::optional(hostUs_.back());
+  }
+
+ private:
+  std::size_t width_ = 0;
+  std::deque<std::int64_t> hostUs_;
+  std::deque<double> values_;
+};
+
+}  // namespace
+
+class ProfileBuilder::Storage final : public ProfileStorage {
+ public:
+  std::size_t numFrames() const override { return numFrames_; }
+  std::int64_t frameTimeUs(std::size_t frame) const override {
+    return chunks_[frame / kFramesPerChunk].hostUs[frame % kFramesPerChunk];
+  }
+  void readFrame(std::size_t frame, TactileFrame& out) const override {
+    const FrameChunk& chunk = chunks_[frame / kFramesPerChunk];
+    const std::size_t i = frame % kFramesPerChunk;
+    out.deviceMs.reset();
+    decodeFrame(std::span(chunk.bytes).subspan(chunk.begin[i]), chunk.coding[i], out.values);
+  }
+  std::size_t numAngles() const override { return angleSeries.size(); }
+  std::int64_t angleTimeUs(std::size_t sample) const override { return angleSeries.timeUs(sample); }
+  JointAngles angles(std::size_t sample) const override {
+    return {angleSeries.timeUs(sample), angleSeries.values(sample)};
+  }
+  std::size_t numTemperatures() const override { return temperatureSeries.size(); }
+  std::int64_t temperatureTimeUs(std::size_t sample) const override {
+    return temperatureSeries.timeUs(sample);
+  }
+  Temperatures temperatures(std::size_t sample) const override {
+    return {temperatureSeries.timeUs(sample), temperatureSeries.values(sample)};
+  }
+
+  void addFrame(std::int64_t hostUs, std::span<const float> values) {
+    if (numFrames_ % kFramesPerChunk == 0) chunks_.emplace_back();
+    FrameChunk& chunk = chunks_.back();
+    const FrameCoding coding = codingFor(values);
+    allCounts = allCounts && coding == FrameCoding::kCounts;
+    chunk.begin.push_back(static_cast<std::uint32_t>(chunk.bytes.size()));
+    encodeFrame(values, coding, chunk.bytes);
+    chunk.hostUs.push_back(hostUs);
+    chunk.coding.push_back(coding);
+    ++numFrames_;
+    if (numFrames_ % kFramesPerChunk == 0) chunk.bytes.shrink_to_fit();
+  }
+  std::optional<std::int64_t> lastFrameUs() const {
+    return numFrames_ == 0 ? std::nullopt : std::optional(frameTimeUs(numFrames_ - 1));
+  }
+
+  Series angleSeries;
+  Series temperatureSeries;
+  bool allCounts = true;
+
+ private:
+  std::deque<FrameChunk> chunks_;
+  std::size_t numFrames_ = 0;
+};
+
+ProfileBuilder::ProfileBuilder(std::shared_ptr<const SensorLayout> layout)
+    : layout_(std::move(layout)), storage_(std::make_shared<Storage>()) {
+  if (!layout_) throw std::invalid_argument("ProfileBuilder: no sensor layout");
+}
+ProfileBuilder::~ProfileBuilder() = default;
+ProfileBuilder::ProfileBuilder(ProfileBuilder&&) noexcept = default;
+
+void ProfileBuilder::addFrame(std::int64_t hostUs, std::span<const float> values) {
+  if (values.size() != layout_->numPlaces())
+    throw std::invalid_argument("frame: expected " + std::to_string(layout_->numPlaces()) +
+                                " values, got " + std::to_string(values.size()));
+  const auto last = storage_->lastFrameUs();
+  if (last && hostUs <= *last)
+    throw std::invalid_argument("frame: time must be later than the last frame's");
+  if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }))
+    throw std::invalid_argument("frame: a value is not a number");
+  storage_->addFrame(hostUs, values);
+}
+
+void ProfileBuilder::addAngles(std::int64_t hostUs, std::span<const double> deg) {
+  storage_->angleSeries.add("angles", hostUs, deg);
+}
+
+void ProfileBuilder::addTemperatures(std::int64_t hostUs, std::span<const double> degC) {
+  storage_->temperatureSeries.add("temperatures", hostUs, degC);
+}
+
+std::size_t ProfileBuilder::numFrames() const noexcept { return storage_->numFrames(); }
+std::size_t ProfileBuilder::numAngles() const noexcept { return storage_->numAngles(); }
+std::size_t ProfileBuilder::numTemperatures() const noexcept { return storage_->numTemperatures(); }
+std::optional<std::int64_t> ProfileBuilder::lastFrameUs() const noexcept {
+  return storage_->lastFrameUs();
+}
+std::optional<std::int64_t> ProfileBuilder::lastAngleUs() const noexcept {
+  return storage_->angleSeries.lastUs();
+}
+std::optional<std::int64_t> ProfileBuilder::lastTemperatureUs() const noexcept {
+  return storage_->temperatureSeries.lastUs();
+}
+
+Profile ProfileBuilder::finish(ProfileInfo info) {
+  const std::shared_ptr<Storage> storage = std::exchange(storage_, std::make_shared<Storage>());
+  info.valueType = storage->allCounts ? ValueType::kCounts : ValueType::kFloat;
+  HandDescription hand =
+      describeHand(*layout_, storage->angleSeries.width(), storage->temperatureSeries.width());
+  return {std::move(info), std::move(hand), storage};
+}
+
+}  // namespace palpate

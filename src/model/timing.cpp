@@ -1,0 +1,46 @@
+#include "palpate/model/timing.h"
+
+#include <algorithm>
+
+namespace palpate {
+namespace {
+
+constexpr double kShortestGapUs = 1e6;
+constexpr double kGapIntervals = 5.0;
+
+// Mean of the two middle values where their number is even. Reorders `values`.
+double median(std::vector<std::int64_t>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return static_cast<double>(*middle);
+  const auto below = *std::max_element(values.begin(), middle);
+  return 0.5 * (static_cast<double>(below) + static_cast<double>(*middle));
+}
+
+}  // namespace
+
+TimingReport timingOf(const Profile& profile) {
+  TimingReport report;
+  const std::size_t frames = profile.numFrames();
+  if (frames < 2) return report;
+  std::vector<std::int64_t> intervals;
+  intervals.reserve(frames - 1);
+  std::int64_t previous = profile.frameTimeUs(0);
+  for (std::size_t i = 1; i < frames; ++i) {
+    const std::int64_t now = profile.frameTimeUs(i);
+    intervals.push_back(now - previous);
+    previous = now;
+  }
+  std::vector<std::int64_t> sorted = intervals;
+  const double medianUs = median(sorted);
+  report.durationS = static_cast<double>(profile.durationUs()) * 1e-6;
+  report.rateHz = 1e6 / medianUs;
+  report.meanRateHz = static_cast<double>(frames - 1) / report.durationS;
+  const double gapUs = std::max(kShortestGapUs, kGapIntervals * medianUs);
+  for (std::size_t i = 0; i < intervals.size(); ++i)
+    if (static_cast<double>(intervals[i]) > gapUs)
+      report.gaps.push_back({i, static_cast<double>(intervals[i]) * 1e-6});
+  return report;
+}
+
+}  // namespace palpate
