@@ -1,0 +1,168 @@
+#include "commands/command_line.h"
+
+#include <unistd.h>
+
+#include <boost/program_options.hpp>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+#include <system_error>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
+
+namespace palpate::commands {
+namespace po = boost::program_options;
+namespace {
+
+std::string longName(const std::string& name) { return name.substr(0, name.find(',')); }
+
+po::options_description described(const CommandSpec& spec) {
+  po::options_description options("Options");
+  const auto add = [&](const OptionSpec& option) {
+    if (option.value.empty())
+      options.add_options()(option.name.c_str(), option.help.c_str());
+    else
+      options.add_options()(option.name.c_str(),
+                            po::value<std::vector<std::string>>()->value_name(option.value),
+                            option.help.c_str());
+  };
+  for (const OptionSpec& option : spec.options) add(option);
+  add({"quiet,q", "", "no progress and no remarks; errors are still said"});
+  add({"help,h", "", "this text"});
+  return options;
+}
+
+void showHelp(const CommandSpec& spec, const po::options_description& options) {
+  std::ostringstream text;
+  text << "Usage: " << spec.synopsis << "\n\n" << spec.purpose << "\n\n" << options;
+  text << "\nExample:\n  " << spec.example << "\n";
+  std::cout << text.str() << std::flush;
+}
+
+constexpr std::int64_t kShowProgressAfterUs = 1'000'000;
+
+}  // namespace
+
+CommandLine::CommandLine(const CommandSpec& spec, const std::vector<std::string>& words) {
+  const po::options_description options = described(spec);
+  po::options_description all = options;
+  all.add_options()("word", po::value<std::vector<std::string>>());
+  po::positional_options_description positions;
+  positions.add("word", -1);
+  try {
+    // Abbreviations are refused: a script must not change its meaning when an option is added.
+    const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+    const auto parsed =
+        po::command_line_parser(words).options(all).positional(positions).style(style).run();
+    for (const auto& option : parsed.options) {
+      const std::string name = longName(option.string_key);
+      if (name == "word")
+        words_.insert(words_.end(), option.value.begin(), option.value.end());
+      else
+        values_[name].insert(values_[name].end(), option.value.begin(), option.value.end());
+    }
+  } catch (const po::error& error) {
+    throw UsageError(error.what());
+  }
+  if (has("help")) {
+    showHelp(spec, options);
+    helpShown_ = true;
+    return;
+  }
+  if (words_.size() < spec.fewestWords || words_.size() > spec.mostWords)
+    throw UsageError("usage: " + spec.synopsis);
+}
+
+std::optional<std::string> CommandLine::text(const std::string& option) const {
+  const auto found = values_.find(option);
+  if (found == values_.end() || found->second.empty()) return std::nullopt;
+  return found->second.back();
+}
+
+std::vector<std::string> CommandLine::texts(const std::string& option) const {
+  const auto found = values_.find(option);
+  return found == values_.end() ? std::vector<std::string>{} : found->second;
+}
+
+std::optional<std::int64_t> CommandLine::integer(const std::string& option,
+                                                 std::int64_t least,
+                                                 std::int64_t most) const {
+  const auto given = text(option);
+  if (!given) return std::nullopt;
+  const auto value = parseInteger(*given);
+  if (!value || *value < least || *value > most)
+    throw UsageError("--" + option + " must be a whole number " + std::to_string(least) +
+                     (most == INT64_MAX ? " or above" : ".." + std::to_string(most)) +
+                     ", not '" + *given + "'");
+  return value;
+}
+
+std::optional<double> CommandLine::number(const std::string& option,
+                                          double least,
+                                          double most) const {
+  const auto given = text(option);
+  if (!given) return std::nullopt;
+  const auto value = parseDouble(*given);
+  if (!value || !(*value >= least && *value <= most))
+    throw UsageError("--" + option + " must be a number " + numberText(least) + ".." +
+                     numberText(most) + ", not '" + *given + "'");
+  return value;
+}
+
+std::optional<std::string> CommandLine::choice(const std::string& option,
+                                               const std::vector<std::string>& known) const {
+  const auto given = text(option);
+  if (!given) return std::nullopt;
+  std::string list;
+  for (const std::string& word : known) {
+    if (*given == word) return given;
+    list += (list.empty() ? "" : ", ") + word;
+  }
+  throw UsageError("--" + option + " must be one of " + list + ", not '" + *given + "'");
+}
+
+ProgressLine::ProgressLine(std::string label, bool quiet)
+    : label_(std::move(label)),
+      enabled_(!quiet && ::isatty(STDERR_FILENO) == 1),
+      startUs_(systemClock().monotonicUs()) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) std::fputs("\r\033[K", stderr);
+}
+
+Progress ProgressLine::callback() {
+  if (!enabled_) return {};
+  return [this](double fraction) {
+    show(fraction);
+    return true;
+  };
+}
+
+void ProgressLine::show(double fraction) {
+  if (systemClock().monotonicUs() - startUs_ < kShowProgressAfterUs) return;
+  const int percent = static_cast<int>(std::floor(100.0 * fraction));
+  if (percent == lastPercent_) return;
+  lastPercent_ = percent;
+  shown_ = true;
+  std::fprintf(stderr, "\r%s: %d %%\033[K", label_.c_str(), percent);
+  std::fflush(stderr);
+}
+
+void StandardOutput::write(const std::string& text) {
+  constexpr std::size_t kPiece = 1u << 16;
+  buffer_ += text;
+  if (buffer_.size() >= kPiece) finish();
+}
+
+void StandardOutput::finish() {
+  const std::size_t written = std::fwrite(buffer_.data(), 1, buffer_.size(), stdout);
+  if (written != buffer_.size() || std::fflush(stdout) != 0)
+    throw Error("standard output can't be written: " + std::generic_category().message(errno));
+  buffer_.clear();
+}
+
+}  // namespace palpate::commands

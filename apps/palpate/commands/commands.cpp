@@ -1,0 +1,125 @@
+#include "commands/commands.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string_view>
+
+#include "commands/command_line.h"
+#include "palpate/core/error.h"
+
+namespace palpate::commands {
+namespace fs = std::filesystem;
+namespace {
+
+void showHelp() {
+  std::cout << "Palpate " PALPATE_VERSION ": workbench for robot hands that feel\n\n"
+               "Usage:\n"
+               "  palpate [FILE...]       open recordings in the window\n"
+               "  palpate --demo          open the window on a demonstration\n"
+               "  palpate --screenshot OUT.png [--size WxH] [--frame N] [--after S] [--dock NAME]...\n"
+               "                          [--theme dark|light] [FILE | --demo]\n"
+               "  palpate COMMAND ...     work without a window\n\n"
+               "Commands:\n";
+  for (const Command& command : allCommands())
+    std::printf("  %-12s %s\n", command.name, command.summary);
+  std::cout << std::flush;
+  std::puts(
+      "\n'palpate COMMAND --help' explains a command. Exit codes: 0 done, 1 failed, 2 wrong usage,\n"
+      "3 done in part (damaged input).");
+}
+
+// Number of letters to insert, delete or change to make one word the other.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({changed, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+// A first word that is neither a command nor a file was most likely meant as a command.
+void refuseMistypedCommand(const std::string& word) {
+  std::error_code ignored;
+  if (word.starts_with('-') || word.find_first_of("./") != std::string::npos ||
+      fs::exists(word, ignored))
+    return;
+  const auto& all = allCommands();
+  const auto nearest = std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
+    return distance(word, a.name) < distance(word, b.name);
+  });
+  std::string message = "no command and no file is called '" + word + "'";
+  if (distance(word, nearest->name) <= 2)
+    message += "; did you mean '" + std::string(nearest->name) + "'?";
+  else
+    message += "; 'palpate --help' lists the commands";
+  throw UsageError(message);
+}
+
+int dispatch(const Words& words) {
+  if (!words.empty()) {
+    if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
+      showHelp();
+      return kDone;
+    }
+    if (words[0] == "--version") {
+      std::puts("palpate " PALPATE_VERSION);
+      return kDone;
+    }
+    for (const Command& command : allCommands())
+      if (words[0] == command.name) return command.run({words.begin() + 1, words.end()});
+    refuseMistypedCommand(words[0]);
+  }
+  return workbenchCommand(words);
+}
+
+int fail(int code, const char* message) {
+  std::fprintf(stderr, "palpate: %s\n", message);
+  return code;
+}
+
+}  // namespace
+
+const std::vector<Command>& allCommands() {
+  static const std::vector<Command> commands = {
+      {"demo", "a headless tour: reads, reports and draws a recording", &demoCommand},
+      {"info", "what is in a recording", &infoCommand},
+      {"render", "a picture of one frame: PNG, SVG or PDF", &renderCommand},
+      {"signals", "characteristic signals of each matrix as CSV", &signalsCommand},
+      {"synthesize", "makes a synthetic recording with known content", &synthesizeCommand},
+      {"verify", "checks every byte of recordings", &verifyCommand},
+  };
+  return commands;
+}
+
+fs::path dataFolder() {
+  std::error_code ignored;
+  if (const char* given = std::getenv("PALPATE_DATA"); given && *given) return given;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  const fs::path installed = program.parent_path().parent_path() / PALPATE_INSTALLED_DATA;
+  return fs::is_directory(installed, ignored) ? installed : fs::path(PALPATE_BUILD_DATA);
+}
+
+int run(int argc, char** argv) {
+  try {
+    return dispatch({argv + std::min(argc, 1), argv + argc});
+  } catch (const UsageError& error) {
+    return fail(kWrongUsage, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kFailed, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(kFailed, error.what());
+  }
+}
+
+}  // namespace palpate::commands

@@ -1,0 +1,69 @@
+// palpate verify FILE...: every byte checked, one line per file.
+#include <cstdio>
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+#include "palpate/recording/recording.h"
+
+namespace palpate::commands {
+namespace {
+
+int exitCode(VerifyReport::State state) {
+  switch (state) {
+    case VerifyReport::State::kSound:
+      return kDone;
+    case VerifyReport::State::kDamaged:
+      return kPartlyDone;
+    case VerifyReport::State::kUnreadable:
+      break;
+  }
+  return kFailed;
+}
+
+const char* word(VerifyReport::State state) {
+  switch (state) {
+    case VerifyReport::State::kSound:
+      return "sound";
+    case VerifyReport::State::kDamaged:
+      return "damaged";
+    case VerifyReport::State::kUnreadable:
+      break;
+  }
+  return "unreadable";
+}
+
+// Nothing readable is worse than something readable, though its number is smaller.
+int worse(int a, int b) {
+  const auto rank = [](int code) { return code == kFailed ? 2 : code == kPartlyDone ? 1 : 0; };
+  return rank(a) >= rank(b) ? a : b;
+}
+
+}  // namespace
+
+int verifyCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate verify FILE...",
+       .purpose = "Checks every byte of recordings; one line per file says sound, damaged (and how "
+                  "much can still\nbe read) or unreadable. Exit code: 0 all sound, 3 damaged but "
+                  "partly readable, 1 nothing\nreadable; with several files the worst. With "
+                  "--quiet the exit code is all.",
+       .options = {},
+       .example = "palpate verify foam_ball.dsa hockey_ball.dsa",
+       .fewestWords = 1},
+      words);
+  if (given.helpShown()) return kDone;
+  int worst = kDone;
+  for (const std::string& file : given.words()) {
+    const VerifyReport report = [&] {
+      ProgressLine progress("checking " + file, given.quiet());
+      return verifyRecording(file, progress.callback());
+    }();
+    worst = worse(worst, exitCode(report.state));
+    if (given.quiet()) continue;
+    std::printf("%s: %s: %s\n", file.c_str(), word(report.state), report.message.c_str());
+    std::fflush(stdout);  // a line per file as it comes, also into a pipe
+  }
+  return worst;
+}
+
+}  // namespace palpate::commands
