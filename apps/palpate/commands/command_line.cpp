@@ -1,14 +1,14 @@
 #include "commands/command_line.h"
 
-#include <unistd.h>
-
-#include <boost/program_options.hpp>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <sstream>
 #include <system_error>
+
+#include <boost/program_options.hpp>
+#include <unistd.h>
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
@@ -96,8 +96,8 @@ std::optional<std::int64_t> CommandLine::integer(const std::string& option,
   const auto value = parseInteger(*given);
   if (!value || *value < least || *value > most)
     throw UsageError("--" + option + " must be a whole number " + std::to_string(least) +
-                     (most == INT64_MAX ? " or above" : ".." + std::to_string(most)) +
-                     ", not '" + *given + "'");
+                     (most == INT64_MAX ? " or above" : ".." + std::to_string(most)) + ", not '" +
+                     *given + "'");
   return value;
 }
 

@@ -8,27 +8,31 @@
 #include <new>
 #include <string_view>
 
-#include "commands/command_line.h"
 #include "palpate/core/error.h"
+
+#include "commands/command_line.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
 namespace {
 
 void showHelp() {
-  std::cout << "Palpate " PALPATE_VERSION ": workbench for robot hands that feel\n\n"
-               "Usage:\n"
-               "  palpate [FILE...]       open recordings in the window\n"
-               "  palpate --demo          open the window on a demonstration\n"
-               "  palpate --screenshot OUT.png [--size WxH] [--frame N] [--after S] [--dock NAME]...\n"
-               "                          [--theme dark|light] [FILE | --demo]\n"
-               "  palpate COMMAND ...     work without a window\n\n"
-               "Commands:\n";
+  std::cout
+      << "Palpate " PALPATE_VERSION
+         ": workbench for robot hands that feel\n\n"
+         "Usage:\n"
+         "  palpate [FILE...]       open recordings in the window\n"
+         "  palpate --demo          open the window on a demonstration\n"
+         "  palpate --screenshot OUT.png [--size WxH] [--frame N] [--after S] [--dock NAME]...\n"
+         "                          [--theme dark|light] [FILE | --demo]\n"
+         "  palpate COMMAND ...     work without a window\n\n"
+         "Commands:\n";
   for (const Command& command : allCommands())
     std::printf("  %-12s %s\n", command.name, command.summary);
   std::cout << std::flush;
   std::puts(
-      "\n'palpate COMMAND --help' explains a command. Exit codes: 0 done, 1 failed, 2 wrong usage,\n"
+      "\n'palpate COMMAND --help' explains a command. Exit codes: 0 done, 1 failed, 2 wrong "
+      "usage,\n"
       "3 done in part (damaged input).");
 }
 

@@ -17,7 +17,7 @@ using Words = std::vector<std::string>;
 
 struct Command {
   const char* name;
-  const char* summary;            // one line of `palpate --help`
+  const char* summary;             // one line of `palpate --help`
   int (*run)(const Words& words);  // the words after the command's name
 };
 

@@ -1,9 +1,9 @@
 #include "commands/display.h"
 
-#include <dlfcn.h>
-
 #include <cstdlib>
 #include <string_view>
+
+#include <dlfcn.h>
 
 namespace palpate::commands {
 namespace {

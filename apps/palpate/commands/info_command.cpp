@@ -2,13 +2,14 @@
 #include <algorithm>
 #include <string>
 
-#include "commands/command_line.h"
-#include "commands/commands.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
 #include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
 
 namespace palpate::commands {
 namespace {
@@ -49,7 +50,9 @@ Json matricesJson(const SensorLayout& layout) {
   return matrices;
 }
 
-std::string jsonText(const Profile& profile, const TimingReport& timing, const ValueReport& values) {
+std::string jsonText(const Profile& profile,
+                     const TimingReport& timing,
+                     const ValueReport& values) {
   const ProfileInfo& info = profile.info();
   Json gaps = Json::array();
   for (const Gap& gap : timing.gaps)
@@ -106,14 +109,15 @@ std::string plainText(const std::string& file,
   const ProfileInfo& info = profile.info();
   std::string text = row("file", file);
   text += row("format", info.format + ", values are " + valueTypeText(profile));
-  text += row("sensor", profile.hand().name +
-                            (info.serial.empty() ? "" : ", serial " + info.serial) +
-                            (info.firmware.empty() ? "" : ", firmware " + info.firmware));
+  text += row("sensor",
+              profile.hand().name + (info.serial.empty() ? "" : ", serial " + info.serial) +
+                  (info.firmware.empty() ? "" : ", firmware " + info.firmware));
   text += row("frames", std::to_string(profile.numFrames()));
   if (profile.numFrames() > 0) text += row("start", utcText(profile.frameTimeUs(0)) + " UTC");
   text += row("duration", fixedText(timing.durationS, 3) + " s");
-  text += row("rate", fixedText(timing.rateHz, 2) + " Hz (median interval), " +
-                          fixedText(timing.meanRateHz, 2) + " Hz (mean)");
+  text += row("rate",
+              fixedText(timing.rateHz, 2) + " Hz (median interval), " +
+                  fixedText(timing.meanRateHz, 2) + " Hz (mean)");
   std::string gaps = std::to_string(timing.gaps.size());
   for (const Gap& gap : timing.gaps)
     gaps += (&gap == &timing.gaps.front() ? ": " : ", ") + fixedText(gap.seconds, 1) +
@@ -121,10 +125,11 @@ std::string plainText(const std::string& file,
   text += row("gaps", gaps);
   text += row("joint angles", std::to_string(profile.numAngles()) + " samples");
   text += row("temperatures", std::to_string(profile.numTemperatures()) + " samples");
-  text += row("largest value", numberText(values.maximum) + ", " +
-                                   std::to_string(values.saturatedFrames) +
-                                   " frames with a saturated taxel (>= " +
-                                   numberText(profile.hand().saturationCounts) + ")");
+  text +=
+      row("largest value",
+          numberText(values.maximum) + ", " + std::to_string(values.saturatedFrames) +
+              " frames with a saturated taxel (>= " + numberText(profile.hand().saturationCounts) +
+              ")");
   text += row("matrices", std::to_string(profile.layout().numMatrices()));
   text += matricesText(profile);
   for (const std::string& warning : info.warnings) text += row("warning", warning);
@@ -136,9 +141,10 @@ std::string plainText(const std::string& file,
 int infoCommand(const Words& words) {
   const CommandLine given(
       {.synopsis = "palpate info FILE [--json]",
-       .purpose = "Says what is in a recording: frames, rates, gaps, matrices, angles, temperatures, "
-                  "largest value.\nThe rate comes from the median interval; a gap is longer than "
-                  "max(1 s, 5 median intervals).",
+       .purpose =
+           "Says what is in a recording: frames, rates, gaps, matrices, angles, temperatures, "
+           "largest value.\nThe rate comes from the median interval; a gap is longer than "
+           "max(1 s, 5 median intervals).",
        .options = {{"json", "", "one JSON object"}},
        .example = "palpate info foam_ball.dsa --json",
        .fewestWords = 1,

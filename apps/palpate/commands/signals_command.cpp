@@ -1,12 +1,13 @@
 // palpate signals FILE... [--matrix M]: characteristic signals as CSV.
 #include <cstdint>
 
-#include "commands/command_line.h"
-#include "commands/commands.h"
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/filter/characteristic_signals.h"
 #include "palpate/recording/recording.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
 
 namespace palpate::commands {
 namespace {
@@ -95,8 +96,8 @@ int signalsCommand(const Words& words) {
       out.write("frame,time_ms,matrix,mean,filtered_mean,min,max,sum,active,area_mm2" +
                 std::string(several ? ",file\n" : "\n"));
     headerWritten = true;
-    writeSignals(out, profile, only, several ? "," + csvField(file) + "\n" : "\n",
-                 progress.callback());
+    writeSignals(
+        out, profile, only, several ? "," + csvField(file) + "\n" : "\n", progress.callback());
   }
   out.finish();
   return kDone;

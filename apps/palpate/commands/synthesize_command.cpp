@@ -1,10 +1,11 @@
 // palpate synthesize -o OUT.dsa: a synthetic recording with known content.
 #include <cstdio>
 
-#include "commands/command_line.h"
-#include "commands/commands.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/recording/dsa_writer.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
 
 namespace palpate::commands {
 
@@ -33,11 +34,13 @@ int synthesizeCommand(const Words& words) {
   options.grasps = static_cast<int>(given.integer("grasps", 0, 10'000).value_or(options.grasps));
   options.peakCounts = given.number("peak", 1.0, 3500.0).value_or(options.peakCounts);
   options.noiseCounts = given.number("noise", 0.0, 1000.0).value_or(options.noiseCounts);
-  options.seed = static_cast<std::uint32_t>(
-      given.integer("seed", 0, UINT32_MAX).value_or(options.seed));
+  options.seed =
+      static_cast<std::uint32_t>(given.integer("seed", 0, UINT32_MAX).value_or(options.seed));
   const Profile profile = synthesize(options);
   ProgressLine progress("writing " + *out, given.quiet());
-  writeDsa(profile, *out, given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse,
+  writeDsa(profile,
+           *out,
+           given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse,
            progress.callback());
   if (!given.quiet()) std::printf("%s: %zu frames\n", out->c_str(), profile.numFrames());
   return kDone;

@@ -1,9 +1,10 @@
 // palpate verify FILE...: every byte checked, one line per file.
 #include <cstdio>
 
+#include "palpate/recording/recording.h"
+
 #include "commands/command_line.h"
 #include "commands/commands.h"
-#include "palpate/recording/recording.h"
 
 namespace palpate::commands {
 namespace {

@@ -1,7 +1,6 @@
 // Run-length coding of a frame's values, for memory and disk. Two codings:
-//   counts: u16 units, little-endian, run << 12 | value, run 1..15, value 0..4095 (as on the wire
-//   of
-//           the DSACON32-M, wire protocol document section 2)
+//   counts: u16 units, little-endian, run << 12 | value, run 1..15, value 0..4095 (as on the
+//           DSACON32-M's wire)
 //   floats: pairs (u8 run 1..255, f32 value little-endian)
 #pragma once
 

@@ -1,0 +1,88 @@
+// palpate [FILE...], --demo, --screenshot: the window.
+#include <cstdlib>
+#include <string>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+#include "commands/display.h"
+#include "gui/workbench.h"
+
+namespace palpate::commands {
+namespace {
+
+constexpr int kSmallestSide = 320;
+constexpr int kLargestSide = 8192;
+
+// "1280x800"
+QSize parsedSize(const std::string& text) {
+  const auto cross = text.find('x');
+  if (cross != std::string::npos) {
+    const auto width = parseInteger(text.substr(0, cross));
+    const auto height = parseInteger(text.substr(cross + 1));
+    const auto fits = [](const auto& side) {
+      return side && *side >= kSmallestSide && *side <= kLargestSide;
+    };
+    if (fits(width) && fits(height)) return {static_cast<int>(*width), static_cast<int>(*height)};
+  }
+  throw UsageError("--size must be WIDTHxHEIGHT in pixels, 320..8192 each, not '" + text + "'");
+}
+
+int screenshot(const CommandLine& given) {
+  gui::ScreenshotOptions options;
+  options.out = *given.text("screenshot");
+  if (const auto size = given.text("size")) options.size = parsedSize(*size);
+  if (const auto frame = given.integer("frame", 0, INT64_MAX))
+    options.frame = static_cast<std::size_t>(*frame);
+  options.afterS = given.number("after", 0.0, 3600.0).value_or(0.0);
+  options.docks = given.texts("dock");
+  options.theme = given.choice("theme", {"dark", "light"}).value_or("dark");
+  options.demo = given.has("demo");
+  options.dataFolder = dataFolder();
+  options.force = given.has("force");
+  if (given.words().size() > 1) throw UsageError("--screenshot takes one FILE");
+  if (!given.words().empty()) options.file = given.words()[0];
+  if (options.demo && options.file) throw UsageError("give FILE or --demo, not both");
+  drawWithoutDisplay(false);
+  std::string name = "palpate";
+  char* arguments[] = {name.data(), nullptr};
+  int count = 1;
+  return gui::takeScreenshot(count, arguments, options);
+}
+
+}  // namespace
+
+int workbenchCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate [FILE...] | palpate --demo | palpate --screenshot OUT.png ..",
+       .purpose = "Opens the window: on recordings, on a demonstration, or on its start page.",
+       .options = {{"demo", "", "open on a demonstration"},
+                   {"screenshot", "OUT.png", "save a picture of the window and leave"},
+                   {"size", "WxH", "with --screenshot: size in pixels, default 1600x1000"},
+                   {"frame", "N", "with --screenshot: default the frame of largest sum"},
+                   {"after", "S", "with --screenshot: let the source play for S seconds first"},
+                   {"dock", "NAME", "with --screenshot: show this dock; may be repeated"},
+                   {"theme", "dark|light", "with --screenshot: default dark"},
+                   {"force", "", "with --screenshot: replace OUT.png"}},
+       .example = "palpate foam_ball.dsa"},
+      words);
+  if (given.helpShown()) return kDone;
+  if (given.has("screenshot")) return screenshot(given);
+  for (const char* option : {"size", "frame", "after", "dock", "theme", "force"})
+    if (given.has(option)) throw UsageError("--" + std::string(option) + " goes with --screenshot");
+  if (!hasDisplay())
+    throw Error("no display: run it on a desktop, or use a command ('palpate --help' lists them)");
+  gui::WorkbenchOptions options;
+  options.files.assign(given.words().begin(), given.words().end());
+  options.demo = given.has("demo");
+  options.dataFolder = dataFolder();
+  if (options.demo && !options.files.empty()) throw UsageError("give FILE or --demo, not both");
+  std::string name = "palpate";
+  char* arguments[] = {name.data(), nullptr};
+  int count = 1;
+  return gui::runWorkbench(count, arguments, options);
+}
+
+}  // namespace palpate::commands

@@ -1,0 +1,84 @@
+#include "palpate/core/output_file.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "palpate/core/error.h"
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+namespace fs = std::filesystem;
+using palpate::testing::readFile;
+using palpate::testing::TemporaryFolder;
+using palpate::testing::writeFile;
+
+std::size_t numFiles(const fs::path& folder) {
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(OutputFile, AppearsWholeOnCommit) {
+  const TemporaryFolder folder;
+  OutputFile out(folder / "a.txt");
+  out.write("one ");
+  out.write("two");
+  EXPECT_FALSE(fs::exists(folder / "a.txt"));
+  out.commit();
+  EXPECT_EQ(readFile(folder / "a.txt"), "one two");
+  EXPECT_EQ(numFiles(folder.path()), 1u);
+}
+
+TEST(OutputFile, LeavesNothingWithoutCommit) {
+  const TemporaryFolder folder;
+  { OutputFile(folder / "a.txt").write("lost"); }
+  EXPECT_EQ(numFiles(folder.path()), 0u);
+}
+
+TEST(OutputFile, RefusesToReplaceUnlessAsked) {
+  const TemporaryFolder folder;
+  writeFile(folder / "a.txt", "old");
+  EXPECT_THROW(OutputFile(folder / "a.txt"), FileError);
+  OutputFile out(folder / "a.txt", Overwrite::kReplace);
+  out.write("new");
+  EXPECT_EQ(readFile(folder / "a.txt"), "old");
+  out.commit();
+  EXPECT_EQ(readFile(folder / "a.txt"), "new");
+}
+
+TEST(OutputFile, RefusesAFileThatAppearedMeanwhile) {
+  const TemporaryFolder folder;
+  OutputFile out(folder / "a.txt");
+  out.write("mine");
+  writeFile(folder / "a.txt", "somebody else's");
+  EXPECT_THROW(out.commit(), FileError);
+  EXPECT_EQ(readFile(folder / "a.txt"), "somebody else's");
+}
+
+TEST(OutputFile, IsAsReadableAsAnyFile) {
+  const TemporaryFolder folder;
+  const mode_t mask = ::umask(022);
+  OutputFile out(folder / "a.txt");
+  ::umask(mask);
+  out.commit();
+  struct stat status {};
+  ASSERT_EQ(::stat((folder / "a.txt").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0644u);
+}
+
+TEST(OutputFile, SaysWhatIsWrong) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(OutputFile(folder / "missing" / "a.txt"), FileError);
+  EXPECT_THROW(OutputFile(folder.path(), Overwrite::kReplace), FileError);
+  try {
+    OutputFile out("/dev/full/a");
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("/dev/full/a"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,39 @@
+#include "palpate/core/time.h"
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+class FakeClock final : public Clock {
+ public:
+  std::int64_t monotonicUs() const override { return monotonic; }
+  std::int64_t wallUs() const override { return wall; }
+  std::int64_t monotonic = 5'000;
+  std::int64_t wall = 1'400'000'000'000'000;
+};
+
+TEST(HostTime, FollowsTheMonotonicClockWhateverTheWallClockDoes) {
+  FakeClock clock;
+  const HostTime time(clock);
+  EXPECT_EQ(time.nowUs(), 1'400'000'000'000'000);
+  clock.monotonic += 250;
+  clock.wall -= 3'600'000'000;  // somebody sets the clock back an hour
+  EXPECT_EQ(time.nowUs(), 1'400'000'000'000'250);
+  EXPECT_EQ(time.wallOffsetUs(), -3'600'000'250);
+}
+
+TEST(HostTime, SystemClockGoesForward) {
+  const std::int64_t first = systemClock().monotonicUs();
+  EXPECT_GE(systemClock().monotonicUs(), first);
+  EXPECT_GT(systemClock().wallUs(), 1'700'000'000'000'000);  // after 2023
+}
+
+TEST(UtcText, WritesDatesLikePeople) {
+  EXPECT_EQ(utcText(0), "1970-01-01 00:00:00.000");
+  EXPECT_EQ(utcText(1'417'170'971'302'000), "2014-11-28 10:36:11.302");  // date -u -d @1417170971
+  EXPECT_EQ(utcText(-1'000), "1969-12-31 23:59:59.999");
+}
+
+}  // namespace
+}  // namespace palpate

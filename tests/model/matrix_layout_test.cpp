@@ -1,0 +1,49 @@
+#include "palpate/model/matrix_layout.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+TEST(MatrixLayout, CountsPlacesTaxelsAndEnabledOnes) {
+  MatrixLayout layout = MatrixLayout::full(2, 3, 3.4);
+  layout.staticMask[0] = 0;
+  layout.dynamicMask[5] = 0;
+  EXPECT_EQ(layout.numPlaces(), 6u);
+  EXPECT_EQ(layout.numTaxels(), 5u);
+  EXPECT_EQ(layout.numEnabled(), 4u);
+  EXPECT_FALSE(layout.exists(0, 0));
+  EXPECT_TRUE(layout.exists(1, 2));
+  EXPECT_FALSE(layout.enabled(1, 2));
+  EXPECT_FALSE(layout.exists(2, 0));
+  EXPECT_FALSE(layout.exists(0, -1));
+  EXPECT_DOUBLE_EQ(layout.taxelAreaMm2(), 3.4 * 3.4);
+}
+
+TEST(MatrixLayout, RefusesNonsense) {
+  EXPECT_THROW(MatrixLayout::full(0, 3, 3.4), std::invalid_argument);
+  EXPECT_THROW(MatrixLayout::full(3, 257, 3.4), std::invalid_argument);
+  EXPECT_THROW(MatrixLayout::full(65535, 65535, 3.4), std::invalid_argument);
+  EXPECT_THROW(MatrixLayout::full(-1, -1, 3.4), std::invalid_argument);
+  EXPECT_THROW(MatrixLayout::full(3, 3, 0.0), std::invalid_argument);
+  EXPECT_THROW(MatrixLayout::full(3, 3, std::nan("")), std::invalid_argument);
+  MatrixLayout layout = MatrixLayout::full(3, 3, 1.0);
+  layout.dynamicMask.pop_back();
+  EXPECT_THROW(layout.validate(), std::invalid_argument);
+}
+
+TEST(SensorLayout, PutsMatricesOneAfterTheOther) {
+  const SensorLayout layout({MatrixLayout::full(2, 3, 3.4), MatrixLayout::full(4, 5, 1.0)});
+  EXPECT_EQ(layout.numMatrices(), 2u);
+  EXPECT_EQ(layout.numPlaces(), 26u);
+  EXPECT_EQ(layout.offset(0), 0u);
+  EXPECT_EQ(layout.offset(1), 6u);
+  EXPECT_THROW(layout.offset(2), std::out_of_range);
+  EXPECT_THROW(SensorLayout(std::vector<MatrixLayout>{}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace palpate

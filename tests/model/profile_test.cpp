@@ -1,0 +1,88 @@
+#include "palpate/model/profile.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "palpate/model/profile_builder.h"
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+std::shared_ptr<const SensorLayout> smallLayout() {
+  return std::make_shared<SensorLayout>(std::vector{MatrixLayout::full(2, 2, 1.0)});
+}
+
+std::vector<float> frameOf(float value) { return {value, 0.0F, value, 1.0F}; }
+
+TEST(Profile, GivesEveryFrameAtRandomAcrossChunks) {
+  constexpr int kFrames = 3000;  // several chunks of the builder
+  ProfileBuilder builder(smallLayout());
+  for (int i = 0; i < kFrames; ++i)
+    builder.addFrame(1000 * (i + 1),
+                     frameOf(i % 7 == 0 ? 0.5F * static_cast<float>(i) : static_cast<float>(i)));
+  const Profile profile = builder.finish({});
+  ASSERT_EQ(profile.numFrames(), static_cast<std::size_t>(kFrames));
+  for (int i : {2999, 0, 1023, 1024, 1025, 2047, 2048, 7, 14}) {
+    const auto index = static_cast<std::size_t>(i);
+    EXPECT_EQ(profile.frame(index).values,
+              frameOf(i % 7 == 0 ? 0.5F * static_cast<float>(i) : static_cast<float>(i)));
+    EXPECT_EQ(profile.frameTimeUs(index), 1000 * (i + 1));
+  }
+  EXPECT_EQ(profile.info().valueType, ValueType::kFloat);
+  EXPECT_THROW(profile.frame(kFrames), std::out_of_range);
+  EXPECT_THROW(profile.frameTimeUs(kFrames), std::out_of_range);
+}
+
+TEST(Profile, AnglesOfAFrameAreTheLastOnesAtOrBeforeItClampedAtBothEnds) {
+  ProfileBuilder builder(smallLayout());
+  for (std::int64_t t : {5, 10, 15, 20, 95}) builder.addFrame(t, frameOf(1.0F));
+  for (std::int64_t t : {10, 16, 20})
+    builder.addAngles(t, std::vector<double>{static_cast<double>(t)});
+  const Profile profile = builder.finish({});
+  const double expected[] = {10.0, 10.0, 10.0, 20.0, 20.0};
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_EQ(profile.anglesAtFrame(i)->deg, std::vector<double>{expected[i]}) << i;
+  EXPECT_FALSE(profile.temperaturesAtFrame(0).has_value());
+  EXPECT_THROW(profile.angles(3), std::out_of_range);
+  EXPECT_THROW(profile.temperatures(0), std::out_of_range);
+}
+
+TEST(Profile, FindsTheFrameOfATime) {
+  ProfileBuilder builder(smallLayout());
+  for (std::int64_t t : {100, 200, 300}) builder.addFrame(t, frameOf(1.0F));
+  const Profile profile = builder.finish({});
+  EXPECT_EQ(profile.frameAt(-5), 0u);
+  EXPECT_EQ(profile.frameAt(199), 0u);
+  EXPECT_EQ(profile.frameAt(200), 1u);
+  EXPECT_EQ(profile.frameAt(1'000'000), 2u);
+  EXPECT_EQ(profile.durationUs(), 200);
+}
+
+TEST(Profile, MayBeEmpty) {
+  const Profile profile = ProfileBuilder(smallLayout()).finish({});
+  EXPECT_EQ(profile.numFrames(), 0u);
+  EXPECT_EQ(profile.frameAt(0), std::nullopt);
+  EXPECT_EQ(profile.durationUs(), 0);
+  EXPECT_EQ(profile.info().valueType, ValueType::kCounts);
+}
+
+TEST(ProfileBuilder, RefusesWhatIsNoTimeSeries) {
+  ProfileBuilder builder(smallLayout());
+  builder.addFrame(10, frameOf(1.0F));
+  EXPECT_THROW(builder.addFrame(10, frameOf(1.0F)), std::invalid_argument);
+  EXPECT_THROW(builder.addFrame(9, frameOf(1.0F)), std::invalid_argument);
+  EXPECT_THROW(builder.addFrame(11, std::vector<float>(3)), std::invalid_argument);
+  EXPECT_THROW(builder.addFrame(11, frameOf(std::nanf(""))), std::invalid_argument);
+  builder.addAngles(1, std::vector<double>{1.0, 2.0});
+  EXPECT_THROW(builder.addAngles(2, std::vector<double>{1.0}), std::invalid_argument);
+  EXPECT_THROW(builder.addAngles(2, std::vector<double>{1.0, HUGE_VAL}), std::invalid_argument);
+  EXPECT_THROW(builder.addTemperatures(1, std::vector<double>{}), std::invalid_argument);
+  EXPECT_EQ(builder.numFrames(), 1u);
+  EXPECT_EQ(builder.lastAngleUs(), 1);
+  EXPECT_EQ(builder.lastTemperatureUs(), std::nullopt);
+}
+
+}  // namespace
+}  // namespace palpate
