@@ -1,0 +1,91 @@
+#include "commands/command_line.h"
+
+#include "commands/commands.h"
+#include "commands/palpate_program.h"
+
+namespace palpate::commands {
+namespace {
+
+using palpate::testing::expectOneLineError;
+using palpate::testing::palpate;
+
+const CommandSpec kSpec{.synopsis = "palpate try FILE",
+                        .purpose = "A command for this test.",
+                        .options = {{"frame,f", "N", "a frame"},
+                                    {"filter", "SPEC", "may be repeated"},
+                                    {"force", "", "a flag"}},
+                        .example = "palpate try a.dsa",
+                        .fewestWords = 1,
+                        .mostWords = 2};
+
+TEST(CommandLine, SortsOptionsFromWords) {
+  const CommandLine given(kSpec, {"a.dsa", "-f", "3", "--filter", "x", "--force", "--filter=y", "b"});
+  EXPECT_EQ(given.words(), (std::vector<std::string>{"a.dsa", "b"}));
+  EXPECT_EQ(given.integer("frame", 0, 10), 3);
+  EXPECT_EQ(given.texts("filter"), (std::vector<std::string>{"x", "y"}));
+  EXPECT_TRUE(given.has("force"));
+  EXPECT_FALSE(given.quiet());
+}
+
+TEST(CommandLine, RefusesWhatItDoesNotKnow) {
+  EXPECT_THROW(CommandLine(kSpec, {}), UsageError);
+  EXPECT_THROW(CommandLine(kSpec, {"a", "b", "c"}), UsageError);
+  EXPECT_THROW(CommandLine(kSpec, {"a", "--unknown"}), UsageError);
+  EXPECT_THROW(CommandLine(kSpec, {"a", "--fra", "3"}), UsageError);  // no abbreviations
+  EXPECT_THROW(CommandLine(kSpec, {"a", "--frame"}), UsageError);
+  const CommandLine given(kSpec, {"a", "--frame", "x", "--filter", "y"});
+  EXPECT_THROW(given.integer("frame", 0, 10), UsageError);
+  EXPECT_THROW(given.number("frame", 0, 10), UsageError);
+  EXPECT_THROW(given.choice("filter", {"a", "b"}), UsageError);
+}
+
+TEST(CommandLine, ChecksRangesAndChoices) {
+  const CommandLine given(kSpec, {"a", "--frame", "11", "--filter", "b"});
+  EXPECT_THROW(given.integer("frame", 0, 10), UsageError);
+  EXPECT_THROW(given.number("frame", 0, 10.9), UsageError);
+  EXPECT_EQ(given.number("frame", 0, 11.0), 11.0);
+  EXPECT_EQ(given.choice("filter", {"a", "b"}), "b");
+  EXPECT_EQ(given.integer("missing", 0, 1), std::nullopt);
+}
+
+TEST(Program, EveryCommandExplainsItselfWithAnExample) {
+  for (const Command& command : allCommands()) {
+    const auto result = palpate({command.name, "--help"});
+    EXPECT_EQ(result.exitCode, 0) << command.name;
+    EXPECT_NE(result.out.find("Usage: palpate " + std::string(command.name)), std::string::npos);
+    EXPECT_NE(result.out.find("Example:\n  palpate " + std::string(command.name)),
+              std::string::npos);
+    EXPECT_NE(result.out.find("--quiet"), std::string::npos) << command.name;
+    EXPECT_EQ(result.err, "");
+  }
+}
+
+TEST(Program, ListsItsCommandsAndItsVersion) {
+  const auto help = palpate({"--help"});
+  EXPECT_EQ(help.exitCode, 0);
+  for (const Command& command : allCommands())
+    EXPECT_NE(help.out.find(command.name), std::string::npos);
+  EXPECT_EQ(palpate({"--version"}).out.rfind("palpate ", 0), 0u);
+}
+
+TEST(Program, WrongUsageIsExitCodeTwoInOneLine) {
+  expectOneLineError(palpate({"inof", "x"}), 2, {"inof", "did you mean 'info'"});
+  expectOneLineError(palpate({"xyzzyxyzzy"}), 2, {"xyzzyxyzzy", "--help"});
+  expectOneLineError(palpate({"info"}), 2, {"usage: palpate info FILE"});
+  expectOneLineError(palpate({"info", "a", "--jsom"}), 2, {"--jsom"});
+  expectOneLineError(palpate({"signals", "a", "--matrix", "-1"}), 2, {"--matrix", "'-1'"});
+  expectOneLineError(palpate({"--unknown"}), 2, {"--unknown"});
+}
+
+TEST(Program, FullStandardOutputIsAFailure) {
+  const testing::TemporaryFolder folder;
+  ASSERT_EQ(palpate({"synthesize", "-o", folder / "a.dsa", "--duration", "2"}).exitCode, 0);
+  const auto result = testing::runProgram(
+      "/bin/sh",
+      {"-c", std::string(PALPATE_PROGRAM) + " signals '" + (folder / "a.dsa").string() +
+                 "' > /dev/full"});
+  expectOneLineError(result, 1, {"standard output"});
+}
+
+}  // namespace
+}  // namespace palpate::commands

@@ -1,0 +1,149 @@
+#include <regex>
+
+#include "commands/palpate_program.h"
+#include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::expectOneLineError;
+using testing::palpate;
+
+Json infoOf(const fs::path& file) {
+  const auto result = palpate({"info", file.string(), "--json"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  return Json::parse(result.out);
+}
+
+TEST(InfoCommand, ReportsASmallHandWrittenFile) {
+  // The example of docs/dsa_format.md: one matrix 2 x 3, two frames 32 ms apart, the second with a
+  // value of 1000; one sample of angles and of temperatures.
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "small.dsa",
+                     "<?xml version=\"1.0\" encoding=\"utf-8\"?><root><sensor name=\"\">"
+                     "<serial_nr>00000001</serial_nr><num_matrices>1</num_matrices>"
+                     "<matrix index=\"0\"><cells_x>3</cells_x><cells_y>2</cells_y>"
+                     "<texel_width>3.4</texel_width><texel_height>3.4</texel_height>"
+                     "<static_mask>111 011</static_mask><dynamic_mask>111 111</dynamic_mask>"
+                     "</matrix></sensor><data><frame_count>2</frame_count>"
+                     "<frame index=\"0\"><time_stamp>1400000000000</time_stamp>"
+                     "<frame_data>C0C00000</frame_data></frame>"
+                     "<frame index=\"1\"><time_stamp>1400000000032</time_stamp>"
+                     "<frame_data>C0000000 42C80000 BF800000 447A0000 BF800000</frame_data></frame>"
+                     "</data><temperatures><temp_count>1</temp_count><temp index=\"0\">"
+                     "<time_stamp>1400000000010</time_stamp><temp_data>35.50, 35.00</temp_data>"
+                     "</temp></temperatures><joint_angles><angle_count>1</angle_count>"
+                     "<angle index=\"0\"><time_stamp>1400000000001</time_stamp>"
+                     "<angle_data>60.0, -10.0, 10.0</angle_data></angle></joint_angles></root>");
+  const Json info = infoOf(folder / "small.dsa");
+  EXPECT_EQ(info.at("format").asString(), "dsa");
+  EXPECT_EQ(info.at("value_type").asString(), "counts");
+  EXPECT_EQ(info.at("frames").asInteger(), 2);
+  EXPECT_DOUBLE_EQ(info.at("duration_s").asDouble(), 0.032);
+  EXPECT_DOUBLE_EQ(info.at("rate_hz").asDouble(), 31.25);
+  EXPECT_DOUBLE_EQ(info.at("mean_rate_hz").asDouble(), 31.25);
+  EXPECT_EQ(info.at("gaps").asInteger(), 0);
+  EXPECT_EQ(info.at("temperatures").asInteger(), 1);
+  EXPECT_EQ(info.at("joint_angles").asInteger(), 1);
+  EXPECT_EQ(info.at("max_value").asDouble(), 1000.0);
+  EXPECT_EQ(info.at("saturated_frames").asInteger(), 0);
+  EXPECT_EQ(info.at("serial").asString(), "00000001");
+  ASSERT_EQ(info.at("matrices").size(), 1u);
+  const Json matrix = info.at("matrices").at(0);
+  EXPECT_EQ(matrix.at("index").asInteger(), 0);
+  EXPECT_EQ(matrix.at("rows").asInteger(), 2);
+  EXPECT_EQ(matrix.at("columns").asInteger(), 3);
+  EXPECT_EQ(matrix.at("pitch_mm").asDouble(), 3.4);
+  EXPECT_EQ(matrix.at("taxels").asInteger(), 5);
+  EXPECT_EQ(info.at("warnings").size(), 0u);
+  const auto text = palpate({"info", folder / "small.dsa"});
+  EXPECT_NE(text.out.find("31.25 Hz"), std::string::npos) << text.out;
+}
+
+// What a recording says of itself, by an independent program and regular expressions.
+struct PlainFacts {
+  std::int64_t frames = 0;
+  std::int64_t temperatures = 0;
+  std::int64_t angles = 0;
+  double durationS = 0.0;
+};
+
+PlainFacts factsOf(const fs::path& file) {
+  const auto xml = testing::runProgram("/bin/sh", {"-c", "bzip2 -dc '" + file.string() + "'"}).out;
+  const auto count = [&](const std::string& element) {
+    std::int64_t number = 0;
+    for (auto at = xml.find(element); at != std::string::npos; at = xml.find(element, at + 1))
+      ++number;
+    return number;
+  };
+  PlainFacts facts{count("<frame index="), count("<temp index="), count("<angle index="), 0.0};
+  const auto stampAfter = [&](std::size_t frame) {
+    const auto at = xml.find("<time_stamp>", frame) + 12;
+    return *parseInteger(xml.substr(at, xml.find('<', at) - at));
+  };
+  const std::int64_t first = stampAfter(xml.find("<frame index="));
+  const std::int64_t last = stampAfter(xml.rfind("<frame index="));
+  facts.durationS = static_cast<double>(last - first) / 1000.0;
+  return facts;
+}
+
+TEST(InfoCommand, AgreesWithAnIndependentLookAtEverySharedRecording) {
+  const auto folder = testing::recordingsFolder();
+  PALPATE_NEED(folder);
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(*folder)) {
+    if (entry.path().extension() != ".dsa") continue;
+    // Every grasp by class is alike; a tenth of them is enough here (the reader's own tests take all).
+    if (entry.path().string().find("grasps_by_class") != std::string::npos && files++ % 10 != 0)
+      continue;
+    const Json info = infoOf(entry.path());
+    const PlainFacts facts = factsOf(entry.path());
+    EXPECT_EQ(info.at("frames").asInteger(), facts.frames) << entry.path();
+    EXPECT_EQ(info.at("temperatures").asInteger(), facts.temperatures) << entry.path();
+    EXPECT_EQ(info.at("joint_angles").asInteger(), facts.angles) << entry.path();
+    EXPECT_NEAR(info.at("duration_s").asDouble(), facts.durationS, 1e-9) << entry.path();
+    EXPECT_EQ(info.at("serial").asString(), "1D9B0057") << entry.path();
+    EXPECT_EQ(info.at("warnings").size(), 0u) << entry.path();
+    ASSERT_EQ(info.at("matrices").size(), 6u) << entry.path();
+    for (std::size_t m = 0; m < 6; ++m)
+      EXPECT_EQ(info.at("matrices").at(m).at("taxels").asInteger(), m % 2 ? 68 : 84);
+    EXPECT_LE(info.at("max_value").asDouble(), 3567.0) << entry.path();  // the survey's largest
+  }
+  EXPECT_GT(files, 100);
+}
+
+TEST(InfoCommand, AgreesWithTheSurvey) {
+  const auto folder = testing::recordingsFolder();
+  PALPATE_NEED(folder);
+  const Json noise = infoOf(*folder / "calibration_noise" / "temperature-noise.dsa");
+  EXPECT_EQ(noise.at("frames").asInteger(), 1297);
+  EXPECT_NEAR(noise.at("duration_s").asDouble(), 3893.7, 0.05);
+  EXPECT_NEAR(noise.at("rate_hz").asDouble(), 0.33, 0.005);
+  EXPECT_EQ(noise.at("gaps").asInteger(), 0);  // a frame every 3 s has no gaps
+  const Json slip = infoOf(*folder / "slip-detection" / "slip_test.dsa");
+  ASSERT_EQ(slip.at("gaps").asInteger(), 1);
+  EXPECT_NEAR(slip.at("gap_list").at(0).at("seconds").asDouble(), 147.5, 0.05);
+  const Json masked = infoOf(*folder / "misc" / "masked_matrix.dsa");
+  EXPECT_NEAR(masked.at("rate_hz").asDouble(), 54.8, 1.0);
+  EXPECT_EQ(masked.at("joint_angles").asInteger(), 0);
+  EXPECT_EQ(masked.at("temperatures").asInteger(), 0);
+  const Json sensitivity =
+      infoOf(*folder / "calibration_sensitivity" / "sensitivity_0.1-1.0.dsa");
+  EXPECT_EQ(sensitivity.at("frames").asInteger(), 6912);
+  EXPECT_NEAR(sensitivity.at("duration_s").asDouble(), 224.7, 0.05);
+}
+
+TEST(InfoCommand, SaysWhatIsWrongWithAFile) {
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "empty.dsa", "");
+  testing::writeFile(folder / "text.dsa", "hello");
+  expectOneLineError(palpate({"info", folder / "missing.dsa"}), 1, {"missing.dsa", "no such file"});
+  expectOneLineError(palpate({"info", folder / "empty.dsa"}), 1, {"empty"});
+  expectOneLineError(palpate({"info", folder / "text.dsa"}), 1, {"text.dsa"});
+  expectOneLineError(palpate({"info", folder.path()}), 1, {"folder"});
+}
+
+}  // namespace
+}  // namespace palpate

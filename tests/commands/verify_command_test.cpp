@@ -1,0 +1,65 @@
+#include "commands/palpate_program.h"
+
+namespace palpate {
+namespace {
+
+using testing::palpate;
+
+class VerifyCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(palpate({"synthesize", "-o", sound(), "--duration", "2"}).exitCode, 0);
+    const std::string bytes = testing::readFile(sound());
+    testing::writeFile(unreadable(), bytes.substr(0, bytes.size() / 2));  // one block, cut
+    // Plain XML, cut: the frames before the cut can be read.
+    const std::string xml =
+        testing::runProgram("/bin/sh", {"-c", "bzip2 -dc '" + sound() + "'"}).out;
+    testing::writeFile(damaged(), xml.substr(0, xml.size() / 4));
+  }
+  std::string sound() const { return folder_ / "sound.dsa"; }
+  std::string damaged() const { return folder_ / "damaged.dsa"; }
+  std::string unreadable() const { return folder_ / "unreadable.dsa"; }
+
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(VerifyCommand, ExitCodeTellsTheState) {
+  EXPECT_EQ(palpate({"verify", sound()}).exitCode, 0);
+  EXPECT_EQ(palpate({"verify", damaged()}).exitCode, 3);
+  EXPECT_EQ(palpate({"verify", unreadable()}).exitCode, 1);
+  EXPECT_EQ(palpate({"verify", sound() + "-missing"}).exitCode, 1);
+}
+
+TEST_F(VerifyCommand, OfSeveralFilesTheWorst) {
+  EXPECT_EQ(palpate({"verify", sound(), damaged(), sound()}).exitCode, 3);
+  EXPECT_EQ(palpate({"verify", unreadable(), damaged(), sound()}).exitCode, 1);
+}
+
+TEST_F(VerifyCommand, OneLinePerFileSaysWhatCanBeRead) {
+  const auto result = palpate({"verify", sound(), damaged(), unreadable()});
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 3) << result.out;
+  EXPECT_NE(result.out.find("sound.dsa: sound: 64 frames"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("damaged.dsa: damaged: "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("unreadable.dsa: unreadable: "), std::string::npos) << result.out;
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(VerifyCommand, QuietIsTheExitCodeAlone) {
+  const auto result = palpate({"verify", "--quiet", damaged()});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(VerifyCommand, EverySharedRecordingIsSound) {
+  const auto folder = testing::recordingsFolder();
+  PALPATE_NEED(folder);
+  std::vector<std::string> words = {"verify", "--quiet"};
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(*folder))
+    if (entry.path().extension() == ".dsa") words.push_back(entry.path());
+  EXPECT_GT(words.size(), 600u);
+  EXPECT_EQ(palpate(words).exitCode, 0);
+}
+
+}  // namespace
+}  // namespace palpate
