@@ -197,10 +197,10 @@ class CountTests : public ::testing::Test {
   }
   const std::string passed_ =
       "\t<testcase name=\"a\" classname=\"a\" time=\"0.01\" status=\"run\">\n\t\t<system-out>x "
-      "status=&quot;fail&quot;</system-out>\n\t</testcase>\n";
+      "status=\"fail\"</system-out>\n\t</testcase>\n";
   const std::string failed_ =
       "\t<testcase name=\"b\" classname=\"b\" time=\"0.01\" status=\"fail\">\n\t\t<failure "
-      "message=\"\"/>\n\t</testcase>\n";
+      "message=\"\"/>\n<system-out>x status=\"run\"</system-out>\n\t</testcase>\n";
   const std::string skipped_ =
       "\t<testcase name=\"c\" classname=\"c\" time=\"0.01\" status=\"notrun\">\n\t\t<skipped "
       "message=\"SKIP_REGULAR_EXPRESSION_MATCHED\"/>\n\t</testcase>\n";
