@@ -5,7 +5,6 @@
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/filter/characteristic_signals.h"
-#include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/command_line.h"
