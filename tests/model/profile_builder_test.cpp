@@ -34,7 +34,9 @@ TEST(ProfileBuilder, HandsOverWhatItHasAndStartsAnew) {
   ProfileBuilder builder(smallLayout());
   builder.addFrame(10, frameOf(1.0F));
   builder.addAngles(10, std::vector<double>{1.0, 2.0});
-  const Profile first = builder.finish({.serial = "7"});
+  ProfileInfo info;
+  info.serial = "7";
+  const Profile first = builder.finish(info);
   EXPECT_EQ(first.numFrames(), 1u);
   EXPECT_EQ(first.hand().axes.size(), 2u);
   EXPECT_EQ(first.info().serial, "7");
