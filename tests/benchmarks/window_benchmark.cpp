@@ -45,6 +45,9 @@ void usePlatform() {
 
 QApplication& application() {
   usePlatform();
+  static const QTemporaryDir runtime;  // where nobody is logged in there is none, and Qt says so
+  if (!qEnvironmentVariableIsSet("XDG_RUNTIME_DIR"))
+    qputenv("XDG_RUNTIME_DIR", runtime.path().toLocal8Bit());
   static int count = 1;
   static char name[] = "palpate";
   static char* arguments[] = {name, nullptr};
