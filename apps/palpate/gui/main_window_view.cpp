@@ -27,6 +27,7 @@ namespace {
 constexpr int kFlashMs = 5000;
 constexpr int kTenFrames = 10;
 constexpr double kZoomStep = 1.5;
+constexpr int kNarrowestInspect = 455;    // [px] its table is read without eliding
 constexpr double kInspectShare = 0.345;   // of the window's width
 constexpr double kTimelineShare = 0.235;  // of the window's height
 
@@ -223,7 +224,7 @@ void MainWindow::showFrame(std::size_t frame) {
 void MainWindow::showPlaybackState() {
   const Theme theme = resolved(view_.theme);
   const bool playing = playback_.playing();
-  actions_.play->setText(playing ? "&Pause" : "&Play");
+  actions_.play->setIconText(playing ? " Pause" : " Play");
   actions_.play->setIcon(makeIcon(playing ? IconShape::kPause : IconShape::kPlay, theme));
   actions_.play->setToolTip(playing ? "Pause (Space)" : "Play by the real time stamps (Space)");
   actions_.loop->setChecked(playback_.loop());
@@ -336,7 +337,8 @@ void MainWindow::defaultLayout() {
     dock->setFloating(false);
     dock->show();
   }
-  resizeDocks({docks_[0]}, {static_cast<int>(width() * kInspectShare)}, Qt::Horizontal);
+  const int inspect = std::max(kNarrowestInspect, static_cast<int>(width() * kInspectShare));
+  resizeDocks({docks_[0]}, {inspect}, Qt::Horizontal);
   resizeDocks({docks_[1]}, {static_cast<int>(height() * kTimelineShare)}, Qt::Vertical);
 }
 

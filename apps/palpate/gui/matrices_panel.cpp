@@ -13,6 +13,8 @@
 namespace palpate::gui {
 namespace {
 
+constexpr int kControlHeight = 26;  // [px] of boxes beside buttons
+
 QToolButton* buttonFor(QAction* action, QWidget* parent) {
   auto* button = new QToolButton(parent);
   button->setDefaultAction(action);
@@ -24,6 +26,9 @@ QToolButton* buttonFor(QAction* action, QWidget* parent) {
 QDoubleSpinBox* rangeField(QWidget* parent, const char* name, const char* tip) {
   auto* field = new QDoubleSpinBox(parent);
   field->setObjectName(name);
+  field->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  field->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  field->setFixedWidth(field->fontMetrics().horizontalAdvance("0000000") + 18);
   field->setDecimals(0);
   field->setRange(0.0, 1e6);
   field->setSingleStep(50.0);
@@ -49,6 +54,7 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   range_ = new QComboBox(header);
   range_->setObjectName("rangeBox");
   range_->setFocusPolicy(Qt::TabFocus);
+  for (QComboBox* box : {map_, range_}) box->setMinimumHeight(kControlHeight);
   range_->setToolTip("Where the colour range ends (R)");
   for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
   minimum_ = rangeField(header, "rangeMinimum", "Value of the lowest colour in counts");

@@ -44,13 +44,19 @@ class MatrixTableModel : public QAbstractTableModel {
   Theme theme_ = Theme::kDark;
 };
 
+class TickDelegate;
+
 // As high as its rows.
 class MatrixTable : public QTableView {
   Q_OBJECT
  public:
   explicit MatrixTable(MatrixTableModel* model, QWidget* parent = nullptr);
+  void setTheme(Theme theme);
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
+
+ private:
+  TickDelegate* ticks_;
 };
 
 }  // namespace palpate::gui

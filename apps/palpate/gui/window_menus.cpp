@@ -12,6 +12,9 @@
 namespace palpate::gui {
 namespace {
 
+constexpr int kControlHeight = 28;   // [px] of boxes beside buttons
+constexpr int kIconAndPadding = 46;  // [px]
+
 void addChoices(QMenu* menu, const QString& title, const QActionGroup* group) {
   QMenu* choices = menu->addMenu(title);
   choices->addActions(group->actions());
@@ -98,6 +101,7 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   bar->addActions({actions.toStart, actions.stepBack, actions.play, actions.stepForward});
   speed = new QComboBox(bar);
   speed->setObjectName("speedBox");
+  speed->setMinimumHeight(kControlHeight);
   speed->setToolTip("Speed (Up, Down)");
   speed->setAccessibleName("Speed");
   speed->setFocusPolicy(Qt::TabFocus);
@@ -107,17 +111,21 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   for (QAction* action :
        {actions.open, actions.exportPicture, actions.play, actions.loop, actions.skipGaps})
     showTextBeside(bar, action);
+  // "Play" and "Pause" take the same room: nothing jumps when the playback starts.
+  QWidget* play = bar->widgetForAction(actions.play);
+  play->setMinimumWidth(play->fontMetrics().horizontalAdvance(" Pause") + kIconAndPadding);
   auto* spacer = new QWidget(bar);
   spacer->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   bar->addWidget(spacer);
   recordings = new QComboBox(bar);
   recordings->setObjectName("recordingsBox");
+  recordings->setMinimumHeight(kControlHeight);
   recordings->setToolTip("Open recordings (Ctrl+Tab)");
   recordings->setAccessibleName("Open recordings");
   recordings->setFocusPolicy(Qt::TabFocus);
   recordings->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   recordings->setMaximumWidth(420);
-  bar->addWidget(recordings);
+  recordingsAction = bar->addWidget(recordings);
   bar->addAction(actions.keys);
 }
 

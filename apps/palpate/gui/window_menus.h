@@ -16,9 +16,10 @@ struct WindowMenus {
   // dockToggles: what shows and hides the docks.
   WindowMenus(QMainWindow& window, const Actions& actions, const QList<QAction*>& dockToggles);
 
-  QMenu* recent;          // filled by its owner when it is about to show
-  QComboBox* speed;       // of the toolbar; index into PlaybackController::kSpeeds
-  QComboBox* recordings;  // open recordings
+  QMenu* recent;              // filled by its owner when it is about to show
+  QComboBox* speed;           // of the toolbar; index into PlaybackController::kSpeeds
+  QComboBox* recordings;      // open recordings
+  QAction* recordingsAction;  // shows and hides it
 
  private:
   void buildMenuBar(QMainWindow& window, const Actions& actions, const QList<QAction*>& toggles);
