@@ -41,7 +41,7 @@ struct WindowSurroundings {
   std::filesystem::path dataFolder;  // with the demo recording
   QString settingsPath;              // INI file
   const Clock* clock = nullptr;      // null: the system's
-  RecordingOpener::Read read;        // empty: openRecording
+  RecordingOpener::Read read = {};   // empty: openRecording
 };
 
 class MainWindow : public QMainWindow {
