@@ -156,14 +156,21 @@ TEST_F(MainWindowTest, RangesByKeyBoxMenuAndFields) {
 }
 
 TEST_F(MainWindowTest, SignalsByKeyBoxAndMenu) {
+  window().resize(1400, 1300);  // high enough for the whole label
+  press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
+  QCoreApplication::processEvents();
   press(Qt::Key_S);
   EXPECT_EQ(window().viewSettings().signal, PlottedSignal::kFilteredMean);
   EXPECT_EQ(timeline().yAxis->label(), "filtered mean in counts");
   emit find<QComboBox>("signalBox")->activated(6);
   EXPECT_EQ(timeline().yAxis->label(), "active area in mm²");
   actions().signalsPlotted->actions().at(5)->trigger();
-  EXPECT_EQ(timeline().yAxis->label(), "active taxels in taxels");
+  EXPECT_EQ(timeline().yAxis->label(), "active taxels");
   EXPECT_EQ(find<QComboBox>("signalBox")->currentText(), "active taxels");
+  window().resize(900, 600);
+  press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
+  QCoreApplication::processEvents();
+  EXPECT_EQ(timeline().yAxis->label(), "taxels") << "a low chart names the unit alone";
 }
 
 TEST_F(MainWindowTest, ZoomKeysChangeWhatIsSeen) {

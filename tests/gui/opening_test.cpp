@@ -5,6 +5,8 @@
 #include <QMenu>
 #include <QMimeData>
 #include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QStackedWidget>
 #include <QToolButton>
 
@@ -256,6 +258,18 @@ TEST_F(OpeningTest, TheStartPageListsRecentFilesAfterARestart) {
   QTest::mouseClick(window().findChildren<QPushButton*>("RecentRow").at(0), Qt::LeftButton);
   waitUntilOpened();
   EXPECT_EQ(currentName(), "good2.dsa");
+}
+
+TEST_F(OpeningTest, TenRecentFilesFitIntoTheSmallestWindow) {
+  for (int i = 0; i < 12; ++i) open({"good" + std::to_string(i) + ".dsa"});
+  window().close();
+  start();
+  window().resize(900, 600);
+  QCoreApplication::processEvents();
+  EXPECT_EQ(window().size(), QSize(900, 600));
+  EXPECT_EQ(window().findChildren<QPushButton*>("RecentRow").size(), 10);
+  auto* scroll = window().findChild<StartPage*>()->findChild<QScrollArea*>();
+  EXPECT_GT(scroll->verticalScrollBar()->maximum(), 0);
 }
 
 TEST_F(OpeningTest, TheDemoIsOfferedOnlyWhereItsFileIs) {

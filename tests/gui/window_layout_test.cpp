@@ -3,6 +3,7 @@
 #include <QToolButton>
 
 #include "gui/matrices_view.h"
+#include "gui/matrix_table.h"
 #include "window_fixture.h"
 
 namespace palpate::gui {
@@ -89,6 +90,26 @@ TEST_F(WindowLayoutTest, ABrokenSettingsFileDoesNotStopTheProgram) {
   start();
   open({"good.dsa"});
   EXPECT_TRUE(dock("Inspect")->isVisible());
+}
+
+TEST_F(WindowLayoutTest, ANarrowWindowKeepsEveryControl) {
+  open({"good.dsa"});
+  for (const QSize size : {QSize(900, 600), QSize(1600, 1000)}) {
+    window().resize(size);
+    press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
+    QCoreApplication::processEvents();
+    EXPECT_EQ(window().size(), size);
+    for (const char* name : {"speedBox", "recordingsBox", "mapBox", "rangeBox", "frameField"}) {
+      const auto* part = find<QWidget>(name);
+      EXPECT_TRUE(part->isVisible()) << name;
+      EXPECT_GT(part->width(), 40) << name << " at " << size.width();
+    }
+    // Matrix names are read in full, and the figures that matter most are there.
+    auto* table = find<MatrixTable>("matrixTable");
+    EXPECT_GE(table->columnWidth(0), table->fontMetrics().horizontalAdvance("2 proximal") + 30);
+    EXPECT_FALSE(table->isColumnHidden(MatrixTableModel::kMaximum));
+    EXPECT_EQ(table->isColumnHidden(MatrixTableModel::kArea), size.width() == 900);
+  }
 }
 
 TEST_F(WindowLayoutTest, DocksCloseByTheirButton) {

@@ -26,6 +26,7 @@ namespace {
 
 constexpr int kFlashMs = 5000;
 constexpr int kTenFrames = 10;
+constexpr int kCompactBelow = 1080;  // [px] of width: buttons lose their text
 constexpr double kZoomStep = 1.5;
 constexpr int kNarrowestInspect = 455;    // [px] its table is read without eliding
 constexpr double kInspectShare = 0.345;   // of the window's width
@@ -418,6 +419,11 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
   enableActions();
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+  QMainWindow::resizeEvent(event);
+  menus_->setCompact(event->size().width() < kCompactBelow);
 }
 
 }  // namespace palpate::gui

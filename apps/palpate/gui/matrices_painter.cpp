@@ -73,8 +73,9 @@ void paintColorBar(QPainter& painter,
   paintTicks(painter, bar, range, options);
   const QFontMetricsF metrics(pictureFont(options));
   painter.setPen(colorsOf(options.theme).muted);
-  const QRectF unit(bar.left() - 20, bar.top() - metrics.height() - 6, 100, metrics.height());
-  painter.drawText(unit.translated(20, 0), Qt::AlignLeft | Qt::AlignVCenter, options.unit);
+  // Above the number of the highest value.
+  const QRectF unit(bar.left(), bar.top() - 1.5 * metrics.height() - 2, 100, metrics.height());
+  painter.drawText(unit, Qt::AlignLeft | Qt::AlignVCenter, options.unit);
 }
 
 // A taxel that exists but isn't scanned: crossed out, so that it can't be taken for one at rest.

@@ -5,6 +5,7 @@
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QResizeEvent>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -14,6 +15,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kControlHeight = 26;  // [px] of boxes beside buttons
+constexpr int kCompactBelow = 700;  // [px] of width: buttons lose their text
 
 QToolButton* buttonFor(QAction* action, QWidget* parent) {
   auto* button = new QToolButton(parent);
@@ -66,8 +68,8 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   row->setSpacing(6);
   row->addWidget(title);
   row->addStretch(1);
-  row->addWidget(buttonFor(interpolated, header));
-  row->addWidget(buttonFor(values, header));
+  looks_ = {buttonFor(interpolated, header), buttonFor(values, header)};
+  for (QToolButton* button : looks_) row->addWidget(button);
   row->addSpacing(6);
   row->addWidget(map_);
   row->addWidget(range_);
@@ -96,6 +98,13 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   };
   connect(minimum_, &QDoubleSpinBox::valueChanged, this, manual);
   connect(maximum_, &QDoubleSpinBox::valueChanged, this, manual);
+}
+
+void MatricesPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  const bool narrow = event->size().width() < kCompactBelow;
+  for (QToolButton* button : looks_)
+    button->setToolButtonStyle(narrow ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
 }
 
 void MatricesPanel::setRecording(const OpenedRecordingPtr& recording) {

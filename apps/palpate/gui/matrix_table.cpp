@@ -3,13 +3,15 @@
 #include <QHeaderView>
 #include <QItemDelegate>
 #include <QPainter>
+#include <QResizeEvent>
 #include <algorithm>
 
 namespace palpate::gui {
 namespace {
 
-constexpr int kFirstNumber = 1;    // column
-constexpr int kMostRowsSeen = 13;  // a sensor with more matrices scrolls
+constexpr int kLastAlways = MatrixTableModel::kMaximum;  // column that never gives way
+constexpr int kFirstNumber = 1;                          // column
+constexpr int kMostRowsSeen = 13;                        // a sensor with more matrices scrolls
 
 bool sameText(const CharacteristicSignals& a, const CharacteristicSignals& b) {
   return a.active == b.active && a.sum == b.sum && a.maximum == b.maximum && a.minimum == b.minimum;
@@ -210,8 +212,9 @@ MatrixTable::MatrixTable(MatrixTableModel* model, QWidget* parent) : QTableView(
   for (int column = kFirstNumber; column < MatrixTableModel::kNumColumns; ++column) {
     const int digits = column == MatrixTableModel::kSum ? 6 : 4;
     const QString name = model->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-    header->resizeSection(
-        column, std::max(digits * digit, header->fontMetrics().horizontalAdvance(name)) + padding);
+    columnSizes_[static_cast<std::size_t>(column)] =
+        std::max(digits * digit, header->fontMetrics().horizontalAdvance(name)) + padding;
+    header->resizeSection(column, columnSizes_[static_cast<std::size_t>(column)]);
   }
   connect(model, &QAbstractItemModel::modelReset, this, &QWidget::updateGeometry);
 }
@@ -228,6 +231,25 @@ void MatrixTable::setTheme(Theme theme) {
   viewport()->update();
 }
 
-QSize MatrixTable::minimumSizeHint() const { return {300, sizeHint().height()}; }
+int MatrixTable::nameWidth() const {
+  constexpr int kTickAndSquare = 46;
+  return fontMetrics().horizontalAdvance("2 proximal") + kTickAndSquare;
+}
+
+QSize MatrixTable::minimumSizeHint() const {
+  int width = nameWidth();
+  for (int column = kFirstNumber; column <= kLastAlways; ++column)
+    width += columnSizes_[static_cast<std::size_t>(column)];
+  return {width, sizeHint().height()};
+}
+
+void MatrixTable::resizeEvent(QResizeEvent* event) {
+  int left = event->size().width() - nameWidth();
+  for (int column = kFirstNumber; column < MatrixTableModel::kNumColumns; ++column) {
+    left -= columnSizes_[static_cast<std::size_t>(column)];
+    setColumnHidden(column, left < 0 && column > kLastAlways);
+  }
+  QTableView::resizeEvent(event);
+}
 
 }  // namespace palpate::gui

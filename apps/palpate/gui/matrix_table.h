@@ -4,6 +4,7 @@
 
 #include <QAbstractTableModel>
 #include <QTableView>
+#include <array>
 #include <vector>
 
 #include "gui/opened_recording.h"
@@ -55,7 +56,13 @@ class MatrixTable : public QTableView {
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
 
+ protected:
+  // Where there is no room for all columns the last ones give way.
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  int nameWidth() const;
+  std::array<int, MatrixTableModel::kNumColumns> columnSizes_{};  // [px]
   TickDelegate* ticks_;
 };
 

@@ -20,11 +20,6 @@ void addChoices(QMenu* menu, const QString& title, const QActionGroup* group) {
   choices->addActions(group->actions());
 }
 
-void showTextBeside(QToolBar* bar, QAction* action) {
-  if (auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action)))
-    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-}
-
 }  // namespace
 
 WindowMenus::WindowMenus(QMainWindow& window,
@@ -110,10 +105,9 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   bar->addActions({actions.loop, actions.skipGaps});
   for (QAction* action :
        {actions.open, actions.exportPicture, actions.play, actions.loop, actions.skipGaps})
-    showTextBeside(bar, action);
-  // "Play" and "Pause" take the same room: nothing jumps when the playback starts.
-  QWidget* play = bar->widgetForAction(actions.play);
-  play->setMinimumWidth(play->fontMetrics().horizontalAdvance(" Pause") + kIconAndPadding);
+    withText_.append(qobject_cast<QToolButton*>(bar->widgetForAction(action)));
+  play_ = bar->widgetForAction(actions.play);
+  setCompact(false);
   auto* spacer = new QWidget(bar);
   spacer->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   bar->addWidget(spacer);
@@ -127,6 +121,14 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   recordings->setMaximumWidth(420);
   recordingsAction = bar->addWidget(recordings);
   bar->addAction(actions.keys);
+}
+
+void WindowMenus::setCompact(bool on) {
+  for (QToolButton* button : withText_)
+    button->setToolButtonStyle(on ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
+  // "Play" and "Pause" take the same room: nothing jumps when the playback starts.
+  const int textWidth = play_->fontMetrics().horizontalAdvance(" Pause");
+  play_->setMinimumWidth(on ? 0 : textWidth + kIconAndPadding);
 }
 
 }  // namespace palpate::gui
