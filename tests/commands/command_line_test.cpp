@@ -81,10 +81,9 @@ TEST(Program, WrongUsageIsExitCodeTwoInOneLine) {
 TEST(Program, FullStandardOutputIsAFailure) {
   const testing::TemporaryFolder folder;
   ASSERT_EQ(palpate({"synthesize", "-o", folder / "a.dsa", "--duration", "2"}).exitCode, 0);
-  const auto result = testing::runProgram("/bin/sh",
-                                          {"-c",
-                                           std::string(PALPATE_PROGRAM) + " signals '" +
-                                               (folder / "a.dsa").string() + "' > /dev/full"});
+  const auto result = testing::runProgram(
+      "/bin/sh",
+      {"-c", "exec \"$0\" signals \"$1\" > /dev/full", PALPATE_PROGRAM, folder / "a.dsa"});
   expectOneLineError(result, 1, {"standard output"});
 }
 
