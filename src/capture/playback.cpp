@@ -59,8 +59,11 @@ void Playback::step(std::ptrdiff_t frames) {
 
 void Playback::advance(std::int64_t elapsedUs) {
   if (!playing_ || elapsedUs <= 0) return;
-  if (positionUs_ >= lastUs()) {  // looping: the last frame has been shown, start over
-    seekFrame(0);
+  if (positionUs_ >= lastUs()) {  // the last frame has been shown: start over, or that was all
+    if (loop_)
+      seekFrame(0);
+    else
+      playing_ = false;
     return;
   }
   const double moved = static_cast<double>(elapsedUs) * speed_ + remainderUs_;

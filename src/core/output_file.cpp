@@ -2,12 +2,12 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
+#include <random>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "palpate/core/error.h"
@@ -16,10 +16,20 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-std::string reason(int error) { return std::generic_category().message(error); }
+[[noreturn]] void throwCantWrite(const fs::path& path, int error) {
+  throw FileError(path, "can't be written: " + std::generic_category().message(error));
+}
 
 fs::path folderOf(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+// A name beside PATH that nobody else has; short, whatever PATH is called.
+fs::path temporaryName(const fs::path& path) {
+  std::random_device random;
+  char name[32];
+  std::snprintf(name, sizeof name, ".palpate-%08x%08x", random(), random());
+  return folderOf(path) / name;
 }
 
 // A rename is only on disk when its folder is.
@@ -30,67 +40,89 @@ void syncFolder(const fs::path& folder) {
   ::close(descriptor);
 }
 
-void refuseExisting(const fs::path& path, Overwrite overwrite) {
-  std::error_code ignored;
-  const auto status = fs::symlink_status(path, ignored);
-  if (fs::is_directory(fs::status(path, ignored))) throw FileError(path, "is a folder");
-  if (overwrite == Overwrite::kRefuse && fs::exists(status))
-    throw FileError(path, "exists already; give another name, or --force to replace it");
+// What a link points to is written, not the link.
+fs::path followed(const fs::path& path) {
+  std::error_code failure;
+  if (!fs::is_symlink(fs::symlink_status(path, failure))) return path;
+  const fs::path target = fs::weakly_canonical(path, failure);
+  return failure ? path : target;
 }
 
 }  // namespace
 
+void requireWritable(const fs::path& path, Overwrite overwrite) {
+  std::error_code ignored;
+  const auto status = fs::status(path, ignored);
+  if (fs::is_directory(status)) throw FileError(path, "is a folder");
+  if (overwrite == Overwrite::kRefuse && fs::exists(fs::symlink_status(path, ignored)))
+    throw FileError(path, "exists already; give another name, or --force to replace it");
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw FileError(path, "is not a regular file; give another name");
+}
+
+void publishFile(const fs::path& written, const fs::path& path, Overwrite overwrite) {
+  if (overwrite == Overwrite::kRefuse) {
+    // link() fails where the name was taken meanwhile; rename() would replace it.
+    if (::link(written.c_str(), path.c_str()) == 0) {
+      ::unlink(written.c_str());
+    } else if (errno == EEXIST) {
+      requireWritable(path, overwrite);
+      throw FileError(path, "exists already");
+    } else {  // a file system without hard links
+      requireWritable(path, overwrite);
+      if (::rename(written.c_str(), path.c_str()) != 0) throwCantWrite(path, errno);
+    }
+  } else if (::rename(written.c_str(), path.c_str()) != 0) {
+    throwCantWrite(path, errno);
+  }
+  syncFolder(folderOf(path));
+}
+
 OutputFile::OutputFile(fs::path path, Overwrite overwrite)
     : path_(std::move(path)), overwrite_(overwrite) {
-  refuseExisting(path_, overwrite_);
-  std::string name = path_.filename().string();
-  name.insert(0, 1, '.');
-  name += ".XXXXXX";
-  std::string pattern = (folderOf(path_) / name).string();
-  descriptor_ = ::mkostemp(pattern.data(), O_CLOEXEC);
-  if (descriptor_ < 0) throw FileError(path_, "can't be written: " + reason(errno));
-  temporary_ = pattern;
-  const mode_t mask = ::umask(0);  // mkostemp makes 0600; a recording is as readable as any file
-  ::umask(mask);
-  ::fchmod(descriptor_, 0666 & ~mask);
+  requireWritable(path_, overwrite_);
+  if (overwrite_ == Overwrite::kReplace) path_ = followed(path_);
+  constexpr mode_t kMode = 0666;  // less the user's mask: as readable as any file
+  descriptor_ = ::open(folderOf(path_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kMode);
+  if (descriptor_ >= 0) return;
+  // Not every file system has files without a name.
+  temporary_ = temporaryName(path_);
+  descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
+  if (descriptor_ >= 0) return;
+  const int error = errno;
+  temporary_.clear();
+  throwCantWrite(path_, error);
 }
 
 OutputFile::~OutputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
-  if (!committed_) ::unlink(temporary_.c_str());
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
 void OutputFile::write(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw FileError(path_, "can't be written: " + reason(errno));
+    if (written < 0) throwCantWrite(path_, errno);
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 
+void OutputFile::nameTemporarily() {
+  const fs::path name = temporaryName(path_);
+  const std::string self = "/proc/self/fd/" + std::to_string(descriptor_);
+  if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
+    throwCantWrite(path_, errno);
+  temporary_ = name;
+}
+
 void OutputFile::commit() {
-  if (::fsync(descriptor_) != 0) throw FileError(path_, "can't be written: " + reason(errno));
-  const int closed = ::close(descriptor_);
-  descriptor_ = -1;
-  if (closed != 0) throw FileError(path_, "can't be written: " + reason(errno));
-  if (overwrite_ == Overwrite::kRefuse) {
-    // link() fails where the name was taken meanwhile; rename() would replace it.
-    if (::link(temporary_.c_str(), path_.c_str()) == 0) {
-      ::unlink(temporary_.c_str());
-    } else if (errno == EEXIST) {
-      refuseExisting(path_, overwrite_);
-      throw FileError(path_, "exists already");
-    } else {  // a file system without hard links
-      refuseExisting(path_, overwrite_);
-      if (::rename(temporary_.c_str(), path_.c_str()) != 0)
-        throw FileError(path_, "can't be written: " + reason(errno));
-    }
-  } else if (::rename(temporary_.c_str(), path_.c_str()) != 0) {
-    throw FileError(path_, "can't be written: " + reason(errno));
-  }
-  committed_ = true;
-  syncFolder(folderOf(path_));
+  if (::fsync(descriptor_) != 0) throwCantWrite(path_, errno);
+  if (temporary_.empty()) nameTemporarily();
+  const int descriptor = std::exchange(descriptor_, -1);
+  if (::close(descriptor) != 0) throwCantWrite(path_, errno);
+  publishFile(temporary_, path_, overwrite_);
+  temporary_.clear();
 }
 
 }  // namespace palpate

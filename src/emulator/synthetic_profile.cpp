@@ -146,10 +146,16 @@ void SyntheticOptions::validate() const {
   checkRange("angleRateHz", angleRateHz, 0.0, 1000.0);
   checkRange("temperatureRateHz", temperatureRateHz, 0.0, 100.0);
   checkRange("grasps", grasps, 0, 10'000);
-  checkRange("peakCounts", peakCounts, 1.0, 3500.0);
+  checkRange("peakCounts", peakCounts, 50.0, 3500.0);
   checkRange("contactRadiusTaxels", contactRadiusTaxels, 0.5, 5.0);
   checkRange("thresholdCounts", thresholdCounts, 0.0, 4095.0);
   checkRange("noiseCounts", noiseCounts, 0.0, 1000.0);
+  // Fewer frames than that in a grasp's share of the time, and grasps are lost between frames.
+  constexpr double kFewestFrames = 12.0;
+  if (grasps * kFewestFrames > durationS * rateHz)
+    throw std::invalid_argument("synthetic recording: " + std::to_string(grasps) +
+                                " grasps do not fit into " +
+                                std::to_string(static_cast<long>(durationS * rateHz)) + " frames");
 }
 
 Profile synthesize(const SyntheticOptions& options, SyntheticTruth* truth) {

@@ -18,13 +18,15 @@ struct ActiveTaxels {
   int count = 0;
 
   void add(const Eigen::Ref<const MatrixValues>& values) {
-    for (Eigen::Index i = 0; i < values.size(); ++i) {
-      const double value = static_cast<double>(values.data()[i]);
-      if (!(value > 0.0)) continue;
-      minimum = count == 0 ? value : std::min(minimum, value);
-      maximum = std::max(maximum, value);
-      sum += value;
-      ++count;
+    for (Eigen::Index y = 0; y < values.rows(); ++y) {
+      for (Eigen::Index x = 0; x < values.cols(); ++x) {
+        const double value = static_cast<double>(values(y, x));
+        if (!(value > 0.0)) continue;
+        minimum = count == 0 ? value : std::min(minimum, value);
+        maximum = std::max(maximum, value);
+        sum += value;
+        ++count;
+      }
     }
   }
   double mean() const { return count == 0 ? 0.0 : sum / count; }

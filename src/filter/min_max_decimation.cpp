@@ -22,8 +22,9 @@ class Column {
       first_ = smallest_ = largest_ = i;
       empty_ = false;
     }
-    if (y_[i] < y_[smallest_]) smallest_ = i;
-    if (y_[i] > y_[largest_]) largest_ = i;
+    // A NaN is never the smallest or largest, wherever it stands.
+    if (!(y_[i] >= y_[smallest_])) smallest_ = std::isnan(y_[i]) ? smallest_ : i;
+    if (!(y_[i] <= y_[largest_])) largest_ = std::isnan(y_[i]) ? largest_ : i;
     last_ = i;
   }
 

@@ -1,6 +1,7 @@
 #include "recording/dsa_document.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::int64_t kEndOfStampsMs = 7'258'118'400'000;  // 2200-01-01 [ms since 1970]
 constexpr std::size_t kMaxTextBytes = 4096;                 // of a number, a list, a name
+constexpr double kLargestNumber = 1e6;                      // of an angle [deg], a temperature [C]
 constexpr std::size_t kMaxNumbers = 64;                     // of one angle or temperature sample
 constexpr std::uint64_t kMaxUnknown = 100'000;  // elements, attributes that mean nothing
 
@@ -291,9 +293,9 @@ void DsaDocument::parseNumbers(std::string_view text) {
     more = comma != std::string_view::npos;
     const std::string_view item = text.substr(0, comma);
     const auto value = parseDouble(item);
-    if (!value)
+    if (!value || std::abs(*value) > kLargestNumber)
       throw Error(here() + "value " + std::to_string(numbers_.size()) + " of " + leafName_ +
-                  " is no number: " + inQuotes(item));
+                  " is no sensible number: " + inQuotes(item));
     numbers_.push_back(*value);
     if (more) text.remove_prefix(comma + 1);
   }
@@ -343,7 +345,7 @@ void DsaDocument::endSample(Node node) {
   try {
     if (node == Node::kFrame) {
       clearForeignValues();
-      charge(32 + 2 * (values_.size() / 15) + 4 * decoder_.numTokens());
+      charge(32 + 2 * (values_.size() / 15) + 5 * decoder_.numTokens());
       builder_->addFrame(stampUs(frames_, builder_->lastFrameUs()), values_);
     } else if (node == Node::kTemperature) {
       charge(16 + sizeof(double) * numbers_.size());

@@ -31,7 +31,10 @@ constexpr Element kElements[] = {{"frame", DsaDocument::Fragment::kFrame},
                                  {"angle", DsaDocument::Fragment::kAngles},
                                  {"temp", DsaDocument::Fragment::kTemperatures},
                                  {"sensor", DsaDocument::Fragment::kSensor}};
-constexpr std::size_t kLongestTag = 16;  // "</sensor" and what tells its end, generously
+constexpr std::size_t kLongestName = 16;   // "</sensor" and what tells its end, generously
+constexpr std::size_t kLongestTag = 1024;  // of an element with its attributes
+// More samples than damage can spoil: what follows is counted as bad without a look at it.
+constexpr std::size_t kMaxBadSamples = 50'000;
 
 bool endsName(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '>' || c == '/';
@@ -76,27 +79,33 @@ class ElementScanner {
  private:
   void scan() {
     const std::string_view text = pending_;
-    for (;;) {
+    while (!anotherBegins_) {
       const std::size_t begin = text.find('<', position_);
       position_ = std::min(begin, text.size());
       if (begin == std::string_view::npos) return;
-      const std::size_t end = text.find('>', begin);
+      const std::string_view tag = text.substr(begin, kLongestTag);
+      const std::size_t length = tag.find_first_of("<>", 1);
+      const bool ends = length != std::string_view::npos;
       // A tag whose end has not come yet: wait, unless its name tells that it means nothing.
-      if (end == std::string_view::npos && text.size() - begin < kLongestTag) return;
-      const bool closes = text.substr(begin + 1).starts_with('/');
-      const Element* element = elementOf(text.substr(begin + (closes ? 2 : 1)));
-      if (element) {
-        if (end == std::string_view::npos) return;
+      if (!ends && tag.size() < kLongestName) return;
+      const bool closes = tag.substr(1).starts_with('/');
+      const Element* element = elementOf(tag.substr(closes ? 2 : 1));
+      if (element && !ends && tag.size() < kLongestTag) return;
+      if (element && ends && tag[length] == '>') {
         if (closes)
-          close(*element, end + 1);
+          close(*element, begin + length + 1);
         else
           open(*element, begin);
       }
-      position_ = begin + 1;
+      position_ = begin + (ends ? length : 1);
     }
+    position_ = text.size();
   }
 
   void open(const Element& element, std::size_t begin) {
+    // A second sensor is another recording behind this one: their frames are not mixed.
+    if (element.fragment == DsaDocument::Fragment::kSensor && document_.hasLayout())
+      anotherBegins_ = true;
     if (open_) ++result_.cutSamples;
     open_ = &element;
     openBegin_ = begin;
@@ -114,6 +123,10 @@ class ElementScanner {
   void take(const Element& element, std::string_view text) {
     const bool isSensor = element.fragment == DsaDocument::Fragment::kSensor;
     if (isSensor && document_.hasLayout()) return;
+    if (result_.badSamples >= kMaxBadSamples) {
+      ++result_.badSamples;
+      return;
+    }
     if (!isSensor && !document_.hasLayout()) {
       document_.useLayout(sdh2().layout);
       result_.layoutAssumed = true;
@@ -136,6 +149,7 @@ class ElementScanner {
   std::size_t position_ = 0;
   const Element* open_ = nullptr;
   std::size_t openBegin_ = 0;
+  bool anotherBegins_ = false;
 };
 
 std::vector<std::byte> readAll(const std::filesystem::path& path) {

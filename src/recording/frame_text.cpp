@@ -12,6 +12,7 @@
 namespace palpate {
 namespace {
 
+constexpr float kLargestValue = 1e9F;  // far beyond counts and whatever a filter makes of them
 constexpr int kDigitsPerToken = 8;
 constexpr std::uint8_t kBlank = 0x40;
 constexpr std::uint8_t kInvalid = 0x80;
@@ -91,6 +92,9 @@ void FrameTextDecoder::addToken(std::uint32_t bits) {
   if (!std::isfinite(value))
     throw Error("a value is not a number " + soFar(numValues_, values_.size()));
   if (value >= 0.0F) {  // also -0.0, which is no run
+    if (value > kLargestValue)
+      throw Error("a value of " + numberText(value) + " makes no sense " +
+                  soFar(numValues_, values_.size()));
     if (numValues_ == values_.size())
       throw Error("more than " + std::to_string(values_.size()) + " values");
     values_[numValues_++] = value == 0.0F ? 0.0F : value;

@@ -68,6 +68,26 @@ TEST(Playback, LoopShowsTheLastFrameThenStartsOver) {
   EXPECT_EQ(playback.frame(), 1u);
 }
 
+TEST(Playback, SeekingToTheEndWhilePlayingEndsThere) {
+  Playback playback = playbackOf({0, 10, 20});
+  playback.play();
+  playback.seekFrame(2);
+  playback.advance(16'000);
+  EXPECT_EQ(playback.frame(), 2u);
+  EXPECT_FALSE(playback.playing());
+}
+
+TEST(Playback, TakingTheLoopAwayOnTheLastFrameEndsThere) {
+  Playback playback = playbackOf({0, 10, 20});
+  playback.setLoop(true);
+  playback.play();
+  playback.advance(500'000);
+  playback.setLoop(false);
+  playback.advance(16'000);
+  EXPECT_EQ(playback.frame(), 2u);
+  EXPECT_FALSE(playback.playing());
+}
+
 TEST(Playback, PlayAtTheEndStartsOver) {
   Playback playback = playbackOf({0, 10, 20});
   playback.seekFrame(2);

@@ -1,5 +1,7 @@
 #include "palpate/core/output_file.h"
 
+#include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -66,6 +68,54 @@ TEST(OutputFile, IsAsReadableAsAnyFile) {
   struct stat status {};
   ASSERT_EQ(::stat((folder / "a.txt").c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0644u);
+}
+
+TEST(OutputFile, WritesWhatALinkPointsToAndKeepsTheLink) {
+  const TemporaryFolder folder;
+  writeFile(folder / "target.txt", "old");
+  fs::create_symlink("target.txt", folder / "link.txt");
+  EXPECT_THROW(OutputFile(folder / "link.txt"), FileError);
+  OutputFile out(folder / "link.txt", Overwrite::kReplace);
+  out.write("new");
+  out.commit();
+  EXPECT_TRUE(fs::is_symlink(folder / "link.txt"));
+  EXPECT_EQ(readFile(folder / "target.txt"), "new");
+}
+
+TEST(OutputFile, NeverReplacesADeviceOrAPipe) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(OutputFile(folder / "pipe", Overwrite::kReplace), FileError);
+  EXPECT_THROW(OutputFile("/dev/null", Overwrite::kReplace), FileError);
+  EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+}
+
+TEST(OutputFile, TakesTheLongestNameThereIs) {
+  const TemporaryFolder folder;
+  const std::string name(255, 'n');
+  OutputFile out(folder / name);
+  out.commit();
+  EXPECT_TRUE(fs::exists(folder / name));
+}
+
+// The disk is full: here by a limit on the size of files, in a process of its own.
+TEST(OutputFile, AFullDiskIsAnErrorAndLeavesNothing) {
+  const TemporaryFolder folder;
+  const auto write = [&] {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{4096, 4096};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      OutputFile out(folder / "a.txt");
+      out.write(std::string(10'000, 'x'));
+      out.commit();
+    } catch (const FileError&) {
+      ::_exit(7);
+    }
+    ::_exit(0);
+  };
+  EXPECT_EXIT(write(), ::testing::ExitedWithCode(7), "");
+  EXPECT_EQ(numFiles(folder.path()), 0u);
 }
 
 TEST(OutputFile, SaysWhatIsWrong) {

@@ -29,6 +29,15 @@ TEST(CharacteristicSignals, OfAMatrixComputedByHand) {
   EXPECT_NEAR(signals.filteredMean, 24.0 / 12.0, 1e-4);
 }
 
+TEST(CharacteristicSignals, OfAPartOfAMatrixLookAtThatPartOnly) {
+  MatrixValues values = MatrixValues::Constant(4, 4, 1000.0F);
+  values.block(1, 1, 2, 2) << 1.0F, 2.0F, 3.0F, 6.0F;
+  const CharacteristicSignals signals =
+      characteristicSignals(values.block(1, 1, 2, 2), MatrixLayout::full(2, 2, 1.0));
+  EXPECT_DOUBLE_EQ(signals.sum, 12.0);
+  EXPECT_DOUBLE_EQ(signals.maximum, 6.0);
+}
+
 TEST(CharacteristicSignals, OfAnEmptyMatrixAreZero) {
   const CharacteristicSignals signals =
       characteristicSignals(MatrixValues::Zero(3, 3), MatrixLayout::full(3, 3, 1.0));

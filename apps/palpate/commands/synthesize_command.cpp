@@ -13,7 +13,7 @@ int synthesizeCommand(const Words& words) {
   const CommandLine given(
       {.synopsis = "palpate synthesize -o OUT.dsa [--duration S] [--grasps N] [--noise SD] ..",
        .purpose = "Makes a synthetic recording of pinch grasps: the same options give the same "
-                  "frames on every\nmachine. The recording in data/ was made by it.",
+                  "frames. The\nrecording in data/ was made by it.",
        .options = {{"output,o", "OUT.dsa", "where to write it"},
                    {"duration", "S", "length [s], default 12"},
                    {"rate", "HZ", "tactile frames per second, default 31.7"},
@@ -32,7 +32,7 @@ int synthesizeCommand(const Words& words) {
   options.durationS = given.number("duration", 0.1, 86'400.0).value_or(options.durationS);
   options.rateHz = given.number("rate", 0.1, 1000.0).value_or(options.rateHz);
   options.grasps = static_cast<int>(given.integer("grasps", 0, 10'000).value_or(options.grasps));
-  options.peakCounts = given.number("peak", 1.0, 3500.0).value_or(options.peakCounts);
+  options.peakCounts = given.number("peak", 50.0, 3500.0).value_or(options.peakCounts);
   options.noiseCounts = given.number("noise", 0.0, 1000.0).value_or(options.noiseCounts);
   options.seed =
       static_cast<std::uint32_t>(given.integer("seed", 0, UINT32_MAX).value_or(options.seed));

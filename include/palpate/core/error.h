@@ -14,7 +14,8 @@ namespace palpate {
 // Base of all failures of the world. what() is one line, fit for a person.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  // What would break or bend the line is escaped (core/one_line.h).
+  explicit Error(const std::string& message);
 };
 
 // A file can't be opened, read or written. what(): "PATH: message".

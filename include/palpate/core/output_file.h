@@ -1,5 +1,5 @@
-// A file that appears whole or not at all: written under a temporary name in the same folder,
-// synced, then renamed. An existing file is replaced only when asked.
+// A file that appears whole or not at all: written without a name (or under a temporary one) in the
+// same folder, synced, then named. An existing file is replaced only when asked.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,21 @@ namespace palpate {
 
 enum class Overwrite { kRefuse, kReplace };
 
+// Throws FileError when PATH is a folder or no regular file, or exists and may not be replaced.
+void requireWritable(const std::filesystem::path& path, Overwrite overwrite);
+// Gives a file that was written and synced (in the same file system) its final name and syncs the
+// folder. Throws FileError; then `written` is still there under its old name.
+void publishFile(const std::filesystem::path& written,
+                 const std::filesystem::path& path,
+                 Overwrite overwrite);
+
 class OutputFile {
  public:
-  // Opens the temporary file. Throws FileError: exists already (kRefuse), no such folder, no
-  // permission, is a folder.
+  // Opens the file to be. A symbolic link that may be replaced is followed. Throws FileError: exists
+  // already (kRefuse), no such folder, no permission, is a folder, a device, ..
   explicit OutputFile(std::filesystem::path path, Overwrite overwrite = Overwrite::kRefuse);
-  // Removes the temporary file unless commit() succeeded.
+  // Nothing is left unless commit() succeeded; nor when the process is killed, where the file system
+  // has files without a name.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -25,11 +34,12 @@ class OutputFile {
   const std::filesystem::path& path() const noexcept { return path_; }
 
  private:
+  void nameTemporarily();
+
   std::filesystem::path path_;
-  std::filesystem::path temporary_;
+  std::filesystem::path temporary_;  // empty while the file has no name
   Overwrite overwrite_;
   int descriptor_ = -1;
-  bool committed_ = false;
 };
 
 }  // namespace palpate

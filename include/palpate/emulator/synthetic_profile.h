@@ -14,8 +14,8 @@ struct SyntheticOptions {
   double rateHz = 31.7;            // tactile frames [Hz], 0.1..1000
   double angleRateHz = 160.0;      // joint angles [Hz], 0..1000; 0: none
   double temperatureRateHz = 1.0;  // [Hz], 0..100; 0: none
-  int grasps = 3;                  // 0..10,000, spread evenly over the time
-  double peakCounts = 1800.0;      // value under the middle of the contact [counts], 1..3500
+  int grasps = 3;                  // 0..10,000, spread evenly; each needs 12 frames
+  double peakCounts = 1800.0;      // value under the middle of the contact [counts], 50..3500
   double contactRadiusTaxels =
       2.4;                         // standard deviation of the contact's pressure [taxels], 0.5..5
   double thresholdCounts = 100.0;  // subtracted by the sensor; lower values read 0 [counts]
@@ -36,7 +36,7 @@ struct SyntheticTruth {
   std::vector<SyntheticGrasp> grasps;
 };
 
-// The same options give the same profile, byte for byte. Counts are whole numbers, 0..3560.
+// The same options give the same profile, byte for byte (on machines whose exp and tanh agree). Counts are whole numbers, 0..3560.
 Profile synthesize(const SyntheticOptions& options = {}, SyntheticTruth* truth = nullptr);
 
 }  // namespace palpate

@@ -29,6 +29,7 @@ struct DecimationOptions {
 
 // x ascending, as many y. Returns at most 4 points per column and 5 per break, ascending in x, plus
 // the nearest sample on either side of the seen part, so that lines leave it where they should.
+// A NaN in y breaks the line where it is kept, and is no extreme.
 // Throws std::invalid_argument for bad options or different sizes of x and y.
 std::vector<SeriesPoint> minMaxDecimated(std::span<const double> x,
                                          std::span<const double> y,
