@@ -89,7 +89,6 @@ class MainWindow : public QMainWindow {
   void buildDocks();
   void connectOpening();
   void connectFileActions();
-  void connectPlayback();
   void askAndOpen();
   void fillRecentMenu();
   void addRecording(const OpenedRecordingPtr& recording);
@@ -99,9 +98,11 @@ class MainWindow : public QMainWindow {
   void listRecordings();
   void exportPicture();
   void copyPicture();
-  // main_window_view.cpp: look, status, layout
+  // main_window_actions.cpp: what actions and controls do
+  void connectPlayback();
   void connectViewActions();
   void connectChoices();
+  // main_window_view.cpp: look, status, layout
   void changeView(const std::function<void(ViewSettings&)>& change);
   void applyView();
   void applyTheme();

@@ -6,15 +6,12 @@
 #include <algorithm>
 #include <iterator>
 
-#include "gui/about_dialog.h"
 #include "gui/dock.h"
 #include "gui/icons.h"
 #include "gui/inspect_panel.h"
-#include "gui/keys_dialog.h"
 #include "gui/main_window.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
-#include "gui/opening_strip.h"
 #include "gui/playback_bar.h"
 #include "gui/start_page.h"
 #include "gui/status_strip.h"
@@ -24,21 +21,10 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kFlashMs = 5000;
-constexpr int kTenFrames = 10;
-constexpr int kCompactBelow = 1080;  // [px] of width: buttons lose their text
-constexpr double kZoomStep = 1.5;
+constexpr int kCompactBelow = 1080;       // [px] of width: buttons lose their text
 constexpr int kNarrowestInspect = 455;    // [px] its table is read without eliding
 constexpr double kInspectShare = 0.345;   // of the window's width
 constexpr double kTimelineShare = 0.235;  // of the window's height
-
-// The choice after `now`, around.
-template <class Choices, class Choice>
-Choice after(const Choices& all, Choice now) {
-  auto at = std::find(all.begin(), all.end(), now);
-  if (at == all.end() || ++at == all.end()) at = all.begin();
-  return *at;
-}
 
 template <class Choices, class Choice>
 void check(const QActionGroup* group, const Choices& all, Choice now) {
@@ -46,138 +32,9 @@ void check(const QActionGroup* group, const Choices& all, Choice now) {
   if (index < group->actions().size()) group->actions().at(index)->setChecked(true);
 }
 
-constexpr std::array kThemeChoices = {
-    ThemeChoice::kSystem, ThemeChoice::kDark, ThemeChoice::kLight};
-
 QString seconds(double value) { return QString::number(value, 'f', 2) + " s"; }
 
 }  // namespace
-
-void MainWindow::connectPlayback() {
-  connect(&playback_, &PlaybackController::frameChanged, this, &MainWindow::showFrame);
-  connect(&playback_, &PlaybackController::positionChanged, this, [this](double position) {
-    timeline_->setPosition(position);
-    updateStatus();
-  });
-  connect(&playback_, &PlaybackController::stateChanged, this, &MainWindow::showPlaybackState);
-  connect(timeline_, &TimelineChart::sought, &playback_, &PlaybackController::seekSeconds);
-  const auto on = [this](QAction* action, auto what) {
-    connect(action, &QAction::triggered, this, what);
-  };
-  on(actions_.play, [this] { playback_.togglePlay(); });
-  on(actions_.stepBack, [this] { playback_.step(-1); });
-  on(actions_.stepForward, [this] { playback_.step(1); });
-  on(actions_.tenBack, [this] { playback_.step(-kTenFrames); });
-  on(actions_.tenForward, [this] { playback_.step(kTenFrames); });
-  on(actions_.toStart, [this] { playback_.seekFrame(0); });
-  on(actions_.toEnd, [this] {
-    playback_.pause();
-    playback_.seekFrame(playback_.numFrames());
-  });
-  on(actions_.goToFrame, [this] { playbackBar_->editFrame(); });
-  on(actions_.faster, [this] { playback_.faster(); });
-  on(actions_.slower, [this] { playback_.slower(); });
-  on(actions_.loop, [this](bool checked) {
-    loopIsOfDemo_ = false;
-    playback_.setLoop(checked);
-  });
-  on(actions_.skipGaps, [this](bool checked) { playback_.setSkipGaps(checked); });
-  connect(menus_->speed, &QComboBox::activated, this, [this](int index) {
-    playback_.setSpeed(PlaybackController::kSpeeds[index]);
-  });
-  connect(actions_.speeds, &QActionGroup::triggered, this, [this](const QAction* action) {
-    playback_.setSpeed(PlaybackController::kSpeeds[action->data().toInt()]);
-  });
-}
-
-void MainWindow::connectViewActions() {
-  const auto on = [this](QAction* action, auto what) {
-    connect(action, &QAction::triggered, this, what);
-  };
-  on(actions_.interpolated, [this](bool checked) {
-    changeView([&](ViewSettings& view) { view.interpolated = checked; });
-  });
-  on(actions_.values,
-     [this](bool checked) { changeView([&](ViewSettings& view) { view.values = checked; }); });
-  on(actions_.nextMap,
-     [this] { changeView([](ViewSettings& view) { view.map = after(kAllColorMaps, view.map); }); });
-  on(actions_.nextRange, [this] {
-    changeView([](ViewSettings& view) { view.range = after(kAllRangeModes, view.range); });
-  });
-  on(actions_.nextSignal, [this] {
-    changeView([](ViewSettings& view) { view.signal = after(kAllPlottedSignals, view.signal); });
-  });
-  on(actions_.zoomIn, [this] { timeline_->zoom(kZoomStep); });
-  on(actions_.zoomOut, [this] { timeline_->zoom(1.0 / kZoomStep); });
-  on(actions_.fit, [this] { timeline_->fit(); });
-  on(actions_.nextTheme, [this] {
-    const bool dark = resolved(view_.theme) == Theme::kDark;
-    setTheme(dark ? ThemeChoice::kLight : ThemeChoice::kDark);
-  });
-  on(actions_.fullScreen, [this](bool checked) { toggleFullScreen(checked); });
-  on(actions_.resetLayout, [this] { defaultLayout(); });
-  on(actions_.keys, [this] {
-    auto* dialog = new KeysDialog(actions(), this);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->show();
-  });
-  on(actions_.about, [this] {
-    auto* dialog = new AboutDialog(this);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->show();
-  });
-  on(actions_.dismiss, [this] { dismiss(); });
-  const auto last = actions_.plots.size() - 1;
-  for (qsizetype i = 0; i <= last; ++i)
-    on(actions_.plots[i], [this, i, last](bool checked) {
-      if (!current_) return;
-      const auto row = i == last ? current_->numMatrices() : static_cast<std::size_t>(i);
-      inspect_->table().setPlotted(row, checked);
-    });
-}
-
-void MainWindow::connectChoices() {
-  connect(actions_.maps, &QActionGroup::triggered, this, [this](const QAction* action) {
-    changeView([&](ViewSettings& view) { view.map = kAllColorMaps.at(action->data().toUInt()); });
-  });
-  connect(actions_.ranges, &QActionGroup::triggered, this, [this](const QAction* action) {
-    changeView(
-        [&](ViewSettings& view) { view.range = kAllRangeModes.at(action->data().toUInt()); });
-  });
-  connect(actions_.signalsPlotted, &QActionGroup::triggered, this, [this](const QAction* action) {
-    changeView(
-        [&](ViewSettings& view) { view.signal = kAllPlottedSignals.at(action->data().toUInt()); });
-  });
-  connect(actions_.themes, &QActionGroup::triggered, this, [this](const QAction* action) {
-    setTheme(kThemeChoices.at(action->data().toUInt()));
-  });
-  connect(matrices_, &MatricesPanel::mapChosen, this, [this](ColorMapName map) {
-    changeView([&](ViewSettings& view) { view.map = map; });
-  });
-  connect(matrices_, &MatricesPanel::rangeChosen, this, [this](RangeMode mode) {
-    changeView([&](ViewSettings& view) { view.range = mode; });
-  });
-  connect(matrices_, &MatricesPanel::manualRangeChosen, this, [this](double low, double high) {
-    changeView([&](ViewSettings& view) {
-      view.manualMin = low;
-      view.manualMax = high;
-    });
-  });
-  connect(&matrices_->view(), &MatricesView::hovered, this, [this](const QString& text) {
-    hover_ = text;
-    updateStatus();
-  });
-  connect(timelineHeader_, &TimelineHeader::signalChosen, this, [this](PlottedSignal signal) {
-    changeView([&](ViewSettings& view) { view.signal = signal; });
-  });
-  connect(&inspect_->table(), &MatrixTableModel::plottedChanged, this, &MainWindow::showPlotted);
-  flashTimer_.setSingleShot(true);
-  flashTimer_.setInterval(kFlashMs);
-  connect(&flashTimer_, &QTimer::timeout, this, [this] {
-    flash_.clear();
-    updateStatus();
-  });
-}
 
 void MainWindow::changeView(const std::function<void(ViewSettings&)>& change) {
   change(view_);
@@ -193,7 +50,7 @@ void MainWindow::applyView() {
   check(actions_.maps, kAllColorMaps, view_.map);
   check(actions_.ranges, kAllRangeModes, view_.range);
   check(actions_.signalsPlotted, kAllPlottedSignals, view_.signal);
-  check(actions_.themes, kThemeChoices, view_.theme);
+  check(actions_.themes, kAllThemeChoices, view_.theme);
 }
 
 void MainWindow::setTheme(ThemeChoice choice) {

@@ -3,6 +3,7 @@
 
 #include <QColor>
 #include <QString>
+#include <array>
 #include <cstddef>
 
 class QApplication;
@@ -12,6 +13,8 @@ namespace palpate::gui {
 enum class Theme { kDark, kLight };
 // What the user asked for; kSystem follows the desktop.
 enum class ThemeChoice { kSystem, kDark, kLight };
+inline constexpr std::array kAllThemeChoices = {
+    ThemeChoice::kSystem, ThemeChoice::kDark, ThemeChoice::kLight};
 
 struct ThemeColors {
   QColor window;      // behind everything
