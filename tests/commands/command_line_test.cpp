@@ -78,6 +78,28 @@ TEST(Program, WrongUsageIsExitCodeTwoInOneLine) {
   expectOneLineError(palpate({"--unknown"}), 2, {"--unknown"});
 }
 
+TEST(Program, StreamsAndEmptyNamesAreNoFiles) {
+  expectOneLineError(palpate({"info", "-"}), 2, {"'-'"});
+  expectOneLineError(palpate({"verify", ""}), 2, {"empty"});
+}
+
+TEST(Program, ErrorsStayOneLineWhateverTheFileIsCalled) {
+  expectOneLineError(palpate({"info", "/tmp/no\nsuch\033[31mfile.dsa"}), 1, {"no\\nsuch\\x1B"});
+  expectOneLineError(palpate({"fo\no"}), 2, {"fo\\no"});
+}
+
+TEST(Program, WhatIsPrintedAndNotWrittenIsAFailure) {
+  const std::string program = "\"" + std::string(PALPATE_PROGRAM) + "\" ";
+  const std::string demo = "\"" + (testing::dataFolder() / "demo_grasps.dsa").string() + "\"";
+  for (const std::string& command : {"verify " + demo + " > /dev/full",
+                                     "verify " + demo + " >&-",
+                                     std::string("--help > /dev/full"),
+                                     std::string("info --help >&-"),
+                                     std::string("--version > /dev/full")})
+    expectOneLineError(
+        testing::runProgram("/bin/sh", {"-c", program + command}), 1, {"standard output"});
+}
+
 TEST(Program, FullStandardOutputIsAFailure) {
   const testing::TemporaryFolder folder;
   ASSERT_EQ(palpate({"synthesize", "-o", folder / "a.dsa", "--duration", "2"}).exitCode, 0);

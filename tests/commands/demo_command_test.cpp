@@ -32,7 +32,9 @@ TEST(DemoCommand, NeverWritesIntoAFolderThatExists) {
   fs::create_directory(folder / "tour");
   EXPECT_EQ(palpate({"demo", "-o", folder / "tour"}, kHeadless).exitCode, 0);
   EXPECT_EQ(palpate({"demo", "-o", folder / "tour"}, kHeadless).exitCode, 0);
+  EXPECT_EQ(palpate({"demo", "-o", (folder / "tour").string() + "/"}, kHeadless).exitCode, 0);
   EXPECT_TRUE(fs::is_empty(folder / "tour"));
+  EXPECT_TRUE(fs::exists(folder / "tour-4" / "report.json"));
   EXPECT_TRUE(fs::exists(folder / "tour-2" / "report.json"));
   EXPECT_TRUE(fs::exists(folder / "tour-3" / "report.json"));
 }

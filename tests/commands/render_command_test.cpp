@@ -1,3 +1,5 @@
+#include <set>
+
 #include "commands/palpate_program.h"
 
 namespace palpate {
@@ -25,13 +27,25 @@ TEST(RenderCommand, WritesTheFormOfTheEnding) {
   EXPECT_NE(svg.find("finger 0"), std::string::npos);  // text stays text
 }
 
+// Colours in an SVG's heat maps: how many different fills there are.
+std::size_t numFills(const std::filesystem::path& file) {
+  const std::string svg = testing::readFile(file);
+  std::set<std::string> fills;
+  for (auto at = svg.find("fill=\"#"); at != std::string::npos; at = svg.find("fill=\"#", at + 1))
+    fills.insert(svg.substr(at + 6, 7));
+  return fills.size();
+}
+
 TEST(RenderCommand, TheFrameMakesTheDifference) {
   const testing::TemporaryFolder folder;
-  palpate({"render", demoFile(), "--frame", "0", "-o", folder / "a.png"}, kHeadless);
-  palpate({"render", demoFile(), "--frame", "90", "-o", folder / "b.png"}, kHeadless);
-  palpate({"render", demoFile(), "--frame", "0", "-o", folder / "c.png"}, kHeadless);
-  EXPECT_NE(testing::readFile(folder / "a.png"), testing::readFile(folder / "b.png"));
-  EXPECT_EQ(testing::readFile(folder / "a.png").size(), testing::readFile(folder / "c.png").size());
+  for (const auto& [frame, name] :
+       {std::pair{"0", "empty.svg"}, {"90", "grasp.svg"}, {"0", "again.svg"}})
+    ASSERT_EQ(
+        palpate({"render", demoFile(), "--frame", frame, "-o", folder / name}, kHeadless).exitCode,
+        0);
+  // A grasp on two fingertips has dozens of colours; an empty frame has none but those around it.
+  EXPECT_GT(numFills(folder / "grasp.svg"), numFills(folder / "empty.svg") + 20);
+  EXPECT_EQ(testing::readFile(folder / "empty.svg"), testing::readFile(folder / "again.svg"));
 }
 
 TEST(RenderCommand, RefusesBadInputAndLeavesNothing) {

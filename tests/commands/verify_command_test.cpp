@@ -44,6 +44,14 @@ TEST_F(VerifyCommand, OneLinePerFileSaysWhatCanBeRead) {
   EXPECT_EQ(result.err, "");
 }
 
+TEST_F(VerifyCommand, OneRecordingBehindAnotherIsNotMixedWithIt) {
+  const std::string bytes = testing::readFile(sound());
+  testing::writeFile(damaged(), bytes + bytes);
+  const auto result = palpate({"verify", damaged()});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_NE(result.out.find(" 64 frames"), std::string::npos) << result.out;
+}
+
 TEST_F(VerifyCommand, QuietIsTheExitCodeAlone) {
   const auto result = palpate({"verify", "--quiet", damaged()});
   EXPECT_EQ(result.exitCode, 3);

@@ -33,6 +33,21 @@ TEST(WorkbenchCommand, WithoutADisplayItSaysSoInOneLine) {
   expectOneLineError(palpate({}, dead), 1, {"no display"});
 }
 
+TEST(WorkbenchCommand, PlatformsThatDoNotAnswerAreNoDisplayEither) {
+  auto wayland = kHeadless;
+  wayland["WAYLAND_DISPLAY"] = "no-compositor";
+  expectOneLineError(palpate({demoFile()}, wayland), 1, {"no display"});
+  auto bogus = kHeadless;
+  bogus["QT_QPA_PLATFORM"] = "bogus";
+  expectOneLineError(palpate({demoFile()}, bogus), 1, {"no display"});
+  const testing::TemporaryFolder folder;
+  for (const auto& environment : {wayland, bogus}) {
+    const auto result =
+        palpate({"--screenshot", folder / "w.png", "--force", demoFile()}, environment);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+  }
+}
+
 TEST(WorkbenchCommand, ScreenshotShowsTheWindowWithoutADisplay) {
   const testing::TemporaryFolder folder;
   const auto result = palpate({"--screenshot",
@@ -70,6 +85,9 @@ TEST(WorkbenchCommand, ScreenshotRefusesBadInput) {
   expectOneLineError(shot({"--size", "12x"}), 2, {"--size"});
   expectOneLineError(shot({"--size", "99999x99999"}), 2, {"--size"});
   expectOneLineError(shot({"--theme", "pink"}), 2, {"dark, light"});
+  expectOneLineError(shot({"--frame", "5"}), 2, {"--frame"});
+  expectOneLineError(palpate({"--screenshot", folder / "w.jpg", demoFile()}), 2, {".png"});
+  expectOneLineError(palpate({"--demo", demoFile()}, kHeadless), 2, {"--demo"});
   expectOneLineError(shot({"--frame", "99999999", demoFile()}), 1, {"99999999"});
   expectOneLineError(shot({"--dock", "Nonsense", demoFile()}), 1, {"Nonsense", "Inspect"});
   expectOneLineError(shot({folder / "missing.dsa"}), 1, {"missing.dsa"});

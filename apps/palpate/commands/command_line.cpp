@@ -73,6 +73,10 @@ CommandLine::CommandLine(const CommandSpec& spec, const std::vector<std::string>
     helpShown_ = true;
     return;
   }
+  for (const std::string& word : words_) {
+    if (word.empty()) throw UsageError("an empty file name");
+    if (word == "-") throw UsageError("'-': a recording is read from a file, not from a stream");
+  }
   if (words_.size() < spec.fewestWords || words_.size() > spec.mostWords)
     throw UsageError("usage: " + spec.synopsis);
 }

@@ -8,7 +8,10 @@
 #include <new>
 #include <string_view>
 
-#include "palpate/core/error.h"
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "palpate/core/one_line.h"
 
 #include "commands/command_line.h"
 
@@ -87,9 +90,29 @@ int dispatch(const Words& words) {
   return workbenchCommand(words);
 }
 
-int fail(int code, const char* message) {
-  std::fprintf(stderr, "palpate: %s\n", message);
+int fail(int code, std::string_view message) {
+  std::fprintf(stderr, "palpate: %s\n", oneLine(message).c_str());
   return code;
+}
+
+// A closed standard stream would give its number to the next file that is opened, and what is meant
+// for the terminal would end up in it. Opened for the wrong direction: using it fails, as it should.
+void fillClosedStreams() {
+  for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0)
+      ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+int runCaught(const Words& words) {
+  try {
+    return dispatch(words);
+  } catch (const UsageError& error) {
+    return fail(kWrongUsage, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kFailed, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(kFailed, error.what());
+  }
 }
 
 }  // namespace
@@ -115,15 +138,12 @@ fs::path dataFolder() {
 }
 
 int run(int argc, char** argv) {
-  try {
-    return dispatch({argv + std::min(argc, 1), argv + argc});
-  } catch (const UsageError& error) {
-    return fail(kWrongUsage, error.what());
-  } catch (const std::bad_alloc&) {
-    return fail(kFailed, "out of memory");
-  } catch (const std::exception& error) {
-    return fail(kFailed, error.what());
-  }
+  fillClosedStreams();
+  const int code = runCaught({argv + std::min(argc, 1), argv + argc});
+  // What was printed but could not be written (a full disk, a closed pipe) was not done.
+  std::cout.flush();
+  const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+  return written || code == kFailed ? code : fail(kFailed, "standard output can't be written");
 }
 
 }  // namespace palpate::commands

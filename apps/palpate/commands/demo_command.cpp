@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 namespace {
 
 // DIR, else DIR-2, DIR-3, ..: a tour never writes into a folder that exists.
-fs::path makeFolder(const fs::path& wanted) {
+fs::path makeFolder(fs::path wanted) {
+  if (!wanted.has_filename()) wanted = wanted.parent_path();  // "tour/" is "tour"
   fs::path folder = wanted;
   for (int number = 2;; ++number) {
     std::error_code failure;
@@ -128,7 +129,7 @@ int demoCommand(const Words& words) {
       options.file = file;
       options.dataFolder = dataFolder();
       const RuntimeFolder runtime;
-      drawWithoutDisplay(true);
+      drawWithoutDisplay();
       std::string name = "palpate";
       char* arguments[] = {name.data(), nullptr};
       int count = 1;

@@ -1,11 +1,15 @@
 #include "commands/display.h"
 
+#include <QLibraryInfo>
 #include <cstdlib>
 #include <string>
 #include <string_view>
 #include <system_error>
 
 #include <dlfcn.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 namespace palpate::commands {
 namespace {
@@ -34,20 +38,56 @@ bool xServerAnswers() {
   return answers;
 }
 
+// Asks the Wayland compositor by its socket.
+bool waylandAnswers() {
+  if (!isSet("WAYLAND_DISPLAY")) return false;
+  std::string path = std::getenv("WAYLAND_DISPLAY");
+  if (path.front() != '/') {
+    if (!isSet("XDG_RUNTIME_DIR")) return false;
+    path = std::string(std::getenv("XDG_RUNTIME_DIR")) + "/" + path;
+  }
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof address.sun_path) return false;
+  path.copy(address.sun_path, path.size());
+  const int socket = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (socket < 0) return false;
+  const bool answers =
+      ::connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  ::close(socket);
+  return answers;
+}
+
+// What QT_QPA_PLATFORM names, without its options: "offscreen" of "offscreen:size=..".
+std::string chosenPlatform() {
+  if (!isSet("QT_QPA_PLATFORM")) return {};
+  const std::string_view chosen(std::getenv("QT_QPA_PLATFORM"));
+  return std::string(chosen.substr(0, chosen.find_first_of(":;")));
+}
+
+// Qt ends the process when it finds no plug-in for a platform.
+bool hasPlugin(const std::string& platform) {
+  const std::string name = platform == "wayland" ? "libqwayland-" : "libq" + platform;
+  std::error_code failure;
+  const std::filesystem::path folder =
+      QLibraryInfo::path(QLibraryInfo::PluginsPath).toStdString() + "/platforms";
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failure))
+    if (entry.path().filename().string().starts_with(name)) return true;
+  return false;
+}
+
 }  // namespace
 
 bool hasDisplay() {
-  if (const char* platform = std::getenv("QT_QPA_PLATFORM"); platform && *platform) {
-    const std::string_view name(platform);
-    if (!name.starts_with("xcb") && !name.starts_with("wayland")) return true;
-  }
-  return isSet("WAYLAND_DISPLAY") || xServerAnswers();
+  const std::string platform = chosenPlatform();
+  if (platform == "xcb") return xServerAnswers();
+  if (platform == "wayland" || platform == "wayland-egl")
+    return waylandAnswers() && hasPlugin(platform);
+  if (!platform.empty()) return hasPlugin(platform);
+  return xServerAnswers() || (waylandAnswers() && hasPlugin("wayland"));
 }
 
-void drawWithoutDisplay(bool evenWithDisplay) {
-  if (isSet("QT_QPA_PLATFORM") && hasDisplay()) return;
-  if (evenWithDisplay || !hasDisplay()) ::setenv("QT_QPA_PLATFORM", "offscreen", 1);
-}
+void drawWithoutDisplay() { ::setenv("QT_QPA_PLATFORM", "offscreen", 1); }
 
 RuntimeFolder::RuntimeFolder() {
   if (isSet("XDG_RUNTIME_DIR")) return;

@@ -5,11 +5,11 @@
 
 namespace palpate::commands {
 
-// True when an X server or a Wayland compositor answers, or QT_QPA_PLATFORM names another platform.
+// True when an X server or a Wayland compositor answers, or QT_QPA_PLATFORM names a platform that is
+// installed and needs none of them.
 bool hasDisplay();
-// Makes Qt draw without a display (platform "offscreen") unless a platform was chosen already.
-// `evenWithDisplay`: also where a display exists (pictures need none).
-void drawWithoutDisplay(bool evenWithDisplay);
+// Makes Qt draw without a display (platform "offscreen"): pictures need none.
+void drawWithoutDisplay();
 
 // A folder for XDG_RUNTIME_DIR where nobody is logged in (a server, a container): without one Qt says
 // so on standard error. Removed at the end.

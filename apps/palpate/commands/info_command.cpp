@@ -1,9 +1,11 @@
 // palpate info FILE [--json]: what is in a recording.
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/one_line.h"
 #include "palpate/core/time.h"
 #include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
@@ -21,6 +23,7 @@ struct ValueReport {
 
 ValueReport valuesOf(const Profile& profile) {
   ValueReport report;
+  if (profile.numFrames() > 0) report.maximum = std::numeric_limits<double>::lowest();
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     profile.readFrame(i, frame);
@@ -34,6 +37,9 @@ ValueReport valuesOf(const Profile& profile) {
 const char* valueTypeText(const Profile& profile) {
   return profile.info().valueType == ValueType::kCounts ? "counts" : "float";
 }
+
+// A rate needs two frames; with fewer it is not known.
+Json rateJson(double hz) { return hz > 0.0 ? Json(hz) : Json(); }
 
 Json matricesJson(const SensorLayout& layout) {
   Json matrices = Json::array();
@@ -64,8 +70,8 @@ std::string jsonText(const Profile& profile,
       .set("value_type", valueTypeText(profile))
       .set("frames", profile.numFrames())
       .set("duration_s", timing.durationS)
-      .set("rate_hz", timing.rateHz)
-      .set("mean_rate_hz", timing.meanRateHz)
+      .set("rate_hz", rateJson(timing.rateHz))
+      .set("mean_rate_hz", rateJson(timing.meanRateHz))
       .set("gaps", timing.gaps.size())
       .set("gap_list", gaps)
       .set("matrices", matricesJson(profile.layout()))
@@ -84,7 +90,7 @@ std::string jsonText(const Profile& profile,
 std::string row(const std::string& name, const std::string& value) {
   std::string line = name;
   line.resize(std::max<std::size_t>(18, line.size() + 1), ' ');
-  return line + value + "\n";
+  return line + oneLine(value) + "\n";
 }
 
 std::string matricesText(const Profile& profile) {
@@ -116,8 +122,9 @@ std::string plainText(const std::string& file,
   if (profile.numFrames() > 0) text += row("start", utcText(profile.frameTimeUs(0)) + " UTC");
   text += row("duration", fixedText(timing.durationS, 3) + " s");
   text += row("rate",
-              fixedText(timing.rateHz, 2) + " Hz (median interval), " +
-                  fixedText(timing.meanRateHz, 2) + " Hz (mean)");
+              timing.rateHz > 0.0 ? fixedText(timing.rateHz, 2) + " Hz (median interval), " +
+                                        fixedText(timing.meanRateHz, 2) + " Hz (mean)"
+                                  : "not known: fewer than two frames");
   std::string gaps = std::to_string(timing.gaps.size());
   for (const Gap& gap : timing.gaps)
     gaps += (&gap == &timing.gaps.front() ? ": " : ", ") + fixedText(gap.seconds, 1) +

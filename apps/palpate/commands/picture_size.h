@@ -6,7 +6,7 @@
 
 namespace palpate::commands {
 
-// "1280x800": pixels, 320..8192 each. Throws UsageError.
-QSize parsedSize(const std::string& text);
+// "1280x800": pixels, from `smallest` to 8192 x 8192. Throws UsageError.
+QSize parsedSize(const std::string& text, const QSize& smallest);
 
 }  // namespace palpate::commands

@@ -38,9 +38,13 @@ void parseRange(const std::string& text, gui::MatricesPictureOptions& options) {
   throw UsageError("--range must be MIN,MAX with MIN below MAX, not '" + text + "'");
 }
 
-std::size_t chosenFrame(const CommandLine& given, const std::string& file, const Profile& profile) {
+constexpr QSize kSmallestPicture{320, 320};
+
+// The frame asked for, else that of largest sum.
+std::size_t chosenFrame(std::optional<std::int64_t> frame,
+                        const std::string& file,
+                        const Profile& profile) {
   if (profile.numFrames() == 0) throw Error(file + ": has no frame to draw");
-  const auto frame = given.integer("frame", 0, INT64_MAX);
   if (!frame) return SignalTable::of(profile).frameOfLargestSum();
   if (static_cast<std::uint64_t>(*frame) >= profile.numFrames())
     throw Error(file + ": has no frame " + std::to_string(*frame) + ", only 0.." +
@@ -85,7 +89,7 @@ int renderCommand(const Words& words) {
     throw UsageError("the picture's name must end in .png, .svg or .pdf, not '" + *out + "'");
   given.choice("view", {"matrices"});
   gui::MatricesPictureOptions options;
-  if (const auto size = given.text("size")) options.size = parsedSize(*size);
+  if (const auto size = given.text("size")) options.size = parsedSize(*size, kSmallestPicture);
   if (const auto map = given.choice("map", colorMapNames())) options.map = *gui::colorMapFrom(*map);
   if (const auto range = given.text("range")) parseRange(*range, options);
   options.interpolated = given.has("interpolated");
@@ -95,12 +99,14 @@ int renderCommand(const Words& words) {
                       : gui::Theme::kLight;
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
 
+  const auto asked = given.integer("frame", 0, INT64_MAX);
+
   const std::string& file = given.words()[0];
   const Profile profile = [&] {
     ProgressLine progress("reading " + file, given.quiet());
     return openRecording(file, progress.callback());
   }();
-  const std::size_t frame = chosenFrame(given, file, profile);
+  const std::size_t frame = chosenFrame(asked, file, profile);
   const double seconds =
       static_cast<double>(profile.frameTimeUs(frame) - profile.frameTimeUs(0)) * 1e-6;
   options.title = QString::fromStdString(fs::path(file).filename().string());
@@ -108,7 +114,7 @@ int renderCommand(const Words& words) {
                                            std::to_string(profile.numFrames()) + ", " +
                                            fixedText(seconds, 2) + " s");
 
-  drawWithoutDisplay(true);
+  drawWithoutDisplay();
   std::string name = "palpate";
   char* arguments[] = {name.data(), nullptr};
   int count = 1;

@@ -1,4 +1,6 @@
 // palpate synthesize -o OUT.dsa: a synthetic recording with known content.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "palpate/emulator/synthetic_profile.h"
@@ -8,6 +10,11 @@
 #include "commands/commands.h"
 
 namespace palpate::commands {
+namespace {
+
+constexpr double kFramesPerGrasp = 12.0;  // at least: SyntheticOptions::validate
+
+}  // namespace
 
 int synthesizeCommand(const Words& words) {
   const CommandLine given(
@@ -28,9 +35,14 @@ int synthesizeCommand(const Words& words) {
   if (given.helpShown()) return kDone;
   const auto out = given.text("output");
   if (!out) throw UsageError("synthesize needs -o OUT.dsa");
+  if (std::filesystem::path(*out).extension() != ".dsa")
+    throw UsageError("the recording's name must end in .dsa, not '" + *out + "'");
   SyntheticOptions options;
   options.durationS = given.number("duration", 0.1, 86'400.0).value_or(options.durationS);
   options.rateHz = given.number("rate", 0.1, 1000.0).value_or(options.rateHz);
+  // Unasked, no more grasps than a short recording holds.
+  const double fits = std::floor(options.durationS * options.rateHz / kFramesPerGrasp);
+  options.grasps = static_cast<int>(std::min<double>(options.grasps, fits));
   options.grasps = static_cast<int>(given.integer("grasps", 0, 10'000).value_or(options.grasps));
   options.peakCounts = given.number("peak", 50.0, 3500.0).value_or(options.peakCounts);
   options.noiseCounts = given.number("noise", 0.0, 1000.0).value_or(options.noiseCounts);

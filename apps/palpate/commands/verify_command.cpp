@@ -1,6 +1,7 @@
 // palpate verify FILE...: every byte checked, one line per file.
 #include <cstdio>
 
+#include "palpate/core/one_line.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/command_line.h"
@@ -61,7 +62,8 @@ int verifyCommand(const Words& words) {
     }();
     worst = worse(worst, exitCode(report.state));
     if (given.quiet()) continue;
-    std::printf("%s: %s: %s\n", file.c_str(), word(report.state), report.message.c_str());
+    std::printf(
+        "%s: %s: %s\n", oneLine(file).c_str(), word(report.state), oneLine(report.message).c_str());
     std::fflush(stdout);  // a line per file as it comes, also into a pipe
   }
   return worst;

@@ -13,10 +13,12 @@
 namespace palpate::commands {
 namespace {
 
+constexpr QSize kSmallestWindow{800, 500};
+
 int screenshot(const CommandLine& given) {
   gui::ScreenshotOptions options;
   options.out = *given.text("screenshot");
-  if (const auto size = given.text("size")) options.size = parsedSize(*size);
+  if (const auto size = given.text("size")) options.size = parsedSize(*size, kSmallestWindow);
   if (const auto frame = given.integer("frame", 0, INT64_MAX))
     options.frame = static_cast<std::size_t>(*frame);
   options.afterS = given.number("after", 0.0, 3600.0).value_or(0.0);
@@ -25,11 +27,16 @@ int screenshot(const CommandLine& given) {
   options.demo = given.has("demo");
   options.dataFolder = dataFolder();
   options.force = given.has("force");
+  if (options.out.extension() != ".png")
+    throw UsageError("--screenshot: the picture's name must end in .png, not '" +
+                     options.out.string() + "'");
   if (given.words().size() > 1) throw UsageError("--screenshot takes one FILE");
   if (!given.words().empty()) options.file = given.words()[0];
   if (options.demo && options.file) throw UsageError("give FILE or --demo, not both");
+  if (!options.demo && !options.file && (options.frame || given.has("after") || given.has("dock")))
+    throw UsageError("--frame, --after and --dock need a FILE or --demo");
   const RuntimeFolder runtime;
-  drawWithoutDisplay(false);
+  if (!hasDisplay()) drawWithoutDisplay();
   std::string name = "palpate";
   char* arguments[] = {name.data(), nullptr};
   int count = 1;
@@ -56,6 +63,8 @@ int workbenchCommand(const Words& words) {
   if (given.has("screenshot")) return screenshot(given);
   for (const char* option : {"size", "frame", "after", "dock", "theme", "force"})
     if (given.has(option)) throw UsageError("--" + std::string(option) + " goes with --screenshot");
+  if (given.has("demo") && !given.words().empty())
+    throw UsageError("give FILE or --demo, not both");
   if (!hasDisplay())
     throw Error("no display: run it on a desktop, or use a command ('palpate --help' lists them)");
   const RuntimeFolder runtime;
@@ -63,7 +72,6 @@ int workbenchCommand(const Words& words) {
   options.files.assign(given.words().begin(), given.words().end());
   options.demo = given.has("demo");
   options.dataFolder = dataFolder();
-  if (options.demo && !options.files.empty()) throw UsageError("give FILE or --demo, not both");
   std::string name = "palpate";
   char* arguments[] = {name.data(), nullptr};
   int count = 1;
