@@ -33,13 +33,13 @@ TimingReport timingOf(const Profile& profile) {
   }
   std::vector<std::int64_t> sorted = intervals;
   const double medianUs = median(sorted);
-  report.durationS = static_cast<double>(profile.durationUs()) * 1e-6;
+  report.durationS = static_cast<double>(profile.durationUs()) / 1e6;
   report.rateHz = 1e6 / medianUs;
   report.meanRateHz = static_cast<double>(frames - 1) / report.durationS;
   const double gapUs = std::max(kShortestGapUs, kGapIntervals * medianUs);
   for (std::size_t i = 0; i < intervals.size(); ++i)
     if (static_cast<double>(intervals[i]) > gapUs)
-      report.gaps.push_back({i, static_cast<double>(intervals[i]) * 1e-6});
+      report.gaps.push_back({i, static_cast<double>(intervals[i]) / 1e6});
   return report;
 }
 

@@ -15,6 +15,15 @@ class PlaybackBarTest : public WindowTest {
   SeekBar& bar() { return *find<SeekBar>("seekBar"); }
   QSpinBox& frameField() { return *find<QSpinBox>("frameField"); }
   QDoubleSpinBox& timeField() { return *find<QDoubleSpinBox>("timeField"); }
+  // Types a text over what stands in the field, and Enter.
+  void type(QAbstractSpinBox& field, const char* text) {
+    QApplication::setActiveWindow(&window());
+    field.setFocus();
+    field.selectAll();
+    QTest::keyClick(&field, Qt::Key_Delete);
+    QTest::keyClicks(&field, text);
+    QTest::keyClick(&field, Qt::Key_Return);
+  }
   QPoint at(int frame) {
     return {static_cast<int>(std::lround(bar().pixelOf(frame))), bar().height() / 2};
   }
@@ -58,13 +67,42 @@ TEST_F(PlaybackBarTest, ATypedTimeIsSought) {
   EXPECT_FALSE(timeField().hasFocus());
 }
 
-TEST_F(PlaybackBarTest, ATypedFrameBeyondTheEndIsNotTaken) {
+TEST_F(PlaybackBarTest, ATypedNumberOutOfRangeIsTheNearestInRange) {
+  type(frameField(), "99");
+  EXPECT_EQ(playback().frame(), 19u);
+  EXPECT_EQ(frameField().value(), 19);
+  type(frameField(), "-5");
+  EXPECT_EQ(playback().frame(), 0u);
+  type(timeField(), "1e6");
+  EXPECT_EQ(playback().frame(), 19u);
+  EXPECT_EQ(timeField().text(), "0.95");
+}
+
+TEST_F(PlaybackBarTest, ADecimalCommaIsAPoint) {
+  type(timeField(), "0,51");
+  EXPECT_EQ(playback().frame(), 10u);
+}
+
+TEST_F(PlaybackBarTest, WhatIsNoNumberChangesNothing) {
+  playback().seekFrame(7);
+  for (const char* nonsense : {"abc", "1x2", "", "3 4"}) {
+    type(frameField(), nonsense);
+    EXPECT_EQ(playback().frame(), 7u) << nonsense;
+    EXPECT_EQ(frameField().text(), "7") << nonsense;
+    type(timeField(), nonsense);
+    EXPECT_EQ(playback().frame(), 7u) << nonsense;
+  }
+}
+
+TEST_F(PlaybackBarTest, EscapeLeavesTheFieldAsItWas) {
+  playback().seekFrame(7);
   frameField().setFocus();
   frameField().selectAll();
-  QTest::keyClicks(&frameField(), "99");
-  QTest::keyClick(&frameField(), Qt::Key_Return);
-  EXPECT_LT(playback().frame(), 20u);
-  EXPECT_EQ(static_cast<std::size_t>(frameField().value()), playback().frame());
+  QTest::keyClicks(&frameField(), "12");
+  QTest::keyClick(&frameField(), Qt::Key_Escape);
+  EXPECT_EQ(playback().frame(), 7u);
+  EXPECT_EQ(frameField().text(), "7");
+  EXPECT_FALSE(frameField().hasFocus());
 }
 
 TEST_F(PlaybackBarTest, WhatIsBeingTypedIsNotOverwrittenByThePlayback) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include <palpate/core/number_text.h>
+
 #include "gui/dock.h"
 #include "gui/icons.h"
 #include "gui/inspect_panel.h"
@@ -32,7 +34,7 @@ void check(const QActionGroup* group, const Choices& all, Choice now) {
   if (index < group->actions().size()) group->actions().at(index)->setChecked(true);
 }
 
-QString seconds(double value) { return QString::number(value, 'f', 2) + " s"; }
+QString seconds(double value) { return QString::fromStdString(fixedText(value, 2)) + " s"; }
 
 }  // namespace
 
@@ -140,7 +142,7 @@ void MainWindow::updateStatus() {
     const bool playing = playback_.playing();
     const bool inGap = current_->gapAt(playback_.positionS()) != nullptr;
     now.lamp = inGap ? Status::Lamp::kWarning : playing ? Status::Lamp::kGood : Status::Lamp::kIdle;
-    now.state = "recording · " + QString(playing ? "playing " : "paused ") +
+    now.state = "playback · " + QString(playing ? "playing " : "paused ") +
                 QString::number(playback_.speed()) + "×" + opening;
     if (playback_.hasFrames()) {
       const std::size_t frame = playback_.frame();

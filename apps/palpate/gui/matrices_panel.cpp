@@ -50,12 +50,12 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   auto* title = new QLabel("<b>Matrices</b>", header);
   map_ = new QComboBox(header);
   map_->setObjectName("mapBox");
-  map_->setFocusPolicy(Qt::TabFocus);
+  map_->setFocusPolicy(Qt::NoFocus);  // it has a key
   map_->setToolTip("Colour map (M)");
   for (const ColorMapName map : kAllColorMaps) map_->addItem(nameOf(map));
   range_ = new QComboBox(header);
   range_->setObjectName("rangeBox");
-  range_->setFocusPolicy(Qt::TabFocus);
+  range_->setFocusPolicy(Qt::NoFocus);  // it has a key
   for (QComboBox* box : {map_, range_}) box->setMinimumHeight(kControlHeight);
   range_->setToolTip("Where the colour range ends (R)");
   for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));

@@ -1,13 +1,14 @@
 #include "gui/playback_bar.h"
 
-#include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
-#include <QSpinBox>
 #include <algorithm>
 #include <limits>
 
+#include <palpate/core/number_text.h>
+
+#include "gui/number_field.h"
 #include "gui/seek_bar.h"
 
 namespace palpate::gui {
@@ -25,10 +26,6 @@ template <class Field>
 Field* makeField(QWidget* parent, const char* name, int digits) {
   auto* field = new Field(parent);
   field->setObjectName(name);
-  field->setButtonSymbols(QAbstractSpinBox::NoButtons);
-  field->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  field->setKeyboardTracking(false);  // only what is finished moves the playback
-  field->setFocusPolicy(Qt::ClickFocus);
   field->setFixedWidth(field->fontMetrics().horizontalAdvance(QString(digits, '0')) + 18);
   return field;
 }
@@ -41,12 +38,12 @@ PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
   setAttribute(Qt::WA_StyledBackground);
   seekBar_ = new SeekBar(this);
   seekBar_->setObjectName("seekBar");
-  frame_ = makeField<QSpinBox>(this, "frameField", 7);
+  frame_ = makeField<FrameField>(this, "frameField", 7);
   frame_->setToolTip("Frame, counted from 0: type one and press Enter (Ctrl+G)");
   frame_->setAccessibleName("Frame");
   ofFrames_ = new QLabel(this);
   ofFrames_->setObjectName("ofFrames");
-  time_ = makeField<QDoubleSpinBox>(this, "timeField", 8);
+  time_ = makeField<SecondsField>(this, "timeField", 8);
   time_->setDecimals(kTimeDecimals);
   time_->setToolTip("Time from the first frame in s: type one and press Enter");
   time_->setAccessibleName("Time in seconds");
@@ -79,6 +76,7 @@ PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
        {static_cast<QAbstractSpinBox*>(frame_), static_cast<QAbstractSpinBox*>(time_)})
     connect(field, &QAbstractSpinBox::editingFinished, field, &QWidget::clearFocus);
   connect(&playback_, &PlaybackController::frameChanged, this, &PlaybackBar::showFrame);
+  connect(&playback_, &PlaybackController::positionChanged, this, &PlaybackBar::showTime);
   connect(&playback_, &PlaybackController::stateChanged, this, &PlaybackBar::takeRecording);
   takeRecording();
 }
@@ -102,17 +100,24 @@ void PlaybackBar::takeRecording() {
   }
   const QString ofFrames = "of " + QString::number(frames);
   if (ofFrames_->text() != ofFrames) ofFrames_->setText(ofFrames);
-  const QString ofTime = "/ " + QString::number(playback_.durationS(), 'f', kTimeDecimals) + " s";
+  const QString ofTime =
+      "/ " + QString::fromStdString(fixedText(playback_.durationS(), kTimeDecimals)) + " s";
   if (ofTime_->text() != ofTime) ofTime_->setText(ofTime);
   showFrame(playback_.frame());
 }
 
 void PlaybackBar::showFrame(std::size_t frame) {
-  const QSignalBlocker blockedBar(seekBar_), blockedFrame(frame_), blockedTime(time_);
+  const QSignalBlocker blockedBar(seekBar_), blockedFrame(frame_);
   seekBar_->setValue(asInt(frame));
   // What is being typed isn't overwritten by the playback.
   if (!frame_->hasFocus() || !playback_.playing()) frame_->setValue(asInt(frame));
-  if (!time_->hasFocus() || !playback_.playing()) time_->setValue(playback_.positionS());
+  showTime(playback_.positionS());
+}
+
+// Between two frames, too: in a gap the frame stands still and the time goes on.
+void PlaybackBar::showTime(double seconds) {
+  const QSignalBlocker blocked(time_);
+  if (!time_->hasFocus() || !playback_.playing()) time_->setValue(seconds);
 }
 
 }  // namespace palpate::gui

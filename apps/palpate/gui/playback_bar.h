@@ -6,12 +6,12 @@
 #include "gui/playback_controller.h"
 #include "gui/theme.h"
 
-class QDoubleSpinBox;
 class QLabel;
-class QSpinBox;
 
 namespace palpate::gui {
 
+class FrameField;
+class SecondsField;
 class SeekBar;
 
 class PlaybackBar : public QWidget {
@@ -26,12 +26,13 @@ class PlaybackBar : public QWidget {
  private:
   void takeRecording();
   void showFrame(std::size_t frame);
+  void showTime(double seconds);
 
   PlaybackController& playback_;
   SeekBar* seekBar_;
-  QSpinBox* frame_;
+  FrameField* frame_;
   QLabel* ofFrames_;
-  QDoubleSpinBox* time_;
+  SecondsField* time_;
   QLabel* ofTime_;
 };
 

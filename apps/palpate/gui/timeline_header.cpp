@@ -53,7 +53,7 @@ void Legend::paintEvent(QPaintEvent*) {
 TimelineHeader::TimelineHeader(QWidget* parent) : QWidget(parent) {
   signal_ = new QComboBox(this);
   signal_->setObjectName("signalBox");
-  signal_->setFocusPolicy(Qt::TabFocus);
+  signal_->setFocusPolicy(Qt::NoFocus);  // it has a key
   signal_->setToolTip("What is plotted of each ticked matrix (S)");
   for (const PlottedSignal signal : kAllPlottedSignals) signal_->addItem(nameOf(signal));
   legend_ = new Legend(this);

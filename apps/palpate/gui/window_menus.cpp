@@ -99,7 +99,7 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   speed->setMinimumHeight(kControlHeight);
   speed->setToolTip("Speed (Up, Down)");
   speed->setAccessibleName("Speed");
-  speed->setFocusPolicy(Qt::TabFocus);
+  speed->setFocusPolicy(Qt::NoFocus);  // it has a key
   for (const QAction* each : actions.speeds->actions()) speed->addItem(each->text());
   bar->addWidget(speed);
   bar->addActions({actions.loop, actions.skipGaps});
@@ -116,7 +116,7 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   recordings->setMinimumHeight(kControlHeight);
   recordings->setToolTip("Open recordings (Ctrl+Tab)");
   recordings->setAccessibleName("Open recordings");
-  recordings->setFocusPolicy(Qt::TabFocus);
+  recordings->setFocusPolicy(Qt::NoFocus);  // it has a key
   recordings->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   recordings->setMaximumWidth(420);
   recordingsAction = bar->addWidget(recordings);
