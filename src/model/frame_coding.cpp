@@ -12,10 +12,15 @@ constexpr std::size_t kLongestCountsRun = 15;
 constexpr std::size_t kLongestFloatsRun = 255;
 constexpr float kMaxCounts = 4095.0F;
 
-bool isCounts(float value) noexcept {
-  // Clamped first, so that the conversion is defined for every value (a NaN becomes 0).
-  const float inside = value >= 0.0F && value <= kMaxCounts ? value : 0.0F;
-  return value == static_cast<float>(static_cast<int>(inside));
+// Not zero when `value` is no number of counts. In integers throughout, so that a loop over it is
+// vectorised: the bits of floats from 0 to 4095 are ordered like the numbers, and those of negative
+// ones (-0 too) are negative.
+std::int32_t differsFromCounts(float value) noexcept {
+  constexpr auto kMaxBits = std::bit_cast<std::int32_t>(kMaxCounts);
+  const auto bits = std::bit_cast<std::int32_t>(value);
+  const std::int32_t inRange = -static_cast<std::int32_t>((bits >= 0) & (bits <= kMaxBits));
+  const auto whole = static_cast<std::int32_t>(std::bit_cast<float>(bits & inRange));
+  return bits ^ std::bit_cast<std::int32_t>(static_cast<float>(whole));
 }
 
 // Writes to `at` and returns the place behind.
@@ -32,10 +37,9 @@ bool same(float a, float b) noexcept {
 }  // namespace
 
 FrameCoding codingFor(std::span<const float> values) noexcept {
-  // No early end: counts are the rule, and a loop without one is vectorised.
-  bool counts = true;
-  for (float value : values) counts &= isCounts(value);
-  return counts ? FrameCoding::kCounts : FrameCoding::kFloats;
+  std::int32_t differs = 0;
+  for (float value : values) differs |= differsFromCounts(value);  // no early end: see above
+  return differs == 0 ? FrameCoding::kCounts : FrameCoding::kFloats;
 }
 
 void encodeFrame(std::span<const float> values, FrameCoding coding, std::vector<std::byte>& out) {
