@@ -9,8 +9,8 @@
 
 namespace palpate {
 
-// Reads a recording; its form is told by its first bytes, never by its name (a .dsa is bzip2 or XML).
-// Throws FileError, FormatError, Cancelled; what() is one line that says what to do.
+// Reads a recording; its form is told by its first bytes, never by its name (a .dsa is bzip2 or
+// XML). Throws FileError, FormatError, Cancelled; what() is one line that says what to do.
 Profile openRecording(const std::filesystem::path& path, const Progress& progress = {});
 
 struct VerifyReport {

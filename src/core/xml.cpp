@@ -1,0 +1,160 @@
+#include "palpate/core/xml.h"
+
+#include <algorithm>
+#include <exception>
+
+#include <expat.h>
+
+namespace palpate {
+namespace {
+
+// expat looks at an unfinished tag again with each piece, and keeps all of it. Small pieces let the
+// limit be checked between them.
+constexpr std::size_t kPieceBytes = 64u << 10;
+
+bool endsEarly(XML_Error code) {
+  return code == XML_ERROR_NO_ELEMENTS || code == XML_ERROR_UNCLOSED_TOKEN ||
+         code == XML_ERROR_PARTIAL_CHAR || code == XML_ERROR_UNCLOSED_CDATA_SECTION;
+}
+
+}  // namespace
+
+struct XmlParser::Impl {
+  Impl(XmlHandler& target, XmlLimits bounds)
+      : handler(target), limits(bounds), parser(XML_ParserCreate(nullptr)) {
+    if (!parser) throw std::bad_alloc();
+    XML_SetUserData(parser, this);
+    XML_SetElementHandler(parser, &Impl::onStart, &Impl::onEnd);
+    XML_SetCharacterDataHandler(parser, &Impl::onText);
+    XML_SetStartDoctypeDeclHandler(parser, &Impl::onDoctype);
+  }
+  ~Impl() { XML_ParserFree(parser); }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  // No exception may pass through expat's C code: it is kept, the parser stopped, and thrown again
+  // when expat has returned. expat may call a handler once more after the stop.
+  template <typename Call>
+  void guarded(Call&& call) noexcept {
+    if (failure) return;
+    inHandler = true;
+    try {
+      call();
+    } catch (...) {
+      failure = std::current_exception();
+      failureOffset = eventOffset();
+      XML_StopParser(parser, XML_FALSE);
+    }
+    inHandler = false;
+  }
+
+  static void onStart(void* data, const XML_Char* name, const XML_Char** attributes) {
+    auto& self = *static_cast<Impl*>(data);
+    self.guarded([&] {
+      if (++self.depth > self.limits.maxDepth)
+        throw XmlError(
+            "elements are nested deeper than " + std::to_string(self.limits.maxDepth) + " levels",
+            self.eventOffset());
+      self.handler.startElement(name, attributes);
+    });
+  }
+  static void onEnd(void* data, const XML_Char* name) {
+    auto& self = *static_cast<Impl*>(data);
+    self.guarded([&] {
+      --self.depth;
+      self.handler.endElement(name);
+    });
+  }
+  static void onText(void* data, const XML_Char* text, int size) {
+    auto& self = *static_cast<Impl*>(data);
+    self.guarded([&] { self.handler.text({text, static_cast<std::size_t>(size)}); });
+  }
+  static void onDoctype(
+      void* data, const XML_Char*, const XML_Char*, const XML_Char*, int /*hasInternalSubset*/) {
+    auto& self = *static_cast<Impl*>(data);
+    self.guarded([&] {
+      throw XmlError("document types (DOCTYPE) and entities are not allowed here",
+                     self.eventOffset());
+    });
+  }
+
+  std::uint64_t eventOffset() const noexcept {
+    const XML_Index index = XML_GetCurrentByteIndex(parser);
+    return index < 0 ? 0 : static_cast<std::uint64_t>(index);
+  }
+
+  void parse(std::string_view piece, bool last) {
+    const XML_Status status = XML_Parse(
+        parser, piece.data(), static_cast<int>(piece.size()), last ? XML_TRUE : XML_FALSE);
+    taken += piece.size();
+    if (failure) std::rethrow_exception(failure);
+    if (status == XML_STATUS_OK) return;
+    const XML_Error code = XML_GetErrorCode(parser);
+    if (code == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
+    if (last && endsEarly(code)) throw XmlError("it ends early", taken);
+    throw XmlError(XML_ErrorString(code), eventOffset());
+  }
+
+  XmlHandler& handler;
+  XmlLimits limits;
+  XML_Parser parser;
+  std::exception_ptr failure;
+  std::uint64_t failureOffset = 0;
+  std::uint64_t taken = 0;
+  int depth = 0;
+  bool inHandler = false;
+};
+
+XmlParser::XmlParser(XmlHandler& handler, XmlLimits limits)
+    : impl_(std::make_unique<Impl>(handler, limits)) {}
+XmlParser::~XmlParser() = default;
+
+void XmlParser::push(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const std::string_view piece = bytes.substr(0, kPieceBytes);
+    bytes.remove_prefix(piece.size());
+    impl_->parse(piece, false);
+    // What expat holds back is markup whose end has not come yet: text passes through at once.
+    const std::uint64_t begin = impl_->eventOffset();
+    if (impl_->taken - std::min(begin, impl_->taken) > impl_->limits.maxMarkupBytes)
+      throw XmlError("one tag or comment is longer than " +
+                         std::to_string(impl_->limits.maxMarkupBytes) + " bytes",
+                     begin);
+  }
+}
+
+void XmlParser::finish() { impl_->parse({}, true); }
+
+std::uint64_t XmlParser::offset() const noexcept {
+  if (impl_->failure) return impl_->failureOffset;
+  return impl_->inHandler ? impl_->eventOffset() : impl_->taken;
+}
+
+std::string xmlEscaped(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&apos;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+}  // namespace palpate

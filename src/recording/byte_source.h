@@ -1,0 +1,48 @@
+// Where the bytes of a recording come from: a file, or memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace palpate {
+
+class ByteSource {
+ public:
+  virtual ~ByteSource() = default;
+  // Fills `out` from the current position; fewer bytes only at the end, 0 = nothing left.
+  // Throws FileError.
+  virtual std::size_t read(std::span<char> out) = 0;
+  virtual std::uint64_t numBytes() const noexcept = 0;
+};
+
+// A regular file. Throws FileError: missing, no permission, a folder, not a file.
+class FileSource final : public ByteSource {
+ public:
+  explicit FileSource(const std::filesystem::path& path);
+  ~FileSource() override;
+  FileSource(const FileSource&) = delete;
+  FileSource& operator=(const FileSource&) = delete;
+  std::size_t read(std::span<char> out) override;
+  std::uint64_t numBytes() const noexcept override { return numBytes_; }
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  std::uint64_t numBytes_ = 0;
+};
+
+// Bytes that outlive the source.
+class MemorySource final : public ByteSource {
+ public:
+  explicit MemorySource(std::span<const std::byte> bytes) noexcept : bytes_(bytes) {}
+  std::size_t read(std::span<char> out) override;
+  std::uint64_t numBytes() const noexcept override { return bytes_.size(); }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::size_t position_ = 0;
+};
+
+}  // namespace palpate

@@ -1,0 +1,98 @@
+#include "palpate/recording/dsa_reader.h"
+
+#include <new>
+#include <string>
+#include <string_view>
+
+#include "palpate/core/error.h"
+#include "palpate/core/xml.h"
+
+#include "recording/byte_source.h"
+#include "recording/dsa_document.h"
+#include "recording/dsa_text.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::uint64_t kBytesPerReport = 256u << 10;  // of XML, between two calls of Progress
+// A bzip2 block holds at most 900 kB, which its first run-length code can stretch 51 times.
+constexpr std::uint64_t kMaxBlockBytes = 46u << 20;
+
+// Wrong data of a damaged bzip2 block comes out before the block's checksum: nonsense in the text
+// may be only the echo of that. Reads on to the end of the block; throws when it is damaged.
+void blameContainer(DsaText& text) {
+  if (!text.compressed()) return;
+  for (std::uint64_t bytes = 0; bytes <= kMaxBlockBytes;) {
+    const std::size_t size = text.next().size();
+    if (size == 0) return;
+    bytes += size;
+  }
+}
+
+Profile read(ByteSource& source,
+             const std::filesystem::path& path,
+             const Progress& progress,
+             const DsaReadOptions& options) {
+  DsaText text(source, path);
+  const std::uint64_t maxBytes = boundFor(options.freeBytes, options.maxRatio, source.numBytes());
+  DsaDocument document(options,
+                       boundFor(options.freeMemoryBytes, options.maxRatio, source.numBytes()));
+  XmlParser parser(document);
+  std::uint64_t bytes = 0;
+  std::uint64_t reported = 0;
+  const auto report = [&] {
+    if (progress && !progress(text.fraction())) throw Cancelled();
+  };
+  report();
+  try {
+    for (std::string_view chunk = text.next(); !chunk.empty(); chunk = text.next()) {
+      bytes += chunk.size();
+      if (bytes > maxBytes)
+        throw FormatError(path,
+                          "expands to more than " + std::to_string(maxBytes >> 20) +
+                              " MB, far more than a recording of its size",
+                          bytes);
+      parser.push(chunk);
+      if (bytes - reported >= kBytesPerReport) {
+        reported = bytes;
+        report();
+      }
+    }
+    parser.finish();
+    Profile profile = document.finish();
+    report();
+    return profile;
+  } catch (const XmlError& error) {
+    blameContainer(text);
+    throw FormatError(path, std::string("is not well-formed XML: ") + error.what(), error.offset());
+  } catch (const FileError&) {
+    throw;
+  } catch (const FormatError&) {
+    throw;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {  // of the document: it knows neither path nor place
+    blameContainer(text);
+    throw FormatError(path, error.what(), parser.offset());
+  } catch (const std::bad_alloc&) {
+    throw FormatError(path, "needs more memory than there is");
+  }
+}
+
+}  // namespace
+
+Profile readDsa(const std::filesystem::path& path,
+                const Progress& progress,
+                const DsaReadOptions& options) {
+  FileSource source(path);
+  return read(source, path, progress, options);
+}
+
+Profile readDsaBytes(std::span<const std::byte> bytes,
+                     const std::filesystem::path& name,
+                     const DsaReadOptions& options) {
+  MemorySource source(bytes);
+  return read(source, name, {}, options);
+}
+
+}  // namespace palpate

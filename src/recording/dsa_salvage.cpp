@@ -1,0 +1,236 @@
+#include "palpate/recording/dsa_salvage.h"
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "palpate/core/error.h"
+#include "palpate/core/xml.h"
+#include "palpate/recording/bzip2_blocks.h"
+
+#include "recording/byte_source.h"
+#include "recording/dsa_document.h"
+#include "recording/dsa_text.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kMaxElementBytes = 4u << 20;  // longer than any frame of a real sensor
+// A bzip2 block holds at most 900 kB, which its first run-length code can stretch 51 times.
+constexpr std::size_t kMaxBlockBytes = 46u << 20;
+// Bits from a stream's end mark to the first block of a next stream: mark, checksum, padding, header.
+constexpr std::uint64_t kMaxSeamBits = 48 + 32 + 7 + 32;
+
+struct Element {
+  std::string_view name;
+  DsaDocument::Fragment fragment;
+};
+constexpr Element kElements[] = {{"frame", DsaDocument::Fragment::kFrame},
+                                 {"angle", DsaDocument::Fragment::kAngles},
+                                 {"temp", DsaDocument::Fragment::kTemperatures},
+                                 {"sensor", DsaDocument::Fragment::kSensor}};
+constexpr std::size_t kLongestTag = 16;  // "</sensor" and what tells its end, generously
+
+bool endsName(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '>' || c == '/';
+}
+
+// Which of the elements a tag that starts with `tag` (behind "<" or "</") belongs to.
+const Element* elementOf(std::string_view tag) {
+  for (const Element& element : kElements)
+    if (tag.starts_with(element.name) && tag.size() > element.name.size() &&
+        endsName(tag[element.name.size()]))
+      return &element;
+  return nullptr;
+}
+
+// Finds whole elements in stretches of text and hands them to the document, one by one: one that is
+// wrong harms no other.
+class ElementScanner {
+ public:
+  ElementScanner(DsaDocument& document, DsaSalvage& result)
+      : document_(document), result_(result) {}
+
+  // The next piece of the stretch.
+  void add(std::string_view piece) {
+    pending_ += piece;
+    scan();
+    const std::size_t keep = open_ ? openBegin_ : position_;
+    pending_.erase(0, keep);
+    position_ -= keep;
+    openBegin_ = 0;
+    if (pending_.size() > kMaxElementBytes) breakHere();
+  }
+
+  // The stretch ends: what follows is not its continuation.
+  void breakHere() {
+    if (open_) ++result_.cutSamples;
+    open_ = nullptr;
+    openBegin_ = 0;
+    position_ = 0;
+    pending_.clear();
+  }
+
+ private:
+  void scan() {
+    const std::string_view text = pending_;
+    for (;;) {
+      const std::size_t begin = text.find('<', position_);
+      position_ = std::min(begin, text.size());
+      if (begin == std::string_view::npos) return;
+      const std::size_t end = text.find('>', begin);
+      // A tag whose end has not come yet: wait, unless its name tells that it means nothing.
+      if (end == std::string_view::npos && text.size() - begin < kLongestTag) return;
+      const bool closes = text.substr(begin + 1).starts_with('/');
+      const Element* element = elementOf(text.substr(begin + (closes ? 2 : 1)));
+      if (element) {
+        if (end == std::string_view::npos) return;
+        if (closes)
+          close(*element, end + 1);
+        else
+          open(*element, begin);
+      }
+      position_ = begin + 1;
+    }
+  }
+
+  void open(const Element& element, std::size_t begin) {
+    if (open_) ++result_.cutSamples;
+    open_ = &element;
+    openBegin_ = begin;
+  }
+
+  void close(const Element& element, std::size_t end) {
+    if (open_ != &element) {  // its beginning is lost
+      if (element.fragment != DsaDocument::Fragment::kSensor) ++result_.cutSamples;
+    } else {
+      take(element, std::string_view(pending_).substr(openBegin_, end - openBegin_));
+    }
+    open_ = nullptr;
+  }
+
+  void take(const Element& element, std::string_view text) {
+    const bool isSensor = element.fragment == DsaDocument::Fragment::kSensor;
+    if (isSensor && document_.hasLayout()) return;
+    if (!isSensor && !document_.hasLayout()) {
+      document_.useLayout(sdh2().layout);
+      result_.layoutAssumed = true;
+    }
+    try {
+      document_.beginFragment(element.fragment);
+      XmlParser parser(document_);
+      parser.push(text);
+      parser.finish();
+    } catch (const XmlError&) {
+      if (!isSensor) ++result_.badSamples;
+    } catch (const Error&) {
+      if (!isSensor) ++result_.badSamples;
+    }
+  }
+
+  DsaDocument& document_;
+  DsaSalvage& result_;
+  std::string pending_;  // text from the element that is open, or not looked at yet
+  std::size_t position_ = 0;
+  const Element* open_ = nullptr;
+  std::size_t openBegin_ = 0;
+};
+
+std::vector<std::byte> readAll(const std::filesystem::path& path) {
+  FileSource source(path);
+  if (source.numBytes() > kMaxSalvageBytes)
+    throw FileError(path,
+                    "is too large to be searched for intact parts: more than " +
+                        std::to_string(kMaxSalvageBytes >> 20) + " MB");
+  std::vector<std::byte> bytes(static_cast<std::size_t>(source.numBytes()));
+  bytes.resize(source.read({reinterpret_cast<char*>(bytes.data()), bytes.size()}));
+  return bytes;
+}
+
+class Reporter {
+ public:
+  explicit Reporter(const Progress& progress) : progress_(progress) {}
+  void operator()(std::size_t done, std::size_t all) const {
+    if (progress_ && !progress_(static_cast<double>(done) / static_cast<double>(all)))
+      throw Cancelled();
+  }
+
+ private:
+  const Progress& progress_;
+};
+
+void scanBlocks(std::span<const std::byte> bytes,
+                std::uint64_t maxBytes,
+                const Reporter& report,
+                ElementScanner& scanner,
+                DsaSalvage& result) {
+  const std::vector<Bzip2Block> blocks = findBzip2Blocks(bytes);
+  result.blocks = blocks.size();
+  std::uint64_t expanded = 0;
+  std::optional<std::uint64_t> joinsAtBit;  // where the stretch goes on
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    report(i, blocks.size());
+    const auto room = std::min<std::uint64_t>(kMaxBlockBytes, maxBytes - expanded);
+    const Bzip2BlockContent content =
+        decodeBzip2Block(bytes, blocks[i], static_cast<std::size_t>(room));
+    if (!joinsAtBit || blocks[i].beginBit - *joinsAtBit > kMaxSeamBits) scanner.breakHere();
+    joinsAtBit.reset();
+    if (!content.intact) {
+      scanner.breakHere();
+      continue;
+    }
+    ++result.intactBlocks;
+    expanded += content.bytes.size();
+    constexpr std::size_t kPiece = 64u << 10;
+    const std::string_view text(content.bytes.data(), content.bytes.size());
+    for (std::size_t at = 0; at < text.size(); at += kPiece) scanner.add(text.substr(at, kPiece));
+    if (content.endsAtMark) joinsAtBit = blocks[i].endBit;
+  }
+}
+
+// Plain XML carries no checksum: whatever is well-formed is taken.
+void scanText(std::span<const std::byte> bytes, const Reporter& report, ElementScanner& scanner) {
+  constexpr std::size_t kPiece = 64u << 10;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  for (std::size_t at = 0; at < text.size(); at += kPiece) {
+    report(at, text.size());
+    scanner.add(text.substr(at, kPiece));
+  }
+}
+
+}  // namespace
+
+DsaSalvage salvageDsa(const std::filesystem::path& path,
+                      const Progress& progress,
+                      const DsaReadOptions& options) {
+  const std::vector<std::byte> bytes = readAll(path);
+  const DsaForm form =
+      requireDsaForm({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
+
+  DsaSalvage result;
+  DsaDocument document(options, boundFor(options.freeMemoryBytes, options.maxRatio, bytes.size()));
+  ElementScanner scanner(document, result);
+  const Reporter report(progress);
+  if (form == DsaForm::kBzip2)
+    scanBlocks(bytes,
+               boundFor(options.freeBytes, options.maxRatio, bytes.size()),
+               report,
+               scanner,
+               result);
+  else
+    scanText(bytes, report, scanner);
+  scanner.breakHere();
+  report(1, 1);
+
+  const bool foreign = result.layoutAssumed && document.numFrames() == 0 && result.badSamples > 0;
+  result.frames = foreign ? 0 : document.numFrames();
+  result.angles = foreign ? 0 : document.numAngles();
+  result.temperatures = foreign ? 0 : document.numTemperatures();
+  if (result.frames + result.angles + result.temperatures > 0)
+    result.profile = document.finishFragments();
+  return result;
+}
+
+}  // namespace palpate
