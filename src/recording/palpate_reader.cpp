@@ -48,44 +48,10 @@ struct StreamIndex {
   }
 };
 
-Mask maskFrom(const std::string& text, std::size_t places, const fs::path& path) {
-  Mask mask;
-  for (char c : text) mask.push_back(c == '1');
-  if (mask.size() != places) throw FormatError(path, "a mask has the wrong size");
-  return mask;
-}
-
-SensorLayout layoutOf(SqliteDatabase& database) {
-  const fs::path& path = database.path();
-  std::vector<MatrixLayout> matrices;
-  SqliteStatement rows = database.prepare(
-      "SELECT idx, rows, columns, pitch_mm, static_mask, dynamic_mask, uid, crc32 FROM matrix"
-      " ORDER BY idx");
-  while (rows.next()) {
-    MatrixLayout matrix;
-    matrix.rows = static_cast<int>(std::clamp<std::int64_t>(rows.integer(1), 0, 1'000'000));
-    matrix.columns = static_cast<int>(std::clamp<std::int64_t>(rows.integer(2), 0, 1'000'000));
-    matrix.pitchMm = rows.real(3);
-    matrix.staticMask = maskFrom(rows.text(4), matrix.numPlaces(), path);
-    matrix.dynamicMask = maskFrom(rows.text(5), matrix.numPlaces(), path);
-    if (rows.integer(0) != static_cast<std::int64_t>(matrices.size()) ||
-        rows.integer(7) !=
-            matrixCrc(static_cast<int>(matrices.size()), matrix, rows.text(6)))
-      throw FormatError(path, "the layout of its matrices is damaged; try 'palpate recover'");
-    matrices.push_back(std::move(matrix));
-  }
-  try {
-    return SensorLayout(std::move(matrices));
-  } catch (const std::invalid_argument& error) {
-    throw FormatError(path, std::string("the layout of its matrices makes no sense: ") +
-                                error.what());
-  }
-}
-
 class PalpateStorage final : public ProfileStorage {
  public:
   PalpateStorage(const fs::path& path, const Progress& progress)
-      : path_(path), access_(path), layout_(layoutOf(access_.database())) {
+      : path_(path), access_(path), layout_(readLayout(access_.database())) {
     indexBlocks(progress);
     streams_[0].numValues = layout_.numPlaces();
     for (Stream stream : {Stream::kAngles, Stream::kTemperatures}) findWidth(stream);
@@ -232,14 +198,6 @@ class PalpateStorage final : public ProfileStorage {
   mutable std::list<std::int64_t> order_;  // of entering the cache
 };
 
-std::string metaOf(SqliteDatabase& database, std::string_view key) {
-  SqliteStatement query = database.prepare("SELECT value, crc32 FROM meta WHERE key=?");
-  query.bind(1, key);
-  if (!query.next()) return {};
-  const std::string value = query.text(0);
-  return query.integer(1) == static_cast<std::int64_t>(metaCrc(key, value)) ? value : std::string();
-}
-
 }  // namespace
 
 Profile readPalpate(const fs::path& path, const Progress& progress) {
@@ -247,8 +205,8 @@ Profile readPalpate(const fs::path& path, const Progress& progress) {
   SqliteDatabase& database = storage->access().database();
   ProfileInfo info;
   info.format = "palpate";
-  info.serial = metaOf(database, "serial");
-  info.firmware = metaOf(database, "firmware");
+  info.serial = readMeta(database, "serial");
+  info.firmware = readMeta(database, "firmware");
   info.valueType =
       database.integerOf("SELECT EXISTS(SELECT 1 FROM block WHERE stream=0 AND coding<>0)") != 0
           ? ValueType::kFloat

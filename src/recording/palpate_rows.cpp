@@ -1,6 +1,21 @@
 #include "recording/palpate_rows.h"
 
+#include <algorithm>
+#include <stdexcept>
+
+#include "palpate/core/error.h"
+
 namespace palpate {
+namespace {
+
+Mask maskFrom(const std::string& text, std::size_t places, const std::filesystem::path& path) {
+  Mask mask;
+  for (char c : text) mask.push_back(c == '1');
+  if (mask.size() != places) throw FormatError(path, "a mask has the wrong size");
+  return mask;
+}
+
+}  // namespace
 
 void createTables(SqliteDatabase& database) {
   database.execute(
@@ -90,6 +105,41 @@ void insertMatrices(SqliteDatabase& database, const SensorLayout& layout) {
         .bind(8, static_cast<std::int64_t>(matrixCrc(static_cast<int>(m), matrix, {})))
         .run();
   }
+}
+
+SensorLayout readLayout(SqliteDatabase& database) {
+  const std::filesystem::path& path = database.path();
+  std::vector<MatrixLayout> matrices;
+  SqliteStatement rows = database.prepare(
+      "SELECT idx, rows, columns, pitch_mm, static_mask, dynamic_mask, uid, crc32 FROM matrix"
+      " ORDER BY idx");
+  while (rows.next()) {
+    MatrixLayout matrix;
+    matrix.rows = static_cast<int>(std::clamp<std::int64_t>(rows.integer(1), 0, 1'000'000));
+    matrix.columns = static_cast<int>(std::clamp<std::int64_t>(rows.integer(2), 0, 1'000'000));
+    matrix.pitchMm = rows.real(3);
+    matrix.staticMask = maskFrom(rows.text(4), matrix.numPlaces(), path);
+    matrix.dynamicMask = maskFrom(rows.text(5), matrix.numPlaces(), path);
+    if (rows.integer(0) != static_cast<std::int64_t>(matrices.size()) ||
+        rows.integer(7) !=
+            matrixCrc(static_cast<int>(matrices.size()), matrix, rows.text(6)))
+      throw FormatError(path, "the layout of its matrices is damaged; try 'palpate recover'");
+    matrices.push_back(std::move(matrix));
+  }
+  try {
+    return SensorLayout(std::move(matrices));
+  } catch (const std::invalid_argument& error) {
+    throw FormatError(path, std::string("the layout of its matrices makes no sense: ") +
+                                error.what());
+  }
+}
+
+std::string readMeta(SqliteDatabase& database, std::string_view key) {
+  SqliteStatement query = database.prepare("SELECT value, crc32 FROM meta WHERE key=?");
+  query.bind(1, key);
+  if (!query.next()) return {};
+  const std::string value = query.text(0);
+  return query.integer(1) == static_cast<std::int64_t>(metaCrc(key, value)) ? value : std::string();
 }
 
 RowWriter::RowWriter(SqliteDatabase& database)

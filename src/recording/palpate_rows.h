@@ -28,6 +28,11 @@ std::string maskText(const Mask& mask);
 void insertMeta(SqliteDatabase& database, std::string_view key, std::string_view value);
 void insertMatrices(SqliteDatabase& database, const SensorLayout& layout);
 
+// Reading back. Throws FormatError where the layout is damaged or makes no sense.
+SensorLayout readLayout(SqliteDatabase& database);
+// Empty when absent or damaged.
+std::string readMeta(SqliteDatabase& database, std::string_view key);
+
 // Statements that are run again and again while recording.
 class RowWriter {
  public:
