@@ -30,7 +30,9 @@ void syncFolder(const fs::path& folder) {
   ::close(descriptor);
 }
 
-void refuseExisting(const fs::path& path, Overwrite overwrite) {
+}  // namespace
+
+void requireWritable(const fs::path& path, Overwrite overwrite) {
   std::error_code ignored;
   const auto status = fs::symlink_status(path, ignored);
   if (fs::is_directory(fs::status(path, ignored))) throw FileError(path, "is a folder");
@@ -38,11 +40,28 @@ void refuseExisting(const fs::path& path, Overwrite overwrite) {
     throw FileError(path, "exists already; give another name, or --force to replace it");
 }
 
-}  // namespace
+void publishFile(const fs::path& written, const fs::path& path, Overwrite overwrite) {
+  if (overwrite == Overwrite::kRefuse) {
+    // link() fails where the name was taken meanwhile; rename() would replace it.
+    if (::link(written.c_str(), path.c_str()) == 0) {
+      ::unlink(written.c_str());
+    } else if (errno == EEXIST) {
+      requireWritable(path, overwrite);
+      throw FileError(path, "exists already");
+    } else {  // a file system without hard links
+      requireWritable(path, overwrite);
+      if (::rename(written.c_str(), path.c_str()) != 0)
+        throw FileError(path, "can't be written: " + reason(errno));
+    }
+  } else if (::rename(written.c_str(), path.c_str()) != 0) {
+    throw FileError(path, "can't be written: " + reason(errno));
+  }
+  syncFolder(folderOf(path));
+}
 
 OutputFile::OutputFile(fs::path path, Overwrite overwrite)
     : path_(std::move(path)), overwrite_(overwrite) {
-  refuseExisting(path_, overwrite_);
+  requireWritable(path_, overwrite_);
   std::string name = path_.filename().string();
   name.insert(0, 1, '.');
   name += ".XXXXXX";
@@ -74,23 +93,8 @@ void OutputFile::commit() {
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
   if (closed != 0) throw FileError(path_, "can't be written: " + reason(errno));
-  if (overwrite_ == Overwrite::kRefuse) {
-    // link() fails where the name was taken meanwhile; rename() would replace it.
-    if (::link(temporary_.c_str(), path_.c_str()) == 0) {
-      ::unlink(temporary_.c_str());
-    } else if (errno == EEXIST) {
-      refuseExisting(path_, overwrite_);
-      throw FileError(path_, "exists already");
-    } else {  // a file system without hard links
-      refuseExisting(path_, overwrite_);
-      if (::rename(temporary_.c_str(), path_.c_str()) != 0)
-        throw FileError(path_, "can't be written: " + reason(errno));
-    }
-  } else if (::rename(temporary_.c_str(), path_.c_str()) != 0) {
-    throw FileError(path_, "can't be written: " + reason(errno));
-  }
+  publishFile(temporary_, path_, overwrite_);
   committed_ = true;
-  syncFolder(folderOf(path_));
 }
 
 }  // namespace palpate

@@ -9,6 +9,14 @@ namespace palpate {
 
 enum class Overwrite { kRefuse, kReplace };
 
+// Throws FileError when PATH is a folder, or exists and may not be replaced.
+void requireWritable(const std::filesystem::path& path, Overwrite overwrite);
+// Gives a file that was written and synced (in the same file system) its final name and syncs the
+// folder. Throws FileError; then `written` is still there under its old name.
+void publishFile(const std::filesystem::path& written,
+                 const std::filesystem::path& path,
+                 Overwrite overwrite);
+
 class OutputFile {
  public:
   // Opens the temporary file. Throws FileError: exists already (kRefuse), no such folder, no
