@@ -17,6 +17,7 @@ std::array<unsigned char, 8> little(std::uint64_t value) {
 }
 
 std::uint32_t crcOf(std::uint32_t crc, const void* bytes, std::size_t size) {
+  if (size == 0) return crc;  // zlib would start over for a null pointer
   return static_cast<std::uint32_t>(crc32_z(crc, static_cast<const unsigned char*>(bytes), size));
 }
 

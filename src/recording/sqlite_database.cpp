@@ -66,8 +66,9 @@ SqliteStatement& SqliteStatement::bind(int parameter, double value) {
   return *this;
 }
 SqliteStatement& SqliteStatement::bind(int parameter, std::string_view value) {
-  sqlite3_bind_text64(
-      statement_, parameter, value.data(), value.size(), SQLITE_STATIC, SQLITE_UTF8);
+  // A null pointer would be NULL, not an empty text.
+  const char* bytes = value.data() ? value.data() : "";
+  sqlite3_bind_text64(statement_, parameter, bytes, value.size(), SQLITE_STATIC, SQLITE_UTF8);
   return *this;
 }
 SqliteStatement& SqliteStatement::bind(int parameter, std::span<const std::byte> value) {

@@ -52,6 +52,7 @@ void ZipWriter::begin(std::string_view name, std::uint64_t size) {
 }
 
 void ZipWriter::write(std::string_view bytes) {
+  if (bytes.empty()) return;  // zlib would start its checksum over
   Entry& entry = entries_.back();
   entry.crc = static_cast<std::uint32_t>(
       crc32_z(entry.crc, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
