@@ -101,7 +101,6 @@ bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
   index.begin.clear();
   if (!plausible(block)) return false;
   const std::span<const std::byte> bytes(block.data);
-  std::vector<float> scratch(block.stream == Stream::kTactile ? numValues : 0);
   std::size_t at = 0;
   for (std::int64_t i = 0; i < block.n; ++i) {
     ByteReader head(bytes.subspan(at));
@@ -118,7 +117,7 @@ bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
       case BlockCoding::kCountsRuns:
       case BlockCoding::kFloatRuns:
         if (block.stream != Stream::kTactile) return false;
-        size = decodeFrame(bytes.subspan(at), frameCoding(block.coding), scratch);
+        size = codedFrameBytes(bytes.subspan(at), frameCoding(block.coding), numValues);
         if (size == 0) return false;
         break;
       case BlockCoding::kPlainF32:

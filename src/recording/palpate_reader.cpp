@@ -53,10 +53,10 @@ class PalpateStorage final : public ProfileStorage {
   PalpateStorage(const fs::path& path, const Progress& progress)
       : path_(path), access_(path), layout_(readLayout(access_.database())) {
     indexBlocks(progress);
-    streams_[0].numValues = layout_.numPlaces();
-    for (Stream stream : {Stream::kAngles, Stream::kTemperatures}) findWidth(stream);
     readBlock_.emplace(access_.database().prepare(
         "SELECT stream, first, n, t0_us, t1_us, coding, crc32, data FROM block WHERE id=?"));
+    streams_[0].numValues = layout_.numPlaces();
+    for (Stream stream : {Stream::kAngles, Stream::kTemperatures}) findWidth(stream);
   }
 
   const SensorLayout& layout() const { return layout_; }
@@ -121,12 +121,7 @@ class PalpateStorage final : public ProfileStorage {
 
   // Reads a block and checks its CRC.
   Block load(std::int64_t id) const {
-    SqliteStatement fallback = access_.database().prepare(
-        "SELECT stream, first, n, t0_us, t1_us, coding, crc32, data FROM block WHERE id=?");
-    return loadWith(fallback, id);
-  }
-
-  Block loadWith(SqliteStatement& query, std::int64_t id) const {
+    SqliteStatement& query = *readBlock_;
     query.bind(1, id);
     if (!query.next()) throw FormatError(path_, "block " + std::to_string(id) + " is gone");
     Block block;
@@ -153,13 +148,23 @@ class PalpateStorage final : public ProfileStorage {
   };
 
   OpenItem open(Stream stream, std::size_t item) const {
+    std::lock_guard lock(mutex_);
+    // Mostly the block that was read last: samples are read one after the other.
+    std::shared_ptr<const OpenBlock>& last = last_[static_cast<std::size_t>(stream)];
+    if (last) {
+      const std::size_t from = static_cast<std::size_t>(last->block.first);
+      if (item >= from && item < from + static_cast<std::size_t>(last->block.n))
+        return {last, item - from};
+    }
     const BlockPlace& place = streamOf(stream).placeOf(item);
     const std::size_t within = item - static_cast<std::size_t>(place.first);
-    std::lock_guard lock(mutex_);
     const auto cached = cache_.find(place.id);
-    if (cached != cache_.end()) return {cached->second, within};
+    if (cached != cache_.end()) {
+      last = cached->second;
+      return {last, within};
+    }
     auto opened = std::make_shared<OpenBlock>();
-    opened->block = loadWith(*readBlock_, place.id);
+    opened->block = load(place.id);
     if (opened->block.n != place.n || opened->block.stream != stream ||
         !indexBlock(opened->block, streamOf(stream).numValues, opened->index))
       throw FormatError(path_, "block " + std::to_string(place.id) + " makes no sense");
@@ -169,6 +174,7 @@ class PalpateStorage final : public ProfileStorage {
     }
     order_.push_back(place.id);
     cache_.emplace(place.id, opened);
+    last = opened;
     return {std::move(opened), within};
   }
 
@@ -196,7 +202,18 @@ class PalpateStorage final : public ProfileStorage {
   mutable std::optional<SqliteStatement> readBlock_;
   mutable std::unordered_map<std::int64_t, std::shared_ptr<const OpenBlock>> cache_;
   mutable std::list<std::int64_t> order_;  // of entering the cache
+  mutable std::array<std::shared_ptr<const OpenBlock>, 3> last_;  // read last, per stream
 };
+
+// A finished recording says it; of others every block must be looked at.
+ValueType valueTypeOf(SqliteDatabase& database) {
+  std::string text = readMeta(database, "value_type");
+  if (text.empty())
+    text = database.integerOf("SELECT EXISTS(SELECT 1 FROM block WHERE stream=0 AND coding<>0)")
+               ? "float"
+               : "counts";
+  return text == "float" ? ValueType::kFloat : ValueType::kCounts;
+}
 
 }  // namespace
 
@@ -207,10 +224,7 @@ Profile readPalpate(const fs::path& path, const Progress& progress) {
   info.format = "palpate";
   info.serial = readMeta(database, "serial");
   info.firmware = readMeta(database, "firmware");
-  info.valueType =
-      database.integerOf("SELECT EXISTS(SELECT 1 FROM block WHERE stream=0 AND coding<>0)") != 0
-          ? ValueType::kFloat
-          : ValueType::kCounts;
+  info.valueType = valueTypeOf(database);
   if (storage->access().unfinished())
     info.warnings.emplace_back("unfinished: its writer stopped before the end");
   if (storage->access().beingWritten())

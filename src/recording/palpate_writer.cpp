@@ -91,6 +91,8 @@ struct PalpateWriter::Impl {
   BlockPacker::Sink sink = [this](const Block& block) {
     begin();
     rows->block(block);
+    if (block.stream == Stream::kTactile && block.coding != BlockCoding::kCountsRuns)
+      allCounts = false;
   };
   BlockPacker tactile{Stream::kTactile, sink};
   BlockPacker angles{Stream::kAngles, sink};
@@ -107,6 +109,7 @@ struct PalpateWriter::Impl {
   std::size_t numTemperatureSensors = 0;
   std::int64_t committedFrames = 0;
   std::int64_t numEvents = 0;
+  bool allCounts = true;  // every frame so far
   bool finished = false;
 };
 
@@ -172,6 +175,7 @@ void PalpateWriter::finish() {
   impl.commit();
   impl.begin();
   createBlockIndex(impl.database);
+  insertMeta(impl.database, "value_type", impl.allCounts ? "counts" : "float");
   insertMeta(impl.database, "finished", "1");
   impl.database.execute("COMMIT");
   impl.database.execute("PRAGMA synchronous=FULL; PRAGMA journal_mode=DELETE;");
