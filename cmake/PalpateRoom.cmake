@@ -22,15 +22,20 @@ function(palpate_test room file)
   add_executable(${target} ${CMAKE_CURRENT_SOURCE_DIR}/${file}.cpp ${test_SOURCES})
   target_link_libraries(${target} PRIVATE palpate::palpate palpate_warnings palpate_testing
                         ${test_LIBS})
-  set(labels fast)
+  set(label fast)
   if(test_SLOW)
-    set(labels slow)
+    set(label slow)
   endif()
+  set(properties TIMEOUT 300)
   if(test_GUI)
-    list(APPEND labels gui)
+    # One label, "fast_gui": `ctest -L` takes expressions, so that it is both fast and gui (a list of
+    # labels doesn't pass gtest_discover_tests, which reads its second word as a property). The lock:
+    # windows share one display, its focus and its clipboard.
+    set(label ${label}_gui)
+    list(APPEND properties RESOURCE_LOCK display)
   else()
     target_link_libraries(${target} PRIVATE GTest::gtest_main)
   endif()
   gtest_discover_tests(${target} TEST_PREFIX "${room}/${file}." DISCOVERY_MODE PRE_TEST
-    DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${labels}" TIMEOUT 300)
+    DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${label} ${properties})
 endfunction()

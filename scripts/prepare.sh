@@ -18,7 +18,7 @@ packagesIn() { # LIST [SUITE]
 # Those of the names given that aren't installed.
 missingPackages() { # NAME...
   local installed
-  installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null)
+  installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null) || true # fails when one is unknown
   printf '%s\n' "$@" | awk -v installed="$installed" '
     BEGIN {
       n = split(installed, lines, "\n")

@@ -1,7 +1,7 @@
 #include "recording/dsa_document.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "palpate/core/error.h"
@@ -25,6 +25,14 @@ std::uint64_t boundFor(std::uint64_t freeBytes, double ratio, std::uint64_t file
   const double scaled = ratio * static_cast<double>(fileBytes);
   constexpr double kMost = 9.0e18;
   return std::max(freeBytes, static_cast<std::uint64_t>(std::clamp(scaled, 0.0, kMost)));
+}
+
+std::uint64_t memoryBound(const DsaReadOptions& options,
+                          bool compressed,
+                          std::uint64_t fileBytes) noexcept {
+  return boundFor(options.freeMemoryBytes,
+                  compressed ? options.maxMemoryRatio : options.maxMemoryRatioPlain,
+                  fileBytes);
 }
 
 DsaDocument::DsaDocument(const DsaReadOptions& options, std::uint64_t maxMemoryBytes)
@@ -264,14 +272,18 @@ void DsaDocument::text(std::string_view piece) {
     const bool isMask = leaf_ == Leaf::kSensorField &&
                         (field_ == SensorField::kStaticMask || field_ == SensorField::kDynamicMask);
     const std::size_t limit = isMask ? options_.maxPlaces : kMaxTextBytes;
-    for (const char c : piece) {
-      // Blanks in front mean nothing; within a mask none does.
-      if (isBlank(c) && (isMask || text_.empty())) continue;
-      if (text_.size() == limit)
-        throw Error(here() + leafName_ + " is longer than " + std::to_string(limit) +
-                    " characters");
-      text_ += c;
+    // Blanks in front mean nothing; within a mask none does.
+    if (isMask) {
+      std::copy_if(piece.begin(), piece.end(), std::back_inserter(text_), [](char c) {
+        return !isBlank(c);
+      });
+    } else {
+      if (text_.empty())
+        while (!piece.empty() && isBlank(piece.front())) piece.remove_prefix(1);
+      text_ += piece;
     }
+    if (text_.size() > limit)
+      throw Error(here() + leafName_ + " is longer than " + std::to_string(limit) + " characters");
   } else if (node != Node::kIgnored && node != Node::kUnknown) {
     if (!std::all_of(piece.begin(), piece.end(), isBlank)) ++strayTexts_;
   }

@@ -24,6 +24,11 @@ namespace palpate {
 // Bound against bombs: `freeBytes`, or `ratio` times the file where that is more.
 std::uint64_t boundFor(std::uint64_t freeBytes, double ratio, std::uint64_t fileBytes) noexcept;
 
+// The same for the profile in memory.
+std::uint64_t memoryBound(const DsaReadOptions& options,
+                          bool compressed,
+                          std::uint64_t fileBytes) noexcept;
+
 // Handler of one document, or of single samples cut out of a damaged one. Throws Error with what is
 // wrong and in which frame; the XML parser knows at which byte.
 class DsaDocument final : public XmlHandler {

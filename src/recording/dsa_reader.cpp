@@ -35,8 +35,7 @@ Profile read(ByteSource& source,
              const DsaReadOptions& options) {
   DsaText text(source, path);
   const std::uint64_t maxBytes = boundFor(options.freeBytes, options.maxRatio, source.numBytes());
-  DsaDocument document(options,
-                       boundFor(options.freeMemoryBytes, options.maxRatio, source.numBytes()));
+  DsaDocument document(options, memoryBound(options, text.compressed(), source.numBytes()));
   XmlParser parser(document);
   std::uint64_t bytes = 0;
   std::uint64_t reported = 0;

@@ -210,7 +210,7 @@ DsaSalvage salvageDsa(const std::filesystem::path& path,
       requireDsaForm({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 
   DsaSalvage result;
-  DsaDocument document(options, boundFor(options.freeMemoryBytes, options.maxRatio, bytes.size()));
+  DsaDocument document(options, memoryBound(options, form == DsaForm::kBzip2, bytes.size()));
   ElementScanner scanner(document, result);
   const Reporter report(progress);
   if (form == DsaForm::kBzip2)

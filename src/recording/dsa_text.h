@@ -47,6 +47,7 @@ class DsaText {
     std::exception_ptr failure;
   };
   Chunk decodeChunk();
+  void startThread();
   void decodeAll();
 
   ByteSource& source_;

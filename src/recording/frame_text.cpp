@@ -102,7 +102,7 @@ void FrameTextDecoder::addToken(std::uint32_t bits) {
                 soFar(numValues_, values_.size()));
   const std::size_t room = values_.size() - numValues_;
   if (static_cast<double>(run) > static_cast<double>(room))
-    throw Error("a run of " + numberText(run) + " zeros does not fit " +
+    throw Error("a run of " + fixedText(static_cast<double>(run), 0) + " zeros does not fit " +
                 soFar(numValues_, values_.size()));
   numValues_ += static_cast<std::size_t>(run);  // the values are zero already
 }

@@ -3,32 +3,15 @@
 #include <string>
 
 #include "palpate/core/error.h"
-#include "palpate/core/number_text.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/display.h"
+#include "commands/picture_size.h"
 #include "gui/workbench.h"
 
 namespace palpate::commands {
 namespace {
-
-constexpr int kSmallestSide = 320;
-constexpr int kLargestSide = 8192;
-
-// "1280x800"
-QSize parsedSize(const std::string& text) {
-  const auto cross = text.find('x');
-  if (cross != std::string::npos) {
-    const auto width = parseInteger(text.substr(0, cross));
-    const auto height = parseInteger(text.substr(cross + 1));
-    const auto fits = [](const auto& side) {
-      return side && *side >= kSmallestSide && *side <= kLargestSide;
-    };
-    if (fits(width) && fits(height)) return {static_cast<int>(*width), static_cast<int>(*height)};
-  }
-  throw UsageError("--size must be WIDTHxHEIGHT in pixels, 320..8192 each, not '" + text + "'");
-}
 
 int screenshot(const CommandLine& given) {
   gui::ScreenshotOptions options;

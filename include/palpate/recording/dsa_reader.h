@@ -23,8 +23,12 @@ struct DsaReadOptions {
   // 60).
   std::uint64_t freeBytes = 32u << 20;  // [bytes]
   double maxRatio = 300.0;
-  // The same for the profile in memory: at most this, or `maxRatio` times the file.
-  std::uint64_t freeMemoryBytes = 128u << 20;  // [bytes]
+  // The same for the profile in memory, where an empty frame of a large matrix is what a bomb is
+  // made of (real recordings: below 10 bytes per byte of file; an empty hand for a day: about 40;
+  // plain XML: below 1).
+  std::uint64_t freeMemoryBytes = 64u << 20;  // [bytes]
+  double maxMemoryRatio = 64.0;
+  double maxMemoryRatioPlain = 4.0;  // of plain XML
   std::size_t maxMatrices = 64;
   std::size_t maxPlaces = 65536;  // of all matrices together
 };

@@ -1,0 +1,166 @@
+// The XML wrapper: events, limits, refusals, and exceptions that cross expat's C code.
+#include "palpate/core/xml.h"
+
+#include <string>
+#include <vector>
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+// Writes down what it is told.
+class Notes : public XmlHandler {
+ public:
+  void startElement(std::string_view name, const char* const* attributes) override {
+    flush();
+    std::string note = "<" + std::string(name);
+    for (; *attributes; attributes += 2)
+      note += std::string(" ") + attributes[0] + "=" + attributes[1];
+    notes.push_back(note);
+  }
+  void endElement(std::string_view name) override {
+    flush();
+    notes.push_back("/" + std::string(name));
+  }
+  void text(std::string_view piece) override {
+    pending_ += piece;
+    longestPiece = std::max(longestPiece, piece.size());
+    textBytes += piece.size();
+  }
+
+  std::vector<std::string> notes;
+  std::size_t longestPiece = 0;
+  std::size_t textBytes = 0;
+
+ private:
+  void flush() {
+    if (!pending_.empty()) notes.push_back(pending_);
+    pending_.clear();
+  }
+  std::string pending_;
+};
+
+std::string errorOf(std::string_view document, XmlLimits limits = {}) {
+  Notes notes;
+  XmlParser parser(notes, limits);
+  try {
+    parser.push(document);
+    parser.finish();
+  } catch (const XmlError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Xml, tellsElementsAttributesAndTextInOrder) {
+  Notes notes;
+  XmlParser parser(notes);
+  parser.push("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<a x=\"1\" y='2'>t&amp;u<b/>");
+  parser.push("v<![CDATA[<w>]]></a>");
+  parser.finish();
+  const std::vector<std::string> expected = {"<a x=1 y=2", "t&u", "<b", "/b", "v<w>", "/a"};
+  EXPECT_EQ(notes.notes, expected);
+}
+
+TEST(Xml, tellsTheSameHoweverTheBytesAreCut) {
+  const std::string document = "\xEF\xBB\xBF<a k=\"v\">one<b>two</b><!-- no --></a>";
+  Notes whole;
+  XmlParser wholeParser(whole);
+  wholeParser.push(document);
+  wholeParser.finish();
+  for (std::size_t step = 1; step <= 7; ++step) {
+    Notes cut;
+    XmlParser parser(cut);
+    for (std::size_t at = 0; at < document.size(); at += step)
+      parser.push(std::string_view(document).substr(at, step));
+    parser.finish();
+    EXPECT_EQ(cut.notes, whole.notes) << step;
+  }
+}
+
+TEST(Xml, refusesDocumentTypesAndEntities) {
+  EXPECT_NE(errorOf("<!DOCTYPE a><a/>").find("DOCTYPE"), std::string::npos);
+  const std::string laughs =
+      "<!DOCTYPE a [<!ENTITY x \"ha\"><!ENTITY y \"&x;&x;&x;\">]><a>&y;&y;</a>";
+  EXPECT_NE(errorOf(laughs).find("DOCTYPE"), std::string::npos);
+  EXPECT_NE(errorOf("<a>&undefined;</a>"), "");
+}
+
+TEST(Xml, boundsTheDepth) {
+  std::string deep;
+  for (int i = 0; i < 1'000'000; ++i) deep += "<a>";
+  EXPECT_NE(errorOf(deep).find("deeper than 64"), std::string::npos);
+  XmlLimits limits;
+  limits.maxDepth = 2;
+  EXPECT_EQ(errorOf("<a><b/><b/></a>", limits), "");
+  EXPECT_NE(errorOf("<a><b><c/></b></a>", limits), "");
+}
+
+TEST(Xml, boundsOneTag) {
+  XmlLimits limits;
+  limits.maxMarkupBytes = 100'000;
+  EXPECT_EQ(errorOf("<a b=\"" + std::string(10'000, 'x') + "\"/>", limits), "");
+  EXPECT_NE(errorOf("<a b=\"" + std::string(1'000'000, 'x') + "\"/>", limits).find("longer than"),
+            std::string::npos);
+  EXPECT_NE(errorOf("<!-- " + std::string(1'000'000, 'x') + "--><a/>", limits), "");
+}
+
+TEST(Xml, passesTextOfAnyLengthOnInPieces) {
+  constexpr std::size_t kBytes = 20u << 20;
+  Notes notes;
+  XmlParser parser(notes);
+  parser.push("<a>");
+  const std::string blanks(1u << 20, ' ');
+  for (std::size_t done = 0; done < kBytes; done += blanks.size()) parser.push(blanks);
+  parser.push("</a>");
+  parser.finish();
+  EXPECT_EQ(notes.textBytes, kBytes);
+  EXPECT_LE(notes.longestPiece, 1u << 20);
+}
+
+TEST(Xml, namesThePlaceOfAnError) {
+  Notes notes;
+  XmlParser parser(notes);
+  try {
+    parser.push("<a>1234</b>");
+    FAIL();
+  } catch (const XmlError& error) {
+    EXPECT_GE(error.offset(), 7u);  // "</b>" begins there
+    EXPECT_LE(error.offset(), 9u);
+  }
+}
+
+TEST(Xml, tellsADocumentThatEndsEarly) {
+  EXPECT_NE(errorOf("<a><b>").find("ends early"), std::string::npos);
+  EXPECT_NE(errorOf("<a").find("ends early"), std::string::npos);
+  EXPECT_NE(errorOf("").find("ends early"), std::string::npos);
+  EXPECT_NE(errorOf("<a/>more"), "");
+}
+
+TEST(Xml, letsTheHandlersExceptionThrough) {
+  struct Stop {};
+  class Thrower : public XmlHandler {
+   public:
+    void startElement(std::string_view, const char* const*) override { ++calls; }
+    void endElement(std::string_view name) override {
+      ++calls;
+      if (name == "b") throw Stop();
+    }
+    void text(std::string_view) override { ++calls; }
+    int calls = 0;
+  } thrower;
+  XmlParser parser(thrower);
+  // Behind the empty element expat has more to tell; nothing of it may arrive.
+  EXPECT_THROW(parser.push("<a><b/>text<c/></a>"), Stop);
+  EXPECT_EQ(thrower.calls, 3);
+  EXPECT_GE(parser.offset(), 3u);  // where "<b/>" stands
+  EXPECT_LE(parser.offset(), 7u);
+}
+
+TEST(Xml, escapesTheFiveSpecialCharacters) {
+  EXPECT_EQ(xmlEscaped("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&apos;");
+}
+
+}  // namespace
+}  // namespace palpate

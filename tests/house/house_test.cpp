@@ -1,0 +1,160 @@
+// Order in the house: sizes, names, headers, lists and pages agree with each other.
+#include <fstream>
+#include <regex>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "house/source_tree.h"
+#include "testing/program.h"
+#include "testing/testing.h"
+
+namespace palpate::testing {
+namespace {
+namespace fs = std::filesystem;
+
+std::vector<SourceFile> allCpp() { return cppFiles({"include", "src", "apps", "tests"}); }
+
+TEST(House, NoFileIsLongerThan400Lines) {
+  for (const SourceFile& file : allCpp()) EXPECT_LE(linesOf(file.text).size(), 400u) << file.path;
+}
+
+TEST(House, NoFileIsNamedAfterNothing) {
+  const std::regex nothing("(^|/|_)(utils?|helpers?|common|misc|manager)(_|/|\\.|$)");
+  for (const SourceFile& file : allCpp())
+    EXPECT_FALSE(std::regex_search(file.path, nothing)) << file.path;
+}
+
+TEST(House, NamesOfFilesAreSnakeCase) {
+  const std::regex snake("[a-z0-9_/]+\\.(h|cpp)");
+  for (const SourceFile& file : allCpp())
+    EXPECT_TRUE(std::regex_match(file.path, snake)) << file.path;
+}
+
+TEST(House, EveryHeaderIsIncludedOnceAndSaysWhatItIs) {
+  for (const SourceFile& file : allCpp()) {
+    if (!file.path.ends_with(".h")) continue;
+    EXPECT_NE(file.text.find("\n#pragma once\n"), std::string::npos) << file.path;
+    EXPECT_TRUE(file.text.starts_with("//")) << file.path << " doesn't begin with what it is";
+  }
+}
+
+// The first #include of a source is compiled with nothing before it: so a header that is first
+// somewhere includes all that it needs. The few others are compiled here.
+TEST(House, EveryPublicHeaderCompilesByItself) {
+  const std::regex pattern("#include [<\"]([^>\"]+)[>\"]");
+  std::set<std::string> first;
+  for (const SourceFile& file : allCpp()) {
+    std::smatch match;
+    if (file.path.ends_with(".cpp") && std::regex_search(file.text, match, pattern))
+      first.insert(match[1]);
+  }
+  const std::string folder = (projectFolder() / "include").string();
+  for (const SourceFile& file : cppFiles({"include"})) {
+    const std::string name = file.path.substr(std::string("include/").size());
+    if (first.contains(name)) continue;
+    const ProgramResult result = runProgram(PALPATE_COMPILER,
+                                            {"-std=c++20",
+                                             "-fsyntax-only",
+                                             "-I" + folder,
+                                             "-isystem",
+                                             PALPATE_EIGEN,
+                                             "-x",
+                                             "c++",
+                                             "-include",
+                                             name,
+                                             "/dev/null"});
+    EXPECT_EQ(result.exitCode, 0) << name << ": " << result.err;
+  }
+}
+
+TEST(House, EveryPublicHeaderHasATestOfItsName) {
+  // Nothing but a type that work is given to, and errors; what uses them tests them.
+  const std::set<std::string> without = {"core/error", "core/progress", "model/hand_state"};
+  const std::regex pattern("include/palpate/(.*)\\.h");
+  for (const SourceFile& file : cppFiles({"include"})) {
+    std::smatch match;
+    ASSERT_TRUE(std::regex_match(file.path, match, pattern)) << file.path;
+    const std::string name = match[1];
+    EXPECT_EQ(fs::exists(projectFolder() / "tests" / (name + "_test.cpp")), !without.contains(name))
+        << name;
+  }
+}
+
+TEST(House, EveryTestIsBuilt) {
+  for (const SourceFile& file : cppFiles({"tests"})) {
+    if (!file.path.ends_with("_test.cpp")) continue;
+    const fs::path path = projectFolder() / file.path;
+    const std::string list = readFile(path.parent_path() / "CMakeLists.txt");
+    EXPECT_TRUE(std::regex_search(list, std::regex("\\b" + path.stem().string() + "\\b")))
+        << file.path << " isn't in its CMakeLists.txt";
+  }
+}
+
+TEST(House, PackageListsAreWellFormed) {
+  const std::regex entry("[a-z0-9][a-z0-9+.-]+( \\[(fuzz|coverage|tidy|asan|tsan|slow)\\])?");
+  std::set<std::string> seen;
+  for (const char* list : {"debian-packages.txt", "debian-test-packages.txt"}) {
+    const std::string text = readFile(projectFolder() / "cmake" / list);
+    EXPECT_TRUE(text.ends_with('\n')) << list;
+    for (const std::string& line : linesOf(text)) {
+      if (line.empty() || line[0] == '#') continue;
+      EXPECT_TRUE(std::regex_match(line, entry)) << list << ": '" << line << "'";
+      EXPECT_TRUE(seen.insert(line).second) << list << ": twice: " << line;
+    }
+  }
+  EXPECT_TRUE(seen.contains("qt6-base-dev"));
+  EXPECT_FALSE(seen.contains("libopencv-dev")) << "brings Qt 5 (docs/architecture.md)";
+}
+
+TEST(House, ScriptsAreRunnableBash) {
+  for (const char* name : {"scripts/run",
+                           "scripts/test",
+                           "scripts/format",
+                           "scripts/tidy",
+                           "scripts/count_tests",
+                           "scripts/prepare.sh",
+                           ".ci/run"}) {
+    const fs::path path = projectFolder() / name;
+    const ProgramResult result = runProgram("/bin/bash", {"-n", path.string()});
+    EXPECT_EQ(result.exitCode, 0) << name << ": " << result.err;
+    const bool runnable = (fs::status(path).permissions() & fs::perms::owner_exec) != fs::perms();
+    EXPECT_EQ(runnable, !std::string(name).ends_with(".sh")) << name;
+  }
+}
+
+TEST(House, FilesAndCommandsThatPagesNameExist) {
+  const std::regex link("\\]\\(([^)#:]+)\\)");
+  const std::regex script("\\b(scripts/[a-z_]+)");
+  const std::regex command("palpate ([a-z]+)( |`|$)");
+  const std::string sources = readFile(projectFolder() / "apps/palpate/commands/commands.cpp");
+  for (const char* page : {"README.md", "docs/architecture.md"}) {
+    const std::string text = readFile(projectFolder() / page);
+    const fs::path folder = (projectFolder() / page).parent_path();
+    const auto each = [&](const std::regex& pattern, auto check) {
+      for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at)
+        check((*at)[1].str());
+    };
+    each(link, [&](const std::string& name) {
+      EXPECT_TRUE(fs::exists(folder / name)) << page << " links to " << name;
+    });
+    each(script, [&](const std::string& name) {
+      EXPECT_TRUE(fs::exists(projectFolder() / name)) << page << " names " << name;
+    });
+    // Commands stand in code: `palpate info FILE` or an indented line.
+    for (const std::string& line : linesOf(text)) {
+      std::vector<std::string> codes = codeWordsOf(line);
+      if (line.starts_with("    ")) codes.push_back(line);
+      for (const std::string& code : codes) {
+        std::smatch match;
+        if (std::regex_search(code, match, command)) {
+          EXPECT_NE(sources.find("{\"" + match[1].str() + "\","), std::string::npos)
+              << page << ": " << code;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palpate::testing

@@ -1,0 +1,128 @@
+#include "house/include_rule.h"
+
+#include <iterator>
+#include <regex>
+#include <sstream>
+
+namespace palpate::testing {
+namespace {
+
+bool isStandardHeader(const std::string& name) {
+  static const std::regex pattern("[a-z_0-9]+");
+  return std::regex_match(name, pattern);
+}
+
+std::set<std::string> wordsOf(std::string list) {
+  for (char& c : list)
+    if (c == ',' || c == '`') c = ' ';
+  std::istringstream in(list);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+// "gui/x.h" and "commands/x.h" stand for folders of apps/palpate, any other for private headers.
+std::string roomOfInclude(const std::string& name) {
+  const std::string first = name.substr(0, name.find('/'));
+  if (first == "palpate") {
+    const std::string rest = name.substr(8);
+    return rest.substr(0, rest.find('/'));
+  }
+  return first == "gui" || first == "commands" ? "apps/palpate/" + first : first;
+}
+
+bool isPublic(std::string_view path) { return path.starts_with("include/"); }
+
+class Judge {
+ public:
+  Judge(const SourceFile& file, const IncludeRules& rules)
+      : rules_(rules), path_(file.path), room_(roomOf(file.path)) {}
+
+  // Empty when the include is right.
+  std::string faultOf(const std::string& name, bool quoted) const {
+    if (room_.empty()) return "lies in no room";
+    if (!room_.starts_with("apps/") && !rules_.rooms.contains(room_))
+      return "the room " + room_ + " isn't in the table of docs/architecture.md";
+    if (name.find('/') == std::string::npos && isStandardHeader(name)) return {};
+    const std::string target = roomOfInclude(name);
+    const bool ours = name.starts_with("palpate/") || quoted;
+    return ours && name.find('/') != std::string::npos ? faultOfOurs(name, target)
+                                                       : faultOfForeign(name);
+  }
+
+ private:
+  std::string faultOfOurs(const std::string& name, const std::string& target) const {
+    const bool targetIsPublic = name.starts_with("palpate/");
+    if (target == room_)
+      return isPublic(path_) && !targetIsPublic ? "a public header includes the private " + name
+                                                : "";
+    if (!targetIsPublic && !target.starts_with("apps/"))
+      return name + " is private to the room " + target;
+    if (room_ == "apps/palpate") return {};  // main.cpp
+    const auto& allowed = rules_.rooms.at(room_);
+    if (target == "core" || allowed.contains(target)) return {};
+    if (allowed.contains("all") && !target.starts_with("apps/") && rules_.rooms.contains(target))
+      return {};
+    return room_ + " may not include " + name;
+  }
+
+  std::string faultOfForeign(const std::string& name) const {
+    if (isPublic(path_)) {
+      if (name.starts_with("Eigen/")) return {};
+      return name + " may not stand in a public header";
+    }
+    for (const auto& [start, places] : rules_.packages) {
+      if (!name.starts_with(start)) continue;
+      for (const std::string& place : places)
+        if (place == "all" || room_ == place || room_.starts_with(place + "/")) return {};
+    }
+    return name + " may not be included in " + room_ + " (table of packages)";
+  }
+
+  const IncludeRules& rules_;
+  std::string path_;
+  std::string room_;
+};
+
+}  // namespace
+
+IncludeRules IncludeRules::fromPage(std::string_view page) {
+  IncludeRules rules;
+  for (const std::string& line : sectionOf(page, "Rooms")) {
+    const auto cells = cellsOf(line);
+    if (cells.size() == 3 && cells[0].starts_with('`'))
+      rules.rooms[codeWordsOf(cells[0]).at(0)] = wordsOf(cells[2]);
+  }
+  for (const std::string& line : sectionOf(page, "Packages")) {
+    const auto cells = cellsOf(line);
+    if (cells.size() != 4) continue;
+    for (const std::string& start : codeWordsOf(cells[1]))
+      rules.packages[start] = wordsOf(cells[2]);
+  }
+  return rules;
+}
+
+std::string roomOf(std::string_view path) {
+  static const std::regex pattern(
+      "(?:include/palpate|src)/([^/]+)/.*|(apps/palpate(?:/[^/]+)?)/[^/]+|(apps/[^/]+)/.*");
+  std::cmatch match;
+  if (!std::regex_match(path.data(), path.data() + path.size(), match, pattern)) return {};
+  for (std::size_t group = 1; group < match.size(); ++group)
+    if (match[group].matched) return match[group];
+  return {};
+}
+
+std::vector<std::string> includeFaults(const SourceFile& file, const IncludeRules& rules) {
+  static const std::regex pattern(R"re(\s*#\s*include\s*([<"])([^>"]+)[>"].*)re");
+  const Judge judge(file, rules);
+  std::vector<std::string> faults;
+  int number = 0;
+  for (const std::string& line : linesOf(file.text)) {
+    ++number;
+    std::smatch match;
+    if (!std::regex_match(line, match, pattern)) continue;
+    const std::string fault = judge.faultOf(match[2], match[1] == "\"");
+    if (!fault.empty()) faults.push_back(file.path + ":" + std::to_string(number) + ": " + fault);
+  }
+  return faults;
+}
+
+}  // namespace palpate::testing

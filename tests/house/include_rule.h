@@ -1,0 +1,30 @@
+// Who may include what: the tables of docs/architecture.md, checked against #include lines.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "house/source_tree.h"
+
+namespace palpate::testing {
+
+// What a part of the project (a room, or a folder of apps/palpate) may include of the others.
+struct IncludeRules {
+  std::map<std::string, std::set<std::string>> rooms;  // room -> rooms beside itself and core
+  // Start of a foreign header -> the parts (or folders of parts) whose sources may include it.
+  std::map<std::string, std::set<std::string>> packages;
+
+  // Reads the tables of the sections "Rooms" and "Packages".
+  static IncludeRules fromPage(std::string_view page);
+};
+
+// "core" for include/palpate/core/x.h and src/core/x.cpp, "apps/palpate/gui" for a file in there.
+std::string roomOf(std::string_view path);
+
+// One line for each #include that breaks a rule: "PATH:LINE: what is wrong".
+std::vector<std::string> includeFaults(const SourceFile& file, const IncludeRules& rules);
+
+}  // namespace palpate::testing

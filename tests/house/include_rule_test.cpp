@@ -1,0 +1,107 @@
+// The rooms include what docs/architecture.md allows, and nothing else.
+#include "house/include_rule.h"
+
+#include <gtest/gtest.h>
+
+#include "testing/testing.h"
+
+namespace palpate::testing {
+namespace {
+
+IncludeRules rulesOfTheHouse() {
+  return IncludeRules::fromPage(readFile(projectFolder() / "docs" / "architecture.md"));
+}
+
+std::size_t numFaults(const std::string& path, const std::string& line) {
+  return includeFaults({path, "#pragma once\n" + line + "\n"}, rulesOfTheHouse()).size();
+}
+
+TEST(IncludeRule, HoldsInTheWholeHouse) {
+  const IncludeRules rules = rulesOfTheHouse();
+  const auto files = cppFiles({"include", "src", "apps"});
+  EXPECT_GT(files.size(), 50u) << "the house was not found";
+  for (const SourceFile& file : files)
+    for (const std::string& fault : includeFaults(file, rules)) ADD_FAILURE() << fault;
+}
+
+TEST(IncludeRule, KnowsEveryRoomThatIsBuilt) {
+  const IncludeRules rules = rulesOfTheHouse();
+  for (const auto& entry : std::filesystem::directory_iterator(projectFolder() / "src"))
+    if (entry.is_directory()) {
+      EXPECT_TRUE(rules.rooms.contains(entry.path().filename())) << entry.path();
+    }
+  for (const auto& [room, allowed] : rules.rooms) {
+    const auto folder =
+        room.starts_with("apps/") ? projectFolder() / room : projectFolder() / "src" / room;
+    EXPECT_TRUE(std::filesystem::is_directory(folder)) << "no such room: " << room;
+  }
+}
+
+TEST(IncludeRule, ArrowsOfTheTableMakeNoCircle) {
+  const IncludeRules rules = rulesOfTheHouse();
+  std::set<std::string> placed = {"core"};
+  for (bool progress = true; progress;) {
+    progress = false;
+    for (const auto& [room, allowed] : rules.rooms) {
+      if (placed.contains(room) || room.starts_with("apps/")) continue;
+      bool ready = true;
+      for (const std::string& other : allowed) ready = ready && placed.contains(other);
+      if (ready) progress = placed.insert(room).second;
+    }
+  }
+  for (const auto& [room, allowed] : rules.rooms)
+    EXPECT_TRUE(room.starts_with("apps/") || placed.contains(room)) << room << " includes itself";
+}
+
+TEST(IncludeRule, FindsAPlantedWrongInclude) {
+  // Against the arrows.
+  EXPECT_EQ(numFaults("src/core/x.cpp", "#include \"palpate/model/profile.h\""), 1u);
+  EXPECT_EQ(numFaults("include/palpate/core/x.h", "#include <palpate/model/profile.h>"), 1u);
+  EXPECT_EQ(numFaults("src/model/x.cpp", "# include <palpate/filter/gaussian.h>"), 1u);
+  EXPECT_EQ(numFaults("src/filter/x.cpp", "#include <palpate/recording/dsa_reader.h>"), 1u);
+  // Windows.
+  EXPECT_EQ(numFaults("src/core/x.cpp", "#include <QString>"), 1u);
+  EXPECT_EQ(numFaults("src/recording/x.cpp", "#include <QtCore/QFile>"), 1u);
+  EXPECT_EQ(numFaults("src/filter/x.cpp", "#include \"gui/color_map.h\""), 1u);
+  EXPECT_EQ(numFaults("apps/palpate/gui/x.cpp", "#include \"commands/commands.h\""), 1u);
+  // Foreign types in public headers.
+  for (const char* name : {"opencv2/core.hpp",
+                           "ceres/ceres.h",
+                           "CGAL/Point.h",
+                           "boost/any.hpp",
+                           "sqlite3.h",
+                           "libserialport.h",
+                           "nlohmann/json.hpp",
+                           "expat.h",
+                           "bzlib.h",
+                           "openssl/evp.h",
+                           "QString",
+                           "unistd.h"})
+    EXPECT_EQ(numFaults("include/palpate/recording/x.h", std::string("#include <") + name + ">"),
+              1u)
+        << name;
+  // A package outside of its place, or one that no row names.
+  EXPECT_EQ(numFaults("src/model/x.cpp", "#include <nlohmann/json.hpp>"), 1u);
+  EXPECT_EQ(numFaults("src/core/x.cpp", "#include <fftw3.h>"), 1u);
+  // Private headers.
+  EXPECT_EQ(numFaults("src/capture/x.cpp", "#include \"recording/byte_source.h\""), 1u);
+  EXPECT_EQ(numFaults("include/palpate/recording/x.h", "#include \"recording/byte_source.h\""), 1u);
+  // A room without a row.
+  EXPECT_EQ(numFaults("src/utils/x.cpp", "#include <vector>"), 1u);
+}
+
+TEST(IncludeRule, AllowsWhatTheTablesAllow) {
+  EXPECT_EQ(numFaults("include/palpate/model/x.h", "#include <Eigen/Core>"), 0u);
+  EXPECT_EQ(numFaults("include/palpate/model/x.h", "#include <palpate/core/error.h>"), 0u);
+  EXPECT_EQ(numFaults("src/core/x.cpp", "#include <expat.h>"), 0u);
+  EXPECT_EQ(numFaults("src/core/x.cpp", "#include <sys/stat.h>"), 0u);
+  EXPECT_EQ(numFaults("src/recording/x.cpp", "#include \"recording/byte_source.h\""), 0u);
+  EXPECT_EQ(numFaults("src/recording/x.cpp", "#include <palpate/model/profile.h>"), 0u);
+  EXPECT_EQ(numFaults("apps/palpate/gui/x.h", "#include <QWidget>"), 0u);
+  EXPECT_EQ(numFaults("apps/palpate/commands/x.cpp", "#include \"gui/workbench.h\""), 0u);
+  EXPECT_EQ(numFaults("apps/palpate/main.cpp", "#include \"commands/commands.h\""), 0u);
+  EXPECT_EQ(numFaults("src/core/x.cpp", "// #include <QString> was here"), 0u);
+}
+
+}  // namespace
+}  // namespace palpate::testing

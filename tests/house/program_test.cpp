@@ -1,0 +1,37 @@
+// What the built programs load: Qt 6 only, and the core library none of it.
+#include "testing/program.h"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "testing/testing.h"
+
+namespace palpate::testing {
+namespace {
+
+std::string librariesOf(const std::string& program) {
+  const ProgramResult result = runProgram("/usr/bin/ldd", {program});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  return result.out;
+}
+
+TEST(Program, LoadsNoQt5) {
+  const std::string program = PALPATE_PROGRAM;
+  if (program.empty()) GTEST_SKIP() << "built without the program (PALPATE_APPS=OFF)";
+  const std::string libraries = librariesOf(program);
+  EXPECT_NE(libraries.find("libQt6Widgets"), std::string::npos) << libraries;
+  EXPECT_EQ(libraries.find("Qt5"), std::string::npos) << libraries;
+  EXPECT_EQ(libraries.find("opencv_highgui"), std::string::npos) << libraries;
+  EXPECT_EQ(libraries.find("not found"), std::string::npos) << libraries;
+}
+
+// This test links the whole core library.
+TEST(Program, CoreLibraryLoadsNoQt) {
+  const std::string libraries = librariesOf(std::filesystem::read_symlink("/proc/self/exe"));
+  EXPECT_NE(libraries.find("libc.so"), std::string::npos) << libraries;
+  EXPECT_EQ(libraries.find("libQt"), std::string::npos) << libraries;
+}
+
+}  // namespace
+}  // namespace palpate::testing

@@ -1,0 +1,237 @@
+// The scripts in a checkout of their own, with apt, CMake, ninja and palpate played by stand-ins
+// that write down how they were called.
+#include <cstdlib>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "house/source_tree.h"
+#include "testing/program.h"
+#include "testing/testing.h"
+
+namespace palpate::testing {
+namespace {
+namespace fs = std::filesystem;
+
+class Scripts : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    checkout_ = folder_ / "a check out";  // blanks on purpose
+    tools_ = folder_ / "tools";
+    for (const char* name : {"scripts", "cmake"}) {
+      fs::create_directories(checkout_ / name);
+      for (const auto& entry : fs::directory_iterator(projectFolder() / name))
+        fs::copy_file(entry.path(), checkout_ / name / entry.path().filename());
+    }
+    writeFile(checkout_ / "CMakePresets.json", "{}");
+    writeFile(checkout_ / "cmake/debian-packages.txt", "# a comment\nfirst  # why\n\nsecond\n");
+    fs::create_directories(tools_);
+    for (const char* name : {"bash",
+                             "dirname",
+                             "readlink",
+                             "sed",
+                             "awk",
+                             "grep",
+                             "mkdir",
+                             "flock",
+                             "touch",
+                             "tail",
+                             "rm",
+                             "mktemp",
+                             "env",
+                             "cat",
+                             "pwd",
+                             "chmod"})
+      fs::create_symlink(fs::exists(fs::path("/bin") / name) ? fs::path("/bin") / name
+                                                             : fs::path("/usr/bin") / name,
+                         tools_ / name);
+    standIn("id", "echo 0");
+    standIn("dpkg-query", "echo 'installed first'; echo 'not-installed second'; exit 1");
+    standIn("apt-get", log("apt-get"));
+    // "cmake --preset release" makes the folder, ninja the program.
+    standIn("cmake",
+            log("cmake") +
+                "touch build/release/build.ninja\n"
+                "echo \"CMAKE_HOME_DIRECTORY:INTERNAL=$PWD\" > build/release/CMakeCache.txt");
+    standIn("ninja",
+            "case \"$*\" in *' -n '*)\n"
+            "  [ ! -x \"$2/palpate\" ] || echo 'ninja: no work to do.'; exit 0;; esac\n" +
+                log("ninja") + "echo compiling\n" +
+                "printf '#!/bin/sh\\npwd\\nprintf \"[%%s]\" \"$@\"\\nexit 3\\n' > "
+                "\"$2/palpate\"\nchmod +x \"$2/palpate\"");
+  }
+
+  std::string log(const std::string& name) const {
+    return "echo \"" + name + " $*\" >> '" + (folder_ / "log").string() + "'\n";
+  }
+  void standIn(const std::string& name, const std::string& body) {
+    fs::remove(tools_ / name);
+    writeFile(tools_ / name, "#!/bin/sh\n" + body + "\n");
+    fs::permissions(tools_ / name, fs::perms::owner_all);
+  }
+  // Calls it in a folder that isn't the checkout; the log starts anew.
+  ProgramResult call(const std::string& script,
+                     std::vector<std::string> arguments = {},
+                     std::map<std::string, std::string> environment = {}) {
+    writeFile(folder_ / "log", "");
+    fs::create_directories(folder_ / "elsewhere");
+    arguments.insert(arguments.begin(),
+                     {"-c",
+                      "cd \"$0\" && exec \"$@\"",
+                      (folder_ / "elsewhere").string(),
+                      (checkout_ / "scripts" / script).string()});
+    for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY", "PALPATE_PACKAGES"})
+      environment.try_emplace(name, "");
+    environment["PATH"] = tools_.string();
+    return runProgram("/bin/bash", arguments, environment);
+  }
+  std::string logged() const { return readFile(folder_ / "log"); }
+
+  TemporaryFolder folder_;
+  fs::path checkout_;
+  fs::path tools_;
+};
+
+TEST_F(Scripts, RunInstallsConfiguresBuildsAndHandsOver) {
+  const ProgramResult result = call("run", {"info", "a file.dsa"});
+  EXPECT_EQ(result.exitCode, 3) << result.err;  // the program's own
+  EXPECT_EQ(result.out, (folder_ / "elsewhere").string() + "\n[info][a file.dsa]");
+  const auto lines = linesOf(logged());
+  ASSERT_EQ(lines.size(), 3u) << logged();
+  EXPECT_TRUE(lines[0].starts_with("apt-get ")) << lines[0];
+  EXPECT_TRUE(lines[0].ends_with(" install --no-install-recommends second")) << lines[0];
+  EXPECT_EQ(lines[1], "cmake --preset release -DPALPATE_TESTS=OFF -DPALPATE_BENCHMARKS=OFF");
+  EXPECT_TRUE(lines[2].ends_with("build/release palpate")) << lines[2];
+}
+
+TEST_F(Scripts, RunIsSilentAndCallsNothingWhenNothingChanged) {
+  standIn("dpkg-query", "echo 'installed first'; echo 'installed second'");
+  call("run", {"info"});
+  const ProgramResult result = call("run", {"info"});
+  EXPECT_EQ(logged(), "");
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(Scripts, RunWithoutArgumentsShowsTheDemonstration) {
+  const std::string there = (folder_ / "elsewhere").string() + "\n";
+  EXPECT_EQ(call("run", {}, {{"DISPLAY", ":7"}}).out, there + "[--demo]");
+  EXPECT_EQ(call("run", {}, {{"WAYLAND_DISPLAY", "wayland-0"}}).out, there + "[--demo]");
+  const ProgramResult headless = call("run");
+  EXPECT_EQ(headless.out, there + "[demo][-o][palpate-demo]");
+  EXPECT_NE(headless.err.find("no display"), std::string::npos) << headless.err;
+}
+
+TEST_F(Scripts, PackageListsAreUpdatedOnlyWhenTheFirstTryFails) {
+  standIn("apt-get",
+          log("apt-get") + "case \"$*\" in *update) touch '" + (folder_ / "new").string() +
+              "';; *) [ -f '" + (folder_ / "new").string() + "' ];; esac");
+  EXPECT_EQ(call("run").exitCode, 3);
+  const auto lines = linesOf(logged());
+  ASSERT_GE(lines.size(), 3u);
+  EXPECT_TRUE(lines[1].ends_with(" update")) << lines[1];
+  EXPECT_TRUE(lines[2].ends_with(" second")) << lines[2];
+}
+
+TEST_F(Scripts, FailureOfAptNamesThePackagesAndStopsTheRun) {
+  standIn("apt-get", "echo 'E: no network'; exit 100");
+  const ProgramResult result = call("run", {"info"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_NE(result.err.find("E: no network"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("--no-install-recommends second"), std::string::npos) << result.err;
+  EXPECT_EQ(logged(), "");
+}
+
+TEST_F(Scripts, WithoutAptTheMessageSaysWhatToDo) {
+  fs::remove(tools_ / "apt-get");
+  const ProgramResult result = call("run", {"info"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_NE(result.err.find("PALPATE_PACKAGES=keep"), std::string::npos) << result.err;
+  EXPECT_EQ(call("run", {"info"}, {{"PALPATE_PACKAGES", "keep"}}).exitCode, 3);
+}
+
+TEST_F(Scripts, OrdinaryUsersInstallWithSudoOrAreToldHow) {
+  standIn("id", "echo 1000");
+  const ProgramResult without = call("run", {"info"});
+  EXPECT_EQ(without.exitCode, 1);
+  EXPECT_NE(without.err.find("there is no sudo"), std::string::npos) << without.err;
+  standIn("sudo", log("sudo"));
+  EXPECT_EQ(call("run", {"info"}).exitCode, 3);
+  EXPECT_TRUE(logged().starts_with("sudo ")) << logged();
+}
+
+TEST_F(Scripts, FailedBuildStopsTheRun) {
+  standIn("ninja", "echo 'x.cpp:1: error: no'; exit 1");
+  const ProgramResult result = call("run", {"info"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_NE(result.err.find("error: no"), std::string::npos) << result.err;
+}
+
+TEST_F(Scripts, CopiedCheckoutIsConfiguredAnew) {
+  call("run", {"info"});
+  fs::rename(checkout_, folder_ / "moved");
+  checkout_ = folder_ / "moved";
+  const ProgramResult result = call("run", {"info"});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_NE(logged().find("cmake --preset release"), std::string::npos) << logged();
+  EXPECT_NE(logged().find("ninja "), std::string::npos) << logged();
+}
+
+TEST_F(Scripts, UnknownSuiteIsWrongUsage) {
+  const ProgramResult result = call("test", {"everything"});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_NE(result.err.find("scripts/test asan"), std::string::npos) << result.err;
+}
+
+// Report lines as ctest 3.25 writes them.
+class CountTests : public ::testing::Test {
+ protected:
+  ProgramResult count(const std::string& cases) const {
+    const TemporaryFolder folder;
+    writeFile(
+        folder / "report.xml",
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite>\n" + cases + "</testsuite>\n");
+    return runProgram((projectFolder() / "scripts/count_tests").string(),
+                      {(folder / "report.xml").string()});
+  }
+  const std::string passed_ =
+      "\t<testcase name=\"a\" classname=\"a\" time=\"0.01\" status=\"run\">\n\t\t<system-out>x "
+      "status=\"fail\"</system-out>\n\t</testcase>\n";
+  const std::string failed_ =
+      "\t<testcase name=\"b\" classname=\"b\" time=\"0.01\" status=\"fail\">\n\t\t<failure "
+      "message=\"\"/>\n<system-out>x status=\"run\"</system-out>\n\t</testcase>\n";
+  const std::string skipped_ =
+      "\t<testcase name=\"c\" classname=\"c\" time=\"0.01\" status=\"notrun\">\n\t\t<skipped "
+      "message=\"SKIP_REGULAR_EXPRESSION_MATCHED\"/>\n\t</testcase>\n";
+  const std::string missing_ =
+      "\t<testcase name=\"d\" classname=\"d\" time=\"0\" status=\"notrun\">\n\t\t<skipped "
+      "message=\"Unable to find executable\"/>\n\t</testcase>\n";
+};
+
+TEST_F(CountTests, CountsEachKind) {
+  const ProgramResult result = count(passed_ + passed_ + failed_ + skipped_ + passed_);
+  EXPECT_EQ(result.out, "3 passed, 1 failed, 1 skipped\n");
+  EXPECT_EQ(result.exitCode, 1);
+}
+
+TEST_F(CountTests, SucceedsWhenNothingFailed) {
+  const ProgramResult result = count(passed_ + skipped_);
+  EXPECT_EQ(result.out, "1 passed, 0 failed, 1 skipped\n");
+  EXPECT_EQ(result.exitCode, 0);
+}
+
+TEST_F(CountTests, WhatCouldNotRunHasFailed) {
+  EXPECT_EQ(count(passed_ + missing_).out, "1 passed, 1 failed, 0 skipped\n");
+}
+
+TEST_F(CountTests, NoTestIsAFailure) {
+  EXPECT_EQ(count("").out, "0 passed, 1 failed, 0 skipped\n");
+  const ProgramResult result =
+      runProgram((projectFolder() / "scripts/count_tests").string(), {"/nowhere/report.xml"});
+  EXPECT_EQ(result.out, "0 passed, 1 failed, 0 skipped\n");
+  EXPECT_EQ(result.exitCode, 1);
+}
+
+}  // namespace
+}  // namespace palpate::testing

@@ -1,0 +1,287 @@
+// What is saved of damaged recordings: everything in intact bzip2 blocks, also behind the damage,
+// and nothing that was not written.
+#include "palpate/recording/dsa_salvage.h"
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "palpate/core/error.h"
+#include "palpate/recording/bzip2_blocks.h"
+#include "palpate/recording/recording.h"
+
+#include "recording/dsa_corpus.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::uint32_t kSeed = 11;
+constexpr std::size_t kNumFrames = 150;
+constexpr std::size_t kNumAngles = 400;
+
+std::span<const std::byte> asBytes(const std::string& text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+// Text split into bzip2 blocks of at most 100 kB, as level 1 does.
+const std::string& longText() {
+  static const std::string text = testing::longXml(kNumFrames, kNumAngles, kSeed);
+  return text;
+}
+const std::string& longPacked() {
+  static const std::string packed = testing::compressed(longText(), 1);
+  return packed;
+}
+
+// Whether frame n of the profile is the frame of longXml() that its stamp says.
+void expectTrueFrames(const Profile& profile) {
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    const std::int64_t ms = profile.frameTimeUs(i) / 1000 - 1'400'000'000'000;
+    ASSERT_EQ(ms % 32, 0);
+    const auto original = static_cast<std::size_t>(ms / 32);
+    ASSERT_LT(original, kNumFrames);
+    const TactileFrame frame = profile.frame(i);
+    for (std::size_t place = 0; place < frame.values.size(); ++place)
+      ASSERT_EQ(frame.values[place], testing::longXmlValue(original, place, kSeed))
+          << "frame " << original << ", place " << place;
+  }
+}
+
+// Bytes of text that each block holds, in order, of an undamaged file.
+std::vector<std::size_t> blockSizes(const std::string& packed) {
+  std::vector<std::size_t> sizes;
+  for (const Bzip2Block& block : findBzip2Blocks(asBytes(packed)))
+    sizes.push_back(decodeBzip2Block(asBytes(packed), block, 1u << 20).bytes.size());
+  return sizes;
+}
+
+// How many whole frames lie in the text when the range [from, to) is taken out.
+std::size_t framesOutside(std::size_t from, std::size_t to) {
+  const std::string& text = longText();
+  std::size_t count = 0;
+  for (std::size_t at = text.find("<frame index"); at != std::string::npos;
+       at = text.find("<frame index", at + 1)) {
+    const std::size_t end = text.find("</frame>", at) + std::string_view("</frame>").size();
+    if (end <= from || at >= to) ++count;
+  }
+  return count;
+}
+
+TEST(Bzip2Blocks, areFoundAtAnyBitAndDecodeByThemselves) {
+  std::string text;
+  const std::vector<Bzip2Block> blocks = findBzip2Blocks(asBytes(longPacked()));
+  ASSERT_GE(blocks.size(), 5u);
+  std::set<std::uint64_t> places;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const Bzip2BlockContent content = decodeBzip2Block(asBytes(longPacked()), blocks[i], 1u << 20);
+    EXPECT_TRUE(content.intact);
+    EXPECT_TRUE(content.endsAtMark);
+    text.append(content.bytes.begin(), content.bytes.end());
+    places.insert(blocks[i].beginBit % 8);
+    if (i > 0) {
+      EXPECT_EQ(blocks[i].beginBit, blocks[i - 1].endBit);
+    }
+  }
+  EXPECT_EQ(blocks.front().beginBit, 32u);  // behind "BZh1"
+  EXPECT_GE(places.size(), 3u);             // not only whole bytes
+  EXPECT_EQ(text, longText());
+}
+
+TEST(Bzip2Blocks, aFlippedBitHarmsItsOwnBlockOnly) {
+  const std::vector<Bzip2Block> blocks = findBzip2Blocks(asBytes(longPacked()));
+  std::string damaged = longPacked();
+  const std::size_t byte = static_cast<std::size_t>((blocks[2].beginBit + blocks[2].endBit) / 16);
+  damaged[byte] = static_cast<char>(damaged[byte] ^ 1);
+  const std::vector<Bzip2Block> found = findBzip2Blocks(asBytes(damaged));
+  ASSERT_EQ(found.size(), blocks.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_EQ(decodeBzip2Block(asBytes(damaged), found[i], 1u << 20).intact, i != 2) << i;
+}
+
+TEST(Bzip2Blocks, aBlockBeforeADamagedMarkIsStillWhole) {
+  const std::vector<Bzip2Block> blocks = findBzip2Blocks(asBytes(longPacked()));
+  std::string damaged = longPacked();
+  const std::size_t byte = static_cast<std::size_t>(blocks[3].beginBit / 8 + 2);  // of its mark
+  damaged[byte] = static_cast<char>(damaged[byte] ^ 0x18);
+  const std::vector<Bzip2Block> found = findBzip2Blocks(asBytes(damaged));
+  ASSERT_EQ(found.size(), blocks.size() - 1);
+  const Bzip2BlockContent content = decodeBzip2Block(asBytes(damaged), found[2], 1u << 20);
+  EXPECT_TRUE(content.intact);
+  EXPECT_FALSE(content.endsAtMark);
+}
+
+TEST(DsaSalvage, savesAllOfASoundRecording) {
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "a.dsa", longPacked());
+  const DsaSalvage saved = salvageDsa(folder / "a.dsa");
+  EXPECT_EQ(saved.frames, kNumFrames);
+  EXPECT_EQ(saved.angles, kNumAngles);
+  EXPECT_EQ(saved.cutSamples, 0u);
+  EXPECT_EQ(saved.badSamples, 0u);
+  EXPECT_EQ(saved.intactBlocks, saved.blocks);
+  ASSERT_TRUE(saved.profile);
+  EXPECT_EQ(saved.profile->info().serial, "0000ABCD");
+  expectTrueFrames(*saved.profile);
+}
+
+TEST(DsaSalvage, savesAllWholeFramesBeforeAndBehindADamagedBlock) {
+  const testing::TemporaryFolder folder;
+  const std::vector<Bzip2Block> blocks = findBzip2Blocks(asBytes(longPacked()));
+  const std::vector<std::size_t> sizes = blockSizes(longPacked());
+  for (std::size_t hit = 1; hit + 1 < blocks.size(); ++hit) {
+    std::string damaged = longPacked();
+    const std::size_t byte =
+        static_cast<std::size_t>((blocks[hit].beginBit + blocks[hit].endBit) / 16);
+    damaged[byte] = static_cast<char>(damaged[byte] ^ 0x20);
+    testing::writeFile(folder / "a.dsa", damaged);
+    std::size_t from = 0;
+    for (std::size_t i = 0; i < hit; ++i) from += sizes[i];
+    const DsaSalvage saved = salvageDsa(folder / "a.dsa");
+    EXPECT_EQ(saved.frames, framesOutside(from, from + sizes[hit])) << hit;
+    EXPECT_EQ(saved.intactBlocks, blocks.size() - 1);
+    EXPECT_FALSE(saved.layoutAssumed);
+    ASSERT_TRUE(saved.profile);
+    expectTrueFrames(*saved.profile);
+
+    const VerifyReport report = verifyRecording(folder / "a.dsa");
+    EXPECT_EQ(report.state, VerifyReport::State::kDamaged);
+    EXPECT_NE(report.message.find(std::to_string(saved.frames) + " frames"), std::string::npos);
+  }
+}
+
+TEST(DsaSalvage, assumesTheHandWhenTheFirstBlockIsLost) {
+  const testing::TemporaryFolder folder;
+  const std::vector<std::size_t> sizes = blockSizes(longPacked());
+  std::string damaged = longPacked();
+  damaged[5000] = static_cast<char>(damaged[5000] ^ 4);
+  testing::writeFile(folder / "a.dsa", damaged);
+  const DsaSalvage saved = salvageDsa(folder / "a.dsa");
+  EXPECT_TRUE(saved.layoutAssumed);
+  EXPECT_EQ(saved.frames, framesOutside(0, sizes[0]));
+  EXPECT_EQ(saved.angles, kNumAngles);
+  ASSERT_TRUE(saved.profile);
+  expectTrueFrames(*saved.profile);
+  EXPECT_NE(verifyRecording(folder / "a.dsa").message.find("SDH-2 is assumed"), std::string::npos);
+}
+
+TEST(DsaSalvage, savesNothingOfALostLayoutThatIsNotTheHands) {
+  const testing::TemporaryFolder folder;
+  std::vector<std::string> frames;
+  for (int i = 0; i < 4000; ++i) {
+    std::string text;
+    for (int k = 0; k < 6; ++k)
+      text += "42" + std::to_string(1000 + (i * 7919 + k * 104729) % 9000) + "00";
+    frames.push_back(text);
+  }
+  std::string packed = testing::compressed(testing::framesXml(2, 3, frames), 1);
+  ASSERT_GE(findBzip2Blocks(asBytes(packed)).size(), 3u);
+  packed[2000] = static_cast<char>(packed[2000] ^ 4);
+  testing::writeFile(folder / "a.dsa", packed);
+  const DsaSalvage saved = salvageDsa(folder / "a.dsa");
+  EXPECT_FALSE(saved.profile);
+  EXPECT_EQ(saved.frames, 0u);
+  EXPECT_GT(saved.badSamples, 0u);
+  EXPECT_EQ(verifyRecording(folder / "a.dsa").state, VerifyReport::State::kUnreadable);
+}
+
+TEST(DsaSalvage, aCutFileKeepsItsWholeBlocks) {
+  const testing::TemporaryFolder folder;
+  const std::vector<Bzip2Block> blocks = findBzip2Blocks(asBytes(longPacked()));
+  const std::vector<std::size_t> sizes = blockSizes(longPacked());
+  for (std::size_t whole = 0; whole + 1 < blocks.size(); ++whole) {
+    // Cut in the middle of block number `whole`: those before it are whole, but the last one's end
+    // is known by the mark that follows.
+    const auto size =
+        static_cast<std::size_t>((blocks[whole].beginBit + blocks[whole].endBit) / 16);
+    testing::writeFile(folder / "a.dsa", longPacked().substr(0, size));
+    std::size_t textBytes = 0;
+    for (std::size_t i = 0; i < whole; ++i) textBytes += sizes[i];
+    const DsaSalvage saved = salvageDsa(folder / "a.dsa");
+    EXPECT_EQ(saved.intactBlocks, whole);
+    EXPECT_EQ(saved.frames, framesOutside(textBytes, longText().size())) << whole;
+    EXPECT_EQ(verifyRecording(folder / "a.dsa").state,
+              whole == 0 ? VerifyReport::State::kUnreadable : VerifyReport::State::kDamaged);
+  }
+}
+
+TEST(DsaSalvage, cutPlainXmlKeepsTheFramesBeforeTheCut) {
+  const testing::TemporaryFolder folder;
+  const std::string text = testing::exampleXml();
+  testing::writeFile(folder / "a.dsa", text.substr(0, text.find("447A0000")));
+  const DsaSalvage saved = salvageDsa(folder / "a.dsa");
+  EXPECT_EQ(saved.frames, 1u);
+  EXPECT_EQ(saved.cutSamples, 1u);
+  const VerifyReport report = verifyRecording(folder / "a.dsa");
+  EXPECT_EQ(report.state, VerifyReport::State::kDamaged);
+  EXPECT_NE(report.message.find("1 frame,"), std::string::npos) << report.message;
+}
+
+TEST(DsaSalvage, oneWrongFrameHarmsNoOther) {
+  const testing::TemporaryFolder folder;
+  testing::writeFile(
+      folder / "a.dsa",
+      testing::compressed(testing::replaced(testing::exampleXml(), "C0C00000", "C9742400")));
+  const DsaSalvage saved = salvageDsa(folder / "a.dsa");
+  EXPECT_EQ(saved.frames, 1u);
+  EXPECT_EQ(saved.badSamples, 1u);
+  EXPECT_EQ(saved.angles, 1u);
+  EXPECT_EQ(saved.temperatures, 1u);
+}
+
+// Reliability table, R5, short form: whatever happens to a file, no frame is shown that was not
+// written, and the blocks that were not touched give all their frames.
+TEST(DsaSalvage, neverShowsAWrongValue) {
+  const testing::TemporaryFolder folder;
+  std::mt19937 random(5);
+  for (int round = 0; round < 60; ++round) {
+    std::string damaged = longPacked();
+    const int flips = 1 + static_cast<int>(random() % (round % 2 == 0 ? 3 : 100));
+    for (int i = 0; i < flips; ++i)
+      damaged[4 + random() % (damaged.size() - 4)] = static_cast<char>(random());
+    if (round % 4 == 0) damaged.resize(random() % damaged.size());
+    testing::writeFile(folder / "a.dsa", damaged);
+    try {
+      const DsaSalvage saved = salvageDsa(folder / "a.dsa");
+      if (saved.profile) expectTrueFrames(*saved.profile);
+    } catch (const FormatError&) {  // not even the first bytes are left
+    }
+  }
+}
+
+TEST(Verify, countsASoundRecording) {
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "a.dsa", testing::compressed(testing::exampleXml()));
+  const VerifyReport report = verifyRecording(folder / "a.dsa");
+  EXPECT_EQ(report.state, VerifyReport::State::kSound);
+  EXPECT_EQ(report.message, "2 frames, 1 angle sample, 1 temperature sample");
+  const DsaVerifyReport dsa = verifyDsa(folder / "a.dsa");
+  EXPECT_EQ(dsa.frames, 2u);
+  EXPECT_EQ(dsa.message, "");
+}
+
+TEST(Verify, stopsWhenAsked) {
+  const testing::TemporaryFolder folder;
+  std::string damaged = longPacked();
+  damaged[5000] = static_cast<char>(damaged[5000] ^ 4);
+  testing::writeFile(folder / "a.dsa", damaged);
+  EXPECT_THROW(verifyRecording(folder / "a.dsa", [](double) { return false; }), Cancelled);
+  EXPECT_THROW(verifyRecording(folder / "a.dsa", [](double f) { return f < 0.5; }), Cancelled);
+}
+
+TEST(Recording, isToldByItsFirstBytesNotByItsName) {
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "recording.txt", testing::compressed(testing::exampleXml()));
+  EXPECT_EQ(openRecording(folder / "recording.txt").numFrames(), 2u);
+  testing::writeFile(folder / "native.dsa", std::string("SQLite format 3\0", 16) + "rest");
+  try {
+    openRecording(folder / "native.dsa");
+    FAIL();
+  } catch (const FormatError& error) {
+    EXPECT_NE(std::string(error.what()).find("a .palpate recording"), std::string::npos);
+  }
+  EXPECT_EQ(verifyRecording(folder / "native.dsa").state, VerifyReport::State::kUnreadable);
+}
+
+}  // namespace
+}  // namespace palpate

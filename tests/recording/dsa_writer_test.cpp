@@ -1,0 +1,135 @@
+// Writing .dsa recordings: the bytes of the prior program, and the data back.
+#include "palpate/recording/dsa_writer.h"
+
+#include "palpate/core/error.h"
+#include "palpate/model/profile_builder.h"
+#include "palpate/recording/dsa_reader.h"
+
+#include "recording/dsa_corpus.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+void expectSameData(const Profile& a, const Profile& b) {
+  EXPECT_EQ(a.layout(), b.layout());
+  EXPECT_EQ(a.info().serial, b.info().serial);
+  EXPECT_EQ(a.info().firmware, b.info().firmware);
+  EXPECT_EQ(a.info().valueType, b.info().valueType);
+  ASSERT_EQ(a.numFrames(), b.numFrames());
+  TactileFrame x;
+  TactileFrame y;
+  for (std::size_t i = 0; i < a.numFrames(); ++i) {
+    a.readFrame(i, x);
+    b.readFrame(i, y);
+    ASSERT_EQ(x.hostUs, y.hostUs) << i;
+    ASSERT_EQ(x.values, y.values) << i;
+  }
+  ASSERT_EQ(a.numAngles(), b.numAngles());
+  for (std::size_t i = 0; i < a.numAngles(); ++i) {
+    ASSERT_EQ(a.angleTimeUs(i), b.angleTimeUs(i));
+    ASSERT_EQ(a.angles(i).deg, b.angles(i).deg);
+  }
+  ASSERT_EQ(a.numTemperatures(), b.numTemperatures());
+  for (std::size_t i = 0; i < a.numTemperatures(); ++i) {
+    ASSERT_EQ(a.temperatureTimeUs(i), b.temperatureTimeUs(i));
+    ASSERT_EQ(a.temperatures(i).degC, b.temperatures(i).degC);
+  }
+}
+
+TEST(DsaWriter, writesTheExampleOfTheFormat) {
+  const testing::TemporaryFolder folder;
+  const std::string text = testing::exampleXml();
+  const Profile profile =
+      readDsaBytes(std::as_bytes(std::span(text.data(), text.size())), "example");
+  writeDsa(profile, folder / "a.dsa");
+  // As the prior program wraps masks and frames.
+  std::string expected = text;
+  for (const char* mask : {"static_mask", "dynamic_mask"})
+    expected = testing::replaced(expected,
+                                 std::string("<") + mask + ">111 111<",
+                                 std::string("<") + mask +
+                                     ">\r\n        111\r\n        111\r\n"
+                                     "      <");
+  expected = testing::replaced(expected, ">C0C00000<", ">\r\n        C0C00000\r\n      <");
+  expected = testing::replaced(expected,
+                               ">C0000000 42C80000 BF800000 447A0000 BF800000<",
+                               ">\r\n        C000000042C80000BF800000447A0000BF800000\r\n      <");
+  EXPECT_EQ(testing::decompressed(testing::readFile(folder / "a.dsa")), expected);
+  expectSameData(readDsa(folder / "a.dsa"), profile);
+}
+
+TEST(DsaWriter, keepsFractionalValuesAndRoundsStampsDown) {
+  const testing::TemporaryFolder folder;
+  ProfileBuilder builder(sdh2().layout);
+  std::vector<float> values(486, 0.0F);
+  values[0] = 2941.18F;
+  values[485] = 0.5F;
+  builder.addFrame(1'400'000'000'000'999, values);
+  builder.addFrame(1'400'000'000'032'001, std::vector<float>(486, 0.0F));
+  writeDsa(builder.finish({}), folder / "a.dsa");
+  const Profile back = readDsa(folder / "a.dsa");
+  EXPECT_TRUE(back.info().warnings.empty());
+  EXPECT_EQ(back.info().valueType, ValueType::kFloat);
+  EXPECT_EQ(back.frameTimeUs(0), 1'400'000'000'000'000);
+  EXPECT_EQ(back.frameTimeUs(1), 1'400'000'000'032'000);
+  EXPECT_EQ(back.frame(0).values, values);
+  EXPECT_EQ(back.layout(), *sdh2().layout);
+}
+
+TEST(DsaWriter, refusesNegativeValuesAndLeavesNothing) {
+  const testing::TemporaryFolder folder;
+  ProfileBuilder builder(sdh2().layout);
+  std::vector<float> values(486, 0.0F);
+  values[7] = -2.0F;
+  builder.addFrame(1'400'000'000'000'000, values);
+  EXPECT_THROW(writeDsa(builder.finish({}), folder / "a.dsa"), FileError);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(DsaWriter, replacesAFileOnlyWhenAskedAndLeavesItWholeWhenCancelled) {
+  const testing::TemporaryFolder folder;
+  const std::string text = testing::longXml(300, 300, 1);
+  const Profile profile = readDsaBytes(std::as_bytes(std::span(text.data(), text.size())), "long");
+  testing::writeFile(folder / "a.dsa", "mine");
+  EXPECT_THROW(writeDsa(profile, folder / "a.dsa"), FileError);
+  int calls = 0;
+  EXPECT_THROW(
+      writeDsa(profile, folder / "a.dsa", Overwrite::kReplace, [&](double) { return ++calls < 2; }),
+      Cancelled);
+  EXPECT_EQ(testing::readFile(folder / "a.dsa"), "mine");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  writeDsa(profile, folder / "a.dsa", Overwrite::kReplace);
+  expectSameData(readDsa(folder / "a.dsa"), profile);
+}
+
+TEST(DsaWriter, roundTripsEveryRealRecording) {
+  const auto recordings = testing::recordingsFolder();
+  PALPATE_NEED(recordings);
+  const testing::TemporaryFolder folder;
+  std::size_t files = 0;
+  std::size_t comparable = 0;
+  std::size_t identical = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(*recordings)) {
+    if (entry.path().extension() != ".dsa") continue;
+    SCOPED_TRACE(entry.path().string());
+    ++files;
+    const Profile profile = readDsa(entry.path());
+    writeDsa(profile, folder / "copy.dsa", Overwrite::kReplace);
+    expectSameData(readDsa(folder / "copy.dsa"), profile);
+    // The profile doesn't keep line ends (edited files have CR LF throughout) nor whether an empty
+    // element was there.
+    const std::string xml = testing::decompressed(testing::readFile(entry.path()));
+    if (xml.find("<root>\r\n") != std::string::npos) continue;
+    if (xml.find("<temperatures>") == std::string::npos) continue;
+    if (xml.find("<joint_angles>") == std::string::npos) continue;
+    ++comparable;
+    if (testing::decompressed(testing::readFile(folder / "copy.dsa")) == xml) ++identical;
+  }
+  std::cout << identical << " of " << files << " recordings rewritten byte by byte\n";
+  EXPECT_EQ(identical, comparable);
+  EXPECT_GE(comparable, files - 10);
+}
+
+}  // namespace
+}  // namespace palpate
