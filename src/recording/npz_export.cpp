@@ -4,6 +4,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/recording/table_export.h"
+
 #include "recording/zip_writer.h"
 
 namespace palpate {
@@ -18,8 +19,8 @@ std::string npyHead(const std::string& type, const std::vector<std::size_t>& sha
   constexpr std::size_t kAlignment = 64;
   std::string dimensions;
   for (std::size_t size : shape) dimensions += std::to_string(size) + ", ";
-  std::string literal = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" +
-                        dimensions + "), }";
+  std::string literal =
+      "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + dimensions + "), }";
   const std::size_t before = 10;  // magic, version, length
   while ((before + literal.size() + 1) % kAlignment != 0) literal += ' ';
   literal += '\n';
@@ -150,9 +151,8 @@ void writeNpz(const Profile& profile,
               const Progress& progress) {
   OutputFile out(path, overwrite);
   ZipWriter zip(out);
-  writeTimes(zip, "time_ms", profile.numFrames(), [&](std::size_t i) {
-    return profile.frameTimeUs(i);
-  });
+  writeTimes(
+      zip, "time_ms", profile.numFrames(), [&](std::size_t i) { return profile.frameTimeUs(i); });
   for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m)
     writeMatrix(zip, profile, m, progress);
   const std::size_t axes = profile.numAngles() > 0 ? profile.angles(0).deg.size() : 0;
@@ -174,7 +174,6 @@ void writeNpz(const Profile& profile,
   for (const MatrixLayout& matrix : profile.layout().matrices())
     for (auto on : matrix.staticMask) mask.u8(on);
   mask.end();
-
 
   writeText(zip, "meta", metaText(profile));
   zip.finish();

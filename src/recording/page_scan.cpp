@@ -80,8 +80,13 @@ std::optional<Block> blockAt(std::span<const std::byte> page, std::size_t at) {
   const auto data = body.take(size);
   if (data.size() != size || value[1] < 0 || value[1] > 2 || value[6] < 0 || value[6] > 3)
     return std::nullopt;
-  Block block{static_cast<Stream>(value[1]),      value[2], value[3], value[4], value[5],
-              static_cast<BlockCoding>(value[6]), {data.begin(), data.end()}};
+  Block block{static_cast<Stream>(value[1]),
+              value[2],
+              value[3],
+              value[4],
+              value[5],
+              static_cast<BlockCoding>(value[6]),
+              {data.begin(), data.end()}};
   if (!plausible(block) || value[7] != static_cast<std::int64_t>(blockCrc(block)))
     return std::nullopt;
   return block;

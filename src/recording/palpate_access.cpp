@@ -5,6 +5,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/recording/palpate_schema.h"
+
 #include "recording/palpate_lock.h"
 
 namespace palpate {
@@ -24,8 +25,7 @@ fs::path copyWithJournal(const fs::path& recording) {
   const fs::path folder = pattern;
   std::error_code failure;
   fs::copy_file(recording, folder / "copy.palpate", failure);
-  if (!failure)
-    fs::copy_file(journalPathOf(recording), folder / "copy.palpate-journal", failure);
+  if (!failure) fs::copy_file(journalPathOf(recording), folder / "copy.palpate-journal", failure);
   if (failure) {
     std::error_code ignored;
     fs::remove_all(folder, ignored);

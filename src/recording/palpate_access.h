@@ -17,7 +17,7 @@ class PalpateAccess {
   PalpateAccess& operator=(const PalpateAccess&) = delete;
 
   SqliteDatabase& database() { return *database_; }
-  bool unfinished() const noexcept { return unfinished_; }   // its writer died
+  bool unfinished() const noexcept { return unfinished_; }  // its writer died
   bool beingWritten() const noexcept { return beingWritten_; }
 
  private:

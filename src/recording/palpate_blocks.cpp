@@ -64,8 +64,7 @@ void BlockPacker::add(std::int64_t hostUs,
                       std::optional<std::int64_t> deviceMs,
                       BlockCoding coding) {
   const bool fits = block_.data.size() + kItemHeadBytes + item_.size() <= kMaxBlockBytes;
-  if (block_.n > 0 &&
-      (!fits || coding != block_.coding || hostUs - block_.t0Us > kLargestOffsetUs))
+  if (block_.n > 0 && (!fits || coding != block_.coding || hostUs - block_.t0Us > kLargestOffsetUs))
     flush();
   if (block_.n == 0) {
     block_.stream = stream_;

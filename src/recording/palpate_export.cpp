@@ -18,8 +18,7 @@ class TemporaryNeighbour {
     name += ".XXXXXX";
     std::string pattern = (folder / name).string();
     if (!mkdtemp(pattern.data()))
-      throw FileError(path,
-                      "can't be written: " + std::generic_category().message(errno));
+      throw FileError(path, "can't be written: " + std::generic_category().message(errno));
     folder_ = pattern;
   }
   ~TemporaryNeighbour() {

@@ -1,12 +1,12 @@
 #include "recording/palpate_lock.h"
 
+#include <cerrno>
+#include <system_error>
+
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cerrno>
-#include <system_error>
 
 #include "palpate/core/error.h"
 
@@ -37,9 +37,9 @@ RecordingLock::RecordingLock(const fs::path& recording) : path_(lockPathOf(recor
       ::close(descriptor_);
       descriptor_ = -1;
       throw FileError(recording,
-                      reason == EWOULDBLOCK ? "is being written by another program"
-                                            : "can't be locked: " +
-                                                  std::generic_category().message(reason));
+                      reason == EWOULDBLOCK
+                          ? "is being written by another program"
+                          : "can't be locked: " + std::generic_category().message(reason));
     }
     // The former holder may have removed the file between our open and our flock: then we hold the
     // lock of a file that nobody else sees.

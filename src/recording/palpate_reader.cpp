@@ -9,6 +9,7 @@
 #include "palpate/core/error.h"
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
+
 #include "recording/palpate_access.h"
 #include "recording/palpate_rows.h"
 
@@ -102,8 +103,10 @@ class PalpateStorage final : public ProfileStorage {
       const BlockPlace place{
           rows.integer(1), rows.integer(2), rows.integer(3), rows.integer(4), rows.integer(5)};
       if (stream < 0 || stream > 2 || place.n < 1 ||
-          place.first != static_cast<std::int64_t>(streams_[static_cast<std::size_t>(stream)].numItems))
-        throw FormatError(path_, "blocks are missing or damaged; 'palpate recover' saves the others");
+          place.first !=
+              static_cast<std::int64_t>(streams_[static_cast<std::size_t>(stream)].numItems))
+        throw FormatError(path_,
+                          "blocks are missing or damaged; 'palpate recover' saves the others");
       StreamIndex& index = streams_[static_cast<std::size_t>(stream)];
       index.places.push_back(place);
       index.numItems += static_cast<std::size_t>(place.n);
@@ -136,9 +139,10 @@ class PalpateStorage final : public ProfileStorage {
     block.data.assign(data.begin(), data.end());
     query.reset();
     if (crc != static_cast<std::int64_t>(blockCrc(block)) || !plausible(block))
-      throw FormatError(path_,
-                        "block " + std::to_string(id) +
-                            " is damaged (its checksum is wrong); 'palpate recover' saves the others");
+      throw FormatError(
+          path_,
+          "block " + std::to_string(id) +
+              " is damaged (its checksum is wrong); 'palpate recover' saves the others");
     return block;
   }
 
@@ -201,7 +205,7 @@ class PalpateStorage final : public ProfileStorage {
   mutable std::mutex mutex_;  // over the connection and the cache
   mutable std::optional<SqliteStatement> readBlock_;
   mutable std::unordered_map<std::int64_t, std::shared_ptr<const OpenBlock>> cache_;
-  mutable std::list<std::int64_t> order_;  // of entering the cache
+  mutable std::list<std::int64_t> order_;                         // of entering the cache
   mutable std::array<std::shared_ptr<const OpenBlock>, 3> last_;  // read last, per stream
 };
 
@@ -240,8 +244,8 @@ EventsReport readPalpateEvents(const fs::path& path) {
   SqliteStatement rows = access.database().prepare(
       "SELECT id, t_us, t1_us, kind, matrix, text, json, crc32 FROM event ORDER BY t_us, id");
   while (rows.next()) {
-    RecordingEvent event{rows.integer(1), rows.integer(2), rows.text(3), {}, rows.text(5),
-                         rows.text(6)};
+    RecordingEvent event{
+        rows.integer(1), rows.integer(2), rows.text(3), {}, rows.text(5), rows.text(6)};
     if (!rows.isNull(4)) event.matrix = static_cast<int>(rows.integer(4));
     if (rows.integer(7) == static_cast<std::int64_t>(eventCrc(rows.integer(0), event)))
       report.events.push_back(std::move(event));

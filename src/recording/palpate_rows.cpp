@@ -21,7 +21,8 @@ void createTables(SqliteDatabase& database) {
   database.execute(
       "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL, crc32 INTEGER NOT NULL)"
       " WITHOUT ROWID;"
-      "CREATE TABLE matrix(idx INTEGER PRIMARY KEY, rows INTEGER NOT NULL, columns INTEGER NOT NULL,"
+      "CREATE TABLE matrix(idx INTEGER PRIMARY KEY, rows INTEGER NOT NULL, columns INTEGER NOT "
+      "NULL,"
       " pitch_mm REAL NOT NULL, static_mask TEXT NOT NULL, dynamic_mask TEXT NOT NULL,"
       " uid TEXT NOT NULL, crc32 INTEGER NOT NULL);"
       "CREATE TABLE block(id INTEGER PRIMARY KEY, stream INTEGER NOT NULL, first INTEGER NOT NULL,"
@@ -121,16 +122,15 @@ SensorLayout readLayout(SqliteDatabase& database) {
     matrix.staticMask = maskFrom(rows.text(4), matrix.numPlaces(), path);
     matrix.dynamicMask = maskFrom(rows.text(5), matrix.numPlaces(), path);
     if (rows.integer(0) != static_cast<std::int64_t>(matrices.size()) ||
-        rows.integer(7) !=
-            matrixCrc(static_cast<int>(matrices.size()), matrix, rows.text(6)))
+        rows.integer(7) != matrixCrc(static_cast<int>(matrices.size()), matrix, rows.text(6)))
       throw FormatError(path, "the layout of its matrices is damaged; try 'palpate recover'");
     matrices.push_back(std::move(matrix));
   }
   try {
     return SensorLayout(std::move(matrices));
   } catch (const std::invalid_argument& error) {
-    throw FormatError(path, std::string("the layout of its matrices makes no sense: ") +
-                                error.what());
+    throw FormatError(path,
+                      std::string("the layout of its matrices makes no sense: ") + error.what());
   }
 }
 

@@ -7,6 +7,7 @@
 #include "palpate/model/matrix_layout.h"
 #include "palpate/recording/palpate_schema.h"
 #include "palpate/recording/palpate_writer.h"
+
 #include "recording/second_summary.h"
 #include "recording/sqlite_database.h"
 

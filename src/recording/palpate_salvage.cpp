@@ -8,6 +8,7 @@
 #include "palpate/core/error.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/palpate_blocks.h"
+
 #include "recording/page_scan.h"
 #include "recording/palpate_access.h"
 #include "recording/palpate_rows.h"

@@ -1,10 +1,10 @@
 #include "palpate/recording/palpate_schema.h"
 
-#include <zlib.h>
-
 #include <array>
 #include <bit>
 #include <cstring>
+
+#include <zlib.h>
 
 namespace palpate {
 namespace {

@@ -1,16 +1,17 @@
 #include "palpate/recording/palpate_writer.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include "palpate/core/error.h"
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
+
 #include "recording/palpate_lock.h"
 #include "recording/palpate_rows.h"
 #include "recording/sqlite_database.h"
@@ -52,10 +53,11 @@ struct PalpateWriter::Impl {
         layout(std::move(sensorLayout)),
         lock(path),
         database((refuseExisting(path), path), SqliteDatabase::Mode::kCreate, options.vfs) {
-    database.execute("PRAGMA page_size=4096; PRAGMA auto_vacuum=NONE;"
-                     "PRAGMA journal_mode=TRUNCATE; PRAGMA application_id=" +
-                     std::to_string(kPalpateApplicationId) +
-                     "; PRAGMA user_version=" + std::to_string(kPalpateVersion) + ";");
+    database.execute(
+        "PRAGMA page_size=4096; PRAGMA auto_vacuum=NONE;"
+        "PRAGMA journal_mode=TRUNCATE; PRAGMA application_id=" +
+        std::to_string(kPalpateApplicationId) +
+        "; PRAGMA user_version=" + std::to_string(kPalpateVersion) + ";");
     database.execute(options.synced ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=OFF");
     database.execute("BEGIN IMMEDIATE");
     createTables(database);

@@ -11,13 +11,13 @@ namespace palpate {
 
 // One matrix in one second.
 struct SecondSummary {
-  std::int64_t tS = 0;     // [s since 1970], the second the frames' host time falls into
+  std::int64_t tS = 0;  // [s since 1970], the second the frames' host time falls into
   int matrix = 0;
   std::int64_t frames = 0;
-  double minimum = 0.0;    // smallest value of an active taxel; 0 where none was active
-  double maximum = 0.0;    // largest value
-  double sum = 0.0;        // of all values of all frames
-  int activeMax = 0;       // most taxels active at once
+  double minimum = 0.0;  // smallest value of an active taxel; 0 where none was active
+  double maximum = 0.0;  // largest value
+  double sum = 0.0;      // of all values of all frames
+  int activeMax = 0;     // most taxels active at once
   bool operator==(const SecondSummary&) const = default;
 };
 

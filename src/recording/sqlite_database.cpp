@@ -1,8 +1,8 @@
 #include "recording/sqlite_database.h"
 
-#include <sqlite3.h>
-
 #include <utility>
+
+#include <sqlite3.h>
 
 #include "palpate/core/error.h"
 
@@ -118,8 +118,8 @@ SqliteDatabase::SqliteDatabase(std::filesystem::path path, Mode mode, const std:
   int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
   flags |= mode == Mode::kReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
   if (mode == Mode::kCreate) flags |= SQLITE_OPEN_CREATE;
-  const int code = sqlite3_open_v2(
-      path_.c_str(), &connection_, flags, vfs.empty() ? nullptr : vfs.c_str());
+  const int code =
+      sqlite3_open_v2(path_.c_str(), &connection_, flags, vfs.empty() ? nullptr : vfs.c_str());
   if (code != SQLITE_OK) {
     sqlite3_close(std::exchange(connection_, nullptr));
     throwSqliteError(nullptr, code, path_);
@@ -137,9 +137,7 @@ void SqliteDatabase::execute(const std::string& sql) {
   if (code != SQLITE_OK) throwSqliteError(connection_, code, path_);
 }
 
-SqliteStatement SqliteDatabase::prepare(std::string_view sql) {
-  return {connection_, path_, sql};
-}
+SqliteStatement SqliteDatabase::prepare(std::string_view sql) { return {connection_, path_, sql}; }
 
 std::int64_t SqliteDatabase::integerOf(std::string_view query) {
   SqliteStatement statement = prepare(query);

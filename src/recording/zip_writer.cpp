@@ -6,10 +6,11 @@ namespace palpate {
 namespace {
 
 // PKWARE APPNOTE.TXT 6.3: local file header, central directory, zip64 records.
-constexpr std::uint16_t kVersion = 45;  // 4.5: zip64
+constexpr std::uint16_t kVersion = 45;               // 4.5: zip64
 constexpr std::uint16_t kChecksumFollows = 1u << 3;  // general purpose flag
 constexpr std::uint32_t kMax32 = 0xFFFFFFFF;
-constexpr std::uint16_t kDosDate = 0x0021;  // 1980-01-01: files do not depend on when they were made
+constexpr std::uint16_t kDosDate =
+    0x0021;  // 1980-01-01: files do not depend on when they were made
 
 void little(std::string& out, std::uint64_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> 8 * i & 0xFF);

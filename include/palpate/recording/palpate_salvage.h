@@ -17,18 +17,18 @@ namespace palpate {
 struct PalpateSalvage {
   std::optional<Profile> profile;  // of the intact blocks; nothing when no block is
   std::vector<RecordingEvent> events;
-  std::size_t frames = 0;          // saved
+  std::size_t frames = 0;  // saved
   std::size_t angles = 0;
   std::size_t temperatures = 0;
-  std::size_t lostFrames = 0;      // known to be missing between or before the saved blocks
+  std::size_t lostFrames = 0;  // known to be missing between or before the saved blocks
   std::size_t lostAngles = 0;
   std::size_t lostTemperatures = 0;
-  std::size_t damagedBlocks = 0;   // rows that SQLite gave, with a wrong checksum
-  std::size_t blocksFromPages = 0; // found by reading pages only
-  std::size_t damagedRows = 0;     // of meta, matrix, second, event; summaries that don't fit the data
-  bool unfinished = false;         // its writer stopped before the end
-  bool layoutAssumed = false;      // the layout was lost: that of the SDH-2 fits every saved frame
-  std::string sqliteError;         // what SQLite said, when it gave up
+  std::size_t damagedBlocks = 0;    // rows that SQLite gave, with a wrong checksum
+  std::size_t blocksFromPages = 0;  // found by reading pages only
+  std::size_t damagedRows = 0;  // of meta, matrix, second, event; summaries that don't fit the data
+  bool unfinished = false;      // its writer stopped before the end
+  bool layoutAssumed = false;   // the layout was lost: that of the SDH-2 fits every saved frame
+  std::string sqliteError;      // what SQLite said, when it gave up
   // Whole: nothing is missing or wrong.
   bool whole() const noexcept {
     return lostFrames + lostAngles + lostTemperatures + damagedBlocks + blocksFromPages +

@@ -19,8 +19,9 @@
 namespace palpate {
 
 constexpr std::int32_t kPalpateApplicationId = 0x50414C50;  // "PALP"
-constexpr std::int32_t kPalpateVersion = 1;                  // user_version
-constexpr std::size_t kMaxBlockBytes = 4000;  // of data: a block then never overflows its 4096-byte page
+constexpr std::int32_t kPalpateVersion = 1;                 // user_version
+constexpr std::size_t kMaxBlockBytes =
+    4000;  // of data: a block then never overflows its 4096-byte page
 
 enum class Stream : std::uint8_t { kTactile = 0, kAngles = 1, kTemperatures = 2 };
 

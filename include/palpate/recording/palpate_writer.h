@@ -25,13 +25,13 @@ struct RecordingEvent {
   std::string kind;       // "gap", "label", "note", "settings", ..
   std::optional<int> matrix;
   std::string text;
-  std::string json;       // more of it, one JSON object; may be empty
+  std::string json;  // more of it, one JSON object; may be empty
 };
 
 struct PalpateWriterOptions {
   std::int64_t commitIntervalUs = 100'000;  // host time between commits at most [us]
-  std::string vfs;                           // SQLite file system to use; empty: the default one
-  bool synced = true;                        // synchronous=FULL; off only for conversions, which sync at the end
+  std::string vfs;                          // SQLite file system to use; empty: the default one
+  bool synced = true;  // synchronous=FULL; off only for conversions, which sync at the end
 };
 
 // One recording being written; not thread-safe (the recorder's thread owns it).
