@@ -26,6 +26,10 @@ if(PALPATE_SANITIZE)
   add_compile_options(-fsanitize=${PALPATE_SANITIZE} -fno-omit-frame-pointer
                       -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${PALPATE_SANITIZE})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # The checks that sanitizers insert make GCC see values it can't follow (std::optional's, say).
+    target_compile_options(palpate_warnings INTERFACE -Wno-maybe-uninitialized)
+  endif()
 endif()
 if(PALPATE_COVERAGE)
   add_compile_options(--coverage)

@@ -205,9 +205,15 @@ void scanText(std::span<const std::byte> bytes, const Reporter& report, ElementS
 DsaSalvage salvageDsa(const std::filesystem::path& path,
                       const Progress& progress,
                       const DsaReadOptions& options) {
-  const std::vector<std::byte> bytes = readAll(path);
+  return salvageDsaBytes(readAll(path), path, progress, options);
+}
+
+DsaSalvage salvageDsaBytes(std::span<const std::byte> bytes,
+                           const std::filesystem::path& name,
+                           const Progress& progress,
+                           const DsaReadOptions& options) {
   const DsaForm form =
-      requireDsaForm({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
+      requireDsaForm({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name);
 
   DsaSalvage result;
   DsaDocument document(options, memoryBound(options, form == DsaForm::kBzip2, bytes.size()));

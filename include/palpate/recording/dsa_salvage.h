@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
@@ -35,5 +36,10 @@ inline constexpr std::uint64_t kMaxSalvageBytes = 96u << 20;
 DsaSalvage salvageDsa(const std::filesystem::path& path,
                       const Progress& progress = {},
                       const DsaReadOptions& options = {});
+// The same for bytes that are in memory; `name` stands for the path in messages.
+DsaSalvage salvageDsaBytes(std::span<const std::byte> bytes,
+                           const std::filesystem::path& name,
+                           const Progress& progress = {},
+                           const DsaReadOptions& options = {});
 
 }  // namespace palpate

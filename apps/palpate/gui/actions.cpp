@@ -1,0 +1,135 @@
+#include "gui/actions.h"
+
+#include <QWidget>
+
+#include "gui/color_map.h"
+#include "gui/icons.h"
+#include "gui/playback_controller.h"
+#include "gui/plotted_signal.h"
+#include "gui/window_settings.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kSectionProperty = "section";
+constexpr int kMatricesWithKeys = 9;
+
+QKeySequence key(const char* text) { return QKeySequence(QString(text)); }
+
+}  // namespace
+
+QString sectionOf(const QAction& action) { return action.property(kSectionProperty).toString(); }
+
+void setSection(QAction& action, const QString& section) {
+  action.setProperty(kSectionProperty, section);
+}
+
+QString plainText(const QAction& action) {
+  QString text = action.text();
+  text.remove('&');
+  text.remove("…");
+  return text;
+}
+
+QAction* Actions::make(const char* section,
+                       const QString& text,
+                       const QList<QKeySequence>& sequences,
+                       bool checkable) {
+  auto* action = new QAction(text, window_);
+  action->setShortcuts(sequences);
+  action->setCheckable(checkable);
+  setSection(*action, section);
+  if (!sequences.isEmpty())
+    action->setToolTip(plainText(*action) + " (" +
+                       sequences.first().toString(QKeySequence::NativeText) + ")");
+  window_->addAction(action);
+  return action;
+}
+
+QActionGroup* Actions::choices(const QStringList& names) {
+  auto* group = new QActionGroup(window_);
+  for (const QString& name : names) {
+    auto* action = new QAction(name, group);
+    action->setCheckable(true);
+    action->setData(group->actions().size() - 1);
+  }
+  return group;
+}
+
+Actions::Actions(QWidget* window) : window_(window) {
+  open = make("File", "&Open…", {key("Ctrl+O")});
+  openDemo = make("File", "Open the &demo recording", {key("Ctrl+D")});
+  nextRecording = make("File", "&Next open recording", {key("Ctrl+Tab")});
+  previousRecording = make("File", "&Previous open recording", {key("Ctrl+Shift+Tab")});
+  closeRecording = make("File", "&Close recording", {key("Ctrl+W")});
+  exportPicture = make("File", "&Export picture…", {key("Ctrl+E")});
+  copyPicture = make("File", "Cop&y picture", {key("Ctrl+C")});
+  quit = make("File", "&Quit", {key("Ctrl+Q")});
+
+  interpolated = make("View", "&Smooth", {key("I")}, true);
+  interpolated->setToolTip("Smooth between taxels (I)");
+  values = make("View", "&Values", {key("V")}, true);
+  values->setToolTip("Print the value of each active taxel (V)");
+  nextMap = make("View", "Next &colour map", {key("M")});
+  nextRange = make("View", "Next colour &range", {key("R")});
+  nextSignal = make("View", "Next &signal in the timeline", {key("S")});
+  zoomIn = make("View", "Zoom the timeline &in", {key("Ctrl++"), key("Ctrl+=")});
+  zoomOut = make("View", "Zoom the timeline &out", {key("Ctrl+-")});
+  fit = make("View", "Show the &whole timeline", {key("F")});
+  for (int i = 0; i < kMatricesWithKeys; ++i)
+    plots.append(make("View",
+                      "Plot matrix " + QString::number(i),
+                      {QKeySequence("Ctrl+" + QString::number(i + 1))},
+                      true));
+  plots.append(make("View", "Plot all matrices together", {key("Ctrl+0")}, true));
+  nextTheme = make("View", "Dark or light", {key("Ctrl+T")});
+  fullScreen = make("View", "&Full screen", {key("F11")}, true);
+  resetLayout = make("View", "&Reset layout", {key("Ctrl+Shift+R")});
+
+  play = make("Playback", "&Play or pause", {key("Space")});
+  stepBack = make("Playback", "Step &back", {key("Left")});
+  stepForward = make("Playback", "Step &forward", {key("Right")});
+  tenBack = make("Playback", "Ten frames back", {key("Shift+Left")});
+  tenForward = make("Playback", "Ten frames forward", {key("Shift+Right")});
+  toStart = make("Playback", "To the first frame", {key("Home")});
+  toEnd = make("Playback", "To the last frame", {key("End")});
+  goToFrame = make("Playback", "&Go to frame…", {key("Ctrl+G")});
+  faster = make("Playback", "F&aster", {key("Up"), key("+"), key("=")});
+  slower = make("Playback", "&Slower", {key("Down"), key("-")});
+  loop = make("Playback", "&Loop", {key("L")}, true);
+  skipGaps = make("Playback", "Skip &gaps", {key("G")}, true);
+  skipGaps->setToolTip("Jump over the gaps of a recording while playing (G)");
+
+  keys = make("Help", "&Keys", {key("F1")});
+  about = make("Help", "&About Palpate");
+  dismiss = make("Help", "Close the message, stop opening, leave full screen", {key("Esc")});
+
+  QStringList names;
+  for (const ColorMapName map : kAllColorMaps) names.append(nameOf(map));
+  maps = choices(names);
+  names.clear();
+  for (const RangeMode mode : kAllRangeModes) names.append(nameOf(mode));
+  ranges = choices(names);
+  names.clear();
+  for (const PlottedSignal signal : kAllPlottedSignals) names.append(nameOf(signal));
+  signalsPlotted = choices(names);
+  themes = choices({"as the desktop", "dark", "light"});
+  names.clear();
+  for (const double speed : PlaybackController::kSpeeds) names.append(QString::number(speed) + "×");
+  speeds = choices(names);
+}
+
+void Actions::setTheme(Theme theme) {
+  open->setIcon(makeIcon(IconShape::kOpen, theme));
+  exportPicture->setIcon(makeIcon(IconShape::kExport, theme));
+  toStart->setIcon(makeIcon(IconShape::kToStart, theme));
+  stepBack->setIcon(makeIcon(IconShape::kStepBack, theme));
+  stepForward->setIcon(makeIcon(IconShape::kStepForward, theme));
+  loop->setIcon(makeIcon(IconShape::kLoop, theme));
+  skipGaps->setIcon(makeIcon(IconShape::kSkipGaps, theme));
+  keys->setIcon(makeIcon(IconShape::kHelp, theme));
+  interpolated->setIcon(makeIcon(IconShape::kInterpolated, theme));
+  values->setIcon(makeIcon(IconShape::kValues, theme));
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,82 @@
+// Everything the user can do in the window, with its keys: menus, toolbar and the list of keys (F1)
+// are all made from these actions.
+#pragma once
+
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
+#include <QString>
+
+#include "gui/theme.h"
+
+namespace palpate::gui {
+
+struct Actions {
+  // The actions belong to the window and work wherever the keyboard is in it.
+  explicit Actions(QWidget* window);
+  void setTheme(Theme theme);  // icons
+
+  QAction* open;
+  QAction* openDemo;
+  QAction* nextRecording;
+  QAction* previousRecording;
+  QAction* closeRecording;
+  QAction* exportPicture;
+  QAction* copyPicture;
+  QAction* quit;
+
+  QAction* interpolated;
+  QAction* values;
+  QAction* nextMap;
+  QAction* nextRange;
+  QAction* nextSignal;
+  QAction* zoomIn;
+  QAction* zoomOut;
+  QAction* fit;
+  QAction* nextTheme;
+  QAction* fullScreen;
+  QAction* resetLayout;
+
+  QAction* play;
+  QAction* stepBack;
+  QAction* stepForward;
+  QAction* tenBack;
+  QAction* tenForward;
+  QAction* toStart;
+  QAction* toEnd;
+  QAction* goToFrame;
+  QAction* faster;
+  QAction* slower;
+  QAction* loop;
+  QAction* skipGaps;
+
+  QAction* keys;
+  QAction* about;
+  QAction* dismiss;
+
+  // Choices, one of each group at a time; data() is the index.
+  QActionGroup* maps;
+  QActionGroup* ranges;
+  QActionGroup* signalsPlotted;
+  QActionGroup* themes;
+  QActionGroup* speeds;
+  // Plot a matrix: the first nine, then the whole hand.
+  QList<QAction*> plots;
+
+ private:
+  QAction* make(const char* section,
+                const QString& text,
+                const QList<QKeySequence>& sequences = {},
+                bool checkable = false);
+  QActionGroup* choices(const QStringList& names);
+
+  QWidget* window_;
+};
+
+// The section of the list of keys that an action belongs to ("File", ..); empty: not listed.
+QString sectionOf(const QAction& action);
+void setSection(QAction& action, const QString& section);
+// Its text without mnemonic and dots.
+QString plainText(const QAction& action);
+
+}  // namespace palpate::gui

@@ -1,0 +1,149 @@
+#include "gui/icons.h"
+
+#include <QIconEngine>
+#include <QPainter>
+#include <QPainterPath>
+#include <QPixmap>
+
+namespace palpate::gui {
+namespace {
+
+// All shapes live in a square of 16 x 16 units.
+constexpr double kUnits = 16.0;
+constexpr double kStroke = 1.6;
+
+QPainterPath polygon(std::initializer_list<QPointF> points) {
+  QPainterPath path;
+  path.addPolygon(QPolygonF(QList<QPointF>(points)));
+  path.closeSubpath();
+  return path;
+}
+
+QPainterPath lines(std::initializer_list<QPointF> points) {
+  QPainterPath path;
+  path.addPolygon(QPolygonF(QList<QPointF>(points)));
+  return path;
+}
+
+QPainterPath bar(double x, double width) {
+  QPainterPath path;
+  path.addRect(x, 3, width, 10);
+  return path;
+}
+
+QPainterPath filledPart(IconShape shape) {
+  switch (shape) {
+    case IconShape::kToStart:
+      return bar(2, 2) + polygon({{13.5, 3}, {13.5, 13}, {5, 8}});
+    case IconShape::kStepBack:
+      return bar(11.5, 2) + polygon({{10, 3}, {10, 13}, {2.5, 8}});
+    case IconShape::kPlay:
+      return polygon({{4, 2.5}, {13.5, 8}, {4, 13.5}});
+    case IconShape::kPause:
+      return bar(4, 3) + bar(9, 3);
+    case IconShape::kStepForward:
+      return bar(2.5, 2) + polygon({{6, 3}, {6, 13}, {13.5, 8}});
+    case IconShape::kLoop:
+      return polygon({{9.5, 0.6}, {13.6, 3.4}, {9.5, 6.2}}) +
+             polygon({{6.5, 9.8}, {6.5, 15.4}, {2.4, 12.6}});
+    case IconShape::kSkipGaps:
+      return polygon({{8.6, 4.6}, {14.4, 4.6}, {11.5, 9}});
+    case IconShape::kHelp: {
+      QPainterPath dot;
+      dot.addEllipse(QPointF(8, 13.2), 1.1, 1.1);
+      return dot;
+    }
+    case IconShape::kValues: {
+      QPainterPath squares;
+      for (const double x : {2.0, 8.6})
+        for (const double y : {2.0, 8.6}) squares.addRect(x, y, 5.4, 5.4);
+      return squares;
+    }
+    default:
+      return {};
+  }
+}
+
+QPainterPath strokedPart(IconShape shape) {
+  QPainterPath path;
+  switch (shape) {
+    case IconShape::kOpen:
+      path = lines({{2, 13}, {2, 3.5}, {6, 3.5}, {7.5, 5.5}, {13, 5.5}, {13, 7.5}});
+      path.addPath(polygon({{2, 13}, {4.5, 7.5}, {15, 7.5}, {12.5, 13}}));
+      return path;
+    case IconShape::kExport:
+      path = lines({{2.5, 9.5}, {2.5, 13.5}, {13.5, 13.5}, {13.5, 9.5}});
+      path.addPath(lines({{8, 10.5}, {8, 2.5}}));
+      path.addPath(lines({{4.8, 5.5}, {8, 2.3}, {11.2, 5.5}}));
+      return path;
+    case IconShape::kLoop:
+      path = lines({{2.5, 8.5}, {2.5, 3.4}, {10, 3.4}});
+      path.addPath(lines({{13.5, 7.5}, {13.5, 12.6}, {6, 12.6}}));
+      return path;
+    case IconShape::kSkipGaps:
+      path.moveTo(4.5, 9.5);
+      path.cubicTo(4.5, 1, 11.5, 1, 11.5, 6);
+      path.addPath(lines({{1, 13}, {6, 13}}));
+      path.addPath(lines({{10, 13}, {15, 13}}));
+      return path;
+    case IconShape::kHelp:
+      path.moveTo(4.8, 5.2);
+      path.cubicTo(4.8, 0.6, 11.4, 0.6, 11.4, 5);
+      path.cubicTo(11.4, 7.8, 8, 7.4, 8, 10.6);
+      return path;
+    case IconShape::kClose:
+      path = lines({{4, 4}, {12, 12}});
+      path.addPath(lines({{12, 4}, {4, 12}}));
+      return path;
+    case IconShape::kInterpolated:
+      path.moveTo(1.5, 12.5);
+      path.cubicTo(6, 12.5, 5, 3.5, 8, 3.5);
+      path.cubicTo(11, 3.5, 10, 12.5, 14.5, 12.5);
+      return path;
+    default:
+      return {};
+  }
+}
+
+class PathIconEngine : public QIconEngine {
+ public:
+  PathIconEngine(IconShape shape, Theme theme) : shape_(shape), theme_(theme) {}
+
+  void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State state) override {
+    const ThemeColors& colors = colorsOf(theme_);
+    QColor color = state == QIcon::On ? colors.accent : colors.text;
+    constexpr float kFaded = 0.45F;
+    if (mode == QIcon::Disabled) {
+      color = colors.muted;
+      color.setAlphaF(kFaded);
+    }
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing);
+    painter->translate(rect.topLeft());
+    painter->scale(rect.width() / kUnits, rect.height() / kUnits);
+    painter->fillPath(filledPart(shape_), color);
+    painter->strokePath(strokedPart(shape_),
+                        QPen(color, kStroke, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    painter->restore();
+  }
+
+  QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
+    QPixmap pixmap(size);
+    pixmap.fill(Qt::transparent);
+    QPainter painter(&pixmap);
+    paint(&painter, QRect(QPoint(), size), mode, state);
+    return pixmap;
+  }
+
+  QIconEngine* clone() const override { return new PathIconEngine(*this); }
+
+ private:
+  IconShape shape_;
+  Theme theme_;
+};
+
+}  // namespace
+
+QIcon makeIcon(IconShape shape, Theme theme) { return QIcon(new PathIconEngine(shape, theme)); }
+
+}  // namespace palpate::gui

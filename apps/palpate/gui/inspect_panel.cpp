@@ -1,0 +1,172 @@
+#include "gui/inspect_panel.h"
+
+#include <QBoxLayout>
+#include <QLabel>
+#include <QResizeEvent>
+
+#include <palpate/core/time.h>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kTwoColumnsFrom = 430;  // [px] of width
+
+QString number(double value, int decimals) { return QString::number(value, 'f', decimals); }
+
+QLabel* heading(const QString& text, QWidget* parent) {
+  auto* label = new QLabel(text.toUpper(), parent);
+  label->setProperty("role", "heading");
+  QFont font = label->font();
+  constexpr double kSmaller = 0.86;
+  font.setPointSizeF(font.pointSizeF() * kSmaller);
+  font.setLetterSpacing(QFont::AbsoluteSpacing, 0.8);
+  label->setFont(font);
+  return label;
+}
+
+std::vector<Fact> factsOf(const OpenedRecording& recording) {
+  const Profile& profile = recording.profile;
+  const ProfileInfo& info = profile.info();
+  std::vector<Fact> facts;
+  facts.push_back({"file", QString::fromStdString(recording.path.filename().string())});
+  const QString type = info.valueType == ValueType::kCounts ? "counts" : "float values";
+  facts.push_back({"format", QString::fromStdString(info.format) + ", " + type});
+  facts.push_back({"hand", QString::fromStdString(profile.hand().name)});
+  if (!info.serial.empty()) facts.push_back({"serial", QString::fromStdString(info.serial)});
+  if (profile.numFrames() > 0) {
+    const std::string start = utcText(profile.frameTimeUs(0));
+    facts.push_back({"start (UTC)", QString::fromStdString(start).left(19)});
+  }
+  facts.push_back({"frames", QString::number(profile.numFrames())});
+  facts.push_back({"duration", number(recording.timing.durationS, 2) + " s"});
+  facts.push_back({"rate",
+                   number(recording.timing.rateHz, 1) + " Hz (mean " +
+                       number(recording.timing.meanRateHz, 1) + ")"});
+  double longest = 0.0;
+  for (const Gap& gap : recording.timing.gaps) longest = std::max(longest, gap.seconds);
+  const auto gaps = recording.timing.gaps.size();
+  facts.push_back({"gaps",
+                   gaps == 0 ? QString("none")
+                             : QString::number(gaps) + ", longest " + number(longest, 1) + " s",
+                   gaps > 0});
+  const std::size_t taxels = profile.layout().numTaxels();
+  std::size_t enabled = 0;
+  for (const MatrixLayout& matrix : profile.layout().matrices()) enabled += matrix.numEnabled();
+  facts.push_back({"taxels",
+                   enabled == taxels
+                       ? QString::number(taxels)
+                       : QString::number(enabled) + " of " + QString::number(taxels) + " scanned",
+                   enabled != taxels});
+  facts.push_back({"largest value", number(recording.maximum, 0) + " counts"});
+  facts.push_back({"saturated frames",
+                   QString::number(recording.saturatedFrames),
+                   recording.saturatedFrames > 0});
+  facts.push_back({"calibration", "none: values are counts"});
+  for (const std::string& warning : info.warnings)
+    facts.push_back({"warning", QString::fromStdString(warning), true});
+  return facts;
+}
+
+std::vector<Fact> noneOf() { return {{"none in this recording", ""}}; }
+
+}  // namespace
+
+InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
+  setWidgetResizable(true);
+  setFrameShape(QFrame::NoFrame);
+  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  setFocusPolicy(Qt::NoFocus);
+  auto* content = new QWidget(this);
+  model_ = new MatrixTableModel(content);
+  auto* table = new MatrixTable(model_, content);
+  facts_ = new FactsView(content);
+  facts_->setObjectName("recordingFacts");
+  angles_ = new FactsView(content);
+  angles_->setObjectName("angleFacts");
+  temperatures_ = new FactsView(content);
+  temperatures_->setObjectName("temperatureFacts");
+
+  auto* left = new QVBoxLayout;
+  left->setSpacing(4);
+  left->addWidget(heading("Recording", content));
+  left->addWidget(facts_);
+  left->addStretch(1);
+  auto* right = new QVBoxLayout;
+  right->setSpacing(4);
+  right->addWidget(heading("Joint angles", content));
+  right->addWidget(angles_);
+  right->addSpacing(12);
+  right->addWidget(heading("Temperatures", content));
+  right->addWidget(temperatures_);
+  right->addStretch(1);
+  columns_ = new QBoxLayout(QBoxLayout::LeftToRight);
+  columns_->setSpacing(20);
+  columns_->addLayout(left, 6);
+  columns_->addLayout(right, 5);
+
+  auto* column = new QVBoxLayout(content);
+  column->setContentsMargins(12, 8, 12, 10);
+  column->setSpacing(14);
+  column->addWidget(table);
+  column->addLayout(columns_);
+  column->addStretch(1);
+  setWidget(content);
+}
+
+void InspectPanel::setRecording(const OpenedRecordingPtr& recording) {
+  recording_ = recording;
+  model_->setRecording(recording);
+  if (!recording) {
+    facts_->setFacts({});
+    angles_->setFacts({});
+    temperatures_->setFacts({});
+    return;
+  }
+  facts_->setFacts(factsOf(*recording));
+  std::vector<Fact> angles;
+  if (recording->profile.numAngles() > 0)
+    for (const AxisDescription& axis : recording->profile.hand().axes)
+      angles.push_back({QString::fromStdString(axis.name), ""});
+  angles_->setFacts(angles.empty() ? noneOf() : std::move(angles));
+  std::vector<Fact> temperatures;
+  if (recording->profile.numTemperatures() > 0)
+    for (const auto& sensor : recording->profile.hand().temperatureSensors)
+      temperatures.push_back({QString::fromStdString(sensor.name), ""});
+  temperatures_->setFacts(temperatures.empty() ? noneOf() : std::move(temperatures));
+}
+
+void InspectPanel::showFrame(std::size_t frame) {
+  if (!recording_) return;
+  model_->showFrame(frame);
+  showAngles(frame);
+  showTemperatures(frame);
+}
+
+void InspectPanel::showAngles(std::size_t frame) {
+  const auto angles = recording_->profile.anglesAtFrame(frame);
+  if (!angles) return;
+  for (std::size_t i = 0; i < angles->deg.size(); ++i)
+    angles_->setValue(i, number(angles->deg[i], 1) + "°");
+}
+
+void InspectPanel::showTemperatures(std::size_t frame) {
+  const auto temperatures = recording_->profile.temperaturesAtFrame(frame);
+  if (!temperatures) return;
+  for (std::size_t i = 0; i < temperatures->degC.size(); ++i) {
+    const double value = temperatures->degC[i];
+    temperatures_->setValue(i, value == 0.0 ? QString("–") : number(value, 1) + " °C");
+  }
+}
+
+void InspectPanel::setTheme(Theme theme) {
+  model_->setTheme(theme);
+  for (FactsView* facts : {facts_, angles_, temperatures_}) facts->setTheme(theme);
+}
+
+void InspectPanel::resizeEvent(QResizeEvent* event) {
+  const bool wide = event->size().width() >= kTwoColumnsFrom;
+  columns_->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+  QScrollArea::resizeEvent(event);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,97 @@
+#include "gui/keys_dialog.h"
+
+#include <QAction>
+#include <QDialogButtonBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QScrollArea>
+#include <QVBoxLayout>
+
+#include "gui/actions.h"
+
+namespace palpate::gui {
+namespace {
+
+// What the mouse does has no action to be read from.
+const std::vector<KeyEntry>& mouseEntries() {
+  static const std::vector<KeyEntry> entries = {
+      {"Mouse", "Click or drag", "In the timeline or the seek bar: move through time"},
+      {"Mouse", "Wheel", "In the timeline: zoom; with Shift: pan"},
+      {"Mouse", "Middle button or Shift+drag", "In the timeline: pan"},
+      {"Mouse", "Double click", "In the timeline: show all of it"},
+      {"Mouse", "Hover", "Over a taxel or the timeline: the values there"},
+      {"Mouse", "Drop a file", "Anywhere: open it"}};
+  return entries;
+}
+
+QWidget* columnOf(const std::vector<KeyEntry>& entries, QWidget* parent) {
+  auto* column = new QWidget(parent);
+  auto* grid = new QGridLayout(column);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(18);
+  grid->setVerticalSpacing(5);
+  grid->setColumnStretch(1, 1);
+  QString section;
+  int row = 0;
+  for (const KeyEntry& entry : entries) {
+    if (entry.section != section) {
+      section = entry.section;
+      auto* heading = new QLabel(section.toUpper(), column);
+      heading->setProperty("role", "heading");
+      heading->setContentsMargins(0, row == 0 ? 0 : 12, 0, 2);
+      grid->addWidget(heading, row++, 0, 1, 2);
+    }
+    auto* keys = new QLabel(entry.keys, column);
+    keys->setTextFormat(Qt::PlainText);
+    grid->addWidget(keys, row, 0);
+    auto* what = new QLabel(entry.what, column);
+    what->setTextFormat(Qt::PlainText);
+    what->setProperty("role", "muted");
+    grid->addWidget(what, row++, 1);
+  }
+  grid->setRowStretch(row, 1);
+  return column;
+}
+
+}  // namespace
+
+std::vector<KeyEntry> keysOf(const QList<QAction*>& actions) {
+  std::vector<KeyEntry> entries;
+  for (const char* section : {"File", "View", "Playback", "Help"}) {
+    for (const QAction* action : actions) {
+      if (sectionOf(*action) != section || !action->isVisible()) continue;
+      QStringList keys;
+      for (const QKeySequence& sequence : action->shortcuts())
+        keys.append(sequence.toString(QKeySequence::NativeText));
+      if (!keys.isEmpty()) entries.push_back({section, keys.join(" or "), plainText(*action)});
+    }
+  }
+  return entries;
+}
+
+KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialog(parent) {
+  setWindowTitle("Keys");
+  std::vector<KeyEntry> left, right;
+  for (const KeyEntry& entry : keysOf(actions))
+    (entry.section == "View" ? right : left).push_back(entry);
+  right.insert(right.end(), mouseEntries().begin(), mouseEntries().end());
+  auto* content = new QWidget(this);
+  auto* columns = new QHBoxLayout(content);
+  columns->setContentsMargins(18, 16, 18, 8);
+  columns->setSpacing(44);
+  columns->addWidget(columnOf(left, content), 1);
+  columns->addWidget(columnOf(right, content), 1);
+  auto* scroll = new QScrollArea(this);
+  scroll->setWidgetResizable(true);
+  scroll->setWidget(content);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* page = new QVBoxLayout(this);
+  page->setContentsMargins(0, 0, 12, 12);
+  page->addWidget(scroll, 1);
+  page->addWidget(buttons);
+  const QSize wanted = content->sizeHint() + QSize(40, 80);
+  resize(wanted.boundedTo(QSize(1100, 860)));
+}
+
+}  // namespace palpate::gui

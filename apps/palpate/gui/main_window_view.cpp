@@ -1,0 +1,421 @@
+// The main window's look, status and layout.
+#include <QApplication>
+#include <QCloseEvent>
+#include <QComboBox>
+#include <QStatusBar>
+#include <algorithm>
+#include <iterator>
+
+#include "gui/about_dialog.h"
+#include "gui/dock.h"
+#include "gui/icons.h"
+#include "gui/inspect_panel.h"
+#include "gui/keys_dialog.h"
+#include "gui/main_window.h"
+#include "gui/matrices_panel.h"
+#include "gui/message_banner.h"
+#include "gui/opening_strip.h"
+#include "gui/playback_bar.h"
+#include "gui/start_page.h"
+#include "gui/status_strip.h"
+#include "gui/timeline_chart.h"
+#include "gui/timeline_header.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kFlashMs = 5000;
+constexpr int kTenFrames = 10;
+constexpr double kZoomStep = 1.5;
+constexpr double kInspectShare = 0.345;   // of the window's width
+constexpr double kTimelineShare = 0.235;  // of the window's height
+
+// The choice after `now`, around.
+template <class Choices, class Choice>
+Choice after(const Choices& all, Choice now) {
+  auto at = std::find(all.begin(), all.end(), now);
+  if (at == all.end() || ++at == all.end()) at = all.begin();
+  return *at;
+}
+
+template <class Choices, class Choice>
+void check(const QActionGroup* group, const Choices& all, Choice now) {
+  const auto index = std::find(std::begin(all), std::end(all), now) - std::begin(all);
+  if (index < group->actions().size()) group->actions().at(index)->setChecked(true);
+}
+
+constexpr std::array kThemeChoices = {
+    ThemeChoice::kSystem, ThemeChoice::kDark, ThemeChoice::kLight};
+
+QString seconds(double value) { return QString::number(value, 'f', 2) + " s"; }
+
+}  // namespace
+
+void MainWindow::connectPlayback() {
+  connect(&playback_, &PlaybackController::frameChanged, this, &MainWindow::showFrame);
+  connect(&playback_, &PlaybackController::positionChanged, this, [this](double position) {
+    timeline_->setPosition(position);
+    updateStatus();
+  });
+  connect(&playback_, &PlaybackController::stateChanged, this, &MainWindow::showPlaybackState);
+  connect(timeline_, &TimelineChart::sought, &playback_, &PlaybackController::seekSeconds);
+  const auto on = [this](QAction* action, auto what) {
+    connect(action, &QAction::triggered, this, what);
+  };
+  on(actions_.play, [this] { playback_.togglePlay(); });
+  on(actions_.stepBack, [this] { playback_.step(-1); });
+  on(actions_.stepForward, [this] { playback_.step(1); });
+  on(actions_.tenBack, [this] { playback_.step(-kTenFrames); });
+  on(actions_.tenForward, [this] { playback_.step(kTenFrames); });
+  on(actions_.toStart, [this] { playback_.seekFrame(0); });
+  on(actions_.toEnd, [this] {
+    playback_.pause();
+    playback_.seekFrame(playback_.numFrames());
+  });
+  on(actions_.goToFrame, [this] { playbackBar_->editFrame(); });
+  on(actions_.faster, [this] { playback_.faster(); });
+  on(actions_.slower, [this] { playback_.slower(); });
+  on(actions_.loop, [this](bool checked) {
+    loopIsOfDemo_ = false;
+    playback_.setLoop(checked);
+  });
+  on(actions_.skipGaps, [this](bool checked) { playback_.setSkipGaps(checked); });
+  connect(menus_->speed, &QComboBox::activated, this, [this](int index) {
+    playback_.setSpeed(PlaybackController::kSpeeds[index]);
+  });
+  connect(actions_.speeds, &QActionGroup::triggered, this, [this](const QAction* action) {
+    playback_.setSpeed(PlaybackController::kSpeeds[action->data().toInt()]);
+  });
+}
+
+void MainWindow::connectViewActions() {
+  const auto on = [this](QAction* action, auto what) {
+    connect(action, &QAction::triggered, this, what);
+  };
+  on(actions_.interpolated, [this](bool checked) {
+    changeView([&](ViewSettings& view) { view.interpolated = checked; });
+  });
+  on(actions_.values,
+     [this](bool checked) { changeView([&](ViewSettings& view) { view.values = checked; }); });
+  on(actions_.nextMap,
+     [this] { changeView([](ViewSettings& view) { view.map = after(kAllColorMaps, view.map); }); });
+  on(actions_.nextRange, [this] {
+    changeView([](ViewSettings& view) { view.range = after(kAllRangeModes, view.range); });
+  });
+  on(actions_.nextSignal, [this] {
+    changeView([](ViewSettings& view) { view.signal = after(kAllPlottedSignals, view.signal); });
+  });
+  on(actions_.zoomIn, [this] { timeline_->zoom(kZoomStep); });
+  on(actions_.zoomOut, [this] { timeline_->zoom(1.0 / kZoomStep); });
+  on(actions_.fit, [this] { timeline_->fit(); });
+  on(actions_.nextTheme, [this] {
+    const bool dark = resolved(view_.theme) == Theme::kDark;
+    setTheme(dark ? ThemeChoice::kLight : ThemeChoice::kDark);
+  });
+  on(actions_.fullScreen, [this](bool checked) { toggleFullScreen(checked); });
+  on(actions_.resetLayout, [this] { defaultLayout(); });
+  on(actions_.keys, [this] {
+    auto* dialog = new KeysDialog(actions(), this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->show();
+  });
+  on(actions_.about, [this] {
+    auto* dialog = new AboutDialog(this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->show();
+  });
+  on(actions_.dismiss, [this] { dismiss(); });
+  const auto last = actions_.plots.size() - 1;
+  for (qsizetype i = 0; i <= last; ++i)
+    on(actions_.plots[i], [this, i, last](bool checked) {
+      if (!current_) return;
+      const auto row = i == last ? current_->numMatrices() : static_cast<std::size_t>(i);
+      inspect_->table().setPlotted(row, checked);
+    });
+}
+
+void MainWindow::connectChoices() {
+  connect(actions_.maps, &QActionGroup::triggered, this, [this](const QAction* action) {
+    changeView([&](ViewSettings& view) { view.map = kAllColorMaps.at(action->data().toUInt()); });
+  });
+  connect(actions_.ranges, &QActionGroup::triggered, this, [this](const QAction* action) {
+    changeView(
+        [&](ViewSettings& view) { view.range = kAllRangeModes.at(action->data().toUInt()); });
+  });
+  connect(actions_.signalsPlotted, &QActionGroup::triggered, this, [this](const QAction* action) {
+    changeView(
+        [&](ViewSettings& view) { view.signal = kAllPlottedSignals.at(action->data().toUInt()); });
+  });
+  connect(actions_.themes, &QActionGroup::triggered, this, [this](const QAction* action) {
+    setTheme(kThemeChoices.at(action->data().toUInt()));
+  });
+  connect(matrices_, &MatricesPanel::mapChosen, this, [this](ColorMapName map) {
+    changeView([&](ViewSettings& view) { view.map = map; });
+  });
+  connect(matrices_, &MatricesPanel::rangeChosen, this, [this](RangeMode mode) {
+    changeView([&](ViewSettings& view) { view.range = mode; });
+  });
+  connect(matrices_, &MatricesPanel::manualRangeChosen, this, [this](double low, double high) {
+    changeView([&](ViewSettings& view) {
+      view.manualMin = low;
+      view.manualMax = high;
+    });
+  });
+  connect(&matrices_->view(), &MatricesView::hovered, this, [this](const QString& text) {
+    hover_ = text;
+    updateStatus();
+  });
+  connect(timelineHeader_, &TimelineHeader::signalChosen, this, [this](PlottedSignal signal) {
+    changeView([&](ViewSettings& view) { view.signal = signal; });
+  });
+  connect(&inspect_->table(), &MatrixTableModel::plottedChanged, this, &MainWindow::showPlotted);
+  flashTimer_.setSingleShot(true);
+  flashTimer_.setInterval(kFlashMs);
+  connect(&flashTimer_, &QTimer::timeout, this, [this] {
+    flash_.clear();
+    updateStatus();
+  });
+}
+
+void MainWindow::changeView(const std::function<void(ViewSettings&)>& change) {
+  change(view_);
+  applyView();
+}
+
+void MainWindow::applyView() {
+  matrices_->setSettings(view_, resolved(view_.theme));
+  timelineHeader_->setSignal(view_.signal);
+  timeline_->setSignal(view_.signal);
+  actions_.interpolated->setChecked(view_.interpolated);
+  actions_.values->setChecked(view_.values);
+  check(actions_.maps, kAllColorMaps, view_.map);
+  check(actions_.ranges, kAllRangeModes, view_.range);
+  check(actions_.signalsPlotted, kAllPlottedSignals, view_.signal);
+  check(actions_.themes, kThemeChoices, view_.theme);
+}
+
+void MainWindow::setTheme(ThemeChoice choice) {
+  view_.theme = choice;
+  applyTheme();
+  applyView();
+}
+
+void MainWindow::applyTheme() {
+  const Theme theme = resolved(view_.theme);
+  gui::applyTheme(*qApp, theme);
+  actions_.setTheme(theme);
+  banner_->setTheme(theme);
+  startPage_->setTheme(theme);
+  playbackBar_->setTheme(theme);
+  timeline_->setTheme(theme);
+  inspect_->setTheme(theme);
+  status_->setTheme(theme);
+  for (Dock* dock : docks_) dock->setTheme(theme);
+  showPlotted();
+  showPlaybackState();
+}
+
+void MainWindow::showFrame(std::size_t frame) {
+  matrices_->showFrame(frame);
+  inspect_->showFrame(frame);
+}
+
+void MainWindow::showPlaybackState() {
+  const Theme theme = resolved(view_.theme);
+  const bool playing = playback_.playing();
+  actions_.play->setText(playing ? "&Pause" : "&Play");
+  actions_.play->setIcon(makeIcon(playing ? IconShape::kPause : IconShape::kPlay, theme));
+  actions_.play->setToolTip(playing ? "Pause (Space)" : "Play by the real time stamps (Space)");
+  actions_.loop->setChecked(playback_.loop());
+  actions_.skipGaps->setChecked(playback_.skipGaps());
+  check(actions_.speeds, PlaybackController::kSpeeds, playback_.speed());
+  const auto* at = std::find(std::begin(PlaybackController::kSpeeds),
+                             std::end(PlaybackController::kSpeeds),
+                             playback_.speed());
+  menus_->speed->setCurrentIndex(
+      at == std::end(PlaybackController::kSpeeds)
+          ? -1
+          : static_cast<int>(at - std::begin(PlaybackController::kSpeeds)));
+  updateStatus();
+}
+
+void MainWindow::showPlotted() {
+  const auto& plotted = inspect_->table().plotted();
+  timeline_->setPlotted(plotted);
+  timelineHeader_->setPlotted(current_, plotted, resolved(view_.theme));
+  const auto last = actions_.plots.size() - 1;
+  for (qsizetype i = 0; i < last; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    const bool there = current_ && row < current_->numMatrices();
+    actions_.plots[i]->setVisible(there);
+    actions_.plots[i]->setEnabled(there);
+    if (!there) continue;
+    actions_.plots[i]->setText("Plot " +
+                               QString::fromStdString(current_->profile.hand().matrixName(row)));
+    actions_.plots[i]->setChecked(plotted[row]);
+  }
+  actions_.plots[last]->setEnabled(current_ != nullptr);
+  actions_.plots[last]->setChecked(!plotted.empty() && plotted.back());
+}
+
+QString MainWindow::noticeNow() const {
+  if (!flash_.isEmpty()) return flash_;
+  if (!hover_.isEmpty()) return hover_;
+  if (!current_) return {};
+  if (const Gap* gap = current_->gapAt(playback_.positionS()))
+    return "gap of " + QString::number(gap->seconds, 'f', 1) + " s: nothing was recorded";
+  const auto gaps = current_->timing.gaps.size();
+  if (gaps == 1) return "1 gap";
+  return gaps == 0 ? QString() : QString::number(gaps) + " gaps";
+}
+
+void MainWindow::updateStatus() {
+  Status now;
+  const QString opening = opener_.busy() ? " · opening another" : "";
+  if (!current_) {
+    now.state = opener_.busy() ? "opening a recording" : "nothing open";
+    now.figures.clear();
+    now.notice = flash_.isEmpty() ? "Open a recording to begin (Ctrl+O)" : flash_;
+    now.right = "F1 shows all keys";
+  } else {
+    const bool playing = playback_.playing();
+    const bool inGap = current_->gapAt(playback_.positionS()) != nullptr;
+    now.lamp = inGap ? Status::Lamp::kWarning : playing ? Status::Lamp::kGood : Status::Lamp::kIdle;
+    now.state = "recording · " + QString(playing ? "playing " : "paused ") +
+                QString::number(playback_.speed()) + "×" + opening;
+    if (playback_.hasFrames()) {
+      const std::size_t frame = playback_.frame();
+      const CharacteristicSignals& all = current_->whole.at(frame);
+      const float saturation = current_->profile.hand().saturationCounts;
+      const auto& values = matrices_->frame().values;
+      const auto saturated = std::count_if(
+          values.begin(), values.end(), [=](float value) { return value >= saturation; });
+      now.figures = {"active " + QString::number(all.active),
+                     "max " + QString::number(all.maximum, 'f', 0),
+                     "saturated " + QString::number(saturated)};
+      now.right = "frame " + QString::number(frame) + " of " +
+                  QString::number(playback_.numFrames()) + "   " + seconds(playback_.positionS());
+    }
+    now.notice = noticeNow();
+  }
+  status_->setStatus(now);
+}
+
+void MainWindow::flash(const QString& notice) {
+  flash_ = notice;
+  flashTimer_.start();
+  updateStatus();
+}
+
+// The start page stands alone: docks without content would only be in the way.
+void MainWindow::setPlaceForRecording(bool there) {
+  const int page = there ? 1 : 0;
+  const bool fresh = !sizedOnce_ && there;
+  if (stack_->currentIndex() == page && !fresh && there) return;
+  if (there) {
+    stack_->setCurrentIndex(page);
+    for (Dock* dock : docks_) dock->show();
+    if (layout_.isEmpty() || !restoreState(layout_)) defaultLayout();
+    sizedOnce_ = true;
+  } else {
+    if (sizedOnce_ && stack_->currentIndex() == 1) layout_ = saveState();
+    for (Dock* dock : docks_) dock->hide();
+    stack_->setCurrentIndex(page);
+  }
+  for (Dock* dock : docks_) dock->toggleViewAction()->setEnabled(there);
+}
+
+void MainWindow::defaultLayout() {
+  if (!current_) {
+    layout_.clear();
+    return;
+  }
+  addDockWidget(Qt::RightDockWidgetArea, docks_[0]);
+  addDockWidget(Qt::BottomDockWidgetArea, docks_[1]);
+  for (Dock* dock : docks_) {
+    dock->setFloating(false);
+    dock->show();
+  }
+  resizeDocks({docks_[0]}, {static_cast<int>(width() * kInspectShare)}, Qt::Horizontal);
+  resizeDocks({docks_[1]}, {static_cast<int>(height() * kTimelineShare)}, Qt::Vertical);
+}
+
+void MainWindow::enableActions() {
+  const bool frames = playback_.hasFrames();
+  for (QAction* action : {actions_.play,
+                          actions_.stepBack,
+                          actions_.stepForward,
+                          actions_.tenBack,
+                          actions_.tenForward,
+                          actions_.toStart,
+                          actions_.toEnd,
+                          actions_.goToFrame,
+                          actions_.exportPicture,
+                          actions_.copyPicture,
+                          actions_.zoomIn,
+                          actions_.zoomOut,
+                          actions_.fit})
+    action->setEnabled(frames);
+  actions_.closeRecording->setEnabled(current_ != nullptr);
+  for (QAction* action : {actions_.nextRecording, actions_.previousRecording})
+    action->setEnabled(recordings_.size() > 1);
+}
+
+// One thing at a time, the most urgent first.
+void MainWindow::dismiss() {
+  if (QWidget* field = focusWidget()) field->clearFocus();
+  if (!banner_->isHidden()) return banner_->dismiss();
+  if (opener_.busy()) return opener_.cancel();
+  if (isFullScreen()) toggleFullScreen(false);
+}
+
+void MainWindow::toggleFullScreen(bool on) {
+  setWindowState(on ? windowState() | Qt::WindowFullScreen : windowState() & ~Qt::WindowFullScreen);
+  actions_.fullScreen->setChecked(on);
+}
+
+MatricesPictureOptions MainWindow::exportOptions() const {
+  MatricesPictureOptions options = matrices_->pictureOptions();
+  options.title = QString::fromStdString(current_->path.filename().string());
+  options.caption = "frame " + QString::number(playback_.frame()) + " · " +
+                    seconds(current_->timeS.at(playback_.frame()));
+  return options;
+}
+
+QStringList MainWindow::dockNames() const {
+  QStringList names;
+  for (const Dock* dock : docks_) names.append(dock->objectName());
+  return names;
+}
+
+void MainWindow::showDock(const QString& name) {
+  for (Dock* dock : docks_) {
+    if (dock->objectName() != name) continue;
+    dock->show();
+    dock->raise();
+  }
+}
+
+void MainWindow::remember() {
+  view_.speed = playback_.speed();
+  if (!loopIsOfDemo_) view_.loop = playback_.loop();
+  view_.skipGaps = playback_.skipGaps();
+  saveViewSettings(view_, settings_);
+  settings_.setValue("window/geometry", saveGeometry());
+  if (current_) layout_ = saveState();
+  settings_.setValue("window/layout", layout_);
+  settings_.sync();
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  remember();
+  opener_.cancel();
+  event->accept();
+}
+
+void MainWindow::showEvent(QShowEvent* event) {
+  QMainWindow::showEvent(event);
+  enableActions();
+}
+
+}  // namespace palpate::gui

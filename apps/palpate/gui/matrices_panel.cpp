@@ -1,0 +1,169 @@
+#include "gui/matrices_panel.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+namespace palpate::gui {
+namespace {
+
+QToolButton* buttonFor(QAction* action, QWidget* parent) {
+  auto* button = new QToolButton(parent);
+  button->setDefaultAction(action);
+  button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  button->setFocusPolicy(Qt::TabFocus);
+  return button;
+}
+
+QDoubleSpinBox* rangeField(QWidget* parent, const char* name, const char* tip) {
+  auto* field = new QDoubleSpinBox(parent);
+  field->setObjectName(name);
+  field->setDecimals(0);
+  field->setRange(0.0, 1e6);
+  field->setSingleStep(50.0);
+  field->setKeyboardTracking(false);
+  field->setFocusPolicy(Qt::ClickFocus);
+  field->setToolTip(tip);
+  return field;
+}
+
+}  // namespace
+
+MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* parent)
+    : QWidget(parent) {
+  auto* header = new QWidget(this);
+  header->setObjectName("ViewHeader");
+  header->setAttribute(Qt::WA_StyledBackground);
+  auto* title = new QLabel("<b>Matrices</b>", header);
+  map_ = new QComboBox(header);
+  map_->setObjectName("mapBox");
+  map_->setFocusPolicy(Qt::TabFocus);
+  map_->setToolTip("Colour map (M)");
+  for (const ColorMapName map : kAllColorMaps) map_->addItem(nameOf(map));
+  range_ = new QComboBox(header);
+  range_->setObjectName("rangeBox");
+  range_->setFocusPolicy(Qt::TabFocus);
+  range_->setToolTip("Where the colour range ends (R)");
+  for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
+  minimum_ = rangeField(header, "rangeMinimum", "Value of the lowest colour in counts");
+  maximum_ = rangeField(header, "rangeMaximum", "Value of the highest colour in counts");
+  to_ = new QLabel("–", header);
+
+  auto* row = new QHBoxLayout(header);
+  row->setContentsMargins(12, 4, 10, 4);
+  row->setSpacing(6);
+  row->addWidget(title);
+  row->addStretch(1);
+  row->addWidget(buttonFor(interpolated, header));
+  row->addWidget(buttonFor(values, header));
+  row->addSpacing(6);
+  row->addWidget(map_);
+  row->addWidget(range_);
+  row->addWidget(minimum_);
+  row->addWidget(to_);
+  row->addWidget(maximum_);
+
+  view_ = new MatricesView(this);
+  view_->setObjectName("matricesView");
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(header);
+  column->addWidget(view_, 1);
+
+  connect(map_, &QComboBox::activated, this, [this](int index) {
+    emit mapChosen(kAllColorMaps[static_cast<std::size_t>(index)]);
+  });
+  connect(range_, &QComboBox::activated, this, [this](int index) {
+    emit rangeChosen(kAllRangeModes[static_cast<std::size_t>(index)]);
+  });
+  const auto manual = [this] {
+    // The end that was typed pushes the other one along.
+    const double low = minimum_->value();
+    emit manualRangeChosen(low, std::max(maximum_->value(), low + 1.0));
+  };
+  connect(minimum_, &QDoubleSpinBox::valueChanged, this, manual);
+  connect(maximum_, &QDoubleSpinBox::valueChanged, this, manual);
+}
+
+void MatricesPanel::setRecording(const OpenedRecordingPtr& recording) {
+  recording_ = recording;
+  frame_ = TactileFrame();
+  if (!recording_) {
+    view_->clear();
+    return;
+  }
+  view_->setHand(recording_->profile.hand());
+  applyLook();
+}
+
+void MatricesPanel::showFrame(std::size_t frame) {
+  if (!recording_ || recording_->profile.numFrames() == 0) return;
+  recording_->profile.readFrame(frame, frame_);
+  if (settings_.range == RangeMode::kFrame) applyLook();
+  view_->setFrame(frame_);
+}
+
+void MatricesPanel::setSettings(const ViewSettings& settings, Theme theme) {
+  settings_ = settings;
+  theme_ = theme;
+  const QSignalBlocker blockedMin(minimum_), blockedMax(maximum_);
+  map_->setCurrentText(nameOf(settings.map));
+  range_->setCurrentText(nameOf(settings.range));
+  minimum_->setValue(settings.manualMin);
+  maximum_->setValue(settings.manualMax);
+  const bool manual = settings.range == RangeMode::kManual;
+  for (QWidget* part : {static_cast<QWidget*>(minimum_),
+                        static_cast<QWidget*>(to_),
+                        static_cast<QWidget*>(maximum_)})
+    part->setVisible(manual);
+  applyLook();
+}
+
+ValueRange MatricesPanel::rangeNow() const {
+  double maximum = 1.0;
+  switch (settings_.range) {
+    case RangeMode::kManual:
+      return {settings_.manualMin, settings_.manualMax};
+    case RangeMode::kFullScale:
+      if (recording_) maximum = static_cast<double>(recording_->profile.hand().maximumCounts);
+      break;
+    case RangeMode::kFrame:
+      for (const float value : frame_.values)
+        maximum = std::max(maximum, static_cast<double>(value));
+      break;
+    case RangeMode::kRecording:
+      if (recording_) maximum = std::max(maximum, recording_->maximum);
+      break;
+  }
+  return {0.0, maximum};
+}
+
+void MatricesPanel::applyLook() {
+  view_->setLook({.map = settings_.map,
+                  .interpolated = settings_.interpolated,
+                  .values = settings_.values,
+                  .range = rangeNow(),
+                  .theme = theme_});
+}
+
+MatricesPictureOptions MatricesPanel::pictureOptions() const {
+  MatricesPictureOptions options;
+  options.map = settings_.map;
+  options.interpolated = settings_.interpolated;
+  options.values = settings_.values;
+  const ValueRange range = rangeNow();
+  options.rangeMin = range.minimum;
+  options.rangeMax = range.maximum;
+  options.theme = theme_;
+  options.font = font();
+  return options;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,53 @@
+// The heat maps with their controls: look, colour map, range.
+#pragma once
+
+#include <QWidget>
+
+#include "gui/matrices_view.h"
+#include "gui/opened_recording.h"
+#include "gui/window_settings.h"
+
+class QAction;
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+
+namespace palpate::gui {
+
+class MatricesPanel : public QWidget {
+  Q_OBJECT
+ public:
+  // The actions stand as buttons in the header.
+  MatricesPanel(QAction* interpolated, QAction* values, QWidget* parent = nullptr);
+
+  void setRecording(const OpenedRecordingPtr& recording);  // null: none
+  void showFrame(std::size_t frame);
+  // Map, look and range; theme as resolved.
+  void setSettings(const ViewSettings& settings, Theme theme);
+  MatricesView& view() noexcept { return *view_; }
+  const TactileFrame& frame() const noexcept { return frame_; }
+  // What is seen, for a picture of its own.
+  MatricesPictureOptions pictureOptions() const;
+
+ signals:
+  void mapChosen(palpate::gui::ColorMapName map);
+  void rangeChosen(palpate::gui::RangeMode mode);
+  void manualRangeChosen(double minimum, double maximum);
+
+ private:
+  ValueRange rangeNow() const;
+  void applyLook();
+
+  MatricesView* view_;
+  QComboBox* map_;
+  QComboBox* range_;
+  QDoubleSpinBox* minimum_;
+  QLabel* to_;
+  QDoubleSpinBox* maximum_;
+  OpenedRecordingPtr recording_;
+  TactileFrame frame_;
+  ViewSettings settings_;
+  Theme theme_ = Theme::kDark;
+};
+
+}  // namespace palpate::gui

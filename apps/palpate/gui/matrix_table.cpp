@@ -1,0 +1,182 @@
+#include "gui/matrix_table.h"
+
+#include <QHeaderView>
+#include <algorithm>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kMostRowsSeen = 13;  // a sensor with more matrices scrolls
+
+bool sameText(const CharacteristicSignals& a, const CharacteristicSignals& b) {
+  return a.active == b.active && a.sum == b.sum && a.maximum == b.maximum && a.minimum == b.minimum;
+}
+
+}  // namespace
+
+void MatrixTableModel::setRecording(const OpenedRecordingPtr& recording) {
+  beginResetModel();
+  recording_ = recording;
+  shown_.clear();
+  plotted_.clear();
+  if (recording_) {
+    shown_.resize(recording_->numMatrices() + 1);
+    // What never felt anything isn't worth a line; neither is the sum of all, until asked for.
+    plotted_ = recording_->touched;
+    plotted_.push_back(false);
+  }
+  endResetModel();
+  emit plottedChanged();
+}
+
+void MatrixTableModel::showFrame(std::size_t frame) {
+  if (!recording_ || frame >= recording_->profile.numFrames()) return;
+  for (std::size_t row = 0; row < shown_.size(); ++row) {
+    const CharacteristicSignals& now = recording_->at(frame, row);
+    if (sameText(now, shown_[row])) continue;
+    shown_[row] = now;
+    const int at = static_cast<int>(row);
+    emit dataChanged(index(at, kActive), index(at, kArea), {Qt::DisplayRole});
+  }
+}
+
+void MatrixTableModel::setTheme(Theme theme) {
+  theme_ = theme;
+  if (rowCount() > 0) emit dataChanged(index(0, 0), index(rowCount() - 1, kNumColumns - 1));
+}
+
+void MatrixTableModel::setPlotted(std::size_t row, bool on) {
+  if (row >= plotted_.size() || plotted_[row] == on) return;
+  plotted_[row] = on;
+  const QModelIndex at = index(static_cast<int>(row), kName);
+  emit dataChanged(at, at, {Qt::CheckStateRole});
+  emit plottedChanged();
+}
+
+int MatrixTableModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(shown_.size());
+}
+
+int MatrixTableModel::columnCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : kNumColumns;
+}
+
+QString MatrixTableModel::text(std::size_t row, int column) const {
+  const CharacteristicSignals& now = shown_[row];
+  const bool whole = row + 1 == shown_.size();
+  switch (column) {
+    case kName: {
+      if (whole) return "all";
+      const auto& matrices = recording_->profile.hand().matrices;
+      return QString::fromStdString(matrices[row].shortName);
+    }
+    case kActive:
+      return QString::number(now.active);
+    case kMean:
+      return now.active == 0 ? "–" : QString::number(now.mean, 'f', 0);
+    case kMaximum:
+      return now.active == 0 ? "–" : QString::number(now.maximum, 'f', 0);
+    case kMinimum:
+      return now.active == 0 ? "–" : QString::number(now.minimum, 'f', 0);
+    case kSum:
+      return QString::number(now.sum, 'f', 0);
+    case kArea:
+      return QString::number(now.areaMm2, 'f', 0);
+    default:
+      return {};
+  }
+}
+
+QVariant MatrixTableModel::data(const QModelIndex& index, int role) const {
+  if (!index.isValid()) return {};
+  const auto row = static_cast<std::size_t>(index.row());
+  const bool whole = row + 1 == shown_.size();
+  switch (role) {
+    case Qt::DisplayRole:
+      return text(row, index.column());
+    case Qt::TextAlignmentRole:
+      return QVariant::fromValue(Qt::Alignment(index.column() == kName
+                                                   ? Qt::AlignLeft | Qt::AlignVCenter
+                                                   : Qt::AlignRight | Qt::AlignVCenter));
+    case Qt::CheckStateRole:
+      if (index.column() == kName) return plotted_[row] ? Qt::Checked : Qt::Unchecked;
+      return {};
+    case Qt::DecorationRole:
+      if (index.column() == kName) return whole ? wholeColor(theme_) : matrixColor(row, theme_);
+      return {};
+    case Qt::ForegroundRole:
+      return shown_[row].active > 0 || index.column() == kName ? colorsOf(theme_).text
+                                                               : colorsOf(theme_).muted;
+    case Qt::ToolTipRole:
+      if (index.column() == kName) return "Ticked rows are plotted in the timeline";
+      return {};
+    default:
+      return {};
+  }
+}
+
+bool MatrixTableModel::setData(const QModelIndex& index, const QVariant& value, int role) {
+  if (role != Qt::CheckStateRole || index.column() != kName) return false;
+  setPlotted(static_cast<std::size_t>(index.row()), value.toInt() == Qt::Checked);
+  return true;
+}
+
+Qt::ItemFlags MatrixTableModel::flags(const QModelIndex& index) const {
+  if (!index.isValid()) return {};
+  Qt::ItemFlags flags = Qt::ItemIsEnabled;
+  if (index.column() == kName) flags |= Qt::ItemIsUserCheckable;
+  return flags;
+}
+
+QVariant MatrixTableModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal) return {};
+  if (role == Qt::TextAlignmentRole)
+    return QVariant::fromValue(Qt::Alignment(section == kName ? Qt::AlignLeft | Qt::AlignVCenter
+                                                              : Qt::AlignRight | Qt::AlignVCenter));
+  static const char* const names[] = {"matrix", "active", "mean", "max", "min", "sum", "mm²"};
+  static const char* const tips[] = {"Sensor matrix; tick to plot it in the timeline",
+                                     "Taxels with a value above 0",
+                                     "Mean of the active taxels in counts",
+                                     "Largest value in counts",
+                                     "Smallest value of the active taxels in counts",
+                                     "Sum of all values in counts",
+                                     "Area of the active taxels in mm²"};
+  if (role == Qt::DisplayRole) return names[section];
+  if (role == Qt::ToolTipRole) return tips[section];
+  return {};
+}
+
+MatrixTable::MatrixTable(MatrixTableModel* model, QWidget* parent) : QTableView(parent) {
+  setObjectName("matrixTable");
+  setModel(model);
+  setSelectionMode(QAbstractItemView::NoSelection);
+  setFocusPolicy(Qt::NoFocus);  // ticks have keys of their own
+  setShowGrid(false);
+  setFrameShape(QFrame::NoFrame);
+  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  setIconSize({10, 10});
+  verticalHeader()->hide();
+  verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 8);
+  QHeaderView* header = horizontalHeader();
+  header->setSectionsClickable(false);
+  header->setHighlightSections(false);
+  header->setMinimumSectionSize(24);
+  header->setSectionResizeMode(QHeaderView::Fixed);
+  header->setSectionResizeMode(MatrixTableModel::kName, QHeaderView::Stretch);
+  const int digit = fontMetrics().horizontalAdvance('0');
+  for (int column = 1; column < MatrixTableModel::kNumColumns; ++column)
+    header->resizeSection(column, digit * (column == MatrixTableModel::kSum ? 6 : 5) + 16);
+  connect(model, &QAbstractItemModel::modelReset, this, &QWidget::updateGeometry);
+}
+
+QSize MatrixTable::sizeHint() const {
+  const int rows = std::min(model()->rowCount(), kMostRowsSeen);
+  return {
+      360,
+      horizontalHeader()->sizeHint().height() + 2 + rows * verticalHeader()->defaultSectionSize()};
+}
+
+QSize MatrixTable::minimumSizeHint() const { return {300, sizeHint().height()}; }
+
+}  // namespace palpate::gui

@@ -1,0 +1,56 @@
+// The table of the Inspect dock: a row per matrix and one for the whole hand; signals of the current
+// frame; a tick plots the row in the timeline.
+#pragma once
+
+#include <QAbstractTableModel>
+#include <QTableView>
+#include <vector>
+
+#include "gui/opened_recording.h"
+#include "gui/theme.h"
+
+namespace palpate::gui {
+
+class MatrixTableModel : public QAbstractTableModel {
+  Q_OBJECT
+ public:
+  enum Column { kName, kActive, kMean, kMaximum, kMinimum, kSum, kArea, kNumColumns };
+
+  using QAbstractTableModel::QAbstractTableModel;
+
+  void setRecording(const OpenedRecordingPtr& recording);  // null: empty
+  void showFrame(std::size_t frame);
+  void setTheme(Theme theme);
+  // Which rows are plotted; the last one is the whole hand.
+  const std::vector<bool>& plotted() const noexcept { return plotted_; }
+  void setPlotted(std::size_t row, bool on);
+
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& parent = {}) const override;
+  QVariant data(const QModelIndex& index, int role) const override;
+  bool setData(const QModelIndex& index, const QVariant& value, int role) override;
+  Qt::ItemFlags flags(const QModelIndex& index) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+ signals:
+  void plottedChanged();
+
+ private:
+  QString text(std::size_t row, int column) const;
+
+  OpenedRecordingPtr recording_;
+  std::vector<CharacteristicSignals> shown_;  // of the current frame, the whole last
+  std::vector<bool> plotted_;
+  Theme theme_ = Theme::kDark;
+};
+
+// As high as its rows.
+class MatrixTable : public QTableView {
+  Q_OBJECT
+ public:
+  explicit MatrixTable(MatrixTableModel* model, QWidget* parent = nullptr);
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,55 @@
+#include "gui/message_banner.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+
+#include "gui/icons.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr qsizetype kMostLines = 4;
+
+}  // namespace
+
+MessageBanner::MessageBanner(QWidget* parent) : QWidget(parent) {
+  setObjectName("MessageBanner");
+  setAttribute(Qt::WA_StyledBackground);
+  text_ = new QLabel(this);
+  text_->setObjectName("bannerText");
+  text_->setTextFormat(Qt::PlainText);  // file names are no mark-up
+  text_->setWordWrap(true);
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  close_ = new QToolButton(this);
+  close_->setObjectName("bannerClose");
+  close_->setProperty("flat", true);
+  close_->setIconSize({12, 12});
+  close_->setFocusPolicy(Qt::NoFocus);
+  close_->setToolTip("Close this message (Esc)");
+  connect(close_, &QToolButton::clicked, this, &MessageBanner::dismiss);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(14, 8, 8, 8);
+  row->addWidget(text_, 1);
+  row->addWidget(close_, 0, Qt::AlignTop);
+  hide();
+}
+
+void MessageBanner::showMessage(const QString& message) {
+  QStringList lines = isHidden() ? QStringList() : text_->text().split('\n');
+  lines.removeAll(message);
+  lines.append(message);
+  text_->setText(lines.mid(std::max<qsizetype>(0, lines.size() - kMostLines)).join('\n'));
+  show();
+}
+
+void MessageBanner::dismiss() {
+  text_->clear();
+  hide();
+}
+
+QString MessageBanner::message() const { return text_->text(); }
+
+void MessageBanner::setTheme(Theme theme) { close_->setIcon(makeIcon(IconShape::kClose, theme)); }
+
+}  // namespace palpate::gui

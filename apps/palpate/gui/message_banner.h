@@ -1,0 +1,28 @@
+// One message inside the window: it blocks nothing, and what is open stays open.
+#pragma once
+
+#include <QWidget>
+
+#include "gui/theme.h"
+
+class QLabel;
+class QToolButton;
+
+namespace palpate::gui {
+
+class MessageBanner : public QWidget {
+  Q_OBJECT
+ public:
+  explicit MessageBanner(QWidget* parent = nullptr);
+  // Failures of several files are shown together.
+  void showMessage(const QString& message);
+  void dismiss();
+  QString message() const;
+  void setTheme(Theme theme);
+
+ private:
+  QLabel* text_;
+  QToolButton* close_;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,59 @@
+#include "gui/opening_strip.h"
+
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kAppearAfterMs = 150;  // what is quicker needs no strip that flickers
+constexpr int kSteps = 1000;
+
+}  // namespace
+
+OpeningStrip::OpeningStrip(QWidget* parent) : QWidget(parent) {
+  setObjectName("OpeningStrip");
+  setAttribute(Qt::WA_StyledBackground);
+  name_ = new QLabel(this);
+  name_->setTextFormat(Qt::PlainText);
+  bar_ = new QProgressBar(this);
+  bar_->setObjectName("openingProgress");
+  bar_->setRange(0, kSteps);
+  bar_->setTextVisible(false);
+  bar_->setFixedHeight(8);
+  auto* cancel = new QPushButton("Cancel", this);
+  cancel->setObjectName("cancelOpening");
+  cancel->setFocusPolicy(Qt::NoFocus);
+  cancel->setToolTip("Give up opening (Esc)");
+  connect(cancel, &QPushButton::clicked, this, &OpeningStrip::cancelRequested);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(14, 5, 10, 5);
+  row->setSpacing(12);
+  row->addWidget(name_);
+  row->addWidget(bar_, 1);
+  row->addWidget(cancel);
+  appear_.setSingleShot(true);
+  appear_.setInterval(kAppearAfterMs);
+  connect(&appear_, &QTimer::timeout, this, &QWidget::show);
+  hide();
+}
+
+void OpeningStrip::begin(const QString& path) {
+  name_->setText("Opening " + QFileInfo(path).fileName());
+  bar_->setValue(0);
+  if (isHidden()) appear_.start();
+}
+
+void OpeningStrip::setProgress(double fraction) {
+  bar_->setValue(static_cast<int>(fraction * kSteps));
+}
+
+void OpeningStrip::end() {
+  appear_.stop();
+  hide();
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,118 @@
+#include "gui/playback_bar.h"
+
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSpinBox>
+#include <algorithm>
+#include <limits>
+
+#include "gui/seek_bar.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kTimeDecimals = 2;
+
+int asInt(std::size_t value) {
+  return static_cast<int>(
+      std::min(value, static_cast<std::size_t>(std::numeric_limits<int>::max())));
+}
+
+// A field to type a number into; the arrows would only repeat the step buttons.
+template <class Field>
+Field* makeField(QWidget* parent, const char* name, int digits) {
+  auto* field = new Field(parent);
+  field->setObjectName(name);
+  field->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  field->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  field->setKeyboardTracking(false);  // only what is finished moves the playback
+  field->setFocusPolicy(Qt::ClickFocus);
+  field->setFixedWidth(field->fontMetrics().horizontalAdvance(QString(digits, '0')) + 18);
+  return field;
+}
+
+}  // namespace
+
+PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
+    : QWidget(parent), playback_(playback) {
+  setObjectName("PlaybackBar");
+  setAttribute(Qt::WA_StyledBackground);
+  seekBar_ = new SeekBar(this);
+  seekBar_->setObjectName("seekBar");
+  frame_ = makeField<QSpinBox>(this, "frameField", 7);
+  frame_->setToolTip("Frame, counted from 0: type one and press Enter (Ctrl+G)");
+  frame_->setAccessibleName("Frame");
+  ofFrames_ = new QLabel(this);
+  ofFrames_->setObjectName("ofFrames");
+  time_ = makeField<QDoubleSpinBox>(this, "timeField", 8);
+  time_->setDecimals(kTimeDecimals);
+  time_->setToolTip("Time from the first frame in s: type one and press Enter");
+  time_->setAccessibleName("Time in seconds");
+  ofTime_ = new QLabel(this);
+  ofTime_->setObjectName("ofTime");
+
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(12, 5, 12, 5);
+  row->setSpacing(6);
+  row->addWidget(seekBar_, 1);
+  row->addSpacing(8);
+  row->addWidget(new QLabel("frame", this));
+  row->addWidget(frame_);
+  row->addWidget(ofFrames_);
+  row->addSpacing(10);
+  row->addWidget(time_);
+  row->addWidget(ofTime_);
+
+  connect(seekBar_, &SeekBar::sought, this, [this](int frame) {
+    playback_.seekFrame(static_cast<std::size_t>(frame));
+  });
+  connect(frame_, &QSpinBox::valueChanged, this, [this](int frame) {
+    playback_.seekFrame(static_cast<std::size_t>(frame));
+  });
+  connect(time_, &QDoubleSpinBox::valueChanged, this, [this](double seconds) {
+    playback_.seekSeconds(seconds);
+  });
+  // After Enter the keys belong to the playback again.
+  for (QAbstractSpinBox* field :
+       {static_cast<QAbstractSpinBox*>(frame_), static_cast<QAbstractSpinBox*>(time_)})
+    connect(field, &QAbstractSpinBox::editingFinished, field, &QWidget::clearFocus);
+  connect(&playback_, &PlaybackController::frameChanged, this, &PlaybackBar::showFrame);
+  connect(&playback_, &PlaybackController::stateChanged, this, &PlaybackBar::takeRecording);
+  takeRecording();
+}
+
+void PlaybackBar::setTheme(Theme theme) { seekBar_->setTheme(theme); }
+
+void PlaybackBar::editFrame() {
+  frame_->setFocus(Qt::ShortcutFocusReason);
+  frame_->selectAll();
+}
+
+void PlaybackBar::takeRecording() {
+  const std::size_t frames = playback_.numFrames();
+  setEnabled(frames > 0);
+  {
+    const QSignalBlocker blockedBar(seekBar_), blockedFrame(frame_), blockedTime(time_);
+    const int last = asInt(frames == 0 ? 0 : frames - 1);
+    seekBar_->setRange(0, last);
+    frame_->setRange(0, last);
+    time_->setRange(0.0, playback_.durationS());
+  }
+  const QString ofFrames = "of " + QString::number(frames);
+  if (ofFrames_->text() != ofFrames) ofFrames_->setText(ofFrames);
+  const QString ofTime = "/ " + QString::number(playback_.durationS(), 'f', kTimeDecimals) + " s";
+  if (ofTime_->text() != ofTime) ofTime_->setText(ofTime);
+  showFrame(playback_.frame());
+}
+
+void PlaybackBar::showFrame(std::size_t frame) {
+  const QSignalBlocker blockedBar(seekBar_), blockedFrame(frame_), blockedTime(time_);
+  seekBar_->setValue(asInt(frame));
+  // What is being typed isn't overwritten by the playback.
+  if (!frame_->hasFocus() || !playback_.playing()) frame_->setValue(asInt(frame));
+  if (!time_->hasFocus() || !playback_.playing()) time_->setValue(playback_.positionS());
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,71 @@
+// Moves a Playback by real time while it plays, and tells the views where it stands. The clock is
+// handed in, so that tests play without waiting.
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include <palpate/capture/playback.h>
+#include <palpate/core/time.h>
+
+namespace palpate::gui {
+
+class PlaybackController : public QObject {
+  Q_OBJECT
+ public:
+  // The speeds that the window offers, ascending.
+  static constexpr double kSpeeds[] = {0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
+
+  explicit PlaybackController(const Clock& clock = systemClock(), QObject* parent = nullptr);
+
+  // Takes another recording (or none); stands at its first frame. Speed, loop and skipping stay.
+  void setProfile(const std::optional<Profile>& profile);
+  bool hasFrames() const;
+  std::size_t numFrames() const;
+  std::size_t frame() const;
+  double positionS() const;  // from the first frame [s]
+  double durationS() const;
+  bool playing() const { return playback_ && playback_->playing(); }
+  double speed() const noexcept { return speed_; }
+  bool loop() const noexcept { return loop_; }
+  bool skipGaps() const noexcept { return skipGaps_; }
+
+  void play();
+  void pause();
+  void togglePlay();
+  void step(std::ptrdiff_t frames);  // pauses
+  void seekFrame(std::size_t frame);
+  void seekSeconds(double seconds);
+  void setSpeed(double factor);  // throws std::invalid_argument outside 0.1..16
+  void faster();
+  void slower();
+  void setLoop(bool on);
+  void setSkipGaps(bool on);
+
+  // Lets the time pass since the last call. The timer calls it at the screen's rate while playing.
+  void tick();
+
+ signals:
+  void frameChanged(std::size_t frame);
+  void positionChanged(double seconds);
+  // Playing, speed, loop or skipping changed, or another recording came.
+  void stateChanged();
+
+ private:
+  void startClock();
+  void moved();
+
+  const Clock& clock_;
+  QTimer timer_;
+  std::optional<Playback> playback_;
+  std::int64_t lastTickUs_ = 0;
+  std::optional<std::size_t> shownFrame_;
+  double speed_ = 1.0;
+  bool loop_ = false;
+  bool skipGaps_ = false;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,102 @@
+#include <QEventLoop>
+#include <QPixmap>
+#include <QTemporaryDir>
+#include <QTimer>
+
+#include <palpate/core/error.h>
+#include <palpate/core/output_file.h>
+
+#include "gui/application.h"
+#include "gui/main_window.h"
+#include "gui/picture_export.h"
+#include "gui/workbench.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kMsPerS = 1000.0;
+
+// Opens and waits; throws what went wrong.
+void openAndWait(MainWindow& window, const ScreenshotOptions& options) {
+  QEventLoop loop;
+  QString failure;
+  QObject::connect(&window.opener(),
+                   &RecordingOpener::failed,
+                   &loop,
+                   [&](const QString&, const QString& message) { failure = message; });
+  QObject::connect(&window.opener(), &RecordingOpener::finished, &loop, &QEventLoop::quit);
+  if (options.demo)
+    window.openDemo();
+  else
+    window.openFiles({*options.file});
+  loop.exec();
+  if (!failure.isEmpty()) throw Error(failure.toStdString());
+}
+
+void goToFrame(MainWindow& window, const ScreenshotOptions& options) {
+  PlaybackController& playback = window.playback();
+  if (options.frame && *options.frame >= playback.numFrames())
+    throw Error("no frame " + std::to_string(*options.frame) + ": " +
+                window.current()->path.string() + " has frames 0.." +
+                std::to_string(static_cast<long long>(playback.numFrames()) - 1));
+  if (options.afterS > 0.0) {
+    playback.play();
+    QEventLoop loop;
+    QTimer::singleShot(static_cast<int>(options.afterS * kMsPerS), &loop, &QEventLoop::quit);
+    loop.exec();
+  }
+  playback.pause();
+  if (options.frame)
+    playback.seekFrame(*options.frame);
+  else if (options.afterS <= 0.0)
+    playback.seekFrame(window.current()->table.frameOfLargestSum());
+}
+
+ThemeChoice themeOf(const ScreenshotOptions& options) {
+  const ThemeChoice choice = themeChoiceFrom(QString::fromStdString(options.theme));
+  if (choice == ThemeChoice::kSystem)
+    throw Error("no theme '" + options.theme + "': dark or light");
+  return choice;
+}
+
+void showDocks(MainWindow& window, const ScreenshotOptions& options) {
+  for (const std::string& dock : options.docks) {
+    const QString name = QString::fromStdString(dock);
+    if (!window.dockNames().contains(name))
+      throw Error("no dock '" + dock + "': there are " +
+                  window.dockNames().join(", ").toStdString());
+    if (window.current()) window.showDock(name);
+  }
+}
+
+}  // namespace
+
+int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
+  const ThemeChoice theme = themeOf(options);
+  std::error_code ignored;
+  if (!options.force && std::filesystem::exists(options.out, ignored))
+    throw FileError(options.out, "exists already; give another name, or --force to replace it");
+  const auto application = makeApplication(argc, argv);
+  const QTemporaryDir settings;  // the usual look, whatever this user has chosen
+  MainWindow window({.dataFolder = options.dataFolder,
+                     .settingsPath = settings.filePath("palpate.ini"),
+                     .clock = nullptr,
+                     .read = {}});
+  window.setTheme(theme);
+  window.setFixedSize(options.size);
+  window.show();
+  if (options.file || options.demo) {
+    openAndWait(window, options);
+    goToFrame(window, options);
+  }
+  showDocks(window, options);
+  // Layout requests and queued replots come one after the other.
+  constexpr int kRounds = 5;
+  for (int i = 0; i < kRounds; ++i) QCoreApplication::processEvents();
+  const QImage image = window.grab().toImage();
+  window.close();
+  writePng(options.out, image, options.force ? Overwrite::kReplace : Overwrite::kRefuse);
+  return 0;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,124 @@
+#include "gui/window_menus.h"
+
+#include <QComboBox>
+#include <QLabel>
+#include <QMainWindow>
+#include <QMenuBar>
+#include <QToolBar>
+#include <QToolButton>
+
+#include "gui/actions.h"
+
+namespace palpate::gui {
+namespace {
+
+void addChoices(QMenu* menu, const QString& title, const QActionGroup* group) {
+  QMenu* choices = menu->addMenu(title);
+  choices->addActions(group->actions());
+}
+
+void showTextBeside(QToolBar* bar, QAction* action) {
+  if (auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action)))
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+}
+
+}  // namespace
+
+WindowMenus::WindowMenus(QMainWindow& window,
+                         const Actions& actions,
+                         const QList<QAction*>& dockToggles) {
+  buildMenuBar(window, actions, dockToggles);
+  buildToolBar(window, actions);
+}
+
+void WindowMenus::buildMenuBar(QMainWindow& window,
+                               const Actions& actions,
+                               const QList<QAction*>& toggles) {
+  QMenu* file = window.menuBar()->addMenu("&File");
+  file->addAction(actions.open);
+  recent = file->addMenu("Open &recent");
+  recent->setToolTipsVisible(true);
+  file->addAction(actions.openDemo);
+  file->addSeparator();
+  file->addActions({actions.nextRecording, actions.previousRecording, actions.closeRecording});
+  file->addSeparator();
+  file->addActions({actions.exportPicture, actions.copyPicture});
+  file->addSeparator();
+  file->addAction(actions.quit);
+
+  QMenu* view = window.menuBar()->addMenu("&View");
+  view->addActions({actions.interpolated, actions.values});
+  addChoices(view, "&Colour map", actions.maps);
+  view->addAction(actions.nextMap);
+  addChoices(view, "Colour r&ange", actions.ranges);
+  view->addAction(actions.nextRange);
+  view->addSeparator();
+  addChoices(view, "Signal in the &timeline", actions.signalsPlotted);
+  view->addAction(actions.nextSignal);
+  QMenu* plots = view->addMenu("&Plotted matrices");
+  plots->addActions(actions.plots);
+  view->addActions({actions.zoomIn, actions.zoomOut, actions.fit});
+  view->addSeparator();
+  view->addActions(toggles);
+  view->addAction(actions.resetLayout);
+  view->addSeparator();
+  addChoices(view, "T&heme", actions.themes);
+  view->addAction(actions.nextTheme);
+  view->addAction(actions.fullScreen);
+
+  QMenu* playback = window.menuBar()->addMenu("&Playback");
+  playback->addAction(actions.play);
+  playback->addSeparator();
+  playback->addActions({actions.stepBack,
+                        actions.stepForward,
+                        actions.tenBack,
+                        actions.tenForward,
+                        actions.toStart,
+                        actions.toEnd,
+                        actions.goToFrame});
+  playback->addSeparator();
+  addChoices(playback, "Sp&eed", actions.speeds);
+  playback->addActions({actions.faster, actions.slower, actions.loop, actions.skipGaps});
+
+  QMenu* help = window.menuBar()->addMenu("&Help");
+  help->addActions({actions.keys, actions.about});
+}
+
+void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
+  QToolBar* bar = window.addToolBar("Toolbar");
+  bar->setObjectName("Toolbar");
+  bar->setMovable(false);
+  bar->setContextMenuPolicy(Qt::PreventContextMenu);
+  bar->setIconSize({16, 16});
+  auto* brand = new QLabel("<b>Palpate</b>", bar);
+  brand->setContentsMargins(4, 0, 10, 0);
+  bar->addWidget(brand);
+  bar->addActions({actions.open, actions.exportPicture});
+  bar->addSeparator();
+  bar->addActions({actions.toStart, actions.stepBack, actions.play, actions.stepForward});
+  speed = new QComboBox(bar);
+  speed->setObjectName("speedBox");
+  speed->setToolTip("Speed (Up, Down)");
+  speed->setAccessibleName("Speed");
+  speed->setFocusPolicy(Qt::TabFocus);
+  for (const QAction* each : actions.speeds->actions()) speed->addItem(each->text());
+  bar->addWidget(speed);
+  bar->addActions({actions.loop, actions.skipGaps});
+  for (QAction* action :
+       {actions.open, actions.exportPicture, actions.play, actions.loop, actions.skipGaps})
+    showTextBeside(bar, action);
+  auto* spacer = new QWidget(bar);
+  spacer->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  bar->addWidget(spacer);
+  recordings = new QComboBox(bar);
+  recordings->setObjectName("recordingsBox");
+  recordings->setToolTip("Open recordings (Ctrl+Tab)");
+  recordings->setAccessibleName("Open recordings");
+  recordings->setFocusPolicy(Qt::TabFocus);
+  recordings->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  recordings->setMaximumWidth(420);
+  bar->addWidget(recordings);
+  bar->addAction(actions.keys);
+}
+
+}  // namespace palpate::gui

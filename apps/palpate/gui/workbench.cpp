@@ -1,0 +1,25 @@
+#include "gui/workbench.h"
+
+#include <QGuiApplication>
+
+#include "gui/application.h"
+#include "gui/main_window.h"
+
+namespace palpate::gui {
+
+int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options) {
+  const auto application = makeApplication(argc, argv);
+  MainWindow window({.dataFolder = options.dataFolder,
+                     .settingsPath = settingsPath(),
+                     .clock = nullptr,
+                     .read = {}});
+  window.show();
+  // The window is on screen before the first file is read.
+  if (options.demo)
+    window.openDemo();
+  else
+    window.openFiles(options.files);
+  return QGuiApplication::exec();
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,41 @@
+// The window's front door: what the program's main and its commands call.
+#pragma once
+
+#include <QSize>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace palpate::gui {
+
+struct WorkbenchOptions {
+  std::vector<std::filesystem::path> files;  // to open; the first one is shown
+  bool demo = false;                         // play the demo recording of dataFolder, looping
+  std::filesystem::path dataFolder;          // the program's own data
+};
+
+// Shows the window and runs the event loop until it is closed. Returns the exit code. A QApplication
+// is made unless there is one. Needs a display (or a QT_QPA_PLATFORM that does without).
+int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options);
+
+struct ScreenshotOptions {
+  std::filesystem::path out;         // PNG
+  QSize size{1600, 1000};            // of the window [px]
+  std::optional<std::size_t> frame;  // default: the frame of largest sum
+  double afterS = 0.0;               // let it play for so long first [s]
+  std::vector<std::string> docks;    // to show, by name; empty: the usual ones
+  std::string theme = "dark";        // "dark" or "light"
+  std::optional<std::filesystem::path> file;
+  bool demo = false;
+  std::filesystem::path dataFolder;
+  bool force = false;  // replace `out` when it exists
+};
+
+// Shows the real window, saves its picture and closes it; the user's settings are neither used nor
+// changed. Returns the exit code 0. Throws Error (leaves included) for a recording that can't be
+// read, a frame or dock that isn't there, an unknown theme, or a file that can't be written.
+int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options);
+
+}  // namespace palpate::gui
