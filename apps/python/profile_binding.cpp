@@ -127,7 +127,7 @@ Profile load(const std::filesystem::path& path) {
 
 void save(const Profile& profile, const std::filesystem::path& path, bool force) {
   const py::gil_scoped_release unlocked;
-  saveRecording(profile, path, force ? Overwrite::kReplace : Overwrite::kRefuse);
+  saveRecording(profile, {}, path, force ? Overwrite::kReplace : Overwrite::kRefuse);
 }
 
 std::string described(const Profile& profile) {

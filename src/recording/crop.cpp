@@ -22,7 +22,7 @@ Profile cropped(const Profile& profile,
     const double done = static_cast<double>(i - begin) / static_cast<double>(end - begin + 1);
     if (progress && i % kFramesPerReport == 0 && !progress(done)) throw Cancelled();
     profile.readFrame(i, frame);
-    builder.addFrame(frame.hostUs, frame.values);
+    builder.addFrame(frame.hostUs, frame.values, frame.deviceMs);
   }
   const std::int64_t lastUs = profile.frameTimeUs(end);
   // From the sample that belongs to the first frame: the last one at or before it.
@@ -35,6 +35,17 @@ Profile cropped(const Profile& profile,
          ++i)
       builder.addTemperatures(profile.temperatureTimeUs(i), profile.temperatures(i).degC);
   return builder.finish(profile.info());
+}
+
+std::vector<RecordingEvent> eventsWithin(std::span<const RecordingEvent> events,
+                                         const Profile& profile) {
+  std::vector<RecordingEvent> within;
+  if (profile.numFrames() == 0) return within;
+  const std::int64_t beginUs = profile.frameTimeUs(0);
+  const std::int64_t endUs = profile.frameTimeUs(profile.numFrames() - 1);
+  for (const RecordingEvent& event : events)
+    if (event.tUs <= endUs && event.t1Us >= beginUs) within.push_back(event);
+  return within;
 }
 
 }  // namespace palpate

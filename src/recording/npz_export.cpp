@@ -5,6 +5,7 @@
 #include "palpate/core/json.h"
 #include "palpate/recording/table_export.h"
 
+#include "recording/event_notes.h"
 #include "recording/zip_writer.h"
 
 namespace palpate {
@@ -130,22 +131,24 @@ void writeText(ZipWriter& zip, const std::string& name, const std::string& ascii
   array.end();
 }
 
-std::string metaText(const Profile& profile) {
+std::string metaText(const Profile& profile, std::span<const RecordingEvent> events) {
   Json pitches = Json::array();
   for (const MatrixLayout& matrix : profile.layout().matrices()) pitches.push(matrix.pitchMm);
-  return Json::object()
-      .set("format", "palpate npz 1")
+  Json meta = Json::object();
+  meta.set("format", "palpate npz 1")
       .set("hand", profile.hand().name)
       .set("serial", profile.info().serial)
       .set("firmware", profile.info().firmware)
       .set("value_type", profile.info().valueType == ValueType::kCounts ? "counts" : "float")
       .set("pitch_mm", pitches)
-      .text(-1);
+      .set("events", eventsToJson(events));
+  return asciiJson(meta.text(-1));
 }
 
 }  // namespace
 
 void writeNpz(const Profile& profile,
+              std::span<const RecordingEvent> events,
               const fs::path& path,
               Overwrite overwrite,
               const Progress& progress) {
@@ -175,7 +178,7 @@ void writeNpz(const Profile& profile,
     for (auto on : matrix.staticMask) mask.u8(on);
   mask.end();
 
-  writeText(zip, "meta", metaText(profile));
+  writeText(zip, "meta", metaText(profile, events));
   zip.finish();
   out.commit();
 }

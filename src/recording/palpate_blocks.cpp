@@ -13,13 +13,26 @@ namespace {
 constexpr std::int64_t kNoDeviceTime = std::numeric_limits<std::int64_t>::min();
 constexpr std::size_t kItemHeadBytes = 4 + 8;
 constexpr std::int64_t kLargestOffsetUs = std::numeric_limits<std::uint32_t>::max();
-constexpr std::int64_t kMostItems = 1'000'000;
+constexpr std::size_t kLongestItem = kItemHeadBytes + 8 * kMaxPlaces;
+constexpr std::int64_t kMostItems = kMaxBlockBytes / kItemHeadBytes;
+constexpr std::int64_t kLatestUs = std::int64_t{1} << 60;  // the year 38505
 
 void putLittle(std::vector<std::byte>& out, std::uint64_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> 8 * i & 0xFF));
 }
 
 bool exactAsFloat(double value) { return static_cast<double>(static_cast<float>(value)) == value; }
+
+bool allFinite(std::span<const std::byte> bytes, BlockCoding coding) {
+  ByteReader in(bytes);
+  bool finite = true;
+  while (finite && in.remaining() > 0) {
+    if (coding == BlockCoding::kFloatRuns) in.u8();
+    finite = std::isfinite(coding == BlockCoding::kPlainF64 ? in.f64()
+                                                            : static_cast<double>(in.f32()));
+  }
+  return finite && in.ok();
+}
 
 FrameCoding frameCoding(BlockCoding coding) {
   return coding == BlockCoding::kCountsRuns ? FrameCoding::kCounts : FrameCoding::kFloats;
@@ -90,8 +103,18 @@ void BlockPacker::flush() {
 bool plausible(const Block& block) noexcept {
   return static_cast<int>(block.stream) <= 2 && static_cast<int>(block.coding) <= 3 &&
          block.first >= 0 && block.first <= std::numeric_limits<std::int64_t>::max() - kMostItems &&
-         block.n >= 1 && block.n <= kMostItems && block.t1Us >= block.t0Us &&
-         static_cast<std::size_t>(block.n) * kItemHeadBytes <= block.data.size();
+         block.n >= 1 && block.n <= kMostItems && block.t0Us >= -kLatestUs &&
+         block.t1Us <= kLatestUs && block.t1Us >= block.t0Us &&
+         static_cast<std::size_t>(block.n) * kItemHeadBytes < block.data.size() &&
+         block.data.size() <= (block.n == 1 ? kLongestItem : kMaxBlockBytes);
+}
+
+std::size_t sampleWidth(const Block& block) noexcept {
+  if (!plausible(block)) return 0;
+  const std::size_t perItem = block.data.size() / static_cast<std::size_t>(block.n);
+  const std::size_t each = block.coding == BlockCoding::kPlainF64 ? 8 : 4;
+  const std::size_t width = (perItem - kItemHeadBytes) / each;
+  return width <= kMaxSampleValues ? width : 0;
 }
 
 bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
@@ -100,6 +123,10 @@ bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
   index.begin.clear();
   if (!plausible(block)) return false;
   const std::span<const std::byte> bytes(block.data);
+  const auto count = static_cast<std::size_t>(block.n);
+  index.hostUs.reserve(count);
+  index.deviceMs.reserve(count);
+  index.begin.reserve(count);
   std::size_t at = 0;
   for (std::int64_t i = 0; i < block.n; ++i) {
     ByteReader head(bytes.subspan(at));
@@ -127,6 +154,8 @@ bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
         break;
     }
     if (size > bytes.size() - at) return false;
+    if (block.coding != BlockCoding::kCountsRuns && !allFinite(bytes.subspan(at, size), block.coding))
+      return false;
     at += size;
   }
   return at == bytes.size() && index.hostUs.front() == block.t0Us &&

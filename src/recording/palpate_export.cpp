@@ -4,6 +4,8 @@
 #include "palpate/core/error.h"
 #include "palpate/recording/palpate_writer.h"
 
+#include "recording/palpate_lock.h"
+
 namespace palpate {
 namespace fs = std::filesystem;
 namespace {
@@ -40,11 +42,14 @@ void addUntil(std::size_t& next, std::size_t count, std::int64_t untilUs, TimeOf
 }  // namespace
 
 void writePalpate(const Profile& profile,
+                  std::span<const RecordingEvent> events,
                   const fs::path& path,
                   Overwrite overwrite,
                   const Progress& progress) {
   constexpr std::size_t kFramesPerReport = 256;
   requireWritable(path, overwrite);
+  if (RecordingLock::isHeld(path)) throw FileError(path, "is being written by another program");
+  if (overwrite == Overwrite::kRefuse) refuseForeignJournal(path);
   const TemporaryNeighbour temporary(path);
   std::map<std::string, std::string> meta;
   if (!profile.info().serial.empty()) meta["serial"] = profile.info().serial;
@@ -52,7 +57,6 @@ void writePalpate(const Profile& profile,
   meta["hand"] = profile.hand().name;
   PalpateWriterOptions options;
   options.synced = false;  // nobody sees the file before it is whole and synced
-  options.commitIntervalUs = INT64_MAX;
   PalpateWriter writer(temporary.file(), profile.hand().layout, meta, options);
   std::size_t angle = 0;
   std::size_t temperature = 0;
@@ -80,7 +84,11 @@ void writePalpate(const Profile& profile,
     writer.addFrame(frame);
   }
   addBefore(INT64_MAX);
+  for (const RecordingEvent& event : events) writer.addEvent(event);
   writer.finish();
+  // The journal of an unfinished recording that is replaced would be played back into the new one.
+  std::error_code ignored;
+  fs::remove(journalPathOf(path), ignored);
   publishFile(temporary.file(), path, overwrite);
 }
 

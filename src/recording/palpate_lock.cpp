@@ -1,6 +1,7 @@
 #include "recording/palpate_lock.h"
 
 #include <cerrno>
+#include <ctime>
 #include <system_error>
 
 #include <fcntl.h>
@@ -25,6 +26,16 @@ fs::path withEnding(const fs::path& path, const char* ending) {
 fs::path lockPathOf(const fs::path& recording) { return withEnding(recording, ".lock"); }
 fs::path journalPathOf(const fs::path& recording) { return withEnding(recording, "-journal"); }
 
+void refuseForeignJournal(const fs::path& recording) {
+  std::error_code failure;
+  const fs::path journal = journalPathOf(recording);
+  const std::uintmax_t size = fs::file_size(journal, failure);
+  if (!failure && size > 0)
+    throw FileError(journal,
+                    "belongs to an unfinished recording of that name; move both together, or give "
+                    "another name");
+}
+
 RecordingLock::RecordingLock(const fs::path& recording) : path_(lockPathOf(recording)) {
   for (;;) {
     descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
@@ -32,8 +43,16 @@ RecordingLock::RecordingLock(const fs::path& recording) : path_(lockPathOf(recor
       throw FileError(recording,
                       "can't be written: " + std::generic_category().message(errno) +
                           " (its lock file " + path_.filename().string() + ")");
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    int attempt = 0;
+    while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
       const int reason = errno;
+      // isHeld() holds it for an instant; a writer holds it for long.
+      constexpr int kAttempts = 20;
+      if (reason == EWOULDBLOCK && ++attempt < kAttempts) {
+        const timespec pause{0, 1'000'000};
+        ::nanosleep(&pause, nullptr);
+        continue;
+      }
       ::close(descriptor_);
       descriptor_ = -1;
       throw FileError(recording,

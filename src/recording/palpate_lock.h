@@ -8,6 +8,10 @@ namespace palpate {
 std::filesystem::path lockPathOf(const std::filesystem::path& recording);
 std::filesystem::path journalPathOf(const std::filesystem::path& recording);
 
+// Throws FileError when a rollback journal lies beside PATH, which isn't there itself (or is about to
+// be replaced): SQLite would play it back into whatever gets that name.
+void refuseForeignJournal(const std::filesystem::path& recording);
+
 class RecordingLock {
  public:
   // Takes the lock; makes the lock file. Throws FileError: another program holds it, no permission.

@@ -1,44 +1,95 @@
 #include "recording/palpate_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
 
 namespace palpate {
 namespace {
 
+// The tables as they are made; a file whose tables are others is not read.
+constexpr std::array<std::pair<const char*, const char*>, 6> kTables{{
+    {"meta",
+     "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL, crc32 INTEGER NOT NULL)"
+     " WITHOUT ROWID"},
+    {"matrix",
+     "CREATE TABLE matrix(idx INTEGER PRIMARY KEY, rows INTEGER NOT NULL, columns INTEGER NOT NULL,"
+     " pitch_mm REAL NOT NULL, static_mask TEXT NOT NULL, dynamic_mask TEXT NOT NULL,"
+     " uid TEXT NOT NULL, crc32 INTEGER NOT NULL)"},
+    {"block",
+     "CREATE TABLE block(id INTEGER PRIMARY KEY, stream INTEGER NOT NULL, first INTEGER NOT NULL,"
+     " n INTEGER NOT NULL, t0_us INTEGER NOT NULL, t1_us INTEGER NOT NULL,"
+     " coding INTEGER NOT NULL, crc32 INTEGER NOT NULL, data BLOB NOT NULL)"},
+    {"second",
+     "CREATE TABLE second(t_s INTEGER NOT NULL, matrix INTEGER NOT NULL, frames INTEGER NOT NULL,"
+     " min REAL NOT NULL, max REAL NOT NULL, sum REAL NOT NULL, active_max INTEGER NOT NULL,"
+     " crc32 INTEGER NOT NULL)"},
+    {"event",
+     "CREATE TABLE event(id INTEGER PRIMARY KEY, t_us INTEGER NOT NULL, t1_us INTEGER NOT NULL,"
+     " kind TEXT NOT NULL, matrix INTEGER, text TEXT NOT NULL, json TEXT NOT NULL,"
+     " crc32 INTEGER NOT NULL)"},
+    {"counter", "CREATE TABLE counter(name TEXT PRIMARY KEY, value INTEGER NOT NULL) WITHOUT ROWID"},
+}};
+// Made when a recording is finished; may be missing.
+constexpr const char* kOverviewTable =
+    "CREATE TABLE overview(id INTEGER PRIMARY KEY, n INTEGER NOT NULL, crc32 INTEGER NOT NULL,"
+    " data BLOB NOT NULL)";
+constexpr const char* kBlockIndex =
+    "CREATE INDEX block_at ON block(stream, first, n, t0_us, t1_us)";
+
+// SQL without what doesn't matter: blanks, and small letters.
+std::string normalized(std::string_view sql) {
+  std::string text;
+  for (char letter : sql)
+    if (letter != ' ' && letter != '\n' && letter != '\t' && letter != '\r')
+      text += letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+  return text;
+}
+
 Mask maskFrom(const std::string& text, std::size_t places, const std::filesystem::path& path) {
+  if (text.size() != places) throw FormatError(path, "a mask has the wrong size");
   Mask mask;
+  mask.reserve(places);
   for (char c : text) mask.push_back(c == '1');
-  if (mask.size() != places) throw FormatError(path, "a mask has the wrong size");
   return mask;
 }
 
 }  // namespace
 
 void createTables(SqliteDatabase& database) {
-  database.execute(
-      "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL, crc32 INTEGER NOT NULL)"
-      " WITHOUT ROWID;"
-      "CREATE TABLE matrix(idx INTEGER PRIMARY KEY, rows INTEGER NOT NULL, columns INTEGER NOT "
-      "NULL,"
-      " pitch_mm REAL NOT NULL, static_mask TEXT NOT NULL, dynamic_mask TEXT NOT NULL,"
-      " uid TEXT NOT NULL, crc32 INTEGER NOT NULL);"
-      "CREATE TABLE block(id INTEGER PRIMARY KEY, stream INTEGER NOT NULL, first INTEGER NOT NULL,"
-      " n INTEGER NOT NULL, t0_us INTEGER NOT NULL, t1_us INTEGER NOT NULL,"
-      " coding INTEGER NOT NULL, crc32 INTEGER NOT NULL, data BLOB NOT NULL);"
-      "CREATE TABLE second(t_s INTEGER NOT NULL, matrix INTEGER NOT NULL, frames INTEGER NOT NULL,"
-      " min REAL NOT NULL, max REAL NOT NULL, sum REAL NOT NULL, active_max INTEGER NOT NULL,"
-      " crc32 INTEGER NOT NULL);"
-      "CREATE TABLE event(id INTEGER PRIMARY KEY, t_us INTEGER NOT NULL, t1_us INTEGER NOT NULL,"
-      " kind TEXT NOT NULL, matrix INTEGER, text TEXT NOT NULL, json TEXT NOT NULL,"
-      " crc32 INTEGER NOT NULL);"
-      "CREATE TABLE counter(name TEXT PRIMARY KEY, value INTEGER NOT NULL) WITHOUT ROWID;");
+  for (const auto& [name, sql] : kTables) database.execute(sql);
 }
 
-void createBlockIndex(SqliteDatabase& database) {
-  database.execute("CREATE INDEX IF NOT EXISTS block_at ON block(stream, first, n, t0_us, t1_us);");
+void createBlockIndex(SqliteDatabase& database) { database.execute(kBlockIndex); }
+void createOverview(SqliteDatabase& database) { database.execute(kOverviewTable); }
+
+void checkTables(SqliteDatabase& database) {
+  std::size_t found = 0;
+  SqliteStatement rows = database.prepare("SELECT type, name, rootpage, sql FROM sqlite_schema");
+  while (rows.next()) {
+    const std::string type = rows.text(0);
+    const std::string name = rows.text(1);
+    const auto known = std::find_if(
+        kTables.begin(), kTables.end(), [&](const auto& table) { return name == table.first; });
+    const bool isTable = type == "table" && rows.integer(2) > 0;
+    const bool isIndex = type == "index";
+    if (name == "overview") {
+      if (!isTable || normalized(rows.text(3)) != normalized(kOverviewTable))
+        throw FormatError(database.path(), "its table 'overview' is not as the format has it");
+    } else if (known != kTables.end()) {
+      if (!isTable || normalized(rows.text(3)) != normalized(known->second))
+        throw FormatError(database.path(), "its table '" + name + "' is not as the format has it");
+      ++found;
+    } else if (isIndex && !rows.isNull(3) && normalized(rows.text(3)) != normalized(kBlockIndex)) {
+      throw FormatError(database.path(), "has an index that the format doesn't have");
+    } else if (!isTable && !isIndex) {
+      throw FormatError(database.path(), "has a " + type + ", which the format doesn't have");
+    }
+  }
+  if (found != kTables.size()) throw FormatError(database.path(), "tables are missing");
 }
 
 std::uint32_t metaCrc(std::string_view key, std::string_view value) {
@@ -114,11 +165,19 @@ SensorLayout readLayout(SqliteDatabase& database) {
   SqliteStatement rows = database.prepare(
       "SELECT idx, rows, columns, pitch_mm, static_mask, dynamic_mask, uid, crc32 FROM matrix"
       " ORDER BY idx");
+  std::size_t places = 0;
   while (rows.next()) {
     MatrixLayout matrix;
+    if (matrices.size() == kMaxMatrices)
+      throw FormatError(path, "has more than " + std::to_string(kMaxMatrices) + " matrices");
     matrix.rows = static_cast<int>(std::clamp<std::int64_t>(rows.integer(1), 0, 1'000'000));
     matrix.columns = static_cast<int>(std::clamp<std::int64_t>(rows.integer(2), 0, 1'000'000));
     matrix.pitchMm = rows.real(3);
+    places += matrix.numPlaces();
+    if (places > kMaxPlaces)
+      throw FormatError(path,
+                        "a matrix is too large: more than " + std::to_string(kMaxPlaces) +
+                            " places in all");
     matrix.staticMask = maskFrom(rows.text(4), matrix.numPlaces(), path);
     matrix.dynamicMask = maskFrom(rows.text(5), matrix.numPlaces(), path);
     if (rows.integer(0) != static_cast<std::int64_t>(matrices.size()) ||
@@ -134,12 +193,90 @@ SensorLayout readLayout(SqliteDatabase& database) {
   }
 }
 
-std::string readMeta(SqliteDatabase& database, std::string_view key) {
-  SqliteStatement query = database.prepare("SELECT value, crc32 FROM meta WHERE key=?");
-  query.bind(1, key);
-  if (!query.next()) return {};
-  const std::string value = query.text(0);
-  return query.integer(1) == static_cast<std::int64_t>(metaCrc(key, value)) ? value : std::string();
+Block blockFrom(const SqliteStatement& row, int column, int dataColumn) {
+  const auto small = [&](int at) { return std::clamp<std::int64_t>(row.integer(at), 0, 255); };
+  const auto data = row.blob(dataColumn);
+  return {static_cast<Stream>(small(column)),
+          row.integer(column + 1),
+          row.integer(column + 2),
+          row.integer(column + 3),
+          row.integer(column + 4),
+          static_cast<BlockCoding>(small(column + 5)),
+          {data.begin(), data.end()}};
+}
+
+std::string MetaRows::operator[](const std::string& key) const {
+  const auto found = values.find(key);
+  return found == values.end() ? std::string() : found->second;
+}
+
+std::optional<std::int64_t> MetaRows::integer(const std::string& key) const {
+  return parseInteger((*this)[key]);
+}
+
+MetaRows readMeta(SqliteDatabase& database) {
+  constexpr std::size_t kMostRows = 1000;
+  MetaRows meta;
+  SqliteStatement rows = database.prepare("SELECT key, value, crc32 FROM meta");
+  while (rows.next()) {
+    std::string key = rows.text(0);
+    std::string value = rows.text(1);
+    if (rows.integer(2) != static_cast<std::int64_t>(metaCrc(key, value)))
+      ++meta.damaged;
+    else
+      meta.values.insert_or_assign(std::move(key), std::move(value));
+    if (meta.damaged + meta.values.size() > kMostRows)
+      throw FormatError(database.path(), "has too many rows of meta data");
+  }
+  return meta;
+}
+
+EventsReport readEventRows(SqliteDatabase& database) {
+  EventsReport report;
+  SqliteStatement rows = database.prepare(
+      "SELECT id, t_us, t1_us, kind, matrix, text, json, crc32 FROM event");
+  while (rows.next()) {
+    RecordingEvent event{
+        rows.integer(1), rows.integer(2), rows.text(3), {}, rows.text(5), rows.text(6)};
+    const std::int64_t matrix = rows.integer(4);
+    const bool fits = matrix >= INT32_MIN && matrix <= INT32_MAX;
+    if (!rows.isNull(4)) event.matrix = static_cast<int>(fits ? matrix : -1);
+    if (fits && rows.integer(7) == static_cast<std::int64_t>(eventCrc(rows.integer(0), event)))
+      report.events.push_back(std::move(event));
+    else
+      ++report.damaged;
+  }
+  // Sorted here: SQLite would sort in memory without a bound.
+  std::stable_sort(report.events.begin(),
+                   report.events.end(),
+                   [](const auto& a, const auto& b) { return a.tUs < b.tUs; });
+  return report;
+}
+
+std::vector<SecondSummary> readSecondRows(SqliteDatabase& database, std::size_t& damaged) {
+  std::vector<SecondSummary> seconds;
+  SqliteStatement rows = database.prepare(
+      "SELECT t_s, matrix, frames, min, max, sum, active_max, crc32 FROM second");
+  while (rows.next()) {
+    const std::int64_t matrix = rows.integer(1);
+    const std::int64_t activeMax = rows.integer(6);
+    SecondSummary row{rows.integer(0),
+                      static_cast<int>(std::clamp<std::int64_t>(matrix, -1, kMaxMatrices)),
+                      rows.integer(2),
+                      rows.real(3),
+                      rows.real(4),
+                      rows.real(5),
+                      static_cast<int>(std::clamp<std::int64_t>(activeMax, -1, kMaxPlaces + 1))};
+    if (rows.integer(7) == static_cast<std::int64_t>(secondCrc(row)))
+      seconds.push_back(row);
+    else
+      ++damaged;
+  }
+  std::stable_sort(
+      seconds.begin(), seconds.end(), [](const SecondSummary& a, const SecondSummary& b) {
+        return std::pair(a.tS, a.matrix) < std::pair(b.tS, b.matrix);
+      });
+  return seconds;
 }
 
 RowWriter::RowWriter(SqliteDatabase& database)

@@ -13,6 +13,7 @@
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/palpate_lock.h"
+#include "recording/palpate_overview.h"
 #include "recording/palpate_rows.h"
 #include "recording/sqlite_database.h"
 
@@ -25,21 +26,29 @@ void refuseExisting(const fs::path& path) {
   if (fs::is_directory(path, ignored)) throw FileError(path, "is a folder");
   if (fs::exists(fs::symlink_status(path, ignored)))
     throw FileError(path, "exists already; a recording is never replaced");
+  refuseForeignJournal(path);
 }
 
-void requireFinite(const char* what, const std::vector<double>& values, std::size_t& width) {
-  if (values.empty() || (width != 0 && values.size() != width))
+void requireReadable(const SensorLayout& layout) {
+  if (layout.numMatrices() > kMaxMatrices || layout.numPlaces() > kMaxPlaces)
+    throw std::invalid_argument("PalpateWriter: at most " + std::to_string(kMaxMatrices) +
+                                " matrices with " + std::to_string(kMaxPlaces) + " places in all");
+}
+
+void requireFinite(const char* what, const std::vector<double>& values, std::size_t width) {
+  if (values.empty() || values.size() > kMaxSampleValues || (width != 0 && values.size() != width))
     throw std::invalid_argument(std::string(what) + ": expected " + std::to_string(width) +
                                 " values, got " + std::to_string(values.size()));
   if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
     throw std::invalid_argument(std::string(what) + ": a value is not a number");
-  width = values.size();
 }
 
-void requireLater(const char* what, std::optional<std::int64_t>& last, std::int64_t hostUs) {
+void requireLater(const char* what, std::optional<std::int64_t> last, std::int64_t hostUs) {
+  constexpr std::int64_t kLatestUs = std::int64_t{1} << 60;  // what a block can hold
+  if (hostUs < -kLatestUs || hostUs > kLatestUs)
+    throw std::invalid_argument(std::string(what) + ": time is out of range");
   if (last && hostUs <= *last)
     throw std::invalid_argument(std::string(what) + ": time must be later than the last one's");
-  last = hostUs;
 }
 
 }  // namespace
@@ -53,6 +62,19 @@ struct PalpateWriter::Impl {
         layout(std::move(sensorLayout)),
         lock(path),
         database((refuseExisting(path), path), SqliteDatabase::Mode::kCreate, options.vfs) {
+    try {
+      create(meta);
+    } catch (...) {
+      // Nobody has seen the file yet: none is better than one that can't be opened.
+      database.rollBack();
+      std::error_code ignored;
+      fs::remove(path, ignored);
+      fs::remove(journalPathOf(path), ignored);
+      throw;
+    }
+  }
+
+  void create(const std::map<std::string, std::string>& meta) {
     database.execute(
         "PRAGMA page_size=4096; PRAGMA auto_vacuum=NONE;"
         "PRAGMA journal_mode=TRUNCATE; PRAGMA application_id=" +
@@ -68,31 +90,78 @@ struct PalpateWriter::Impl {
     rows.emplace(database);
   }
 
-  void begin() {
-    if (!database.inTransaction()) database.execute("BEGIN IMMEDIATE");
+  // Refuses a sample while too much waits for the disk.
+  void requireRoom() const {
+    if (pending.bytes >= kMaxPendingBytes)
+      throw FileError(database.path(),
+                      "nothing could be written for too long; the memory for what waits is full");
   }
 
   // `nowUs`: host time of the sample that was just added.
   void commitWhenDue(std::int64_t nowUs) {
+    // Conversions need no commits, but what they hold in memory is bounded.
+    constexpr std::size_t kMostUnsynced = 1u << 20;
     if (!pendingSinceUs) pendingSinceUs = nowUs;
-    if (nowUs - *pendingSinceUs >= options.commitIntervalUs) commit();
+    const bool due = options.synced ? nowUs - *pendingSinceUs >= options.commitIntervalUs
+                                    : pending.bytes >= kMostUnsynced;
+    if (due) {
+      pendingSinceUs = nowUs;  // after a failure the next attempt is an interval away
+      commit();
+    }
   }
 
-  void commit() {
+  void flushPackers() {
     for (BlockPacker* packer : {&tactile, &angles, &temperatures}) packer->flush();
-    if (database.inTransaction()) database.execute("COMMIT");
+  }
+
+  // Writes what waits; `last` is the end of the same transaction.
+  template <typename Last>
+  void commit(Last last) {
+    flushPackers();
+    try {
+      database.execute("BEGIN IMMEDIATE");
+      for (const Block& block : pending.blocks) rows->block(block);
+      for (const SecondSummary& row : pending.seconds) rows->second(row);
+      std::int64_t id = numEvents;
+      for (const RecordingEvent& event : pending.events) rows->event(++id, event);
+      for (const auto& [name, value] : pending.counters) rows->counter(name, value);
+      last();
+      database.execute("COMMIT");
+    } catch (...) {
+      database.rollBack();
+      throw;
+    }
+    numEvents += static_cast<std::int64_t>(pending.events.size());
+    pending = {};
     pendingSinceUs.reset();
     committedFrames = tactile.numItems();
   }
+  void commit() {
+    if (pending.empty() && tactile.empty() && angles.empty() && temperatures.empty()) return;
+    commit([] {});
+  }
+
+  // What no commit has taken yet.
+  struct Pending {
+    std::vector<Block> blocks;
+    std::vector<SecondSummary> seconds;
+    std::vector<RecordingEvent> events;
+    std::map<std::string, std::int64_t> counters;
+    std::size_t bytes = 0;
+    bool empty() const {
+      return blocks.empty() && seconds.empty() && events.empty() && counters.empty();
+    }
+  };
 
   PalpateWriterOptions options;
   std::shared_ptr<const SensorLayout> layout;
   RecordingLock lock;
   SqliteDatabase database;
   std::optional<RowWriter> rows;
+  Pending pending;
   BlockPacker::Sink sink = [this](const Block& block) {
-    begin();
-    rows->block(block);
+    pending.blocks.push_back(block);
+    pending.bytes += sizeof(Block) + block.data.size();
     if (block.stream == Stream::kTactile && block.coding != BlockCoding::kCountsRuns)
       allCounts = false;
   };
@@ -100,8 +169,8 @@ struct PalpateWriter::Impl {
   BlockPacker angles{Stream::kAngles, sink};
   BlockPacker temperatures{Stream::kTemperatures, sink};
   SecondSummarizer seconds{[this](const SecondSummary& row) {
-    begin();
-    rows->second(row);
+    pending.seconds.push_back(row);
+    pending.bytes += sizeof row;
   }};
   std::optional<std::int64_t> lastFrameUs;
   std::optional<std::int64_t> lastAnglesUs;
@@ -110,7 +179,7 @@ struct PalpateWriter::Impl {
   std::size_t numAxes = 0;
   std::size_t numTemperatureSensors = 0;
   std::int64_t committedFrames = 0;
-  std::int64_t numEvents = 0;
+  std::int64_t numEvents = 0;  // committed
   bool allCounts = true;  // every frame so far
   bool finished = false;
 };
@@ -120,6 +189,7 @@ PalpateWriter::PalpateWriter(const fs::path& path,
                              const std::map<std::string, std::string>& meta,
                              const PalpateWriterOptions& options) {
   if (!layout) throw std::invalid_argument("PalpateWriter: no sensor layout");
+  requireReadable(*layout);
   impl_ = std::make_unique<Impl>(path, std::move(layout), meta, options);
 }
 
@@ -140,6 +210,8 @@ void PalpateWriter::addFrame(const TactileFrame& frame) {
           frame.values.begin(), frame.values.end(), [](float v) { return std::isfinite(v); }))
     throw std::invalid_argument("frame: a value is not a number");
   requireLater("frame", impl_->lastFrameUs, frame.hostUs);
+  impl_->requireRoom();
+  impl_->lastFrameUs = frame.hostUs;
   impl_->tactile.addFrame(frame.hostUs, frame.deviceMs, frame.values);
   impl_->seconds.add(frame);
   impl_->commitWhenDue(frame.hostUs);
@@ -148,6 +220,9 @@ void PalpateWriter::addFrame(const TactileFrame& frame) {
 void PalpateWriter::addAngles(const JointAngles& angles) {
   requireFinite("angles", angles.deg, impl_->numAxes);
   requireLater("angles", impl_->lastAnglesUs, angles.hostUs);
+  impl_->requireRoom();
+  impl_->numAxes = angles.deg.size();
+  impl_->lastAnglesUs = angles.hostUs;
   impl_->angles.addSample(angles.hostUs, angles.deg);
   impl_->commitWhenDue(angles.hostUs);
 }
@@ -155,33 +230,48 @@ void PalpateWriter::addAngles(const JointAngles& angles) {
 void PalpateWriter::addTemperatures(const Temperatures& temperatures) {
   requireFinite("temperatures", temperatures.degC, impl_->numTemperatureSensors);
   requireLater("temperatures", impl_->lastTemperaturesUs, temperatures.hostUs);
+  impl_->requireRoom();
+  impl_->numTemperatureSensors = temperatures.degC.size();
+  impl_->lastTemperaturesUs = temperatures.hostUs;
   impl_->temperatures.addSample(temperatures.hostUs, temperatures.degC);
   impl_->commitWhenDue(temperatures.hostUs);
 }
 
 void PalpateWriter::addEvent(const RecordingEvent& event) {
-  impl_->begin();
-  impl_->rows->event(++impl_->numEvents, event);
+  const std::size_t bytes = event.kind.size() + event.text.size() + event.json.size();
+  if (bytes > kMaxEventBytes)
+    throw std::invalid_argument("event: longer than " + std::to_string(kMaxEventBytes) + " bytes");
+  impl_->requireRoom();
+  impl_->pending.events.push_back(event);
+  impl_->pending.bytes += sizeof event + bytes;
 }
 
 void PalpateWriter::setCounter(const std::string& name, std::int64_t value) {
-  impl_->begin();
-  impl_->rows->counter(name, value);
+  impl_->pending.counters[name] = value;
 }
 
 void PalpateWriter::commit() { impl_->commit(); }
 
 void PalpateWriter::finish() {
   Impl& impl = *impl_;
+  if (impl.finished) return;
   impl.seconds.flush();
-  impl.commit();
-  impl.begin();
-  createBlockIndex(impl.database);
-  insertMeta(impl.database, "value_type", impl.allCounts ? "counts" : "float");
-  insertMeta(impl.database, "finished", "1");
-  impl.database.execute("COMMIT");
-  impl.database.execute("PRAGMA synchronous=FULL; PRAGMA journal_mode=DELETE;");
+  impl.commit([&impl] {
+    SqliteDatabase& database = impl.database;
+    createBlockIndex(database);
+    insertMeta(database, "seconds", std::to_string(writeOverview(database, impl.layout->numMatrices())));
+    insertMeta(database, "frames", std::to_string(impl.tactile.numItems()));
+    insertMeta(database, "angle_samples", std::to_string(impl.angles.numItems()));
+    insertMeta(database, "temperature_samples", std::to_string(impl.temperatures.numItems()));
+    insertMeta(database, "value_type", impl.allCounts ? "counts" : "float");
+    insertMeta(database, "finished", "1");
+  });
   impl.finished = true;
+  impl.database.execute("PRAGMA synchronous=FULL; PRAGMA journal_mode=DELETE;");
+}
+
+bool PalpateWriter::pendingFull() const noexcept {
+  return impl_->pending.bytes >= kMaxPendingBytes;
 }
 
 std::int64_t PalpateWriter::framesOnDisk() const noexcept { return impl_->committedFrames; }

@@ -16,19 +16,33 @@
 #include "palpate/recording/table_export.h"
 
 #include "recording/byte_source.h"
+#include "recording/event_notes.h"
 #include "recording/message_text.h"
+#include "recording/palpate_lock.h"
 
 namespace palpate {
 namespace {
 
 constexpr std::string_view kSqliteStart{"SQLite format 3\0", 16};
 
-// Throws FileError.
+std::string lowerEnding(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::tolower(letter));
+  });
+  return ending;
+}
+
+// By the first bytes; where these are neither SQLite's nor a .dsa's (damaged), by the name. Throws
+// FileError.
 bool isNative(const std::filesystem::path& path) {
+  // Closing a file that this very process writes would drop SQLite's locks on it.
+  if (RecordingLock::isHeld(path)) return true;
   FileSource source(path);
   std::array<char, kSqliteStart.size()> first{};
-  return source.read(first) == first.size() &&
-         std::string_view(first.data(), first.size()) == kSqliteStart;
+  const std::string_view start(first.data(), source.read(first));
+  if (start == kSqliteStart) return true;
+  return lowerEnding(path) == ".palpate" && !start.starts_with("BZh") && !start.starts_with('<');
 }
 
 std::string countsText(std::size_t frames, std::size_t angles, std::size_t temperatures) {
@@ -48,6 +62,7 @@ std::string damageText(const PalpateSalvage& salvage) {
   add(salvage.damagedBlocks, "damaged block");
   add(salvage.blocksFromPages, "block found in the raw pages");
   add(salvage.damagedRows, "damaged row");
+  if (salvage.layoutLost) text += (text.empty() ? "" : ", ") + std::string("layout lost");
   if (salvage.layoutAssumed) text += (text.empty() ? "" : ", ") + std::string("layout assumed");
   if (!salvage.sqliteError.empty())
     text += (text.empty() ? "" : ", ") + std::string("SQLite gave up");
@@ -59,6 +74,7 @@ VerifyReport verifyNative(const std::filesystem::path& path, const Progress& pro
   VerifyReport report;
   report.message = countsText(salvage.frames, salvage.angles, salvage.temperatures);
   if (salvage.unfinished) report.message += "; unfinished: its writer stopped before the end";
+  if (salvage.beingWritten) report.message += "; still being written";
   if (salvage.whole()) {
     report.state = VerifyReport::State::kSound;
   } else {
@@ -79,11 +95,21 @@ RecoverReport recoverNative(const std::filesystem::path& in,
     report.message = "nothing can be saved: no intact block was found";
     return report;
   }
-  saveRecording(*salvage.profile, out, overwrite, progress);
+  saveRecording(*salvage.profile, salvage.events, out, overwrite, progress);
   report.state = salvage.whole() ? RecoverReport::State::kWhole : RecoverReport::State::kPart;
   report.message = "saved " + countsText(salvage.frames, salvage.angles, salvage.temperatures);
   if (!salvage.whole()) report.message += "; " + damageText(salvage);
   return report;
+}
+
+// Notes beside a damaged .dsa; that they are damaged, too, is no reason to save nothing.
+std::vector<RecordingEvent> readEventsOf(const std::filesystem::path& path, std::string& lost) {
+  try {
+    return readEventNotes(path).events;
+  } catch (const Error& error) {
+    lost = error.what();
+    return {};
+  }
 }
 
 RecoverReport recoverDsa(const std::filesystem::path& in,
@@ -92,24 +118,30 @@ RecoverReport recoverDsa(const std::filesystem::path& in,
                          const Progress& progress) {
   const DsaVerifyReport checked = verifyDsa(in, progress);
   RecoverReport report;
+  std::string lostNotes;
+  const std::vector<RecordingEvent> events = readEventsOf(in, lostNotes);
   if (checked.state == DsaVerifyReport::State::kSound) {
-    saveRecording(readDsa(in, progress), out, overwrite, progress);
+    saveRecording(readDsa(in, progress), events, out, overwrite, progress);
     report.state = RecoverReport::State::kWhole;
     report.message = "nothing was damaged; saved " +
                      countsText(checked.frames, checked.angles, checked.temperatures);
-    return report;
+  } else {
+    const DsaSalvage salvage = salvageDsa(in, progress);
+    if (!salvage.profile) {
+      report.message = "nothing can be saved: " + checked.message;
+      return report;
+    }
+    saveRecording(*salvage.profile, events, out, overwrite, progress);
+    report.state = RecoverReport::State::kPart;
+    report.message = "saved " + countsText(salvage.frames, salvage.angles, salvage.temperatures) +
+                     "; lost: the rest (" + std::to_string(salvage.intactBlocks) + " of " +
+                     counted(salvage.blocks, "bzip2 block") + " intact, " +
+                     counted(salvage.cutSamples, "sample") + " cut)";
   }
-  const DsaSalvage salvage = salvageDsa(in, progress);
-  if (!salvage.profile) {
-    report.message = "nothing can be saved: " + checked.message;
-    return report;
+  if (!lostNotes.empty()) {
+    report.state = RecoverReport::State::kPart;
+    report.message += "; its notes are lost (" + lostNotes + ")";
   }
-  saveRecording(*salvage.profile, out, overwrite, progress);
-  report.state = RecoverReport::State::kPart;
-  report.message = "saved " + countsText(salvage.frames, salvage.angles, salvage.temperatures) +
-                   "; lost: the rest (" + std::to_string(salvage.intactBlocks) + " of " +
-                   counted(salvage.blocks, "bzip2 block") + " intact, " +
-                   counted(salvage.cutSamples, "sample") + " cut)";
   return report;
 }
 
@@ -147,10 +179,7 @@ VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& 
 }
 
 RecordingForm formOf(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
+  const std::string ending = lowerEnding(path);
   if (ending == ".dsa") return RecordingForm::kDsa;
   if (ending == ".palpate") return RecordingForm::kPalpate;
   if (ending == ".csv") return RecordingForm::kCsv;
@@ -158,19 +187,34 @@ RecordingForm formOf(const std::filesystem::path& path) {
   throw FileError(path, "its name must end in .dsa, .palpate, .csv or .npz");
 }
 
+EventsReport readEvents(const std::filesystem::path& path) {
+  return isNative(path) ? readPalpateEvents(path) : readEventNotes(path);
+}
+
+void requireOther(const std::filesystem::path& in, const std::filesystem::path& out) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(in, out, ignored))
+    throw FileError(out, "is the input itself; give another name");
+}
+
 void saveRecording(const Profile& profile,
+                   std::span<const RecordingEvent> events,
                    const std::filesystem::path& path,
                    Overwrite overwrite,
                    const Progress& progress) {
   switch (formOf(path)) {
-    case RecordingForm::kDsa:
-      return writeDsa(profile, path, overwrite, progress);
+    case RecordingForm::kDsa: {
+      // Checked first: a .dsa must not come to notes that were made for another one.
+      const EventNotes notes(path, events, overwrite);
+      writeDsa(profile, path, overwrite, progress);
+      return notes.commit();
+    }
     case RecordingForm::kPalpate:
-      return writePalpate(profile, path, overwrite, progress);
+      return writePalpate(profile, events, path, overwrite, progress);
     case RecordingForm::kCsv:
       return writeCsv(profile, path, overwrite, progress);
     case RecordingForm::kNpz:
-      return writeNpz(profile, path, overwrite, progress);
+      return writeNpz(profile, events, path, overwrite, progress);
   }
 }
 
@@ -179,6 +223,7 @@ RecoverReport recoverRecording(const std::filesystem::path& in,
                                Overwrite overwrite,
                                const Progress& progress) {
   formOf(out);  // before the work, not after it
+  requireOther(in, out);
   requireWritable(out, overwrite);
   return isNative(in) ? recoverNative(in, out, overwrite, progress)
                       : recoverDsa(in, out, overwrite, progress);

@@ -1,4 +1,4 @@
-#include "recording/second_summary.h"
+#include "palpate/recording/second_summary.h"
 
 #include <algorithm>
 

@@ -7,6 +7,15 @@
 #include "palpate/core/error.h"
 
 namespace palpate {
+namespace {
+
+// Longest text or blob of a file, and most memory of the page cache.
+constexpr int kMaxValueBytes = 2 << 20;
+constexpr int kOpsPerLook = 100'000;
+constexpr std::int64_t kFreeOps = 10'000'000;
+constexpr std::int64_t kOpsPerByte = 50;
+
+}  // namespace
 
 void throwSqliteError(sqlite3* connection, int code, const std::filesystem::path& path) {
   switch (code & 0xFF) {
@@ -23,6 +32,8 @@ void throwSqliteError(sqlite3* connection, int code, const std::filesystem::path
       throw FileError(path, "is in use by another program");
     case SQLITE_IOERR:
       throw FileError(path, "can't be read or written: input/output error");
+    case SQLITE_INTERRUPT:
+      throw FormatError(path, "is damaged: its tables are longer than the file");
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
     case SQLITE_FORMAT:
@@ -128,6 +139,10 @@ SqliteDatabase::SqliteDatabase(std::filesystem::path path, Mode mode, const std:
   // Files come from anywhere: nothing a file says may run code or be followed blindly.
   sqlite3_db_config(connection_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(connection_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_db_config(connection_, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+  sqlite3_db_config(connection_, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
+  sqlite3_limit(connection_, SQLITE_LIMIT_LENGTH, kMaxValueBytes);
+  sqlite3_limit(connection_, SQLITE_LIMIT_ATTACHED, 0);
 }
 
 SqliteDatabase::~SqliteDatabase() { sqlite3_close_v2(connection_); }
@@ -143,6 +158,22 @@ std::int64_t SqliteDatabase::integerOf(std::string_view query) {
   SqliteStatement statement = prepare(query);
   return statement.next() ? statement.integer(0) : 0;
 }
+
+void SqliteDatabase::rollBack() noexcept {
+  if (inTransaction()) sqlite3_exec(connection_, "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+void SqliteDatabase::limitWork(std::uint64_t fileBytes) {
+  workLeft_ = kFreeOps + kOpsPerByte * static_cast<std::int64_t>(fileBytes);
+  const auto look = [](void* left) {
+    auto& ops = *static_cast<std::int64_t*>(left);
+    ops -= kOpsPerLook;
+    return ops < 0 ? 1 : 0;
+  };
+  sqlite3_progress_handler(connection_, kOpsPerLook, look, &workLeft_);
+}
+
+void SqliteDatabase::unlimitWork() { sqlite3_progress_handler(connection_, 0, nullptr, nullptr); }
 
 bool SqliteDatabase::inTransaction() const { return sqlite3_get_autocommit(connection_) == 0; }
 

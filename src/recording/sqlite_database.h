@@ -60,11 +60,18 @@ class SqliteDatabase {
   SqliteStatement prepare(std::string_view sql);
   std::int64_t integerOf(std::string_view query);
   bool inTransaction() const;
+  // Ends a transaction without result; never throws (after a failed commit there may be none left).
+  void rollBack() noexcept;
+  // Ends statements that run for longer than any honest file of this size needs (pages that point to
+  // each other make b-trees of any length); they throw FormatError. Counts from here on.
+  void limitWork(std::uint64_t fileBytes);
+  void unlimitWork();
   const std::filesystem::path& path() const noexcept { return path_; }
 
  private:
   std::filesystem::path path_;
   sqlite3* connection_ = nullptr;
+  std::int64_t workLeft_ = 0;
 };
 
 // Throws FileError (the world) or FormatError (damaged content) for a failed call.

@@ -27,6 +27,7 @@ int convertCommand(const Words& words) {
   const std::string& out = given.words()[1];
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
   formOf(out);
+  requireOther(in, out);
   requireWritable(out, overwrite);
   const auto from = given.integer("from", 0, INT64_MAX);
   const auto to = given.integer("to", 0, INT64_MAX);
@@ -34,6 +35,7 @@ int convertCommand(const Words& words) {
     ProgressLine progress("reading " + in, given.quiet());
     return openRecording(in, progress.callback());
   }();
+  EventsReport events = readEvents(in);
   if (from || to) {
     if (profile.numFrames() == 0) throw Error(in + ": has no frames");
     const std::size_t first = static_cast<std::size_t>(from.value_or(0));
@@ -42,13 +44,16 @@ int convertCommand(const Words& words) {
       throw Error(in + ": has no frames " + std::to_string(first) + ".." + std::to_string(last) +
                   ", only 0.." + std::to_string(profile.numFrames() - 1));
     profile = cropped(profile, first, last);
+    events.events = eventsWithin(events.events, profile);
   }
   {
     ProgressLine progress("writing " + out, given.quiet());
-    saveRecording(profile, out, overwrite, progress.callback());
+    saveRecording(profile, events.events, out, overwrite, progress.callback());
   }
   if (!given.quiet()) std::printf("%s: %zu frames\n", out.c_str(), profile.numFrames());
-  return kDone;
+  if (events.damaged == 0) return kDone;
+  std::fprintf(stderr, "palpate: %s: %zu damaged events were left out\n", in.c_str(), events.damaged);
+  return kPartlyDone;
 }
 
 }  // namespace palpate::commands

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <vector>
 
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
+#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -15,5 +18,9 @@ Profile cropped(const Profile& profile,
                 std::size_t begin,
                 std::size_t end,
                 const Progress& progress = {});
+
+// The events that touch the span from the first to the last frame of a profile.
+std::vector<RecordingEvent> eventsWithin(std::span<const RecordingEvent> events,
+                                         const Profile& profile);
 
 }  // namespace palpate

@@ -42,6 +42,9 @@ class BlockPacker {
 // Whether a block's fields make sense (before its data is looked at).
 bool plausible(const Block& block) noexcept;
 
+// Values per sample of a block of angles or temperatures; 0 where its size makes no sense.
+std::size_t sampleWidth(const Block& block) noexcept;
+
 // The stamps of a block's items [us since 1970], and where each item begins in its data. `numValues`:
 // values per item (places of the layout, axes, temperature sensors). False: the data is not what the
 // fields say. Never throws on damaged data.

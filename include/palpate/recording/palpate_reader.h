@@ -7,12 +7,10 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
-#include <palpate/recording/palpate_writer.h>
+#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -21,11 +19,7 @@ namespace palpate {
 // Profile::readFrame then throws FormatError; it is never shown as data.
 Profile readPalpate(const std::filesystem::path& path, const Progress& progress = {});
 
-// The events of a recording in order of time. Rows with a wrong checksum are left out and counted.
-struct EventsReport {
-  std::vector<RecordingEvent> events;
-  std::size_t damaged = 0;
-};
+// The event table of a recording. Throws FileError, FormatError.
 EventsReport readPalpateEvents(const std::filesystem::path& path);
 
 }  // namespace palpate

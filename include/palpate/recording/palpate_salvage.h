@@ -10,7 +10,7 @@
 
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
-#include <palpate/recording/palpate_writer.h>
+#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -20,21 +20,25 @@ struct PalpateSalvage {
   std::size_t frames = 0;  // saved
   std::size_t angles = 0;
   std::size_t temperatures = 0;
-  std::size_t lostFrames = 0;  // known to be missing between or before the saved blocks
+  // Known to be missing before, between and (where the recording tells how many there were) behind
+  // the saved blocks.
+  std::size_t lostFrames = 0;
   std::size_t lostAngles = 0;
   std::size_t lostTemperatures = 0;
-  std::size_t damagedBlocks = 0;    // rows that SQLite gave, with a wrong checksum
+  std::size_t damagedBlocks = 0;    // rows that SQLite gave, with a wrong checksum or content
   std::size_t blocksFromPages = 0;  // found by reading pages only
   std::size_t damagedRows = 0;  // of meta, matrix, second, event; summaries that don't fit the data
   bool unfinished = false;      // its writer stopped before the end
+  bool beingWritten = false;    // by another program: everything committed so far
   bool layoutAssumed = false;   // the layout was lost: that of the SDH-2 fits every saved frame
+  bool layoutLost = false;      // and no layout fits: no frame can be read
   std::string sqliteError;      // what SQLite said, when it gave up
   // Whole: nothing is missing or wrong.
   bool whole() const noexcept {
     return lostFrames + lostAngles + lostTemperatures + damagedBlocks + blocksFromPages +
                    damagedRows ==
                0 &&
-           !layoutAssumed && sqliteError.empty();
+           !layoutAssumed && !layoutLost && sqliteError.empty();
   }
 };
 

@@ -9,9 +9,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include <palpate/model/profile.h>
@@ -22,6 +21,11 @@ constexpr std::int32_t kPalpateApplicationId = 0x50414C50;  // "PALP"
 constexpr std::int32_t kPalpateVersion = 1;                 // user_version
 constexpr std::size_t kMaxBlockBytes =
     4000;  // of data: a block then never overflows its 4096-byte page
+
+// Bounds of what is read, so that a hostile file costs little.
+constexpr std::size_t kMaxMatrices = 64;
+constexpr std::size_t kMaxPlaces = 65'536;    // of all matrices
+constexpr std::size_t kMaxSampleValues = 64;  // axes or temperature sensors
 
 enum class Stream : std::uint8_t { kTactile = 0, kAngles = 1, kTemperatures = 2 };
 
@@ -40,13 +44,6 @@ struct Block {
   std::int64_t t1Us = 0;   // of the last item
   BlockCoding coding = BlockCoding::kCountsRuns;
   std::vector<std::byte> data;
-};
-
-// One item of a block, decoded.
-struct BlockItem {
-  std::int64_t hostUs = 0;
-  std::optional<std::int64_t> deviceMs;
-  std::vector<double> values;
 };
 
 // zlib's CRC-32 over stream, first, n, t0_us, t1_us, coding as little-endian i64, then data.

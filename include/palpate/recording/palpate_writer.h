@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
+#include <span>
 #include <string>
 
 #include <palpate/core/output_file.h>
@@ -15,18 +15,12 @@
 #include <palpate/model/hand_state.h>
 #include <palpate/model/profile.h>
 #include <palpate/model/tactile_frame.h>
+#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
-// Something that happened, at a time or over a span.
-struct RecordingEvent {
-  std::int64_t tUs = 0;   // [us since 1970]
-  std::int64_t t1Us = 0;  // end; equals tUs for a moment
-  std::string kind;       // "gap", "label", "note", "settings", ..
-  std::optional<int> matrix;
-  std::string text;
-  std::string json;  // more of it, one JSON object; may be empty
-};
+// Most that waits in memory while commits fail: 30 s of two hands at 300 frames/s are 10 MB.
+constexpr std::size_t kMaxPendingBytes = 64u << 20;
 
 struct PalpateWriterOptions {
   std::int64_t commitIntervalUs = 100'000;  // host time between commits at most [us]
@@ -49,17 +43,23 @@ class PalpateWriter {
   PalpateWriter& operator=(const PalpateWriter&) = delete;
 
   // Each appends in order of time and commits when the interval has passed since the last commit.
-  // Throw std::invalid_argument (wrong size, not finite, time not later than before), FileError (the
-  // disk is full, ..): then everything up to the last commit is safe, and only that.
+  // Throw std::invalid_argument (wrong size, not finite, time not later than before): nothing was
+  // added. Throw FileError (the disk is full, ..): what was committed before is safe; what came since,
+  // this call's sample too, is kept in memory, and the next commit that is due tries again. Only when
+  // kMaxPendingBytes wait there does a call refuse its sample: pendingFull() tells.
   void addFrame(const TactileFrame& frame);
   void addAngles(const JointAngles& angles);
   void addTemperatures(const Temperatures& temperatures);
   void addEvent(const RecordingEvent& event);
   void setCounter(const std::string& name, std::int64_t value);
 
+  // Throws FileError; what is not on disk then stays in memory for the next commit.
   void commit();
-  // Writes index and last summaries, syncs, turns the journal off: a finished recording.
+  // Writes index and last summaries, syncs, turns the journal off: a finished recording. Throws
+  // FileError; then the recording is still an unfinished one, and finish() can be called again.
   void finish();
+  // Whether samples are being refused because commits have failed for too long.
+  bool pendingFull() const noexcept;
 
   std::int64_t framesOnDisk() const noexcept;  // committed
   std::int64_t bytesOnDisk() const;
@@ -69,8 +69,11 @@ class PalpateWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-// Writes a whole profile as a finished recording: temporary file, synced, renamed.
+// Writes a whole profile as a finished recording: temporary file, synced, renamed. Throws FileError
+// (also when PATH is being written, or a rollback journal of another recording lies beside it),
+// Cancelled.
 void writePalpate(const Profile& profile,
+                  std::span<const RecordingEvent> events,
                   const std::filesystem::path& path,
                   Overwrite overwrite = Overwrite::kRefuse,
                   const Progress& progress = {});

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
+#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -28,8 +30,18 @@ enum class RecordingForm { kDsa, kPalpate, kCsv, kNpz };
 // naming them all.
 RecordingForm formOf(const std::filesystem::path& path);
 
-// Saves a profile in the form of PATH's ending: whole or not at all. Throws FileError, Cancelled.
+// What was noted or happened in a recording: the events of a .palpate, the sidecar
+// NAME.dsa.notes.json of a .dsa (none: no events). Throws FileError, FormatError.
+EventsReport readEvents(const std::filesystem::path& path);
+
+// Throws FileError when both name the same file (by a link, too): nothing is written onto its source.
+void requireOther(const std::filesystem::path& in, const std::filesystem::path& out);
+
+// Saves a profile in the form of PATH's ending: whole or not at all. Events go into a .palpate, into
+// the sidecar of a .dsa, into `meta` of an .npz; a .csv has no place for them. Throws FileError,
+// Cancelled.
 void saveRecording(const Profile& profile,
+                   std::span<const RecordingEvent> events,
                    const std::filesystem::path& path,
                    Overwrite overwrite = Overwrite::kRefuse,
                    const Progress& progress = {});

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
+#include <span>
 
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
+#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -21,8 +22,9 @@ void writeCsv(const Profile& profile,
 // PATH.npz (stored zip of .npy arrays; numpy.load opens it with allow_pickle=False): `time_ms` (T,
 // int64), `m0`.. (T, rows, columns; uint16 for counts, float32 otherwise), `angles` (n, axes; float64,
 // deg), `angle_time_ms`, `temperatures` (n, sensors; float64, deg C), `temperature_time_ms`,
-// `static_mask` (places, uint8), `meta` (JSON text). Throws FileError, Cancelled.
+// `static_mask` (places, uint8), `meta` (JSON text in ASCII, with the events). Throws FileError, Cancelled.
 void writeNpz(const Profile& profile,
+              std::span<const RecordingEvent> events,
               const std::filesystem::path& path,
               Overwrite overwrite = Overwrite::kRefuse,
               const Progress& progress = {});

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <vector>
 
-#include "palpate/model/tactile_frame.h"
+#include <palpate/model/tactile_frame.h>
 
 namespace palpate {
 
@@ -16,8 +17,8 @@ struct SecondSummary {
   std::int64_t frames = 0;
   double minimum = 0.0;  // smallest value of an active taxel; 0 where none was active
   double maximum = 0.0;  // largest value
-  double sum = 0.0;      // of all values of all frames
-  int activeMax = 0;     // most taxels active at once
+  double sum = 0.0;      // of all positive values of all frames
+  int activeMax = 0;     // most taxels active (value > 0) at once
   bool operator==(const SecondSummary&) const = default;
 };
 
@@ -33,5 +34,10 @@ class SecondSummarizer {
   Sink sink_;
   std::vector<SecondSummary> rows_;
 };
+
+// The summary of a native recording without reading its frames: ordered by time, then matrix; seconds
+// without a frame are not there. Of an unfinished recording the last second is missing. Rows with a
+// wrong checksum are left out. Throws FileError, FormatError.
+std::vector<SecondSummary> readSeconds(const std::filesystem::path& path);
 
 }  // namespace palpate
