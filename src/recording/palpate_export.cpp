@@ -57,6 +57,7 @@ void writePalpate(const Profile& profile,
   meta["hand"] = profile.hand().name;
   PalpateWriterOptions options;
   options.synced = false;  // nobody sees the file before it is whole and synced
+  options.commitIntervalUs = INT64_MAX;  // full blocks
   PalpateWriter writer(temporary.file(), profile.hand().layout, meta, options);
   std::size_t angle = 0;
   std::size_t temperature = 0;

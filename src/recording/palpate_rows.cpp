@@ -63,8 +63,15 @@ void createTables(SqliteDatabase& database) {
   for (const auto& [name, sql] : kTables) database.execute(sql);
 }
 
-void createBlockIndex(SqliteDatabase& database) { database.execute(kBlockIndex); }
-void createOverview(SqliteDatabase& database) { database.execute(kOverviewTable); }
+void createBlockIndex(SqliteDatabase& database) {
+  database.execute("DROP INDEX IF EXISTS block_at");
+  database.execute(kBlockIndex);
+}
+
+void createOverview(SqliteDatabase& database) {
+  database.execute("DROP TABLE IF EXISTS overview");
+  database.execute(kOverviewTable);
+}
 
 void checkTables(SqliteDatabase& database) {
   std::size_t found = 0;
@@ -279,34 +286,39 @@ std::vector<SecondSummary> readSecondRows(SqliteDatabase& database, std::size_t&
   return seconds;
 }
 
+// Every row has its number, and writing it twice is harmless: a commit that reports a failure may
+// have reached the disk all the same, and is tried again.
 RowWriter::RowWriter(SqliteDatabase& database)
-    : block_(database.prepare("INSERT INTO block(stream, first, n, t0_us, t1_us, coding, crc32,"
-                              " data) VALUES(?, ?, ?, ?, ?, ?, ?, ?)")),
-      second_(database.prepare("INSERT INTO second VALUES(?, ?, ?, ?, ?, ?, ?, ?)")),
-      event_(database.prepare("INSERT INTO event VALUES(?, ?, ?, ?, ?, ?, ?, ?)")),
+    : block_(database.prepare("INSERT OR REPLACE INTO block VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)")),
+      second_(database.prepare(
+          "INSERT OR REPLACE INTO second(rowid, t_s, matrix, frames, min, max, sum, active_max,"
+          " crc32) VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)")),
+      event_(database.prepare("INSERT OR REPLACE INTO event VALUES(?, ?, ?, ?, ?, ?, ?, ?)")),
       counter_(database.prepare("INSERT OR REPLACE INTO counter VALUES(?, ?)")) {}
 
-void RowWriter::block(const Block& block) {
-  block_.bind(1, static_cast<std::int64_t>(block.stream))
-      .bind(2, block.first)
-      .bind(3, block.n)
-      .bind(4, block.t0Us)
-      .bind(5, block.t1Us)
-      .bind(6, static_cast<std::int64_t>(block.coding))
-      .bind(7, static_cast<std::int64_t>(blockCrc(block)))
-      .bind(8, std::span<const std::byte>(block.data))
+void RowWriter::block(std::int64_t id, const Block& block) {
+  block_.bind(1, id)
+      .bind(2, static_cast<std::int64_t>(block.stream))
+      .bind(3, block.first)
+      .bind(4, block.n)
+      .bind(5, block.t0Us)
+      .bind(6, block.t1Us)
+      .bind(7, static_cast<std::int64_t>(block.coding))
+      .bind(8, static_cast<std::int64_t>(blockCrc(block)))
+      .bind(9, std::span<const std::byte>(block.data))
       .run();
 }
 
-void RowWriter::second(const SecondSummary& row) {
-  second_.bind(1, row.tS)
-      .bind(2, static_cast<std::int64_t>(row.matrix))
-      .bind(3, row.frames)
-      .bind(4, row.minimum)
-      .bind(5, row.maximum)
-      .bind(6, row.sum)
-      .bind(7, static_cast<std::int64_t>(row.activeMax))
-      .bind(8, static_cast<std::int64_t>(secondCrc(row)))
+void RowWriter::second(std::int64_t id, const SecondSummary& row) {
+  second_.bind(1, id)
+      .bind(2, row.tS)
+      .bind(3, static_cast<std::int64_t>(row.matrix))
+      .bind(4, row.frames)
+      .bind(5, row.minimum)
+      .bind(6, row.maximum)
+      .bind(7, row.sum)
+      .bind(8, static_cast<std::int64_t>(row.activeMax))
+      .bind(9, static_cast<std::int64_t>(secondCrc(row)))
       .run();
 }
 

@@ -22,7 +22,8 @@ void checkTables(SqliteDatabase& database);
 
 // Makes the empty tables.
 void createTables(SqliteDatabase& database);
-// The index over the blocks, made when a recording is finished.
+// The index over the blocks, and the table for charts; made when a recording is finished. Older ones,
+// of an attempt that failed, are dropped.
 void createBlockIndex(SqliteDatabase& database);
 void createOverview(SqliteDatabase& database);
 
@@ -60,8 +61,8 @@ std::vector<SecondSummary> readSecondRows(SqliteDatabase& database, std::size_t&
 class RowWriter {
  public:
   explicit RowWriter(SqliteDatabase& database);
-  void block(const Block& block);
-  void second(const SecondSummary& row);
+  void block(std::int64_t id, const Block& block);
+  void second(std::int64_t id, const SecondSummary& row);
   void event(std::int64_t id, const RecordingEvent& event);
   void counter(const std::string& name, std::int64_t value);
 

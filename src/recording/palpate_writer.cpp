@@ -99,15 +99,15 @@ struct PalpateWriter::Impl {
 
   // `nowUs`: host time of the sample that was just added.
   void commitWhenDue(std::int64_t nowUs) {
+    if (!pendingSinceUs) pendingSinceUs = nowUs;
+    if (nowUs - *pendingSinceUs >= options.commitIntervalUs) {
+      pendingSinceUs = nowUs;  // after a failure the next attempt is an interval away
+      if (options.synced) return commit();
+      flushPackers();
+    }
     // Conversions need no commits, but what they hold in memory is bounded.
     constexpr std::size_t kMostUnsynced = 1u << 20;
-    if (!pendingSinceUs) pendingSinceUs = nowUs;
-    const bool due = options.synced ? nowUs - *pendingSinceUs >= options.commitIntervalUs
-                                    : pending.bytes >= kMostUnsynced;
-    if (due) {
-      pendingSinceUs = nowUs;  // after a failure the next attempt is an interval away
-      commit();
-    }
+    if (!options.synced && pending.bytes >= kMostUnsynced) commit();
   }
 
   void flushPackers() {
@@ -120,9 +120,11 @@ struct PalpateWriter::Impl {
     flushPackers();
     try {
       database.execute("BEGIN IMMEDIATE");
-      for (const Block& block : pending.blocks) rows->block(block);
-      for (const SecondSummary& row : pending.seconds) rows->second(row);
-      std::int64_t id = numEvents;
+      std::int64_t id = numBlocks;
+      for (const Block& block : pending.blocks) rows->block(++id, block);
+      id = numSeconds;
+      for (const SecondSummary& row : pending.seconds) rows->second(++id, row);
+      id = numEvents;
       for (const RecordingEvent& event : pending.events) rows->event(++id, event);
       for (const auto& [name, value] : pending.counters) rows->counter(name, value);
       last();
@@ -131,6 +133,8 @@ struct PalpateWriter::Impl {
       database.rollBack();
       throw;
     }
+    numBlocks += static_cast<std::int64_t>(pending.blocks.size());
+    numSeconds += static_cast<std::int64_t>(pending.seconds.size());
     numEvents += static_cast<std::int64_t>(pending.events.size());
     pending = {};
     pendingSinceUs.reset();
@@ -179,7 +183,9 @@ struct PalpateWriter::Impl {
   std::size_t numAxes = 0;
   std::size_t numTemperatureSensors = 0;
   std::int64_t committedFrames = 0;
-  std::int64_t numEvents = 0;  // committed
+  std::int64_t numBlocks = 0;  // rows committed
+  std::int64_t numSeconds = 0;
+  std::int64_t numEvents = 0;
   bool allCounts = true;  // every frame so far
   bool finished = false;
 };

@@ -78,10 +78,10 @@ BENCHMARK(loadAllBesideDsa)->UseManualTime()->Unit(benchmark::kMillisecond)->Min
 constexpr int kDayFrames = 2'600'000;
 constexpr int kDayAngles = 9'500'000;
 
-// Frames of a hand that holds something now and then; commits every 100 ms as when recording.
+// Frames of a hand that holds something now and then, in the blocks of a commit every 100 ms.
 void makeDay(const fs::path& path) {
   palpate::PalpateWriterOptions options;
-  options.commitIntervalUs = 100'000;
+  options.synced = false;
   const auto& hand = palpate::sdh2();
   palpate::PalpateWriter writer(path, hand.layout, {}, options);
   palpate::TactileFrame frame(hand.layout);

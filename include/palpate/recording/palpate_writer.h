@@ -25,7 +25,9 @@ constexpr std::size_t kMaxPendingBytes = 64u << 20;
 struct PalpateWriterOptions {
   std::int64_t commitIntervalUs = 100'000;  // host time between commits at most [us]
   std::string vfs;                          // SQLite file system to use; empty: the default one
-  bool synced = true;  // synchronous=FULL; off only for conversions, which sync at the end
+  // synchronous=FULL; off only for conversions, which sync at the end. Then samples are only gathered
+  // into blocks at each interval, and committed in large pieces.
+  bool synced = true;
 };
 
 // One recording being written; not thread-safe (the recorder's thread owns it).
