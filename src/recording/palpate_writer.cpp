@@ -60,7 +60,7 @@ struct PalpateWriter::Impl {
        PalpateWriterOptions writerOptions)
       : options(std::move(writerOptions)),
         layout(std::move(sensorLayout)),
-        lock(path),
+        lock(std::make_unique<RecordingLock>(path)),
         database((refuseExisting(path), path), SqliteDatabase::Mode::kCreate, options.vfs) {
     try {
       create(meta);
@@ -159,7 +159,7 @@ struct PalpateWriter::Impl {
 
   PalpateWriterOptions options;
   std::shared_ptr<const SensorLayout> layout;
-  RecordingLock lock;
+  std::unique_ptr<RecordingLock> lock;
   SqliteDatabase database;
   std::optional<RowWriter> rows;
   Pending pending;
@@ -274,6 +274,7 @@ void PalpateWriter::finish() {
   });
   impl.finished = true;
   impl.database.execute("PRAGMA synchronous=FULL; PRAGMA journal_mode=DELETE;");
+  impl.lock.reset();
 }
 
 bool PalpateWriter::pendingFull() const noexcept {
