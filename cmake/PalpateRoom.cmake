@@ -36,6 +36,6 @@ function(palpate_test room file)
   else()
     target_link_libraries(${target} PRIVATE GTest::gtest_main)
   endif()
-  gtest_discover_tests(${target} TEST_PREFIX "${room}/${file}." DISCOVERY_MODE PRE_TEST
+  gtest_discover_tests(${target} TEST_PREFIX "${room}/${file}." DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES
     DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${label} ${properties})
 endfunction()

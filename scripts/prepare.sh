@@ -12,7 +12,7 @@ fail() {
 
 # The names in a package list; with a suite also the lines marked "[suite]".
 packagesIn() { # LIST [SUITE]
-  sed -e 's/#.*//' -e "s/\[${2:-none}\]//" "$1" | awk 'NF == 1'
+  sed -e 's/#.*//' -e "s/\[${2:-none}\]//" "$1" | awk 'NF == 1 { print $1 }'
 }
 
 # Those of the names given that aren't installed.

@@ -5,6 +5,8 @@
 
 #include <expat.h>
 
+#include "core/xml_scanner.h"
+
 namespace palpate {
 namespace {
 
@@ -21,16 +23,27 @@ bool endsEarly(XML_Error code) {
 
 struct XmlParser::Impl {
   Impl(XmlHandler& target, XmlLimits bounds)
-      : handler(target), limits(bounds), parser(XML_ParserCreate(nullptr)) {
-    if (!parser) throw std::bad_alloc();
-    XML_SetUserData(parser, this);
-    XML_SetElementHandler(parser, &Impl::onStart, &Impl::onEnd);
-    XML_SetCharacterDataHandler(parser, &Impl::onText);
-    XML_SetStartDoctypeDeclHandler(parser, &Impl::onDoctype);
+      : handler(target), limits(bounds), scanner(target, bounds.maxDepth) {}
+  ~Impl() {
+    if (parser) XML_ParserFree(parser);
   }
-  ~Impl() { XML_ParserFree(parser); }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
+
+  // From here on expat reads. First it learns, silently, what the scanner has told already.
+  void leaveScanner() {
+    const std::string prefix = scanner.prefix();
+    parser = XML_ParserCreate(nullptr);
+    if (!parser) throw std::bad_alloc();
+    XML_SetUserData(parser, this);
+    XML_SetStartDoctypeDeclHandler(parser, &Impl::onDoctype);
+    taken = scanner.position() - prefix.size();  // may wrap around: only differences count
+    origin = taken;
+    if (!prefix.empty()) parse(prefix, false);
+    XML_SetElementHandler(parser, &Impl::onStart, &Impl::onEnd);
+    XML_SetCharacterDataHandler(parser, &Impl::onText);
+    depth = scanner.depth();
+  }
 
   // No exception may pass through expat's C code: it is kept, the parser stopped, and thrown again
   // when expat has returned. expat may call a handler once more after the stop.
@@ -80,7 +93,7 @@ struct XmlParser::Impl {
 
   std::uint64_t eventOffset() const noexcept {
     const XML_Index index = XML_GetCurrentByteIndex(parser);
-    return index < 0 ? 0 : static_cast<std::uint64_t>(index);
+    return index < 0 ? scanner.position() : origin + static_cast<std::uint64_t>(index);
   }
 
   void parse(std::string_view piece, bool last) {
@@ -97,7 +110,9 @@ struct XmlParser::Impl {
 
   XmlHandler& handler;
   XmlLimits limits;
-  XML_Parser parser;
+  XmlScanner scanner;
+  XML_Parser parser = nullptr;  // once the scanner has met what it leaves to expat
+  std::uint64_t origin = 0;     // of expat's positions in the document [bytes]
   std::exception_ptr failure;
   std::uint64_t failureOffset = 0;
   std::uint64_t taken = 0;
@@ -110,6 +125,11 @@ XmlParser::XmlParser(XmlHandler& handler, XmlLimits limits)
 XmlParser::~XmlParser() = default;
 
 void XmlParser::push(std::string_view bytes) {
+  if (!impl_->parser) {
+    if (impl_->scanner.push(bytes)) return;
+    impl_->leaveScanner();
+    bytes = impl_->scanner.rest();
+  }
   while (!bytes.empty()) {
     const std::string_view piece = bytes.substr(0, kPieceBytes);
     bytes.remove_prefix(piece.size());
@@ -123,9 +143,13 @@ void XmlParser::push(std::string_view bytes) {
   }
 }
 
-void XmlParser::finish() { impl_->parse({}, true); }
+void XmlParser::finish() {
+  if (impl_->parser) return impl_->parse({}, true);
+  if (!impl_->scanner.complete()) throw XmlError("it ends early", impl_->scanner.position());
+}
 
 std::uint64_t XmlParser::offset() const noexcept {
+  if (!impl_->parser) return impl_->scanner.offset();
   if (impl_->failure) return impl_->failureOffset;
   return impl_->inHandler ? impl_->eventOffset() : impl_->taken;
 }

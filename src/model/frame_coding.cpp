@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <stdexcept>
-#include <string>
 
 #include "palpate/core/byte_reader.h"
 
@@ -16,12 +14,15 @@ constexpr std::size_t kLongestFloatsRun = 255;
 constexpr float kMaxCounts = 4095.0F;
 
 bool isCounts(float value) noexcept {
-  return value >= 0.0F && value <= kMaxCounts &&
-         value == static_cast<float>(static_cast<int>(value));
+  // Clamped first, so that the conversion is defined for every value (a NaN becomes 0).
+  const float inside = value >= 0.0F && value <= kMaxCounts ? value : 0.0F;
+  return value == static_cast<float>(static_cast<int>(inside));
 }
 
-void putLittle(std::vector<std::byte>& out, std::uint32_t value, int bytes) {
-  for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> 8 * i & 0xFF));
+// Writes to `at` and returns the place behind.
+std::byte* putLittle(std::byte* at, std::uint32_t value, int bytes) {
+  for (int i = 0; i < bytes; ++i) *at++ = static_cast<std::byte>(value >> 8 * i & 0xFF);
+  return at;
 }
 
 // Same bits: a NaN equals itself, and -0 is not 0.
@@ -32,29 +33,35 @@ bool same(float a, float b) noexcept {
 }  // namespace
 
 FrameCoding codingFor(std::span<const float> values) noexcept {
-  for (float value : values)
-    if (!isCounts(value)) return FrameCoding::kFloats;
-  return FrameCoding::kCounts;
+  // No early end: counts are the rule, and a loop without one is vectorised.
+  bool counts = true;
+  for (float value : values) counts &= isCounts(value);
+  return counts ? FrameCoding::kCounts : FrameCoding::kFloats;
 }
 
 void encodeFrame(std::span<const float> values, FrameCoding coding, std::vector<std::byte>& out) {
-  const std::size_t longest =
-      coding == FrameCoding::kCounts ? kLongestCountsRun : kLongestFloatsRun;
+  const bool counts = coding == FrameCoding::kCounts;
+  const std::size_t longest = counts ? kLongestCountsRun : kLongestFloatsRun;
+  if (counts && codingFor(values) != FrameCoding::kCounts)
+    throw std::invalid_argument("encodeFrame: a value is no number of counts 0..4095");
+  // Room for the worst case first: no growing inside the loop.
+  const std::size_t start = out.size();
+  out.resize(start + values.size() * (counts ? 2 : 5));
+  std::byte* at = out.data() + start;
   for (std::size_t i = 0; i < values.size();) {
     std::size_t run = 1;
     while (run < longest && i + run < values.size() && same(values[i + run], values[i])) ++run;
-    if (coding == FrameCoding::kCounts) {
-      if (!isCounts(values[i]))
-        throw std::invalid_argument("encodeFrame: not a number of counts 0..4095: " +
-                                    std::to_string(values[i]));
-      putLittle(
-          out, static_cast<std::uint32_t>(run << 12) | static_cast<std::uint32_t>(values[i]), 2);
+    if (counts) {
+      const auto unit =
+          static_cast<std::uint32_t>(run << 12) | static_cast<std::uint32_t>(values[i]);
+      at = putLittle(at, unit, 2);
     } else {
-      putLittle(out, static_cast<std::uint32_t>(run), 1);
-      putLittle(out, std::bit_cast<std::uint32_t>(values[i]), 4);
+      at = putLittle(at, static_cast<std::uint32_t>(run), 1);
+      at = putLittle(at, std::bit_cast<std::uint32_t>(values[i]), 4);
     }
     i += run;
   }
+  out.resize(static_cast<std::size_t>(at - out.data()));
 }
 
 namespace {

@@ -145,7 +145,7 @@ void readBesideReference(benchmark::State& state,
   BENCHMARK_CAPTURE(readBesideReference, name, which, reference) \
       ->UseManualTime()                                          \
       ->Unit(benchmark::kMillisecond)                            \
-      ->MinTime(2.0)
+      ->Iterations(15)
 
 PALPATE_DSA_BENCHMARK(all_vs_bzip2, kAll, runBzip2);
 PALPATE_DSA_BENCHMARK(large_vs_bzip2, kLarge, runBzip2);

@@ -19,7 +19,8 @@ const CommandSpec kSpec{.synopsis = "palpate try FILE",
                         .mostWords = 2};
 
 TEST(CommandLine, SortsOptionsFromWords) {
-  const CommandLine given(kSpec, {"a.dsa", "-f", "3", "--filter", "x", "--force", "--filter=y", "b"});
+  const CommandLine given(kSpec,
+                          {"a.dsa", "-f", "3", "--filter", "x", "--force", "--filter=y", "b"});
   EXPECT_EQ(given.words(), (std::vector<std::string>{"a.dsa", "b"}));
   EXPECT_EQ(given.integer("frame", 0, 10), 3);
   EXPECT_EQ(given.texts("filter"), (std::vector<std::string>{"x", "y"}));
@@ -82,8 +83,7 @@ TEST(Program, FullStandardOutputIsAFailure) {
   ASSERT_EQ(palpate({"synthesize", "-o", folder / "a.dsa", "--duration", "2"}).exitCode, 0);
   const auto result = testing::runProgram(
       "/bin/sh",
-      {"-c", std::string(PALPATE_PROGRAM) + " signals '" + (folder / "a.dsa").string() +
-                 "' > /dev/full"});
+      {"-c", "exec \"$0\" signals \"$1\" > /dev/full", PALPATE_PROGRAM, folder / "a.dsa"});
   expectOneLineError(result, 1, {"standard output"});
 }
 

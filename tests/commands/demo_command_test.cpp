@@ -1,5 +1,6 @@
-#include "commands/palpate_program.h"
 #include "palpate/core/json.h"
+
+#include "commands/palpate_program.h"
 
 namespace palpate {
 namespace {

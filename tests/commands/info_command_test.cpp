@@ -1,8 +1,9 @@
 #include <regex>
 
-#include "commands/palpate_program.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+
+#include "commands/palpate_program.h"
 
 namespace palpate {
 namespace {
@@ -105,7 +106,9 @@ TEST(InfoCommand, AgreesWithAnIndependentLookAtEverySharedRecording) {
     EXPECT_EQ(info.at("joint_angles").asInteger(), facts.angles) << entry.path();
     EXPECT_NEAR(info.at("duration_s").asDouble(), facts.durationS, 1e-9) << entry.path();
     EXPECT_EQ(info.at("serial").asString(), "1D9B0057") << entry.path();
-    EXPECT_EQ(info.at("warnings").size(), 0u) << entry.path();
+    // The survey found nothing odd but optional elements that are missing in a few files.
+    for (std::size_t i = 0; i < info.at("warnings").size(); ++i)
+      EXPECT_EQ(info.at("warnings").at(i).asString().rfind("no element ", 0), 0u) << entry.path();
     ASSERT_EQ(info.at("matrices").size(), 6u) << entry.path();
     for (std::size_t m = 0; m < 6; ++m)
       EXPECT_EQ(info.at("matrices").at(m).at("taxels").asInteger(), m % 2 ? 68 : 84);
@@ -126,11 +129,10 @@ TEST(InfoCommand, AgreesWithTheSurvey) {
   ASSERT_EQ(slip.at("gaps").asInteger(), 1);
   EXPECT_NEAR(slip.at("gap_list").at(0).at("seconds").asDouble(), 147.5, 0.05);
   const Json masked = infoOf(*folder / "misc" / "masked_matrix.dsa");
-  EXPECT_NEAR(masked.at("rate_hz").asDouble(), 54.8, 1.0);
+  EXPECT_NEAR(masked.at("mean_rate_hz").asDouble(), 54.8, 0.1);
   EXPECT_EQ(masked.at("joint_angles").asInteger(), 0);
   EXPECT_EQ(masked.at("temperatures").asInteger(), 0);
-  const Json sensitivity =
-      infoOf(*folder / "calibration_sensitivity" / "sensitivity_0.1-1.0.dsa");
+  const Json sensitivity = infoOf(*folder / "calibration_sensitivity" / "sensitivity_0.1-1.0.dsa");
   EXPECT_EQ(sensitivity.at("frames").asInteger(), 6912);
   EXPECT_NEAR(sensitivity.at("duration_s").asDouble(), 224.7, 0.05);
 }
@@ -139,7 +141,7 @@ TEST(InfoCommand, SaysWhatIsWrongWithAFile) {
   const testing::TemporaryFolder folder;
   testing::writeFile(folder / "empty.dsa", "");
   testing::writeFile(folder / "text.dsa", "hello");
-  expectOneLineError(palpate({"info", folder / "missing.dsa"}), 1, {"missing.dsa", "no such file"});
+  expectOneLineError(palpate({"info", folder / "missing.dsa"}), 1, {"missing.dsa", "No such file"});
   expectOneLineError(palpate({"info", folder / "empty.dsa"}), 1, {"empty"});
   expectOneLineError(palpate({"info", folder / "text.dsa"}), 1, {"text.dsa"});
   expectOneLineError(palpate({"info", folder.path()}), 1, {"folder"});

@@ -11,8 +11,12 @@ namespace palpate::testing {
 inline ProgramResult palpate(const std::vector<std::string>& arguments,
                              std::map<std::string, std::string> environment = {}) {
   const TemporaryFolder home;  // the user's own settings are never touched
-  for (const char* variable : {"XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME",
-                               "XDG_CACHE_HOME", "XDG_RUNTIME_DIR", "HOME"})
+  for (const char* variable : {"XDG_CONFIG_HOME",
+                               "XDG_DATA_HOME",
+                               "XDG_STATE_HOME",
+                               "XDG_CACHE_HOME",
+                               "XDG_RUNTIME_DIR",
+                               "HOME"})
     environment.try_emplace(variable, home.path().string());
   return runProgram(PALPATE_PROGRAM, arguments, environment);
 }

@@ -37,15 +37,17 @@ TEST(RenderCommand, TheFrameMakesTheDifference) {
 TEST(RenderCommand, RefusesBadInputAndLeavesNothing) {
   const testing::TemporaryFolder folder;
   const std::string out = folder / "a.png";
-  expectOneLineError(palpate({"render", demoFile(), "--frame", "761", "-o", out}, kHeadless), 1,
+  expectOneLineError(palpate({"render", demoFile(), "--frame", "761", "-o", out}, kHeadless),
+                     1,
                      {"no frame 761", "0..760"});
-  expectOneLineError(palpate({"render", demoFile(), "-o", folder / "a.gif"}, kHeadless), 2,
+  expectOneLineError(palpate({"render", demoFile(), "-o", folder / "a.gif"}, kHeadless),
+                     2,
                      {".png, .svg or .pdf"});
   expectOneLineError(palpate({"render", demoFile()}, kHeadless), 2, {"-o"});
-  expectOneLineError(palpate({"render", demoFile(), "-o", out, "--view", "hat"}, kHeadless), 2,
-                     {"matrices"});
-  expectOneLineError(palpate({"render", folder / "missing.dsa", "-o", out}, kHeadless), 1,
-                     {"missing.dsa"});
+  expectOneLineError(
+      palpate({"render", demoFile(), "-o", out, "--view", "hat"}, kHeadless), 2, {"matrices"});
+  expectOneLineError(
+      palpate({"render", folder / "missing.dsa", "-o", out}, kHeadless), 1, {"missing.dsa"});
   EXPECT_FALSE(std::filesystem::exists(out));
   testing::writeFile(out, "precious");
   expectOneLineError(palpate({"render", demoFile(), "-o", out}, kHeadless), 1, {"--force"});

@@ -1,7 +1,8 @@
 #include <sstream>
 
-#include "commands/palpate_program.h"
 #include "palpate/core/number_text.h"
+
+#include "commands/palpate_program.h"
 
 namespace palpate {
 namespace {
@@ -27,8 +28,15 @@ std::vector<std::vector<std::string>> csvRows(const std::string& text) {
 
 TEST(SignalsCommand, PrintsOneRowPerFrameAndMatrix) {
   const testing::TemporaryFolder folder;
-  ASSERT_EQ(palpate({"synthesize", "-o", folder / "a.dsa", "--duration", "4", "--rate", "10",
-                     "--grasps", "1"})
+  ASSERT_EQ(palpate({"synthesize",
+                     "-o",
+                     folder / "a.dsa",
+                     "--duration",
+                     "4",
+                     "--rate",
+                     "10",
+                     "--grasps",
+                     "1"})
                 .exitCode,
             0);
   const auto result = palpate({"signals", folder / "a.dsa"});
@@ -37,15 +45,16 @@ TEST(SignalsCommand, PrintsOneRowPerFrameAndMatrix) {
   ASSERT_EQ(rows.size(), 1u + 41u * 6u);
   EXPECT_EQ(result.out.substr(0, result.out.find('\n')),
             "frame,time_ms,matrix,mean,filtered_mean,min,max,sum,active,area_mm2");
-  EXPECT_EQ(rows[1], (std::vector<std::string>{"0", "1700000000000", "0", "0", "0", "0", "0", "0",
-                                               "0", "0"}));
+  EXPECT_EQ(
+      rows[1],
+      (std::vector<std::string>{"0", "1700000000000", "0", "0", "0", "0", "0", "0", "0", "0"}));
   for (std::size_t i = 1; i < rows.size(); ++i) {
     ASSERT_EQ(rows[i].size(), 10u);
     const auto number = [&](std::size_t column) { return *parseDouble(rows[i][column]); };
     EXPECT_EQ(number(0), static_cast<double>((i - 1) / 6));
     EXPECT_EQ(number(2), static_cast<double>((i - 1) % 6));
-    EXPECT_NEAR(number(3) * number(8), number(7), 1e-6);       // mean * active = sum
-    EXPECT_NEAR(number(9), number(8) * 3.4 * 3.4, 1e-9);       // area
+    EXPECT_NEAR(number(3) * number(8), number(7), 1e-6);  // mean * active = sum
+    EXPECT_NEAR(number(9), number(8) * 3.4 * 3.4, 1e-9);  // area
     EXPECT_LE(number(5), number(6));
   }
 }
@@ -53,8 +62,9 @@ TEST(SignalsCommand, PrintsOneRowPerFrameAndMatrix) {
 TEST(SignalsCommand, ChoosesOneMatrixAndNamesSeveralFiles) {
   const testing::TemporaryFolder folder;
   for (const char* name : {"a.dsa", "b,c.dsa"})
-    ASSERT_EQ(palpate({"synthesize", "-o", folder / name, "--duration", "1", "--rate", "10"}).exitCode,
-              0);
+    ASSERT_EQ(
+        palpate({"synthesize", "-o", folder / name, "--duration", "1", "--rate", "10"}).exitCode,
+        0);
   const auto one = csvRows(palpate({"signals", folder / "a.dsa", "--matrix", "5"}).out);
   ASSERT_EQ(one.size(), 12u);
   EXPECT_EQ(one[1][2], "5");

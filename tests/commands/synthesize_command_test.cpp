@@ -1,5 +1,6 @@
-#include "commands/palpate_program.h"
 #include "palpate/recording/recording.h"
+
+#include "commands/palpate_program.h"
 
 namespace palpate {
 namespace {
@@ -35,8 +36,17 @@ TEST(SynthesizeCommand, RefusesBadOptions) {
 // The recording in data/ is the generator's work, reproducible by the command its README names.
 TEST(SynthesizeCommand, MadeTheRecordingInData) {
   const testing::TemporaryFolder folder;
-  ASSERT_EQ(palpate({"synthesize", "-o", folder / "demo.dsa", "--duration", "24", "--grasps", "4",
-                     "--noise", "8", "--seed", "7"})
+  ASSERT_EQ(palpate({"synthesize",
+                     "-o",
+                     folder / "demo.dsa",
+                     "--duration",
+                     "24",
+                     "--grasps",
+                     "4",
+                     "--noise",
+                     "8",
+                     "--seed",
+                     "7"})
                 .exitCode,
             0);
   EXPECT_EQ(testing::readFile(folder / "demo.dsa"),

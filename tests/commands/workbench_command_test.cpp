@@ -15,7 +15,8 @@ std::pair<unsigned, unsigned> pngSize(const std::filesystem::path& file) {
   if (bytes.size() < 24 || bytes.substr(1, 3) != "PNG") return {0, 0};
   const auto big = [&](std::size_t at) {
     unsigned value = 0;
-    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+    for (std::size_t i = 0; i < 4; ++i)
+      value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
     return value;
   };
   return {big(16), big(20)};
@@ -34,8 +35,15 @@ TEST(WorkbenchCommand, WithoutADisplayItSaysSoInOneLine) {
 
 TEST(WorkbenchCommand, ScreenshotShowsTheWindowWithoutADisplay) {
   const testing::TemporaryFolder folder;
-  const auto result = palpate({"--screenshot", folder / "w.png", "--size", "1280x800", "--frame",
-                               "100", "--theme", "light", demoFile()},
+  const auto result = palpate({"--screenshot",
+                               folder / "w.png",
+                               "--size",
+                               "1280x800",
+                               "--frame",
+                               "100",
+                               "--theme",
+                               "light",
+                               demoFile()},
                               kHeadless);
   EXPECT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(result.err, "");
@@ -44,7 +52,9 @@ TEST(WorkbenchCommand, ScreenshotShowsTheWindowWithoutADisplay) {
 
 TEST(WorkbenchCommand, ScreenshotOfDemoAndOfTheStartPage) {
   const testing::TemporaryFolder folder;
-  EXPECT_EQ(palpate({"--screenshot", folder / "d.png", "--demo", "--after", "0.5"}, kHeadless).exitCode, 0);
+  EXPECT_EQ(
+      palpate({"--screenshot", folder / "d.png", "--demo", "--after", "0.5"}, kHeadless).exitCode,
+      0);
   EXPECT_EQ(palpate({"--screenshot", folder / "s.png"}, kHeadless).exitCode, 0);
   EXPECT_EQ(pngSize(folder / "d.png"), std::pair(1600u, 1000u));
   EXPECT_NE(testing::readFile(folder / "d.png"), testing::readFile(folder / "s.png"));

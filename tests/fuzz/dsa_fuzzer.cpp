@@ -45,6 +45,16 @@ void requireSane(const Profile& profile) {
     for (const double degC : profile.temperatures(i).degC) require(std::isfinite(degC));
 }
 
+void requireSame(const Profile& a, const Profile& b) {
+  require(a.layout() == b.layout() && a.info().warnings == b.info().warnings);
+  require(a.numFrames() == b.numFrames() && a.numAngles() == b.numAngles() &&
+          a.numTemperatures() == b.numTemperatures());
+  for (std::size_t i = 0; i < a.numFrames(); ++i)
+    require(a.frameTimeUs(i) == b.frameTimeUs(i) && a.frame(i).values == b.frame(i).values);
+  for (std::size_t i = 0; i < a.numAngles(); ++i)
+    require(a.angleTimeUs(i) == b.angleTimeUs(i) && a.angles(i).deg == b.angles(i).deg);
+}
+
 std::optional<Profile> readOrRefuse(std::span<const std::byte> bytes) {
   try {
     Profile profile = palpate::readDsaBytes(bytes, "input", smallOptions());
@@ -77,16 +87,21 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const palpate::FormatError&) {
     require(!profile);
   }
+  if (size > 1 && data[0] == '<' && data[1] != '?') {
+    // With a comment in front expat reads what is else scanned directly.
+    const std::string commented =
+        "<!---->" + std::string(reinterpret_cast<const char*>(data), size);
+    const std::optional<Profile> other =
+        readOrRefuse(std::as_bytes(std::span(commented.data(), commented.size())));
+    require(other.has_value() == profile.has_value());
+    if (profile) requireSame(*profile, *other);
+  }
   if (size > 0 && data[0] == '<') {
     const std::string packed = compressed(bytes);
     const std::optional<Profile> other =
         readOrRefuse(std::as_bytes(std::span(packed.data(), packed.size())));
     require(other.has_value() == profile.has_value());
-    if (profile) {
-      require(other->numFrames() == profile->numFrames());
-      require(other->numAngles() == profile->numAngles());
-      require(other->info().warnings == profile->info().warnings);
-    }
+    if (profile) requireSame(*profile, *other);
   }
   return 0;
 }

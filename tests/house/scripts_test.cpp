@@ -184,6 +184,18 @@ TEST_F(Scripts, UnknownSuiteIsWrongUsage) {
   EXPECT_NE(result.err.find("scripts/test asan"), std::string::npos) << result.err;
 }
 
+TEST_F(Scripts, SuitesInstallTheirOwnPackagesBesideTheOthers) {
+  writeFile(checkout_ / "cmake/debian-test-packages.txt", "third\nfourth [fuzz]\nfifth [tidy]\n");
+  standIn("apt-get", log("apt-get") + "exit 1");
+  call("test");
+  EXPECT_NE(logged().find("--no-install-recommends second third\n"), std::string::npos) << logged();
+  const ProgramResult result = call("test", {"fuzz"});
+  EXPECT_NE(logged().find("--no-install-recommends second third fourth\n"), std::string::npos)
+      << logged();
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(result.out, "0 passed, 1 failed, 0 skipped\n");
+}
+
 // Report lines as ctest 3.25 writes them.
 class CountTests : public ::testing::Test {
  protected:

@@ -1,6 +1,5 @@
 #include "palpate/model/profile.h"
 
-#include <cmath>
 #include <stdexcept>
 
 #include "palpate/model/profile_builder.h"
@@ -66,22 +65,6 @@ TEST(Profile, MayBeEmpty) {
   EXPECT_EQ(profile.frameAt(0), std::nullopt);
   EXPECT_EQ(profile.durationUs(), 0);
   EXPECT_EQ(profile.info().valueType, ValueType::kCounts);
-}
-
-TEST(ProfileBuilder, RefusesWhatIsNoTimeSeries) {
-  ProfileBuilder builder(smallLayout());
-  builder.addFrame(10, frameOf(1.0F));
-  EXPECT_THROW(builder.addFrame(10, frameOf(1.0F)), std::invalid_argument);
-  EXPECT_THROW(builder.addFrame(9, frameOf(1.0F)), std::invalid_argument);
-  EXPECT_THROW(builder.addFrame(11, std::vector<float>(3)), std::invalid_argument);
-  EXPECT_THROW(builder.addFrame(11, frameOf(std::nanf(""))), std::invalid_argument);
-  builder.addAngles(1, std::vector<double>{1.0, 2.0});
-  EXPECT_THROW(builder.addAngles(2, std::vector<double>{1.0}), std::invalid_argument);
-  EXPECT_THROW(builder.addAngles(2, std::vector<double>{1.0, HUGE_VAL}), std::invalid_argument);
-  EXPECT_THROW(builder.addTemperatures(1, std::vector<double>{}), std::invalid_argument);
-  EXPECT_EQ(builder.numFrames(), 1u);
-  EXPECT_EQ(builder.lastAngleUs(), 1);
-  EXPECT_EQ(builder.lastTemperatureUs(), std::nullopt);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,9 +30,10 @@ std::string decompressed(std::string_view bytes);  // by bzip2's own simple inte
 // A damaged recording, and what its message must name.
 struct DamagedCase {
   std::string name;
-  std::string bytes;
+  std::function<std::string()> bytes;  // made when asked for: every test is a process of its own
   std::vector<std::string> messageParts;
 };
+inline void PrintTo(const DamagedCase& damaged, std::ostream* out) { *out << damaged.name; }
 std::vector<DamagedCase> damagedCases();
 
 // Writes `count` times `piece`, compressed, without holding it in memory.

@@ -22,8 +22,13 @@ std::vector<DamagedCase> damagedCases() {
   const std::string good = exampleXml();
   const std::string packed = compressed(good);
   std::vector<DamagedCase> cases;
+  const auto addMade =
+      [&](std::string name, std::function<std::string()> bytes, std::vector<std::string> parts) {
+        cases.push_back({std::move(name), std::move(bytes), std::move(parts)});
+      };
   const auto add = [&](std::string name, std::string bytes, std::vector<std::string> parts) {
-    cases.push_back({std::move(name), std::move(bytes), std::move(parts)});
+    addMade(
+        std::move(name), [bytes = std::move(bytes)] { return bytes; }, std::move(parts));
   };
   // A change of the example's text; both compressed and plain.
   const auto change = [&](const std::string& name,
@@ -31,7 +36,8 @@ std::vector<DamagedCase> damagedCases() {
                           std::string_view to,
                           std::vector<std::string> parts) {
     const std::string text = replaced(good, from, to);
-    add(name, compressed(text), parts);
+    addMade(
+        name, [text] { return compressed(text); }, parts);
     add(name + "_plain", text, parts);
   };
 
@@ -84,17 +90,27 @@ std::vector<DamagedCase> damagedCases() {
          "<!DOCTYPE root [<!ENTITY a SYSTEM \"file:///etc/passwd\">]><root>&a;",
          {"DOCTYPE"});
   change("undefined_entity", "mV", "&mV;", {"undefined entity"});
-  add("million_deep", repeated("<root>", 1'000'000), {"nested deeper than 64"});
-  add("million_deep_packed", compressed(repeated("<root>", 1'000'000)), {"nested deeper than 64"});
-  add("many_elements",
-      replaced(good, "<data>", "<data>" + repeated("<x/>", 200'000)),
-      {"more than 100000 unknown elements", "\"x\""});
-  add("giant_attribute",
-      replaced(good, "<data>", "<data x=\"" + std::string(5'000'000, 'a') + "\">"),
-      {"longer than 1048576 bytes"});
-  add("giant_comment",
-      replaced(good, "<data>", "<!--" + std::string(5'000'000, 'a') + "--><data>"),
-      {"longer than 1048576 bytes"});
+  const auto manyTimes = [good](std::string_view before,
+                                std::string_view piece,
+                                std::size_t count,
+                                std::string_view behind) {
+    return [=] {
+      return replaced(
+          good, "<data>", std::string(before) + repeated(piece, count) + std::string(behind));
+    };
+  };
+  const auto deep = [] { return repeated("<root>", 1'000'000); };
+  addMade("million_deep", deep, {"nested deeper than 64"});
+  addMade("million_deep_packed", [deep] { return compressed(deep()); }, {"nested deeper than 64"});
+  addMade("ten_million_elements",
+          manyTimes("<data>", "<x/>", 10'000'000, ""),
+          {"more than 100000 unknown elements", "\"x\""});
+  addMade("giant_attribute",
+          manyTimes("<data x=\"", "a", 5'000'000, "\">"),
+          {"longer than 1048576 bytes"});
+  addMade("giant_comment",
+          manyTimes("<!--", "a", 5'000'000, "--><data>"),
+          {"longer than 1048576 bytes"});
 
   // The sensor.
   change("other_number_of_matrices",
@@ -221,11 +237,13 @@ std::vector<DamagedCase> damagedCases() {
   change("million_angles", "60.00000, ", repeated("1,", 1000), {"angle 0", "more than 64"});
 
   // Bombs that fit into memory when made.
-  {
-    const std::string nothing = framesXml(256, 256, std::vector<std::string>(15'000, "C7800000"));
-    add("frames_of_nothing", compressed(nothing), {"more than 64 MB of memory"});
-    add("frames_of_nothing_plain", nothing, {"more than 64 MB of memory"});
-  }
+  const auto nothing = [] {
+    return framesXml(256, 256, std::vector<std::string>(10'000, "C7800000"));
+  };
+  addMade("frames_of_nothing",
+          [nothing] { return compressed(nothing()); },
+          {"more than 64 MB of memory"});
+  addMade("frames_of_nothing_plain", nothing, {"more than 64 MB of memory"});
   return cases;
 }
 

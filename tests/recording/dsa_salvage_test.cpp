@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <random>
-#include <set>
 
 #include "palpate/core/error.h"
 #include "palpate/recording/bzip2_blocks.h"
@@ -66,49 +65,6 @@ std::size_t framesOutside(std::size_t from, std::size_t to) {
     if (end <= from || at >= to) ++count;
   }
   return count;
-}
-
-TEST(Bzip2Blocks, areFoundAtAnyBitAndDecodeByThemselves) {
-  std::string text;
-  const std::vector<Bzip2Block> blocks = findBzip2Blocks(asBytes(longPacked()));
-  ASSERT_GE(blocks.size(), 5u);
-  std::set<std::uint64_t> places;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const Bzip2BlockContent content = decodeBzip2Block(asBytes(longPacked()), blocks[i], 1u << 20);
-    EXPECT_TRUE(content.intact);
-    EXPECT_TRUE(content.endsAtMark);
-    text.append(content.bytes.begin(), content.bytes.end());
-    places.insert(blocks[i].beginBit % 8);
-    if (i > 0) {
-      EXPECT_EQ(blocks[i].beginBit, blocks[i - 1].endBit);
-    }
-  }
-  EXPECT_EQ(blocks.front().beginBit, 32u);  // behind "BZh1"
-  EXPECT_GE(places.size(), 3u);             // not only whole bytes
-  EXPECT_EQ(text, longText());
-}
-
-TEST(Bzip2Blocks, aFlippedBitHarmsItsOwnBlockOnly) {
-  const std::vector<Bzip2Block> blocks = findBzip2Blocks(asBytes(longPacked()));
-  std::string damaged = longPacked();
-  const std::size_t byte = static_cast<std::size_t>((blocks[2].beginBit + blocks[2].endBit) / 16);
-  damaged[byte] = static_cast<char>(damaged[byte] ^ 1);
-  const std::vector<Bzip2Block> found = findBzip2Blocks(asBytes(damaged));
-  ASSERT_EQ(found.size(), blocks.size());
-  for (std::size_t i = 0; i < found.size(); ++i)
-    EXPECT_EQ(decodeBzip2Block(asBytes(damaged), found[i], 1u << 20).intact, i != 2) << i;
-}
-
-TEST(Bzip2Blocks, aBlockBeforeADamagedMarkIsStillWhole) {
-  const std::vector<Bzip2Block> blocks = findBzip2Blocks(asBytes(longPacked()));
-  std::string damaged = longPacked();
-  const std::size_t byte = static_cast<std::size_t>(blocks[3].beginBit / 8 + 2);  // of its mark
-  damaged[byte] = static_cast<char>(damaged[byte] ^ 0x18);
-  const std::vector<Bzip2Block> found = findBzip2Blocks(asBytes(damaged));
-  ASSERT_EQ(found.size(), blocks.size() - 1);
-  const Bzip2BlockContent content = decodeBzip2Block(asBytes(damaged), found[2], 1u << 20);
-  EXPECT_TRUE(content.intact);
-  EXPECT_FALSE(content.endsAtMark);
 }
 
 TEST(DsaSalvage, savesAllOfASoundRecording) {
@@ -247,40 +203,6 @@ TEST(DsaSalvage, neverShowsAWrongValue) {
     } catch (const FormatError&) {  // not even the first bytes are left
     }
   }
-}
-
-TEST(Verify, countsASoundRecording) {
-  const testing::TemporaryFolder folder;
-  testing::writeFile(folder / "a.dsa", testing::compressed(testing::exampleXml()));
-  const VerifyReport report = verifyRecording(folder / "a.dsa");
-  EXPECT_EQ(report.state, VerifyReport::State::kSound);
-  EXPECT_EQ(report.message, "2 frames, 1 angle sample, 1 temperature sample");
-  const DsaVerifyReport dsa = verifyDsa(folder / "a.dsa");
-  EXPECT_EQ(dsa.frames, 2u);
-  EXPECT_EQ(dsa.message, "");
-}
-
-TEST(Verify, stopsWhenAsked) {
-  const testing::TemporaryFolder folder;
-  std::string damaged = longPacked();
-  damaged[5000] = static_cast<char>(damaged[5000] ^ 4);
-  testing::writeFile(folder / "a.dsa", damaged);
-  EXPECT_THROW(verifyRecording(folder / "a.dsa", [](double) { return false; }), Cancelled);
-  EXPECT_THROW(verifyRecording(folder / "a.dsa", [](double f) { return f < 0.5; }), Cancelled);
-}
-
-TEST(Recording, isToldByItsFirstBytesNotByItsName) {
-  const testing::TemporaryFolder folder;
-  testing::writeFile(folder / "recording.txt", testing::compressed(testing::exampleXml()));
-  EXPECT_EQ(openRecording(folder / "recording.txt").numFrames(), 2u);
-  testing::writeFile(folder / "native.dsa", std::string("SQLite format 3\0", 16) + "rest");
-  try {
-    openRecording(folder / "native.dsa");
-    FAIL();
-  } catch (const FormatError& error) {
-    EXPECT_NE(std::string(error.what()).find("a .palpate recording"), std::string::npos);
-  }
-  EXPECT_EQ(verifyRecording(folder / "native.dsa").state, VerifyReport::State::kUnreadable);
 }
 
 }  // namespace

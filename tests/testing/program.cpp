@@ -1,11 +1,11 @@
 #include "testing/program.h"
 
+#include <cstdlib>
+#include <stdexcept>
+
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <cstdlib>
-#include <stdexcept>
 
 #include "testing/testing.h"
 

@@ -38,6 +38,7 @@ void writeFile(const std::filesystem::path& path, std::string_view bytes);
 }  // namespace palpate::testing
 
 // Ends the test as skipped where the real recordings (or golden numbers) are missing.
-#define PALPATE_NEED(folder)                                                           \
-  if (!(folder)) GTEST_SKIP() << "shared data is missing: set PALPATE_RECORDINGS and " \
-                                 "PALPATE_GOLDEN"
+#define PALPATE_NEED(folder)                                            \
+  if (!(folder))                                                        \
+  GTEST_SKIP() << "shared data is missing: set PALPATE_RECORDINGS and " \
+                  "PALPATE_GOLDEN"

@@ -127,6 +127,7 @@ int demoCommand(const Words& words) {
       options.out = folder / "window.png";
       options.file = file;
       options.dataFolder = dataFolder();
+      const RuntimeFolder runtime;
       drawWithoutDisplay(true);
       std::string name = "palpate";
       char* arguments[] = {name.data(), nullptr};

@@ -1,7 +1,9 @@
 #include "commands/display.h"
 
 #include <cstdlib>
+#include <string>
 #include <string_view>
+#include <system_error>
 
 #include <dlfcn.h>
 
@@ -45,6 +47,22 @@ bool hasDisplay() {
 void drawWithoutDisplay(bool evenWithDisplay) {
   if (isSet("QT_QPA_PLATFORM") && hasDisplay()) return;
   if (evenWithDisplay || !hasDisplay()) ::setenv("QT_QPA_PLATFORM", "offscreen", 1);
+}
+
+RuntimeFolder::RuntimeFolder() {
+  if (isSet("XDG_RUNTIME_DIR")) return;
+  std::error_code failure;
+  std::string pattern = std::filesystem::temp_directory_path(failure) / "palpate-runtime-XXXXXX";
+  if (failure || !mkdtemp(pattern.data())) return;  // then Qt's warning stays
+  path_ = pattern;
+  ::setenv("XDG_RUNTIME_DIR", path_.c_str(), 1);
+}
+
+RuntimeFolder::~RuntimeFolder() {
+  if (path_.empty()) return;
+  ::unsetenv("XDG_RUNTIME_DIR");
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace palpate::commands

@@ -1,6 +1,8 @@
 // Whether a window can be shown at all: asked before Qt is, because Qt aborts where it can't.
 #pragma once
 
+#include <filesystem>
+
 namespace palpate::commands {
 
 // True when an X server or a Wayland compositor answers, or QT_QPA_PLATFORM names another platform.
@@ -8,5 +10,18 @@ bool hasDisplay();
 // Makes Qt draw without a display (platform "offscreen") unless a platform was chosen already.
 // `evenWithDisplay`: also where a display exists (pictures need none).
 void drawWithoutDisplay(bool evenWithDisplay);
+
+// A folder for XDG_RUNTIME_DIR where nobody is logged in (a server, a container): without one Qt says
+// so on standard error. Removed at the end.
+class RuntimeFolder {
+ public:
+  RuntimeFolder();
+  ~RuntimeFolder();
+  RuntimeFolder(const RuntimeFolder&) = delete;
+  RuntimeFolder& operator=(const RuntimeFolder&) = delete;
+
+ private:
+  std::filesystem::path path_;
+};
 
 }  // namespace palpate::commands

@@ -112,6 +112,7 @@ int renderCommand(const Words& words) {
   std::string name = "palpate";
   char* arguments[] = {name.data(), nullptr};
   int count = 1;
+  const RuntimeFolder runtime;
   const QGuiApplication application(count, arguments);
   options.font = QGuiApplication::font();
   gui::writeMatricesPicture(*out, profile.frame(frame), profile.hand(), options, overwrite);

@@ -28,6 +28,7 @@ int screenshot(const CommandLine& given) {
   if (given.words().size() > 1) throw UsageError("--screenshot takes one FILE");
   if (!given.words().empty()) options.file = given.words()[0];
   if (options.demo && options.file) throw UsageError("give FILE or --demo, not both");
+  const RuntimeFolder runtime;
   drawWithoutDisplay(false);
   std::string name = "palpate";
   char* arguments[] = {name.data(), nullptr};
@@ -57,6 +58,7 @@ int workbenchCommand(const Words& words) {
     if (given.has(option)) throw UsageError("--" + std::string(option) + " goes with --screenshot");
   if (!hasDisplay())
     throw Error("no display: run it on a desktop, or use a command ('palpate --help' lists them)");
+  const RuntimeFolder runtime;
   gui::WorkbenchOptions options;
   options.files.assign(given.words().begin(), given.words().end());
   options.demo = given.has("demo");

@@ -100,6 +100,11 @@ Actions::Actions(QWidget* window) : window_(window) {
   skipGaps = make("Playback", "Skip &gaps", {key("G")}, true);
   skipGaps->setToolTip("Jump over the gaps of a recording while playing (G)");
 
+  // On a button the text stands beside an icon: short, and not too close to it.
+  for (QAction* action : {open, exportPicture, loop, skipGaps, interpolated, values})
+    action->setIconText(" " + plainText(*action));
+  exportPicture->setIconText(" Export");
+
   keys = make("Help", "&Keys", {key("F1")});
   about = make("Help", "&About Palpate");
   dismiss = make("Help", "Close the message, stop opening, leave full screen", {key("Esc")});

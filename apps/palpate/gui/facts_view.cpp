@@ -49,7 +49,7 @@ QSize FactsView::sizeHint() const {
 }
 
 QSize FactsView::minimumSizeHint() const {
-  return {nameWidth() + 60, rowHeight() * static_cast<int>(facts_.size())};
+  return {nameWidth() + 50, rowHeight() * static_cast<int>(facts_.size())};
 }
 
 void FactsView::paintEvent(QPaintEvent* event) {

@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QResizeEvent>
 
+#include <palpate/core/number_text.h>
 #include <palpate/core/time.h>
 
 namespace palpate::gui {
@@ -11,7 +12,9 @@ namespace {
 
 constexpr int kTwoColumnsFrom = 430;  // [px] of width
 
-QString number(double value, int decimals) { return QString::number(value, 'f', decimals); }
+QString number(double value, int decimals) {
+  return QString::fromStdString(fixedText(value, decimals));
+}
 
 QLabel* heading(const QString& text, QWidget* parent) {
   auto* label = new QLabel(text.toUpper(), parent);
@@ -22,6 +25,12 @@ QLabel* heading(const QString& text, QWidget* parent) {
   font.setLetterSpacing(QFont::AbsoluteSpacing, 0.8);
   label->setFont(font);
   return label;
+}
+
+// A recording may have 30 frames a second, or one in three seconds.
+QString rate(double hz) {
+  constexpr double kSlow = 10.0;
+  return number(hz, hz < kSlow ? 2 : 1);
 }
 
 std::vector<Fact> factsOf(const OpenedRecording& recording) {
@@ -39,9 +48,9 @@ std::vector<Fact> factsOf(const OpenedRecording& recording) {
   }
   facts.push_back({"frames", QString::number(profile.numFrames())});
   facts.push_back({"duration", number(recording.timing.durationS, 2) + " s"});
-  facts.push_back({"rate",
-                   number(recording.timing.rateHz, 1) + " Hz (mean " +
-                       number(recording.timing.meanRateHz, 1) + ")"});
+  facts.push_back(
+      {"rate",
+       rate(recording.timing.rateHz) + " Hz (mean " + rate(recording.timing.meanRateHz) + ")"});
   double longest = 0.0;
   for (const Gap& gap : recording.timing.gaps) longest = std::max(longest, gap.seconds);
   const auto gaps = recording.timing.gaps.size();
@@ -78,7 +87,7 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
   setFocusPolicy(Qt::NoFocus);
   auto* content = new QWidget(this);
   model_ = new MatrixTableModel(content);
-  auto* table = new MatrixTable(model_, content);
+  matrices_ = new MatrixTable(model_, content);
   facts_ = new FactsView(content);
   facts_->setObjectName("recordingFacts");
   angles_ = new FactsView(content);
@@ -107,7 +116,7 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
   auto* column = new QVBoxLayout(content);
   column->setContentsMargins(12, 8, 12, 10);
   column->setSpacing(14);
-  column->addWidget(table);
+  column->addWidget(matrices_);
   column->addLayout(columns_);
   column->addStretch(1);
   setWidget(content);
@@ -160,6 +169,7 @@ void InspectPanel::showTemperatures(std::size_t frame) {
 
 void InspectPanel::setTheme(Theme theme) {
   model_->setTheme(theme);
+  matrices_->setTheme(theme);
   for (FactsView* facts : {facts_, angles_, temperatures_}) facts->setTheme(theme);
 }
 

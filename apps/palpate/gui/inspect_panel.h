@@ -31,6 +31,7 @@ class InspectPanel : public QScrollArea {
 
   OpenedRecordingPtr recording_;
   MatrixTableModel* model_;
+  MatrixTable* matrices_;
   FactsView* facts_;
   FactsView* angles_;
   FactsView* temperatures_;

@@ -99,6 +99,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   applyTheme();
   applyView();
   setPlaceForRecording(false);
+  listRecordings();
 }
 
 MainWindow::~MainWindow() { workers_.waitForDone(); }
@@ -281,7 +282,7 @@ void MainWindow::listRecordings() {
   for (const auto& each : recordings_) box->addItem(nameAndDate(*each));
   const auto at = std::find(recordings_.begin(), recordings_.end(), current_);
   if (at != recordings_.end()) box->setCurrentIndex(static_cast<int>(at - recordings_.begin()));
-  box->setEnabled(!recordings_.empty());
+  menus_->recordingsAction->setVisible(!recordings_.empty());
 }
 
 void MainWindow::showRecording(const OpenedRecordingPtr& recording) {

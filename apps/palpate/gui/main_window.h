@@ -41,7 +41,7 @@ struct WindowSurroundings {
   std::filesystem::path dataFolder;  // with the demo recording
   QString settingsPath;              // INI file
   const Clock* clock = nullptr;      // null: the system's
-  RecordingOpener::Read read;        // empty: openRecording
+  RecordingOpener::Read read = {};   // empty: openRecording
 };
 
 class MainWindow : public QMainWindow {
@@ -78,6 +78,7 @@ class MainWindow : public QMainWindow {
  protected:
   void closeEvent(QCloseEvent* event) override;
   void showEvent(QShowEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dragLeaveEvent(QDragLeaveEvent* event) override;
   void dropEvent(QDropEvent* event) override;

@@ -26,7 +26,9 @@ namespace {
 
 constexpr int kFlashMs = 5000;
 constexpr int kTenFrames = 10;
+constexpr int kCompactBelow = 1080;  // [px] of width: buttons lose their text
 constexpr double kZoomStep = 1.5;
+constexpr int kNarrowestInspect = 455;    // [px] its table is read without eliding
 constexpr double kInspectShare = 0.345;   // of the window's width
 constexpr double kTimelineShare = 0.235;  // of the window's height
 
@@ -223,7 +225,7 @@ void MainWindow::showFrame(std::size_t frame) {
 void MainWindow::showPlaybackState() {
   const Theme theme = resolved(view_.theme);
   const bool playing = playback_.playing();
-  actions_.play->setText(playing ? "&Pause" : "&Play");
+  actions_.play->setIconText(playing ? " Pause" : " Play");
   actions_.play->setIcon(makeIcon(playing ? IconShape::kPause : IconShape::kPlay, theme));
   actions_.play->setToolTip(playing ? "Pause (Space)" : "Play by the real time stamps (Space)");
   actions_.loop->setChecked(playback_.loop());
@@ -336,7 +338,8 @@ void MainWindow::defaultLayout() {
     dock->setFloating(false);
     dock->show();
   }
-  resizeDocks({docks_[0]}, {static_cast<int>(width() * kInspectShare)}, Qt::Horizontal);
+  const int inspect = std::max(kNarrowestInspect, static_cast<int>(width() * kInspectShare));
+  resizeDocks({docks_[0]}, {inspect}, Qt::Horizontal);
   resizeDocks({docks_[1]}, {static_cast<int>(height() * kTimelineShare)}, Qt::Vertical);
 }
 
@@ -416,6 +419,11 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
   enableActions();
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+  QMainWindow::resizeEvent(event);
+  menus_->setCompact(event->size().width() < kCompactBelow);
 }
 
 }  // namespace palpate::gui

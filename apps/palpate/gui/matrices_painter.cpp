@@ -41,7 +41,7 @@ void paintTicks(QPainter& painter,
   const ThemeColors& colors = colorsOf(options.theme);
   const QFontMetricsF metrics(pictureFont(options));
   const double span = range.maximum - range.minimum;
-  const double step = niceStep(span, bar.height() / (3.2 * metrics.height()));
+  const double step = niceStep(span, bar.height() / (3.6 * metrics.height()));
   const auto tick = [&](double value) {
     const double y = bar.bottom() - (value - range.minimum) / span * bar.height();
     painter.setPen(colors.muted);
@@ -50,7 +50,7 @@ void paintTicks(QPainter& painter,
     painter.drawText(text, Qt::AlignLeft | Qt::AlignVCenter, tickText(value));
   };
   // The ends are always named; a step that comes too close to one gives way.
-  const double clearance = span * 0.7 * metrics.height() / bar.height();
+  const double clearance = span * 1.2 * metrics.height() / bar.height();
   tick(range.minimum);
   tick(range.maximum);
   for (double value = std::ceil(range.minimum / step) * step; value < range.maximum; value += step)
@@ -73,17 +73,19 @@ void paintColorBar(QPainter& painter,
   paintTicks(painter, bar, range, options);
   const QFontMetricsF metrics(pictureFont(options));
   painter.setPen(colorsOf(options.theme).muted);
-  const QRectF unit(bar.left() - 20, bar.top() - metrics.height() - 6, 100, metrics.height());
-  painter.drawText(unit.translated(20, 0), Qt::AlignLeft | Qt::AlignVCenter, options.unit);
+  // Above the number of the highest value.
+  const QRectF unit(bar.left(), bar.top() - 1.5 * metrics.height() - 2, 100, metrics.height());
+  painter.drawText(unit, Qt::AlignLeft | Qt::AlignVCenter, options.unit);
 }
 
-// A taxel that exists but isn't scanned: hatched, so that it can't be taken for one at rest.
+// A taxel that exists but isn't scanned: crossed out, so that it can't be taken for one at rest.
 void paintMasked(QPainter& painter, const QRectF& square, const ThemeColors& colors) {
   painter.setPen(QPen(colors.maskedLine, 1.0));
   painter.setBrush(Qt::NoBrush);
-  painter.drawRect(square.adjusted(0.5, 0.5, -0.5, -0.5));
-  painter.drawLine(square.bottomLeft() + QPointF(1, -1), square.topRight() + QPointF(-1, 1));
-  painter.drawLine(square.topLeft() + QPointF(1, 1), square.bottomRight() + QPointF(-1, -1));
+  const double inset = square.width() * 0.28;
+  const QRectF cross = square.adjusted(inset, inset, -inset, -inset);
+  painter.drawLine(cross.topLeft(), cross.bottomRight());
+  painter.drawLine(cross.bottomLeft(), cross.topRight());
 }
 
 void paintNames(QPainter& painter,

@@ -5,6 +5,7 @@
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QResizeEvent>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -12,6 +13,9 @@
 
 namespace palpate::gui {
 namespace {
+
+constexpr int kControlHeight = 26;  // [px] of boxes beside buttons
+constexpr int kCompactBelow = 700;  // [px] of width: buttons lose their text
 
 QToolButton* buttonFor(QAction* action, QWidget* parent) {
   auto* button = new QToolButton(parent);
@@ -24,6 +28,9 @@ QToolButton* buttonFor(QAction* action, QWidget* parent) {
 QDoubleSpinBox* rangeField(QWidget* parent, const char* name, const char* tip) {
   auto* field = new QDoubleSpinBox(parent);
   field->setObjectName(name);
+  field->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  field->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  field->setFixedWidth(field->fontMetrics().horizontalAdvance("0000000") + 18);
   field->setDecimals(0);
   field->setRange(0.0, 1e6);
   field->setSingleStep(50.0);
@@ -49,6 +56,7 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   range_ = new QComboBox(header);
   range_->setObjectName("rangeBox");
   range_->setFocusPolicy(Qt::TabFocus);
+  for (QComboBox* box : {map_, range_}) box->setMinimumHeight(kControlHeight);
   range_->setToolTip("Where the colour range ends (R)");
   for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
   minimum_ = rangeField(header, "rangeMinimum", "Value of the lowest colour in counts");
@@ -60,8 +68,8 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   row->setSpacing(6);
   row->addWidget(title);
   row->addStretch(1);
-  row->addWidget(buttonFor(interpolated, header));
-  row->addWidget(buttonFor(values, header));
+  looks_ = {buttonFor(interpolated, header), buttonFor(values, header)};
+  for (QToolButton* button : looks_) row->addWidget(button);
   row->addSpacing(6);
   row->addWidget(map_);
   row->addWidget(range_);
@@ -90,6 +98,13 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   };
   connect(minimum_, &QDoubleSpinBox::valueChanged, this, manual);
   connect(maximum_, &QDoubleSpinBox::valueChanged, this, manual);
+}
+
+void MatricesPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  const bool narrow = event->size().width() < kCompactBelow;
+  for (QToolButton* button : looks_)
+    button->setToolButtonStyle(narrow ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
 }
 
 void MatricesPanel::setRecording(const OpenedRecordingPtr& recording) {

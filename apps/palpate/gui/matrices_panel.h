@@ -1,6 +1,7 @@
 // The heat maps with their controls: look, colour map, range.
 #pragma once
 
+#include <QList>
 #include <QWidget>
 
 #include "gui/matrices_view.h"
@@ -11,6 +12,7 @@ class QAction;
 class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
+class QToolButton;
 
 namespace palpate::gui {
 
@@ -34,11 +36,15 @@ class MatricesPanel : public QWidget {
   void rangeChosen(palpate::gui::RangeMode mode);
   void manualRangeChosen(double minimum, double maximum);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   ValueRange rangeNow() const;
   void applyLook();
 
   MatricesView* view_;
+  QList<QToolButton*> looks_;
   QComboBox* map_;
   QComboBox* range_;
   QDoubleSpinBox* minimum_;

@@ -1,18 +1,59 @@
 #include "gui/matrix_table.h"
 
 #include <QHeaderView>
+#include <QItemDelegate>
+#include <QPainter>
+#include <QResizeEvent>
 #include <algorithm>
 
 namespace palpate::gui {
 namespace {
 
-constexpr int kMostRowsSeen = 13;  // a sensor with more matrices scrolls
+constexpr int kLastAlways = MatrixTableModel::kMaximum;  // column that never gives way
+constexpr int kFirstNumber = 1;                          // column
+constexpr int kMostRowsSeen = 13;                        // a sensor with more matrices scrolls
 
 bool sameText(const CharacteristicSignals& a, const CharacteristicSignals& b) {
   return a.active == b.active && a.sum == b.sum && a.maximum == b.maximum && a.minimum == b.minimum;
 }
 
 }  // namespace
+
+// Draws ticks in the colours of the theme: a box that is seen when it is empty, too.
+class TickDelegate : public QItemDelegate {
+ public:
+  using QItemDelegate::QItemDelegate;
+  void setTheme(Theme theme) { theme_ = theme; }
+
+ protected:
+  void drawCheck(QPainter* painter,
+                 const QStyleOptionViewItem& /*option*/,
+                 const QRect& rect,
+                 Qt::CheckState state) const override {
+    if (!rect.isValid()) return;
+    const ThemeColors& colors = colorsOf(theme_);
+    constexpr double kSide = 13.0;
+    QRectF box(0, 0, kSide, kSide);
+    box.moveCenter(QRectF(rect).center());
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing);
+    painter->setPen(QPen(state == Qt::Checked ? colors.accent : colors.muted, 1.0));
+    painter->setBrush(state == Qt::Checked ? colors.accentSoft : colors.window);
+    painter->drawRoundedRect(box, 2.5, 2.5);
+    if (state == Qt::Checked) {
+      painter->setPen(QPen(colors.accent, 1.8, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+      painter->setBrush(Qt::NoBrush);
+      const QPointF corner = box.topLeft();
+      painter->drawPolyline(QPolygonF(
+          {corner + QPointF(3.2, 6.8), corner + QPointF(5.6, 9.4), corner + QPointF(9.9, 3.9)}));
+    }
+    painter->restore();
+  }
+  void drawFocus(QPainter*, const QStyleOptionViewItem&, const QRect&) const override {}
+
+ private:
+  Theme theme_ = Theme::kDark;
+};
 
 void MatrixTableModel::setRecording(const OpenedRecordingPtr& recording) {
   beginResetModel();
@@ -149,6 +190,8 @@ QVariant MatrixTableModel::headerData(int section, Qt::Orientation orientation, 
 MatrixTable::MatrixTable(MatrixTableModel* model, QWidget* parent) : QTableView(parent) {
   setObjectName("matrixTable");
   setModel(model);
+  ticks_ = new TickDelegate(this);
+  setItemDelegate(ticks_);
   setSelectionMode(QAbstractItemView::NoSelection);
   setFocusPolicy(Qt::NoFocus);  // ticks have keys of their own
   setShowGrid(false);
@@ -165,8 +208,14 @@ MatrixTable::MatrixTable(MatrixTableModel* model, QWidget* parent) : QTableView(
   header->setSectionResizeMode(QHeaderView::Fixed);
   header->setSectionResizeMode(MatrixTableModel::kName, QHeaderView::Stretch);
   const int digit = fontMetrics().horizontalAdvance('0');
-  for (int column = 1; column < MatrixTableModel::kNumColumns; ++column)
-    header->resizeSection(column, digit * (column == MatrixTableModel::kSum ? 6 : 5) + 16);
+  const int padding = 14;
+  for (int column = kFirstNumber; column < MatrixTableModel::kNumColumns; ++column) {
+    const int digits = column == MatrixTableModel::kSum ? 6 : 4;
+    const QString name = model->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+    columnSizes_[static_cast<std::size_t>(column)] =
+        std::max(digits * digit, header->fontMetrics().horizontalAdvance(name)) + padding;
+    header->resizeSection(column, columnSizes_[static_cast<std::size_t>(column)]);
+  }
   connect(model, &QAbstractItemModel::modelReset, this, &QWidget::updateGeometry);
 }
 
@@ -177,6 +226,30 @@ QSize MatrixTable::sizeHint() const {
       horizontalHeader()->sizeHint().height() + 2 + rows * verticalHeader()->defaultSectionSize()};
 }
 
-QSize MatrixTable::minimumSizeHint() const { return {300, sizeHint().height()}; }
+void MatrixTable::setTheme(Theme theme) {
+  ticks_->setTheme(theme);
+  viewport()->update();
+}
+
+int MatrixTable::nameWidth() const {
+  constexpr int kTickAndSquare = 46;
+  return fontMetrics().horizontalAdvance("2 proximal") + kTickAndSquare;
+}
+
+QSize MatrixTable::minimumSizeHint() const {
+  int width = nameWidth();
+  for (int column = kFirstNumber; column <= kLastAlways; ++column)
+    width += columnSizes_[static_cast<std::size_t>(column)];
+  return {width, sizeHint().height()};
+}
+
+void MatrixTable::resizeEvent(QResizeEvent* event) {
+  int left = event->size().width() - nameWidth();
+  for (int column = kFirstNumber; column < MatrixTableModel::kNumColumns; ++column) {
+    left -= columnSizes_[static_cast<std::size_t>(column)];
+    setColumnHidden(column, left < 0 && column > kLastAlways);
+  }
+  QTableView::resizeEvent(event);
+}
 
 }  // namespace palpate::gui

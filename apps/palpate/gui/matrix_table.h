@@ -4,6 +4,7 @@
 
 #include <QAbstractTableModel>
 #include <QTableView>
+#include <array>
 #include <vector>
 
 #include "gui/opened_recording.h"
@@ -44,13 +45,25 @@ class MatrixTableModel : public QAbstractTableModel {
   Theme theme_ = Theme::kDark;
 };
 
+class TickDelegate;
+
 // As high as its rows.
 class MatrixTable : public QTableView {
   Q_OBJECT
  public:
   explicit MatrixTable(MatrixTableModel* model, QWidget* parent = nullptr);
+  void setTheme(Theme theme);
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
+
+ protected:
+  // Where there is no room for all columns the last ones give way.
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  int nameWidth() const;
+  std::array<int, MatrixTableModel::kNumColumns> columnSizes_{};  // [px]
+  TickDelegate* ticks_;
 };
 
 }  // namespace palpate::gui

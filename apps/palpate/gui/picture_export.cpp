@@ -13,6 +13,7 @@
 namespace palpate::gui {
 namespace {
 
+constexpr int kPxPerInch = 96;
 constexpr int kPdfDpi = 1200;          // resolution that positions in a PDF are rounded to
 constexpr double kPointsPerPx = 0.75;  // 96 px = 72 pt = 1 inch
 
@@ -37,6 +38,7 @@ QByteArray svgBytes(const TactileFrame& frame,
   generator.setOutputDevice(&buffer);
   generator.setSize(options.size.toSize());
   generator.setViewBox(QRectF(QPointF(), options.size));
+  generator.setResolution(kPxPerInch);
   generator.setTitle(options.title);
   generator.setDescription(options.caption);
   paintOn(generator, QRectF(QPointF(), options.size), 1.0, frame, hand, options);
@@ -55,8 +57,12 @@ QByteArray pdfBytes(const TactileFrame& frame,
   writer.setPageMargins(QMarginsF());
   writer.setTitle(options.title);
   writer.setCreator("Palpate");
-  constexpr double kPxPerInch = 96.0;
-  paintOn(writer, QRectF(QPointF(), options.size), kPdfDpi / kPxPerInch, frame, hand, options);
+  paintOn(writer,
+          QRectF(QPointF(), options.size),
+          static_cast<double>(kPdfDpi) / kPxPerInch,
+          frame,
+          hand,
+          options);
   return bytes;
 }
 

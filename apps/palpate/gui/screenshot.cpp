@@ -76,8 +76,11 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   std::error_code ignored;
   if (!options.force && std::filesystem::exists(options.out, ignored))
     throw FileError(options.out, "exists already; give another name, or --force to replace it");
-  const auto application = makeApplication(argc, argv);
   const QTemporaryDir settings;  // the usual look, whatever this user has chosen
+  // Where nobody is logged in there is no such folder, and Qt says so on standard error.
+  if (!qEnvironmentVariableIsSet("XDG_RUNTIME_DIR"))
+    qputenv("XDG_RUNTIME_DIR", settings.path().toLocal8Bit());
+  const auto application = makeApplication(argc, argv);
   MainWindow window({.dataFolder = options.dataFolder,
                      .settingsPath = settings.filePath("palpate.ini"),
                      .clock = nullptr,

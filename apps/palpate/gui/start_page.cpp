@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QStyle>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -85,7 +86,10 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   recentHeading_ = new QLabel("RECENT", this);
   recentHeading_->setProperty("role", "heading");
 
-  auto* middle = new QWidget(this);
+  // Ten recent files don't fit into the smallest window: then the page scrolls.
+  auto* content = new QWidget(this);
+  content->setObjectName("StartPage");
+  auto* middle = new QWidget(content);
   middle->setFixedWidth(kColumnWidth);
   column_ = new QVBoxLayout(middle);
   column_->setContentsMargins(0, 0, 0, 0);
@@ -98,11 +102,18 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   column_->addWidget(dropHint_);
   column_->addSpacing(18);
   column_->addWidget(recentHeading_);
-  auto* page = new QVBoxLayout(this);
+  auto* page = new QVBoxLayout(content);
   page->setContentsMargins(20, 20, 20, 20);
   page->addStretch(2);
   page->addWidget(middle, 0, Qt::AlignHCenter);
   page->addStretch(3);
+  auto* scroll = new QScrollArea(this);
+  scroll->setWidgetResizable(true);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  scroll->setWidget(content);
+  auto* whole = new QVBoxLayout(this);
+  whole->setContentsMargins(0, 0, 0, 0);
+  whole->addWidget(scroll);
   connect(&recent_, &RecentFiles::changed, this, &StartPage::listRecent);
 }
 

@@ -60,6 +60,9 @@ QPushButton { background: @raised; border: 1px solid @border; border-radius: 5px
 QPushButton:hover, QPushButton:focus { border-color: @accent; }
 QPushButton:pressed { background: @accentSoft; }
 QPushButton[primary="true"] { background: @accentSoft; border-color: @accent; color: @accent; }
+QAbstractSpinBox { background: @window; border: 1px solid @border; border-radius: 4px; padding: 3px 5px; }
+QAbstractSpinBox:focus { border-color: @accent; }
+QAbstractSpinBox:disabled { color: @muted; }
 QDockWidget { titlebar-close-icon: none; titlebar-normal-icon: none; }
 QStatusBar { background: @panel; border-top: 1px solid @border; }
 QStatusBar::item { border: 0; }
@@ -121,7 +124,7 @@ const ThemeColors& colorsOf(Theme theme) {
                                    .dangerSoft = "#3d1c1e",
                                    .warning = "#f5b94a",
                                    .taxel = "#2a2e36",
-                                   .maskedLine = "#565e6c",
+                                   .maskedLine = "#454c58",
                                    .grid = "#2a2f37",
                                    .gap = QColor(245, 185, 74, 28)};
   static const ThemeColors light = {.window = "#ffffff",
@@ -136,7 +139,7 @@ const ThemeColors& colorsOf(Theme theme) {
                                     .dangerSoft = "#fdeceb",
                                     .warning = "#8f5b00",
                                     .taxel = "#e3e6eb",
-                                    .maskedLine = "#a6aebb",
+                                    .maskedLine = "#bcc3ce",
                                     .grid = "#e4e7ec",
                                     .gap = QColor(176, 120, 0, 30)};
   return theme == Theme::kDark ? dark : light;

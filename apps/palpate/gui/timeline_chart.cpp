@@ -103,7 +103,7 @@ void TimelineChart::rebuildGraphs() {
   graphRows_.clear();
   graphValues_.clear();
   gapLabels_.clear();
-  yAxis->setLabel(nameOf(signal_) + " in " + unitOf(signal_));
+  nameAxis();
   double largest = 0.0;
   const std::size_t frames = recording_ ? recording_->profile.numFrames() : 0;
   for (std::size_t row = 0; row < plotted_.size() && frames > 0; ++row) {
@@ -147,6 +147,15 @@ void TimelineChart::rebuildGraphs() {
     }
   }
   refill();
+}
+
+// A low chart has no room for more than the unit.
+void TimelineChart::nameAxis() {
+  QString whole = nameOf(signal_);
+  if (!whole.endsWith(unitOf(signal_))) whole += " in " + unitOf(signal_);
+  constexpr int kAroundAxis = 60;  // [px] above and below it
+  const bool fits = fontMetrics().horizontalAdvance(whole) < height() - kAroundAxis;
+  yAxis->setLabel(fits ? whole : unitOf(signal_));
 }
 
 void TimelineChart::refill() {
@@ -267,6 +276,7 @@ void TimelineChart::wheelEvent(QWheelEvent* event) {
 
 void TimelineChart::resizeEvent(QResizeEvent* event) {
   QCustomPlot::resizeEvent(event);
+  nameAxis();
   refill();
 }
 

@@ -54,6 +54,7 @@ class TimelineChart : public QCustomPlot {
   void setSeen(double from, double to);
   void rebuildGraphs();
   void refill();
+  void nameAxis();
   void placeCursor();
   void showGapLabels();
   QString valuesAt(double seconds) const;

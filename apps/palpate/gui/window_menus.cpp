@@ -12,14 +12,12 @@
 namespace palpate::gui {
 namespace {
 
+constexpr int kControlHeight = 28;   // [px] of boxes beside buttons
+constexpr int kIconAndPadding = 46;  // [px]
+
 void addChoices(QMenu* menu, const QString& title, const QActionGroup* group) {
   QMenu* choices = menu->addMenu(title);
   choices->addActions(group->actions());
-}
-
-void showTextBeside(QToolBar* bar, QAction* action) {
-  if (auto* button = qobject_cast<QToolButton*>(bar->widgetForAction(action)))
-    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
 }
 
 }  // namespace
@@ -98,6 +96,7 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   bar->addActions({actions.toStart, actions.stepBack, actions.play, actions.stepForward});
   speed = new QComboBox(bar);
   speed->setObjectName("speedBox");
+  speed->setMinimumHeight(kControlHeight);
   speed->setToolTip("Speed (Up, Down)");
   speed->setAccessibleName("Speed");
   speed->setFocusPolicy(Qt::TabFocus);
@@ -106,19 +105,30 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   bar->addActions({actions.loop, actions.skipGaps});
   for (QAction* action :
        {actions.open, actions.exportPicture, actions.play, actions.loop, actions.skipGaps})
-    showTextBeside(bar, action);
+    withText_.append(qobject_cast<QToolButton*>(bar->widgetForAction(action)));
+  play_ = bar->widgetForAction(actions.play);
+  setCompact(false);
   auto* spacer = new QWidget(bar);
   spacer->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   bar->addWidget(spacer);
   recordings = new QComboBox(bar);
   recordings->setObjectName("recordingsBox");
+  recordings->setMinimumHeight(kControlHeight);
   recordings->setToolTip("Open recordings (Ctrl+Tab)");
   recordings->setAccessibleName("Open recordings");
   recordings->setFocusPolicy(Qt::TabFocus);
   recordings->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   recordings->setMaximumWidth(420);
-  bar->addWidget(recordings);
+  recordingsAction = bar->addWidget(recordings);
   bar->addAction(actions.keys);
+}
+
+void WindowMenus::setCompact(bool on) {
+  for (QToolButton* button : withText_)
+    button->setToolButtonStyle(on ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
+  // "Play" and "Pause" take the same room: nothing jumps when the playback starts.
+  const int textWidth = play_->fontMetrics().horizontalAdvance(" Pause");
+  play_->setMinimumWidth(on ? 0 : textWidth + kIconAndPadding);
 }
 
 }  // namespace palpate::gui

@@ -7,6 +7,8 @@ class QAction;
 class QComboBox;
 class QMainWindow;
 class QMenu;
+class QToolButton;
+class QWidget;
 
 namespace palpate::gui {
 
@@ -16,11 +18,17 @@ struct WindowMenus {
   // dockToggles: what shows and hides the docks.
   WindowMenus(QMainWindow& window, const Actions& actions, const QList<QAction*>& dockToggles);
 
-  QMenu* recent;          // filled by its owner when it is about to show
-  QComboBox* speed;       // of the toolbar; index into PlaybackController::kSpeeds
-  QComboBox* recordings;  // open recordings
+  // Buttons without text, for a narrow window.
+  void setCompact(bool on);
+
+  QMenu* recent;              // filled by its owner when it is about to show
+  QComboBox* speed;           // of the toolbar; index into PlaybackController::kSpeeds
+  QComboBox* recordings;      // open recordings
+  QAction* recordingsAction;  // shows and hides it
 
  private:
+  QList<QToolButton*> withText_;
+  QWidget* play_;
   void buildMenuBar(QMainWindow& window, const Actions& actions, const QList<QAction*>& toggles);
   void buildToolBar(QMainWindow& window, const Actions& actions);
 };

@@ -3,6 +3,7 @@
 #include <QGuiApplication>
 
 #include "gui/application.h"
+#include "gui/first_paint.h"
 #include "gui/main_window.h"
 
 namespace palpate::gui {
@@ -13,6 +14,7 @@ int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options) {
                      .settingsPath = settingsPath(),
                      .clock = nullptr,
                      .read = {}});
+  const FirstPaint firstPaint(window);
   window.show();
   // The window is on screen before the first file is read.
   if (options.demo)

@@ -1,0 +1,160 @@
+// The window: how soon it is painted, and what playback costs. Run it where a display is, e.g. under
+// `xvfb-run -a`; without one it uses Qt's offscreen platform.
+#include <QElapsedTimer>
+#include <QEventLoop>
+#include <QTemporaryDir>
+#include <QTimer>
+#include <filesystem>
+
+#include <benchmark/benchmark.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "palpate/emulator/synthetic_profile.h"
+#include "palpate/recording/dsa_writer.h"
+
+#include "gui/application.h"
+#include "gui/main_window.h"
+#include "gui/matrices_view.h"
+#include "testing/program.h"
+#include "testing/testing.h"
+
+namespace {
+namespace fs = std::filesystem;
+namespace gui = palpate::gui;
+
+// A real recording where there is one, else the demonstration.
+fs::path recording() {
+  const auto folder = palpate::testing::recordingsFolder();
+  return folder ? *folder / "grasps/foam_ball.dsa"
+                : palpate::testing::dataFolder() / "demo_grasps.dsa";
+}
+
+double processSeconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+void usePlatform() {
+  if (qEnvironmentVariableIsEmpty("DISPLAY")) qputenv("QT_QPA_PLATFORM", "offscreen");
+}
+
+QApplication& application() {
+  usePlatform();
+  static const QTemporaryDir runtime;  // where nobody is logged in there is none, and Qt says so
+  if (!qEnvironmentVariableIsSet("XDG_RUNTIME_DIR"))
+    qputenv("XDG_RUNTIME_DIR", runtime.path().toLocal8Bit());
+  static int count = 1;
+  static char name[] = "palpate";
+  static char* arguments[] = {name, nullptr};
+  static const auto application = gui::makeApplication(count, arguments);
+  return *application;
+}
+
+// From the start of the process to the saved picture of the window with a recording open: an upper
+// bound of the time to the first paint. Target of the first paint: 1 s.
+void processToPicture(benchmark::State& state) {
+  usePlatform();
+  const palpate::testing::TemporaryFolder folder;
+  const std::string out = folder / "window.png";
+  for (auto _ : state) {
+    const auto result = palpate::testing::runProgram(
+        PALPATE_PROGRAM, {"--screenshot", out, "--force", recording().string()});
+    if (result.exitCode != 0) return state.SkipWithError(result.err.c_str());
+  }
+}
+
+// The reference: the same process without window and recording.
+void processToVersion(benchmark::State& state) {
+  for (auto _ : state)
+    if (palpate::testing::runProgram(PALPATE_PROGRAM, {"--version"}).exitCode != 0)
+      return state.SkipWithError("failed");
+}
+
+// Counts the paint events of a widget.
+class PaintCounter : public QObject {
+ public:
+  explicit PaintCounter(QObject* watched) { watched->installEventFilter(this); }
+  int count = 0;
+
+ protected:
+  bool eventFilter(QObject* /*watched*/, QEvent* event) override {
+    if (event->type() == QEvent::Paint) ++count;
+    return false;
+  }
+};
+
+void wait(int ms) {
+  QEventLoop loop;
+  QTimer::singleShot(ms, Qt::PreciseTimer, &loop, &QEventLoop::quit);
+  loop.exec();
+}
+
+enum class Work { kPlay, kRepaintAll, kNothing };
+
+// A grasp that is held for 24 s, with noise, at 62.5 frames/s: every refresh of 60 a second shows a
+// frame that differs from the one before.
+fs::path busyRecording(const fs::path& folder) {
+  const fs::path path = folder / "busy.dsa";
+  palpate::writeDsa(
+      palpate::synthesize(
+          {.durationS = 40.0, .rateHz = 62.5, .grasps = 1, .peakCounts = 1800, .noiseCounts = 8.0}),
+      path);
+  return path;
+}
+constexpr double kHeldFromS = 9.0;
+
+// 20 s of a window of 1600 x 1000. Counters: CPU time of the process as percent of one core (target
+// while playing: 15), paint events of the heat maps per second. The reference repaints all widgets.
+void window(benchmark::State& state, Work work) {
+  application();
+  const QTemporaryDir settings;
+  gui::MainWindow window({.dataFolder = palpate::testing::dataFolder(),
+                          .settingsPath = settings.filePath("palpate.ini"),
+                          .clock = nullptr,
+                          .read = {}});
+  window.resize(1600, 1000);
+  window.show();
+  const palpate::testing::TemporaryFolder folder;
+  window.openFiles({busyRecording(folder.path())});
+  QEventLoop opened;
+  QObject::connect(&window.opener(), &gui::RecordingOpener::finished, &opened, &QEventLoop::quit);
+  opened.exec();
+  wait(500);
+  window.playback().seekSeconds(kHeldFromS);
+  auto* view = window.findChild<gui::MatricesView*>();
+  if (!view) return state.SkipWithError("no heat maps");
+  PaintCounter paints(view);
+  constexpr int kMs = 20'000;
+  QTimer everything;
+  QObject::connect(&everything, &QTimer::timeout, &window, [&] {
+    for (QWidget* widget : window.findChildren<QWidget*>()) widget->update();
+  });
+  for (auto _ : state) {
+    paints.count = 0;
+    QElapsedTimer wall;
+    wall.start();
+    const double before = processSeconds();
+    if (work == Work::kPlay) window.playback().play();
+    if (work == Work::kRepaintAll) everything.start(16);
+    wait(kMs);
+    everything.stop();
+    window.playback().pause();
+    const double seconds = 1e-3 * static_cast<double>(wall.elapsed());
+    state.SetIterationTime(seconds);
+    state.counters["cpu_percent"] = 100.0 * (processSeconds() - before) / seconds;
+    state.counters["repaints_per_s"] = paints.count / seconds;
+  }
+}
+
+BENCHMARK(processToPicture)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(processToVersion)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(window, playback, Work::kPlay)->UseManualTime()->Iterations(1);
+BENCHMARK_CAPTURE(window, repainting_everything, Work::kRepaintAll)->UseManualTime()->Iterations(1);
+BENCHMARK_CAPTURE(window, paused, Work::kNothing)->UseManualTime()->Iterations(1);
+
+}  // namespace

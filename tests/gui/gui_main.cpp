@@ -1,0 +1,18 @@
+// Runs the tests of the window: under the display that is there, else drawing to memory. Settings go
+// to a temporary folder.
+#include <cstdlib>
+
+#include "gui/application.h"
+#include "testing/testing.h"
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  const palpate::testing::TemporaryFolder home;
+  for (const char* variable :
+       {"XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR"})
+    ::setenv(variable, home.path().c_str(), 1);
+  const bool hasDisplay = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
+  if (!hasDisplay) ::setenv("QT_QPA_PLATFORM", "offscreen", 0);
+  const auto application = palpate::gui::makeApplication(argc, argv);
+  return RUN_ALL_TESTS();
+}

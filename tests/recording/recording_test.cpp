@@ -1,0 +1,48 @@
+// The one door to recordings: opening and checking whatever the form.
+#include "palpate/recording/recording.h"
+
+#include "palpate/core/error.h"
+#include "palpate/recording/dsa_reader.h"
+
+#include "recording/dsa_corpus.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+TEST(Verify, countsASoundRecording) {
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "a.dsa", testing::compressed(testing::exampleXml()));
+  const VerifyReport report = verifyRecording(folder / "a.dsa");
+  EXPECT_EQ(report.state, VerifyReport::State::kSound);
+  EXPECT_EQ(report.message, "2 frames, 1 angle sample, 1 temperature sample");
+  const DsaVerifyReport dsa = verifyDsa(folder / "a.dsa");
+  EXPECT_EQ(dsa.frames, 2u);
+  EXPECT_EQ(dsa.message, "");
+}
+
+TEST(Verify, stopsWhenAsked) {
+  const testing::TemporaryFolder folder;
+  std::string damaged = testing::compressed(testing::longXml(60, 0, 11), 1);
+  damaged[5000] = static_cast<char>(damaged[5000] ^ 4);  // in the first of several blocks
+  testing::writeFile(folder / "a.dsa", damaged);
+  EXPECT_THROW(verifyRecording(folder / "a.dsa", [](double) { return false; }), Cancelled);
+  EXPECT_THROW(verifyRecording(folder / "a.dsa", [](double f) { return f < 0.5; }), Cancelled);
+}
+
+TEST(Recording, isToldByItsFirstBytesNotByItsName) {
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "recording.txt", testing::compressed(testing::exampleXml()));
+  EXPECT_EQ(openRecording(folder / "recording.txt").numFrames(), 2u);
+  testing::writeFile(folder / "native.dsa", std::string("SQLite format 3\0", 16) + "rest");
+  try {
+    openRecording(folder / "native.dsa");
+    FAIL();
+  } catch (const FormatError& error) {
+    EXPECT_NE(std::string(error.what()).find("a .palpate recording"), std::string::npos);
+  }
+  EXPECT_EQ(verifyRecording(folder / "native.dsa").state, VerifyReport::State::kUnreadable);
+}
+
+}  // namespace
+}  // namespace palpate
