@@ -1,6 +1,7 @@
 // import palpate
-#include "bindings.h"
 #include "palpate/core/error.h"
+
+#include "bindings.h"
 
 namespace py = pybind11;
 

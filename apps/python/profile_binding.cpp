@@ -1,15 +1,16 @@
 // palpate.load(), palpate.Profile.
-#include <pybind11/numpy.h>
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <string>
 
-#include "bindings.h"
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
 #include "palpate/core/error.h"
 #include "palpate/recording/recording.h"
+
+#include "bindings.h"
 
 namespace palpate::python {
 namespace py = pybind11;
@@ -25,8 +26,8 @@ using TimeArray = py::array_t<std::int64_t, py::array::c_style>;
 std::size_t checkedIndex(const char* what, std::int64_t index, std::size_t count) {
   const std::int64_t number = static_cast<std::int64_t>(count);
   if (index < -number || index >= number)
-    throw py::index_error("no " + std::string(what) + " " + std::to_string(index) +
-                          ", there are " + std::to_string(count));
+    throw py::index_error("no " + std::string(what) + " " + std::to_string(index) + ", there are " +
+                          std::to_string(count));
   return static_cast<std::size_t>(index < 0 ? index + number : index);
 }
 
@@ -104,8 +105,7 @@ std::size_t angleWidth(const Profile& profile) {
 }
 
 DoubleArray anglesAtFrames(const Profile& profile) {
-  if (profile.numAngles() == 0)
-    throw py::value_error("this recording has no joint angles");
+  if (profile.numAngles() == 0) throw py::value_error("this recording has no joint angles");
   return samples(profile.numFrames(), angleWidth(profile), [&](std::size_t i) {
     return profile.anglesAtFrame(i)->deg;
   });
@@ -140,9 +140,8 @@ std::string described(const Profile& profile) {
 }  // namespace
 
 void bindProfile(py::module_& module) {
-  py::class_<Profile>(module,
-                      "Profile",
-                      "The data of one recording: three time series, each with its own stamps.")
+  py::class_<Profile>(
+      module, "Profile", "The data of one recording: three time series, each with its own stamps.")
       .def("__len__", [](const Profile& profile) { return profile.numFrames(); })
       .def("__repr__", &described)
       .def("frames",
@@ -151,13 +150,14 @@ void bindProfile(py::module_& module) {
            py::arg("stop") = py::none(),
            "All taxels of the frames start..stop (exclusive): float32 array (T, places), matrix "
            "after matrix, row by row; counts, or what a filter made of them.")
-      .def("matrix",
-           &matrix,
-           py::arg("m"),
-           py::arg("start") = 0,
-           py::arg("stop") = py::none(),
-           "One matrix of the frames start..stop (exclusive): float32 array (T, rows, columns). Row "
-           "0 is the fingertip.")
+      .def(
+          "matrix",
+          &matrix,
+          py::arg("m"),
+          py::arg("start") = 0,
+          py::arg("stop") = py::none(),
+          "One matrix of the frames start..stop (exclusive): float32 array (T, rows, columns). Row "
+          "0 is the fingertip.")
       .def_property_readonly(
           "time_ms",
           [](const Profile& p) {
@@ -167,9 +167,8 @@ void bindProfile(py::module_& module) {
       .def_property_readonly(
           "angles",
           [](const Profile& p) {
-            return samples(p.numAngles(), angleWidth(p), [&](std::size_t i) {
-              return p.angles(i).deg;
-            });
+            return samples(
+                p.numAngles(), angleWidth(p), [&](std::size_t i) { return p.angles(i).deg; });
           },
           "Joint angles [deg]: float64 array (n, axes).")
       .def_property_readonly(

@@ -51,8 +51,7 @@ Block BlockStore::load(std::int64_t id) const {
   block.data.resize(data.size);
   if (data.begin < kMemoryBytes)
     std::copy_n(memory_.begin() + data.begin, data.size, block.data.begin());
-  else if (::pread(
-               fileno(file_.get()), block.data.data(), data.size, data.begin - kMemoryBytes) !=
+  else if (::pread(fileno(file_.get()), block.data.data(), data.size, data.begin - kMemoryBytes) !=
            static_cast<ssize_t>(data.size))
     throw Error("a temporary file can't be read");
   return block;

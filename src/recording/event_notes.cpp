@@ -115,9 +115,9 @@ EventsReport readEventNotes(const fs::path& recording) {
   } catch (const Error& error) {
     throw FormatError(path, error.what());
   }
-  std::stable_sort(report.events.begin(),
-                   report.events.end(),
-                   [](const auto& a, const auto& b) { return a.tUs < b.tUs; });
+  std::stable_sort(report.events.begin(), report.events.end(), [](const auto& a, const auto& b) {
+    return a.tUs < b.tUs;
+  });
   return report;
 }
 

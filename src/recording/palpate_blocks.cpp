@@ -28,8 +28,8 @@ bool allFinite(std::span<const std::byte> bytes, BlockCoding coding) {
   bool finite = true;
   while (finite && in.remaining() > 0) {
     if (coding == BlockCoding::kFloatRuns) in.u8();
-    finite = std::isfinite(coding == BlockCoding::kPlainF64 ? in.f64()
-                                                            : static_cast<double>(in.f32()));
+    finite =
+        std::isfinite(coding == BlockCoding::kPlainF64 ? in.f64() : static_cast<double>(in.f32()));
   }
   return finite && in.ok();
 }
@@ -154,7 +154,8 @@ bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
         break;
     }
     if (size > bytes.size() - at) return false;
-    if (block.coding != BlockCoding::kCountsRuns && !allFinite(bytes.subspan(at, size), block.coding))
+    if (block.coding != BlockCoding::kCountsRuns &&
+        !allFinite(bytes.subspan(at, size), block.coding))
       return false;
     at += size;
   }

@@ -56,7 +56,7 @@ void writePalpate(const Profile& profile,
   if (!profile.info().firmware.empty()) meta["firmware"] = profile.info().firmware;
   meta["hand"] = profile.hand().name;
   PalpateWriterOptions options;
-  options.synced = false;  // nobody sees the file before it is whole and synced
+  options.synced = false;                // nobody sees the file before it is whole and synced
   options.commitIntervalUs = INT64_MAX;  // full blocks
   PalpateWriter writer(temporary.file(), profile.hand().layout, meta, options);
   std::size_t angle = 0;

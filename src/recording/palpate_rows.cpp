@@ -31,7 +31,8 @@ constexpr std::array<std::pair<const char*, const char*>, 6> kTables{{
      "CREATE TABLE event(id INTEGER PRIMARY KEY, t_us INTEGER NOT NULL, t1_us INTEGER NOT NULL,"
      " kind TEXT NOT NULL, matrix INTEGER, text TEXT NOT NULL, json TEXT NOT NULL,"
      " crc32 INTEGER NOT NULL)"},
-    {"counter", "CREATE TABLE counter(name TEXT PRIMARY KEY, value INTEGER NOT NULL) WITHOUT ROWID"},
+    {"counter",
+     "CREATE TABLE counter(name TEXT PRIMARY KEY, value INTEGER NOT NULL) WITHOUT ROWID"},
 }};
 // Made when a recording is finished; may be missing.
 constexpr const char* kOverviewTable =
@@ -182,9 +183,9 @@ SensorLayout readLayout(SqliteDatabase& database) {
     matrix.pitchMm = rows.real(3);
     places += matrix.numPlaces();
     if (places > kMaxPlaces)
-      throw FormatError(path,
-                        "a matrix is too large: more than " + std::to_string(kMaxPlaces) +
-                            " places in all");
+      throw FormatError(
+          path,
+          "a matrix is too large: more than " + std::to_string(kMaxPlaces) + " places in all");
     matrix.staticMask = maskFrom(rows.text(4), matrix.numPlaces(), path);
     matrix.dynamicMask = maskFrom(rows.text(5), matrix.numPlaces(), path);
     if (rows.integer(0) != static_cast<std::int64_t>(matrices.size()) ||
@@ -240,8 +241,8 @@ MetaRows readMeta(SqliteDatabase& database) {
 
 EventsReport readEventRows(SqliteDatabase& database) {
   EventsReport report;
-  SqliteStatement rows = database.prepare(
-      "SELECT id, t_us, t1_us, kind, matrix, text, json, crc32 FROM event");
+  SqliteStatement rows =
+      database.prepare("SELECT id, t_us, t1_us, kind, matrix, text, json, crc32 FROM event");
   while (rows.next()) {
     RecordingEvent event{
         rows.integer(1), rows.integer(2), rows.text(3), {}, rows.text(5), rows.text(6)};
@@ -254,16 +255,16 @@ EventsReport readEventRows(SqliteDatabase& database) {
       ++report.damaged;
   }
   // Sorted here: SQLite would sort in memory without a bound.
-  std::stable_sort(report.events.begin(),
-                   report.events.end(),
-                   [](const auto& a, const auto& b) { return a.tUs < b.tUs; });
+  std::stable_sort(report.events.begin(), report.events.end(), [](const auto& a, const auto& b) {
+    return a.tUs < b.tUs;
+  });
   return report;
 }
 
 std::vector<SecondSummary> readSecondRows(SqliteDatabase& database, std::size_t& damaged) {
   std::vector<SecondSummary> seconds;
-  SqliteStatement rows = database.prepare(
-      "SELECT t_s, matrix, frames, min, max, sum, active_max, crc32 FROM second");
+  SqliteStatement rows =
+      database.prepare("SELECT t_s, matrix, frames, min, max, sum, active_max, crc32 FROM second");
   while (rows.next()) {
     const std::int64_t matrix = rows.integer(1);
     const std::int64_t activeMax = rows.integer(6);

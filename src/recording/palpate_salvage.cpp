@@ -273,8 +273,8 @@ void buildProfile(const fs::path& path,
   for (const BlockPlace& place : storage->places(Stream::kTactile))
     if (found.blocks->load(place.id).coding != BlockCoding::kCountsRuns)
       info.valueType = ValueType::kFloat;
-  HandDescription hand = describeHand(
-      *layout, storage->width(Stream::kAngles), storage->width(Stream::kTemperatures));
+  HandDescription hand =
+      describeHand(*layout, storage->width(Stream::kAngles), storage->width(Stream::kTemperatures));
   salvage.profile.emplace(std::move(info), std::move(hand), std::move(storage));
   if (salvage.whole() && !salvage.beingWritten)
     salvage.damagedRows += damagedSeconds(found, *salvage.profile, salvage.unfinished, progress);

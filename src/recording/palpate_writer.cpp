@@ -265,7 +265,8 @@ void PalpateWriter::finish() {
   impl.commit([&impl] {
     SqliteDatabase& database = impl.database;
     createBlockIndex(database);
-    insertMeta(database, "seconds", std::to_string(writeOverview(database, impl.layout->numMatrices())));
+    insertMeta(
+        database, "seconds", std::to_string(writeOverview(database, impl.layout->numMatrices())));
     insertMeta(database, "frames", std::to_string(impl.tactile.numItems()));
     insertMeta(database, "angle_samples", std::to_string(impl.angles.numItems()));
     insertMeta(database, "temperature_samples", std::to_string(impl.temperatures.numItems()));

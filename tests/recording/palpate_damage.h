@@ -104,7 +104,8 @@ class DamageRun {
     std::set<std::size_t> hit;
     const int flips = seed % 3 == 0 && seed % 2 == 0 ? 0 : 1 + static_cast<int>(random() % 100);
     // The first pages hold what SQLite needs most.
-    const std::size_t range = seed % 5 == 0 ? std::min<std::size_t>(bytes.size(), 8192) : bytes.size();
+    const std::size_t range =
+        seed % 5 == 0 ? std::min<std::size_t>(bytes.size(), 8192) : bytes.size();
     for (int i = 0; i < flips && range > 0; ++i) {
       const std::size_t at = random() % range;
       if (!hit.insert(at).second) continue;

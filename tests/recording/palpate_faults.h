@@ -19,7 +19,9 @@ namespace palpate::testing {
 constexpr std::size_t kRunFrames = 40;
 
 // Every frame is the one that was written under its number; at least `committed` are there.
-inline void expectFrames(const std::filesystem::path& path, std::size_t committed, std::size_t most) {
+inline void expectFrames(const std::filesystem::path& path,
+                         std::size_t committed,
+                         std::size_t most) {
   const Profile profile = openRecording(path);
   EXPECT_GE(profile.numFrames(), committed);
   EXPECT_LE(profile.numFrames(), most);

@@ -52,10 +52,8 @@ TEST(PalpateFiles, aSecondWriterIsToldAndHarmsNothing) {
                  "is being written by another program");
   writeSamples(folder / "other.palpate", 5);
   expectContains(fileErrorOf([&] {
-                   saveRecording(openRecording(folder / "other.palpate"),
-                                 {},
-                                 path,
-                                 Overwrite::kReplace);
+                   saveRecording(
+                       openRecording(folder / "other.palpate"), {}, path, Overwrite::kReplace);
                  }),
                  "is being written by another program");
   addSamples(writer, 10, 20);

@@ -7,9 +7,22 @@ namespace palpate {
 namespace {
 using namespace testing;
 
-TEST(PalpateLong, aThousandKills) {
-  std::mt19937 random(1);
-  for (int round = 0; round < 1000; ++round) killAfter(random() % 30, random());
+// In halves: each stays well below the time a test may take.
+class PalpateLongHalves : public ::testing::TestWithParam<unsigned> {};
+INSTANTIATE_TEST_SUITE_P(Half, PalpateLongHalves, ::testing::Values(0u, 1u));
+
+TEST_P(PalpateLongHalves, aThousandKills) {
+  std::mt19937 random(1 + GetParam());
+  for (int round = 0; round < 500; ++round) killAfter(random() % 30, random());
+}
+
+TEST_P(PalpateLongHalves, tenThousandDamagedFiles) {
+  DamageRun run(400);
+  for (unsigned seed = 0; seed < 5'000; ++seed) run.round(GetParam() * 5'000 + seed);
+  std::printf("%zu files: %zu frames lay in blocks that were not hit, %zu came back\n",
+              run.rounds(),
+              run.framesExpected(),
+              run.framesSaved());
 }
 
 TEST(PalpateLong, aThousandPowerCuts) {
@@ -17,14 +30,6 @@ TEST(PalpateLong, aThousandPowerCuts) {
   for (unsigned round = 0; round < 1000; ++round)
     cutPowerAt(1 + static_cast<std::int64_t>(random() % static_cast<unsigned>(operationsOfRun())),
                10'000 + round);
-}
-
-TEST(PalpateLong, tenThousandDamagedFiles) {
-  DamageRun run(400);
-  for (unsigned seed = 0; seed < 10'000; ++seed) run.round(seed);
-  RecordProperty("frames_expected", static_cast<int>(run.framesExpected()));
-  std::printf("%zu files: %zu frames lay in blocks that were not hit, %zu came back\n",
-              run.rounds(), run.framesExpected(), run.framesSaved());
 }
 
 TEST(PalpateLong, twoHundredKilledRecoveries) {

@@ -23,9 +23,8 @@ using namespace testing;
 
 void expectIndependentlyEqual(const fs::path& file, const std::string& expected) {
   const TemporaryFolder folder;
-  const ProgramResult result =
-      runProgram("/usr/bin/python3",
-                 {PALPATE_INDEPENDENT_READER, file.string(), (folder / "dump").string()});
+  const ProgramResult result = runProgram(
+      "/usr/bin/python3", {PALPATE_INDEPENDENT_READER, file.string(), (folder / "dump").string()});
   ASSERT_EQ(result.exitCode, 0) << file << ": " << result.err;
   EXPECT_TRUE(readFile(folder / "dump") == expected) << file << ": other values";
 }
@@ -150,7 +149,13 @@ TEST(PalpateRecording, eventsSurviveEveryFormThatHasAPlaceForThem) {
   const TemporaryFolder folder;
   writeSamples(folder / "e.palpate", 100);
   const std::vector<RecordingEvent> expected{
-      {kSampleStartUs, kSampleStartUs + 10, "label", 3, "f\xC3\xBC" "r", "{\"a\":1}"},
+      {kSampleStartUs,
+       kSampleStartUs + 10,
+       "label",
+       3,
+       "f\xC3\xBC"
+       "r",
+       "{\"a\":1}"},
       {kSampleStartUs + 5, kSampleStartUs + 5, "note", {}, "two\nlines", ""}};
   const Profile profile = openRecording(folder / "e.palpate");
   EXPECT_EQ(readEvents(folder / "e.palpate").events, expected);

@@ -50,12 +50,20 @@ inline void addSamples(PalpateWriter& writer, std::size_t from, std::size_t to) 
   }
 }
 
-inline void writeSamples(const std::filesystem::path& path, std::size_t frames, bool finish = true) {
+inline void writeSamples(const std::filesystem::path& path,
+                         std::size_t frames,
+                         bool finish = true) {
   PalpateWriterOptions options;
   options.synced = false;
   PalpateWriter writer(path, sdh2().layout, {{"serial", "1D9B0057"}}, options);
   addSamples(writer, 0, frames);
-  writer.addEvent({kSampleStartUs, kSampleStartUs + 10, "label", 3, "f\xC3\xBC" "r", "{\"a\":1}"});
+  writer.addEvent({kSampleStartUs,
+                   kSampleStartUs + 10,
+                   "label",
+                   3,
+                   "f\xC3\xBC"
+                   "r",
+                   "{\"a\":1}"});
   writer.addEvent({kSampleStartUs + 5, kSampleStartUs + 5, "note", {}, "two\nlines", ""});
   writer.setCounter("lost", 4);
   if (finish)

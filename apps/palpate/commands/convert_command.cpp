@@ -52,7 +52,8 @@ int convertCommand(const Words& words) {
   }
   if (!given.quiet()) std::printf("%s: %zu frames\n", out.c_str(), profile.numFrames());
   if (events.damaged == 0) return kDone;
-  std::fprintf(stderr, "palpate: %s: %zu damaged events were left out\n", in.c_str(), events.damaged);
+  std::fprintf(
+      stderr, "palpate: %s: %zu damaged events were left out\n", in.c_str(), events.damaged);
   return kPartlyDone;
 }
 
