@@ -4,14 +4,6 @@
 
 namespace palpate {
 
-std::uint64_t ByteReader::little(std::size_t count) noexcept {
-  const auto bytes = take(count);
-  std::uint64_t value = 0;
-  for (std::size_t i = bytes.size(); i > 0; --i)
-    value = value << 8 | std::to_integer<std::uint64_t>(bytes[i - 1]);
-  return value;
-}
-
 float ByteReader::f32() noexcept { return std::bit_cast<float>(u32()); }
 double ByteReader::f64() noexcept { return std::bit_cast<double>(u64()); }
 

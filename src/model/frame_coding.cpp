@@ -1,5 +1,6 @@
 #include "palpate/model/frame_coding.h"
 
+#include <algorithm>
 #include <bit>
 #include <stdexcept>
 
@@ -67,12 +68,18 @@ void encodeFrame(std::span<const float> values, FrameCoding coding, std::vector<
   out.resize(static_cast<std::size_t>(at - out.data()));
 }
 
-std::size_t decodeFrame(std::span<const std::byte> bytes,
-                        FrameCoding coding,
-                        std::span<float> values) noexcept {
+namespace {
+
+// Calls fill(filled, run, value) for every run until `numValues` values are there. Returns the bytes
+// used; 0 for bytes that are no such frame.
+template <typename Fill>
+std::size_t eachRun(std::span<const std::byte> bytes,
+                    FrameCoding coding,
+                    std::size_t numValues,
+                    Fill fill) noexcept {
   ByteReader in(bytes);
   std::size_t filled = 0;
-  while (filled < values.size()) {
+  while (filled < numValues) {
     std::size_t run = 0;
     float value = 0.0F;
     if (coding == FrameCoding::kCounts) {
@@ -83,11 +90,28 @@ std::size_t decodeFrame(std::span<const std::byte> bytes,
       run = in.u8();
       value = in.f32();
     }
-    if (!in.ok() || run == 0 || run > values.size() - filled) return 0;
-    for (std::size_t i = 0; i < run; ++i) values[filled + i] = value;
+    if (!in.ok() || run == 0 || run > numValues - filled) return 0;
+    fill(filled, run, value);
     filled += run;
   }
   return in.position();
+}
+
+}  // namespace
+
+std::size_t decodeFrame(std::span<const std::byte> bytes,
+                        FrameCoding coding,
+                        std::span<float> values) noexcept {
+  return eachRun(
+      bytes, coding, values.size(), [&](std::size_t filled, std::size_t run, float value) {
+        std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(filled), run, value);
+      });
+}
+
+std::size_t codedFrameBytes(std::span<const std::byte> bytes,
+                            FrameCoding coding,
+                            std::size_t numValues) noexcept {
+  return eachRun(bytes, coding, numValues, [](std::size_t, std::size_t, float) {});
 }
 
 }  // namespace palpate

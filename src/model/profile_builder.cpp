@@ -20,6 +20,7 @@ struct FrameChunk {
   std::vector<std::int64_t> hostUs;
   std::vector<std::uint32_t> begin;  // of each frame in `bytes`
   std::vector<FrameCoding> coding;
+  std::vector<std::optional<std::int64_t>> deviceMs;  // empty: none has one
   std::vector<std::byte> bytes;
 };
 
@@ -67,7 +68,7 @@ class ProfileBuilder::Storage final : public ProfileStorage {
   void readFrame(std::size_t frame, TactileFrame& out) const override {
     const FrameChunk& chunk = chunks_[frame / kFramesPerChunk];
     const std::size_t i = frame % kFramesPerChunk;
-    out.deviceMs.reset();
+    out.deviceMs = i < chunk.deviceMs.size() ? chunk.deviceMs[i] : std::nullopt;
     decodeFrame(std::span(chunk.bytes).subspan(chunk.begin[i]), chunk.coding[i], out.values);
   }
   std::size_t numAngles() const override { return angleSeries.size(); }
@@ -83,7 +84,9 @@ class ProfileBuilder::Storage final : public ProfileStorage {
     return {temperatureSeries.timeUs(sample), temperatureSeries.values(sample)};
   }
 
-  void addFrame(std::int64_t hostUs, std::span<const float> values) {
+  void addFrame(std::int64_t hostUs,
+                std::span<const float> values,
+                std::optional<std::int64_t> deviceMs) {
     if (numFrames_ % kFramesPerChunk == 0) chunks_.emplace_back();
     FrameChunk& chunk = chunks_.back();
     const FrameCoding coding = codingFor(values);
@@ -91,6 +94,9 @@ class ProfileBuilder::Storage final : public ProfileStorage {
     chunk.begin.push_back(static_cast<std::uint32_t>(chunk.bytes.size()));
     encodeFrame(values, coding, chunk.bytes);
     chunk.hostUs.push_back(hostUs);
+    // Many recordings have no device times: they take no memory then.
+    if (deviceMs && chunk.deviceMs.empty()) chunk.deviceMs.resize(chunk.hostUs.size() - 1);
+    if (deviceMs || !chunk.deviceMs.empty()) chunk.deviceMs.push_back(deviceMs);
     chunk.coding.push_back(coding);
     ++numFrames_;
     if (numFrames_ % kFramesPerChunk == 0) chunk.bytes.shrink_to_fit();
@@ -115,7 +121,9 @@ ProfileBuilder::ProfileBuilder(std::shared_ptr<const SensorLayout> layout)
 ProfileBuilder::~ProfileBuilder() = default;
 ProfileBuilder::ProfileBuilder(ProfileBuilder&&) noexcept = default;
 
-void ProfileBuilder::addFrame(std::int64_t hostUs, std::span<const float> values) {
+void ProfileBuilder::addFrame(std::int64_t hostUs,
+                              std::span<const float> values,
+                              std::optional<std::int64_t> deviceMs) {
   if (values.size() != layout_->numPlaces())
     throw std::invalid_argument("frame: expected " + std::to_string(layout_->numPlaces()) +
                                 " values, got " + std::to_string(values.size()));
@@ -124,7 +132,7 @@ void ProfileBuilder::addFrame(std::int64_t hostUs, std::span<const float> values
     throw std::invalid_argument("frame: time must be later than the last frame's");
   if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }))
     throw std::invalid_argument("frame: a value is not a number");
-  storage_->addFrame(hostUs, values);
+  storage_->addFrame(hostUs, values, deviceMs);
 }
 
 void ProfileBuilder::addAngles(std::int64_t hostUs, std::span<const double> deg) {

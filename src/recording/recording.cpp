@@ -1,41 +1,160 @@
 #include "palpate/recording/recording.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <string>
 #include <string_view>
 
 #include "palpate/core/error.h"
 #include "palpate/recording/dsa_reader.h"
+#include "palpate/recording/dsa_salvage.h"
+#include "palpate/recording/dsa_writer.h"
+#include "palpate/recording/palpate_reader.h"
+#include "palpate/recording/palpate_salvage.h"
+#include "palpate/recording/palpate_writer.h"
+#include "palpate/recording/table_export.h"
 
 #include "recording/byte_source.h"
+#include "recording/event_notes.h"
 #include "recording/message_text.h"
+#include "recording/palpate_lock.h"
 
 namespace palpate {
 namespace {
 
 constexpr std::string_view kSqliteStart{"SQLite format 3\0", 16};
-constexpr const char* kNativeMessage =
-    "is a .palpate recording; this version of the program reads .dsa only";
 
-// Throws FileError.
+std::string lowerEnding(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::tolower(letter));
+  });
+  return ending;
+}
+
+// By the first bytes; where these are neither SQLite's nor a .dsa's (damaged), by the name. Throws
+// FileError.
 bool isNative(const std::filesystem::path& path) {
+  // Closing a file that this very process writes would drop SQLite's locks on it.
+  if (RecordingLock::isHeld(path)) return true;
   FileSource source(path);
   std::array<char, kSqliteStart.size()> first{};
-  return source.read(first) == first.size() &&
-         std::string_view(first.data(), first.size()) == kSqliteStart;
+  const std::string_view start(first.data(), source.read(first));
+  if (start == kSqliteStart) return true;
+  return lowerEnding(path) == ".palpate" && !start.starts_with("BZh") && !start.starts_with('<');
+}
+
+std::string countsText(std::size_t frames, std::size_t angles, std::size_t temperatures) {
+  return counted(frames, "frame") + ", " + counted(angles, "angle sample") + ", " +
+         counted(temperatures, "temperature sample");
+}
+
+// What is wrong with a native recording; empty when nothing is.
+std::string damageText(const PalpateSalvage& salvage) {
+  std::string text;
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, what);
+  };
+  add(salvage.lostFrames, "lost frame");
+  add(salvage.lostAngles, "lost angle sample");
+  add(salvage.lostTemperatures, "lost temperature sample");
+  add(salvage.damagedBlocks, "damaged block");
+  add(salvage.blocksFromPages, "block found in the raw pages");
+  add(salvage.damagedRows, "damaged row");
+  if (salvage.layoutLost) text += (text.empty() ? "" : ", ") + std::string("layout lost");
+  if (salvage.layoutAssumed) text += (text.empty() ? "" : ", ") + std::string("layout assumed");
+  if (!salvage.sqliteError.empty())
+    text += (text.empty() ? "" : ", ") + std::string("SQLite gave up");
+  return text;
+}
+
+VerifyReport verifyNative(const std::filesystem::path& path, const Progress& progress) {
+  const PalpateSalvage salvage = salvagePalpate(path, progress);
+  VerifyReport report;
+  report.message = countsText(salvage.frames, salvage.angles, salvage.temperatures);
+  if (salvage.unfinished) report.message += "; unfinished: its writer stopped before the end";
+  if (salvage.beingWritten) report.message += "; still being written";
+  if (salvage.whole()) {
+    report.state = VerifyReport::State::kSound;
+  } else {
+    report.state =
+        salvage.profile ? VerifyReport::State::kDamaged : VerifyReport::State::kUnreadable;
+    report.message = damageText(salvage) + "; readable: " + report.message;
+  }
+  return report;
+}
+
+RecoverReport recoverNative(const std::filesystem::path& in,
+                            const std::filesystem::path& out,
+                            Overwrite overwrite,
+                            const Progress& progress) {
+  const PalpateSalvage salvage = salvagePalpate(in, progress);
+  RecoverReport report;
+  if (!salvage.profile) {
+    report.message = "nothing can be saved: no intact block was found";
+    return report;
+  }
+  saveRecording(*salvage.profile, salvage.events, out, overwrite, progress);
+  report.state = salvage.whole() ? RecoverReport::State::kWhole : RecoverReport::State::kPart;
+  report.message = "saved " + countsText(salvage.frames, salvage.angles, salvage.temperatures);
+  if (!salvage.whole()) report.message += "; " + damageText(salvage);
+  return report;
+}
+
+// Notes beside a damaged .dsa; that they are damaged, too, is no reason to save nothing.
+std::vector<RecordingEvent> readEventsOf(const std::filesystem::path& path, std::string& lost) {
+  try {
+    return readEventNotes(path).events;
+  } catch (const Error& error) {
+    lost = error.what();
+    return {};
+  }
+}
+
+RecoverReport recoverDsa(const std::filesystem::path& in,
+                         const std::filesystem::path& out,
+                         Overwrite overwrite,
+                         const Progress& progress) {
+  const DsaVerifyReport checked = verifyDsa(in, progress);
+  RecoverReport report;
+  std::string lostNotes;
+  const std::vector<RecordingEvent> events = readEventsOf(in, lostNotes);
+  if (checked.state == DsaVerifyReport::State::kSound) {
+    saveRecording(readDsa(in, progress), events, out, overwrite, progress);
+    report.state = RecoverReport::State::kWhole;
+    report.message = "nothing was damaged; saved " +
+                     countsText(checked.frames, checked.angles, checked.temperatures);
+  } else {
+    const DsaSalvage salvage = salvageDsa(in, progress);
+    if (!salvage.profile) {
+      report.message = "nothing can be saved: " + checked.message;
+      return report;
+    }
+    saveRecording(*salvage.profile, events, out, overwrite, progress);
+    report.state = RecoverReport::State::kPart;
+    report.message = "saved " + countsText(salvage.frames, salvage.angles, salvage.temperatures) +
+                     "; lost: the rest (" + std::to_string(salvage.intactBlocks) + " of " +
+                     counted(salvage.blocks, "bzip2 block") + " intact, " +
+                     counted(salvage.cutSamples, "sample") + " cut)";
+  }
+  if (!lostNotes.empty()) {
+    report.state = RecoverReport::State::kPart;
+    report.message += "; its notes are lost (" + lostNotes + ")";
+  }
+  return report;
 }
 
 }  // namespace
 
 Profile openRecording(const std::filesystem::path& path, const Progress& progress) {
-  if (isNative(path)) throw FormatError(path, kNativeMessage);
-  return readDsa(path, progress);
+  return isNative(path) ? readPalpate(path, progress) : readDsa(path, progress);
 }
 
 VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& progress) {
   VerifyReport report;
   try {
-    if (isNative(path)) throw FormatError(path, kNativeMessage);
+    if (isNative(path)) return verifyNative(path, progress);
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {
@@ -47,8 +166,7 @@ VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& 
   switch (dsa.state) {
     case DsaVerifyReport::State::kSound:
       report.state = VerifyReport::State::kSound;
-      report.message = counted(dsa.frames, "frame") + ", " + counted(dsa.angles, "angle sample") +
-                       ", " + counted(dsa.temperatures, "temperature sample");
+      report.message = countsText(dsa.frames, dsa.angles, dsa.temperatures);
       break;
     case DsaVerifyReport::State::kDamaged:
       report.state = VerifyReport::State::kDamaged;
@@ -58,6 +176,57 @@ VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& 
       break;
   }
   return report;
+}
+
+RecordingForm formOf(const std::filesystem::path& path) {
+  const std::string ending = lowerEnding(path);
+  if (ending == ".dsa") return RecordingForm::kDsa;
+  if (ending == ".palpate") return RecordingForm::kPalpate;
+  if (ending == ".csv") return RecordingForm::kCsv;
+  if (ending == ".npz") return RecordingForm::kNpz;
+  throw FileError(path, "its name must end in .dsa, .palpate, .csv or .npz");
+}
+
+EventsReport readEvents(const std::filesystem::path& path) {
+  return isNative(path) ? readPalpateEvents(path) : readEventNotes(path);
+}
+
+void requireOther(const std::filesystem::path& in, const std::filesystem::path& out) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(in, out, ignored))
+    throw FileError(out, "is the input itself; give another name");
+}
+
+void saveRecording(const Profile& profile,
+                   std::span<const RecordingEvent> events,
+                   const std::filesystem::path& path,
+                   Overwrite overwrite,
+                   const Progress& progress) {
+  switch (formOf(path)) {
+    case RecordingForm::kDsa: {
+      // Checked first: a .dsa must not come to notes that were made for another one.
+      const EventNotes notes(path, events, overwrite);
+      writeDsa(profile, path, overwrite, progress);
+      return notes.commit();
+    }
+    case RecordingForm::kPalpate:
+      return writePalpate(profile, events, path, overwrite, progress);
+    case RecordingForm::kCsv:
+      return writeCsv(profile, path, overwrite, progress);
+    case RecordingForm::kNpz:
+      return writeNpz(profile, events, path, overwrite, progress);
+  }
+}
+
+RecoverReport recoverRecording(const std::filesystem::path& in,
+                               const std::filesystem::path& out,
+                               Overwrite overwrite,
+                               const Progress& progress) {
+  formOf(out);  // before the work, not after it
+  requireOther(in, out);
+  requireWritable(out, overwrite);
+  return isNative(in) ? recoverNative(in, out, overwrite, progress)
+                      : recoverDsa(in, out, overwrite, progress);
 }
 
 }  // namespace palpate

@@ -119,8 +119,12 @@ int runCaught(const Words& words) {
 
 const std::vector<Command>& allCommands() {
   static const std::vector<Command> commands = {
+      {"convert",
+       "from one form of a recording to another: .dsa, .palpate, .csv, .npz",
+       &convertCommand},
       {"demo", "a headless tour: reads, reports and draws a recording", &demoCommand},
       {"info", "what is in a recording", &infoCommand},
+      {"recover", "saves what can be saved of a damaged or unfinished recording", &recoverCommand},
       {"render", "a picture of one frame: PNG, SVG or PDF", &renderCommand},
       {"signals", "characteristic signals of each matrix as CSV", &signalsCommand},
       {"synthesize", "makes a synthetic recording with known content", &synthesizeCommand},

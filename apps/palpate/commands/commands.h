@@ -22,8 +22,10 @@ struct Command {
 };
 
 // One function per command, one file per command. They throw; run() turns that into exit codes.
+int convertCommand(const Words& words);
 int demoCommand(const Words& words);
 int infoCommand(const Words& words);
+int recoverCommand(const Words& words);
 int renderCommand(const Words& words);
 int signalsCommand(const Words& words);
 int synthesizeCommand(const Words& words);

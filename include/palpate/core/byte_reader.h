@@ -28,7 +28,18 @@ class ByteReader {
   bool ok() const noexcept { return !failed_; }
 
  private:
-  std::uint64_t little(std::size_t count) noexcept;
+  // Inline: frames are decoded unit by unit.
+  std::uint64_t little(std::size_t count) noexcept {
+    if (failed_ || count > remaining()) {
+      failed_ = true;
+      return 0;
+    }
+    std::uint64_t value = 0;
+    for (std::size_t i = count; i > 0; --i)
+      value = value << 8 | std::to_integer<std::uint64_t>(bytes_[position_ + i - 1]);
+    position_ += count;
+    return value;
+  }
 
   std::span<const std::byte> bytes_;
   std::size_t position_ = 0;

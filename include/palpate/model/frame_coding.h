@@ -23,4 +23,10 @@ std::size_t decodeFrame(std::span<const std::byte> bytes,
                         FrameCoding coding,
                         std::span<float> values) noexcept;
 
+// As decodeFrame(), without the values: how many bytes `numValues` values take; 0 when the bytes are
+// not a frame of that size.
+std::size_t codedFrameBytes(std::span<const std::byte> bytes,
+                            FrameCoding coding,
+                            std::size_t numValues) noexcept;
+
 }  // namespace palpate

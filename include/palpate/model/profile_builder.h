@@ -21,7 +21,9 @@ class ProfileBuilder {
   // Appends. Time [us since 1970] must be later than the previous sample's; the number of values
   // must be the layout's (frames), or that of the first sample (angles, temperatures). Values must
   // be finite. Throws std::invalid_argument saying which.
-  void addFrame(std::int64_t hostUs, std::span<const float> values);
+  void addFrame(std::int64_t hostUs,
+                std::span<const float> values,
+                std::optional<std::int64_t> deviceMs = {});
   void addAngles(std::int64_t hostUs, std::span<const double> deg);
   void addTemperatures(std::int64_t hostUs, std::span<const double> degC);
 

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
+#include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
+#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -20,5 +23,39 @@ struct VerifyReport {
 };
 // Every byte checked. Never throws for a bad file; throws Cancelled.
 VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& progress = {});
+
+// The forms a recording can be saved in.
+enum class RecordingForm { kDsa, kPalpate, kCsv, kNpz };
+// By the ending of a name: .dsa, .palpate, .csv, .npz, in small or capital letters. Throws FileError
+// naming them all.
+RecordingForm formOf(const std::filesystem::path& path);
+
+// What was noted or happened in a recording: the events of a .palpate, the sidecar
+// NAME.dsa.notes.json of a .dsa (none: no events). Throws FileError, FormatError.
+EventsReport readEvents(const std::filesystem::path& path);
+
+// Throws FileError when both name the same file (by a link, too): nothing is written onto its source.
+void requireOther(const std::filesystem::path& in, const std::filesystem::path& out);
+
+// Saves a profile in the form of PATH's ending: whole or not at all. Events go into a .palpate, into
+// the sidecar of a .dsa, into `meta` of an .npz; a .csv has no place for them. Throws FileError,
+// Cancelled.
+void saveRecording(const Profile& profile,
+                   std::span<const RecordingEvent> events,
+                   const std::filesystem::path& path,
+                   Overwrite overwrite = Overwrite::kRefuse,
+                   const Progress& progress = {});
+
+struct RecoverReport {
+  enum class State { kWhole, kPart, kNothing };
+  State state = State::kNothing;
+  std::string message;  // one line: what was saved, what is lost
+};
+// Saves what can be saved of a damaged or unfinished recording; IN is never touched, OUT is not made
+// when there is nothing to save. Throws FileError, FormatError (no recording at all), Cancelled.
+RecoverReport recoverRecording(const std::filesystem::path& in,
+                               const std::filesystem::path& out,
+                               Overwrite overwrite = Overwrite::kRefuse,
+                               const Progress& progress = {});
 
 }  // namespace palpate

@@ -1,0 +1,39 @@
+// palpate recover IN OUT: saves what can be saved.
+#include <cstdio>
+
+#include "palpate/core/error.h"
+#include "palpate/recording/recording.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+
+namespace palpate::commands {
+
+int recoverCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate recover IN OUT",
+       .purpose =
+           "Saves what can be saved of a damaged or unfinished recording; IN is never "
+           "touched. The ending of\nOUT chooses the form (.dsa, .palpate, .csv, .npz). Exit "
+           "code: 0 nothing was lost, 3 something was,\n1 nothing could be saved (then there "
+           "is no OUT).",
+       .options = {{"force", "", "replace OUT"}},
+       .example = "palpate recover broken.dsa saved.palpate",
+       .fewestWords = 2,
+       .mostWords = 2},
+      words);
+  if (given.helpShown()) return kDone;
+  const std::string& in = given.words()[0];
+  const RecoverReport report = [&] {
+    ProgressLine progress("recovering " + in, given.quiet());
+    return recoverRecording(in,
+                            given.words()[1],
+                            given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse,
+                            progress.callback());
+  }();
+  if (report.state == RecoverReport::State::kNothing) throw Error(in + ": " + report.message);
+  if (!given.quiet()) std::printf("%s: %s\n", in.c_str(), report.message.c_str());
+  return report.state == RecoverReport::State::kWhole ? kDone : kPartlyDone;
+}
+
+}  // namespace palpate::commands

@@ -1,0 +1,83 @@
+// Writes a native recording `*.palpate` (docs/palpate_format.md) so that what was committed survives a
+// killed process and a full disk: rollback journal, synchronous=FULL, a commit every 100 ms at most.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+
+#include <palpate/core/output_file.h>
+#include <palpate/core/progress.h>
+#include <palpate/model/hand_description.h>
+#include <palpate/model/hand_state.h>
+#include <palpate/model/profile.h>
+#include <palpate/model/tactile_frame.h>
+#include <palpate/recording/recording_event.h>
+
+namespace palpate {
+
+// Most that waits in memory while commits fail: 30 s of two hands at 300 frames/s are 10 MB.
+constexpr std::size_t kMaxPendingBytes = 64u << 20;
+
+struct PalpateWriterOptions {
+  std::int64_t commitIntervalUs = 100'000;  // host time between commits at most [us]
+  std::string vfs;                          // SQLite file system to use; empty: the default one
+  // synchronous=FULL; off only for conversions, which sync at the end. Then samples are only gathered
+  // into blocks at each interval, and committed in large pieces.
+  bool synced = true;
+};
+
+// One recording being written; not thread-safe (the recorder's thread owns it).
+class PalpateWriter {
+ public:
+  // Creates PATH (never replaces one) and its lock PATH.lock. Throws FileError: exists, locked by
+  // another program, can't be written.
+  PalpateWriter(const std::filesystem::path& path,
+                std::shared_ptr<const SensorLayout> layout,
+                const std::map<std::string, std::string>& meta = {},
+                const PalpateWriterOptions& options = {});
+  // Commits what is there when it can; the file stays an unfinished recording.
+  ~PalpateWriter();
+  PalpateWriter(const PalpateWriter&) = delete;
+  PalpateWriter& operator=(const PalpateWriter&) = delete;
+
+  // Each appends in order of time and commits when the interval has passed since the last commit.
+  // Throw std::invalid_argument (wrong size, not finite, time not later than before): nothing was
+  // added. Throw FileError (the disk is full, ..): what was committed before is safe; what came since,
+  // this call's sample too, is kept in memory, and the next commit that is due tries again. Only when
+  // kMaxPendingBytes wait there does a call refuse its sample: pendingFull() tells.
+  void addFrame(const TactileFrame& frame);
+  void addAngles(const JointAngles& angles);
+  void addTemperatures(const Temperatures& temperatures);
+  void addEvent(const RecordingEvent& event);
+  void setCounter(const std::string& name, std::int64_t value);
+
+  // Throws FileError; what is not on disk then stays in memory for the next commit.
+  void commit();
+  // Writes index and last summaries, syncs, turns the journal off: a finished recording. Throws
+  // FileError; then the recording is still an unfinished one, and finish() can be called again.
+  void finish();
+  // Whether samples are being refused because commits have failed for too long.
+  bool pendingFull() const noexcept;
+
+  std::int64_t framesOnDisk() const noexcept;  // committed
+  std::int64_t bytesOnDisk() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Writes a whole profile as a finished recording: temporary file, synced, renamed. Throws FileError
+// (also when PATH is being written, or a rollback journal of another recording lies beside it),
+// Cancelled.
+void writePalpate(const Profile& profile,
+                  std::span<const RecordingEvent> events,
+                  const std::filesystem::path& path,
+                  Overwrite overwrite = Overwrite::kRefuse,
+                  const Progress& progress = {});
+
+}  // namespace palpate

@@ -1,0 +1,43 @@
+// The per-second summary of a recording: what overview charts are drawn from.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include <palpate/model/tactile_frame.h>
+
+namespace palpate {
+
+// One matrix in one second.
+struct SecondSummary {
+  std::int64_t tS = 0;  // [s since 1970], the second the frames' host time falls into
+  int matrix = 0;
+  std::int64_t frames = 0;
+  double minimum = 0.0;  // smallest value of an active taxel; 0 where none was active
+  double maximum = 0.0;  // largest value
+  double sum = 0.0;      // of all positive values of all frames
+  int activeMax = 0;     // most taxels active (value > 0) at once
+  bool operator==(const SecondSummary&) const = default;
+};
+
+// Adds frames up; hands over a second (one row per matrix) when the next one begins.
+class SecondSummarizer {
+ public:
+  using Sink = std::function<void(const SecondSummary&)>;
+  explicit SecondSummarizer(Sink sink) : sink_(std::move(sink)) {}
+  void add(const TactileFrame& frame);
+  void flush();
+
+ private:
+  Sink sink_;
+  std::vector<SecondSummary> rows_;
+};
+
+// The summary of a native recording without reading its frames: ordered by time, then matrix; seconds
+// without a frame are not there. Of an unfinished recording the last second is missing. Rows with a
+// wrong checksum are left out. Throws FileError, FormatError.
+std::vector<SecondSummary> readSeconds(const std::filesystem::path& path);
+
+}  // namespace palpate

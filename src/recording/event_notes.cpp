@@ -1,0 +1,147 @@
+#include "recording/event_notes.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kFormat = "palpate notes";
+constexpr std::int64_t kVersion = 1;
+constexpr std::uintmax_t kLargestSidecar = 64u << 20;
+
+RecordingEvent eventFrom(const Json& json) {
+  RecordingEvent event;
+  event.tUs = json.at("t_us").asInteger();
+  event.t1Us = json.at("t1_us").asInteger();
+  event.kind = json.at("kind").asString();
+  if (!json.at("matrix").isNull()) {
+    const std::int64_t matrix = json.at("matrix").asInteger();
+    if (matrix < INT32_MIN || matrix > INT32_MAX) throw Error("matrix is out of range");
+    event.matrix = static_cast<int>(matrix);
+  }
+  event.text = json.at("text").asString();
+  event.json = json.at("json").asString();
+  if (event.kind.size() + event.text.size() + event.json.size() > kMaxEventBytes)
+    throw Error("an event is too long");
+  return event;
+}
+
+// Code point of the UTF-8 sequence at `at`, which moves behind it. The text is valid UTF-8.
+std::uint32_t codePoint(const std::string& text, std::size_t& at) {
+  const auto lead = static_cast<unsigned char>(text[at++]);
+  const int more = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
+  std::uint32_t point = lead & (0x3Fu >> more);
+  for (int i = 0; i < more && at < text.size(); ++i)
+    point = point << 6 | (static_cast<unsigned char>(text[at++]) & 0x3F);
+  return point;
+}
+
+void appendEscape(std::string& out, std::uint32_t unit) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  out += "\\u";
+  for (int shift = 12; shift >= 0; shift -= 4) out += kDigits[unit >> shift & 0xF];
+}
+
+}  // namespace
+
+fs::path notesPathOf(const fs::path& recording) {
+  fs::path path = recording;
+  path += ".notes.json";
+  return path;
+}
+
+Json eventsToJson(std::span<const RecordingEvent> events) {
+  Json list = Json::array();
+  for (const RecordingEvent& event : events)
+    list.push(Json::object()
+                  .set("t_us", event.tUs)
+                  .set("t1_us", event.t1Us)
+                  .set("kind", event.kind)
+                  .set("matrix", event.matrix ? Json(*event.matrix) : Json())
+                  .set("text", event.text)
+                  .set("json", event.json));
+  return list;
+}
+
+std::string asciiJson(const std::string& json) {
+  std::string out;
+  for (std::size_t at = 0; at < json.size();) {
+    if (static_cast<unsigned char>(json[at]) < 0x80) {
+      out += json[at++];
+      continue;
+    }
+    const std::uint32_t point = codePoint(json, at);
+    if (point >= 0x10000) {
+      appendEscape(out, 0xD800 + ((point - 0x10000) >> 10));
+      appendEscape(out, 0xDC00 + ((point - 0x10000) & 0x3FF));
+    } else {
+      appendEscape(out, point);
+    }
+  }
+  return out;
+}
+
+EventsReport readEventNotes(const fs::path& recording) {
+  const fs::path path = notesPathOf(recording);
+  std::error_code failure;
+  EventsReport report;
+  if (!fs::exists(path, failure)) return report;
+  const std::uintmax_t size = fs::file_size(path, failure);
+  if (failure || size > kLargestSidecar) throw FileError(path, "is no file of notes");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FileError(path, "can't be opened for reading");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  try {
+    const Json json = Json::parse(text);
+    if (!json.isObject() || json.at("format").asString() != kFormat)
+      throw Error("is no file of notes");
+    if (json.at("version").asInteger() != kVersion)
+      throw Error("has version " + std::to_string(json.at("version").asInteger()) +
+                  " of the format; this program reads version " + std::to_string(kVersion));
+    const Json events = json.at("events");
+    if (!events.isArray()) throw Error("has no list of events");
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      try {
+        report.events.push_back(eventFrom(events.at(i)));
+      } catch (const Error&) {
+        ++report.damaged;
+      }
+    }
+  } catch (const Error& error) {
+    throw FormatError(path, error.what());
+  }
+  std::stable_sort(report.events.begin(), report.events.end(), [](const auto& a, const auto& b) {
+    return a.tUs < b.tUs;
+  });
+  return report;
+}
+
+EventNotes::EventNotes(const fs::path& recording,
+                       std::span<const RecordingEvent> events,
+                       Overwrite overwrite)
+    : path_(notesPathOf(recording)) {
+  requireWritable(recording, overwrite);
+  requireWritable(path_, overwrite);
+  if (events.empty()) return;
+  file_ = std::make_unique<OutputFile>(path_, overwrite);
+  file_->write(Json::object()
+                   .set("format", kFormat)
+                   .set("version", kVersion)
+                   .set("events", eventsToJson(events))
+                   .text());
+  file_->write("\n");
+}
+
+void EventNotes::commit() const {
+  if (file_) return file_->commit();
+  std::error_code failure;
+  fs::remove(path_, failure);
+  if (failure) throw FileError(path_, "can't be removed: " + failure.message());
+}
+
+}  // namespace palpate

@@ -1,0 +1,186 @@
+// writeNpz(): arrays for NumPy.
+#include <bit>
+
+#include "palpate/core/error.h"
+#include "palpate/core/json.h"
+#include "palpate/recording/table_export.h"
+
+#include "recording/event_notes.h"
+#include "recording/zip_writer.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::int64_t kUsPerMs = 1000;
+constexpr std::size_t kPieceBytes = 1u << 16;
+
+// The head of a .npy file, format 1.0 (numpy.lib.format): magic, version, length, a Python literal.
+std::string npyHead(const std::string& type, const std::vector<std::size_t>& shape) {
+  constexpr std::size_t kAlignment = 64;
+  std::string dimensions;
+  for (std::size_t size : shape) dimensions += std::to_string(size) + ", ";
+  std::string literal =
+      "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + dimensions + "), }";
+  const std::size_t before = 10;  // magic, version, length
+  while ((before + literal.size() + 1) % kAlignment != 0) literal += ' ';
+  literal += '\n';
+  std::string head = "\x93NUMPY";
+  head += '\x01';
+  head += '\0';
+  head += static_cast<char>(literal.size() & 0xFF);
+  head += static_cast<char>(literal.size() >> 8);
+  return head + literal;
+}
+
+// One array, filled number by number in little-endian form.
+class NpyArray {
+ public:
+  NpyArray(ZipWriter& zip,
+           const std::string& name,
+           const std::string& type,
+           std::size_t bytesPerNumber,
+           const std::vector<std::size_t>& shape)
+      : zip_(zip) {
+    std::uint64_t numbers = 1;
+    for (std::size_t size : shape) numbers *= size;
+    const std::string head = npyHead(type, shape);
+    zip_.begin(name + ".npy", head.size() + numbers * bytesPerNumber);
+    zip_.write(head);
+  }
+  void u8(std::uint64_t value) { put(value, 1); }
+  void u16(std::uint64_t value) { put(value, 2); }
+  void i64(std::int64_t value) { put(static_cast<std::uint64_t>(value), 8); }
+  void f32(float value) { put(std::bit_cast<std::uint32_t>(value), 4); }
+  void f64(double value) { put(std::bit_cast<std::uint64_t>(value), 8); }
+  void end() {
+    flush();
+    zip_.end();
+  }
+
+ private:
+  void put(std::uint64_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i) buffer_ += static_cast<char>(value >> 8 * i & 0xFF);
+    if (buffer_.size() >= kPieceBytes) flush();
+  }
+  void flush() {
+    zip_.write(buffer_);
+    buffer_.clear();
+  }
+
+  ZipWriter& zip_;
+  std::string buffer_;
+};
+
+template <typename TimeOf>
+void writeTimes(ZipWriter& zip, const std::string& name, std::size_t count, TimeOf timeOf) {
+  NpyArray array(zip, name, "<i8", 8, {count});
+  for (std::size_t i = 0; i < count; ++i) array.i64(timeOf(i) / kUsPerMs);
+  array.end();
+}
+
+template <typename ValuesOf>
+void writeSamples(ZipWriter& zip,
+                  const std::string& name,
+                  std::size_t count,
+                  std::size_t width,
+                  ValuesOf valuesOf) {
+  NpyArray array(zip, name, "<f8", 8, {count, width});
+  for (std::size_t i = 0; i < count; ++i)
+    for (double value : valuesOf(i)) array.f64(value);
+  array.end();
+}
+
+void writeMatrix(ZipWriter& zip, const Profile& profile, std::size_t m, const Progress& progress) {
+  constexpr std::size_t kFramesPerReport = 1024;
+  const MatrixLayout& layout = profile.layout().matrix(m);
+  const bool counts = profile.info().valueType == ValueType::kCounts;
+  NpyArray array(zip,
+                 "m" + std::to_string(m),
+                 counts ? "<u2" : "<f4",
+                 counts ? 2 : 4,
+                 {profile.numFrames(),
+                  static_cast<std::size_t>(layout.rows),
+                  static_cast<std::size_t>(layout.columns)});
+  TactileFrame frame;
+  const double numMatrices = static_cast<double>(profile.layout().numMatrices());
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    const double within = static_cast<double>(i) / static_cast<double>(profile.numFrames());
+    if (progress && i % kFramesPerReport == 0 &&
+        !progress((static_cast<double>(m) + within) / numMatrices))
+      throw Cancelled();
+    profile.readFrame(i, frame);
+    const auto values = frame.matrix(m);
+    for (Eigen::Index k = 0; k < values.size(); ++k) {
+      if (counts)
+        array.u16(static_cast<std::uint64_t>(values.data()[k]));
+      else
+        array.f32(values.data()[k]);
+    }
+  }
+  array.end();
+}
+
+// A text as a NumPy array of no dimension: UTF-32 code points, so that no pickle is needed.
+void writeText(ZipWriter& zip, const std::string& name, const std::string& ascii) {
+  NpyArray array(zip, name, "<U" + std::to_string(ascii.size()), 4 * ascii.size(), {});
+  for (unsigned char c : ascii) {
+    array.u8(c);
+    for (int i = 0; i < 3; ++i) array.u8(0);
+  }
+  array.end();
+}
+
+std::string metaText(const Profile& profile, std::span<const RecordingEvent> events) {
+  Json pitches = Json::array();
+  for (const MatrixLayout& matrix : profile.layout().matrices()) pitches.push(matrix.pitchMm);
+  Json meta = Json::object();
+  meta.set("format", "palpate npz 1")
+      .set("hand", profile.hand().name)
+      .set("serial", profile.info().serial)
+      .set("firmware", profile.info().firmware)
+      .set("value_type", profile.info().valueType == ValueType::kCounts ? "counts" : "float")
+      .set("pitch_mm", pitches)
+      .set("events", eventsToJson(events));
+  return asciiJson(meta.text(-1));
+}
+
+}  // namespace
+
+void writeNpz(const Profile& profile,
+              std::span<const RecordingEvent> events,
+              const fs::path& path,
+              Overwrite overwrite,
+              const Progress& progress) {
+  OutputFile out(path, overwrite);
+  ZipWriter zip(out);
+  writeTimes(
+      zip, "time_ms", profile.numFrames(), [&](std::size_t i) { return profile.frameTimeUs(i); });
+  for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m)
+    writeMatrix(zip, profile, m, progress);
+  const std::size_t axes = profile.numAngles() > 0 ? profile.angles(0).deg.size() : 0;
+  writeSamples(zip, "angles", profile.numAngles(), axes, [&](std::size_t i) {
+    return profile.angles(i).deg;
+  });
+  writeTimes(zip, "angle_time_ms", profile.numAngles(), [&](std::size_t i) {
+    return profile.angleTimeUs(i);
+  });
+  const std::size_t sensors =
+      profile.numTemperatures() > 0 ? profile.temperatures(0).degC.size() : 0;
+  writeSamples(zip, "temperatures", profile.numTemperatures(), sensors, [&](std::size_t i) {
+    return profile.temperatures(i).degC;
+  });
+  writeTimes(zip, "temperature_time_ms", profile.numTemperatures(), [&](std::size_t i) {
+    return profile.temperatureTimeUs(i);
+  });
+  NpyArray mask(zip, "static_mask", "|u1", 1, {profile.layout().numPlaces()});
+  for (const MatrixLayout& matrix : profile.layout().matrices())
+    for (auto on : matrix.staticMask) mask.u8(on);
+  mask.end();
+
+  writeText(zip, "meta", metaText(profile, events));
+  zip.finish();
+  out.commit();
+}
+
+}  // namespace palpate

@@ -1,0 +1,183 @@
+#include "palpate/recording/palpate_blocks.h"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "palpate/core/byte_reader.h"
+#include "palpate/model/frame_coding.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kNoDeviceTime = std::numeric_limits<std::int64_t>::min();
+constexpr std::size_t kItemHeadBytes = 4 + 8;
+constexpr std::int64_t kLargestOffsetUs = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t kLongestItem = kItemHeadBytes + 8 * kMaxPlaces;
+constexpr std::int64_t kMostItems = kMaxBlockBytes / kItemHeadBytes;
+constexpr std::int64_t kLatestUs = std::int64_t{1} << 60;  // the year 38505
+
+void putLittle(std::vector<std::byte>& out, std::uint64_t value, int bytes) {
+  for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> 8 * i & 0xFF));
+}
+
+bool exactAsFloat(double value) { return static_cast<double>(static_cast<float>(value)) == value; }
+
+bool allFinite(std::span<const std::byte> bytes, BlockCoding coding) {
+  ByteReader in(bytes);
+  bool finite = true;
+  while (finite && in.remaining() > 0) {
+    if (coding == BlockCoding::kFloatRuns) in.u8();
+    finite =
+        std::isfinite(coding == BlockCoding::kPlainF64 ? in.f64() : static_cast<double>(in.f32()));
+  }
+  return finite && in.ok();
+}
+
+FrameCoding frameCoding(BlockCoding coding) {
+  return coding == BlockCoding::kCountsRuns ? FrameCoding::kCounts : FrameCoding::kFloats;
+}
+
+}  // namespace
+
+BlockPacker::BlockPacker(Stream stream, Sink sink) : stream_(stream), sink_(std::move(sink)) {}
+
+void BlockPacker::addFrame(std::int64_t hostUs,
+                           std::optional<std::int64_t> deviceMs,
+                           std::span<const float> values) {
+  const FrameCoding coding = codingFor(values);
+  item_.clear();
+  encodeFrame(values, coding, item_);
+  // Values that don't repeat are shorter as they are than as runs of one.
+  if (coding == FrameCoding::kFloats && item_.size() > 4 * values.size()) {
+    item_.clear();
+    for (float value : values) putLittle(item_, std::bit_cast<std::uint32_t>(value), 4);
+    add(hostUs, deviceMs, BlockCoding::kPlainF32);
+  } else {
+    add(hostUs,
+        deviceMs,
+        coding == FrameCoding::kCounts ? BlockCoding::kCountsRuns : BlockCoding::kFloatRuns);
+  }
+}
+
+void BlockPacker::addSample(std::int64_t hostUs, std::span<const double> values) {
+  bool single = true;
+  for (double value : values) single = single && exactAsFloat(value);
+  item_.clear();
+  for (double value : values) {
+    if (single)
+      putLittle(item_, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
+    else
+      putLittle(item_, std::bit_cast<std::uint64_t>(value), 8);
+  }
+  add(hostUs, std::nullopt, single ? BlockCoding::kPlainF32 : BlockCoding::kPlainF64);
+}
+
+void BlockPacker::add(std::int64_t hostUs,
+                      std::optional<std::int64_t> deviceMs,
+                      BlockCoding coding) {
+  const bool fits = block_.data.size() + kItemHeadBytes + item_.size() <= kMaxBlockBytes;
+  if (block_.n > 0 && (!fits || coding != block_.coding || hostUs - block_.t0Us > kLargestOffsetUs))
+    flush();
+  if (block_.n == 0) {
+    block_.stream = stream_;
+    block_.first = numItems_;
+    block_.t0Us = hostUs;
+    block_.coding = coding;
+  }
+  putLittle(block_.data, static_cast<std::uint64_t>(hostUs - block_.t0Us), 4);
+  putLittle(block_.data, static_cast<std::uint64_t>(deviceMs.value_or(kNoDeviceTime)), 8);
+  block_.data.insert(block_.data.end(), item_.begin(), item_.end());
+  block_.t1Us = hostUs;
+  ++block_.n;
+  ++numItems_;
+}
+
+void BlockPacker::flush() {
+  if (block_.n == 0) return;
+  sink_(block_);
+  block_.n = 0;
+  block_.data.clear();
+}
+
+bool plausible(const Block& block) noexcept {
+  return static_cast<int>(block.stream) <= 2 && static_cast<int>(block.coding) <= 3 &&
+         block.first >= 0 && block.first <= std::numeric_limits<std::int64_t>::max() - kMostItems &&
+         block.n >= 1 && block.n <= kMostItems && block.t0Us >= -kLatestUs &&
+         block.t1Us <= kLatestUs && block.t1Us >= block.t0Us &&
+         static_cast<std::size_t>(block.n) * kItemHeadBytes < block.data.size() &&
+         block.data.size() <= (block.n == 1 ? kLongestItem : kMaxBlockBytes);
+}
+
+std::size_t sampleWidth(const Block& block) noexcept {
+  if (!plausible(block)) return 0;
+  const std::size_t perItem = block.data.size() / static_cast<std::size_t>(block.n);
+  const std::size_t each = block.coding == BlockCoding::kPlainF64 ? 8 : 4;
+  const std::size_t width = (perItem - kItemHeadBytes) / each;
+  return width <= kMaxSampleValues ? width : 0;
+}
+
+bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
+  index.hostUs.clear();
+  index.deviceMs.clear();
+  index.begin.clear();
+  if (!plausible(block)) return false;
+  const std::span<const std::byte> bytes(block.data);
+  const auto count = static_cast<std::size_t>(block.n);
+  index.hostUs.reserve(count);
+  index.deviceMs.reserve(count);
+  index.begin.reserve(count);
+  std::size_t at = 0;
+  for (std::int64_t i = 0; i < block.n; ++i) {
+    ByteReader head(bytes.subspan(at));
+    const std::int64_t hostUs = block.t0Us + static_cast<std::int64_t>(head.u32());
+    const std::int64_t device = head.i64();
+    if (!head.ok()) return false;
+    if (!index.hostUs.empty() && hostUs <= index.hostUs.back()) return false;
+    at += kItemHeadBytes;
+    index.hostUs.push_back(hostUs);
+    index.deviceMs.push_back(device == kNoDeviceTime ? std::nullopt : std::optional(device));
+    index.begin.push_back(static_cast<std::uint32_t>(at));
+    std::size_t size = 0;
+    switch (block.coding) {
+      case BlockCoding::kCountsRuns:
+      case BlockCoding::kFloatRuns:
+        if (block.stream != Stream::kTactile) return false;
+        size = codedFrameBytes(bytes.subspan(at), frameCoding(block.coding), numValues);
+        if (size == 0) return false;
+        break;
+      case BlockCoding::kPlainF32:
+        size = 4 * numValues;
+        break;
+      case BlockCoding::kPlainF64:
+        size = 8 * numValues;
+        break;
+    }
+    if (size > bytes.size() - at) return false;
+    if (block.coding != BlockCoding::kCountsRuns &&
+        !allFinite(bytes.subspan(at, size), block.coding))
+      return false;
+    at += size;
+  }
+  return at == bytes.size() && index.hostUs.front() == block.t0Us &&
+         index.hostUs.back() == block.t1Us;
+}
+
+void readFrameValues(const Block& block, std::uint32_t begin, std::span<float> values) {
+  const auto bytes = std::span(block.data).subspan(begin);
+  if (block.coding == BlockCoding::kCountsRuns || block.coding == BlockCoding::kFloatRuns) {
+    decodeFrame(bytes, frameCoding(block.coding), values);
+    return;
+  }
+  ByteReader in(bytes);
+  const bool wide = block.coding == BlockCoding::kPlainF64;
+  for (float& value : values) value = wide ? static_cast<float>(in.f64()) : in.f32();
+}
+
+void readSampleValues(const Block& block, std::uint32_t begin, std::span<double> values) {
+  ByteReader in(std::span(block.data).subspan(begin));
+  const bool wide = block.coding == BlockCoding::kPlainF64;
+  for (double& value : values) value = wide ? in.f64() : static_cast<double>(in.f32());
+}
+
+}  // namespace palpate

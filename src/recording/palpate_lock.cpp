@@ -1,0 +1,88 @@
+#include "recording/palpate_lock.h"
+
+#include <cerrno>
+#include <ctime>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+fs::path withEnding(const fs::path& path, const char* ending) {
+  fs::path other = path;
+  other += ending;
+  return other;
+}
+
+}  // namespace
+
+fs::path lockPathOf(const fs::path& recording) { return withEnding(recording, ".lock"); }
+fs::path journalPathOf(const fs::path& recording) { return withEnding(recording, "-journal"); }
+
+void refuseForeignJournal(const fs::path& recording) {
+  std::error_code failure;
+  const fs::path journal = journalPathOf(recording);
+  const std::uintmax_t size = fs::file_size(journal, failure);
+  if (!failure && size > 0)
+    throw FileError(journal,
+                    "belongs to an unfinished recording of that name; move both together, or give "
+                    "another name");
+}
+
+RecordingLock::RecordingLock(const fs::path& recording) : path_(lockPathOf(recording)) {
+  for (;;) {
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0)
+      throw FileError(recording,
+                      "can't be written: " + std::generic_category().message(errno) +
+                          " (its lock file " + path_.filename().string() + ")");
+    int attempt = 0;
+    while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+      const int reason = errno;
+      // isHeld() holds it for an instant; a writer holds it for long.
+      constexpr int kAttempts = 20;
+      if (reason == EWOULDBLOCK && ++attempt < kAttempts) {
+        const timespec pause{0, 1'000'000};
+        ::nanosleep(&pause, nullptr);
+        continue;
+      }
+      ::close(descriptor_);
+      descriptor_ = -1;
+      throw FileError(recording,
+                      reason == EWOULDBLOCK
+                          ? "is being written by another program"
+                          : "can't be locked: " + std::generic_category().message(reason));
+    }
+    // The former holder may have removed the file between our open and our flock: then we hold the
+    // lock of a file that nobody else sees.
+    struct stat mine {};
+    struct stat named {};
+    if (::fstat(descriptor_, &mine) == 0 && ::stat(path_.c_str(), &named) == 0 &&
+        mine.st_ino == named.st_ino && mine.st_dev == named.st_dev)
+      return;
+    ::close(descriptor_);
+  }
+}
+
+RecordingLock::~RecordingLock() {
+  if (descriptor_ < 0) return;
+  ::unlink(path_.c_str());
+  ::close(descriptor_);
+}
+
+bool RecordingLock::isHeld(const fs::path& recording) {
+  const int descriptor = ::open(lockPathOf(recording).c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return held;
+}
+
+}  // namespace palpate

@@ -1,0 +1,144 @@
+#include "palpate/recording/palpate_reader.h"
+
+#include <algorithm>
+
+#include "palpate/core/error.h"
+#include "palpate/recording/palpate_schema.h"
+
+#include "recording/palpate_access.h"
+#include "recording/palpate_rows.h"
+#include "recording/palpate_storage.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+// A native recording, open.
+class PalpateStorage final : public BlockStorage {
+ public:
+  PalpateStorage(const fs::path& path, const Progress& progress)
+      : BlockStorage(path, [this](std::int64_t id) { return load(id); }),
+        path_(path),
+        access_(path),
+        layout_(readLayout(access_.database())),
+        readBlock_(access_.database().prepare(
+            "SELECT stream, first, n, t0_us, t1_us, coding, crc32, data FROM block WHERE id=?")) {
+    if (access_.beingWritten())
+      indexGrowing(progress);
+    else
+      indexBlocks(progress);
+    setWidth(Stream::kTactile, layout_.numPlaces());
+    for (Stream stream : {Stream::kAngles, Stream::kTemperatures}) {
+      if (places(stream).empty()) continue;
+      setWidth(stream, sampleWidth(load(places(stream).front().id)));
+      if (width(stream) == 0) throwMissing();
+    }
+  }
+
+  const SensorLayout& layout() const { return layout_; }
+  PalpateAccess& access() { return access_; }
+
+ private:
+  [[noreturn]] void throwMissing() const {
+    throw FormatError(path_, "blocks are missing or damaged; 'palpate recover' saves the others");
+  }
+
+  void addRow(const SqliteStatement& row) {
+    const std::int64_t stream = row.integer(0);
+    const BlockPlace place{
+        row.integer(1), row.integer(2), row.integer(3), row.integer(4), row.integer(5)};
+    if (stream < 0 || stream > 2 || !add(static_cast<Stream>(stream), place)) throwMissing();
+  }
+
+  void indexBlocks(const Progress& progress) {
+    constexpr std::size_t kRowsPerReport = 65536;
+    // An unfinished recording has no index over its blocks, but they lie in order.
+    SqliteStatement rows = access_.database().prepare(
+        access_.unfinished()
+            ? "SELECT stream, first, n, t0_us, t1_us, id FROM block NOT INDEXED ORDER BY id"
+            : "SELECT stream, first, n, t0_us, t1_us, id FROM block ORDER BY stream, first");
+    std::size_t numRows = 0;
+    while (rows.next()) {
+      if (progress && ++numRows % kRowsPerReport == 0 && !progress(0.5)) throw Cancelled();
+      addRow(rows);
+    }
+  }
+
+  // While it is being written: in short transactions, up to what is there now.
+  void indexGrowing(const Progress& progress) {
+    SqliteDatabase& database = access_.database();
+    const std::int64_t lastId = database.integerOf("SELECT max(id) FROM block");
+    SqliteStatement rows = database.prepare(
+        "SELECT stream, first, n, t0_us, t1_us, id FROM block NOT INDEXED WHERE id>? AND id<=?"
+        " ORDER BY id LIMIT 4096");
+    for (std::int64_t id = 0; id < lastId;) {
+      if (progress && !progress(static_cast<double>(id) / static_cast<double>(lastId)))
+        throw Cancelled();
+      const std::int64_t before = id;
+      rows.bind(1, id).bind(2, lastId);
+      while (rows.next()) {
+        addRow(rows);
+        id = rows.integer(5);
+      }
+      if (id <= before) break;
+    }
+  }
+
+  // Reads a block and checks its CRC.
+  Block load(std::int64_t id) {
+    readBlock_.bind(1, id);
+    if (!readBlock_.next()) throw FormatError(path_, "block " + std::to_string(id) + " is gone");
+    const std::int64_t crc = readBlock_.integer(6);
+    Block block = blockFrom(readBlock_, 0, 7);
+    readBlock_.reset();
+    if (crc != static_cast<std::int64_t>(blockCrc(block)) || !plausible(block))
+      throw FormatError(
+          path_,
+          "block " + std::to_string(id) +
+              " is damaged (its checksum is wrong); 'palpate recover' saves the others");
+    return block;
+  }
+
+  fs::path path_;
+  PalpateAccess access_;
+  SensorLayout layout_;
+  SqliteStatement readBlock_;
+};
+
+// A finished recording says it; of others every block must be looked at.
+ValueType valueTypeOf(PalpateAccess& access) {
+  std::string text = access.meta()["value_type"];
+  if (text.empty())
+    text = access.database().integerOf(
+               "SELECT EXISTS(SELECT 1 FROM block WHERE stream=0 AND coding<>0)")
+               ? "float"
+               : "counts";
+  return text == "float" ? ValueType::kFloat : ValueType::kCounts;
+}
+
+}  // namespace
+
+Profile readPalpate(const fs::path& path, const Progress& progress) {
+  auto storage = std::make_shared<PalpateStorage>(path, progress);
+  PalpateAccess& access = storage->access();
+  ProfileInfo info;
+  info.format = "palpate";
+  info.serial = access.meta()["serial"];
+  info.firmware = access.meta()["firmware"];
+  info.valueType = valueTypeOf(access);
+  access.database().unlimitWork();
+  if (access.unfinished())
+    info.warnings.emplace_back("unfinished: its writer stopped before the end");
+  if (access.beingWritten())
+    info.warnings.emplace_back("still being written: shown as far as it was when opened");
+  HandDescription hand = describeHand(
+      storage->layout(), storage->width(Stream::kAngles), storage->width(Stream::kTemperatures));
+  return {std::move(info), std::move(hand), std::move(storage)};
+}
+
+EventsReport readPalpateEvents(const fs::path& path) {
+  PalpateAccess access(path);
+  return readEventRows(access.database());
+}
+
+}  // namespace palpate

@@ -1,0 +1,342 @@
+#include "recording/palpate_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+// The tables as they are made; a file whose tables are others is not read.
+constexpr std::array<std::pair<const char*, const char*>, 6> kTables{{
+    {"meta",
+     "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL, crc32 INTEGER NOT NULL)"
+     " WITHOUT ROWID"},
+    {"matrix",
+     "CREATE TABLE matrix(idx INTEGER PRIMARY KEY, rows INTEGER NOT NULL, columns INTEGER NOT NULL,"
+     " pitch_mm REAL NOT NULL, static_mask TEXT NOT NULL, dynamic_mask TEXT NOT NULL,"
+     " uid TEXT NOT NULL, crc32 INTEGER NOT NULL)"},
+    {"block",
+     "CREATE TABLE block(id INTEGER PRIMARY KEY, stream INTEGER NOT NULL, first INTEGER NOT NULL,"
+     " n INTEGER NOT NULL, t0_us INTEGER NOT NULL, t1_us INTEGER NOT NULL,"
+     " coding INTEGER NOT NULL, crc32 INTEGER NOT NULL, data BLOB NOT NULL)"},
+    {"second",
+     "CREATE TABLE second(t_s INTEGER NOT NULL, matrix INTEGER NOT NULL, frames INTEGER NOT NULL,"
+     " min REAL NOT NULL, max REAL NOT NULL, sum REAL NOT NULL, active_max INTEGER NOT NULL,"
+     " crc32 INTEGER NOT NULL)"},
+    {"event",
+     "CREATE TABLE event(id INTEGER PRIMARY KEY, t_us INTEGER NOT NULL, t1_us INTEGER NOT NULL,"
+     " kind TEXT NOT NULL, matrix INTEGER, text TEXT NOT NULL, json TEXT NOT NULL,"
+     " crc32 INTEGER NOT NULL)"},
+    {"counter",
+     "CREATE TABLE counter(name TEXT PRIMARY KEY, value INTEGER NOT NULL) WITHOUT ROWID"},
+}};
+// Made when a recording is finished; may be missing.
+constexpr const char* kOverviewTable =
+    "CREATE TABLE overview(id INTEGER PRIMARY KEY, n INTEGER NOT NULL, crc32 INTEGER NOT NULL,"
+    " data BLOB NOT NULL)";
+constexpr const char* kBlockIndex =
+    "CREATE INDEX block_at ON block(stream, first, n, t0_us, t1_us)";
+
+// SQL without what doesn't matter: blanks, and small letters.
+std::string normalized(std::string_view sql) {
+  std::string text;
+  for (char letter : sql)
+    if (letter != ' ' && letter != '\n' && letter != '\t' && letter != '\r')
+      text += letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+  return text;
+}
+
+Mask maskFrom(const std::string& text, std::size_t places, const std::filesystem::path& path) {
+  if (text.size() != places) throw FormatError(path, "a mask has the wrong size");
+  Mask mask;
+  mask.reserve(places);
+  for (char c : text) mask.push_back(c == '1');
+  return mask;
+}
+
+}  // namespace
+
+void createTables(SqliteDatabase& database) {
+  for (const auto& [name, sql] : kTables) database.execute(sql);
+}
+
+void createBlockIndex(SqliteDatabase& database) {
+  database.execute("DROP INDEX IF EXISTS block_at");
+  database.execute(kBlockIndex);
+}
+
+void createOverview(SqliteDatabase& database) {
+  database.execute("DROP TABLE IF EXISTS overview");
+  database.execute(kOverviewTable);
+}
+
+void checkTables(SqliteDatabase& database) {
+  std::size_t found = 0;
+  SqliteStatement rows = database.prepare("SELECT type, name, rootpage, sql FROM sqlite_schema");
+  while (rows.next()) {
+    const std::string type = rows.text(0);
+    const std::string name = rows.text(1);
+    const auto known = std::find_if(
+        kTables.begin(), kTables.end(), [&](const auto& table) { return name == table.first; });
+    const bool isTable = type == "table" && rows.integer(2) > 0;
+    const bool isIndex = type == "index";
+    if (name == "overview") {
+      if (!isTable || normalized(rows.text(3)) != normalized(kOverviewTable))
+        throw FormatError(database.path(), "its table 'overview' is not as the format has it");
+    } else if (known != kTables.end()) {
+      if (!isTable || normalized(rows.text(3)) != normalized(known->second))
+        throw FormatError(database.path(), "its table '" + name + "' is not as the format has it");
+      ++found;
+    } else if (isIndex && !rows.isNull(3) && normalized(rows.text(3)) != normalized(kBlockIndex)) {
+      throw FormatError(database.path(), "has an index that the format doesn't have");
+    } else if (!isTable && !isIndex) {
+      throw FormatError(database.path(), "has a " + type + ", which the format doesn't have");
+    }
+  }
+  if (found != kTables.size()) throw FormatError(database.path(), "tables are missing");
+}
+
+std::uint32_t metaCrc(std::string_view key, std::string_view value) {
+  return RowCrc().text(key).text(value).value();
+}
+
+std::string maskText(const Mask& mask) {
+  std::string text;
+  for (auto on : mask) text += on ? '1' : '0';
+  return text;
+}
+
+std::uint32_t matrixCrc(int index, const MatrixLayout& matrix, std::string_view uid) {
+  return RowCrc()
+      .integer(index)
+      .integer(matrix.rows)
+      .integer(matrix.columns)
+      .real(matrix.pitchMm)
+      .text(maskText(matrix.staticMask))
+      .text(maskText(matrix.dynamicMask))
+      .text(uid)
+      .value();
+}
+
+std::uint32_t secondCrc(const SecondSummary& row) {
+  return RowCrc()
+      .integer(row.tS)
+      .integer(row.matrix)
+      .integer(row.frames)
+      .real(row.minimum)
+      .real(row.maximum)
+      .real(row.sum)
+      .integer(row.activeMax)
+      .value();
+}
+
+std::uint32_t eventCrc(std::int64_t id, const RecordingEvent& event) {
+  RowCrc crc;
+  crc.integer(id).integer(event.tUs).integer(event.t1Us).text(event.kind);
+  if (event.matrix) crc.integer(*event.matrix);
+  return crc.text(event.text).text(event.json).value();
+}
+
+void insertMeta(SqliteDatabase& database, std::string_view key, std::string_view value) {
+  database.prepare("INSERT OR REPLACE INTO meta VALUES(?, ?, ?)")
+      .bind(1, key)
+      .bind(2, value)
+      .bind(3, static_cast<std::int64_t>(metaCrc(key, value)))
+      .run();
+}
+
+void insertMatrices(SqliteDatabase& database, const SensorLayout& layout) {
+  SqliteStatement insert = database.prepare("INSERT INTO matrix VALUES(?, ?, ?, ?, ?, ?, ?, ?)");
+  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
+    const MatrixLayout& matrix = layout.matrix(m);
+    const std::string staticMask = maskText(matrix.staticMask);
+    const std::string dynamicMask = maskText(matrix.dynamicMask);
+    insert.bind(1, static_cast<std::int64_t>(m))
+        .bind(2, static_cast<std::int64_t>(matrix.rows))
+        .bind(3, static_cast<std::int64_t>(matrix.columns))
+        .bind(4, matrix.pitchMm)
+        .bind(5, std::string_view(staticMask))
+        .bind(6, std::string_view(dynamicMask))
+        .bind(7, std::string_view())
+        .bind(8, static_cast<std::int64_t>(matrixCrc(static_cast<int>(m), matrix, {})))
+        .run();
+  }
+}
+
+SensorLayout readLayout(SqliteDatabase& database) {
+  const std::filesystem::path& path = database.path();
+  std::vector<MatrixLayout> matrices;
+  SqliteStatement rows = database.prepare(
+      "SELECT idx, rows, columns, pitch_mm, static_mask, dynamic_mask, uid, crc32 FROM matrix"
+      " ORDER BY idx");
+  std::size_t places = 0;
+  while (rows.next()) {
+    MatrixLayout matrix;
+    if (matrices.size() == kMaxMatrices)
+      throw FormatError(path, "has more than " + std::to_string(kMaxMatrices) + " matrices");
+    matrix.rows = static_cast<int>(std::clamp<std::int64_t>(rows.integer(1), 0, 1'000'000));
+    matrix.columns = static_cast<int>(std::clamp<std::int64_t>(rows.integer(2), 0, 1'000'000));
+    matrix.pitchMm = rows.real(3);
+    places += matrix.numPlaces();
+    if (places > kMaxPlaces)
+      throw FormatError(
+          path,
+          "a matrix is too large: more than " + std::to_string(kMaxPlaces) + " places in all");
+    matrix.staticMask = maskFrom(rows.text(4), matrix.numPlaces(), path);
+    matrix.dynamicMask = maskFrom(rows.text(5), matrix.numPlaces(), path);
+    if (rows.integer(0) != static_cast<std::int64_t>(matrices.size()) ||
+        rows.integer(7) != matrixCrc(static_cast<int>(matrices.size()), matrix, rows.text(6)))
+      throw FormatError(path, "the layout of its matrices is damaged; try 'palpate recover'");
+    matrices.push_back(std::move(matrix));
+  }
+  try {
+    return SensorLayout(std::move(matrices));
+  } catch (const std::invalid_argument& error) {
+    throw FormatError(path,
+                      std::string("the layout of its matrices makes no sense: ") + error.what());
+  }
+}
+
+Block blockFrom(const SqliteStatement& row, int column, int dataColumn) {
+  const auto small = [&](int at) { return std::clamp<std::int64_t>(row.integer(at), 0, 255); };
+  const auto data = row.blob(dataColumn);
+  return {static_cast<Stream>(small(column)),
+          row.integer(column + 1),
+          row.integer(column + 2),
+          row.integer(column + 3),
+          row.integer(column + 4),
+          static_cast<BlockCoding>(small(column + 5)),
+          {data.begin(), data.end()}};
+}
+
+std::string MetaRows::operator[](const std::string& key) const {
+  const auto found = values.find(key);
+  return found == values.end() ? std::string() : found->second;
+}
+
+std::optional<std::int64_t> MetaRows::integer(const std::string& key) const {
+  return parseInteger((*this)[key]);
+}
+
+MetaRows readMeta(SqliteDatabase& database) {
+  constexpr std::size_t kMostRows = 1000;
+  MetaRows meta;
+  SqliteStatement rows = database.prepare("SELECT key, value, crc32 FROM meta");
+  while (rows.next()) {
+    std::string key = rows.text(0);
+    std::string value = rows.text(1);
+    if (rows.integer(2) != static_cast<std::int64_t>(metaCrc(key, value)))
+      ++meta.damaged;
+    else
+      meta.values.insert_or_assign(std::move(key), std::move(value));
+    if (meta.damaged + meta.values.size() > kMostRows)
+      throw FormatError(database.path(), "has too many rows of meta data");
+  }
+  return meta;
+}
+
+EventsReport readEventRows(SqliteDatabase& database) {
+  EventsReport report;
+  SqliteStatement rows =
+      database.prepare("SELECT id, t_us, t1_us, kind, matrix, text, json, crc32 FROM event");
+  while (rows.next()) {
+    RecordingEvent event{
+        rows.integer(1), rows.integer(2), rows.text(3), {}, rows.text(5), rows.text(6)};
+    const std::int64_t matrix = rows.integer(4);
+    const bool fits = matrix >= INT32_MIN && matrix <= INT32_MAX;
+    if (!rows.isNull(4)) event.matrix = static_cast<int>(fits ? matrix : -1);
+    if (fits && rows.integer(7) == static_cast<std::int64_t>(eventCrc(rows.integer(0), event)))
+      report.events.push_back(std::move(event));
+    else
+      ++report.damaged;
+  }
+  // Sorted here: SQLite would sort in memory without a bound.
+  std::stable_sort(report.events.begin(), report.events.end(), [](const auto& a, const auto& b) {
+    return a.tUs < b.tUs;
+  });
+  return report;
+}
+
+std::vector<SecondSummary> readSecondRows(SqliteDatabase& database, std::size_t& damaged) {
+  std::vector<SecondSummary> seconds;
+  SqliteStatement rows =
+      database.prepare("SELECT t_s, matrix, frames, min, max, sum, active_max, crc32 FROM second");
+  while (rows.next()) {
+    const std::int64_t matrix = rows.integer(1);
+    const std::int64_t activeMax = rows.integer(6);
+    SecondSummary row{rows.integer(0),
+                      static_cast<int>(std::clamp<std::int64_t>(matrix, -1, kMaxMatrices)),
+                      rows.integer(2),
+                      rows.real(3),
+                      rows.real(4),
+                      rows.real(5),
+                      static_cast<int>(std::clamp<std::int64_t>(activeMax, -1, kMaxPlaces + 1))};
+    if (rows.integer(7) == static_cast<std::int64_t>(secondCrc(row)))
+      seconds.push_back(row);
+    else
+      ++damaged;
+  }
+  std::stable_sort(
+      seconds.begin(), seconds.end(), [](const SecondSummary& a, const SecondSummary& b) {
+        return std::pair(a.tS, a.matrix) < std::pair(b.tS, b.matrix);
+      });
+  return seconds;
+}
+
+// Every row has its number, and writing it twice is harmless: a commit that reports a failure may
+// have reached the disk all the same, and is tried again.
+RowWriter::RowWriter(SqliteDatabase& database)
+    : block_(database.prepare("INSERT OR REPLACE INTO block VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)")),
+      second_(database.prepare(
+          "INSERT OR REPLACE INTO second(rowid, t_s, matrix, frames, min, max, sum, active_max,"
+          " crc32) VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)")),
+      event_(database.prepare("INSERT OR REPLACE INTO event VALUES(?, ?, ?, ?, ?, ?, ?, ?)")),
+      counter_(database.prepare("INSERT OR REPLACE INTO counter VALUES(?, ?)")) {}
+
+void RowWriter::block(std::int64_t id, const Block& block) {
+  block_.bind(1, id)
+      .bind(2, static_cast<std::int64_t>(block.stream))
+      .bind(3, block.first)
+      .bind(4, block.n)
+      .bind(5, block.t0Us)
+      .bind(6, block.t1Us)
+      .bind(7, static_cast<std::int64_t>(block.coding))
+      .bind(8, static_cast<std::int64_t>(blockCrc(block)))
+      .bind(9, std::span<const std::byte>(block.data))
+      .run();
+}
+
+void RowWriter::second(std::int64_t id, const SecondSummary& row) {
+  second_.bind(1, id)
+      .bind(2, row.tS)
+      .bind(3, static_cast<std::int64_t>(row.matrix))
+      .bind(4, row.frames)
+      .bind(5, row.minimum)
+      .bind(6, row.maximum)
+      .bind(7, row.sum)
+      .bind(8, static_cast<std::int64_t>(row.activeMax))
+      .bind(9, static_cast<std::int64_t>(secondCrc(row)))
+      .run();
+}
+
+void RowWriter::event(std::int64_t id, const RecordingEvent& event) {
+  event_.bind(1, id).bind(2, event.tUs).bind(3, event.t1Us).bind(4, std::string_view(event.kind));
+  if (event.matrix)
+    event_.bind(5, static_cast<std::int64_t>(*event.matrix));
+  else
+    event_.bindNull(5);
+  event_.bind(6, std::string_view(event.text))
+      .bind(7, std::string_view(event.json))
+      .bind(8, static_cast<std::int64_t>(eventCrc(id, event)))
+      .run();
+}
+
+void RowWriter::counter(const std::string& name, std::int64_t value) {
+  counter_.bind(1, std::string_view(name)).bind(2, value).run();
+}
+
+}  // namespace palpate

@@ -1,0 +1,76 @@
+// Rows of a native recording's tables, with their checksums. Private to the room.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "palpate/model/matrix_layout.h"
+#include "palpate/recording/palpate_schema.h"
+#include "palpate/recording/recording_event.h"
+#include "palpate/recording/second_summary.h"
+
+#include "recording/sqlite_database.h"
+
+namespace palpate {
+
+// Throws FormatError unless the tables are those that createTables() makes (blanks and letter case
+// aside) and nothing else could run code: what is no plain table is never queried.
+void checkTables(SqliteDatabase& database);
+
+// Makes the empty tables.
+void createTables(SqliteDatabase& database);
+// The index over the blocks, and the table for charts; made when a recording is finished. Older ones,
+// of an attempt that failed, are dropped.
+void createBlockIndex(SqliteDatabase& database);
+void createOverview(SqliteDatabase& database);
+
+std::uint32_t metaCrc(std::string_view key, std::string_view value);
+std::uint32_t matrixCrc(int index, const MatrixLayout& matrix, std::string_view uid);
+std::uint32_t secondCrc(const SecondSummary& row);
+std::uint32_t eventCrc(std::int64_t id, const RecordingEvent& event);
+
+// Masks as text: rows x columns characters 0 and 1.
+std::string maskText(const Mask& mask);
+
+void insertMeta(SqliteDatabase& database, std::string_view key, std::string_view value);
+void insertMatrices(SqliteDatabase& database, const SensorLayout& layout);
+
+// Reading back. Throws FormatError where the layout is damaged or makes no sense.
+SensorLayout readLayout(SqliteDatabase& database);
+
+// A block from a row whose stream, first, n, t0_us, t1_us, coding stand from `column` on; unchecked.
+Block blockFrom(const SqliteStatement& row, int column, int dataColumn);
+
+// The key-value pairs; rows with a wrong checksum are left out and counted.
+struct MetaRows {
+  std::map<std::string, std::string> values;
+  std::size_t damaged = 0;
+  // Empty when absent.
+  std::string operator[](const std::string& key) const;
+  std::optional<std::int64_t> integer(const std::string& key) const;
+};
+MetaRows readMeta(SqliteDatabase& database);
+EventsReport readEventRows(SqliteDatabase& database);
+// In order of time, then matrix; `damaged` counts rows with a wrong checksum, which are left out.
+std::vector<SecondSummary> readSecondRows(SqliteDatabase& database, std::size_t& damaged);
+
+// Statements that are run again and again while recording.
+class RowWriter {
+ public:
+  explicit RowWriter(SqliteDatabase& database);
+  void block(std::int64_t id, const Block& block);
+  void second(std::int64_t id, const SecondSummary& row);
+  void event(std::int64_t id, const RecordingEvent& event);
+  void counter(const std::string& name, std::int64_t value);
+
+ private:
+  SqliteStatement block_;
+  SqliteStatement second_;
+  SqliteStatement event_;
+  SqliteStatement counter_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,131 @@
+#include "recording/palpate_storage.h"
+
+#include <algorithm>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kCachedBytes = 2u << 20;  // of blocks, per profile
+
+}  // namespace
+
+BlockStorage::BlockStorage(std::filesystem::path path, Loader loader)
+    : path_(std::move(path)), loader_(std::move(loader)) {}
+
+bool BlockStorage::add(Stream stream, const BlockPlace& place) {
+  Series& series = series_[static_cast<std::size_t>(stream)];
+  if (place.n < 1 || place.n > static_cast<std::int64_t>(kMaxBlockBytes) ||
+      place.first != static_cast<std::int64_t>(series.numItems) || place.t1Us < place.t0Us ||
+      (!series.places.empty() && place.t0Us <= series.places.back().t1Us))
+    return false;
+  series.places.push_back(place);
+  series.numItems += static_cast<std::size_t>(place.n);
+  return true;
+}
+
+void BlockStorage::setWidth(Stream stream, std::size_t numValues) {
+  series_[static_cast<std::size_t>(stream)].numValues = numValues;
+}
+
+std::int64_t BlockStorage::frameTimeUs(std::size_t frame) const {
+  return timeUs(Stream::kTactile, frame);
+}
+
+void BlockStorage::readFrame(std::size_t frame, TactileFrame& out) const {
+  std::unique_lock lock(mutex_);
+  const auto [block, item] = open(Stream::kTactile, frame);
+  lock.unlock();  // decoding needs none: the block is ours as long as we hold it
+  out.deviceMs = block->index.deviceMs[item];
+  readFrameValues(block->block, block->index.begin[item], out.values);
+}
+
+std::int64_t BlockStorage::angleTimeUs(std::size_t sample) const {
+  return timeUs(Stream::kAngles, sample);
+}
+
+JointAngles BlockStorage::angles(std::size_t sampleIndex) const {
+  auto [hostUs, values] = sample(Stream::kAngles, sampleIndex);
+  return {hostUs, std::move(values)};
+}
+
+std::int64_t BlockStorage::temperatureTimeUs(std::size_t sample) const {
+  return timeUs(Stream::kTemperatures, sample);
+}
+
+Temperatures BlockStorage::temperatures(std::size_t sampleIndex) const {
+  auto [hostUs, values] = sample(Stream::kTemperatures, sampleIndex);
+  return {hostUs, std::move(values)};
+}
+
+const BlockPlace& BlockStorage::placeOf(Stream stream, std::size_t item) const {
+  const auto& places = of(stream).places;
+  const auto after = std::upper_bound(places.begin(),
+                                      places.end(),
+                                      static_cast<std::int64_t>(item),
+                                      [](std::int64_t i, const auto& p) { return i < p.first; });
+  return *std::prev(after);
+}
+
+// Mostly it is the block that was read last: samples are read one after the other.
+const BlockStorage::OpenBlock* BlockStorage::lastWith(Stream stream, std::size_t item) const {
+  const OpenBlock* last = last_[static_cast<std::size_t>(stream)].get();
+  if (!last || item < last->first || item - last->first >= last->index.begin.size()) return nullptr;
+  return last;
+}
+
+BlockStorage::OpenItem BlockStorage::open(Stream stream, std::size_t item) const {
+  std::shared_ptr<const OpenBlock>& last = last_[static_cast<std::size_t>(stream)];
+  if (lastWith(stream, item)) return {last, item - last->first};
+  const BlockPlace& place = placeOf(stream, item);
+  const std::size_t within = item - static_cast<std::size_t>(place.first);
+  const auto cached = cache_.find(place.id);
+  if (cached != cache_.end()) {
+    last = cached->second;
+    return {last, within};
+  }
+  auto opened = std::make_shared<OpenBlock>();
+  opened->block = loader_(place.id);
+  opened->first = static_cast<std::size_t>(place.first);
+  const Block& block = opened->block;
+  if (block.stream != stream || block.n != place.n || block.t0Us != place.t0Us ||
+      block.t1Us != place.t1Us || !indexBlock(block, of(stream).numValues, opened->index))
+    throw FormatError(path_,
+                      "block " + std::to_string(place.id) +
+                          " makes no sense; 'palpate recover' saves the others");
+  cachedBytes_ += block.data.size();
+  while (cachedBytes_ > kCachedBytes && !order_.empty()) {
+    const auto oldest = cache_.find(order_.front());
+    cachedBytes_ -= oldest->second->block.data.size();
+    cache_.erase(oldest);
+    order_.pop_front();
+  }
+  order_.push_back(place.id);
+  cache_.emplace(place.id, opened);
+  last = opened;
+  return {std::move(opened), within};
+}
+
+std::int64_t BlockStorage::timeUs(Stream stream, std::size_t item) const {
+  const std::lock_guard lock(mutex_);
+  if (const OpenBlock* last = lastWith(stream, item)) return last->index.hostUs[item - last->first];
+  const BlockPlace& place = placeOf(stream, item);
+  // First and last stamps stand in the index: searching by time opens one block, not twenty.
+  if (static_cast<std::int64_t>(item) == place.first) return place.t0Us;
+  if (static_cast<std::int64_t>(item) == place.first + place.n - 1) return place.t1Us;
+  const auto [block, within] = open(stream, item);
+  return block->index.hostUs[within];
+}
+
+std::pair<std::int64_t, std::vector<double>> BlockStorage::sample(Stream stream,
+                                                                  std::size_t item) const {
+  std::unique_lock lock(mutex_);
+  const auto [block, within] = open(stream, item);
+  lock.unlock();
+  std::vector<double> values(of(stream).numValues);
+  readSampleValues(block->block, block->index.begin[within], values);
+  return {block->index.hostUs[within], std::move(values)};
+}
+
+}  // namespace palpate

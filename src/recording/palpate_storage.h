@@ -1,0 +1,90 @@
+// The samples of a profile that lie in blocks somewhere: an index in memory, blocks read on demand.
+// Private to the room.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "palpate/model/profile.h"
+#include "palpate/recording/palpate_blocks.h"
+#include "palpate/recording/palpate_schema.h"
+
+namespace palpate {
+
+// Where a block lies; all of a recording's are kept in memory.
+struct BlockPlace {
+  std::int64_t first = 0;  // in the profile
+  std::int64_t n = 0;
+  std::int64_t t0Us = 0;
+  std::int64_t t1Us = 0;
+  std::int64_t id = 0;  // whatever the loader needs
+};
+
+class BlockStorage : public ProfileStorage {
+ public:
+  // Gives the block of an id, its checksum checked; throws FormatError. Only one call at a time.
+  using Loader = std::function<Block(std::int64_t id)>;
+
+  BlockStorage(std::filesystem::path path, Loader loader);
+
+  // Appends a place to a stream. False, and nothing is appended: it doesn't follow the ones before it
+  // (in its index and its time), or makes no sense.
+  bool add(Stream stream, const BlockPlace& place);
+  // Values per item; must be set before items are read.
+  void setWidth(Stream stream, std::size_t numValues);
+  std::size_t width(Stream stream) const { return of(stream).numValues; }
+  const std::vector<BlockPlace>& places(Stream stream) const { return of(stream).places; }
+
+  std::size_t numFrames() const override { return of(Stream::kTactile).numItems; }
+  std::int64_t frameTimeUs(std::size_t frame) const override;
+  void readFrame(std::size_t frame, TactileFrame& out) const override;
+  std::size_t numAngles() const override { return of(Stream::kAngles).numItems; }
+  std::int64_t angleTimeUs(std::size_t sample) const override;
+  JointAngles angles(std::size_t sample) const override;
+  std::size_t numTemperatures() const override { return of(Stream::kTemperatures).numItems; }
+  std::int64_t temperatureTimeUs(std::size_t sample) const override;
+  Temperatures temperatures(std::size_t sample) const override;
+
+ private:
+  struct Series {
+    std::vector<BlockPlace> places;
+    std::size_t numItems = 0;
+    std::size_t numValues = 0;  // per item
+  };
+  struct OpenBlock {
+    Block block;
+    BlockIndex index;
+    std::size_t first = 0;  // in the profile
+  };
+  struct OpenItem {
+    std::shared_ptr<const OpenBlock> block;
+    std::size_t item;
+  };
+
+  const Series& of(Stream stream) const { return series_[static_cast<std::size_t>(stream)]; }
+  const BlockPlace& placeOf(Stream stream, std::size_t item) const;
+  std::int64_t timeUs(Stream stream, std::size_t item) const;
+  std::pair<std::int64_t, std::vector<double>> sample(Stream stream, std::size_t item) const;
+  // The lock is held in these two.
+  OpenItem open(Stream stream, std::size_t item) const;
+  const OpenBlock* lastWith(Stream stream, std::size_t item) const;
+
+  std::filesystem::path path_;
+  Loader loader_;
+  std::array<Series, 3> series_;
+  mutable std::mutex mutex_;  // over loader and cache
+  mutable std::unordered_map<std::int64_t, std::shared_ptr<const OpenBlock>> cache_;  // by id
+  mutable std::list<std::int64_t> order_;                                             // of entering
+  mutable std::size_t cachedBytes_ = 0;
+  mutable std::array<std::shared_ptr<const OpenBlock>, 3> last_;  // read last, per stream
+};
+
+}  // namespace palpate

@@ -1,0 +1,293 @@
+#include "palpate/recording/palpate_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "palpate/core/error.h"
+#include "palpate/recording/palpate_blocks.h"
+#include "palpate/recording/palpate_schema.h"
+
+#include "recording/palpate_lock.h"
+#include "recording/palpate_overview.h"
+#include "recording/palpate_rows.h"
+#include "recording/sqlite_database.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+void refuseExisting(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) throw FileError(path, "is a folder");
+  if (fs::exists(fs::symlink_status(path, ignored)))
+    throw FileError(path, "exists already; a recording is never replaced");
+  refuseForeignJournal(path);
+}
+
+void requireReadable(const SensorLayout& layout) {
+  if (layout.numMatrices() > kMaxMatrices || layout.numPlaces() > kMaxPlaces)
+    throw std::invalid_argument("PalpateWriter: at most " + std::to_string(kMaxMatrices) +
+                                " matrices with " + std::to_string(kMaxPlaces) + " places in all");
+}
+
+void requireFinite(const char* what, const std::vector<double>& values, std::size_t width) {
+  if (values.empty() || values.size() > kMaxSampleValues || (width != 0 && values.size() != width))
+    throw std::invalid_argument(std::string(what) + ": expected " + std::to_string(width) +
+                                " values, got " + std::to_string(values.size()));
+  if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
+    throw std::invalid_argument(std::string(what) + ": a value is not a number");
+}
+
+void requireLater(const char* what, std::optional<std::int64_t> last, std::int64_t hostUs) {
+  constexpr std::int64_t kLatestUs = std::int64_t{1} << 60;  // what a block can hold
+  if (hostUs < -kLatestUs || hostUs > kLatestUs)
+    throw std::invalid_argument(std::string(what) + ": time is out of range");
+  if (last && hostUs <= *last)
+    throw std::invalid_argument(std::string(what) + ": time must be later than the last one's");
+}
+
+}  // namespace
+
+struct PalpateWriter::Impl {
+  Impl(const fs::path& path,
+       std::shared_ptr<const SensorLayout> sensorLayout,
+       const std::map<std::string, std::string>& meta,
+       PalpateWriterOptions writerOptions)
+      : options(std::move(writerOptions)),
+        layout(std::move(sensorLayout)),
+        lock(std::make_unique<RecordingLock>(path)),
+        database((refuseExisting(path), path), SqliteDatabase::Mode::kCreate, options.vfs) {
+    try {
+      create(meta);
+    } catch (...) {
+      // Nobody has seen the file yet: none is better than one that can't be opened.
+      database.rollBack();
+      std::error_code ignored;
+      fs::remove(path, ignored);
+      fs::remove(journalPathOf(path), ignored);
+      throw;
+    }
+  }
+
+  void create(const std::map<std::string, std::string>& meta) {
+    database.execute(
+        "PRAGMA page_size=4096; PRAGMA auto_vacuum=NONE;"
+        "PRAGMA journal_mode=TRUNCATE; PRAGMA application_id=" +
+        std::to_string(kPalpateApplicationId) +
+        "; PRAGMA user_version=" + std::to_string(kPalpateVersion) + ";");
+    database.execute(options.synced ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=OFF");
+    database.execute("BEGIN IMMEDIATE");
+    createTables(database);
+    insertMeta(database, "format", "palpate");
+    for (const auto& [key, value] : meta) insertMeta(database, key, value);
+    insertMatrices(database, *layout);
+    database.execute("COMMIT");
+    rows.emplace(database);
+  }
+
+  // Refuses a sample while too much waits for the disk.
+  void requireRoom() const {
+    if (pending.bytes >= kMaxPendingBytes)
+      throw FileError(database.path(),
+                      "nothing could be written for too long; the memory for what waits is full");
+  }
+
+  // `nowUs`: host time of the sample that was just added.
+  void commitWhenDue(std::int64_t nowUs) {
+    if (!pendingSinceUs) pendingSinceUs = nowUs;
+    if (nowUs - *pendingSinceUs >= options.commitIntervalUs) {
+      pendingSinceUs = nowUs;  // after a failure the next attempt is an interval away
+      if (options.synced) return commit();
+      flushPackers();
+    }
+    // Conversions need no commits, but what they hold in memory is bounded.
+    constexpr std::size_t kMostUnsynced = 1u << 20;
+    if (!options.synced && pending.bytes >= kMostUnsynced) commit();
+  }
+
+  void flushPackers() {
+    for (BlockPacker* packer : {&tactile, &angles, &temperatures}) packer->flush();
+  }
+
+  // Writes what waits; `last` is the end of the same transaction.
+  template <typename Last>
+  void commit(Last last) {
+    flushPackers();
+    try {
+      database.execute("BEGIN IMMEDIATE");
+      std::int64_t id = numBlocks;
+      for (const Block& block : pending.blocks) rows->block(++id, block);
+      id = numSeconds;
+      for (const SecondSummary& row : pending.seconds) rows->second(++id, row);
+      id = numEvents;
+      for (const RecordingEvent& event : pending.events) rows->event(++id, event);
+      for (const auto& [name, value] : pending.counters) rows->counter(name, value);
+      last();
+      database.execute("COMMIT");
+    } catch (...) {
+      database.rollBack();
+      throw;
+    }
+    numBlocks += static_cast<std::int64_t>(pending.blocks.size());
+    numSeconds += static_cast<std::int64_t>(pending.seconds.size());
+    numEvents += static_cast<std::int64_t>(pending.events.size());
+    pending = {};
+    pendingSinceUs.reset();
+    committedFrames = tactile.numItems();
+  }
+  void commit() {
+    if (pending.empty() && tactile.empty() && angles.empty() && temperatures.empty()) return;
+    commit([] {});
+  }
+
+  // What no commit has taken yet.
+  struct Pending {
+    std::vector<Block> blocks;
+    std::vector<SecondSummary> seconds;
+    std::vector<RecordingEvent> events;
+    std::map<std::string, std::int64_t> counters;
+    std::size_t bytes = 0;
+    bool empty() const {
+      return blocks.empty() && seconds.empty() && events.empty() && counters.empty();
+    }
+  };
+
+  PalpateWriterOptions options;
+  std::shared_ptr<const SensorLayout> layout;
+  std::unique_ptr<RecordingLock> lock;
+  SqliteDatabase database;
+  std::optional<RowWriter> rows;
+  Pending pending;
+  BlockPacker::Sink sink = [this](const Block& block) {
+    pending.blocks.push_back(block);
+    pending.bytes += sizeof(Block) + block.data.size();
+    if (block.stream == Stream::kTactile && block.coding != BlockCoding::kCountsRuns)
+      allCounts = false;
+  };
+  BlockPacker tactile{Stream::kTactile, sink};
+  BlockPacker angles{Stream::kAngles, sink};
+  BlockPacker temperatures{Stream::kTemperatures, sink};
+  SecondSummarizer seconds{[this](const SecondSummary& row) {
+    pending.seconds.push_back(row);
+    pending.bytes += sizeof row;
+  }};
+  std::optional<std::int64_t> lastFrameUs;
+  std::optional<std::int64_t> lastAnglesUs;
+  std::optional<std::int64_t> lastTemperaturesUs;
+  std::optional<std::int64_t> pendingSinceUs;  // host time of the oldest sample not committed
+  std::size_t numAxes = 0;
+  std::size_t numTemperatureSensors = 0;
+  std::int64_t committedFrames = 0;
+  std::int64_t numBlocks = 0;  // rows committed
+  std::int64_t numSeconds = 0;
+  std::int64_t numEvents = 0;
+  bool allCounts = true;  // every frame so far
+  bool finished = false;
+};
+
+PalpateWriter::PalpateWriter(const fs::path& path,
+                             std::shared_ptr<const SensorLayout> layout,
+                             const std::map<std::string, std::string>& meta,
+                             const PalpateWriterOptions& options) {
+  if (!layout) throw std::invalid_argument("PalpateWriter: no sensor layout");
+  requireReadable(*layout);
+  impl_ = std::make_unique<Impl>(path, std::move(layout), meta, options);
+}
+
+PalpateWriter::~PalpateWriter() {
+  if (!impl_ || impl_->finished) return;
+  try {
+    impl_->commit();
+  } catch (const std::exception&) {
+    // What was committed is safe; there is nobody left to tell about the rest.
+  }
+}
+
+void PalpateWriter::addFrame(const TactileFrame& frame) {
+  if (frame.values.size() != impl_->layout->numPlaces())
+    throw std::invalid_argument("frame: expected " + std::to_string(impl_->layout->numPlaces()) +
+                                " values, got " + std::to_string(frame.values.size()));
+  if (!std::all_of(
+          frame.values.begin(), frame.values.end(), [](float v) { return std::isfinite(v); }))
+    throw std::invalid_argument("frame: a value is not a number");
+  requireLater("frame", impl_->lastFrameUs, frame.hostUs);
+  impl_->requireRoom();
+  impl_->lastFrameUs = frame.hostUs;
+  impl_->tactile.addFrame(frame.hostUs, frame.deviceMs, frame.values);
+  impl_->seconds.add(frame);
+  impl_->commitWhenDue(frame.hostUs);
+}
+
+void PalpateWriter::addAngles(const JointAngles& angles) {
+  requireFinite("angles", angles.deg, impl_->numAxes);
+  requireLater("angles", impl_->lastAnglesUs, angles.hostUs);
+  impl_->requireRoom();
+  impl_->numAxes = angles.deg.size();
+  impl_->lastAnglesUs = angles.hostUs;
+  impl_->angles.addSample(angles.hostUs, angles.deg);
+  impl_->commitWhenDue(angles.hostUs);
+}
+
+void PalpateWriter::addTemperatures(const Temperatures& temperatures) {
+  requireFinite("temperatures", temperatures.degC, impl_->numTemperatureSensors);
+  requireLater("temperatures", impl_->lastTemperaturesUs, temperatures.hostUs);
+  impl_->requireRoom();
+  impl_->numTemperatureSensors = temperatures.degC.size();
+  impl_->lastTemperaturesUs = temperatures.hostUs;
+  impl_->temperatures.addSample(temperatures.hostUs, temperatures.degC);
+  impl_->commitWhenDue(temperatures.hostUs);
+}
+
+void PalpateWriter::addEvent(const RecordingEvent& event) {
+  const std::size_t bytes = event.kind.size() + event.text.size() + event.json.size();
+  if (bytes > kMaxEventBytes)
+    throw std::invalid_argument("event: longer than " + std::to_string(kMaxEventBytes) + " bytes");
+  impl_->requireRoom();
+  impl_->pending.events.push_back(event);
+  impl_->pending.bytes += sizeof event + bytes;
+}
+
+void PalpateWriter::setCounter(const std::string& name, std::int64_t value) {
+  impl_->pending.counters[name] = value;
+}
+
+void PalpateWriter::commit() { impl_->commit(); }
+
+void PalpateWriter::finish() {
+  Impl& impl = *impl_;
+  if (impl.finished) return;
+  impl.seconds.flush();
+  impl.commit([&impl] {
+    SqliteDatabase& database = impl.database;
+    createBlockIndex(database);
+    insertMeta(
+        database, "seconds", std::to_string(writeOverview(database, impl.layout->numMatrices())));
+    insertMeta(database, "frames", std::to_string(impl.tactile.numItems()));
+    insertMeta(database, "angle_samples", std::to_string(impl.angles.numItems()));
+    insertMeta(database, "temperature_samples", std::to_string(impl.temperatures.numItems()));
+    insertMeta(database, "value_type", impl.allCounts ? "counts" : "float");
+    insertMeta(database, "finished", "1");
+  });
+  impl.finished = true;
+  impl.database.execute("PRAGMA synchronous=FULL; PRAGMA journal_mode=DELETE;");
+  impl.lock.reset();
+}
+
+bool PalpateWriter::pendingFull() const noexcept {
+  return impl_->pending.bytes >= kMaxPendingBytes;
+}
+
+std::int64_t PalpateWriter::framesOnDisk() const noexcept { return impl_->committedFrames; }
+
+std::int64_t PalpateWriter::bytesOnDisk() const {
+  std::error_code failure;
+  const auto size = fs::file_size(impl_->database.path(), failure);
+  return failure ? 0 : static_cast<std::int64_t>(size);
+}
+
+}  // namespace palpate

@@ -1,0 +1,43 @@
+#include "palpate/recording/second_summary.h"
+
+#include <algorithm>
+
+namespace palpate {
+
+void SecondSummarizer::add(const TactileFrame& frame) {
+  constexpr std::int64_t kUsPerS = 1'000'000;
+  std::int64_t second = frame.hostUs / kUsPerS;
+  if (frame.hostUs < second * kUsPerS) --second;  // before 1970
+  if (!rows_.empty() && rows_.front().tS != second) flush();
+  const std::size_t numMatrices = frame.layout->numMatrices();
+  if (rows_.empty()) {
+    rows_.resize(numMatrices);
+    for (std::size_t m = 0; m < numMatrices; ++m) {
+      rows_[m].tS = second;
+      rows_[m].matrix = static_cast<int>(m);
+    }
+  }
+  for (std::size_t m = 0; m < numMatrices; ++m) {
+    SecondSummary& row = rows_[m];
+    const auto values = frame.matrix(m);
+    int active = 0;
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      const double value = static_cast<double>(values.data()[i]);
+      if (!(value > 0.0)) continue;
+      const bool first = row.activeMax == 0 && active == 0;
+      row.minimum = first ? value : std::min(row.minimum, value);
+      row.maximum = std::max(row.maximum, value);
+      row.sum += value;
+      ++active;
+    }
+    row.activeMax = std::max(row.activeMax, active);
+    ++row.frames;
+  }
+}
+
+void SecondSummarizer::flush() {
+  for (const SecondSummary& row : rows_) sink_(row);
+  rows_.clear();
+}
+
+}  // namespace palpate

@@ -1,0 +1,180 @@
+#include "recording/sqlite_database.h"
+
+#include <utility>
+
+#include <sqlite3.h>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace {
+
+// Longest text or blob of a file, and most memory of the page cache.
+constexpr int kMaxValueBytes = 2 << 20;
+constexpr int kOpsPerLook = 100'000;
+constexpr std::int64_t kFreeOps = 10'000'000;
+constexpr std::int64_t kOpsPerByte = 50;
+
+}  // namespace
+
+void throwSqliteError(sqlite3* connection, int code, const std::filesystem::path& path) {
+  switch (code & 0xFF) {
+    case SQLITE_FULL:
+      throw FileError(path, "can't be written: the disk is full");
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+      throw FileError(path, "can't be written: no permission, or a read-only folder");
+    case SQLITE_CANTOPEN:
+      throw FileError(path, "can't be opened");
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      throw FileError(path, "is in use by another program");
+    case SQLITE_IOERR:
+      throw FileError(path, "can't be read or written: input/output error");
+    case SQLITE_INTERRUPT:
+      throw FormatError(path, "is damaged: its tables are longer than the file");
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+    case SQLITE_FORMAT:
+      throw FormatError(path,
+                        std::string("is damaged (") +
+                            (connection ? sqlite3_errmsg(connection) : "no connection") +
+                            "); 'palpate recover' may save what is left");
+    default:
+      throw FormatError(path,
+                        std::string("SQLite: ") +
+                            (connection ? sqlite3_errmsg(connection) : sqlite3_errstr(code)));
+  }
+}
+
+SqliteStatement::SqliteStatement(sqlite3* connection,
+                                 std::filesystem::path path,
+                                 std::string_view sql)
+    : connection_(connection), path_(std::move(path)) {
+  const int code = sqlite3_prepare_v3(connection_,
+                                      sql.data(),
+                                      static_cast<int>(sql.size()),
+                                      SQLITE_PREPARE_PERSISTENT,
+                                      &statement_,
+                                      nullptr);
+  if (code != SQLITE_OK) throwSqliteError(connection_, code, path_);
+}
+
+SqliteStatement::SqliteStatement(SqliteStatement&& other) noexcept
+    : connection_(other.connection_),
+      path_(std::move(other.path_)),
+      statement_(std::exchange(other.statement_, nullptr)) {}
+
+SqliteStatement::~SqliteStatement() { sqlite3_finalize(statement_); }
+
+SqliteStatement& SqliteStatement::bind(int parameter, std::int64_t value) {
+  sqlite3_bind_int64(statement_, parameter, value);
+  return *this;
+}
+SqliteStatement& SqliteStatement::bind(int parameter, double value) {
+  sqlite3_bind_double(statement_, parameter, value);
+  return *this;
+}
+SqliteStatement& SqliteStatement::bind(int parameter, std::string_view value) {
+  // A null pointer would be NULL, not an empty text.
+  const char* bytes = value.data() ? value.data() : "";
+  sqlite3_bind_text64(statement_, parameter, bytes, value.size(), SQLITE_STATIC, SQLITE_UTF8);
+  return *this;
+}
+SqliteStatement& SqliteStatement::bind(int parameter, std::span<const std::byte> value) {
+  sqlite3_bind_blob64(statement_, parameter, value.data(), value.size(), SQLITE_STATIC);
+  return *this;
+}
+SqliteStatement& SqliteStatement::bindNull(int parameter) {
+  sqlite3_bind_null(statement_, parameter);
+  return *this;
+}
+
+bool SqliteStatement::next() {
+  const int code = sqlite3_step(statement_);
+  if (code == SQLITE_ROW) return true;
+  sqlite3_reset(statement_);
+  if (code != SQLITE_DONE) throwSqliteError(connection_, code, path_);
+  return false;
+}
+
+void SqliteStatement::run() {
+  while (next()) {
+  }
+}
+
+void SqliteStatement::reset() { sqlite3_reset(statement_); }
+
+bool SqliteStatement::isNull(int column) const {
+  return sqlite3_column_type(statement_, column) == SQLITE_NULL;
+}
+std::int64_t SqliteStatement::integer(int column) const {
+  return sqlite3_column_int64(statement_, column);
+}
+double SqliteStatement::real(int column) const { return sqlite3_column_double(statement_, column); }
+std::string SqliteStatement::text(int column) const {
+  const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+  const int size = sqlite3_column_bytes(statement_, column);
+  return bytes ? std::string(bytes, static_cast<std::size_t>(size)) : std::string();
+}
+std::span<const std::byte> SqliteStatement::blob(int column) const {
+  const auto* bytes = static_cast<const std::byte*>(sqlite3_column_blob(statement_, column));
+  const int size = sqlite3_column_bytes(statement_, column);
+  return {bytes, bytes ? static_cast<std::size_t>(size) : 0};
+}
+
+SqliteDatabase::SqliteDatabase(std::filesystem::path path, Mode mode, const std::string& vfs)
+    : path_(std::move(path)) {
+  int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
+  flags |= mode == Mode::kReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
+  if (mode == Mode::kCreate) flags |= SQLITE_OPEN_CREATE;
+  const int code =
+      sqlite3_open_v2(path_.c_str(), &connection_, flags, vfs.empty() ? nullptr : vfs.c_str());
+  if (code != SQLITE_OK) {
+    sqlite3_close(std::exchange(connection_, nullptr));
+    throwSqliteError(nullptr, code, path_);
+  }
+  sqlite3_busy_timeout(connection_, 5000);
+  // Files come from anywhere: nothing a file says may run code or be followed blindly.
+  sqlite3_db_config(connection_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_db_config(connection_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_db_config(connection_, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+  sqlite3_db_config(connection_, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
+  sqlite3_limit(connection_, SQLITE_LIMIT_LENGTH, kMaxValueBytes);
+  sqlite3_limit(connection_, SQLITE_LIMIT_ATTACHED, 0);
+}
+
+SqliteDatabase::~SqliteDatabase() { sqlite3_close_v2(connection_); }
+
+void SqliteDatabase::execute(const std::string& sql) {
+  const int code = sqlite3_exec(connection_, sql.c_str(), nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK) throwSqliteError(connection_, code, path_);
+}
+
+SqliteStatement SqliteDatabase::prepare(std::string_view sql) { return {connection_, path_, sql}; }
+
+std::int64_t SqliteDatabase::integerOf(std::string_view query) {
+  SqliteStatement statement = prepare(query);
+  return statement.next() ? statement.integer(0) : 0;
+}
+
+void SqliteDatabase::rollBack() noexcept {
+  if (inTransaction()) sqlite3_exec(connection_, "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+void SqliteDatabase::limitWork(std::uint64_t fileBytes) {
+  workLeft_ = kFreeOps + kOpsPerByte * static_cast<std::int64_t>(fileBytes);
+  const auto look = [](void* left) {
+    auto& ops = *static_cast<std::int64_t*>(left);
+    ops -= kOpsPerLook;
+    return ops < 0 ? 1 : 0;
+  };
+  sqlite3_progress_handler(connection_, kOpsPerLook, look, &workLeft_);
+}
+
+void SqliteDatabase::unlimitWork() { sqlite3_progress_handler(connection_, 0, nullptr, nullptr); }
+
+bool SqliteDatabase::inTransaction() const { return sqlite3_get_autocommit(connection_) == 0; }
+
+}  // namespace palpate

@@ -1,0 +1,82 @@
+// A thin, throwing hold on SQLite: connection, statement. Private to the room.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace palpate {
+
+class SqliteStatement {
+ public:
+  SqliteStatement(sqlite3* connection, std::filesystem::path path, std::string_view sql);
+  SqliteStatement(SqliteStatement&& other) noexcept;
+  ~SqliteStatement();
+
+  // Parameters count from 1. Texts and blobs must live until the next run() or reset().
+  SqliteStatement& bind(int parameter, std::int64_t value);
+  SqliteStatement& bind(int parameter, double value);
+  SqliteStatement& bind(int parameter, std::string_view value);
+  SqliteStatement& bind(int parameter, std::span<const std::byte> value);
+  SqliteStatement& bindNull(int parameter);
+
+  // Next row of a query; false at the end (then it is reset and can run again).
+  bool next();
+  // A statement without rows, to its end.
+  void run();
+  void reset();
+
+  // Columns count from 0; valid until the next next().
+  bool isNull(int column) const;
+  std::int64_t integer(int column) const;
+  double real(int column) const;
+  std::string text(int column) const;
+  std::span<const std::byte> blob(int column) const;
+
+ private:
+  sqlite3* connection_;
+  std::filesystem::path path_;
+  sqlite3_stmt* statement_ = nullptr;
+};
+
+class SqliteDatabase {
+ public:
+  enum class Mode { kReadOnly, kReadWrite, kCreate };
+  // Throws FileError. `vfs`: a registered SQLite file system, empty for the default.
+  SqliteDatabase(std::filesystem::path path, Mode mode, const std::string& vfs = {});
+  ~SqliteDatabase();
+  SqliteDatabase(const SqliteDatabase&) = delete;
+  SqliteDatabase& operator=(const SqliteDatabase&) = delete;
+
+  // Runs statements that give no rows.
+  void execute(const std::string& sql);
+  SqliteStatement prepare(std::string_view sql);
+  std::int64_t integerOf(std::string_view query);
+  bool inTransaction() const;
+  // Ends a transaction without result; never throws (after a failed commit there may be none left).
+  void rollBack() noexcept;
+  // Ends statements that run for longer than any honest file of this size needs (pages that point to
+  // each other make b-trees of any length); they throw FormatError. Counts from here on.
+  void limitWork(std::uint64_t fileBytes);
+  void unlimitWork();
+  const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  sqlite3* connection_ = nullptr;
+  std::int64_t workLeft_ = 0;
+};
+
+// Throws FileError (the world) or FormatError (damaged content) for a failed call.
+[[noreturn]] void throwSqliteError(sqlite3* connection,
+                                   int code,
+                                   const std::filesystem::path& path);
+
+}  // namespace palpate

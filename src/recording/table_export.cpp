@@ -1,0 +1,117 @@
+#include "palpate/recording/table_export.h"
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::int64_t kUsPerMs = 1000;
+constexpr std::size_t kPieceBytes = 1u << 16;
+
+void writePiece(OutputFile& out, std::string& text, bool last = false) {
+  if (!last && text.size() < kPieceBytes) return;
+  out.write(text);
+  text.clear();
+}
+
+void appendInteger(std::string& text, std::int64_t value) {
+  appendNumber(text, value);
+  text += ',';
+}
+
+// One row per sample: time and a column per value, named with its unit.
+template <typename TimeOf, typename ValuesOf>
+void writeSamples(OutputFile& out,
+                  const std::string& header,
+                  std::size_t count,
+                  TimeOf timeOf,
+                  ValuesOf valuesOf) {
+  std::string text = header;
+  for (std::size_t i = 0; i < count; ++i) {
+    appendNumber(text, static_cast<std::int64_t>(i));
+    text += ',';
+    appendNumber(text, timeOf(i) / kUsPerMs);
+    for (double value : valuesOf(i)) {
+      text += ',';
+      appendNumber(text, value);
+    }
+    text += '\n';
+    writePiece(out, text);
+  }
+  writePiece(out, text, true);
+}
+
+std::string sampleHeader(std::size_t columns, const char* name, const char* unit) {
+  std::string header = "sample,time_ms";
+  for (std::size_t i = 0; i < columns; ++i)
+    header += "," + std::string(name) + std::to_string(i) + "_" + unit;
+  return header + "\n";
+}
+
+fs::path withEnding(const fs::path& path, const char* ending) {
+  fs::path other = path;
+  other += ending;
+  return other;
+}
+
+}  // namespace
+
+void writeCsv(const Profile& profile,
+              const fs::path& path,
+              Overwrite overwrite,
+              const Progress& progress) {
+  constexpr std::size_t kFramesPerReport = 256;
+  OutputFile taxels(path, overwrite);
+  std::optional<OutputFile> angles;
+  std::optional<OutputFile> temperatures;
+  if (profile.numAngles() > 0) angles.emplace(withEnding(path, ".angles.csv"), overwrite);
+  if (profile.numTemperatures() > 0)
+    temperatures.emplace(withEnding(path, ".temperatures.csv"), overwrite);
+
+  std::string text = "frame,time_ms,matrix,y,x,value\n";
+  TactileFrame frame;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    if (progress && i % kFramesPerReport == 0 &&
+        !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
+      throw Cancelled();
+    profile.readFrame(i, frame);
+    for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m) {
+      const auto values = frame.matrix(m);
+      for (Eigen::Index y = 0; y < values.rows(); ++y) {
+        for (Eigen::Index x = 0; x < values.cols(); ++x) {
+          if (!(values(y, x) > 0.0F)) continue;
+          appendInteger(text, static_cast<std::int64_t>(i));
+          appendInteger(text, frame.hostUs / kUsPerMs);
+          appendInteger(text, static_cast<std::int64_t>(m));
+          appendInteger(text, y);
+          appendInteger(text, x);
+          appendNumber(text, values(y, x));
+          text += '\n';
+        }
+      }
+    }
+    writePiece(taxels, text);
+  }
+  writePiece(taxels, text, true);
+  if (angles)
+    writeSamples(
+        *angles,
+        sampleHeader(profile.angles(0).deg.size(), "axis", "deg"),
+        profile.numAngles(),
+        [&](std::size_t i) { return profile.angleTimeUs(i); },
+        [&](std::size_t i) { return profile.angles(i).deg; });
+  if (temperatures)
+    writeSamples(
+        *temperatures,
+        sampleHeader(profile.temperatures(0).degC.size(), "sensor", "degc"),
+        profile.numTemperatures(),
+        [&](std::size_t i) { return profile.temperatureTimeUs(i); },
+        [&](std::size_t i) { return profile.temperatures(i).degC; });
+  if (angles) angles->commit();
+  if (temperatures) temperatures->commit();
+  taxels.commit();
+}
+
+}  // namespace palpate

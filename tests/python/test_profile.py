@@ -1,0 +1,137 @@
+"""palpate.load(), Profile, save(): against the independent reader of the tests and NumPy's own."""
+import json
+import os
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import independent_reader
+import palpate
+
+CORPUS = Path(os.environ["PALPATE_CORPUS"])
+WHOLE = CORPUS / "palpate" / "whole.palpate"
+
+
+def recordings():
+    source = Path(os.environ["PALPATE_SOURCE"])
+    folder = Path(os.environ.get("PALPATE_RECORDINGS", source.parent / "shared/data/recordings"))
+    if not folder.is_dir():
+        raise unittest.SkipTest("shared data is missing: set PALPATE_RECORDINGS")
+    return folder
+
+
+class Arrays(unittest.TestCase):
+    def check(self, profile, path):
+        frames, angles, temperatures = independent_reader.read(path)
+        self.assertEqual(len(profile), len(frames))
+        stacked = np.array([values for _, _, values in frames], dtype=np.float32)
+        np.testing.assert_array_equal(profile.frames(), stacked)
+        np.testing.assert_array_equal(profile.time_ms, [t // 1000 for t, _, _ in frames])
+        begin = 0
+        for m in range(6):
+            rows = 14 if m % 2 == 0 else 13
+            np.testing.assert_array_equal(
+                profile.matrix(m), stacked[:, begin:begin + rows * 6].reshape(-1, rows, 6))
+            begin += rows * 6
+        if angles:
+            np.testing.assert_array_equal(profile.angles, [v for _, _, v in angles])
+        np.testing.assert_array_equal(profile.angle_time_ms, [t // 1000 for t, _, _ in angles])
+        if temperatures:
+            np.testing.assert_array_equal(profile.temperatures, [v for _, _, v in temperatures])
+        np.testing.assert_array_equal(profile.temperature_time_ms,
+                                      [t // 1000 for t, _, _ in temperatures])
+        if angles:
+            times = np.array([t for t, _, _ in angles])
+            at = np.searchsorted(times, [t for t, _, _ in frames], side="right") - 1
+            expected = np.array([v for _, _, v in angles])[np.clip(at, 0, None)]
+            np.testing.assert_array_equal(profile.angles_at_frames(), expected)
+
+    def test_equal_those_of_the_independent_reader(self):
+        self.check(palpate.load(WHOLE), WHOLE)
+
+    def test_real_recordings_equal_too(self):
+        for name in ("misc/masked_matrix.dsa", "grasps/foam_ball.dsa"):
+            with tempfile.TemporaryDirectory() as folder:
+                native = os.path.join(folder, "a.palpate")
+                profile = palpate.load(recordings() / name)
+                profile.save(native)
+                self.check(profile, native)
+                self.check(palpate.load(native), native)
+
+    def test_types_and_slices(self):
+        profile = palpate.load(WHOLE)
+        self.assertEqual(profile.frames().dtype, np.float32)
+        self.assertEqual(profile.matrix(0).shape, (12, 14, 6))
+        self.assertEqual(profile.time_ms.dtype, np.int64)
+        self.assertEqual(profile.angles.dtype, np.float64)
+        every = profile.frames()
+        for start, stop in ((0, 5), (3, 3), (-4, None), (2, -2), (5, 100), (9, 2)):
+            np.testing.assert_array_equal(profile.frames(start, stop), every[start:stop])
+        np.testing.assert_array_equal(profile.matrix(-1), profile.matrix(5))
+        self.assertEqual(profile.serial, "1D9B0057")
+
+
+class Saving(unittest.TestCase):
+    def test_every_form(self):
+        profile = palpate.load(WHOLE)
+        with tempfile.TemporaryDirectory() as folder:
+            for ending in ("dsa", "palpate"):
+                path = Path(folder) / f"a.{ending}"
+                profile.save(path)
+                again = palpate.load(path)
+                np.testing.assert_array_equal(again.frames(), profile.frames())
+                np.testing.assert_array_equal(again.angles, profile.angles)
+            profile.save(Path(folder) / "a.npz")
+            arrays = np.load(Path(folder) / "a.npz", allow_pickle=False)
+            self.assertEqual(set(arrays.files), {
+                "time_ms", "m0", "m1", "m2", "m3", "m4", "m5", "angles", "angle_time_ms",
+                "temperatures", "temperature_time_ms", "static_mask", "meta"})
+            for m in range(6):
+                self.assertEqual(arrays[f"m{m}"].dtype, np.uint16)
+                np.testing.assert_array_equal(arrays[f"m{m}"], profile.matrix(m))
+            np.testing.assert_array_equal(arrays["angles"], profile.angles)
+            np.testing.assert_array_equal(arrays["time_ms"], profile.time_ms)
+            self.assertEqual(arrays["static_mask"].sum(), 456)
+            self.assertEqual(json.loads(str(arrays["meta"]))["serial"], "1D9B0057")
+            profile.save(Path(folder) / "a.csv")
+            table = np.loadtxt(Path(folder) / "a.csv", delimiter=",", skiprows=1)
+            matrix = profile.matrix(0)
+            for frame, _, m, y, x, value in table:
+                if m == 0:
+                    self.assertEqual(matrix[int(frame), int(y), int(x)], value)
+            self.assertEqual(len(table), np.count_nonzero(profile.frames() > 0))
+
+    def test_nothing_is_replaced_without_force(self):
+        profile = palpate.load(WHOLE)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.palpate")
+            profile.save(path)
+            with self.assertRaisesRegex(OSError, "exists already"):
+                profile.save(path)
+            profile.save(path, force=True)
+            with self.assertRaisesRegex(OSError, "must end in"):
+                profile.save(os.path.join(folder, "a.txt"))
+
+
+class Errors(unittest.TestCase):
+    def test_are_pythons_own(self):
+        profile = palpate.load(WHOLE)
+        with self.assertRaises(IndexError):
+            profile.matrix(6)
+        with self.assertRaises(IndexError):
+            profile.matrix(-7)
+        with self.assertRaises(OSError):
+            palpate.load("missing.palpate")
+        for name in ("mask", "view", "counts", "page"):
+            with self.assertRaises(ValueError, msg=name):
+                palpate.load(CORPUS / "palpate" / f"{name}.palpate").frames()
+        with self.assertRaises(ValueError):
+            palpate.load(__file__)
+        with self.assertRaises(ValueError):
+            palpate.load(CORPUS / "palpate" / "pad.palpate").angles_at_frames()
+
+
+if __name__ == "__main__":
+    unittest.main()

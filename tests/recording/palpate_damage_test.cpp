@@ -1,0 +1,167 @@
+// Damaged and hostile native recordings: everything intact comes back, nothing wrong is ever shown,
+// one clear error otherwise.
+#include "recording/palpate_damage.h"
+
+#include <sys/resource.h>
+
+#include "palpate/recording/palpate_schema.h"
+
+namespace palpate {
+namespace {
+namespace fs = std::filesystem;
+using namespace testing;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;  // shadow memory counts as memory
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+#else
+constexpr bool kSanitized = false;
+#endif
+
+TEST(PalpateDamage, everyBlockThatWasNotHitComesBack) {
+  DamageRun run(400);
+  for (unsigned seed = 0; seed < 300; ++seed) run.round(seed);
+  EXPECT_GT(run.framesExpected(), 20'000u);
+}
+
+TEST(PalpateDamage, aKilledRecoveryIsRepeatedWithTheSameResult) {
+  KilledRecovery recovery;
+  std::mt19937 random(4);
+  for (int i = 0; i < 20; ++i) recovery.round(random() % 40'000'000);
+  EXPECT_GT(recovery.killed(), 0);
+}
+
+TEST(PalpateDamage, flippedValuesOfTheSummaryAreNoticedAndRebuilt) {
+  const TemporaryFolder folder;
+  writeSamples(folder / "a.palpate", 200);
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open((folder / "a.palpate").c_str(), &db), SQLITE_OK);
+  ASSERT_EQ(
+      sqlite3_exec(db, "UPDATE second SET max=max+1 WHERE rowid=7", nullptr, nullptr, nullptr),
+      SQLITE_OK);
+  sqlite3_close(db);
+  const VerifyReport report = verifyRecording(folder / "a.palpate");
+  EXPECT_EQ(report.state, VerifyReport::State::kDamaged);
+  EXPECT_NE(report.message.find("1 damaged row"), std::string::npos) << report.message;
+  recoverRecording(folder / "a.palpate", folder / "b.palpate");
+  EXPECT_EQ(verifyRecording(folder / "b.palpate").state, VerifyReport::State::kSound);
+}
+
+// What an attacker writes with SQL into a sound recording. %: a block whose checksum is made right.
+struct Hostile {
+  std::string name;
+  std::string sql;
+};
+
+class HostileRecording : public ::testing::TestWithParam<Hostile> {};
+
+// crc32 of a block, so that SQL can make lies with right checksums.
+void blockCrcFunction(sqlite3_context* context, int, sqlite3_value** values) {
+  Block block;
+  block.stream = static_cast<Stream>(sqlite3_value_int64(values[0]));
+  block.first = sqlite3_value_int64(values[1]);
+  block.n = sqlite3_value_int64(values[2]);
+  block.t0Us = sqlite3_value_int64(values[3]);
+  block.t1Us = sqlite3_value_int64(values[4]);
+  block.coding = static_cast<BlockCoding>(sqlite3_value_int64(values[5]));
+  const auto* data = static_cast<const std::byte*>(sqlite3_value_blob(values[6]));
+  block.data.assign(data, data + sqlite3_value_bytes(values[6]));
+  sqlite3_result_int64(context, blockCrc(block));
+}
+
+TEST_P(HostileRecording, isRefusedOrReadWithoutHarm) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "hostile.palpate";
+  writeSamples(path, 50);
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
+  sqlite3_create_function(
+      db, "block_crc", 7, SQLITE_UTF8, nullptr, blockCrcFunction, nullptr, nullptr);
+  sqlite3_db_config(db, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
+  char* message = nullptr;
+  const std::string sql =
+      GetParam().sql +
+      ";UPDATE block SET crc32=block_crc(stream,first,n,t0_us,t1_us,coding,data) WHERE id=2";
+  sqlite3_exec(db, sql.c_str(), nullptr, nullptr, &message);
+  if (message) {
+    EXPECT_NE(std::string(message).find("block"), std::string::npos) << message;
+  }
+  sqlite3_free(message);
+  sqlite3_close(db);
+  const pid_t child = fork();
+  if (child == 0) {
+    bool refused = false;
+    try {
+      dumped(openRecording(path));
+    } catch (const FormatError& error) {
+      refused = std::string(error.what()).find('\n') == std::string::npos;
+    }
+    const VerifyReport report = verifyRecording(path);
+    const bool noticed = report.state != VerifyReport::State::kSound;
+    _exit(refused && noticed && !::testing::Test::HasFailure() ? 0 : 1);
+  }
+  int status = 0;
+  rusage usage{};
+  ASSERT_EQ(wait4(child, &status, 0, &usage), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "status " << status;
+  if (!kSanitized) {
+    EXPECT_LT(usage.ru_maxrss, 256 * 1024);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Corpus,
+    HostileRecording,
+    ::testing::Values(
+        Hostile{"manyItems", "UPDATE block SET n=1000000000000 WHERE id=2"},
+        Hostile{"negativeItems", "UPDATE block SET n=-1 WHERE id=2"},
+        Hostile{"largestFirst", "UPDATE block SET first=9223372036854775807 WHERE id=2"},
+        Hostile{"largestTime",
+                "UPDATE block SET t0_us=-9223372036854775808,"
+                " t1_us=9223372036854775807 WHERE id=2"},
+        Hostile{"unknownStream", "UPDATE block SET stream=77 WHERE id=2"},
+        Hostile{"unknownCoding", "UPDATE block SET coding=99 WHERE id=2"},
+        Hostile{"wrongCoding",
+                "UPDATE block SET coding=1-coding WHERE id IN"
+                " (SELECT id FROM block WHERE stream=0); UPDATE block SET"
+                " crc32=block_crc(stream,first,n,t0_us,t1_us,coding,data)"},
+        Hostile{"hugeBlob", "UPDATE block SET data=zeroblob(100000000) WHERE id=2"},
+        Hostile{"zeros", "UPDATE block SET data=zeroblob(4000) WHERE id=2"},
+        Hostile{"notANumber",
+                "UPDATE block SET coding=2, data=CAST(X'00000000' || X'0000000000000000' ||"
+                " X'0000C07F' AS BLOB), n=1, t1_us=t0_us WHERE id=2"},
+        Hostile{"hugeMatrix", "UPDATE matrix SET rows=65535, columns=65535 WHERE idx=0"},
+        Hostile{"manyMatrices",
+                "WITH RECURSIVE n(i) AS (SELECT 6 UNION ALL SELECT i+1 FROM n WHERE i<100000)"
+                " INSERT INTO matrix SELECT i,14,6,3.4,static_mask,dynamic_mask,'',0 FROM n, matrix"
+                " WHERE idx=0"},
+        Hostile{"noMatrix", "DELETE FROM matrix"},
+        Hostile{"infinitePitch", "UPDATE matrix SET pitch_mm=9e999 WHERE idx=0"},
+        Hostile{"manyKeys",
+                "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i+1 FROM n WHERE i<100000)"
+                " INSERT INTO meta SELECT 'k'||i,'v',0 FROM n"},
+        Hostile{"blockIsAView",
+                "ALTER TABLE block RENAME TO b; CREATE VIEW block AS SELECT * FROM b"},
+        Hostile{"anyView",
+                "CREATE VIEW v AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i+1"
+                " FROM n) SELECT i FROM n"},
+        Hostile{"trigger", "CREATE TRIGGER t AFTER INSERT ON meta BEGIN DELETE FROM block; END"},
+        Hostile{"generatedColumn",
+                "DROP TABLE event; CREATE TABLE event(id INTEGER PRIMARY KEY, t_us AS"
+                " (zeroblob(1000000000)))"},
+        Hostile{"indexOnExpression", "CREATE INDEX i ON block(length(zeroblob(id)))"},
+        Hostile{"missingTable", "DROP TABLE counter"},
+        Hostile{"otherVersion", "PRAGMA user_version=2"},
+        Hostile{"otherProgram", "PRAGMA application_id=7"},
+        Hostile{"manyFrames",
+                "UPDATE meta SET value='9223372036854775807' WHERE key='frames';"
+                " DELETE FROM block WHERE id=3"}),
+    [](const auto& of) { return of.param.name; });
+
+}  // namespace
+}  // namespace palpate
