@@ -11,8 +11,13 @@ int main(int argc, char** argv) {
   for (const char* variable :
        {"XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR"})
     ::setenv(variable, home.path().c_str(), 1);
-  const bool hasDisplay = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
-  if (!hasDisplay) ::setenv("QT_QPA_PLATFORM", "offscreen", 0);
+  // A variable that is set but empty says nothing.
+  const auto says = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return value && *value;
+  };
+  if (!says("DISPLAY") && !says("WAYLAND_DISPLAY") && !says("QT_QPA_PLATFORM"))
+    ::setenv("QT_QPA_PLATFORM", "offscreen", 1);
   const auto application = palpate::gui::makeApplication(argc, argv);
   return RUN_ALL_TESTS();
 }
