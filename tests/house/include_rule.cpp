@@ -1,5 +1,6 @@
 #include "house/include_rule.h"
 
+#include <filesystem>
 #include <iterator>
 #include <regex>
 #include <sstream>
@@ -19,13 +20,15 @@ std::set<std::string> wordsOf(std::string list) {
   return {std::istream_iterator<std::string>(in), {}};
 }
 
-// "gui/x.h" and "commands/x.h" stand for folders of apps/palpate, any other for private headers.
+// "gui/x.h" and "commands/x.h" stand for folders of apps/palpate, "python/x.h" for apps/python, any
+// other for private headers.
 std::string roomOfInclude(const std::string& name) {
   const std::string first = name.substr(0, name.find('/'));
   if (first == "palpate") {
     const std::string rest = name.substr(8);
     return rest.substr(0, rest.find('/'));
   }
+  if (first == "python") return "apps/python";
   return first == "gui" || first == "commands" ? "apps/palpate/" + first : first;
 }
 
@@ -42,6 +45,7 @@ class Judge {
     if (!room_.starts_with("apps/") && !rules_.rooms.contains(room_))
       return "the room " + room_ + " isn't in the table of docs/architecture.md";
     if (name.find('/') == std::string::npos && isStandardHeader(name)) return {};
+    if (quoted && isNeighbour(name)) return {};
     const std::string target = roomOfInclude(name);
     const bool ours = name.starts_with("palpate/") || quoted;
     return ours && name.find('/') != std::string::npos ? faultOfOurs(name, target)
@@ -49,6 +53,12 @@ class Judge {
   }
 
  private:
+  // A header beside the including file, named without its folder.
+  bool isNeighbour(const std::string& name) const {
+    return name.find('/') == std::string::npos && !isPublic(path_) &&
+           std::filesystem::exists((projectFolder() / path_).parent_path() / name);
+  }
+
   std::string faultOfOurs(const std::string& name, const std::string& target) const {
     const bool targetIsPublic = name.starts_with("palpate/");
     if (target == room_)

@@ -86,6 +86,8 @@ TEST(IncludeRule, FindsAPlantedWrongInclude) {
   // Private headers.
   EXPECT_EQ(numFaults("src/capture/x.cpp", "#include \"recording/byte_source.h\""), 1u);
   EXPECT_EQ(numFaults("include/palpate/recording/x.h", "#include \"recording/byte_source.h\""), 1u);
+  // Quotes make no neighbour of it.
+  EXPECT_EQ(numFaults("src/model/x.cpp", "#include \"sqlite3.h\""), 1u);
   // A room without a row.
   EXPECT_EQ(numFaults("src/utils/x.cpp", "#include <vector>"), 1u);
 }

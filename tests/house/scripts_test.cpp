@@ -101,7 +101,7 @@ TEST_F(Scripts, RunInstallsConfiguresBuildsAndHandsOver) {
   EXPECT_TRUE(lines[0].starts_with("apt-get ")) << lines[0];
   EXPECT_TRUE(lines[0].ends_with(" install --no-install-recommends second")) << lines[0];
   EXPECT_EQ(lines[1], "cmake --preset release -DPALPATE_TESTS=OFF -DPALPATE_BENCHMARKS=OFF");
-  EXPECT_TRUE(lines[2].ends_with("build/release palpate")) << lines[2];
+  EXPECT_TRUE(lines[2].ends_with("build/release palpate palpate_python")) << lines[2];
 }
 
 TEST_F(Scripts, RunIsSilentAndCallsNothingWhenNothingChanged) {
