@@ -1,7 +1,7 @@
 // import palpate
 #include "palpate/core/error.h"
 
-#include "bindings.h"
+#include "python/bindings.h"
 
 namespace py = pybind11;
 

@@ -10,7 +10,7 @@
 #include "palpate/core/error.h"
 #include "palpate/recording/recording.h"
 
-#include "bindings.h"
+#include "python/bindings.h"
 
 namespace palpate::python {
 namespace py = pybind11;

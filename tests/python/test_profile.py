@@ -74,6 +74,12 @@ class Arrays(unittest.TestCase):
 
 
 class Saving(unittest.TestCase):
+    @staticmethod
+    def static_mask():
+        distal = np.ones((13, 6))
+        distal[:5, [0, 5]] = 0
+        return np.concatenate([np.ones(84), distal.ravel()] * 3).astype(np.float32)
+
     def test_every_form(self):
         profile = palpate.load(WHOLE)
         with tempfile.TemporaryDirectory() as folder:
@@ -81,7 +87,10 @@ class Saving(unittest.TestCase):
                 path = Path(folder) / f"a.{ending}"
                 profile.save(path)
                 again = palpate.load(path)
-                np.testing.assert_array_equal(again.frames(), profile.frames())
+                expected = profile.frames()
+                if ending == "dsa":  # its reader knows that there is no taxel in the cut corners
+                    expected = expected * self.static_mask()
+                np.testing.assert_array_equal(again.frames(), expected)
                 np.testing.assert_array_equal(again.angles, profile.angles)
             profile.save(Path(folder) / "a.npz")
             arrays = np.load(Path(folder) / "a.npz", allow_pickle=False)

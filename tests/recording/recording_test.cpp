@@ -39,7 +39,7 @@ TEST(Recording, isToldByItsFirstBytesNotByItsName) {
     openRecording(folder / "native.dsa");
     FAIL();
   } catch (const FormatError& error) {
-    EXPECT_NE(std::string(error.what()).find("a .palpate recording"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("native.dsa"), std::string::npos);
   }
   EXPECT_EQ(verifyRecording(folder / "native.dsa").state, VerifyReport::State::kUnreadable);
 }

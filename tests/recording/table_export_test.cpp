@@ -1,0 +1,57 @@
+#include "palpate/recording/table_export.h"
+
+#include "palpate/core/error.h"
+#include "palpate/model/hand_description.h"
+#include "palpate/model/profile_builder.h"
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+Profile twoFrames() {
+  ProfileBuilder builder(sdh2().layout);
+  std::vector<float> values(486, 0.0F);
+  builder.addFrame(1'400'000'000'000'000, values);
+  values[84 + 8 * 6 + 2] = 7.0F;
+  values[485] = 2.5F;
+  builder.addFrame(1'400'000'000'032'000, values);
+  builder.addAngles(1'400'000'000'001'000, std::vector<double>{60.0, -10.5});
+  return builder.finish({});
+}
+
+TEST(CsvExport, WritesActiveTaxelsAndTheSamplesBeside) {
+  const testing::TemporaryFolder folder;
+  writeCsv(twoFrames(), folder / "a.csv");
+  EXPECT_EQ(testing::readFile(folder / "a.csv"),
+            "frame,time_ms,matrix,y,x,value\n"
+            "1,1400000000032,1,8,2,7\n"
+            "1,1400000000032,5,12,5,2.5\n");
+  EXPECT_EQ(testing::readFile(folder / "a.csv.angles.csv").find("sample,time_ms,"), 0u);
+  EXPECT_NE(testing::readFile(folder / "a.csv.angles.csv").find("0,1400000000001,60,-10.5\n"),
+            std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.csv.temperatures.csv"));
+}
+
+TEST(CsvExport, ReplacesNothingUnasked) {
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "a.csv.angles.csv", "precious");
+  EXPECT_THROW(writeCsv(twoFrames(), folder / "a.csv"), FileError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.csv"));
+  EXPECT_EQ(testing::readFile(folder / "a.csv.angles.csv"), "precious");
+}
+
+// The arrays are read back by NumPy in tests/python; here the form of the file.
+TEST(NpzExport, IsAZipOfArrays) {
+  const testing::TemporaryFolder folder;
+  writeNpz(twoFrames(), {}, folder / "a.npz");
+  const std::string bytes = testing::readFile(folder / "a.npz");
+  EXPECT_EQ(bytes.substr(0, 4), "PK\x03\x04");
+  for (const char* name : {"time_ms.npy", "m5.npy", "static_mask.npy", "meta.npy"})
+    EXPECT_NE(bytes.find(name), std::string::npos) << name;
+  EXPECT_NE(bytes.find("'descr': '<f4'"), std::string::npos);  // fractional values
+  EXPECT_NE(bytes.find("'shape': (2, 13, 6, )"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace palpate
