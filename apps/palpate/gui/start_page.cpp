@@ -79,7 +79,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
     connect(demo, &QPushButton::clicked, this, &StartPage::demoAsked);
     buttons->addWidget(demo, 1);
   }
-  dropHint_ = new QLabel("or drop a recording (.dsa) anywhere in this window", this);
+  dropHint_ = new QLabel("or drop a recording (.dsa, .palpate) anywhere in this window", this);
   dropHint_->setObjectName("DropHint");
   dropHint_->setAlignment(Qt::AlignCenter);
   dropHint_->setMinimumHeight(64);
@@ -120,7 +120,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
 void StartPage::setDragging(bool on) {
   dropHint_->setProperty("dragging", on);
   dropHint_->setText(on ? "let go to open it"
-                        : "or drop a recording (.dsa) anywhere in this window");
+                        : "or drop a recording (.dsa, .palpate) anywhere in this window");
   style()->unpolish(dropHint_);
   style()->polish(dropHint_);
 }
