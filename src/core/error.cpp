@@ -17,4 +17,7 @@ FormatError::FormatError(const std::filesystem::path& path,
       path_(path),
       offset_(offset) {}
 
+DeviceError::DeviceError(DeviceFault fault, const std::string& port, const std::string& message)
+    : Error(port + ": " + message), fault_(fault), port_(port) {}
+
 }  // namespace palpate

@@ -41,13 +41,14 @@ HandDescription makeSdh2() {
     hand.matrices.push_back(fingerMatrix(finger, "proximal"));
     hand.matrices.push_back(fingerMatrix(finger, "distal"));
   }
-  hand.axes = {{"fingers 0 and 2 base", 0.0, 90.0},
-               {"finger 0 proximal", -90.0, 90.0},
-               {"finger 0 distal", -90.0, 90.0},
-               {"finger 1 proximal", -90.0, 90.0},
-               {"finger 1 distal", -90.0, 90.0},
-               {"finger 2 proximal", -90.0, 90.0},
-               {"finger 2 distal", -90.0, 90.0}};
+  // Ranges, velocities and accelerations: what the controller answers to vlim and alim (SDH-2 firmware 0.0.3.3).
+  hand.axes = {{"fingers 0 and 2 base", 0.0, 90.0, 83.0, 5000.0},
+               {"finger 0 proximal", -90.0, 90.0, 140.0, 400.0},
+               {"finger 0 distal", -90.0, 90.0, 200.0, 1500.0},
+               {"finger 1 proximal", -90.0, 90.0, 140.0, 400.0},
+               {"finger 1 distal", -90.0, 90.0, 200.0, 1500.0},
+               {"finger 2 proximal", -90.0, 90.0, 140.0, 400.0},
+               {"finger 2 distal", -90.0, 90.0, 200.0, 1500.0}};
   for (std::size_t axis = 0; axis < hand.axes.size(); ++axis)
     hand.temperatureSensors.push_back({"motor " + std::to_string(axis)});
   hand.temperatureSensors.push_back({"FPGA"});

@@ -44,6 +44,31 @@ class FormatError : public Error {
   std::optional<std::uint64_t> offset_;
 };
 
+// What is wrong with a device or its port.
+enum class DeviceFault {
+  kNotFound,      // no such port
+  kNoPermission,  // the port may not be opened
+  kBusy,          // another program holds the port
+  kGone,          // unplugged, hung up
+  kSilent,        // no answer in time
+  kRefused,       // the device answered with an error code
+  kProtocol,      // the answer is not what the protocol says
+  kWrongDevice,   // something else answers there (ports swapped)
+  kUnsupported,   // this device takes no such command
+};
+
+// A device can't be opened, doesn't answer, or is gone. what(): "PORT: message", which says what to do.
+class DeviceError : public Error {
+ public:
+  DeviceError(DeviceFault fault, const std::string& port, const std::string& message);
+  DeviceFault fault() const noexcept { return fault_; }
+  const std::string& port() const noexcept { return port_; }
+
+ private:
+  DeviceFault fault_;
+  std::string port_;
+};
+
 // A long piece of work was cancelled by its caller: nothing was left half-done.
 class Cancelled : public Error {
  public:

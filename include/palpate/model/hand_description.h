@@ -25,6 +25,8 @@ struct AxisDescription {
   std::string name;         // "finger 1 proximal"
   double minimumDeg = 0.0;  // range of motion [deg]
   double maximumDeg = 0.0;
+  double maximumVelocityDegPerS = 0.0;       // as the controller's firmware allows [deg/s]
+  double maximumAccelerationDegPerS2 = 0.0;  // [deg/s^2]
 };
 
 struct TemperatureSensorDescription {

@@ -1,0 +1,75 @@
+// The SDH-2's motion controller as a machine of joints: seven axes with targets, velocities,
+// accelerations, power and states, that move in simulated time. Knows no byte of the protocol.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <palpate/model/hand_description.h>
+
+namespace palpate {
+
+enum class AxisState : std::uint8_t {
+  kIdle = 0,
+  kPositioning = 1,  // goal of an `m` motion not yet reached
+  kSpeedMode = 2,    // moving in a velocity controller
+  kNotInitialised = 3,
+  kBlockedClockwise = 4,
+  kBlockedCounterClockwise = 5,
+  kDisabled = 6,      // power off
+  kLimitReached = 7,  // position limit reached and stopped
+};
+
+enum class ControllerType : std::uint8_t { kPose = 0, kVelocity = 1, kVelocityAcceleration = 2 };
+enum class VelocityProfile : std::uint8_t { kSinSquare = 0, kRamp = 1 };
+
+// Vectors have one entry per axis. Setters throw std::out_of_range (value outside the axis' range) or
+// std::invalid_argument (wrong size, not finite) and change nothing then.
+class JointMotion {
+ public:
+  // Axes stand at `startDeg`, disabled; pose controller, 40 deg/s, 100 deg/s^2, sin-square.
+  JointMotion(const HandDescription& hand, std::vector<double> startDeg);
+
+  void setTargets(const std::vector<double>& deg);
+  // Pose controller: 0..limit, used by the next startMotion(). Velocity controllers: -limit..limit, moves
+  // at once (kVelocityAcceleration ramps with the accelerations).
+  void setVelocities(const std::vector<double>& degPerS);
+  void setAccelerations(const std::vector<double>& degPerS2);
+  void setPower(const std::vector<bool>& on);  // off: the axis stops where it is, state kDisabled
+  void setController(
+      ControllerType type);  // velocities become 40 (pose) or 0 (velocity controllers)
+  void setProfile(VelocityProfile profile);
+
+  // `m`: enables all axes; all start and arrive together. Returns the duration [s]; 0 when all stand at
+  // their targets.
+  double startMotion();
+  double durationOfPending()
+      const;    // `get_duration`: of the motion that startMotion() would begin [s]
+  void stop();  // `stop`: the motion ends where it is; power stays
+
+  void advance(double dtS);
+  // The fingers meet an object: an axis that would move further is held from outside.
+  void setBlocked(std::size_t axis, bool clockwise, bool counterClockwise);
+
+  const std::vector<double>& angles() const noexcept { return angleDeg_; }
+  const std::vector<double>& velocities() const noexcept { return velocityDegPerS_; }  // actual
+  const std::vector<double>& referenceVelocities() const noexcept { return referenceDegPerS_; }
+  const std::vector<double>& targets() const noexcept { return targetDeg_; }
+  const std::vector<double>& targetVelocities() const noexcept { return targetVelocityDegPerS_; }
+  const std::vector<double>& accelerations() const noexcept { return accelerationDegPerS2_; }
+  const std::vector<bool>& power() const noexcept { return power_; }
+  std::vector<AxisState> states() const;
+  ControllerType controller() const noexcept { return controller_; }
+  VelocityProfile profile() const noexcept { return profile_; }
+  bool moving() const;
+
+ private:
+  // Yours to shape.
+  std::vector<double> angleDeg_, velocityDegPerS_, referenceDegPerS_, targetDeg_,
+      targetVelocityDegPerS_, accelerationDegPerS2_;
+  std::vector<bool> power_;
+  ControllerType controller_ = ControllerType::kPose;
+  VelocityProfile profile_ = VelocityProfile::kSinSquare;
+};
+
+}  // namespace palpate
