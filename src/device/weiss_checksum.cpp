@@ -5,8 +5,10 @@
 namespace palpate {
 namespace {
 
-constexpr std::array<std::uint16_t, 256> makeTable() {
-  std::array<std::uint16_t, 256> table{};
+using Table = std::array<std::uint16_t, 256>;
+
+constexpr Table makeTable() {
+  Table table{};
   for (unsigned i = 0; i < table.size(); ++i) {
     unsigned remainder = i << 8;
     for (int bit = 0; bit < 8; ++bit)
@@ -16,15 +18,37 @@ constexpr std::array<std::uint16_t, 256> makeTable() {
   return table;
 }
 
-constexpr std::array<std::uint16_t, 256> kTable = makeTable();
+// The update is linear over GF(2), so several bytes can be taken at once: table k holds what a byte
+// leaves behind after k more bytes of zero ("slicing").
+constexpr std::size_t kSlices = 8;
+constexpr std::array<Table, kSlices> makeSlices() {
+  std::array<Table, kSlices> slices{};
+  slices[0] = makeTable();
+  for (std::size_t k = 1; k < kSlices; ++k)
+    for (std::size_t i = 0; i < 256; ++i) {
+      const std::uint16_t before = slices[k - 1][i];
+      slices[k][i] = static_cast<std::uint16_t>(before >> 8 ^ slices[0][before & 0xFFu]);
+    }
+  return slices;
+}
+
+constexpr std::array<Table, kSlices> kSlice = makeSlices();
 
 }  // namespace
 
 std::uint16_t weissChecksum(std::span<const std::byte> bytes, std::uint16_t seed) noexcept {
   std::uint16_t crc = seed;  // the device shifts right through a left-shifting table: keep it so
-  for (const std::byte b : bytes)
-    crc =
-        static_cast<std::uint16_t>(crc >> 8 ^ kTable[(crc ^ std::to_integer<unsigned>(b)) & 0xFFu]);
+  const auto index = [&](std::size_t at, unsigned mixed) {
+    return (std::to_integer<unsigned>(bytes[at]) ^ mixed) & 0xFFu;
+  };
+  std::size_t at = 0;
+  for (; bytes.size() - at >= kSlices; at += kSlices) {
+    unsigned next = kSlice[7][index(at, crc)] ^ kSlice[6][index(at + 1, crc >> 8)];
+    for (std::size_t k = 2; k < kSlices; ++k) next ^= kSlice[kSlices - 1 - k][index(at + k, 0)];
+    crc = static_cast<std::uint16_t>(next);
+  }
+  for (; at < bytes.size(); ++at)
+    crc = static_cast<std::uint16_t>(crc >> 8 ^ kSlice[0][index(at, crc)]);
   return crc;
 }
 

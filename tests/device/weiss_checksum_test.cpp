@@ -32,5 +32,22 @@ TEST(WeissChecksum, GoesOnFromASeed) {
   EXPECT_EQ(weissChecksum(bytes.subspan(2), weissChecksum(bytes.first(2))), weissChecksum(bytes));
 }
 
+// Several bytes at a time give what bit by bit gives (the textbook form, from the polynomial alone).
+TEST(WeissChecksum, EqualsTheBitwiseFormAtEveryLength) {
+  std::vector<std::byte> bytes;
+  std::uint16_t bitwise = 0xFFFF;
+  unsigned random = 12345;
+  for (int length = 0; length <= 1000; ++length) {
+    ASSERT_EQ(weissChecksum(bytes), bitwise) << length;
+    random = random * 1664525u + 1013904223u;
+    const unsigned byte = random >> 24;
+    bytes.push_back(static_cast<std::byte>(byte));
+    unsigned remainder = ((bitwise ^ byte) & 0xFFu) << 8;
+    for (int bit = 0; bit < 8; ++bit)
+      remainder = ((remainder << 1) ^ ((remainder & 0x8000u) != 0 ? 0x1021u : 0u)) & 0xFFFFu;
+    bitwise = static_cast<std::uint16_t>(bitwise >> 8 ^ remainder);
+  }
+}
+
 }  // namespace
 }  // namespace palpate

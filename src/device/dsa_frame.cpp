@@ -1,0 +1,165 @@
+#include "palpate/device/dsa_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kHeaderBytes = 5;
+constexpr std::size_t kFramingBytes = 8;  // preamble, id, size, checksum
+constexpr unsigned kRunLengthFlag = 1;
+constexpr unsigned kMaxCounts = 0x0FFF;
+
+unsigned unitAt(const std::byte* at) {
+  return std::to_integer<unsigned>(at[0]) | std::to_integer<unsigned>(at[1]) << 8;
+}
+
+bool decodeRuns(std::span<const std::byte> units, std::span<float> counts) {
+  std::size_t place = 0;
+  for (std::size_t i = 0; i + 1 < units.size(); i += 2) {
+    const unsigned unit = unitAt(&units[i]);
+    const std::size_t run = unit >> 12;
+    if (run == 0 || run > counts.size() - place) return false;
+    std::fill_n(counts.begin() + static_cast<std::ptrdiff_t>(place),
+                run,
+                static_cast<float>(unit & kMaxCounts));
+    place += run;
+  }
+  return place == counts.size();
+}
+
+bool decodeRaw(std::span<const std::byte> taxels, std::span<float> counts) {
+  if (taxels.size() != 2 * counts.size()) return false;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const unsigned value = unitAt(&taxels[2 * i]);
+    if (value > kMaxCounts) return false;
+    counts[i] = static_cast<float>(value);
+  }
+  return true;
+}
+
+bool emptyWhereNoTaxelIs(const SensorLayout& layout, std::span<const float> counts) {
+  std::size_t place = 0;
+  for (const MatrixLayout& matrix : layout.matrices())
+    for (const std::uint8_t exists : matrix.staticMask) {
+      if (exists == 0 && counts[place] != 0.0F) return false;
+      ++place;
+    }
+  return true;
+}
+
+}  // namespace
+
+std::optional<DsaFrame> decodeDsaFrame(std::span<const std::byte> payload,
+                                       const SensorLayout& layout,
+                                       bool checkMask,
+                                       std::span<float> counts) {
+  if (counts.size() != layout.numPlaces())
+    throw std::invalid_argument("decodeDsaFrame: room for " + std::to_string(counts.size()) +
+                                " values, the layout has " + std::to_string(layout.numPlaces()));
+  if (payload.size() < kHeaderBytes || payload.size() % 2 == 0) return std::nullopt;
+  const unsigned flags = std::to_integer<unsigned>(payload[4]);
+  if ((flags & ~kRunLengthFlag) != 0) return std::nullopt;
+  DsaFrame frame;
+  for (std::size_t i = 4; i > 0; --i)
+    frame.stampMs = frame.stampMs << 8 | std::to_integer<std::uint32_t>(payload[i - 1]);
+  frame.runLength = flags == kRunLengthFlag;
+  frame.packetBytes = payload.size() + kFramingBytes;
+  const auto taxels = payload.subspan(kHeaderBytes);
+  if (!(frame.runLength ? decodeRuns(taxels, counts) : decodeRaw(taxels, counts)))
+    return std::nullopt;
+  if (checkMask && !emptyWhereNoTaxelIs(layout, counts)) return std::nullopt;
+  return frame;
+}
+
+// --- clock ---------------------------------------------------------------------------------------
+
+namespace {
+// How far ahead of the host's clock the controller's may run between two frames [ms]: a controller that
+// was held up hands over late, never early; emulated ones may run faster than time.
+constexpr double kAheadMs = 10'000.0;
+}  // namespace
+
+bool DsaClock::follows(std::uint32_t stampMs,
+                       std::int64_t hostUs,
+                       std::uint32_t last,
+                       std::int64_t lastUs) const noexcept {
+  const auto ahead = static_cast<std::int32_t>(stampMs - last);  // also across the wrap at 2^32
+  const double hostMs = static_cast<double>(std::max<std::int64_t>(hostUs - lastUs, 0)) / 1000.0;
+  return ahead > 0 && static_cast<double>(ahead) <= hostMs * 1.01 + kAheadMs;
+}
+
+DsaClock::Verdict DsaClock::judge(std::uint32_t stampMs, std::int64_t hostUs) {
+  if (!last_) {
+    last_ = Stamp{stampMs, hostUs};
+    deviceMs_ = stampMs;
+    return Verdict::kAccept;
+  }
+  if (follows(stampMs, hostUs, last_->ms, last_->hostUs)) {
+    deviceMs_ += static_cast<std::int32_t>(stampMs - last_->ms);
+    last_ = Stamp{stampMs, hostUs};
+    const bool wasHeld = held_.has_value();
+    held_.reset();
+    return wasHeld ? Verdict::kDropHeld : Verdict::kAccept;
+  }
+  if (held_ && follows(stampMs, hostUs, held_->ms, held_->hostUs)) {
+    heldMs_ = deviceMs_ + 1;
+    deviceMs_ = heldMs_ + static_cast<std::int32_t>(stampMs - held_->ms);
+    last_ = Stamp{stampMs, hostUs};
+    held_.reset();
+    return Verdict::kRestarted;
+  }
+  const bool wasHeld = held_.has_value();
+  held_ = Stamp{stampMs, hostUs};
+  return wasHeld ? Verdict::kReplaceHeld : Verdict::kHold;
+}
+
+// --- loss ----------------------------------------------------------------------------------------
+
+namespace {
+constexpr std::size_t kRecent = 32;  // intervals that the estimate rests on
+constexpr std::size_t kEnough = 8;   // of them before anything is called lost
+constexpr double kMissing = 1.75;    // periods; stamps of real hands jitter by a quarter
+}  // namespace
+
+void DsaLossEstimate::reset() noexcept {
+  lastMs_.reset();
+  recentMs_.clear();
+  nextRecent_ = 0;
+  scanPeriodMs_ = 0.0;
+}
+
+std::uint64_t DsaLossEstimate::next(std::int64_t deviceMs, std::size_t packetBytes) {
+  if (!lastMs_) {
+    lastMs_ = deviceMs;
+    return 0;
+  }
+  const auto interval = static_cast<double>(deviceMs - *lastMs_);
+  lastMs_ = deviceMs;
+  const double lineMs = static_cast<double>(packetBytes) * byteUs_ / 1000.0;
+  const double expected = std::max(scanPeriodMs_, lineMs);
+  std::uint64_t missing = 0;
+  if (recentMs_.size() >= kEnough && interval > kMissing * expected)
+    missing = static_cast<std::uint64_t>(std::llround(interval / expected)) - 1;
+  // Frames that the line held up say nothing about the scan, except that it is no slower.
+  const double scanned = interval / static_cast<double>(missing + 1);
+  if (recentMs_.size() < kRecent) {
+    recentMs_.push_back(scanned);
+  } else {
+    recentMs_[nextRecent_] = scanned;
+    nextRecent_ = (nextRecent_ + 1) % kRecent;
+  }
+  // The middle half's mean: stamps are whole milliseconds, so a median would be one, too.
+  std::vector<double> sorted = recentMs_;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t quarter = sorted.size() / 4;
+  double sum = 0.0;
+  for (std::size_t i = quarter; i < sorted.size() - quarter; ++i) sum += sorted[i];
+  scanPeriodMs_ = sum / static_cast<double>(sorted.size() - 2 * quarter);
+  return missing;
+}
+
+}  // namespace palpate

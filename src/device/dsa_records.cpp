@@ -1,0 +1,94 @@
+#include "device/dsa_records.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "palpate/core/byte_reader.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kLargestFullScale = 65'535.0;
+
+double finite(float value) { return std::isfinite(value) ? static_cast<double>(value) : 0.0; }
+
+}  // namespace
+
+void readControllerRecord(std::span<const std::byte> record, DsaFacts& facts) {
+  ByteReader in(record.subspan(2));
+  facts.serial = in.u32();
+  facts.hardwareVersion = in.u8();
+  facts.firmwareVersion = in.u16();
+  facts.status = in.u8();
+  facts.features = in.u8();
+}
+
+std::size_t readSensorRecord(std::span<const std::byte> record, DsaFacts& facts) {
+  ByteReader in(record.subspan(2));
+  const std::size_t matrices = in.u16();
+  facts.generatedBy = in.u16();
+  facts.sensorHardwareRevision = in.u8();
+  facts.sensorSerial = in.u32();
+  return matrices;
+}
+
+DsaMatrixFacts readMatrixRecord(std::span<const std::byte> record) {
+  ByteReader in(record.subspan(2));
+  DsaMatrixFacts facts;
+  const double widthMm = finite(in.f32());
+  const double heightMm = finite(in.f32());
+  const int columns = in.u16();
+  const int rows = in.u16();
+  // Before anything is allocated by them.
+  if (rows < 1 || rows > 256 || columns < 1 || columns > 256)
+    throw std::invalid_argument("a matrix of " + std::to_string(columns) + " x " +
+                                std::to_string(rows) + " taxels");
+  if (!(widthMm > 0.0 && widthMm < 1000.0) || std::abs(widthMm - heightMm) > 1e-3)
+    throw std::invalid_argument("a taxel of " + std::to_string(widthMm) + " x " +
+                                std::to_string(heightMm) + " mm");
+  // 3.4, not the 3.4000000953 of a 32-bit float.
+  facts.layout = MatrixLayout::full(rows, columns, std::round(widthMm * 1e5) / 1e5);
+  for (const std::byte b : in.take(6)) facts.uniqueId.push_back(std::to_integer<std::uint8_t>(b));
+  in.take(2);
+  facts.hardwareRevision = in.u8();
+  for (double& centre : facts.centreMm) centre = finite(in.f32());
+  for (double& rotation : facts.rotationDeg) rotation = finite(in.f32());
+  // Sources disagree whether it is a whole number or a float: one of the readings makes sense.
+  const std::uint32_t scale = in.u32();
+  facts.fullScale = scale >= 1 && scale <= kLargestFullScale ? static_cast<double>(scale)
+                                                             : finite(std::bit_cast<float>(scale));
+  facts.sensitivityAdjustable = (in.u8() & 2u) != 0;
+  return facts;
+}
+
+std::size_t maskBytes(std::size_t places) { return (places + 7) / 8; }
+
+Mask unpackMask(std::span<const std::byte> bytes, std::size_t places) {
+  Mask mask(places);
+  for (std::size_t i = 0; i < places; ++i)
+    mask[i] = static_cast<std::uint8_t>(std::to_integer<unsigned>(bytes[i / 8]) >> i % 8 & 1u);
+  return mask;
+}
+
+std::vector<std::byte> packMask(const Mask& mask) {
+  std::vector<std::byte> bytes(maskBytes(mask.size()));
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    if (mask[i] != 0) bytes[i / 8] |= static_cast<std::byte>(1u << i % 8);
+  return bytes;
+}
+
+void appendU16(std::vector<std::byte>& bytes, unsigned value) {
+  bytes.push_back(static_cast<std::byte>(value & 0xFFu));
+  bytes.push_back(static_cast<std::byte>(value >> 8 & 0xFFu));
+}
+
+void appendF32(std::vector<std::byte>& bytes, float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  appendU16(bytes, bits & 0xFFFFu);
+  appendU16(bytes, bits >> 16);
+}
+
+}  // namespace palpate

@@ -1,0 +1,33 @@
+// The fixed records of the DSACON32-M's answers.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <palpate/device/dsa_controller.h>
+
+namespace palpate {
+
+constexpr std::size_t kControllerRecordBytes = 18;  // documented as 19; 18 are sent
+constexpr std::size_t kSensorRecordBytes = 12;
+constexpr std::size_t kMatrixRecordBytes = 52;
+constexpr std::size_t kSensitivityRecordBytes = 11;
+constexpr std::size_t kThresholdRecordBytes = 4;
+
+// Each wants the record's size and fills what it tells; the error word was checked before.
+void readControllerRecord(std::span<const std::byte> record, DsaFacts& facts);
+// Returns the number of matrices.
+std::size_t readSensorRecord(std::span<const std::byte> record, DsaFacts& facts);
+// Throws std::invalid_argument naming what can't be (0 columns, a pitch that isn't positive, ..).
+DsaMatrixFacts readMatrixRecord(std::span<const std::byte> record);
+
+// Bit i, least first, belongs to place i = y * columns + x.
+std::size_t maskBytes(std::size_t places);
+Mask unpackMask(std::span<const std::byte> bytes, std::size_t places);
+std::vector<std::byte> packMask(const Mask& mask);
+
+void appendU16(std::vector<std::byte>& bytes, unsigned value);
+void appendF32(std::vector<std::byte>& bytes, float value);
+
+}  // namespace palpate
