@@ -19,7 +19,7 @@ namespace {
 using namespace std::chrono_literals;
 using SteadyClock = std::chrono::steady_clock;
 using testing::Bytes;
-using testing::bytesOf;
+using testing::textBytes;
 using testing::PtyPair;
 using testing::TemporaryFolder;
 
@@ -127,16 +127,16 @@ TEST(ByteChannel, FollowsLinksAndKeepsTheNameItWasGiven) {
   std::filesystem::create_symlink(pty.path(), link);
   const auto channel = openChannel(link);
   EXPECT_EQ(channel->name(), link);
-  channel->write(bytesOf("ver\r\n"));
-  EXPECT_EQ(pty.receive(5, 1000), bytesOf("ver\r\n"));
+  channel->write(textBytes("ver\r\n"));
+  EXPECT_EQ(pty.receive(5, 1000), textBytes("ver\r\n"));
 }
 
 TEST(ByteChannel, DiscardsWhatLayInTheInput) {
   PtyPair pty;
-  pty.send(bytesOf("left over from somebody else"));
+  pty.send(textBytes("left over from somebody else"));
   const auto channel = openChannel(pty.path());
-  pty.send(bytesOf("new"));
-  EXPECT_EQ(readExactly(*channel, 3), bytesOf("new"));
+  pty.send(textBytes("new"));
+  EXPECT_EQ(readExactly(*channel, 3), textBytes("new"));
 }
 
 TEST(ByteChannel, WaitsAsLongAsToldAndTakesOnlyWhatFits) {
@@ -147,8 +147,8 @@ TEST(ByteChannel, WaitsAsLongAsToldAndTakesOnlyWhatFits) {
   EXPECT_EQ(channel->read(buffer, 30ms), 0u);
   EXPECT_GE(SteadyClock::now() - start, 29ms);
   EXPECT_EQ(channel->read(buffer, 0ms), 0u);
-  pty.send(bytesOf("123456"));
-  EXPECT_EQ(readExactly(*channel, 6), bytesOf("123456"));
+  pty.send(textBytes("123456"));
+  EXPECT_EQ(readExactly(*channel, 6), textBytes("123456"));
 }
 
 TEST(ByteChannel, AnInterruptionEndsAWaitingReadWithinMilliseconds) {
@@ -193,7 +193,7 @@ TEST(ByteChannel, NoticesThatTheOtherEndIsGone) {
   EXPECT_LT(SteadyClock::now() - start, 500ms);
   other.join();
   EXPECT_EQ(faultOf(pty.path(), [&] { channel->read(buffer, 0ms); }), DeviceFault::kGone);
-  EXPECT_EQ(faultOf(pty.path(), [&] { channel->write(bytesOf("x")); }), DeviceFault::kGone);
+  EXPECT_EQ(faultOf(pty.path(), [&] { channel->write(textBytes("x")); }), DeviceFault::kGone);
 }
 
 TEST(ByteChannel, AWriteThatNobodyTakesEndsAfterASecond) {
@@ -214,8 +214,8 @@ TEST(ByteChannel, TwoProgramsDontShareAPort) {
   EXPECT_EQ(faultOf(
                 link, [&] { openChannel(link); }, "another program"),
             DeviceFault::kBusy);
-  channel->write(bytesOf("still mine"));
-  EXPECT_EQ(pty.receive(10, 1000), bytesOf("still mine"));
+  channel->write(textBytes("still mine"));
+  EXPECT_EQ(pty.receive(10, 1000), textBytes("still mine"));
   channel.reset();
   EXPECT_NO_THROW(openChannel(link));
 }
@@ -281,7 +281,7 @@ TEST(ByteChannel, ResolvesHostNames) {
   Listener listener;
   const auto channel = openChannel("tcp:localhost:" + listener.number());
   listener.accept();
-  channel->write(bytesOf("hello"));
+  channel->write(textBytes("hello"));
   Bytes got(5);
   EXPECT_EQ(::recv(listener.peer(), got.data(), got.size(), MSG_WAITALL), 5);
 }

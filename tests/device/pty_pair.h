@@ -17,7 +17,7 @@ namespace palpate::testing {
 
 using Bytes = std::vector<std::byte>;
 
-inline Bytes bytesOf(std::string_view text) {
+inline Bytes textBytes(std::string_view text) {
   Bytes bytes(text.size());
   if (!text.empty()) std::memcpy(bytes.data(), text.data(), text.size());
   return bytes;
