@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace palpate {
 namespace {
@@ -33,15 +34,17 @@ std::size_t SdhReplyParser::takeLine(std::span<const std::byte> in, const Sink& 
   const auto end = std::find_if(
       in.begin(), in.end(), [](std::byte b) { return b == std::byte{'\n'} || beginsRecord(b); });
   const auto length = static_cast<std::size_t>(end - in.begin());
-  if (end == in.end() && length <= kMostLineBytes) return 0;
-  if (end == in.end() || beginsRecord(*end)) {  // text that a record cuts off, or that never ends
+  const bool ends = end != in.end() && !beginsRecord(*end);
+  if (end == in.end() && length <= kMostLineBytes && !tooLong_) return 0;
+  if (!ends) {  // text that a record cuts off, or that never ends
+    tooLong_ = end == in.end();
     stats_.skippedBytes += length;
     return length;
   }
   std::string line(reinterpret_cast<const char*>(in.data()), length);
   while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
   line.erase(0, line.find_first_not_of(' '));
-  if (line.empty() || length > kMostLineBytes ||
+  if (std::exchange(tooLong_, false) || line.empty() || length > kMostLineBytes ||
       !std::all_of(line.begin(), line.end(), isPrintable)) {
     stats_.skippedBytes += length + 1;
   } else {
@@ -67,6 +70,7 @@ void SdhReplyParser::push(std::span<const std::byte> bytes, const Sink& sink) {
 void SdhReplyParser::reset() {
   stats_.skippedBytes += pending_.size();
   pending_.clear();
+  tooLong_ = false;
 }
 
 }  // namespace palpate

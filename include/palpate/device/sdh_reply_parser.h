@@ -45,6 +45,7 @@ class SdhReplyParser {
   std::size_t takeLine(std::span<const std::byte> in, const Sink& sink);
 
   bool checksum_;
+  bool tooLong_ = false;  // in the rest of a line beyond the limit
   SdhReplyStats stats_;
   std::vector<std::byte> pending_;
 };
