@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 #include <variant>
 
 #include "palpate/core/number_text.h"
+#include "palpate/model/hand_description.h"
 
 namespace palpate {
 namespace {
@@ -14,8 +16,22 @@ namespace {
 constexpr std::int64_t kStatesPeriodUs = 50'000;  // while a motion runs
 constexpr int kPositioning = 1;                   // axis states of the SDH-2
 constexpr int kSpeedMode = 2;
-constexpr int kRampProfile = 1;
-constexpr int kSinSquareProfile = 0;
+
+// Before a byte is sent. NaN is in no range.
+void checkAxes(const char* what,
+               const char* unit,
+               const std::vector<double>& values,
+               const std::vector<double>& least,
+               const std::vector<double>& most) {
+  if (values.size() != least.size())
+    throw std::invalid_argument(std::string(what) + ": " + std::to_string(values.size()) +
+                                " values for " + std::to_string(least.size()) + " axes");
+  for (std::size_t axis = 0; axis < values.size(); ++axis)
+    if (!(values[axis] >= least[axis] && values[axis] <= most[axis]))
+      throw std::invalid_argument(std::string(what) + " of axis " + std::to_string(axis) + ": " +
+                                  numberText(values[axis]) + " " + unit + " is not in " +
+                                  numberText(least[axis]) + ".." + numberText(most[axis]));
+}
 
 std::string listOf(const std::vector<double>& values) {
   std::string text = "[";
@@ -71,11 +87,9 @@ void MotionLink::enqueue(Order order) {
 }
 
 void MotionLink::connect(ByteChannel& channel) {
-  controller_ = std::make_unique<SdhController>(channel, clock_);
-  controller_->setUrgent([this] {
-    if (stopping()) return true;
-    return stopWaits();
-  });
+  SdhControllerOptions options;
+  options.urgent = [this] { return stopping() || stopWaits(); };
+  controller_ = std::make_unique<SdhController>(channel, clock_, options);
   const SdhFacts facts = controller_->open();
   if (std::exchange(stopAfterReturn_, false)) {
     // The port went away during a motion: nobody watched it. Stop, whatever it is doing.
@@ -91,10 +105,11 @@ void MotionLink::disconnected() {
   countBytes();
   if (controller_) {
     const SdhStats stats = controller_->stats();
-    before_.bytes += stats.bytes;
+    before_.bytesRead += stats.bytesRead;
     before_.badChecksums += stats.badChecksums;
     before_.retries += stats.retries;
-    before_.implausible += stats.implausible;
+    before_.suspect += stats.suspect;
+    before_.skippedBytes += stats.skippedBytes;
   }
   controller_.reset();
   if (std::exchange(moving_, false)) stopAfterReturn_ = true;
@@ -104,7 +119,6 @@ void MotionLink::disconnected() {
 
 void MotionLink::closing() {
   if (controller_ && std::exchange(moving_, false)) {
-    controller_->setUrgent({});
     controller_->stop();
     eventNow("motion", "stopped: the connection was closed during a motion");
   }
@@ -114,10 +128,11 @@ void MotionLink::countBytes() {
   if (!controller_) return;
   const SdhStats stats = controller_->stats();
   updateStatus([&](PortStatus& status) {
-    status.bytes = before_.bytes + stats.bytes;
+    status.bytes = before_.bytesRead + stats.bytesRead;
+    status.skippedBytes = before_.skippedBytes + stats.skippedBytes;
     status.badChecksums = before_.badChecksums + stats.badChecksums;
     status.retries = before_.retries + stats.retries;
-    status.suspect = before_.implausible + stats.implausible;
+    status.suspect = before_.suspect + stats.suspect;
   });
 }
 
@@ -185,9 +200,20 @@ void MotionLink::pollStates() {
 }
 
 CommandAnswer MotionLink::move(const MoveJoints& move) {
-  controller_->checkTargets(move.targetDeg);  // all of it before any byte is sent
-  if (!move.velocityDegPerS.empty()) controller_->checkVelocities(move.velocityDegPerS);
-  controller_->setProfile(move.ramp ? kRampProfile : kSinSquareProfile);
+  const std::vector<AxisDescription>& axes = sdh2().axes;
+  std::vector<double> least, most;
+  for (const AxisDescription& axis : axes) {
+    least.push_back(axis.minimumDeg);
+    most.push_back(axis.maximumDeg);
+  }
+  checkAxes("target", "deg", move.targetDeg, least, most);
+  if (!move.velocityDegPerS.empty())
+    checkAxes("velocity",
+              "deg/s",
+              move.velocityDegPerS,
+              std::vector<double>(axes.size(), 0.0),
+              controller_->facts().maximumVelocity);
+  controller_->setProfile(move.ramp ? SdhVelocityProfile::kRamp : SdhVelocityProfile::kSinSquare);
   if (!move.velocityDegPerS.empty()) controller_->setVelocities(move.velocityDegPerS);
   controller_->setTargets(move.targetDeg);
   motionFromUs_ = time_.nowUs();
@@ -216,8 +242,7 @@ CommandAnswer MotionLink::execute(const DeviceCommand& command) {
   if (std::holds_alternative<StopMotion>(command)) {
     stopMotion();
   } else if (const auto* power = std::get_if<SetPower>(&command)) {
-    controller_->setPower(
-        std::vector<double>(controller_->facts().maximumVelocity.size(), power->on ? 1.0 : 0.0));
+    controller_->setPower(power->on);
     if (!power->on) moving_ = false;
     eventNow("motion", power->on ? "axes powered" : "axes without power");
   }
