@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "palpate/core/error.h"
 
@@ -205,6 +206,24 @@ void DsaController::startStream() {
 void DsaController::stopStream() {
   streaming_ = false;
   acquisition(false, 0);
+}
+
+bool DsaController::stopStreamOnce(milliseconds limit) {
+  streaming_ = false;
+  answers_.clear();
+  Bytes payload = {static_cast<std::byte>(options_.runLength ? kRunLength : 0u)};
+  appendU16(payload, 0);
+  send(DsaId::kAcquisition, payload);
+  const auto giveUp = std::exchange(options_.giveUp, nullptr);  // leaving: asked to give up already
+  std::optional<Answer> answer;
+  try {
+    answer = awaitAnswer(DsaId::kAcquisition, limit);
+  } catch (...) {
+    options_.giveUp = giveUp;
+    throw;
+  }
+  options_.giveUp = giveUp;
+  return answer.has_value();
 }
 
 void DsaController::pullFrame() {

@@ -22,11 +22,13 @@ inline std::uint16_t bitwiseChecksum(const Bytes& bytes, std::size_t from, std::
 }
 
 inline Bytes wirePacket(unsigned id, const Bytes& payload) {
-  Bytes bytes(3, std::byte{0xAA});
+  Bytes bytes;
+  bytes.reserve(payload.size() + 8);
+  for (int i = 0; i < 3; ++i) bytes.push_back(std::byte{0xAA});
   bytes.push_back(static_cast<std::byte>(id));
   bytes.push_back(static_cast<std::byte>(payload.size() & 0xFFu));
   bytes.push_back(static_cast<std::byte>(payload.size() >> 8));
-  bytes.insert(bytes.end(), payload.begin(), payload.end());
+  for (const std::byte b : payload) bytes.push_back(b);
   if (payload.empty()) return bytes;
   const unsigned crc = bitwiseChecksum(bytes, 3, bytes.size() - 3);
   bytes.push_back(static_cast<std::byte>(crc & 0xFFu));

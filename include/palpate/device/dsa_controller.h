@@ -91,6 +91,9 @@ class DsaController {
   void startStream();
   // Returns when the controller has said so; frames under way still reach the sink.
   void stopStream();
+  // One stop, once, waiting so long at most; whether the controller answered. For leaving, and for trying
+  // whether it still is there.
+  bool stopStreamOnce(std::chrono::milliseconds limit);
   bool streaming() const noexcept { return streaming_; }
   // Pull mode: asks for one frame and waits for it (it goes to the sink).
   void pullFrame();

@@ -1,0 +1,133 @@
+#include "palpate/device/live_hand.h"
+
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+
+#include "device/motion_link.h"
+#include "device/tactile_link.h"
+
+namespace palpate {
+namespace {
+
+void requireRange(const char* field, double value, double least, double most) {
+  if (!(value >= least && value <= most))
+    throw std::invalid_argument(std::string("LiveHandOptions: ") + field + " " + numberText(value) +
+                                " is not in " + numberText(least) + ".." + numberText(most));
+}
+
+std::string serialText(std::uint32_t serial) {
+  static constexpr char kDigits[] = "0123456789ABCDEF";
+  std::string text;
+  for (int shift = 28; shift >= 0; shift -= 4) text += kDigits[serial >> shift & 0xFu];
+  return text;
+}
+
+}  // namespace
+
+void LiveHandOptions::validate() const {
+  requireRange("angleHz", angleHz, 1.0, 250.0);
+  requireRange("temperatureHz", temperatureHz, 0.1, 10.0);
+  if (dsaPort.empty() && sdhPort.empty())
+    throw std::invalid_argument("LiveHandOptions: neither a tactile nor a motion port is named");
+  if (dsaPort == sdhPort)
+    throw std::invalid_argument("LiveHandOptions: both ports are '" + dsaPort + "'");
+}
+
+struct LiveHand::Impl {
+  Impl(const LiveHandOptions& options, const Clock& clock) : time(clock) {
+    PortLink::Open open = options.open;
+    if (!open) open = [](const std::string& port) { return openChannel(port); };
+    if (!options.dsaPort.empty())
+      tactile =
+          std::make_unique<TactileLink>(options.dsaPort, open, options.runLength, time, clock);
+    if (!options.sdhPort.empty())
+      motion = std::make_unique<MotionLink>(
+          options.sdhPort, open, options.angleHz, options.temperatureHz, time, clock);
+  }
+
+  std::vector<PortLink*> links() const {
+    std::vector<PortLink*> all;
+    if (tactile) all.push_back(tactile.get());
+    if (motion) all.push_back(motion.get());
+    return all;
+  }
+
+  HostTime time;
+  std::unique_ptr<TactileLink> tactile;
+  std::unique_ptr<MotionLink> motion;
+  std::vector<std::jthread> threads;
+};
+
+LiveHand::LiveHand(LiveHandOptions options, const Clock& clock) {
+  options.validate();
+  impl_ = std::make_unique<Impl>(options, clock);
+}
+
+LiveHand::~LiveHand() { stop(); }
+
+HandDescription LiveHand::hand() const { return impl_->tactile ? impl_->tactile->hand() : sdh2(); }
+
+DeviceFacts LiveHand::facts() const {
+  DeviceFacts facts;
+  if (impl_->tactile) {
+    if (const auto known = impl_->tactile->facts()) {
+      facts.serial = serialText(known->serial);
+      facts.firmware = known->firmwareText();
+      for (const DsaMatrixFacts& matrix : known->matrices)
+        facts.matrices.push_back({matrix.sensitivity, matrix.thresholdCounts.value_or(0)});
+    }
+  }
+  if (impl_->motion) {
+    if (const auto known = impl_->motion->facts()) facts.motionFirmware = known->firmware;
+  }
+  return facts;
+}
+
+void LiveHand::start(DeviceSink& sink) {
+  if (!impl_->threads.empty()) throw std::logic_error("LiveHand::start: it was started already");
+  for (PortLink* link : impl_->links()) {
+    link->begin(sink);
+    impl_->threads.emplace_back([link] {
+      while (!link->stopping()) link->step();
+      link->finish();
+    });
+  }
+}
+
+void LiveHand::stop() noexcept {
+  for (PortLink* link : impl_->links()) link->requestStop();
+  impl_->threads.clear();
+}
+
+DeviceStatus LiveHand::status() const {
+  DeviceStatus status;
+  if (impl_->tactile) status.tactile = impl_->tactile->status();
+  if (impl_->motion) status.motion = impl_->motion->status();
+  return status;
+}
+
+std::future<CommandAnswer> LiveHand::submit(DeviceCommand command) {
+  const bool tactile = std::holds_alternative<SetThreshold>(command) ||
+                       std::holds_alternative<SetSensitivity>(command) ||
+                       std::holds_alternative<SetDynamicMask>(command);
+  if (tactile && impl_->tactile) return impl_->tactile->submit(std::move(command));
+  if (!tactile && impl_->motion) return impl_->motion->submit(std::move(command));
+  std::promise<CommandAnswer> nobody;
+  nobody.set_exception(std::make_exception_ptr(
+      DeviceError(DeviceFault::kUnsupported,
+                  "the hand",
+                  tactile ? "no tactile port was named" : "no motion port was named")));
+  return nobody.get_future();
+}
+
+std::vector<int> LiveHand::axisStates() const {
+  return impl_->motion ? impl_->motion->axisStates() : std::vector<int>{};
+}
+
+}  // namespace palpate

@@ -1,0 +1,252 @@
+#include "device/motion_link.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include "palpate/core/number_text.h"
+#include "palpate/model/hand_description.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kStatesPeriodUs = 50'000;  // while a motion runs
+constexpr int kPositioning = 1;                   // axis states of the SDH-2
+constexpr int kSpeedMode = 2;
+
+// Before a byte is sent. NaN is in no range.
+void checkAxes(const char* what,
+               const char* unit,
+               const std::vector<double>& values,
+               const std::vector<double>& least,
+               const std::vector<double>& most) {
+  if (values.size() != least.size())
+    throw std::invalid_argument(std::string(what) + ": " + std::to_string(values.size()) +
+                                " values for " + std::to_string(least.size()) + " axes");
+  for (std::size_t axis = 0; axis < values.size(); ++axis)
+    if (!(values[axis] >= least[axis] && values[axis] <= most[axis]))
+      throw std::invalid_argument(std::string(what) + " of axis " + std::to_string(axis) + ": " +
+                                  numberText(values[axis]) + " " + unit + " is not in " +
+                                  numberText(least[axis]) + ".." + numberText(most[axis]));
+}
+
+std::string listOf(const std::vector<double>& values) {
+  std::string text = "[";
+  for (const double value : values) text += (text.size() > 1 ? "," : "") + numberText(value);
+  return text + "]";
+}
+
+}  // namespace
+
+MotionLink::MotionLink(const std::string& port,
+                       Open open,
+                       double angleHz,
+                       double temperatureHz,
+                       const HostTime& time,
+                       const Clock& clock)
+    : PortLink(port, "motion controller", std::move(open), time, clock),
+      anglePeriodUs_(std::llround(1e6 / angleHz)),
+      temperaturePeriodUs_(std::llround(1e6 / temperatureHz)) {}
+
+MotionLink::~MotionLink() = default;
+
+std::vector<int> MotionLink::axisStates() const {
+  std::lock_guard lock(mutex_);
+  return states_;
+}
+
+std::optional<SdhFacts> MotionLink::facts() const {
+  std::lock_guard lock(mutex_);
+  return known_;
+}
+
+bool MotionLink::stopWaits() const {
+  std::lock_guard lock(mutex_);
+  return !orders_.empty() && std::holds_alternative<StopMotion>(orders_.front().command);
+}
+
+// Under mutex_. Stop goes ahead of all; what would move the hand after it is dropped.
+void MotionLink::enqueue(Order order) {
+  if (!std::holds_alternative<StopMotion>(order.command)) {
+    orders_.push_back(std::move(order));
+    return;
+  }
+  for (auto waiting = orders_.begin(); waiting != orders_.end();) {
+    if (!std::holds_alternative<MoveJoints>(waiting->command)) {
+      ++waiting;
+      continue;
+    }
+    waiting->answer.set_exception(std::make_exception_ptr(
+        DeviceError(DeviceFault::kRefused, port_, "stopped before it began")));
+    waiting = orders_.erase(waiting);
+  }
+  orders_.push_front(std::move(order));
+}
+
+void MotionLink::connect(ByteChannel& channel) {
+  SdhControllerOptions options;
+  options.urgent = [this] { return stopping() || stopWaits(); };
+  controller_ = std::make_unique<SdhController>(channel, clock_, options);
+  const SdhFacts facts = controller_->open();
+  if (std::exchange(stopAfterReturn_, false)) {
+    // The port went away during a motion: nobody watched it. Stop, whatever it is doing.
+    controller_->stop();
+    eventNow("motion", "stopped: the motion port had been gone during a motion");
+  }
+  std::lock_guard lock(mutex_);
+  known_ = facts;
+  nextAnglesUs_ = nextTemperaturesUs_ = clock_.monotonicUs();
+}
+
+void MotionLink::disconnected() {
+  countBytes();
+  if (controller_) {
+    const SdhStats stats = controller_->stats();
+    before_.bytesRead += stats.bytesRead;
+    before_.badChecksums += stats.badChecksums;
+    before_.retries += stats.retries;
+    before_.suspect += stats.suspect;
+    before_.skippedBytes += stats.skippedBytes;
+  }
+  controller_.reset();
+  if (std::exchange(moving_, false)) stopAfterReturn_ = true;
+  std::lock_guard lock(mutex_);
+  states_.clear();
+}
+
+void MotionLink::closing() {
+  if (controller_ && std::exchange(moving_, false)) {
+    controller_->stop();
+    eventNow("motion", "stopped: the connection was closed during a motion");
+  }
+}
+
+void MotionLink::countBytes() {
+  if (!controller_) return;
+  const SdhStats stats = controller_->stats();
+  updateStatus([&](PortStatus& status) {
+    status.bytes = before_.bytesRead + stats.bytesRead;
+    status.skippedBytes = before_.skippedBytes + stats.skippedBytes;
+    status.badChecksums = before_.badChecksums + stats.badChecksums;
+    status.retries = before_.retries + stats.retries;
+    status.suspect = before_.suspect + stats.suspect;
+  });
+}
+
+void MotionLink::work() {
+  executeOrders();
+  if (stopping()) return;
+  const std::int64_t nowUs = clock_.monotonicUs();
+  try {
+    if (nowUs >= nextTemperaturesUs_) {
+      nextTemperaturesUs_ = nowUs + temperaturePeriodUs_;
+      pollTemperatures();
+    } else if (moving_ && nowUs >= nextStatesUs_) {
+      nextStatesUs_ = nowUs + kStatesPeriodUs;
+      pollStates();
+    } else if (nowUs >= nextAnglesUs_) {
+      // Without catching up: after a delay there is no burst.
+      nextAnglesUs_ = std::max(nextAnglesUs_ + anglePeriodUs_, nowUs);
+      pollAngles();
+    } else {
+      waitForOrder(moving_ ? std::min(nextAnglesUs_, nextStatesUs_) : nextAnglesUs_);
+    }
+    failures_ = 0;
+  } catch (const DeviceError& error) {
+    // An urgent order cuts an exchange short: no failure of the line.
+    if (stopping() || stopWaits()) return;
+    if (error.fault() == DeviceFault::kGone || ++failures_ >= 2) throw;
+    setState(PortState::kSilent, error.what());
+  }
+  countBytes();
+}
+
+void MotionLink::pollAngles() {
+  JointAngles angles;
+  angles.deg = controller_->angles();
+  angles.hostUs = stampAfter(lastAngleStampUs_);
+  ++samples_;
+  updateStatus([&](PortStatus& status) {
+    status.items = samples_;
+    status.lastItemUs = angles.hostUs;
+    status.state = PortState::kStreaming;
+    status.message.clear();
+  });
+  sink_->onAngles(std::move(angles));
+}
+
+void MotionLink::pollTemperatures() {
+  Temperatures temperatures;
+  temperatures.degC = controller_->temperatures();
+  temperatures.hostUs = stampAfter(lastTemperatureStampUs_);
+  sink_->onTemperatures(std::move(temperatures));
+}
+
+void MotionLink::pollStates() {
+  const std::vector<int> states = controller_->states();
+  const bool moves = std::any_of(states.begin(), states.end(), [](int state) {
+    return state == kPositioning || state == kSpeedMode;
+  });
+  {
+    std::lock_guard lock(mutex_);
+    states_ = states;
+  }
+  if (moves) return;
+  moving_ = false;
+  event("motion", "motion ended", motionFromUs_, time_.nowUs());
+}
+
+CommandAnswer MotionLink::move(const MoveJoints& move) {
+  const std::vector<AxisDescription>& axes = sdh2().axes;
+  std::vector<double> least, most;
+  for (const AxisDescription& axis : axes) {
+    least.push_back(axis.minimumDeg);
+    most.push_back(axis.maximumDeg);
+  }
+  checkAxes("target", "deg", move.targetDeg, least, most);
+  if (!move.velocityDegPerS.empty())
+    checkAxes("velocity",
+              "deg/s",
+              move.velocityDegPerS,
+              std::vector<double>(axes.size(), 0.0),
+              controller_->facts().maximumVelocity);
+  controller_->setProfile(move.ramp ? SdhVelocityProfile::kRamp : SdhVelocityProfile::kSinSquare);
+  if (!move.velocityDegPerS.empty()) controller_->setVelocities(move.velocityDegPerS);
+  controller_->setTargets(move.targetDeg);
+  motionFromUs_ = time_.nowUs();
+  moving_ = true;  // also when the answer gets lost: then it may be moving
+  CommandAnswer answer;
+  answer.durationS = controller_->move();
+  nextStatesUs_ = clock_.monotonicUs() + kStatesPeriodUs;
+  event("motion",
+        "motion began",
+        motionFromUs_,
+        motionFromUs_,
+        {},
+        "{\"target_deg\":" + listOf(move.targetDeg) + ",\"velocity_deg_per_s\":" +
+            listOf(move.velocityDegPerS) + ",\"duration_s\":" + numberText(answer.durationS) + "}");
+  return answer;
+}
+
+void MotionLink::stopMotion() {
+  controller_->stop();
+  if (!std::exchange(moving_, false)) return;
+  event("motion", "stopped", motionFromUs_, time_.nowUs());
+}
+
+CommandAnswer MotionLink::execute(const DeviceCommand& command) {
+  if (const auto* joints = std::get_if<MoveJoints>(&command)) return move(*joints);
+  if (std::holds_alternative<StopMotion>(command)) {
+    stopMotion();
+  } else if (const auto* power = std::get_if<SetPower>(&command)) {
+    controller_->setPower(power->on);
+    if (!power->on) moving_ = false;
+    eventNow("motion", power->on ? "axes powered" : "axes without power");
+  }
+  return {};
+}
+
+}  // namespace palpate

@@ -1,0 +1,198 @@
+#include "device/port_link.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace palpate {
+namespace {
+constexpr std::int64_t kRetryUs = 100'000;  // between two attempts to open a port that is gone
+}
+
+PortLink::PortLink(
+    std::string port, std::string what, Open open, const HostTime& time, const Clock& clock)
+    : port_(std::move(port)),
+      what_(std::move(what)),
+      time_(time),
+      clock_(clock),
+      open_(std::move(open)) {
+  status_.port = port_;
+}
+
+std::future<CommandAnswer> PortLink::submit(DeviceCommand command) {
+  Order order{std::move(command), {}};
+  std::future<CommandAnswer> answer = order.answer.get_future();
+  std::lock_guard lock(mutex_);
+  if (sink_ == nullptr || stopping_) {
+    order.answer.set_exception(std::make_exception_ptr(
+        DeviceError(DeviceFault::kSilent, port_, "not connected: the hand was not started")));
+    return answer;
+  }
+  enqueue(std::move(order));
+  if (channel_) channel_->interrupt();
+  orderCame_.notify_all();
+  return answer;
+}
+
+void PortLink::enqueue(Order order) { orders_.push_back(std::move(order)); }
+
+PortStatus PortLink::status() const {
+  std::lock_guard lock(mutex_);
+  return status_;
+}
+
+void PortLink::requestStop() noexcept {
+  stopping_ = true;
+  std::lock_guard lock(mutex_);
+  if (channel_) channel_->interrupt();
+  orderCame_.notify_all();
+}
+
+void PortLink::begin(DeviceSink& sink) {
+  std::lock_guard lock(mutex_);
+  sink_ = &sink;
+  stopping_ = false;
+  wasConnected_ = false;
+  nextTryUs_ = 0;
+  lastFailure_.clear();
+  status_ = PortStatus{};
+  status_.port = port_;
+  status_.state = PortState::kConnecting;
+  status_.message = "looking for the " + what_;
+}
+
+void PortLink::step() {
+  try {
+    if (channel_) {
+      work();
+      return;
+    }
+    rejectOrders("the " + what_ + " is not connected");
+    if (clock_.monotonicUs() < nextTryUs_) {
+      waitForOrder(nextTryUs_);
+      return;
+    }
+    nextTryUs_ = clock_.monotonicUs() + kRetryUs;
+    std::unique_ptr<ByteChannel> channel = open_(port_);
+    {
+      std::lock_guard lock(mutex_);
+      channel_ = std::move(channel);
+    }
+    connect(*channel_);
+    updateStatus([&](PortStatus& status) {
+      status.state = PortState::kStreaming;
+      status.message.clear();
+      if (wasConnected_) ++status.reconnects;
+    });
+    lastFailure_.clear();
+    eventNow("link",
+             "the " + what_ + (std::exchange(wasConnected_, true) ? " is back" : " is connected"));
+  } catch (const DeviceError& error) {
+    lose(error);
+  }
+}
+
+void PortLink::lose(const DeviceError& error) {
+  if (channel_) {
+    disconnected();
+    std::unique_ptr<ByteChannel> closed;
+    std::lock_guard lock(mutex_);
+    closed = std::exchange(channel_, nullptr);
+  }
+  if (stopping_) return;
+  nextTryUs_ = clock_.monotonicUs() + kRetryUs;
+  setState(wasConnected_ ? PortState::kLost : PortState::kConnecting, error.what());
+  // Said once, not ten times a second.
+  if (std::exchange(lastFailure_, error.what()) != error.what())
+    eventNow(wasConnected_ ? "alarm" : "link", error.what());
+}
+
+void PortLink::finish() noexcept {
+  try {
+    if (channel_) closing();
+  } catch (const std::exception&) {
+    // The port went away while we said goodbye: it is closed all the same.
+  }
+  try {
+    rejectOrders("the hand was stopped");
+  } catch (const std::exception&) {
+  }
+  std::unique_ptr<ByteChannel> closed;
+  std::lock_guard lock(mutex_);
+  closed = std::exchange(channel_, nullptr);
+  status_.state = PortState::kClosed;
+  status_.message.clear();
+  sink_ = nullptr;
+}
+
+void PortLink::executeOrders() {
+  while (true) {
+    std::optional<Order> order;
+    {
+      std::lock_guard lock(mutex_);
+      if (orders_.empty()) return;
+      order = std::move(orders_.front());
+      orders_.pop_front();
+    }
+    try {
+      order->answer.set_value(execute(order->command));
+    } catch (const DeviceError& error) {
+      order->answer.set_exception(std::current_exception());
+      if (error.fault() != DeviceFault::kRefused && error.fault() != DeviceFault::kUnsupported)
+        throw;
+    } catch (...) {
+      order->answer.set_exception(std::current_exception());
+    }
+  }
+}
+
+void PortLink::rejectOrders(const std::string& why) {
+  std::deque<Order> orders;
+  {
+    std::lock_guard lock(mutex_);
+    orders.swap(orders_);
+  }
+  for (Order& order : orders)
+    order.answer.set_exception(
+        std::make_exception_ptr(DeviceError(DeviceFault::kSilent, port_, why)));
+}
+
+bool PortLink::ordersWait() const {
+  std::lock_guard lock(mutex_);
+  return !orders_.empty();
+}
+
+void PortLink::waitForOrder(std::int64_t untilUs) {
+  std::unique_lock lock(mutex_);
+  const std::int64_t leftUs = untilUs - clock_.monotonicUs();
+  if (leftUs <= 0) return;
+  orderCame_.wait_for(
+      lock, std::chrono::microseconds(leftUs), [&] { return stopping_ || !orders_.empty(); });
+}
+
+void PortLink::setState(PortState state, const std::string& message) {
+  std::lock_guard lock(mutex_);
+  status_.state = state;
+  status_.message = message;
+}
+
+void PortLink::event(const std::string& kind,
+                     const std::string& text,
+                     std::int64_t t0Us,
+                     std::int64_t t1Us,
+                     std::optional<int> matrix,
+                     const std::string& json) {
+  sink_->onEvent({t0Us, t1Us, kind, matrix, text, json});
+}
+
+void PortLink::eventNow(const std::string& kind, const std::string& text) {
+  const std::int64_t nowUs = time_.nowUs();
+  event(kind, text, nowUs, nowUs);
+}
+
+std::int64_t PortLink::stampAfter(std::int64_t& lastUs) const {
+  lastUs = std::max(lastUs + 1, time_.nowUs());
+  return lastUs;
+}
+
+}  // namespace palpate
