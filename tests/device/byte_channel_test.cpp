@@ -19,9 +19,9 @@ namespace {
 using namespace std::chrono_literals;
 using SteadyClock = std::chrono::steady_clock;
 using testing::Bytes;
-using testing::textBytes;
 using testing::PtyPair;
 using testing::TemporaryFolder;
+using testing::textBytes;
 
 Bytes allBytes() {
   Bytes bytes;
