@@ -28,9 +28,12 @@ class BabblingChannel : public ByteChannel {
   std::size_t read(std::span<std::byte> into, std::chrono::milliseconds timeout) override {
     switch (controls_.behaviour.load()) {
       case Behaviour::kHonest: {
-        const std::size_t n = line_.read(into, std::chrono::milliseconds(1));
+        std::size_t n = line_.read(into, std::chrono::milliseconds(1));
         if (n == 0) rest(std::chrono::milliseconds(1));
-        if (n == 0 && hand_.streaming) hand_.sendFrame(line_, hand_.framePeriodUs);
+        if (n == 0 && hand_.streaming) {
+          hand_.sendFrame(line_, hand_.framePeriodUs);
+          n = line_.read(into, std::chrono::milliseconds(hand_.framePeriodUs / 1000 + 1));
+        }
         return n;
       }
       case Behaviour::kSilent:
