@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <stdexcept>
 
 #include <sys/stat.h>
 
@@ -23,6 +24,10 @@ namespace {
 }  // namespace
 
 std::unique_ptr<ByteChannel> openChannel(const std::string& port, const ChannelOptions& options) {
+  if (options.baud < 50 || options.baud > 10'000'000)
+    throw std::invalid_argument("baud must be 50..10000000, not " + std::to_string(options.baud));
+  if (options.connectTimeout.count() < 0)
+    throw std::invalid_argument("connectTimeout must not be negative");
   if (port.starts_with("tcp:")) return TcpChannel::open(port, options.connectTimeout);
   if (port.empty() || port.find('\0') != std::string::npos)
     throw DeviceError(

@@ -155,7 +155,9 @@ std::optional<SdhReply> SdhLink::attempt(Bytes request,
                                          const SdhPatience& patience) {
   replies_.clear();
   trouble_ = Trouble::kSilence;
-  const std::uint64_t badBefore = parser_.stats().badChecksums;
+  const SdhReplyStats before = parser_.stats();
+  // What takes long may be announced by noise; it is waited for to the end.
+  const bool quick = patience.timeout <= SdhPatience{}.timeout;
   outOfStep_ = true;
   write(request);
   const std::int64_t sentUs = clock_.monotonicUs();
@@ -163,7 +165,8 @@ std::optional<SdhReply> SdhLink::attempt(Bytes request,
   for (;;) {
     const std::int64_t nowUs = clock_.monotonicUs();
     if (patience.heedsUrgent && nowUs - sentUs >= us(kUrgentAfter)) giveUpIfUrgent();
-    const bool begun = parser_.pendingBytes() > 0;
+    const bool begun = quick && (parser_.pendingBytes() > 0 ||
+                                 parser_.stats().skippedBytes != before.skippedBytes);
     const std::int64_t leftUs =
         begun ? std::min(us(patience.timeout) - (nowUs - sentUs), us(kGap) - (nowUs - heardUs))
               : us(patience.timeout) - (nowUs - sentUs);
@@ -174,7 +177,7 @@ std::optional<SdhReply> SdhLink::attempt(Bytes request,
     const milliseconds wait(leftUs / 1000 + 1);
     if (readOnce(urgent_ ? std::min(wait, kSlice) : wait) == 0) continue;
     heardUs = clock_.monotonicUs();
-    if (parser_.stats().badChecksums != badBefore) trouble_ = Trouble::kBroken;
+    if (parser_.stats().badChecksums != before.badChecksums) trouble_ = Trouble::kBroken;
     if (auto answer = judged(what, judge)) {
       outOfStep_ = parser_.pendingBytes() > 0;
       return answer;
