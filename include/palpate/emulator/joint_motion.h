@@ -64,7 +64,8 @@ class JointMotion {
   bool moving() const;
 
  private:
-  // Yours to shape.
+  std::vector<AxisDescription> axes_;
+  std::vector<double> goalDeg_;
   std::vector<double> angleDeg_, velocityDegPerS_, referenceDegPerS_, targetDeg_,
       targetVelocityDegPerS_, accelerationDegPerS2_;
   std::vector<bool> power_;
