@@ -27,7 +27,14 @@ constexpr double kProximalHeightMm = 15.4;
 constexpr double kDistalHeightMm = 14.8;
 constexpr double kDistalBendRow = 8.5;
 
-double radians(double deg) { return deg * std::numbers::pi / 180.0; }
+// Exact at multiples of a right angle, so that a straight finger is straight.
+double sinDeg(double deg) {
+  const double turn = std::remainder(deg, 360.0);
+  if (turn == 0.0 || std::abs(turn) == 180.0) return 0.0;
+  if (std::abs(turn) == 90.0) return turn > 0.0 ? 1.0 : -1.0;
+  return std::sin(turn * std::numbers::pi / 180.0);
+}
+double cosDeg(double deg) { return sinDeg(deg + 90.0); }
 
 struct SurfacePoint {
   double xMm, yMm, normalX, normalY;
@@ -146,11 +153,10 @@ void HandGeometry::pose(const std::vector<double>& anglesDeg, HandPose& out) con
     Vector3d originMm = finger.baseMm;
     for (std::size_t l = 0; l < finger.links.size(); ++l) {
       const DhLink& link = finger.links[l];
-      const double theta =
-          radians((link.axis ? link.sign * anglesDeg[*link.axis] : 0.0) + link.offsetDeg);
-      const double alpha = radians(link.alphaDeg);
-      const double ct = std::cos(theta), st = std::sin(theta);
-      const double ca = std::cos(alpha), sa = std::sin(alpha);
+      const double thetaDeg =
+          (link.axis ? link.sign * anglesDeg[*link.axis] : 0.0) + link.offsetDeg;
+      const double ct = cosDeg(thetaDeg), st = sinDeg(thetaDeg);
+      const double ca = cosDeg(link.alphaDeg), sa = sinDeg(link.alphaDeg);
       originMm += rotation * Vector3d(link.rMm * ct, link.rMm * st, link.dMm);
       Matrix3d turn;
       turn << ct, -st * ca, st * sa, st, ct * ca, -ct * sa, 0.0, sa, ca;

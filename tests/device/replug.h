@@ -16,6 +16,7 @@
 #include "device/collecting_sink.h"
 #include "emulator/numbered_hand.h"
 #include "testing/process_facts.h"
+#include "testing/testing.h"
 
 namespace palpate::testing {
 

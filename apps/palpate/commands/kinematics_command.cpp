@@ -42,7 +42,7 @@ void appendRow(std::string& out,
   for (const double value :
        {x, y, positionMm.x(), positionMm.y(), positionMm.z(), normal.x(), normal.y(), normal.z()}) {
     out += ',';
-    appendNumber(out, value);
+    appendNumber(out, value + 0.0);  // no -0
   }
   out += exists ? ",1\n" : ",0\n";
 }
