@@ -124,6 +124,17 @@ TEST_F(SdhLinkTest, ABabblingLineIsGivenUpInBoundedTimeAndMemory) {
   EXPECT_EQ(controller.angles(), hand.pos);
 }
 
+TEST_F(SdhLinkTest, ALineThatTricklesIsGivenUpInBoundedTime) {
+  controller.open();
+  hand.dead = true;
+  for (int second = 0; second < 30; ++second) line.arrive(bytesOf("41"), second * 1'000'000);
+  const std::int64_t before = clock.nowUs;
+  EXPECT_THROW(controller.angles(), DeviceError);
+  EXPECT_LT(clock.nowUs - before, 5'000'000);
+  EXPECT_THROW(controller.open(), DeviceError);
+  EXPECT_LT(clock.nowUs - before, 10'000'000);
+}
+
 TEST_F(SdhLinkTest, APulledPlugIsSaidAtOnce) {
   controller.open();
   line.pullThePlug();
