@@ -109,7 +109,7 @@ TEST_F(SdhLinkTest, AnAnswerThatComesTooLateIsNotTakenForTheNextOne) {
   controller.open();
   answerAfterUs = 1'030'000;  // behind the timeout, within the drain
   EXPECT_EQ(errorOf([&] { controller.angles(); }).fault(), DeviceFault::kSilent);
-  answerAfterUs = 3400;
+  answerAfterUs = 60'000;
   hand.pos = Values(7, 12.0);  // the answer still under way tells the old ones
   EXPECT_EQ(controller.angles(), hand.pos);
   EXPECT_EQ(controller.targets(), hand.values["p"]);
