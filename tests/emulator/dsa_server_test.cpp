@@ -177,10 +177,9 @@ TEST_F(DsaServerTest, RefusesWithTheDocumentsErrorCodes) {
 TEST_F(DsaServerTest, AnswersWhatOtherClientsAsk) {
   EXPECT_EQ(say("AA AA AA 0A 00 00"), bare(0x0A, 0));
   EXPECT_EQ(say("AA AA AA 06 00 00"), bare(0x06, 0));
-  const std::string name = sdh2().matrixName(4);
-  Octets payload = {0, 0};
-  payload.insert(payload.end(), name.begin(), name.end());
-  EXPECT_EQ(say(tactilePacket(0x05, {1, 4})), hexText(tactilePacket(0x05, payload)));
+  const std::string text = std::string(2, '\0') + sdh2().matrixName(4);
+  EXPECT_EQ(say(tactilePacket(0x05, {1, 4})),
+            hexText(tactilePacket(0x05, Octets(text.begin(), text.end()))));
   EXPECT_EQ(say(tactilePacket(0x05, {1, 6})), bare(0x05, 24));
   EXPECT_EQ(say(tactilePacket(0x05, {2, 0})), bare(0x05, 23));
   EXPECT_GT(say(tactilePacket(0x05, {0, 0})).size(), bare(0x05, 0).size());
