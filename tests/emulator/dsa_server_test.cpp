@@ -262,8 +262,9 @@ TEST_F(DsaServerTest, HasTheFrameRatesOfTheRealHand) {
   EXPECT_NEAR(rate(stream(300)), 11.7, 0.05);  // raw
   say(kPush);
   for (std::uint8_t m = 0; m < 6; ++m) {
-    Octets mask = {1, m};
-    mask.resize(2 + (m % 2 == 0 ? 11 : 10), m == 1 ? 0xFF : 0);
+    Octets mask(m % 2 == 0 ? 13 : 12, m == 1 ? 0xFF : 0);
+    mask[0] = 1;
+    mask[1] = m;
     EXPECT_EQ(say(tactilePacket(0xAB, mask)), bare(0xAB, 0));
   }
   const double oneMatrix = rate(stream(300));
