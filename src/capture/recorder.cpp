@@ -281,7 +281,9 @@ void Recorder::start(RecordingOptions options) {
   options.validate();
   requireNewFile(options.path);
   Impl& impl = *impl_;
-  const RoundTime time = impl.now();
+  RoundTime time = impl.now();
+  // Nothing has come yet: whatever comes does so after the start, whichever time its stamps are in.
+  if (impl.newestUs.load() == 0) time.nowUs = INT64_MIN / 2;
   const std::int64_t lost = impl.lostInQueues();
   const std::lock_guard lock(impl.mutex);
   if (impl.active) throw std::logic_error("Recorder: records already");
