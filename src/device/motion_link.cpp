@@ -16,6 +16,8 @@ namespace {
 constexpr std::int64_t kStatesPeriodUs = 50'000;  // while a motion runs
 constexpr int kPositioning = 1;                   // axis states of the SDH-2
 constexpr int kSpeedMode = 2;
+constexpr int kSinSquareProfile = 0;
+constexpr int kRampProfile = 1;
 
 // Before a byte is sent. NaN is in no range.
 void checkAxes(const char* what,
@@ -213,7 +215,7 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
               move.velocityDegPerS,
               std::vector<double>(axes.size(), 0.0),
               controller_->facts().maximumVelocity);
-  controller_->setProfile(move.ramp ? SdhVelocityProfile::kRamp : SdhVelocityProfile::kSinSquare);
+  controller_->setProfile(move.ramp ? kRampProfile : kSinSquareProfile);
   if (!move.velocityDegPerS.empty()) controller_->setVelocities(move.velocityDegPerS);
   controller_->setTargets(move.targetDeg);
   motionFromUs_ = time_.nowUs();

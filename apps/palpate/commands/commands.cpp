@@ -124,6 +124,7 @@ const std::vector<Command>& allCommands() {
        &convertCommand},
       {"demo", "a headless tour: reads, reports and draws a recording", &demoCommand},
       {"info", "what is in a recording", &infoCommand},
+      {"kinematics", "where the taxels are at a set of joint angles", &kinematicsCommand},
       {"recover", "saves what can be saved of a damaged or unfinished recording", &recoverCommand},
       {"render", "a picture of one frame: PNG, SVG or PDF", &renderCommand},
       {"signals", "characteristic signals of each matrix as CSV", &signalsCommand},

@@ -25,6 +25,7 @@ struct Command {
 int convertCommand(const Words& words);
 int demoCommand(const Words& words);
 int infoCommand(const Words& words);
+int kinematicsCommand(const Words& words);
 int recoverCommand(const Words& words);
 int renderCommand(const Words& words);
 int signalsCommand(const Words& words);

@@ -62,13 +62,14 @@ PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
   row->addWidget(time_);
   row->addWidget(ofTime_);
 
-  connect(seekBar_, &SeekBar::sought, this, [this](int frame) {
+  // In the playback's name: closing the window ends what is being typed, perhaps after the playback.
+  connect(seekBar_, &SeekBar::sought, &playback_, [this](int frame) {
     playback_.seekFrame(static_cast<std::size_t>(frame));
   });
-  connect(frame_, &QSpinBox::valueChanged, this, [this](int frame) {
+  connect(frame_, &QSpinBox::valueChanged, &playback_, [this](int frame) {
     playback_.seekFrame(static_cast<std::size_t>(frame));
   });
-  connect(time_, &QDoubleSpinBox::valueChanged, this, [this](double seconds) {
+  connect(time_, &QDoubleSpinBox::valueChanged, &playback_, [this](double seconds) {
     playback_.seekSeconds(seconds);
   });
   // After Enter the keys belong to the playback again.

@@ -30,14 +30,16 @@ class ByteChannel {
 };
 
 struct ChannelOptions {
-  int baud = 115'200;  // serial ports: 8 data bits, no parity, 1 stop bit, no flow control
-  std::chrono::milliseconds connectTimeout{2000};  // TCP
+  // Serial ports, 50..10,000,000: 8 data bits, no parity, 1 stop bit, no flow control. Ptys have none.
+  int baud = 115'200;
+  std::chrono::milliseconds connectTimeout{2000};  // TCP, resolving the name included
 };
 
 // Opens a port by name: a serial device, a /dev/serial/by-id name, a pty path (links are followed), or
-// tcp:HOST:PORT (default ports: none). Exclusive (TIOCEXCL and flock): a second program is refused.
-// What lies in the input is discarded. Throws DeviceError: kNotFound, kNoPermission (hint: group
-// dialout), kBusy, kGone.
+// tcp:HOST:PORT (an IPv6 address may stand in brackets; default ports: none). Exclusive: a second program
+// is refused (flock; serial ports TIOCEXCL, too). What lies in the input is discarded. Throws
+// DeviceError: kNotFound (also: no connection), kNoPermission (hint: group dialout), kBusy, kUnsupported
+// (the port knows no such speed); std::invalid_argument: options out of range.
 std::unique_ptr<ByteChannel> openChannel(const std::string& port,
                                          const ChannelOptions& options = {});
 

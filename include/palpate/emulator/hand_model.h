@@ -48,9 +48,11 @@ class HandModel {
   virtual std::vector<double> temperatures() = 0;  // one per sensor [deg C]
   // Of the last scan, one per matrix; empty when nothing is known (a replay).
   virtual std::vector<MatrixTruth> truth() const = 0;
-  // Replay: device time [ms] of the frame that the last scan() gave, where the recording has one.
   // A finished replay has nothing more to scan.
   virtual bool finished() const { return false; }
+  // Replay: time from the frame of the last scan() to the next one [s], 0 ahead of the first. Nothing: the
+  // controller's own scan time.
+  virtual std::optional<double> nextIntervalS() const { return std::nullopt; }
 };
 
 }  // namespace palpate

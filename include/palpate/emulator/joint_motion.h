@@ -1,5 +1,11 @@
 // The SDH-2's motion controller as a machine of joints: seven axes with targets, velocities,
 // accelerations, power and states, that move in simulated time. Knows no byte of the protocol.
+//
+// Velocity profiles of a motion over a distance d within a time T, velocity limit v, acceleration limit a:
+//   sin-square: v(t) = 2 d/T sin^2(pi t/T); its peak acceleration is 2 pi d/T^2, so
+//               T = max(2 d/v, sqrt(2 pi d/a))
+//   ramp:       trapezoid; T = d/v + v/a, or 2 sqrt(d/a) where v isn't reached
+// All axes take the time of the slowest. Positive is clockwise (closing).
 #pragma once
 
 #include <cstdint>
@@ -64,10 +70,34 @@ class JointMotion {
   bool moving() const;
 
  private:
-  // Yours to shape.
+  // A motion to a target: distance is covered in the motion's duration, by the profile.
+  struct Path {
+    double startDeg = 0.0;
+    double distanceDeg = 0.0;  // signed
+    bool active = false;
+  };
+  void require(const char* what,
+               const std::vector<double>& values,
+               const std::vector<double>& least,
+               const std::vector<double>& most) const;
+  void requireSize(const char* what, std::size_t size) const;
+  // How long the axis would take alone [s]; 0 when it stands at its target or has no velocity.
+  double soloDuration(std::size_t axis) const;
+  double covered(std::size_t axis, double timeS) const;  // [deg], unsigned
+  double speedAt(std::size_t axis, double timeS) const;  // [deg/s], unsigned
+  void advancePose(double dtS);
+  void advanceVelocity(double dtS);
+  bool heldBack(std::size_t axis, double direction) const;
+
+  std::vector<AxisDescription> axes_;
   std::vector<double> angleDeg_, velocityDegPerS_, referenceDegPerS_, targetDeg_,
       targetVelocityDegPerS_, accelerationDegPerS2_;
-  std::vector<bool> power_;
+  std::vector<bool> power_, blockedClockwise_, blockedCounterClockwise_;
+  std::vector<AxisState> states_;
+  std::vector<Path> paths_;
+  double motionS_ = 0.0;    // since the motion began
+  double durationS_ = 0.0;  // of the motion; 0: none runs
+  VelocityProfile motionProfile_ = VelocityProfile::kSinSquare;
   ControllerType controller_ = ControllerType::kPose;
   VelocityProfile profile_ = VelocityProfile::kSinSquare;
 };

@@ -1,0 +1,136 @@
+// The language of the SDH-2's motion controller: ASCII lines and binary records on one line, little-endian.
+// Encoding of requests and the meaning of replies; finding replies in a stream is sdh_reply_parser.h's work.
+//
+//   line:     text CR LF                            reply: NAME=values CR LF, or E<code> CR LF
+//   request:  command u8 | n u8 | 0 u8 | crc u16                       n = bytes after n
+//             command u8 | n u8 | 7 u8 | 7 x f32 | crc u16
+//   record:   command u8 | n u8 | 7 u8 | status u8 | 7 x f32 | crc u16
+// The checksum (weiss_checksum.h) stands on serial lines; on TCP there is none and n is 2 less.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace palpate {
+
+constexpr std::size_t kSdhAxes = 7;
+constexpr std::size_t kSdhTemperatures = 9;  // motors 0..6, FPGA, circuit board
+
+// Command numbers of binary records. Only those in the first group are sent so: the layout of the others
+// isn't known, they go as lines.
+enum class SdhCommand : std::uint8_t {
+  kVelocityTarget = 0x80,     // v
+  kVelocity = 0x81,           // vel
+  kVelocityReference = 0x82,  // rvel
+  kAngle = 0x83,              // pos
+  kState = 0x84,              // state
+  kAngleTarget = 0x85,        // p
+  kAcceleration = 0x86,       // a
+  kTargetGetAngle = 0x8B,     // tpap
+  kTargetGetVelocity = 0x8C,  // tvav
+  kCurrentLimit = 0xA3,       // ilim
+  kPower = 0xA4,              // power
+
+  kMove = 0x87,
+  kStop = 0x88,
+  kProfile = 0x89,
+  kController = 0x8A,
+  kVelocityLimit = 0x8D,
+  kAccelerationLimit = 0x8E,
+  kSavePosition = 0x8F,
+  kReference = 0x90,
+  kTemperature = 0x91,
+  kId = 0x92,
+  kSerial = 0x93,
+  kVersion = 0x94,
+  kVersionDate = 0x95,
+  kSoc = 0x96,
+  kSocDate = 0x97,
+  kNumAxes = 0x98,
+  kMinimum = 0x99,
+  kMaximum = 0x9A,
+  kOffset = 0x9B,
+  kDuration = 0x9C,
+  kGripCurrent = 0x9D,
+  kHoldCurrent = 0x9E,
+  kSelectGrip = 0x9F,
+  kGrip = 0xA0,
+  kPid = 0xA1,
+  kVelocityGain = 0xA2,
+  kDemo = 0xA5,
+  kUserErrors = 0xA6,
+  kTerminal = 0xA7,
+  kDebug = 0xA8,
+  kUseFixedLength = 0xA9,
+  kChangeRs232 = 0xAA,
+  kChangeChannel = 0xAB,
+};
+constexpr std::uint8_t kSdhLastCommand = 0xAB;
+
+// The command's name in lines, in lower case ("pos"); empty for a number that is no command.
+std::string_view sdhName(SdhCommand command) noexcept;
+// True for the first group above.
+bool sdhIsBinary(SdhCommand command) noexcept;
+
+// A record without values ("get"), 5 bytes (3 without checksum), or with seven ("set"), 33 (31). Throws
+// std::invalid_argument for another number of values.
+std::vector<std::byte> sdhRecordRequest(SdhCommand command,
+                                        std::span<const double> values,
+                                        bool checksum);
+
+// A line without its end: "pos", "kv(2)", "p=0.000000,..": six decimals, as the vendor's library writes.
+std::string sdhLineRequest(std::string_view name,
+                           std::optional<int> axis = std::nullopt,
+                           std::span<const double> values = {});
+
+// A binary reply. Replies always hold seven values.
+struct SdhRecord {
+  SdhCommand command{};
+  int status = 0;              // 0, or an error code
+  std::vector<double> values;  // not checked: may be NaN
+};
+// Size of a binary reply on the line [bytes].
+constexpr std::size_t sdhRecordBytes(bool checksum) noexcept { return checksum ? 34 : 32; }
+// The first three bytes of a reply; more of them may follow later.
+bool sdhIsRecordStart(std::span<const std::byte> bytes, bool checksum) noexcept;
+// A whole reply, bytes.size() == sdhRecordBytes(); nothing when it is none or its checksum is wrong.
+std::optional<SdhRecord> decodeSdhRecord(std::span<const std::byte> bytes, bool checksum);
+
+// A reply line.
+struct SdhLine {
+  enum class Kind {
+    kValue,  // NAME=text or NAME(axis)=text
+    kError,  // E<code>
+    kDebug,  // begins with @: progress before the real reply
+    kOther,  // a line of its own, such as the answer to stop
+  };
+  Kind kind = Kind::kOther;
+  std::string name;  // upper case
+  std::optional<int> axis;
+  std::string text;  // behind the =; the whole line where there is none
+  int error = 0;
+};
+// `line` comes without its end. Never fails: what is unknown is kOther.
+SdhLine parseSdhLine(std::string_view line);
+// Numbers between commas, blanks allowed; nothing when one of them isn't a finite number.
+std::optional<std::vector<double>> parseSdhNumbers(std::string_view text);
+
+// What an error code of the motion controller means ("range error"), and what to do about it (may be
+// empty). They are not the tactile controller's codes.
+std::string sdhErrorText(int code);
+std::string sdhErrorAdvice(int code);
+
+// A firmware release for comparing: "0.0.3.3" -> {0, 0, 3, 3}; what is no number counts as 0.
+struct SdhFirmware {
+  int parts[4] = {};
+  static SdhFirmware parse(std::string_view text) noexcept;
+  // At least `major.minor.release.build`.
+  bool atLeast(int a, int b, int c, int d) const noexcept;
+};
+
+}  // namespace palpate

@@ -1,0 +1,300 @@
+#include "palpate/device/sdh_controller.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "palpate/device/dsa_packet.h"
+#include "palpate/model/hand_description.h"
+
+#include "device/sdh_link.h"
+#include "device/sdh_quantity.h"
+
+namespace palpate {
+namespace {
+
+using std::chrono::milliseconds;
+using Values = SdhController::Values;
+
+// An echoed target that differs by more was not understood: lines have few decimals, records 24 bits.
+constexpr double kEchoDeg = 0.5;
+constexpr int kPositioning = 1;
+constexpr int kSpeedMode = 2;
+
+template <typename Get>
+Values ofAxes(Get get) {
+  Values values;
+  for (const AxisDescription& axis : sdh2().axes) values.push_back(get(axis));
+  return values;
+}
+
+}  // namespace
+
+SdhController::SdhController(ByteChannel& channel, const Clock& clock, SdhControllerOptions options)
+    : link_(std::make_unique<SdhLink>(channel, clock, std::move(options.urgent))) {
+  facts_.maximumVelocity = ofAxes([](const auto& axis) { return axis.maximumVelocityDegPerS; });
+  facts_.maximumAcceleration =
+      ofAxes([](const auto& axis) { return axis.maximumAccelerationDegPerS2; });
+}
+
+SdhController::~SdhController() = default;
+
+SdhStats SdhController::stats() const noexcept { return link_->stats(); }
+
+// --- opening --------------------------------------------------------------------------------------
+
+const SdhFacts& SdhController::open() {
+  DsaPacketParser tactile;
+  struct Watch {
+    SdhLink& link;
+    ~Watch() { link.watch({}); }
+  } const watch{*link_};
+  link_->watch([&](SdhLink::Bytes bytes) { tactile.push(bytes, [](const DsaPacket&) {}); });
+  const std::uint64_t readBefore = link_->stats().bytesRead;
+  link_->sendText(" \r\n");  // ends a command that somebody before us left unfinished
+  link_->drain(milliseconds(100), milliseconds(300));
+  try {
+    facts_.firmware = word("ver", {});
+  } catch (const SdhInterrupted&) {
+    throw;
+  } catch (const DeviceError& error) {
+    if (tactile.stats().packets > 0)
+      link_->fail(DeviceFault::kWrongDevice,
+                  "a tactile controller sends here, not a motion controller: the ports are "
+                  "swapped; exchange the two names");
+    if (error.fault() != DeviceFault::kSilent) throw;
+    const bool noise = link_->stats().bytesRead > readBefore;
+    link_->fail(DeviceFault::kSilent,
+                std::string(noise ? "what comes from here is no motion controller's answer"
+                                  : "no motion controller answers here") +
+                    "; check cable and power; 'palpate ports' tells which port is which");
+  }
+  const SdhFirmware firmware = SdhFirmware::parse(facts_.firmware);
+  binary_ = firmware.atLeast(0, 0, 2, 15);
+  readFacts();
+  return facts_;
+}
+
+void SdhController::readFacts() {
+  const SdhPatience briefly{.timeout = milliseconds(500), .tries = 2};
+  // Older firmware knows not all of these: it refuses, or keeps silent (then the others aren't asked).
+  bool answers = true;
+  const auto ifTold = [&](const auto& ask) {
+    if (!answers) return;
+    try {
+      ask();
+    } catch (const SdhInterrupted&) {
+      throw;
+    } catch (const DeviceError& error) {
+      if (error.fault() == DeviceFault::kGone || error.fault() == DeviceFault::kWrongDevice) throw;
+      answers = error.fault() != DeviceFault::kSilent;
+    }
+  };
+  ifTold([&] {
+    const SdhQuantity axes{SdhCommand::kNumAxes, "number of axes", "", 0.0, 100.0, true};
+    const double count = numbers("numaxis", "NUMAXIS", std::nullopt, axes, 1, briefly)[0];
+    if (count != static_cast<double>(kSdhAxes))
+      link_->fail(DeviceFault::kWrongDevice,
+                  "this hand has " + std::to_string(static_cast<int>(count)) +
+                      " axes; Palpate drives the SDH-2 with seven");
+  });
+  ifTold([&] { facts_.date = word("ver_date", briefly); });
+  ifTold([&] { facts_.soc = word("soc", briefly); });
+  ifTold([&] { facts_.serial = word("sn", briefly); });
+  ifTold([&] { facts_.id = word("id", briefly); });
+  // These decide what may be sent: newer firmware has to tell them.
+  const SdhFirmware firmware = SdhFirmware::parse(facts_.firmware);
+  if (firmware.atLeast(0, 0, 2, 1)) facts_.maximumVelocity = velocityLimits();
+  if (firmware.atLeast(0, 0, 2, 7)) facts_.maximumAcceleration = accelerationLimits();
+  if (firmware.atLeast(0, 0, 2, 6)) facts_.controller = controller();
+}
+
+void SdhController::needFirmware(const std::string& what, int a, int b, int c, int d) const {
+  if (SdhFirmware::parse(facts_.firmware).atLeast(a, b, c, d)) return;
+  const std::string release = std::to_string(a) + "." + std::to_string(b) + "." +
+                              std::to_string(c) + "." + std::to_string(d);
+  link_->fail(DeviceFault::kUnsupported,
+              what + " needs firmware " + release + " of the hand; this one has " +
+                  (facts_.firmware.empty() ? "not been opened" : facts_.firmware));
+}
+
+// --- asking ---------------------------------------------------------------------------------------
+
+std::string SdhController::word(const std::string& command, const SdhPatience& patience) {
+  std::string name = command;
+  for (char& c : name)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return link_
+      ->ask(
+          command,
+          name,
+          std::nullopt,
+          [](const SdhLine& line) { return !line.text.empty(); },
+          patience)
+      .text;
+}
+
+Values SdhController::numbers(const std::string& request,
+                              std::string_view name,
+                              std::optional<int> axis,
+                              const SdhQuantity& quantity,
+                              std::size_t count,
+                              const SdhPatience& patience) {
+  Values values;
+  link_->ask(
+      request,
+      name,
+      axis,
+      [&](const SdhLine& line) {
+        values = parseSdhNumbers(line.text).value_or(Values{});
+        return quantity.plausible(values, count);
+      },
+      patience);
+  return values;
+}
+
+Values SdhController::exchange(const SdhQuantity& quantity, const Values& values) {
+  if (binary_ && sdhIsBinary(quantity.command))
+    return link_->askRecord(quantity.command, values, [&](const Values& answer) {
+      return quantity.plausible(answer, kSdhAxes);
+    });
+  const std::string name(sdhName(quantity.command));
+  std::string upper = name;
+  for (char& c : upper)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return numbers(
+      sdhLineRequest(name, std::nullopt, values), upper, std::nullopt, quantity, kSdhAxes, {});
+}
+
+Values SdhController::withAxis(std::size_t axis, Values values, double value) const {
+  values.at(axis) = value;
+  return values;
+}
+
+// --- state ----------------------------------------------------------------------------------------
+
+Values SdhController::angles() { return exchange(sdh::kAngle, {}); }
+Values SdhController::velocities() { return exchange(sdh::kVelocity, {}); }
+Values SdhController::targets() { return exchange(sdh::kTarget, {}); }
+Values SdhController::targetVelocities() { return exchange(sdh::kTargetVelocity, {}); }
+Values SdhController::accelerations() { return exchange(sdh::kAcceleration, {}); }
+Values SdhController::power() { return exchange(sdh::kPower, {}); }
+
+Values SdhController::referenceVelocities() {
+  needFirmware("the reference velocity", 0, 0, 2, 6);
+  return exchange(sdh::kReferenceVelocity, {});
+}
+
+std::vector<int> SdhController::states() {
+  std::vector<int> states;
+  for (const double state : exchange(sdh::kState, {})) states.push_back(static_cast<int>(state));
+  return states;
+}
+
+Values SdhController::temperatures() {
+  return numbers("temp", "TEMP", std::nullopt, sdh::kTemperature, kSdhTemperatures, {});
+}
+
+// --- targets --------------------------------------------------------------------------------------
+
+Values SdhController::setTargets(const Values& deg) {
+  checkSdhValues(sdh::kTarget,
+                 deg,
+                 ofAxes([](const auto& axis) { return axis.minimumDeg; }),
+                 ofAxes([](const auto& axis) { return axis.maximumDeg; }));
+  for (int tries = 0;; ++tries) {
+    const Values taken = exchange(sdh::kTarget, deg);
+    const bool same = std::equal(deg.begin(), deg.end(), taken.begin(), [](double a, double b) {
+      return std::abs(a - b) <= kEchoDeg;
+    });
+    if (same) return taken;
+    if (tries == 1)
+      link_->fail(DeviceFault::kProtocol, "the hand took other target angles than were sent");
+  }
+}
+
+Values SdhController::checkedVelocities(const Values& degPerS) const {
+  Values least(kSdhAxes, 0.0);
+  if (facts_.controller != 0)
+    for (std::size_t axis = 0; axis < kSdhAxes; ++axis) least[axis] = -facts_.maximumVelocity[axis];
+  checkSdhValues(sdh::kTargetVelocity, degPerS, least, facts_.maximumVelocity);
+  return degPerS;
+}
+
+Values SdhController::setVelocities(const Values& degPerS) {
+  return exchange(sdh::kTargetVelocity, checkedVelocities(degPerS));
+}
+
+Values SdhController::setVelocitiesGetVelocities(const Values& degPerS) {
+  return exchange(sdh::kTargetGetVelocity, checkedVelocities(degPerS));
+}
+
+Values SdhController::setTargetsGetAngles(const Values& deg) {
+  checkSdhValues(sdh::kTargetGetAngle,
+                 deg,
+                 ofAxes([](const auto& axis) { return axis.minimumDeg; }),
+                 ofAxes([](const auto& axis) { return axis.maximumDeg; }));
+  return exchange(sdh::kTargetGetAngle, deg);
+}
+
+Values SdhController::setAccelerations(const Values& degPerS2) {
+  checkSdhValues(sdh::kAcceleration, degPerS2, Values(kSdhAxes, 0.0), facts_.maximumAcceleration);
+  return exchange(sdh::kAcceleration, degPerS2);
+}
+
+Values SdhController::setTarget(std::size_t axis, double deg) {
+  checkSdhAxis(axis);
+  return setTargets(withAxis(axis, targets(), deg));
+}
+
+Values SdhController::setVelocity(std::size_t axis, double degPerS) {
+  checkSdhAxis(axis);
+  return setVelocities(withAxis(axis, targetVelocities(), degPerS));
+}
+
+Values SdhController::setAcceleration(std::size_t axis, double degPerS2) {
+  checkSdhAxis(axis);
+  return setAccelerations(withAxis(axis, accelerations(), degPerS2));
+}
+
+Values SdhController::setPower(const Values& onOff) {
+  checkSdhValues(sdh::kPower, onOff, 0.0, 1.0);
+  return exchange(sdh::kPower, onOff);
+}
+
+Values SdhController::setPower(bool on) { return setPower(Values(kSdhAxes, on ? 1.0 : 0.0)); }
+
+Values SdhController::setAxisPower(std::size_t axis, bool on) {
+  checkSdhAxis(axis);
+  return setPower(withAxis(axis, power(), on ? 1.0 : 0.0));
+}
+
+// --- motion ---------------------------------------------------------------------------------------
+
+double SdhController::move() {
+  constexpr SdhPatience kOnce{.tries = 1};
+  const SdhQuantity duration{SdhCommand::kMove, "duration", " s", 0.0, 3600.0};
+  const auto start = [&] { return numbers("m", "M", std::nullopt, duration, 1, kOnce)[0]; };
+  try {
+    return start();
+  } catch (const DeviceError& error) {
+    if (error.fault() == DeviceFault::kGone || dynamic_cast<const SdhInterrupted*>(&error) ||
+        !link_->mayBeLost())
+      throw;
+  }
+  // The question may be lost, or its answer only: a second `m` in mid-motion would be a jerk.
+  const std::vector<int> now = states();
+  const bool moves = std::any_of(now.begin(), now.end(), [](int state) {
+    return state == kPositioning || state == kSpeedMode;
+  });
+  return moves ? pendingDuration() : start();
+}
+
+double SdhController::pendingDuration() {
+  const SdhQuantity duration{SdhCommand::kDuration, "duration", " s", 0.0, 3600.0};
+  return numbers("get_duration", "GET_DURATION", std::nullopt, duration, 1, {})[0];
+}
+
+void SdhController::stop() { link_->stop(); }
+
+}  // namespace palpate

@@ -1,0 +1,290 @@
+#include "device/sdh_link.h"
+
+#include <algorithm>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::size_t kReadBytes = 1024;
+constexpr milliseconds kSilence{50};      // then nothing of an old answer comes any more
+constexpr milliseconds kDrainLimit{300};  // of a line that never falls silent
+constexpr milliseconds kGap{150};         // within an answer: the rest of it was lost
+constexpr milliseconds kUrgentAfter{
+    10};                           // an answer in order takes 3.4 ms; a stop doesn't wait longer
+constexpr milliseconds kSlice{4};  // how often `urgent` is asked while waiting
+constexpr milliseconds kExchangeLimit{3500};
+
+std::int64_t us(milliseconds time) { return std::int64_t{time.count()} * 1000; }
+
+std::span<const std::byte> bytesOf(std::string_view text) {
+  return std::as_bytes(std::span<const char>(text.data(), text.size()));
+}
+
+// The hand understood something else than was sent: worth another try.
+bool comesFromALossyLine(int code) {
+  constexpr int kCodes[] = {7, 10, 11, 12, 13, 14, 32, 33, 34};
+  return std::find(std::begin(kCodes), std::end(kCodes), code) != std::end(kCodes);
+}
+
+}  // namespace
+
+SdhLink::SdhLink(ByteChannel& channel, const Clock& clock, std::function<bool()> urgent)
+    : channel_(channel),
+      clock_(clock),
+      urgent_(std::move(urgent)),
+      parser_(!channel.isNetwork()),
+      buffer_(kReadBytes) {}
+
+void SdhLink::fail(DeviceFault fault, const std::string& message) const {
+  throw DeviceError(fault, channel_.name(), message);
+}
+
+SdhStats SdhLink::stats() const noexcept {
+  SdhStats stats = stats_;
+  stats.badChecksums = parser_.stats().badChecksums;
+  stats.skippedBytes += parser_.stats().skippedBytes;
+  return stats;
+}
+
+// --- bytes ----------------------------------------------------------------------------------------
+
+std::size_t SdhLink::readOnce(milliseconds timeout) {
+  const std::size_t count = channel_.read(buffer_, timeout);
+  stats_.bytesRead += count;
+  const auto bytes = Bytes(buffer_).first(count);
+  if (count > 0 && watcher_) watcher_(bytes);
+  parser_.push(bytes, [this](SdhReply&& reply) { replies_.push_back(std::move(reply)); });
+  return count;
+}
+
+void SdhLink::write(Bytes bytes) {
+  channel_.write(bytes);
+  stats_.bytesWritten += bytes.size();
+}
+
+void SdhLink::sendText(std::string_view text) { write(bytesOf(text)); }
+
+void SdhLink::drain(milliseconds silence, milliseconds limit) {
+  const std::int64_t startUs = clock_.monotonicUs();
+  std::int64_t lastUs = startUs;
+  for (;;) {
+    const std::int64_t nowUs = clock_.monotonicUs();
+    const std::int64_t leftUs = us(silence) - (nowUs - lastUs);
+    if (leftUs <= 0 || nowUs - startUs >= us(limit)) break;
+    const milliseconds wait(leftUs / 1000 + 1);
+    if (readOnce(urgent_ ? std::min(wait, kSlice) : wait) > 0) lastUs = clock_.monotonicUs();
+    stats_.strayReplies += replies_.size();
+    replies_.clear();
+    giveUpIfUrgent();
+  }
+  parser_.reset();
+}
+
+void SdhLink::resync(bool thorough) {
+  ++stats_.resyncs;
+  parser_.reset();
+  replies_.clear();
+  outOfStep_ = true;
+  drain(kSilence, kDrainLimit);
+  // Blanks before a command mean nothing. As many as the longest record fill up one that the hand got in
+  // part; it fails by its checksum, which a network has not: there the hand would take it for values.
+  if (thorough && !channel_.isNetwork()) sendText(std::string(40, ' '));
+  sendText(" \r\n");
+  drain(kSilence, kDrainLimit);
+  outOfStep_ = false;
+}
+
+// --- one question ---------------------------------------------------------------------------------
+
+void SdhLink::giveUpIfUrgent() {
+  if (!urgent_ || !urgent_()) return;
+  outOfStep_ = true;
+  ++stats_.stops;
+  sendText(" \r\nstop\r\n");
+  throw SdhInterrupted(channel_.name());
+}
+
+// Returns where asking again may help; else throws.
+void SdhLink::takeError(int code, const std::string& what) {
+  errorCode_ = code;
+  trouble_ = Trouble::kRefused;
+  if (comesFromALossyLine(code)) return;
+  outOfStep_ = false;
+  failExchange(what);
+}
+
+std::optional<SdhReply> SdhLink::judged(const std::string& what, const Judge& judge) {
+  std::vector<SdhReply> replies = std::move(replies_);
+  replies_.clear();
+  for (SdhReply& reply : replies) {
+    const auto* line = std::get_if<SdhLine>(&reply);
+    if (line && line->kind == SdhLine::Kind::kDebug) {
+      ++stats_.debugLines;
+      continue;
+    }
+    if (line && line->kind == SdhLine::Kind::kError) {
+      takeError(line->error, what);
+      return std::nullopt;
+    }
+    switch (judge(reply)) {
+      case Verdict::kStray:
+        ++stats_.strayReplies;
+        break;
+      case Verdict::kImplausible:
+        ++stats_.suspect;
+        trouble_ = Trouble::kImplausible;
+        return std::nullopt;
+      case Verdict::kAnswer:
+        if (const auto* record = std::get_if<SdhRecord>(&reply); record && record->status != 0) {
+          takeError(record->status, what);
+          return std::nullopt;
+        }
+        return std::move(reply);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<SdhReply> SdhLink::attempt(Bytes request,
+                                         const std::string& what,
+                                         const Judge& judge,
+                                         const SdhPatience& patience) {
+  replies_.clear();
+  trouble_ = Trouble::kSilence;
+  const SdhReplyStats before = parser_.stats();
+  // What takes long may be announced by noise; it is waited for to the end.
+  const bool quick = patience.timeout <= SdhPatience{}.timeout;
+  outOfStep_ = true;
+  write(request);
+  const std::int64_t sentUs = clock_.monotonicUs();
+  std::int64_t heardUs = sentUs;
+  for (;;) {
+    const std::int64_t nowUs = clock_.monotonicUs();
+    if (patience.heedsUrgent && nowUs - sentUs >= us(kUrgentAfter)) giveUpIfUrgent();
+    const bool begun = quick && (parser_.pendingBytes() > 0 ||
+                                 parser_.stats().skippedBytes != before.skippedBytes);
+    const std::int64_t leftUs =
+        begun ? std::min(us(patience.timeout) - (nowUs - sentUs), us(kGap) - (nowUs - heardUs))
+              : us(patience.timeout) - (nowUs - sentUs);
+    if (leftUs <= 0) {
+      if (begun) trouble_ = Trouble::kBroken;
+      return std::nullopt;
+    }
+    const milliseconds wait(leftUs / 1000 + 1);
+    if (readOnce(urgent_ ? std::min(wait, kSlice) : wait) == 0) continue;
+    heardUs = clock_.monotonicUs();
+    if (parser_.stats().badChecksums != before.badChecksums) trouble_ = Trouble::kBroken;
+    if (auto answer = judged(what, judge)) {
+      outOfStep_ = parser_.pendingBytes() > 0;
+      return answer;
+    }
+    if (trouble_ != Trouble::kSilence) return std::nullopt;
+  }
+}
+
+void SdhLink::failExchange(const std::string& what) const {
+  switch (trouble_) {
+    case Trouble::kRefused: {
+      const std::string advice = sdhErrorAdvice(errorCode_);
+      fail(DeviceFault::kRefused,
+           "the hand refused '" + what + "': E" + std::to_string(errorCode_) + ", " +
+               sdhErrorText(errorCode_) + (advice.empty() ? "" : "; " + advice));
+    }
+    case Trouble::kBroken:
+      fail(DeviceFault::kProtocol,
+           "the answers to '" + what + "' arrive damaged; check cable and adapter");
+    case Trouble::kImplausible:
+      fail(DeviceFault::kProtocol, "the answers to '" + what + "' are not what a hand can say");
+    case Trouble::kSilence:
+      break;
+  }
+  fail(DeviceFault::kSilent,
+       "the motion controller gave no answer to '" + what + "'; check cable and power");
+}
+
+bool SdhLink::mayBeLost() const noexcept {
+  return trouble_ != Trouble::kRefused || comesFromALossyLine(errorCode_);
+}
+
+SdhReply SdhLink::exchange(Bytes request,
+                           const std::string& what,
+                           const Judge& judge,
+                           const SdhPatience& patience) {
+  if (patience.heedsUrgent) giveUpIfUrgent();
+  ++stats_.exchanges;
+  if (outOfStep_) resync(false);
+  const std::int64_t startUs = clock_.monotonicUs();
+  for (int tries = 1;; ++tries) {
+    if (auto answer = attempt(request, what, judge, patience)) return std::move(*answer);
+    if (tries >= patience.tries || clock_.monotonicUs() - startUs > us(kExchangeLimit)) break;
+    ++stats_.retries;
+    resync(tries > 1);
+  }
+  failExchange(what);
+}
+
+SdhLine SdhLink::ask(const std::string& request,
+                     std::string_view name,
+                     std::optional<int> axis,
+                     const LineCheck& check,
+                     const SdhPatience& patience) {
+  const Judge judge = [&](SdhReply& reply) {
+    const auto* line = std::get_if<SdhLine>(&reply);
+    if (!line || line->kind != SdhLine::Kind::kValue || line->name != name || line->axis != axis)
+      return Verdict::kStray;
+    return check(*line) ? Verdict::kAnswer : Verdict::kImplausible;
+  };
+  const std::string text = request + "\r\n";
+  return std::get<SdhLine>(exchange(bytesOf(text), request, judge, patience));
+}
+
+std::vector<double> SdhLink::askRecord(SdhCommand command,
+                                       std::span<const double> values,
+                                       const RecordCheck& check) {
+  const Judge judge = [&](SdhReply& reply) {
+    const auto* record = std::get_if<SdhRecord>(&reply);
+    if (!record || record->command != command) return Verdict::kStray;
+    if (record->status != 0) return Verdict::kAnswer;
+    return check(record->values) ? Verdict::kAnswer : Verdict::kImplausible;
+  };
+  const auto request = sdhRecordRequest(command, values, !channel_.isNetwork());
+  return std::get<SdhRecord>(exchange(request, std::string(sdhName(command)), judge, {})).values;
+}
+
+// --- stop -----------------------------------------------------------------------------------------
+
+void SdhLink::stop() {
+  ++stats_.stops;
+  constexpr milliseconds kWaits[] = {milliseconds(150), milliseconds(300), milliseconds(500)};
+  bool first = true;
+  for (const milliseconds timeout : kWaits) {
+    replies_.clear();
+    parser_.reset();
+    // One piece, before anything else; later ones also end a record that the hand got in part.
+    sendText((first || channel_.isNetwork() ? "" : std::string(40, ' ')) + " \r\nstop\r\n");
+    first = false;
+    outOfStep_ = true;
+    const std::int64_t endUs = clock_.monotonicUs() + us(timeout);
+    for (std::int64_t leftUs = us(timeout); leftUs > 0; leftUs = endUs - clock_.monotonicUs()) {
+      readOnce(milliseconds(leftUs / 1000 + 1));
+      for (const SdhReply& reply : replies_) {
+        // An error may be the answer to a command that was cut off by this one.
+        const auto* line = std::get_if<SdhLine>(&reply);
+        if (!line || line->kind == SdhLine::Kind::kDebug || line->kind == SdhLine::Kind::kError)
+          continue;
+        // Another line than STOP may answer an earlier question: the next one starts by a resync.
+        outOfStep_ = !line->text.starts_with("STOP") && line->name != "STOP";
+        return;
+      }
+      replies_.clear();
+    }
+  }
+  fail(DeviceFault::kSilent,
+       "'stop' was sent, but the hand doesn't confirm it: use its emergency stop if it moves");
+}
+
+}  // namespace palpate

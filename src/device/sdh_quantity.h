@@ -1,0 +1,71 @@
+// What the values of each vector command of the SDH-2 are called and may be.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "palpate/device/sdh_protocol.h"
+
+namespace palpate {
+
+struct SdhQuantity {
+  SdhCommand command;
+  const char* noun;  // for messages
+  const char* unit;  // " deg"
+  double least;      // an answer outside is no answer
+  double most;
+  bool whole = false;  // whole numbers only
+
+  // Finite, in range, and as many as there should be.
+  bool plausible(std::span<const double> values, std::size_t count) const noexcept;
+};
+
+namespace sdh {
+
+constexpr double kMostDeg = 180.0;
+constexpr double kMostDegPerS = 1000.0;
+constexpr double kMostDegPerS2 = 100'000.0;
+constexpr double kMostAmpere = 10.0;
+
+inline constexpr SdhQuantity kAngle{SdhCommand::kAngle, "angle", " deg", -kMostDeg, kMostDeg};
+inline constexpr SdhQuantity kTarget{
+    SdhCommand::kAngleTarget, "target angle", " deg", -kMostDeg, kMostDeg};
+inline constexpr SdhQuantity kTargetGetAngle{
+    SdhCommand::kTargetGetAngle, "target angle", " deg", -kMostDeg, kMostDeg};
+inline constexpr SdhQuantity kVelocity{
+    SdhCommand::kVelocity, "velocity", " deg/s", -kMostDegPerS, kMostDegPerS};
+inline constexpr SdhQuantity kReferenceVelocity{
+    SdhCommand::kVelocityReference, "reference velocity", " deg/s", -kMostDegPerS, kMostDegPerS};
+inline constexpr SdhQuantity kTargetVelocity{
+    SdhCommand::kVelocityTarget, "target velocity", " deg/s", -kMostDegPerS, kMostDegPerS};
+inline constexpr SdhQuantity kTargetGetVelocity{
+    SdhCommand::kTargetGetVelocity, "target velocity", " deg/s", -kMostDegPerS, kMostDegPerS};
+inline constexpr SdhQuantity kAcceleration{
+    SdhCommand::kAcceleration, "acceleration", " deg/s^2", 0.0, kMostDegPerS2};
+inline constexpr SdhQuantity kState{SdhCommand::kState, "state", "", 0.0, 7.0, true};
+inline constexpr SdhQuantity kPower{SdhCommand::kPower, "power", "", 0.0, 1.0, true};
+inline constexpr SdhQuantity kTemperature{
+    SdhCommand::kTemperature, "temperature", " deg C", -55.0, 150.0};
+inline constexpr SdhQuantity kVelocityLimit{
+    SdhCommand::kVelocityLimit, "velocity limit", " deg/s", 1e-3, kMostDegPerS};
+inline constexpr SdhQuantity kAccelerationLimit{
+    SdhCommand::kAccelerationLimit, "acceleration limit", " deg/s^2", 1e-3, kMostDegPerS2};
+
+}  // namespace sdh
+
+// Throws std::invalid_argument that names axis, value and range unless there are seven finite values, each
+// within `least[axis]`..`most[axis]`.
+void checkSdhValues(const SdhQuantity& quantity,
+                    std::span<const double> values,
+                    std::span<const double> least,
+                    std::span<const double> most);
+// The same range for all axes.
+void checkSdhValues(const SdhQuantity& quantity,
+                    std::span<const double> values,
+                    double least,
+                    double most);
+// Throws std::invalid_argument unless axis is 0..6.
+void checkSdhAxis(std::size_t axis);
+
+}  // namespace palpate

@@ -1,0 +1,73 @@
+#include "device/serial_port_channel.h"
+
+#include <cerrno>
+
+#include <fcntl.h>
+#include <libserialport.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+
+#include "palpate/core/error.h"
+
+#include "device/tty_channel.h"
+
+namespace palpate {
+namespace {
+
+// Ends the program's part in a port that was opened but can't be used.
+void require(sp_return result, const std::string& name, const std::string& what) {
+  if (result == SP_OK) return;
+  if (result == SP_ERR_FAIL && what.empty()) throwOpenError(sp_last_error_code(), name);
+  throw DeviceError(DeviceFault::kUnsupported,
+                    name,
+                    "this port can't be set to " + what +
+                        "; use another port or adapter, 'palpate ports' lists what is there");
+}
+
+}  // namespace
+
+void SerialPortChannel::Closer::operator()(sp_port* port) const noexcept {
+  int fd = -1;
+  if (sp_get_port_handle(port, &fd) == SP_OK && fd >= 0) {
+    ::ioctl(fd, TIOCNXCL);  // does not end by itself while something else has the port open
+    sp_close(port);
+  }
+  sp_free_port(port);
+}
+
+bool SerialPortChannel::knows(const std::string& path) {
+  sp_port* found = nullptr;
+  if (sp_get_port_by_name(path.c_str(), &found) != SP_OK) return false;
+  sp_free_port(found);
+  return true;
+}
+
+SerialPortChannel::SerialPortChannel(std::string name, int fd, Port port)
+    : DescriptorChannel(std::move(name), fd, false), port_(std::move(port)) {}
+
+SerialPortChannel::~SerialPortChannel() = default;
+
+std::unique_ptr<ByteChannel> SerialPortChannel::open(const std::string& path,
+                                                     const std::string& name,
+                                                     int baud) {
+  sp_port* found = nullptr;
+  if (sp_get_port_by_name(path.c_str(), &found) != SP_OK)
+    throw DeviceError(
+        DeviceFault::kNotFound, name, "no such port; 'palpate ports' lists what is there");
+  Port port(found);
+  require(sp_open(port.get(), SP_MODE_READ_WRITE), name, "");
+  int fd = -1;
+  require(sp_get_port_handle(port.get(), &fd), name, "be waited for");
+  ::fcntl(fd, F_SETFD, FD_CLOEXEC);
+  lockLine(fd, name, /*forAll=*/true);
+  require(sp_set_baudrate(port.get(), baud), name, std::to_string(baud) + " baud");
+  require(sp_set_bits(port.get(), 8), name, "8 data bits");
+  require(sp_set_parity(port.get(), SP_PARITY_NONE), name, "no parity");
+  require(sp_set_stopbits(port.get(), 1), name, "1 stop bit");
+  require(sp_set_flowcontrol(port.get(), SP_FLOWCONTROL_NONE), name, "no flow control");
+  if (!makeRaw(fd)) throwOpenError(errno, name);  // what libserialport leaves: HUPCL, VMIN
+  sp_flush(port.get(), SP_BUF_INPUT);
+  return std::unique_ptr<ByteChannel>(new SerialPortChannel(name, fd, std::move(port)));
+}
+
+}  // namespace palpate

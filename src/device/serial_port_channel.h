@@ -1,0 +1,31 @@
+// A serial port of the machine or on USB, opened and set by libserialport.
+#pragma once
+
+#include <string>
+
+#include "device/descriptor_channel.h"
+
+struct sp_port;
+
+namespace palpate {
+
+class SerialPortChannel final : public DescriptorChannel {
+ public:
+  // True where libserialport knows `path` ("/dev/ttyUSB0", no link).
+  static bool knows(const std::string& path);
+  // `path` is opened, `name` shown.
+  static std::unique_ptr<ByteChannel> open(const std::string& path,
+                                           const std::string& name,
+                                           int baud);
+  ~SerialPortChannel() override;
+
+ private:
+  struct Closer {
+    void operator()(sp_port* port) const noexcept;
+  };
+  using Port = std::unique_ptr<sp_port, Closer>;
+  SerialPortChannel(std::string name, int fd, Port port);
+  Port port_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,22 @@
+// A TCP connection to a hand with a network port, or to an emulated one. Never listens.
+#pragma once
+
+#include <string>
+
+#include "device/descriptor_channel.h"
+
+namespace palpate {
+
+class TcpChannel final : public DescriptorChannel {
+ public:
+  // `name` is "tcp:HOST:PORT"; HOST a name, an IPv4 address, or an IPv6 address (brackets allowed).
+  static std::unique_ptr<ByteChannel> open(const std::string& name,
+                                           std::chrono::milliseconds connectTimeout);
+  bool isNetwork() const noexcept override { return true; }
+
+ private:
+  TcpChannel(std::string name, OwnedDescriptor fd);
+  OwnedDescriptor fd_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,94 @@
+#include "device/tty_channel.h"
+
+#include <cerrno>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace {
+
+constexpr char kBusyText[] =
+    "another program holds this port; close it there, or name another port";
+
+}  // namespace
+
+void throwOpenError(int error, const std::string& name) {
+  switch (error) {
+    case EACCES:
+    case EPERM:
+      throw DeviceError(DeviceFault::kNoPermission,
+                        name,
+                        "no permission to open this port; add yourself to the group dialout: "
+                        "sudo adduser $USER dialout, then log in again");
+    case EBUSY:
+      throw DeviceError(DeviceFault::kBusy, name, kBusyText);
+    case ENOENT:
+    case ENOTDIR:
+    case ELOOP:
+      throw DeviceError(
+          DeviceFault::kNotFound, name, "no such port; 'palpate ports' lists what is there");
+    case ENXIO:
+    case ENODEV:
+    case EIO:
+      throw DeviceError(DeviceFault::kNotFound,
+                        name,
+                        "nothing is plugged in behind this port; 'palpate ports' lists what is "
+                        "there");
+    default:
+      throw DeviceError(DeviceFault::kNotFound,
+                        name,
+                        "can't be opened (" + std::generic_category().message(error) +
+                            "); 'palpate ports' lists what is there");
+  }
+}
+
+void lockLine(int fd, const std::string& name, bool forAll) {
+  if (::flock(fd, LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EWOULDBLOCK) throw DeviceError(DeviceFault::kBusy, name, kBusyText);
+    throwOpenError(errno, name);
+  }
+  if (forAll && ::ioctl(fd, TIOCEXCL) != 0) throwOpenError(errno, name);
+}
+
+bool makeRaw(int fd) noexcept {
+  termios settings{};
+  if (::tcgetattr(fd, &settings) != 0) return false;
+  ::cfmakeraw(
+      &settings);  // no ISTRIP, IXON, ICRNL, OPOST, ECHO, ICANON, ISIG, IEXTEN; CS8, no PARENB
+  settings.c_iflag &= ~static_cast<tcflag_t>(INPCK | IXOFF | IXANY | IUCLC | IMAXBEL);
+  settings.c_cflag |= CLOCAL | CREAD;
+  settings.c_cflag &= ~static_cast<tcflag_t>(HUPCL | CSTOPB | CRTSCTS);
+  settings.c_cc[VMIN] = 1;
+  settings.c_cc[VTIME] = 0;
+  return ::tcsetattr(fd, TCSANOW, &settings) == 0;
+}
+
+TtyChannel::TtyChannel(std::string name, OwnedDescriptor fd)
+    : DescriptorChannel(std::move(name), fd.get(), false), fd_(std::move(fd)) {}
+
+std::unique_ptr<ByteChannel> TtyChannel::open(const std::string& path, const std::string& name) {
+  OwnedDescriptor fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (fd.get() < 0) throwOpenError(errno, name);
+  if (::isatty(fd.get()) != 1)
+    throw DeviceError(DeviceFault::kNotFound,
+                      name,
+                      "this is no serial line; 'palpate ports' lists what is there");
+  if (::tcgetsid(fd.get()) == ::getsid(0))
+    throw DeviceError(
+        DeviceFault::kBusy, name, "this is the terminal the program runs in; name another port");
+  // flock only: TIOCEXCL stays with a pty as long as its other end keeps it open, so that a program
+  // that was killed would lock out its own successor.
+  lockLine(fd.get(), name, /*forAll=*/false);
+  if (!makeRaw(fd.get())) throwOpenError(errno, name);
+  ::tcflush(fd.get(), TCIFLUSH);
+  return std::unique_ptr<ByteChannel>(new TtyChannel(name, std::move(fd)));
+}
+
+}  // namespace palpate

@@ -1,0 +1,91 @@
+// The thread of an emulated hand: keeps its time, moves bytes between the ports and the two servers, and does
+// what other threads ask for.
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <future>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
+#include "palpate/core/time.h"
+#include "palpate/emulator/emulated_hand.h"
+
+#include "emulator/emulated_lane.h"
+
+namespace palpate {
+
+class EmulatedHand::Loop {
+ public:
+  Loop(std::unique_ptr<HandModel> model, EmulatedHandOptions options, FrameObserver observer);
+  ~Loop();
+  Loop(const Loop&) = delete;
+  Loop& operator=(const Loop&) = delete;
+
+  // Runs `work` in the hand's thread and waits for it; rethrows what it throws.
+  void call(std::function<void()> work);
+  EmulatedHandCounts counts() const;
+  std::vector<SentFrame> sentFrames() const;
+
+  // Only within call().
+  EmulatedLane& dsaLane() noexcept { return dsaLane_; }
+  EmulatedLane& sdhLane() noexcept { return sdhLane_; }
+  HandModel& model() noexcept { return *model_; }
+  void powerCycle(double bootS);
+  void setFaults(const Faults& faults);
+
+ private:
+  // An end of an outage is remembered by what it was.
+  struct Incident {
+    std::int64_t beginUs = 0, endUs = 0;
+    bool unplug = false;
+    bool begun = false;
+  };
+  std::int64_t nowUs() const;
+  void run(const std::stop_token& stop);
+  void runCalls();
+  void step();
+  void planIncidents(const Faults& faults, std::int64_t fromUs);
+  bool incidents(std::int64_t nowUs);
+  void receive(std::int64_t nowUs);
+  void advance();
+  void forwardTactile(std::int64_t nowUs);
+  void forwardMotion(std::int64_t nowUs);
+  bool somethingIsDue(std::int64_t nowUs) const;
+  bool jumpToNextFrame();
+  void collect();
+  void wait();
+  std::int64_t waitUs(std::int64_t nowUs);
+  void wake() noexcept;
+
+  EmulatedHandOptions options_;
+  FrameObserver observer_;
+  std::unique_ptr<HandModel> model_;
+  std::int64_t startUs_;       // monotonic
+  std::int64_t jumpedUs_ = 0;  // by how much the hand's time is ahead of the clock
+  HostTime hostTime_;
+  EmulatedLane dsaLane_, sdhLane_;
+  DsaServer dsa_;
+  SdhServer sdh_;
+  std::vector<Incident> incidents_;
+  FaultCounts faultCounts_;
+  bool stalled_ = false;
+  std::int64_t dsaInputUs_ = 0, sdhInputUs_ = 0;  // monotonic: when the client spoke last
+  std::int64_t tidiedUs_ = 0;
+  int blockedTurns_ = 0;
+  std::deque<ScannedFrame> onTheLine_;
+  EmulatedHandCounts working_;
+
+  int wakeUp_ = -1;  // eventfd
+  std::mutex callsMutex_;
+  std::deque<std::packaged_task<void()>> calls_;
+  bool ended_ = false;
+  mutable std::mutex countsMutex_;
+  EmulatedHandCounts counts_;
+  std::deque<SentFrame> sent_;
+  std::atomic<std::thread::id> threadId_;
+  std::jthread thread_;  // last: everything else is there when it starts
+};
+
+}  // namespace palpate

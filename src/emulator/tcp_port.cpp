@@ -1,0 +1,116 @@
+// The TCP port behind openTcpPort(), and the choice between both kinds of ports.
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/emulator/port_server.h"
+
+namespace palpate {
+namespace {
+
+class TcpPort final : public PortServer {
+ public:
+  explicit TcpPort(std::uint16_t port) : port_(port) { plug(); }
+  ~TcpPort() override { unplug(); }
+  TcpPort(const TcpPort&) = delete;
+  TcpPort& operator=(const TcpPort&) = delete;
+
+  const std::string& name() const noexcept override { return name_; }
+  bool isNetwork() const noexcept override { return true; }
+  int descriptor() const noexcept override { return client_ >= 0 ? client_ : listener_; }
+  bool connected() const noexcept override { return client_ >= 0; }
+
+  std::size_t read(std::span<std::byte> into) override {
+    if (client_ < 0) accept();
+    if (client_ < 0) return 0;
+    const ssize_t n = ::recv(client_, into.data(), into.size(), MSG_DONTWAIT);
+    if (n > 0) return static_cast<std::size_t>(n);
+    if (n == 0 || !(errno == EAGAIN || errno == EINTR)) hangUp();
+    return 0;
+  }
+
+  std::size_t write(std::span<const std::byte> bytes) override {
+    if (client_ < 0) return 0;
+    const ssize_t n = ::send(client_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+    if (n >= 0) return static_cast<std::size_t>(n);
+    if (!(errno == EAGAIN || errno == EINTR)) hangUp();
+    return 0;
+  }
+
+  void unplug() noexcept override {
+    hangUp();
+    if (listener_ >= 0) ::close(listener_);
+    listener_ = -1;
+  }
+
+  void plug() override {
+    if (listener_ >= 0) return;
+    listener_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    if (listener_ < 0) fail();
+    const int on = 1;
+    ::setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port_);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);  // strangers stay outside
+    socklen_t size = sizeof address;
+    auto* generic = reinterpret_cast<sockaddr*>(&address);
+    if (::bind(listener_, generic, size) != 0 || ::listen(listener_, 1) != 0 ||
+        ::getsockname(listener_, generic, &size) != 0)
+      fail();
+    port_ = ntohs(address.sin_port);
+    name_ = "tcp:127.0.0.1:" + std::to_string(port_);
+  }
+
+ private:
+  [[noreturn]] void fail() {
+    const int error = errno;
+    unplug();
+    throw DeviceError(error == EADDRINUSE ? DeviceFault::kBusy : DeviceFault::kGone,
+                      "tcp:127.0.0.1:" + std::to_string(port_),
+                      std::string("can't listen: ") + std::strerror(error));
+  }
+
+  void accept() {
+    client_ = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    const int on = 1;
+    if (client_ >= 0) ::setsockopt(client_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  }
+
+  void hangUp() noexcept {
+    if (client_ >= 0) ::close(client_);
+    client_ = -1;
+  }
+
+  std::uint16_t port_;
+  std::string name_;
+  int listener_ = -1;
+  int client_ = -1;
+};
+
+}  // namespace
+
+std::unique_ptr<PortServer> openTcpPort(std::uint16_t port) {
+  return std::make_unique<TcpPort>(port);
+}
+
+std::unique_ptr<PortServer> openPortServer(const std::string& where) {
+  if (!where.starts_with("tcp:")) return openPtyPort(where);
+  const std::size_t colon = where.rfind(':');
+  const std::string host = colon > 4 ? where.substr(4, colon - 4) : std::string();
+  const auto port = parseInteger(where.substr(colon + 1));
+  if ((host != "127.0.0.1" && host != "localhost") || !port || *port < 0 || *port > 65'535)
+    throw std::invalid_argument("'" + where +
+                                "' is no port of this machine: tcp:127.0.0.1:PORT, PORT 0..65535");
+  return openTcpPort(static_cast<std::uint16_t>(*port));
+}
+
+}  // namespace palpate

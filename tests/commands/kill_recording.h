@@ -1,0 +1,141 @@
+// `palpate record` killed at random moments, and what its file then holds against a counter outside the
+// process: the emulated hand's own list of frames that have left (reliability R1).
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "palpate/core/time.h"
+#include "palpate/emulator/emulated_hand.h"
+#include "palpate/recording/recording.h"
+
+#include "emulator/numbered_hand.h"
+#include "testing/background_program.h"
+#include "testing/testing.h"
+
+namespace palpate::testing {
+
+struct KillFigures {
+  int kills = 0;
+  int opened = 0;
+  std::uint64_t frames = 0;  // in all files
+  double mostLostMs =
+      0.0;              // from the first frame that left the hand and isn't in the file to the kill
+  int withJournal = 0;  // killed inside of a commit
+};
+
+// One emulated hand, many recorders one after another.
+class KilledRecordings {
+ public:
+  KilledRecordings(const std::string& program, EmulatedHandOptions options, unsigned seed)
+      : program_(program), hand_(std::make_unique<NumberedHand>(), options), random_(seed) {}
+
+  void round() {
+    const TemporaryFolder folder;
+    const auto file = folder / "killed.palpate";
+    const std::uint64_t before = hand_.counts().framesSent;
+    BackgroundProgram recorder(
+        program_,
+        {"record", "--dsa", hand_.dsaPort(), "--sdh", hand_.sdhPort(), "-o", file, "--quiet"});
+    // Streams left over by the one killed before are stopped first: a file tells that this one records.
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!std::filesystem::exists(file) && std::chrono::steady_clock::now() < limit)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    ASSERT_TRUE(std::filesystem::exists(file)) << recorder.err();
+    std::this_thread::sleep_for(std::chrono::microseconds(random_() % 700'000));
+    const std::int64_t killUs = systemClock().wallUs();
+    recorder.signal(SIGKILL);
+    ASSERT_EQ(recorder.wait(), 128 + SIGKILL);
+    ++figures_.kills;
+    check(folder.path(), file, before, killUs);
+  }
+
+  const KillFigures& figures() const noexcept { return figures_; }
+
+ private:
+  void check(const std::filesystem::path& folder,
+             const std::filesystem::path& file,
+             std::uint64_t before,
+             std::int64_t killUs) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const std::string name = entry.path().filename();
+      EXPECT_TRUE(name == "killed.palpate" || name == "killed.palpate-journal" ||
+                  name == "killed.palpate.lock")
+          << name;
+      if (name == "killed.palpate-journal" && entry.file_size() > 0) ++figures_.withJournal;
+    }
+    const Profile profile = openRecording(file);
+    ++figures_.opened;
+    figures_.frames += profile.numFrames();
+    std::int64_t lastNumber = -1;
+    for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+      const TactileFrame frame = profile.frame(i);
+      const std::optional<std::uint64_t> number = NumberedHand::numberOf(frame.values);
+      ASSERT_TRUE(number) << "a wrong frame";
+      ASSERT_GT(static_cast<std::int64_t>(*number), lastNumber) << "a frame twice, or out of order";
+      if (lastNumber >= 0) {
+        ASSERT_EQ(static_cast<std::int64_t>(*number), lastNumber + 1)
+            << "a frame is missing inside";
+      }
+      lastNumber = static_cast<std::int64_t>(*number);
+    }
+    ASSERT_GE(lastNumber, static_cast<std::int64_t>(0));
+    static_cast<void>(before);
+    // The first frame that had left the hand before the kill and isn't in the file.
+    for (const SentFrame& sent : hand_.sentFrames()) {
+      if (static_cast<std::int64_t>(sent.number) <= lastNumber || sent.hostUs > killUs) continue;
+      figures_.mostLostMs =
+          std::max(figures_.mostLostMs, static_cast<double>(killUs - sent.hostUs) / 1000.0);
+      break;
+    }
+  }
+
+  std::string program_;
+  EmulatedHand hand_;
+  std::mt19937 random_;
+  KillFigures figures_;
+};
+
+// `kills` over four hands at a time, half of them at 300 frames/s.
+inline KillFigures killRecordings(const std::string& program, int kills, int hands) {
+  std::vector<KillFigures> figures(static_cast<std::size_t>(hands));
+  std::vector<std::jthread> workers;
+  for (int h = 0; h < hands; ++h)
+    workers.emplace_back([&, h] {
+      EmulatedHandOptions options;
+      if (h % 2 == 1) {
+        options.rate = EmulationRate::kHz;
+        options.hz = 300.0;
+      }
+      KilledRecordings recordings(program, options, static_cast<unsigned>(h) + 1);
+      for (int k = h; k < kills && !::testing::Test::HasFatalFailure(); k += hands)
+        recordings.round();
+      figures[static_cast<std::size_t>(h)] = recordings.figures();
+    });
+  workers.clear();
+  KillFigures all;
+  for (const KillFigures& one : figures) {
+    all.kills += one.kills;
+    all.opened += one.opened;
+    all.frames += one.frames;
+    all.withJournal += one.withJournal;
+    all.mostLostMs = std::max(all.mostLostMs, one.mostLostMs);
+  }
+  std::printf("%d kills, %d files open, %llu frames, %d journals, at most %.0f ms lost\n",
+              all.kills,
+              all.opened,
+              static_cast<unsigned long long>(all.frames),
+              all.withJournal,
+              all.mostLostMs);
+  return all;
+}
+
+}  // namespace palpate::testing

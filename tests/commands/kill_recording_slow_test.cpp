@@ -1,0 +1,18 @@
+// A thousand killed recorders (reliability R1).
+#include "commands/kill_recording.h"
+
+namespace palpate::testing {
+namespace {
+
+// In parts: each stays below the time a test may take.
+class KillRecordingSlow : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Part, KillRecordingSlow, ::testing::Range(0, 4));
+
+TEST_P(KillRecordingSlow, TwoHundredAndFiftyKills) {
+  const KillFigures figures = killRecordings(PALPATE_PROGRAM, 250, 4);
+  EXPECT_EQ(figures.opened, 250);
+  EXPECT_LE(figures.mostLostMs, 150.0);
+}
+
+}  // namespace
+}  // namespace palpate::testing

@@ -1,0 +1,14 @@
+// Recorders killed, short form (reliability R1).
+#include "commands/kill_recording.h"
+
+namespace palpate::testing {
+namespace {
+
+TEST(KillRecording, FilesOpenAndHoldAllButTheLastMoment) {
+  const KillFigures figures = killRecordings(PALPATE_PROGRAM, 8, 2);
+  EXPECT_EQ(figures.opened, 8);
+  EXPECT_LE(figures.mostLostMs, 150.0);
+}
+
+}  // namespace
+}  // namespace palpate::testing

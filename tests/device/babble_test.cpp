@@ -1,0 +1,19 @@
+// Misbehaving controllers, short form (reliability R9).
+#include "device/babble.h"
+
+namespace palpate::testing {
+namespace {
+
+// "Silent" within 500 ms, and what a busy machine adds.
+constexpr double kNoticedMs = 700.0;
+
+TEST(Babble, SilenceIsNoticedAndEnds) { EXPECT_LT(misbehave(Behaviour::kSilent, 0), kNoticedMs); }
+
+TEST(Babble, RandomBytesTakeNoMemory) {
+  EXPECT_LT(misbehave(Behaviour::kBabbling, 50u << 20), kNoticedMs);
+}
+
+TEST(Babble, OneByteASecondIsSilence) { EXPECT_LT(misbehave(Behaviour::kDripping, 0), kNoticedMs); }
+
+}  // namespace
+}  // namespace palpate::testing

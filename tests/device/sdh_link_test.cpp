@@ -1,0 +1,210 @@
+// The driver of the SDH-2 on a line that loses, garbles and delays, and under a stop that can't wait.
+#include "device/sdh_on_a_wire.h"
+
+namespace palpate {
+namespace {
+
+using testing::bytesOf;
+using testing::errorOf;
+using Values = SdhController::Values;
+using SdhLinkTest = testing::SdhOnAWire;
+
+const testing::Bytes kStop = bytesOf("20 0D 0A 73 74 6F 70 0D 0A");  // " \r\nstop\r\n"
+
+// --- a line that misbehaves ---------------------------------------------------------------------------
+
+TEST_F(SdhLinkTest, OneMissingByteAnywhereCostsOneRetryAndNothingElse) {
+  controller.open();
+  for (int at = 0; at < 34; ++at) {
+    hand.dropByteAt = at;
+    const std::int64_t before = clock.nowUs;
+    const std::uint64_t retries = controller.stats().retries;
+    EXPECT_EQ(controller.angles(), hand.pos) << "byte " << at;
+    EXPECT_EQ(controller.stats().retries, retries + 1) << "byte " << at;
+    EXPECT_LT(clock.nowUs - before, 400'000) << "byte " << at;
+    EXPECT_EQ(controller.targets(), hand.values["p"]) << "byte " << at;
+    EXPECT_EQ(controller.stats().retries, retries + 1) << "byte " << at;
+  }
+}
+
+TEST_F(SdhLinkTest, OneWrongBitAnywhereCostsOneRetryAndIsNeverAValue) {
+  controller.open();
+  for (int at = 0; at < 34; ++at) {
+    hand.flipByteAt = at;
+    EXPECT_EQ(controller.angles(), hand.pos) << "byte " << at;
+  }
+  EXPECT_EQ(controller.stats().retries, 34u);
+  EXPECT_GE(controller.stats().badChecksums, 31u);  // a wrong header is no record at all
+}
+
+TEST_F(SdhLinkTest, SkipsNoiseDebugLinesAndStaleAnswers) {
+  controller.open();
+  hand.garbage = "\x01\x02\xff\xfe";
+  EXPECT_EQ(controller.angles(), hand.pos);
+  hand.debugLines = 3;
+  EXPECT_EQ(controller.temperatures().size(), 9u);
+  hand.debugLines = 2;
+  EXPECT_EQ(controller.angles(), hand.pos);
+  EXPECT_EQ(controller.stats().debugLines, 5u);
+  hand.lateAnswer = "M=9.99\r\n";
+  EXPECT_DOUBLE_EQ(controller.pendingDuration(), 3.25);
+  EXPECT_EQ(controller.stats().strayReplies, 1u);
+  EXPECT_EQ(controller.stats().retries, 0u);
+}
+
+TEST_F(SdhLinkTest, AnAnswerOfAnotherNameIsNotTaken) {
+  controller.open();
+  hand.wrongNames = 1;
+  EXPECT_DOUBLE_EQ(controller.pendingDuration(), 3.25);
+  EXPECT_EQ(controller.stats().retries, 1u);
+}
+
+TEST_F(SdhLinkTest, ImpossibleValuesAreDroppedAndCounted) {
+  controller.open();
+  hand.nanAnswers = 1;
+  EXPECT_EQ(controller.angles(), hand.pos);
+  hand.wildAnswers = 2;
+  EXPECT_EQ(controller.angles(), hand.pos);
+  EXPECT_EQ(controller.stats().suspect, 3u);
+  hand.nanAnswers = 3;
+  EXPECT_EQ(errorOf([&] { controller.angles(); }).fault(), DeviceFault::kProtocol);
+  EXPECT_EQ(controller.angles(), hand.pos);
+}
+
+TEST_F(SdhLinkTest, ErrorCodesSayWhatTheyMeanAndWhatToDo) {
+  controller.open();
+  hand.errorCode = 28;
+  const DeviceError disabled = errorOf([&] { controller.move(); });
+  EXPECT_EQ(disabled.fault(), DeviceFault::kRefused);
+  EXPECT_NE(std::string(disabled.what()).find("axis disabled"), std::string::npos);
+  EXPECT_NE(std::string(disabled.what()).find("power on again"), std::string::npos);
+  EXPECT_EQ(hand.moves, 0);
+  hand.errorCode = 29;  // of a record
+  const DeviceError hot = errorOf([&] { controller.setPower(true); });
+  EXPECT_NE(std::string(hot.what()).find("over-temperature"), std::string::npos);
+  EXPECT_EQ(hand.values["power"], Values(7, 0.0));
+  EXPECT_EQ(controller.stats().retries, 0u);
+}
+
+TEST_F(SdhLinkTest, AsksAgainWhatTheHandMisheard) {
+  controller.open();
+  for (const int code : {33, 13, 10, 14}) {
+    hand.errorCode = code;
+    EXPECT_EQ(controller.angles(), hand.pos) << code;
+  }
+  EXPECT_EQ(controller.stats().retries, 4u);
+}
+
+TEST_F(SdhLinkTest, ASilentHandIsGivenUpInBoundedTimeAndFoundAgain) {
+  controller.open();
+  hand.dead = true;
+  const std::int64_t before = clock.nowUs;
+  EXPECT_EQ(errorOf([&] { controller.angles(); }).fault(), DeviceFault::kSilent);
+  EXPECT_LT(clock.nowUs - before, 4'000'000);
+  hand.dead = false;
+  EXPECT_EQ(controller.angles(), hand.pos);
+}
+
+TEST_F(SdhLinkTest, AnAnswerThatComesTooLateIsNotTakenForTheNextOne) {
+  controller.open();
+  answerAfterUs = 1'030'000;  // behind the timeout, within the drain
+  EXPECT_EQ(errorOf([&] { controller.angles(); }).fault(), DeviceFault::kSilent);
+  answerAfterUs = 3400;
+  EXPECT_EQ(controller.targets(), hand.values["p"]);
+  EXPECT_EQ(controller.angles(), hand.pos);
+}
+
+TEST_F(SdhLinkTest, ABabblingLineIsGivenUpInBoundedTimeAndMemory) {
+  controller.open();
+  line.babble = true;
+  const std::int64_t before = clock.nowUs;
+  EXPECT_THROW(controller.angles(), DeviceError);
+  EXPECT_LT(clock.nowUs - before, 6'000'000);
+  line.babble = false;
+  EXPECT_EQ(controller.angles(), hand.pos);
+}
+
+TEST_F(SdhLinkTest, APulledPlugIsSaidAtOnce) {
+  controller.open();
+  line.pullThePlug();
+  EXPECT_EQ(errorOf([&] { controller.angles(); }).fault(), DeviceFault::kGone);
+  EXPECT_EQ(errorOf([&] { controller.move(); }).fault(), DeviceFault::kGone);
+  EXPECT_EQ(errorOf([&] { controller.stop(); }).fault(), DeviceFault::kGone);
+}
+
+// --- motion and stop -----------------------------------------------------------------------------------
+
+TEST_F(SdhLinkTest, ALostAnswerToMoveDoesNotStartTheMotionTwice) {
+  controller.open();
+  hand.silentAnswers = 1;
+  EXPECT_DOUBLE_EQ(controller.move(), 3.25);
+  EXPECT_EQ(hand.moves, 1);
+}
+
+TEST_F(SdhLinkTest, ALostMoveIsSentAgain) {
+  controller.open();
+  hand.errorCode = 13;  // misheard
+  EXPECT_DOUBLE_EQ(controller.move(), 4.51);
+  EXPECT_EQ(hand.moves, 1);
+}
+
+TEST_F(SdhLinkTest, StopIsTheFirstThingOnTheWire) {
+  controller.open();
+  line.requests.clear();
+  controller.stop();
+  ASSERT_FALSE(line.requests.empty());
+  EXPECT_EQ(line.requests[0], kStop);
+  EXPECT_EQ(hand.stops, 1);
+}
+
+TEST_F(SdhLinkTest, StopIsSentAgainUntilItIsConfirmed) {
+  controller.open();
+  hand.silentAnswers = 2;
+  controller.stop();
+  EXPECT_EQ(hand.stops, 3);
+  hand.dead = true;
+  const std::int64_t before = clock.nowUs;
+  EXPECT_EQ(errorOf([&] { controller.stop(); }).fault(), DeviceFault::kSilent);
+  EXPECT_LT(clock.nowUs - before, 1'500'000);
+}
+
+TEST_F(SdhLinkTest, StopEndsARecordThatTheHandGotInPart) {
+  controller.open();
+  hand.receive(bytesOf("85 1F 07 00 00"));
+  controller.stop();
+  EXPECT_EQ(hand.stops, 1);
+  EXPECT_EQ(hand.values["p"], (Values{0, -10, 20, -30, 40, -50, 60}));
+}
+
+TEST_F(SdhLinkTest, AnUrgentStopIsOnTheWireWithin20MsWhateverTheHandDoes) {
+  controller.open();
+  hand.dead = true;
+  for (const std::int64_t afterUs : {0, 2'000, 15'000, 700'000, 1'040'000, 1'080'000, 2'500'000}) {
+    const std::int64_t calledUs = clock.nowUs;
+    line.onRead = [&] { urgent = clock.nowUs - calledUs >= afterUs; };
+    urgent = afterUs == 0;
+    line.requests.clear();
+    EXPECT_THROW(controller.angles(), SdhInterrupted) << afterUs;
+    EXPECT_LE(clock.nowUs - calledUs, std::max<std::int64_t>(afterUs, 0) + 20'000) << afterUs;
+    ASSERT_FALSE(line.requests.empty());
+    EXPECT_EQ(line.requests.back(), kStop);
+  }
+  line.onRead = {};
+  urgent = false;
+  hand.dead = false;
+  EXPECT_EQ(controller.angles(), hand.pos);
+}
+
+TEST_F(SdhLinkTest, NoMotionStartsWhileAStopIsUrgent) {
+  controller.open();
+  urgent = true;
+  EXPECT_THROW(controller.move(), SdhInterrupted);
+  EXPECT_THROW(controller.setTargets(Values(7, 0.0)), SdhInterrupted);
+  EXPECT_EQ(hand.moves, 0);
+  controller.stop();
+  urgent = false;
+  EXPECT_DOUBLE_EQ(controller.move(), 4.51);
+}
+
+}  // namespace
+}  // namespace palpate

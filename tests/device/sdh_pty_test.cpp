@@ -1,0 +1,111 @@
+// The driver of the SDH-2 end to end: a real line (pty or TCP), a hand in a thread of its own that was
+// written from the protocol document, real time.
+#include <atomic>
+#include <thread>
+
+#include "palpate/device/byte_channel.h"
+#include "palpate/device/sdh_controller.h"
+
+#include "device/fake_sdh_hand.h"
+#include "device/pty_server.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+using namespace std::chrono_literals;
+using SteadyClock = std::chrono::steady_clock;
+using testing::Bytes;
+using testing::FakeSdhHand;
+using testing::PtyServer;
+using Values = SdhController::Values;
+
+class SdhPtyTest : public ::testing::Test {
+ protected:
+  FakeSdhHand hand;
+  std::atomic<bool> urgent = false;
+  PtyServer server{[this](const Bytes& request) { return hand.receive(request); }};
+  std::unique_ptr<ByteChannel> channel = openChannel(server.path());
+  SdhController controller{*channel, systemClock(), {.urgent = [this] { return urgent.load(); }}};
+
+  static double msSince(SteadyClock::time_point start) {
+    return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
+  }
+};
+
+TEST_F(SdhPtyTest, OpensReadsMovesAndStops) {
+  EXPECT_EQ(controller.open().serial, "48");
+  EXPECT_EQ(controller.angles(), hand.pos);
+  EXPECT_EQ(controller.temperatures().size(), 9u);
+  const Values goal{10, -20, -30, -40, 5, 60, 7.5};
+  controller.setPower(true);
+  controller.setVelocities(Values(7, 50.0));
+  controller.setTargets(goal);
+  EXPECT_DOUBLE_EQ(controller.move(), 4.51);
+  int polls = 0;
+  while (controller.states() != std::vector<int>(7, 0)) ASSERT_LT(++polls, 10);
+  EXPECT_EQ(controller.angles(), goal);
+  controller.stop();
+  EXPECT_EQ(controller.stats().retries, 0u);
+  EXPECT_EQ(hand.stops, 1);
+}
+
+TEST_F(SdhPtyTest, EveryByteIsAccountedFor) {
+  controller.open();
+  for (int i = 0; i < 50; ++i) controller.angles();
+  std::size_t seen = 0;
+  server.between([&] { seen = hand.bytesSeen; });
+  EXPECT_EQ(controller.stats().bytesWritten, seen);
+  EXPECT_EQ(controller.stats().skippedBytes, 0u);
+}
+
+TEST_F(SdhPtyTest, AMissingByteIsGotOverInUnderASecond) {
+  controller.open();
+  for (const int at : {0, 1, 3, 20, 33}) {
+    server.between([&] { hand.dropByteAt = at; });
+    const auto start = SteadyClock::now();
+    EXPECT_EQ(controller.angles(), hand.pos) << "byte " << at;
+    EXPECT_LT(msSince(start), 900.0) << "byte " << at;
+  }
+  EXPECT_EQ(controller.stats().retries, 5u);
+}
+
+TEST_F(SdhPtyTest, AStopFromAnotherThreadIsOnTheWireWithin20Ms) {
+  controller.open();
+  server.between([&] { hand.silentAnswers = 1'000'000; });
+  std::size_t asked = 0;
+  server.between([&] { asked = hand.log.size(); });
+  double lateMs = 1e9;
+  std::thread operatorThread([&] {
+    for (bool inExchange = false; !inExchange;)
+      server.between([&] { inExchange = hand.log.size() > asked; });
+    const auto pressed = SteadyClock::now();
+    urgent = true;
+    channel->interrupt();
+    for (int stops = 0; stops == 0 && msSince(pressed) < 2000.0;) {
+      server.between([&] { stops = hand.stops; });
+      lateMs = msSince(pressed);
+    }
+  });
+  EXPECT_THROW(controller.angles(), SdhInterrupted);
+  operatorThread.join();
+  EXPECT_LT(lateMs, 20.0);
+}
+
+TEST_F(SdhPtyTest, UnpluggingIsNoticedWithin500Ms) {
+  controller.open();
+  server.between([&] { hand.dead = true; });
+  std::thread other([&] { server.unplug(); });
+  const auto start = SteadyClock::now();
+  try {
+    controller.angles();
+    ADD_FAILURE() << "answered";
+  } catch (const DeviceError& error) {
+    EXPECT_EQ(error.fault(), DeviceFault::kGone) << error.what();
+  }
+  EXPECT_LT(msSince(start), 500.0);
+  other.join();
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,168 @@
+// The real path of libserialport, without a serial port: a pty under a name that passes its check of sysfs
+// (a link reached by "/dev/../"), and an ioctl() of our own that gives it the modem lines a pty lacks.
+#include "device/serial_port_channel.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstdarg>
+
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <sys/syscall.h>
+
+#include "palpate/core/error.h"
+
+#include "device/pty_pair.h"
+#include "testing/testing.h"
+
+namespace {
+std::atomic<int> exclusiveCalls = 0;
+std::atomic<bool> modemLines = true;
+}  // namespace
+
+// Replaces the C library's in this program. Signature as in sys/ioctl.h.
+extern "C" int ioctl(int fd, unsigned long request, ...) noexcept {
+  va_list arguments;
+  va_start(arguments, request);
+  void* argument = va_arg(arguments, void*);
+  va_end(arguments);
+  if (request == TIOCEXCL) ++exclusiveCalls;
+  const long result = ::syscall(SYS_ioctl, fd, request, argument);
+  if (result == 0 || errno != ENOTTY || !modemLines) return static_cast<int>(result);
+  if (request == TIOCMGET) {
+    *static_cast<int*>(argument) = 0;
+    return 0;
+  }
+  if (request == TIOCMSET || request == TIOCMBIS || request == TIOCMBIC) return 0;
+  return static_cast<int>(result);
+}
+
+namespace palpate {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::Bytes;
+using testing::PtyPair;
+using testing::TemporaryFolder;
+using testing::textBytes;
+
+class SerialPortChannelTest : public ::testing::Test {
+ protected:
+  PtyPair pty;
+  const TemporaryFolder folder;
+  const std::string link = folder / "port";
+  std::string path;  // as libserialport takes it
+
+  void SetUp() override {
+    std::filesystem::create_symlink(pty.path(), link);
+    path = "/dev/../../.." + link;
+  }
+  void TearDown() override { modemLines = true; }
+  // The pty keeps its settings while we hold its other end.
+  termios settings() const {
+    termios now{};
+    ::tcgetattr(pty.slave(), &now);
+    return now;
+  }
+};
+
+TEST_F(SerialPortChannelTest, CarriesEveryByteBothWaysAtAnySpeed) {
+  termios cooked = settings();
+  cooked.c_iflag |= ISTRIP | IXON | IXOFF | ICRNL | PARMRK;
+  cooked.c_cflag |= HUPCL | CRTSCTS | CSTOPB;
+  cooked.c_lflag |= ICANON | ECHO | ISIG;
+  ::tcsetattr(pty.slave(), TCSANOW, &cooked);
+  Bytes all;
+  for (int value = 0; value < 256; ++value) all.push_back(static_cast<std::byte>(value));
+  for (const int baud : {115'200, 460'800, 921'600, 250'000, 9'600}) {
+    const auto channel = SerialPortChannel::open(path, "hand", baud);
+    EXPECT_EQ(channel->name(), "hand");
+    channel->write(all);
+    EXPECT_EQ(pty.receive(256, 1000), all) << baud;
+    pty.send(all);
+    Bytes got(256);
+    std::size_t count = 0;
+    while (count < 256) {
+      const std::size_t piece = channel->read(std::span(got).subspan(count), 1000ms);
+      ASSERT_GT(piece, 0u) << baud;
+      count += piece;
+    }
+    EXPECT_EQ(got, all) << baud;
+    EXPECT_EQ(pty.receive(0), Bytes{}) << "an echo";
+  }
+}
+
+TEST_F(SerialPortChannelTest, SetsTheLineToEightBitsAndNothingElse) {
+  termios before = settings();
+  before.c_iflag |= ISTRIP | IXON | IXOFF;
+  before.c_cflag |= HUPCL | CSTOPB | CRTSCTS;
+  ::tcsetattr(pty.slave(), TCSANOW, &before);
+  const auto channel = SerialPortChannel::open(path, "hand", 115'200);
+  const termios now = settings();
+  EXPECT_EQ(now.c_iflag & (ISTRIP | IXON | IXOFF | ICRNL | INLCR | IGNCR | INPCK | PARMRK), 0u);
+  EXPECT_EQ(now.c_lflag & (ICANON | ECHO | ISIG | IEXTEN), 0u);
+  EXPECT_EQ(now.c_oflag & OPOST, 0u);
+  EXPECT_EQ(now.c_cflag & (HUPCL | CSTOPB | CRTSCTS | PARENB), 0u);
+  EXPECT_EQ(now.c_cflag & (CS8 | CLOCAL | CREAD), tcflag_t{CS8 | CLOCAL | CREAD});
+  EXPECT_EQ(::cfgetospeed(&now), speed_t{B115200});
+}
+
+TEST_F(SerialPortChannelTest, IsForOneProgramOnly) {
+  const int calls = exclusiveCalls;
+  auto channel = SerialPortChannel::open(path, "hand", 115'200);
+  EXPECT_EQ(exclusiveCalls, calls + 1);
+  try {
+    SerialPortChannel::open(path, "other", 115'200);
+    ADD_FAILURE() << "opened twice";
+  } catch (const DeviceError& error) {
+    EXPECT_EQ(error.fault(), DeviceFault::kBusy) << error.what();
+  }
+  channel->write(textBytes("mine"));
+  EXPECT_EQ(pty.receive(4, 1000), textBytes("mine"));
+  channel.reset();
+  // Nothing stays behind: anybody may open it, also who knows no flock.
+  const int fd = ::open(pty.path().c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+  EXPECT_GE(fd, 0);
+  EXPECT_EQ(::flock(fd, LOCK_EX | LOCK_NB), 0);
+  ::close(fd);
+  EXPECT_NO_THROW(SerialPortChannel::open(path, "hand", 115'200));
+}
+
+TEST_F(SerialPortChannelTest, NoticesThatTheAdapterWasPulled) {
+  const auto channel = SerialPortChannel::open(path, "hand", 115'200);
+  Bytes got(10);
+  EXPECT_EQ(channel->read(got, 10ms), 0u);  // silence is no unplugging
+  pty.unplug();
+  for (int i = 0; i < 2; ++i) {
+    try {
+      channel->read(got, 5000ms);
+      ADD_FAILURE() << "not noticed";
+    } catch (const DeviceError& error) {
+      EXPECT_EQ(error.fault(), DeviceFault::kGone);
+    }
+  }
+}
+
+TEST_F(SerialPortChannelTest, KnowsOnlyWhatTheSystemLists) {
+  EXPECT_FALSE(SerialPortChannel::knows(pty.path()));
+  EXPECT_FALSE(SerialPortChannel::knows("/dev/null"));
+  EXPECT_FALSE(SerialPortChannel::knows("/dev/serial/by-id/usb-none"));
+}
+
+TEST_F(SerialPortChannelTest, LeaksNothingWhenOpeningFails) {
+  { SerialPortChannel::open(path, "hand", 115'200); }
+  const std::size_t before = testing::openDescriptors();
+  EXPECT_THROW(SerialPortChannel::open("/dev/ttyNONE7", "x", 115'200), DeviceError);
+  modemLines = false;  // as on a line that is no serial port: libserialport's open fails half-way
+  EXPECT_THROW(SerialPortChannel::open(path, "x", 115'200), DeviceError);
+  modemLines = true;
+  const auto holder = SerialPortChannel::open(path, "x", 115'200);
+  const std::size_t held = testing::openDescriptors();
+  for (int i = 0; i < 20; ++i)
+    EXPECT_THROW(SerialPortChannel::open(path, "x", 115'200), DeviceError);
+  EXPECT_EQ(testing::openDescriptors(), held);
+  EXPECT_LE(held, before + 2);  // the line and its wake-up
+}
+
+}  // namespace
+}  // namespace palpate

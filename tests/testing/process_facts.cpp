@@ -1,0 +1,33 @@
+#include "testing/process_facts.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+namespace palpate::testing {
+namespace {
+
+std::size_t entriesOf(const char* folder) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    static_cast<void>(entry);
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+ProcessFacts processFacts() {
+  ProcessFacts facts;
+  std::ifstream statm("/proc/self/statm");
+  std::size_t pages = 0;
+  statm >> pages >> facts.residentBytes;
+  facts.residentBytes *= static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  facts.descriptors = entriesOf("/proc/self/fd");
+  facts.threads = entriesOf("/proc/self/task");
+  return facts;
+}
+
+}  // namespace palpate::testing
