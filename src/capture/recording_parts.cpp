@@ -171,9 +171,8 @@ bool RecordingParts::closeOldPart(RoundTime time) {
 void RecordingParts::write(const CaptureItem& item, RoundTime time) {
   try {
     writeTo(item);
-  } catch (const FileError& error) {
-    lose(item);
-    return failed(error.what(), time);
+  } catch (const FileError&) {  // commits have been failing for so long that the memory is full
+    return lose(item);
   } catch (const std::invalid_argument& error) {
     ++counts_.refused;
     refusedWhy_ = error.what();
