@@ -16,6 +16,7 @@ using std::numbers::pi;
 constexpr double kPoseVelocity = 40.0;        // at power-up [deg/s]
 constexpr double kStartAcceleration = 100.0;  // [deg/s^2]
 constexpr double kAtTargetDeg = 1e-9;
+constexpr double kHeld = 0.02;  // an axis that is slower than this share of its speed is held
 
 }  // namespace
 
@@ -28,8 +29,8 @@ JointMotion::JointMotion(const HandDescription& hand, std::vector<double> startD
       targetVelocityDegPerS_(axes_.size(), kPoseVelocity),
       accelerationDegPerS2_(axes_.size(), kStartAcceleration),
       power_(axes_.size()),
-      blockedClockwise_(axes_.size()),
-      blockedCounterClockwise_(axes_.size()),
+      resistsClockwise_(axes_.size()),
+      resistsCounterClockwise_(axes_.size()),
       states_(axes_.size(), AxisState::kDisabled),
       paths_(axes_.size()) {
   std::vector<double> least, most;
@@ -112,9 +113,9 @@ void JointMotion::setController(ControllerType type) {
 
 void JointMotion::setProfile(VelocityProfile profile) { profile_ = profile; }
 
-void JointMotion::setBlocked(std::size_t axis, bool clockwise, bool counterClockwise) {
-  blockedClockwise_.at(axis) = clockwise;
-  blockedCounterClockwise_.at(axis) = counterClockwise;
+void JointMotion::setResistance(std::size_t axis, double clockwise, double counterClockwise) {
+  resistsClockwise_.at(axis) = std::clamp(clockwise, 0.0, 1.0);
+  resistsCounterClockwise_.at(axis) = std::clamp(counterClockwise, 0.0, 1.0);
 }
 
 // --- motion ---------------------------------------------------------------------------------------
@@ -138,12 +139,11 @@ double JointMotion::durationOfPending() const {
 double JointMotion::startMotion() {
   if (controller_ != ControllerType::kPose) return 0.0;
   setPower(std::vector<bool>(axes_.size(), true));
-  motionS_ = 0.0;
   durationS_ = durationOfPending();
   motionProfile_ = profile_;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const bool moves = soloDuration(i) > 0.0;
-    paths_[i] = {angleDeg_[i], targetDeg_[i] - angleDeg_[i], moves};
+    paths_[i] = {angleDeg_[i], targetDeg_[i] - angleDeg_[i], 0.0, moves};
     states_[i] = moves ? AxisState::kPositioning : AxisState::kIdle;
     velocityDegPerS_[i] = 0.0;
   }
@@ -193,9 +193,10 @@ double JointMotion::speedAt(std::size_t axis, double timeS) const {
   return std::min({cruise(distance, durationS_, a), a * timeS, a * (durationS_ - timeS)});
 }
 
-bool JointMotion::heldBack(std::size_t axis, double direction) const {
-  return direction > 0.0 ? blockedClockwise_[axis]
-                         : direction < 0.0 && blockedCounterClockwise_[axis];
+double JointMotion::freedom(std::size_t axis, double direction) const {
+  const double share =
+      1.0 - (direction > 0.0 ? resistsClockwise_[axis] : resistsCounterClockwise_[axis]);
+  return share < kHeld ? 0.0 : share;
 }
 
 void JointMotion::advance(double dtS) {
@@ -208,29 +209,26 @@ void JointMotion::advance(double dtS) {
 
 void JointMotion::advancePose(double dtS) {
   if (durationS_ <= 0.0) return;
-  motionS_ += dtS;
   bool running = false;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     Path& path = paths_[i];
     if (!path.active) continue;
     const double direction = path.distanceDeg > 0.0 ? 1.0 : -1.0;
-    if (heldBack(i, direction)) {
-      path.active = false;
-      velocityDegPerS_[i] = 0.0;
-      states_[i] =
-          direction > 0.0 ? AxisState::kBlockedClockwise : AxisState::kBlockedCounterClockwise;
-      continue;
-    }
-    if (motionS_ >= durationS_) {
+    const double free = freedom(i, direction);
+    path.timeS += dtS * free;
+    if (path.timeS >= durationS_) {
       angleDeg_[i] = path.startDeg + path.distanceDeg;
       velocityDegPerS_[i] = 0.0;
       path.active = false;
       states_[i] = AxisState::kIdle;
       continue;
     }
-    angleDeg_[i] = path.startDeg + direction * covered(i, motionS_);
-    velocityDegPerS_[i] = direction * speedAt(i, motionS_);
     running = true;
+    angleDeg_[i] = path.startDeg + direction * covered(i, path.timeS);
+    velocityDegPerS_[i] = direction * free * speedAt(i, path.timeS);
+    states_[i] = free > 0.0        ? AxisState::kPositioning
+                 : direction > 0.0 ? AxisState::kBlockedClockwise
+                                   : AxisState::kBlockedCounterClockwise;
   }
   if (!running) durationS_ = 0.0;
 }
@@ -241,6 +239,7 @@ void JointMotion::advanceVelocity(double dtS) {
     const double before = referenceDegPerS_[i];
     const double wanted = targetVelocityDegPerS_[i];
     double& reference = referenceDegPerS_[i];
+    const double free = freedom(i, wanted);
     double moved = wanted * dtS;
     if (controller_ == ControllerType::kVelocity) {
       reference = wanted;
@@ -251,7 +250,8 @@ void JointMotion::advanceVelocity(double dtS) {
       reference = rampS < dtS ? wanted : before + sign * accelerationDegPerS2_[i] * dtS;
       moved = (before + reference) / 2.0 * rampS + reference * (dtS - rampS);
     }
-    if (heldBack(i, moved)) {
+    moved *= free;
+    if (moved == 0.0 && wanted != 0.0 && free == 0.0) {
       velocityDegPerS_[i] = reference = 0.0;
       states_[i] = moved > 0.0 ? AxisState::kBlockedClockwise : AxisState::kBlockedCounterClockwise;
       continue;

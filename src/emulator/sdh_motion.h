@@ -78,7 +78,8 @@ class SdhMotion {
   SdhAnswer gainCommand(const Words& words, std::vector<std::vector<double>>& gains);
   SdhAnswer grip(const Words& words);
   SdhAnswer preshape(const Words& words);
-  SdhAnswer reference(const std::vector<double>& kinds);
+  SdhAnswer reference(const std::vector<double>& kinds, std::optional<std::size_t> axis);
+  std::string referenceText(std::optional<std::size_t> axis) const;
   double moveTo(const std::vector<double>& targetDeg, double velocityDegPerS);
   std::string temperatures() const;
   std::size_t numAxes() const { return model_.hand().axes.size(); }

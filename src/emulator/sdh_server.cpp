@@ -55,6 +55,7 @@ void SdhServer::receive(std::span<const std::byte> bytes, std::int64_t nowUs) {
   for (const std::byte b : bytes) {
     if (discarding_ && isLineEnd(b)) discarding_ = false;
     if (discarding_) continue;
+    if (input_.size() == kMaxInputBytes) advance(nowUs_);
     if (input_.size() < kMaxInputBytes) {
       input_.push_back(b);
     } else {

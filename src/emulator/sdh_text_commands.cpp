@@ -239,15 +239,14 @@ std::optional<SdhAnswer> SdhMotion::motionCommand(const Words& words) {
   if (name == "ref") {
     if (words.hasValues) {
       words.require(words.index ? 1 : numAxes());
-      std::vector<double> kinds(numAxes(), 0.0);
+      std::vector<double> kinds = words.values;
       if (words.index) {
+        kinds.assign(numAxes(), 0.0);
         kinds[*words.index] = words.values[0];
-      } else {
-        kinds = words.values;
       }
-      return reference(kinds);
+      return reference(kinds, words.index);
     }
-    return SdhAnswer{"REF=" + joined(referenceKind_, 0)};
+    return SdhAnswer{referenceText(words.index)};
   }
   return std::nullopt;
 }
@@ -298,7 +297,7 @@ SdhAnswer SdhMotion::grip(const Words& words) {
 }
 
 // Each axis runs to its positive (1) or negative (2) stop.
-SdhAnswer SdhMotion::reference(const std::vector<double>& kinds) {
+SdhAnswer SdhMotion::reference(const std::vector<double>& kinds, std::optional<std::size_t> axis) {
   std::vector<double> target = model_.joints().angles();
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     if (kinds[i] != 0.0 && kinds[i] != 1.0 && kinds[i] != 2.0) throw SdhRefusal{kSdhRangeError};
@@ -308,7 +307,12 @@ SdhAnswer SdhMotion::reference(const std::vector<double>& kinds) {
   constexpr double kVelocityDegPerS = 40.0;  // 180 deg take 9 s
   const double durationS = moveTo(target, kVelocityDegPerS);
   referenceKind_ = kinds;
-  return {"REF=" + joined(kinds, 0), true, durationS};
+  return {referenceText(axis), true, durationS};
+}
+
+std::string SdhMotion::referenceText(std::optional<std::size_t> axis) const {
+  if (!axis) return "REF=" + joined(referenceKind_, 0);
+  return "REF(" + std::to_string(*axis) + ")=" + fixedText(referenceKind_[*axis], 0);
 }
 
 }  // namespace palpate

@@ -147,12 +147,15 @@ void HandGeometry::pose(const std::vector<double>& anglesDeg, HandPose& out) con
 
   out.description_ = &description_;
   out.frames_.resize(description_.surfaces.size());
+  out.jointLines_.clear();
   for (std::size_t f = 0; f < description_.fingers.size(); ++f) {
     const Finger& finger = description_.fingers[f];
     Matrix3d rotation = finger.baseRotation;
     Vector3d originMm = finger.baseMm;
     for (std::size_t l = 0; l < finger.links.size(); ++l) {
       const DhLink& link = finger.links[l];
+      if (link.axis)
+        out.jointLines_.push_back({*link.axis, f, l, originMm, link.sign * rotation.col(2)});
       const double thetaDeg =
           (link.axis ? link.sign * anglesDeg[*link.axis] : 0.0) + link.offsetDeg;
       const double ct = cosDeg(thetaDeg), st = sinDeg(thetaDeg);

@@ -1,6 +1,7 @@
 // The driver of the SDH-2 end to end: a real line (pty or TCP), a hand in a thread of its own that was
 // written from the protocol document, real time.
 #include <atomic>
+#include <optional>
 #include <thread>
 
 #include "palpate/device/byte_channel.h"
@@ -28,6 +29,12 @@ class SdhPtyTest : public ::testing::Test {
   std::unique_ptr<ByteChannel> channel = openChannel(server.path());
   SdhController controller{*channel, systemClock(), {.urgent = [this] { return urgent.load(); }}};
 
+  // The hand as it is, between two answers.
+  FakeSdhHand seen() {
+    std::optional<FakeSdhHand> copy;
+    server.between([&] { copy.emplace(hand); });
+    return *copy;
+  }
   static double msSince(SteadyClock::time_point start) {
     return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
   }
@@ -35,7 +42,7 @@ class SdhPtyTest : public ::testing::Test {
 
 TEST_F(SdhPtyTest, OpensReadsMovesAndStops) {
   EXPECT_EQ(controller.open().serial, "48");
-  EXPECT_EQ(controller.angles(), hand.pos);
+  EXPECT_EQ(controller.angles(), seen().pos);
   EXPECT_EQ(controller.temperatures().size(), 9u);
   const Values goal{10, -20, -30, -40, 5, 60, 7.5};
   controller.setPower(true);
@@ -47,15 +54,13 @@ TEST_F(SdhPtyTest, OpensReadsMovesAndStops) {
   EXPECT_EQ(controller.angles(), goal);
   controller.stop();
   EXPECT_EQ(controller.stats().retries, 0u);
-  EXPECT_EQ(hand.stops, 1);
+  EXPECT_EQ(seen().stops, 1);
 }
 
 TEST_F(SdhPtyTest, EveryByteIsAccountedFor) {
   controller.open();
   for (int i = 0; i < 50; ++i) controller.angles();
-  std::size_t seen = 0;
-  server.between([&] { seen = hand.bytesSeen; });
-  EXPECT_EQ(controller.stats().bytesWritten, seen);
+  EXPECT_EQ(controller.stats().bytesWritten, seen().bytesSeen);
   EXPECT_EQ(controller.stats().skippedBytes, 0u);
 }
 
@@ -64,7 +69,7 @@ TEST_F(SdhPtyTest, AMissingByteIsGotOverInUnderASecond) {
   for (const int at : {0, 1, 3, 20, 33}) {
     server.between([&] { hand.dropByteAt = at; });
     const auto start = SteadyClock::now();
-    EXPECT_EQ(controller.angles(), hand.pos) << "byte " << at;
+    EXPECT_EQ(controller.angles(), seen().pos) << "byte " << at;
     EXPECT_LT(msSince(start), 900.0) << "byte " << at;
   }
   EXPECT_EQ(controller.stats().retries, 5u);

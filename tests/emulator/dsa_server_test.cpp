@@ -177,10 +177,9 @@ TEST_F(DsaServerTest, RefusesWithTheDocumentsErrorCodes) {
 TEST_F(DsaServerTest, AnswersWhatOtherClientsAsk) {
   EXPECT_EQ(say("AA AA AA 0A 00 00"), bare(0x0A, 0));
   EXPECT_EQ(say("AA AA AA 06 00 00"), bare(0x06, 0));
-  const std::string name = sdh2().matrixName(4);
-  Octets payload = {0, 0};
-  payload.insert(payload.end(), name.begin(), name.end());
-  EXPECT_EQ(say(tactilePacket(0x05, {1, 4})), hexText(tactilePacket(0x05, payload)));
+  const std::string text = std::string(2, '\0') + sdh2().matrixName(4);
+  EXPECT_EQ(say(tactilePacket(0x05, {1, 4})),
+            hexText(tactilePacket(0x05, Octets(text.begin(), text.end()))));
   EXPECT_EQ(say(tactilePacket(0x05, {1, 6})), bare(0x05, 24));
   EXPECT_EQ(say(tactilePacket(0x05, {2, 0})), bare(0x05, 23));
   EXPECT_GT(say(tactilePacket(0x05, {0, 0})).size(), bare(0x05, 0).size());
@@ -263,8 +262,9 @@ TEST_F(DsaServerTest, HasTheFrameRatesOfTheRealHand) {
   EXPECT_NEAR(rate(stream(300)), 11.7, 0.05);  // raw
   say(kPush);
   for (std::uint8_t m = 0; m < 6; ++m) {
-    Octets mask = {1, m};
-    mask.resize(2 + (m % 2 == 0 ? 11 : 10), m == 1 ? 0xFF : 0);
+    Octets mask(m % 2 == 0 ? 13 : 12, m == 1 ? 0xFF : 0);
+    mask[0] = 1;
+    mask[1] = m;
     EXPECT_EQ(say(tactilePacket(0xAB, mask)), bare(0xAB, 0));
   }
   const double oneMatrix = rate(stream(300));

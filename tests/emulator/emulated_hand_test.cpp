@@ -1,6 +1,9 @@
 #include "palpate/emulator/emulated_hand.h"
 
-#include "emulator/line_client.h"
+#include <algorithm>
+#include <atomic>
+
+#include "emulator/hand_session.h"
 #include "emulator/still_hand.h"
 #include "testing/testing.h"
 
@@ -8,14 +11,21 @@ namespace palpate {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::DecodedFrame;
+using testing::eventually;
+using testing::fastHand;
 using testing::hexText;
+using testing::kPush;
+using testing::kPushRaw;
+using testing::kSingle;
+using testing::kStop;
 using testing::LineClient;
 using testing::Octets;
 using testing::octets;
+using testing::readFrames;
 using testing::StillHand;
+using testing::tactilePacket;
 using testing::TemporaryFolder;
-
-constexpr auto kNow = 500ms;
 
 std::string exchange(LineClient& client, const std::string& request, std::size_t answerBytes) {
   client.send(octets(request));
@@ -74,6 +84,247 @@ TEST(EmulatedHand, OpensAsTheVendorsMotionLibraryDoes) {
   EXPECT_EQ(exchange(client, "83 03 00 DC 1E", 34).substr(0, 12), "83 20 07 00 ");
   EXPECT_EQ(exchange(client, "A4 1F 07 00x28 FA 6E", 34).substr(0, 12), "A4 20 07 00 ");
   EXPECT_TRUE(client.receive(100ms).empty());
+}
+
+// Frame rate by the controller's clock and by the bytes: section 3.1, at the line's own speed.
+TEST(EmulatedHand, StreamsAtTheRatesOfTheRealLine) {
+  auto still = std::make_unique<StillHand>();
+  StillHand& model = *still;
+  EmulatedHand hand(std::move(still));
+  LineClient client(hand.dsaPort());
+  const auto measure = [&](const Octets& start, std::size_t count) {
+    client.send(start);
+    if (!client.answer(0x03)) return 0.0;
+    const auto frames = readFrames(client, count);
+    client.send(kStop);
+    client.receiveUntilSilent(200ms);
+    if (frames.size() < count) return 0.0;
+    return 1000.0 * double(count - 1) / (frames.back().deviceMs - frames.front().deviceMs);
+  };
+  EXPECT_NEAR(measure(kPush, 33), 31.7, 0.2);
+  EXPECT_NEAR(measure(kPushRaw, 9), 11.7, 0.2);
+  hand.withModel([&](HandModel&) { model.noisy = true; });
+  EXPECT_NEAR(measure(kPush, 9), 11.7, 0.2);
+}
+
+// Seven raw frames of 985 bytes can't come sooner than 115200 baud carry them, and an idle machine not much later.
+TEST(EmulatedHand, PacesBytesInRealTime) {
+  EmulatedHand hand(std::make_unique<StillHand>());
+  LineClient client(hand.dsaPort());
+  const auto begin = std::chrono::steady_clock::now();
+  client.send(kPushRaw);
+  ASSERT_EQ(readFrames(client, 7).size(), 7u);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  EXPECT_GE(seconds, 7 * 985 * 10 / 115200.0);
+  EXPECT_LT(seconds, 7 * 985 * 10 / 115200.0 + 1.0);
+}
+
+TEST(EmulatedHand, StopReallyStops) {
+  EmulatedHand hand(std::make_unique<StillHand>(), fastHand());
+  LineClient client(hand.dsaPort());
+  client.send(kPush);
+  ASSERT_EQ(readFrames(client, 30).size(), 30u);
+  client.send(kStop);
+  ASSERT_TRUE(client.answer(0x03));
+  EXPECT_TRUE(client.receive(1000ms).empty());
+}
+
+TEST(EmulatedHand, PullsOneFrameAtATime) {
+  EmulatedHand hand(std::make_unique<StillHand>());
+  LineClient client(hand.dsaPort());
+  std::uint32_t lastMs = 0;
+  for (int i = 0; i < 5; ++i) {
+    client.send(kSingle);
+    const auto acknowledge = client.packet();
+    ASSERT_TRUE(acknowledge);
+    EXPECT_EQ(acknowledge->id, 0x03);
+    const auto frames = readFrames(client, 1);
+    ASSERT_EQ(frames.size(), 1u);
+    EXPECT_GT(frames[0].deviceMs, lastMs);
+    lastMs = frames[0].deviceMs;
+  }
+  EXPECT_TRUE(client.receive(100ms).empty());
+}
+
+// Section 3.4: the probe of DSA-Konqueror sends text and line end apart, and reads with 10 ms between two bytes.
+TEST(EmulatedHand, AnswersTheProbeOfOtherPrograms) {
+  EmulatedHand hand(std::make_unique<StillHand>());
+  LineClient motion(hand.sdhPort()), tactile(hand.dsaPort());
+  auto fastest = std::chrono::steady_clock::duration::max();
+  for (int i = 0; i < 10; ++i) {  // the machine may be busy; not ten times
+    const auto begin = std::chrono::steady_clock::now();
+    motion.send("sn");
+    motion.send("\r\n");
+    EXPECT_EQ(motion.receiveLine(), "SN=48");
+    tactile.send(octets("AA AA AA 01 00 00"));
+    const Octets answer = tactile.receive(1000ms);
+    ASSERT_EQ(answer.size(), 26u);  // in one piece
+    EXPECT_EQ(hexText(Octets(answer.begin() + 8, answer.begin() + 12)), "57 00 9B 1D");
+    fastest = std::min(fastest, std::chrono::steady_clock::now() - begin);
+  }
+  EXPECT_LT(fastest, 20ms);
+}
+
+// RobWork: stop with flags 00, 01, 02, then 0B, 05, 04 of each matrix, rate 5 with internal trigger.
+TEST(EmulatedHand, ServesRobWork) {
+  EmulatedHand hand(std::make_unique<StillHand>(), fastHand());
+  LineClient client(hand.dsaPort());
+  client.send(octets("AA AA AA 03 03 00 00 00 00 8D 00"));
+  ASSERT_TRUE(client.answer(0x03));
+  EXPECT_EQ(client.ask(0x01)->size(), 18u);
+  EXPECT_EQ(client.ask(0x02)->size(), 12u);
+  for (std::uint8_t m = 0; m < 6; ++m) {
+    EXPECT_EQ(client.ask(0x0B, {m})->size(), 52u);
+    EXPECT_GT(client.ask(0x05, {1, m})->size(), 2u);
+    EXPECT_EQ(client.ask(0x04, {0, m})->size(), m % 2 == 0 ? 13u : 12u);
+  }
+  client.send(tactilePacket(0x03, {0xA1, 5, 0}));
+  const auto frames = readFrames(client, 10);
+  ASSERT_EQ(frames.size(), 10u);
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    EXPECT_NE(frames[i].deviceMs, frames[i - 1].deviceMs);
+}
+
+TEST(EmulatedHand, SendsWhatTheModelScans) {
+  auto still = std::make_unique<StillHand>();
+  for (std::size_t i = 0; i < still->values.size(); i += 5)
+    still->values[i] = static_cast<std::uint16_t>(i * 8);
+  const std::vector<std::uint16_t> expected = still->values;
+  std::vector<std::uint64_t> observed;
+  std::atomic<bool> same = true;
+  EmulatedHand hand(std::move(still), fastHand(), [&](const EmulatedFrame& frame) {
+    observed.push_back(frame.scanned.number);
+    same = same && std::equal(expected.begin(), expected.end(), frame.counts.begin());
+    same = same && frame.model.truth().at(1).contact;
+  });
+  LineClient client(hand.dsaPort());
+  client.send(kPush);
+  const auto frames = readFrames(client, 50);
+  client.send(kStop);
+  client.receiveUntilSilent(100ms);
+  ASSERT_EQ(frames.size(), 50u);
+  for (const DecodedFrame& frame : frames) EXPECT_EQ(frame.values, expected);
+  hand.withModel([&](HandModel&) {
+    EXPECT_GE(observed.size(), 50u);
+    for (std::size_t i = 0; i < observed.size(); ++i) EXPECT_EQ(observed[i], i);
+  });
+  EXPECT_TRUE(same);
+}
+
+TEST(EmulatedHand, CountsFramesAndRemembersWhenTheyLeft) {
+  EmulatedHand hand(std::make_unique<StillHand>(), fastHand());
+  LineClient client(hand.dsaPort());
+  client.send(kPush);
+  const auto frames = readFrames(client, 60);
+  client.send(kStop);
+  client.receiveUntilSilent(100ms);
+  const EmulatedHandCounts counts = hand.counts();
+  EXPECT_GE(counts.framesWhole, 60u);
+  EXPECT_EQ(counts.framesScanned, counts.framesSent);
+  EXPECT_EQ(counts.framesSent, counts.framesWhole);
+  EXPECT_EQ(counts.framesLost, 0u);
+  EXPECT_EQ(counts.dsa.bytesSent, 20 + 79 * counts.framesSent);  // and two acknowledges
+  EXPECT_EQ(counts.dsa.bytesReceived, kPush.size() + kStop.size());
+  EXPECT_EQ(counts.sdh.bytesSent, 0u);
+  EXPECT_TRUE(counts.failure.empty());
+  const auto sent = hand.sentFrames();
+  ASSERT_EQ(sent.size(), counts.framesSent);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_EQ(sent[i].number, i);
+    EXPECT_EQ(sent[i].deviceMs, frames[i].deviceMs);
+    EXPECT_TRUE(sent[i].whole);
+    EXPECT_GE(sent[i].hostUs, sent[i > 0 ? i - 1 : 0].hostUs);
+  }
+}
+
+// 300 frames/s: the device's clock shows the period, the host's the rate.
+TEST(EmulatedHand, KeepsAGivenRate) {
+  EmulatedHand hand(std::make_unique<StillHand>(), fastHand(300.0));
+  LineClient client(hand.dsaPort());
+  client.send(kPush);
+  const auto frames = readFrames(client, 301);
+  ASSERT_EQ(frames.size(), 301u);
+  EXPECT_EQ(frames.back().deviceMs - frames.front().deviceMs, 1000u);
+  const auto sent = hand.sentFrames();
+  ASSERT_GE(sent.size(), 301u);
+  EXPECT_NEAR(double(sent[300].hostUs - sent[0].hostUs) * 1e-6, 1.0, 0.05);
+}
+
+// An hour in moments: the hand's time runs with the frames.
+TEST(EmulatedHand, RunsAsFastAsTheClientReads) {
+  EmulatedHand hand(std::make_unique<StillHand>(), {.rate = EmulationRate::kMax});
+  LineClient client(hand.dsaPort());
+  client.send(kPush);
+  constexpr std::size_t kFrames = 20'000;  // 630 s
+  const auto begin = std::chrono::steady_clock::now();
+  const auto frames = readFrames(client, kFrames);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  ASSERT_EQ(frames.size(), kFrames);
+  EXPECT_LT(seconds, 60.0);
+  EXPECT_NEAR((frames.back().deviceMs - frames.front().deviceMs) / double(kFrames - 1), 31.5, 0.01);
+  for (std::size_t i = 1; i < kFrames; ++i) {
+    const std::uint32_t interval = frames[i].deviceMs - frames[i - 1].deviceMs;
+    ASSERT_TRUE(interval == 31 || interval == 32) << interval;
+  }
+  EXPECT_EQ(hand.counts().framesLost, 0u);
+  EXPECT_GT(hand.counts().handTimeS, 600.0);
+  // Nobody reads: it waits, it neither loses nor piles up.
+  ASSERT_TRUE(eventually(hand, [](const auto& counts) { return counts.dsa.pending > 0; }));
+  EXPECT_EQ(hand.counts().framesLost, 0u);
+  EXPECT_LT(hand.counts().dsa.pending, 10'000u);
+  client.send(kStop);
+  client.receiveUntilSilent(200ms);
+  EXPECT_EQ(hand.counts().framesScanned, hand.counts().framesWhole);
+}
+
+// A serial line waits for nobody.
+TEST(EmulatedHand, LosesBytesThatNobodyReadsAtTheRealRate) {
+  auto still = std::make_unique<StillHand>();
+  EmulatedHand hand(std::move(still));
+  LineClient client(hand.dsaPort());
+  client.send(kPushRaw);
+  ASSERT_TRUE(eventually(hand, [](const auto& counts) { return counts.framesLost > 0; }));
+  EXPECT_LT(hand.counts().dsa.pending, 10'000u);
+  client.send(kStop);
+  client.receiveUntilSilent(200ms);
+  // The connection is as good as new.
+  client.scanner() = {};
+  EXPECT_EQ(client.ask(0x01)->size(), 18u);
+}
+
+TEST(EmulatedHand, ServesTcpWithShortRecords) {
+  EmulatedHandOptions options = fastHand();
+  options.dsaPort = options.sdhPort = "tcp:127.0.0.1:0";
+  EmulatedHand hand(std::make_unique<StillHand>(), options);
+  LineClient tactile(hand.dsaPort()), motion(hand.sdhPort());
+  EXPECT_EQ(tactile.ask(0x01)->size(), 18u);
+  tactile.send(kPush);
+  EXPECT_EQ(readFrames(tactile, 30).size(), 30u);
+  EXPECT_EQ(exchange(motion, "83 01 00", 32), hexText(octets("83 1E 07 00 00x28")));
+  motion.send("ver\r\n");
+  EXPECT_EQ(motion.receiveLine(), "VER=0.0.3.3");
+}
+
+TEST(EmulatedHand, MovesWhileItStreams) {
+  EmulatedHand hand(std::make_unique<StillHand>());
+  LineClient tactile(hand.dsaPort()), motion(hand.sdhPort());
+  tactile.send(kPush);
+  ASSERT_EQ(readFrames(tactile, 2).size(), 2u);
+  motion.send("p=8,0,0,0,0,0,0\r\n");
+  ASSERT_TRUE(motion.receiveLine());
+  motion.send("m\r\n");
+  const auto answer = motion.receiveLine();
+  ASSERT_TRUE(answer);
+  EXPECT_GT(std::stod(answer->substr(2)), 0.1);
+  EXPECT_LT(std::stod(answer->substr(2)), 1.0);
+  std::optional<std::string> position;
+  for (int i = 0; i < 300 && position != "POS(0)=8.0000"; ++i) {
+    motion.send("pos(0)\r\n");
+    position = motion.receiveLine();
+  }
+  EXPECT_EQ(position, "POS(0)=8.0000");
 }
 
 }  // namespace

@@ -202,6 +202,24 @@ TEST(JointMotion, AnAxisThatMeetsSomethingIsBlocked) {
   EXPECT_EQ(joints.angles()[1], 0.0) << "back it may";
 }
 
+TEST(JointMotion, AnAxisThatIsSlowedDownArrivesLaterAndOneThatIsLetGoGoesOn) {
+  JointMotion joints = hand();
+  joints.setTargets(all(60.0));
+  const double duration = joints.startMotion();
+  joints.setResistance(1, 0.5, 0.0);
+  joints.setBlocked(2, true, false);
+  run(joints, duration / 2);
+  EXPECT_NEAR(joints.angles()[3], 30.0, 0.05);
+  EXPECT_NEAR(joints.angles()[1], 60.0 * (0.25 - 1.0 / (2.0 * std::numbers::pi)), 0.05);
+  EXPECT_EQ(joints.angles()[2], 0.0);
+  EXPECT_EQ(joints.states()[2], AxisState::kBlockedClockwise);
+  run(joints, duration);
+  EXPECT_EQ(joints.angles()[3], 60.0);
+  joints.setBlocked(2, false, false);
+  run(joints, duration + 0.1);
+  EXPECT_EQ(joints.angles(), all(60.0));
+}
+
 TEST(JointMotion, WrongValuesChangeNothing) {
   JointMotion joints = hand();
   EXPECT_THROW(joints.setTargets(all(-1.0)), std::out_of_range) << "axis 0 begins at 0";

@@ -9,7 +9,8 @@ namespace palpate::testing {
 
 class StillHand final : public HandModel {
  public:
-  StillHand() : values(sdh2().layout->numPlaces()), joints_(sdh2(), std::vector<double>(7, 0.0)) {
+  explicit StillHand(std::vector<double> startDeg = std::vector<double>(7, 0.0))
+      : values(sdh2().layout->numPlaces()), joints_(sdh2(), std::move(startDeg)) {
     for (std::size_t m = 0; m < sdh2().layout->numMatrices(); ++m) {
       MatrixSetting setting;
       setting.thresholdCounts = setting.factoryThresholdCounts = m % 2 == 0 ? 150 : 300;
@@ -35,7 +36,7 @@ class StillHand final : public HandModel {
         counts[i] = static_cast<std::uint16_t>(40 + (i * 7 + scans) % 11);
   }
   std::vector<double> temperatures() override {
-    return {40.5, 45.75, 37.0, 41.75, 34.0, 44.0, 36.75, 48.5, 48.25};
+    return {40.5, 45.7, 37.1, 41.75, 34.0, 44.0, 36.75, 48.6, 48.25};
   }
   std::vector<MatrixTruth> truth() const override {
     std::vector<MatrixTruth> all(6);

@@ -121,6 +121,31 @@ TEST(HandGeometry, TaxelsAndPointsAreTheSamePlaces) {
   }
 }
 
+// d p / d angle = direction x (p - origin), summed over the joints in front of the taxel.
+TEST(HandGeometry, JointLinesAreWhatTheAnglesTurnAbout) {
+  const HandGeometry geometry;
+  const double stepDeg = 1e-4;
+  for (const auto& angles : kPoses) {
+    const HandPose pose = geometry.pose(angles);
+    for (std::size_t axis = 0; axis < 7; ++axis) {
+      auto turned = angles;
+      turned[axis] += stepDeg;
+      const HandPose after = geometry.pose(turned);
+      for (std::size_t m = 0; m < 6; ++m) {
+        const SensorSurface& surface = geometry.description().surfaces[m];
+        const Vector3d at = pose.positionMm(m, 3, 1);
+        Vector3d expected = Vector3d::Zero();
+        for (const JointLine& line : pose.jointLines())
+          if (line.axis == axis && line.finger == surface.finger && line.link <= surface.link)
+            expected += line.direction.cross(at - line.originMm);
+        const Vector3d moved =
+            (after.positionMm(m, 3, 1) - at) / (stepDeg * std::acos(-1.0) / 180.0);
+        EXPECT_LT((moved - expected).norm(), 1e-2) << axis << ' ' << m;
+      }
+    }
+  }
+}
+
 TEST(HandGeometry, ASmallerFingertipBendsMore) {
   const HandGeometry study, effective(sdh2Geometry(kEffectiveFingertipRadiusMm));
   const HandPose a = study.pose(kPoses[0]), b = effective.pose(kPoses[0]);

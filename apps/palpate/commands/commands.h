@@ -26,6 +26,7 @@ int convertCommand(const Words& words);
 int demoCommand(const Words& words);
 int infoCommand(const Words& words);
 int kinematicsCommand(const Words& words);
+int portsCommand(const Words& words);
 int recordCommand(const Words& words);
 int recoverCommand(const Words& words);
 int renderCommand(const Words& words);

@@ -54,8 +54,13 @@ class JointMotion {
   void stop();  // `stop`: the motion ends where it is; power stays
 
   void advance(double dtS);
-  // The fingers meet an object: an axis that would move further is held from outside.
-  void setBlocked(std::size_t axis, bool clockwise, bool counterClockwise);
+  // What the fingers meet: the share of its strength that an axis needs against it, 0 (free) .. 1 (held), when
+  // it moves clockwise or counter-clockwise. It slows down by that share; held, its state is "blocked", and
+  // it goes on as soon as it can.
+  void setResistance(std::size_t axis, double clockwise, double counterClockwise);
+  void setBlocked(std::size_t axis, bool clockwise, bool counterClockwise) {
+    setResistance(axis, clockwise ? 1.0 : 0.0, counterClockwise ? 1.0 : 0.0);
+  }
 
   const std::vector<double>& angles() const noexcept { return angleDeg_; }
   const std::vector<double>& velocities() const noexcept { return velocityDegPerS_; }  // actual
@@ -74,6 +79,7 @@ class JointMotion {
   struct Path {
     double startDeg = 0.0;
     double distanceDeg = 0.0;  // signed
+    double timeS = 0.0;        // how far it is; behind the others' where it was held up
     bool active = false;
   };
   void require(const char* what,
@@ -87,15 +93,15 @@ class JointMotion {
   double speedAt(std::size_t axis, double timeS) const;  // [deg/s], unsigned
   void advancePose(double dtS);
   void advanceVelocity(double dtS);
-  bool heldBack(std::size_t axis, double direction) const;
+  double freedom(std::size_t axis, double direction) const;  // 1: free, 0: held
 
   std::vector<AxisDescription> axes_;
   std::vector<double> angleDeg_, velocityDegPerS_, referenceDegPerS_, targetDeg_,
       targetVelocityDegPerS_, accelerationDegPerS2_;
-  std::vector<bool> power_, blockedClockwise_, blockedCounterClockwise_;
+  std::vector<bool> power_;
+  std::vector<double> resistsClockwise_, resistsCounterClockwise_;
   std::vector<AxisState> states_;
   std::vector<Path> paths_;
-  double motionS_ = 0.0;    // since the motion began
   double durationS_ = 0.0;  // of the motion; 0: none runs
   VelocityProfile motionProfile_ = VelocityProfile::kSinSquare;
   ControllerType controller_ = ControllerType::kPose;

@@ -62,6 +62,16 @@ constexpr double kEffectiveFingertipRadiusMm = 48.4;  // that makes a rigid obje
 
 GeometryDescription sdh2Geometry(double fingertipRadiusMm = kStudyFingertipRadiusMm);
 
+// A joint as a line in space: turning the axis by +1 degree turns all links of the finger from `link` on
+// by +1 degree about `direction`.
+struct JointLine {
+  std::size_t axis = 0;
+  std::size_t finger = 0;
+  std::size_t link = 0;
+  Eigen::Vector3d originMm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit vector
+};
+
 // Positions and normals at one set of joint angles. Cheap to keep; a value.
 class HandPose {
  public:
@@ -80,6 +90,8 @@ class HandPose {
   // The frame of a matrix' link: columns X, Y, Z in the base frame, and its origin [mm].
   const Eigen::Matrix3d& rotation(std::size_t matrix) const { return frames_.at(matrix).rotation; }
   const Eigen::Vector3d& originMm(std::size_t matrix) const { return frames_.at(matrix).originMm; }
+  // All joints of all fingers (an axis that turns two fingers stands here twice).
+  const std::vector<JointLine>& jointLines() const noexcept { return jointLines_; }
 
  private:
   friend class HandGeometry;
@@ -90,6 +102,7 @@ class HandPose {
   const GeometryDescription* description_ = nullptr;
   std::vector<Frame> frames_;  // one per matrix
   std::vector<Eigen::Vector3d> positionsMm_, normals_;
+  std::vector<JointLine> jointLines_;
 };
 
 // Poses of one hand. The poses it gives refer to it: it must outlive them, and stays where it is.

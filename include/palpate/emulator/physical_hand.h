@@ -1,0 +1,46 @@
+// The emulated hand as a body: joints that move and are stopped by what they meet, objects pressed by the
+// fingers, rubber, sensors, motors that warm up, and a script of what happens.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <palpate/emulator/hand_model.h>
+#include <palpate/emulator/scene.h>
+
+namespace palpate {
+
+struct PhysicalHandOptions {
+  std::uint64_t seed = 1;  // of the sensors' noise
+  // Elastic foundation of the sensor's rubber: 1 mm of indentation are 250 kPa.
+  double rubberNPerMm3 = 0.25;
+  // What each motor holds against before it gives up (current limit) [N mm].
+  std::vector<double> motorNmm = {3000, 2100, 1400, 2100, 1400, 2100, 1400};
+  double stepS = 0.004;  // of the simulation while something moves [s]
+};
+
+class PhysicalHand final : public HandModel {
+ public:
+  // Throws std::invalid_argument (options, preshape of the scene).
+  explicit PhysicalHand(const Scene& scene, const PhysicalHandOptions& options = {});
+  ~PhysicalHand() override;
+
+  const HandDescription& hand() const override;
+  void advanceTo(double timeS) override;
+  double timeS() const override;
+  JointMotion& joints() override;
+  std::vector<MatrixSetting>& settings() override;
+  void scan(std::span<std::uint16_t> counts) override;
+  std::vector<double> temperatures() override;
+  std::vector<MatrixTruth> truth() const override;
+
+  // Pressure on each place before rubber and sensor, of the last step [kPa].
+  const std::vector<double>& pressureKpa() const noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace palpate

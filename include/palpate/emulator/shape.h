@@ -1,0 +1,32 @@
+// Solid shapes by their signed distance: negative inside, zero on the surface, positive outside.
+#pragma once
+
+#include <string_view>
+
+#include <Eigen/Core>
+
+namespace palpate {
+
+enum class ShapeKind {
+  kSphere,     // sizeMm: diameter in x
+  kCylinder,   // diameter in x, length in z; about z
+  kBox,        // edges in x, y, z
+  kEllipsoid,  // diameters in x, y, z
+  kCone,       // diameter of its foot in x, height in z; about z, tip up, middle of the height at 0
+};
+
+// "sphere", "cylinder", ..; throws std::invalid_argument naming them all.
+ShapeKind shapeKind(std::string_view name);
+
+struct Shape {
+  ShapeKind kind = ShapeKind::kSphere;
+  Eigen::Vector3d sizeMm = Eigen::Vector3d(60.0, 60.0, 60.0);
+
+  // Distance of a point in the shape's own frame [mm]. Exact for sphere, cylinder, box and cone; for
+  // the ellipsoid first order near its surface.
+  double distanceMm(const Eigen::Vector3d& pointMm) const;
+  // Unit vector away from the shape: the gradient of the distance (central differences).
+  Eigen::Vector3d gradient(const Eigen::Vector3d& pointMm) const;
+};
+
+}  // namespace palpate

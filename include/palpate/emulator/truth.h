@@ -1,0 +1,32 @@
+// The truth of an emulated hand as CSV, beside what its sensors tell:
+//   time_ms,matrix,contact,force_n,x_mm,y_mm,z_mm,slip_x_taxels,slip_y_taxels,turn_deg
+// a row per matrix and frame; without contact the columns behind it are empty.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <palpate/core/output_file.h>
+#include <palpate/emulator/hand_model.h>
+
+namespace palpate {
+
+class TruthWriter {
+ public:
+  // Writes as it goes (a program that is killed leaves what it had). Throws FileError.
+  explicit TruthWriter(const std::filesystem::path& path, Overwrite overwrite = Overwrite::kRefuse);
+  // hostUs: host time of the frame [us since 1970]. Throws FileError (disk full, ..).
+  void add(std::int64_t hostUs, const std::vector<MatrixTruth>& truth);
+  // Flushes. Throws FileError.
+  void finish();
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream out_;
+  std::string line_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,235 @@
+#include "palpate/emulator/physical_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <Eigen/Geometry>
+
+#include "palpate/emulator/sensor_model.h"
+#include "palpate/model/preshape.h"
+
+#include "emulator/physical_objects.h"
+
+namespace palpate {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kQuietStepS = 0.05;   // while nothing moves
+constexpr double kContactN = 0.05;     // truth: less is no contact
+constexpr double kAmbientDegC = 34.0;  // of the housing
+constexpr double kWarmUpS = 900.0;     // time constant of a motor
+constexpr double kMovingDegC = 14.0;   // what full speed adds in the end
+constexpr double kHoldingDegC = 10.0;  // what the full torque adds
+constexpr double kPoweredDegC = 2.0;
+constexpr double kBoardSlowness = 2.0;
+
+// Above the ambient temperature when switched on for a while [deg C]: motors 0..6, FPGA, board.
+constexpr double kOffsetDegC[] = {2.0, 3.25, 1.5, 2.75, 1.0, 3.0, 1.75, 10.5, 8.25};
+
+}  // namespace
+
+struct PhysicalHand::Impl {
+  Impl(const Scene& scene, const PhysicalHandOptions& given)
+      : options(given),
+        objects(scene.objects, geometry, given.rubberNPerMm3),
+        joints(sdh2(), sdh2Preshape(scene.preshape).anglesDeg(scene.close)),
+        sensor(sdh2(), sdh2Sensor(), given.seed),
+        preshape(scene.preshape),
+        script(scene.script),
+        truth(sdh2().layout->numMatrices()),
+        torqueNmm(sdh2().axes.size()) {
+    if (!(options.rubberNPerMm3 > 0.0)) throw std::invalid_argument("PhysicalHandOptions: rubber");
+    if (!(options.stepS > 0.0 && options.stepS <= 0.01))
+      throw std::invalid_argument("PhysicalHandOptions: stepS is not in 0..0.01");
+    if (options.motorNmm.size() != sdh2().axes.size())
+      throw std::invalid_argument("PhysicalHandOptions: one motorNmm per axis");
+    for (const double offset : kOffsetDegC) degC.push_back(kAmbientDegC + offset);
+    geometry.pose(joints.angles(), pose);
+    before = pose;
+    objects.press(pose, pressure);
+    blurPressure(*sdh2().layout, pressure);
+  }
+
+  void step(double dtS) {
+    const std::vector<double> anglesBefore = joints.angles();
+    joints.advance(dtS);
+    const bool moved = joints.angles() != anglesBefore;
+    if (moved) {
+      std::swap(before, pose);
+      geometry.pose(joints.angles(), pose);
+    }
+    if (objects.size() > 0 && (moved || !still)) {
+      objects.press(pose, pressure);
+      objects.advance(dtS);
+      hold();
+      follow(dtS, moved);
+      blurPressure(*sdh2().layout, pressure);
+    }
+    still = !moved && objects.quiet();
+    sensor.advance(pressure, dtS);
+    warm(dtS);
+  }
+
+  // An axis that would push harder than its motor can is stopped.
+  void hold() {
+    std::fill(torqueNmm.begin(), torqueNmm.end(), 0.0);
+    for (const JointLine& line : pose.jointLines())
+      for (std::size_t m = 0; m < objects.contacts().size(); ++m) {
+        const SensorSurface& surface = geometry.description().surfaces[m];
+        const MatrixContact& contact = objects.contacts()[m];
+        if (surface.finger != line.finger || surface.link < line.link || contact.forceN <= 0.0)
+          continue;
+        torqueNmm[line.axis] +=
+            (contact.centreMm - line.originMm).cross(contact.forceOnPadN).dot(line.direction);
+      }
+    // It gives its full speed up to half of what it can, and less and less from there.
+    for (std::size_t axis = 0; axis < torqueNmm.size(); ++axis) {
+      const double share = 2.0 * torqueNmm[axis] / options.motorNmm[axis];
+      joints.setResistance(axis, -share - 1.0, share - 1.0);
+    }
+  }
+
+  // How objects move over the matrices.
+  void follow(double dtS, bool moved) {
+    for (std::size_t m = 0; m < truth.size(); ++m) {
+      const MatrixContact& contact = objects.contacts()[m];
+      MatrixTruth& now = truth[m];
+      if (contact.forceN < kContactN || !contact.object) {
+        now = MatrixTruth{};
+        continue;
+      }
+      if (!now.contact) now = MatrixTruth{};
+      now.contact = true;
+      now.forceN = contact.forceN;
+      now.xMm = contact.centreMm.x();
+      now.yMm = contact.centreMm.y();
+      now.zMm = contact.centreMm.z();
+      const PhysicalObjects::Motion& motion = objects.motion(*contact.object);
+      const Vector3d arm = contact.centreMm - objects.positionMm(*contact.object);
+      Vector3d slide = (motion.velocityMmPerS + motion.angularRadPerS.cross(arm)) * dtS;
+      if (moved)
+        slide -= pose.pointMm(m, contact.surfaceXMm, contact.surfaceYMm) -
+                 before.pointMm(m, contact.surfaceXMm, contact.surfaceYMm);
+      const Vector3d right = pose.rotation(m).col(2);
+      const Vector3d down = right.cross(contact.normal);
+      const double pitchMm = geometry.description().layout.matrix(m).pitchMm;
+      now.slipXTaxels += slide.dot(right) / pitchMm;
+      now.slipYTaxels += slide.dot(down) / pitchMm;
+      // From x towards y: about right x down, which points into the sensor.
+      now.turnDeg -= motion.angularRadPerS.dot(contact.normal) * dtS * 180.0 / std::numbers::pi;
+    }
+  }
+
+  void warm(double dtS) {
+    for (std::size_t i = 0; i < degC.size(); ++i) {
+      double towards = ambientDegC + kOffsetDegC[i];
+      double slowS = kWarmUpS;
+      if (i < joints.angles().size()) {
+        const AxisDescription& axis = sdh2().axes[i];
+        const double speed = std::abs(joints.velocities()[i]) / axis.maximumVelocityDegPerS;
+        const double torque = std::min(std::abs(torqueNmm[i]) / options.motorNmm[i], 1.0);
+        if (joints.power()[i])
+          towards += kPoweredDegC + kMovingDegC * speed + kHoldingDegC * torque * torque;
+      } else {
+        slowS *= kBoardSlowness;
+      }
+      degC[i] += (towards - degC[i]) * (1.0 - std::exp(-dtS / slowS));
+    }
+  }
+
+  void act(const SceneAction& action) {
+    still = false;
+    if (const auto* move = std::get_if<MoveObject>(&action)) objects.move(*move);
+    if (const auto* turn = std::get_if<TurnObject>(&action)) objects.turn(*turn);
+    if (const auto* load = std::get_if<LoadObject>(&action)) objects.load(*load);
+    if (const auto* grasp = std::get_if<GraspAction>(&action)) {
+      if (grasp->preshape) preshape = *grasp->preshape;
+      go(grasp->close, grasp->velocityDegPerS);
+    }
+    if (const auto* release = std::get_if<ReleaseAction>(&action))
+      go(0.0, release->velocityDegPerS);
+    if (const auto* ambient = std::get_if<SetTemperature>(&action))
+      ambientDegC = ambient->ambientDegC;
+    for (std::size_t m = 0; m < sensor.settings().size(); ++m) {
+      const auto meant = [&](const std::optional<std::size_t>& matrix) {
+        return !matrix || *matrix == m;
+      };
+      if (const auto* set = std::get_if<SetSceneThreshold>(&action); set && meant(set->matrix))
+        sensor.settings()[m].thresholdCounts = set->counts;
+      if (const auto* set = std::get_if<SetSceneSensitivity>(&action); set && meant(set->matrix))
+        sensor.settings()[m].sensitivity = set->sensitivity;
+    }
+  }
+
+  void go(double close, double velocityDegPerS) {
+    joints.setController(ControllerType::kPose);
+    joints.setVelocities(std::vector<double>(sdh2().axes.size(), velocityDegPerS));
+    joints.setTargets(sdh2Preshape(preshape).anglesDeg(close));
+    joints.startMotion();
+  }
+
+  PhysicalHandOptions options;
+  HandGeometry geometry;
+  PhysicalObjects objects;
+  JointMotion joints;
+  SensorModel sensor;
+  std::string preshape;
+  std::vector<ScriptStep> script;
+  std::size_t nextStep = 0;
+  double nowS = 0.0;
+  bool still = false;
+  HandPose pose, before;
+  std::vector<double> pressure;  // per place [kPa]
+  std::vector<MatrixTruth> truth, scanned;
+  std::vector<double> torqueNmm;
+  std::vector<double> degC;
+  double ambientDegC = kAmbientDegC;
+};
+
+PhysicalHand::PhysicalHand(const Scene& scene, const PhysicalHandOptions& options)
+    : impl_(std::make_unique<Impl>(scene, options)) {}
+
+PhysicalHand::~PhysicalHand() = default;
+
+const HandDescription& PhysicalHand::hand() const { return sdh2(); }
+
+void PhysicalHand::advanceTo(double timeS) {
+  Impl& hand = *impl_;
+  while (hand.nowS < timeS) {
+    while (hand.nextStep < hand.script.size() && hand.script[hand.nextStep].atS <= hand.nowS)
+      hand.act(hand.script[hand.nextStep++].action);
+    double untilS = timeS;
+    if (hand.nextStep < hand.script.size())
+      untilS = std::min(untilS, std::max(hand.script[hand.nextStep].atS, hand.nowS + 1e-9));
+    // Nothing moves: large steps, unless the rubber still has to settle (exact at any step).
+    const bool quiet = (hand.still || hand.objects.size() == 0) && !hand.joints.moving();
+    const double most = quiet ? kQuietStepS : hand.options.stepS;
+    const double leftS = untilS - hand.nowS;
+    // After a long silence of the clients there is nothing to simulate in detail.
+    const double dtS = quiet && leftS > 10.0 ? leftS : std::min(most, leftS);
+    hand.step(dtS);
+    hand.nowS += dtS;
+  }
+}
+
+double PhysicalHand::timeS() const { return impl_->nowS; }
+JointMotion& PhysicalHand::joints() { return impl_->joints; }
+std::vector<MatrixSetting>& PhysicalHand::settings() { return impl_->sensor.settings(); }
+
+void PhysicalHand::scan(std::span<std::uint16_t> counts) {
+  std::vector<double> degC;
+  // The motor nearest to matrix m drives axis m + 1.
+  for (std::size_t m = 0; m < sdh2().layout->numMatrices(); ++m)
+    degC.push_back(impl_->degC.at(m + 1));
+  impl_->sensor.scan(degC, counts);
+  impl_->scanned = impl_->truth;
+}
+
+std::vector<double> PhysicalHand::temperatures() { return impl_->degC; }
+std::vector<MatrixTruth> PhysicalHand::truth() const { return impl_->scanned; }
+const std::vector<double>& PhysicalHand::pressureKpa() const noexcept { return impl_->pressure; }
+
+}  // namespace palpate

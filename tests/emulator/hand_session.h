@@ -1,0 +1,49 @@
+// What tests say to an emulated hand, and how they wait for it.
+#pragma once
+
+#include <chrono>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "palpate/emulator/emulated_hand.h"
+
+#include "emulator/line_client.h"
+
+namespace palpate::testing {
+
+// Literal bytes of the protocol document, section 1.6.1.
+inline const Octets kPush = octets("AA AA AA 03 03 00 81 01 00 7C 5C");
+inline const Octets kPushRaw = octets("AA AA AA 03 03 00 80 01 00 DE 36");
+inline const Octets kSingle = octets("AA AA AA 03 03 00 81 00 00 2F 68");
+inline const Octets kStop = octets("AA AA AA 03 03 00 01 00 00 2F 6A");
+
+// No pacing: tests that aren't about time take none.
+inline EmulatedHandOptions fastHand(double hz = 300.0) {
+  return {.rate = EmulationRate::kHz, .hz = hz};
+}
+
+// Reads so many frames; fewer when none comes for two seconds.
+inline std::vector<DecodedFrame> readFrames(LineClient& client, std::size_t count) {
+  std::vector<DecodedFrame> frames;
+  while (frames.size() < count) {
+    const auto packet = client.packet();
+    if (!packet) break;
+    if (packet->id != 0) continue;
+    if (auto frame = decodeFramePayload(packet->payload)) frames.push_back(std::move(*frame));
+  }
+  return frames;
+}
+
+// Waits until the hand's counters say so, at most five seconds.
+template <typename Condition>
+bool eventually(const EmulatedHand& hand, Condition&& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  while (!condition(hand.counts())) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+}  // namespace palpate::testing

@@ -1,0 +1,50 @@
+#include "palpate/model/preshape.h"
+
+#include <limits>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "palpate/model/hand_description.h"
+
+namespace palpate {
+namespace {
+
+using Angles = std::vector<double>;
+
+// The table of the prior program.
+TEST(Preshape, AnglesAreThoseOfTheTable) {
+  EXPECT_EQ(sdh2Preshape("parallel").anglesDeg(0.0), (Angles{0, -75, 75, -75, 75, -75, 75}));
+  EXPECT_EQ(sdh2Preshape("parallel").anglesDeg(1.0), (Angles{0, 7, -7, 7, -7, 7, -7}));
+  EXPECT_EQ(sdh2Preshape("cylindrical").anglesDeg(0.5),
+            (Angles{0, -15, 47.5, -15, 47.5, -15, 47.5}));
+  EXPECT_EQ(sdh2Preshape("centrical").anglesDeg(0.0), (Angles{60, -75, 75, -75, 75, -75, 75}));
+  EXPECT_EQ(sdh2Preshape("spherical").anglesDeg(1.0), (Angles{60, -15, 55, -15, 55, -15, 55}));
+  EXPECT_EQ(sdh2Preshape("pinch-parallel").anglesDeg(1.0), (Angles{90, 11, -11, -90, 0, 11, -11}));
+  EXPECT_EQ(sdh2Preshape("pinch-tilted").anglesDeg(1.0), (Angles{90, 0, 23, -90, 0, 0, 23}));
+  EXPECT_EQ(sdh2Preshape("calibration").anglesDeg(0.3), (Angles{90, 0, 0, -90, -90, -90, -90}));
+}
+
+TEST(Preshape, EveryPoseIsWithinTheJointsRanges) {
+  EXPECT_EQ(sdh2Preshapes().size(), 7u);
+  for (const Preshape& preshape : sdh2Preshapes())
+    for (int i = 0; i <= 100; ++i) {
+      const Angles angles = preshape.anglesDeg(i / 100.0);
+      ASSERT_EQ(angles.size(), sdh2().axes.size());
+      for (std::size_t a = 0; a < angles.size(); ++a) {
+        EXPECT_GE(angles[a], sdh2().axes[a].minimumDeg) << preshape.name << ' ' << a;
+        EXPECT_LE(angles[a], sdh2().axes[a].maximumDeg) << preshape.name << ' ' << a;
+      }
+    }
+}
+
+TEST(Preshape, WhatIsNoneIsRefused) {
+  EXPECT_THROW(sdh2Preshape("fist"), std::invalid_argument);
+  EXPECT_THROW(sdh2Preshape("parallel").anglesDeg(1.01), std::invalid_argument);
+  EXPECT_THROW(sdh2Preshape("parallel").anglesDeg(-0.01), std::invalid_argument);
+  EXPECT_THROW(sdh2Preshape("parallel").anglesDeg(std::numeric_limits<double>::quiet_NaN()),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace palpate
