@@ -1,5 +1,10 @@
 #include "palpate/capture/capture_session.h"
 
+#include <map>
+
+#include <sqlite3.h>
+
+#include "palpate/core/json.h"
 #include "palpate/recording/recording.h"
 
 #include "capture/scripted_device.h"
@@ -8,6 +13,24 @@
 namespace palpate {
 namespace {
 using namespace testing;
+
+// Rows of two columns as text, read by SQLite itself.
+std::map<std::string, std::string> readTable(const std::filesystem::path& path, const char* sql) {
+  std::map<std::string, std::string> rows;
+  sqlite3* database = nullptr;
+  EXPECT_EQ(sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READONLY, nullptr), SQLITE_OK);
+  sqlite3_exec(
+      database,
+      sql,
+      [](void* to, int, char** values, char**) {
+        (*static_cast<std::map<std::string, std::string>*>(to))[values[0]] = values[1];
+        return 0;
+      },
+      &rows,
+      nullptr);
+  sqlite3_close(database);
+  return rows;
+}
 
 RecordingOptions to(const std::filesystem::path& path) {
   RecordingOptions options;
@@ -44,6 +67,210 @@ TEST(CaptureSession, RecordsWhatTheDeviceDelivers) {
   ASSERT_EQ(profile.numAngles(), 600u);
   EXPECT_EQ(profile.angles(599).deg, numberedAngles(599, 0).deg);
   EXPECT_EQ(verifyRecording(folder / "a.palpate").state, VerifyReport::State::kSound);
+}
+
+TEST(CaptureSession, notesWhatTheDeviceSaysAboutItselfAndWhatTheLinkCounted) {
+  const TemporaryFolder folder;
+  ScriptedSession scripted;
+  scripted.device->says = {
+      "1D9B0057", "0x2900", "0.0.3.3", std::vector<MatrixSettings>(6, {0.5, 150})};
+  scripted.device->state.tactile.badChecksums = 10;  // before the recording
+  RecordingOptions options = to(folder / "a.palpate");
+  options.meta = {{"operator", "Ada"}, {"object", "cup"}, {"run", "3"}, {"notes", "a\nb"}};
+  scripted.session->startRecording(options);
+  scripted.run(0.5);
+  scripted.device->state.tactile.badChecksums = 14;
+  scripted.device->state.tactile.lost = 2;
+  scripted.session->stopRecording();
+  const auto meta = readTable(folder / "a.palpate", "SELECT key, value FROM meta");
+  EXPECT_EQ(meta.at("operator"), "Ada");
+  EXPECT_EQ(meta.at("object"), "cup");
+  EXPECT_EQ(meta.at("run"), "3");
+  EXPECT_EQ(meta.at("notes"), "a\nb");
+  EXPECT_EQ(meta.at("serial"), "1D9B0057");
+  EXPECT_EQ(meta.at("firmware"), "0x2900");
+  EXPECT_EQ(meta.at("motion_firmware"), "0.0.3.3");
+  EXPECT_EQ(meta.at("program").rfind("palpate ", 0), 0u);
+  const Json settings = Json::parse(meta.at("settings"));
+  ASSERT_EQ(settings.size(), 6u);
+  EXPECT_EQ(settings.at(5).at("threshold_counts").asInteger(), 150);
+  const auto counters = readTable(folder / "a.palpate", "SELECT name, value FROM counter");
+  EXPECT_EQ(counters.at("bad_checksums"), "4");
+  EXPECT_EQ(counters.at("lost"), "2");
+  EXPECT_EQ(counters.at("recorder_lost"), "0");
+}
+
+TEST(CaptureSession, eventsOfTheDeviceAndMarksAreRecordedAndShown) {
+  const TemporaryFolder folder;
+  ScriptedSession scripted;
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  scripted.run(0.5);
+  scripted.session->mark();
+  const std::int64_t markedUs = scripted.clock.hostUs();
+  scripted.run(0.5);
+  scripted.session->mark("touch", 3);
+  scripted.device->sink->onEvent(
+      {markedUs + 1, markedUs + 900, "gap", 2, "no frames came", "{\"missed\":28}"});
+  scripted.run(0.1);
+  scripted.session->stopRecording();
+  const std::vector<RecordingEvent> expected{
+      {markedUs, markedUs, "mark", {}, "", ""},
+      {markedUs + 1, markedUs + 900, "gap", 2, "no frames came", "{\"missed\":28}"},
+      {markedUs + 500'000, markedUs + 500'000, "label", {}, "touch", "{\"digit\":3}"}};
+  EXPECT_EQ(readEvents(folder / "a.palpate").events, expected);
+  const auto shown = scripted.session->takeEvents();
+  ASSERT_EQ(shown.size(), 3u);  // in the order in which they came
+  EXPECT_EQ(shown[1], expected[2]);
+  EXPECT_TRUE(scripted.session->takeEvents().empty());
+  scripted.session->mark("shown, though nothing is recorded");
+  EXPECT_EQ(scripted.session->takeEvents().size(), 1u);
+}
+
+TEST(CaptureSession, keepsTheLastThousandEventsForTheScreen) {
+  ScriptedSession scripted;
+  for (int i = 0; i < 1500; ++i) scripted.session->mark(std::to_string(i));
+  const auto shown = scripted.session->takeEvents();
+  ASSERT_EQ(shown.size(), 1000u);
+  EXPECT_EQ(shown.front().text, "500");
+}
+
+TEST(CaptureSession, theScreenGetsTheNewestOnce) {
+  ScriptedSession scripted;
+  EXPECT_FALSE(scripted.session->takeFrame());
+  scripted.run(1.0);
+  const SharedFrame frame = scripted.session->takeFrame();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(numberOf(*frame), 99u);
+  EXPECT_FALSE(scripted.session->takeFrame());
+  EXPECT_EQ(scripted.session->screenStats().skipped, 99u);
+  EXPECT_EQ(scripted.session->takeAngles()->deg, numberedAngles(199, 0).deg);
+  EXPECT_FALSE(scripted.session->takeAngles());
+  EXPECT_EQ(scripted.session->takeTemperatures()->degC[0], 30.0);
+}
+
+TEST(CaptureSession, aSubscriberGetsEverythingInOrderWhateverTheRecorderDoes) {
+  ScriptedSession scripted;
+  const auto feed = scripted.session->subscribe("live processing");
+  scripted.run(1.0, false);  // the recorder does nothing at all
+  std::vector<CaptureItem> items;
+  EXPECT_EQ(feed->take(items), 100u + 200u + 1u);
+  for (std::size_t i = 1; i < items.size(); ++i)
+    ASSERT_LE(stampOf(items[i - 1]), stampOf(items[i]));
+}
+
+TEST(CaptureSession, aSubscriberThatIsTooSlowLosesItsOwnItemsOnly) {
+  const TemporaryFolder folder;
+  ScriptedSession scripted;
+  FeedOptions few;
+  few.tactileItems = few.motionItems = 10;
+  const auto feed = scripted.session->subscribe("live processing", few);
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  scripted.run(1.0);
+  EXPECT_EQ(feed->stats().lost[0], 90u);
+  EXPECT_TRUE(scripted.session->stopRecording().complete);
+  EXPECT_EQ(openRecording(folder / "a.palpate").numFrames(), 100u);
+  EXPECT_TRUE(readEvents(folder / "a.palpate").events.empty());
+}
+
+TEST(CaptureSession, aSubscriptionLetGoIsForgotten) {
+  ScriptedSession scripted;
+  auto feed = scripted.session->subscribe("one");
+  const auto other = scripted.session->subscribe("two");
+  scripted.run(0.1);
+  feed.reset();
+  scripted.run(0.1);
+  EXPECT_EQ(other->stats().tactile.depth, 20u);
+  scripted.session.reset();
+  EXPECT_TRUE(other->closed());  // whoever waits is told
+}
+
+TEST(CaptureSession, linkHealthCountsWhatCame) {
+  CaptureOptions options;
+  options.recorder.commitIntervalMs = 500.0;
+  options.recorder.freeBytes = [](const std::filesystem::path&) {
+    return std::uint64_t{7'200'000};
+  };
+  const TemporaryFolder folder;
+  ScriptedSession scripted(options);
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  scripted.run(10.0);
+  TactileFrame hot = numberedFrame(0, scripted.clock.hostUs() + 1);
+  hot.values[5] = sdh2().saturationCounts;
+  scripted.device->sink->onFrame(std::move(hot));
+  scripted.run(1.0);
+  const LinkHealth health = scripted.session->health();
+  EXPECT_EQ(health.frames.frames, 1101u);
+  EXPECT_NEAR(health.frames.rateHz, 100.0, 0.6);
+  EXPECT_EQ(health.frames.saturatedFrames, 1u);
+  EXPECT_NEAR(health.frames.saturatedShare, 1.0 / 202.0, 1e-4);
+  EXPECT_EQ(health.queues.tactile.depth, 0u);
+  EXPECT_GE(health.queues.tactile.highWater, 1u);
+  ASSERT_TRUE(health.diskHours);
+  const double bytesPerS =
+      static_cast<double>(health.recorder.bytesOnDisk) / health.recorder.recordedS;
+  EXPECT_NEAR(*health.diskHours, 7.2e6 / bytesPerS / 3600.0, 1e-9);
+  ASSERT_EQ(health.alarms.size(), 1u);
+  EXPECT_EQ(health.alarms[0].kind, AlarmKind::kLowDisk);
+  // Nothing comes any more.
+  scripted.clock.pass(1'500'000);
+  const LinkHealth silent = scripted.session->health();
+  EXPECT_EQ(silent.alarms[0].kind, AlarmKind::kNoData);
+  EXPECT_NEAR(*silent.frames.ageMs, 1500.0, 1e-6);
+}
+
+TEST(CaptureSession, theCheckBeforeARunLooksAtTheFolderToo) {
+  const TemporaryFolder folder;
+  ScriptedSession scripted;
+  EXPECT_FALSE(scripted.session->checkBeforeRun(folder.path()).ready);
+  scripted.run(3.0);
+  const BeforeRun good = scripted.session->checkBeforeRun(folder.path());
+  EXPECT_TRUE(good.ready) << good.text;
+  EXPECT_NE(good.text.find("up to 30 deg C"), std::string::npos);
+  EXPECT_FALSE(scripted.session->checkBeforeRun(folder / "none").ready);
+  scripted.session->stop();
+  EXPECT_FALSE(scripted.session->checkBeforeRun(folder.path()).ready);
+}
+
+TEST(CaptureSession, startedAgainItForgetsWhatWasBefore) {
+  const TemporaryFolder folder;
+  ScriptedSession scripted;
+  scripted.run(3.0);
+  scripted.session->mark("old");
+  scripted.session->stop();
+  EXPECT_FALSE(scripted.session->started());
+  scripted.clock.pass(500'000);
+  scripted.session->start();
+  scripted.session->start();  // does nothing
+  EXPECT_EQ(scripted.session->health().frames.frames, 0u);
+  EXPECT_TRUE(scripted.session->takeEvents().empty());
+  scripted.run(0.5);
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  scripted.run(0.5);
+  // Nothing of before the stop, though it lies within the two seconds.
+  EXPECT_EQ(scripted.session->stopRecording().frames, 100);
+}
+
+TEST(CaptureSession, aStopEndsTheRecordingWhole) {
+  const TemporaryFolder folder;
+  ScriptedSession scripted;
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  EXPECT_THROW(scripted.session->startRecording(to(folder / "b.palpate")), std::logic_error);
+  scripted.run(0.5);
+  scripted.session->stop();
+  EXPECT_FALSE(scripted.session->recording());
+  EXPECT_EQ(scripted.session->stopRecording().frames, 50);
+  EXPECT_EQ(verifyRecording(folder / "a.palpate").state, VerifyReport::State::kSound);
+}
+
+TEST(CaptureSession, needsADevice) { EXPECT_THROW(CaptureSession(nullptr), std::invalid_argument); }
+
+// A replay's marks carry the recording's time, not today's.
+TEST(CaptureSession, marksAreInTheTimeOfTheStamps) {
+  ScriptedSession scripted;
+  const std::int64_t longAgo = 1'400'000'000'000'000;
+  scripted.device->frame(1, longAgo);
+  scripted.session->mark("then");
+  EXPECT_EQ(scripted.session->takeEvents().at(0).tUs, longAgo);
 }
 
 }  // namespace
