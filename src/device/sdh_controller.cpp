@@ -54,7 +54,8 @@ const SdhFacts& SdhController::open() {
   link_->sendText(" \r\n");  // ends a command that somebody before us left unfinished
   link_->drain(milliseconds(100), milliseconds(300));
   try {
-    facts_.firmware = word("ver", {});
+    // Where tactile frames come in, one try is enough.
+    facts_.firmware = word("ver", {.tries = tactile.stats().packets > 0 ? 1 : 3});
   } catch (const SdhInterrupted&) {
     throw;
   } catch (const DeviceError& error) {

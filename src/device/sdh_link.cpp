@@ -13,8 +13,8 @@ constexpr std::size_t kReadBytes = 1024;
 constexpr milliseconds kSilence{50};      // then nothing of an old answer comes any more
 constexpr milliseconds kDrainLimit{300};  // of a line that never falls silent
 constexpr milliseconds kGap{150};         // within an answer: the rest of it was lost
-constexpr milliseconds kUrgentAfter{
-    10};                           // an answer in order takes 3.4 ms; a stop doesn't wait longer
+// An answer in order takes 3.4 ms; a stop doesn't wait for one that takes longer than this.
+constexpr milliseconds kUrgentAfter{10};
 constexpr milliseconds kSlice{4};  // how often `urgent` is asked while waiting
 constexpr milliseconds kExchangeLimit{3500};
 

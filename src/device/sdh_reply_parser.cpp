@@ -16,6 +16,7 @@ bool isPrintable(char c) { return c >= ' ' && c <= '~'; }
 
 std::size_t SdhReplyParser::takeRecord(std::span<const std::byte> in, const Sink& sink) {
   const std::size_t size = sdhRecordBytes(checksum_);
+  tooLong_ = false;  // what follows is no part of a line before
   if (sdhIsRecordStart(in, checksum_)) {
     if (in.size() < size) return 0;
     if (auto record = decodeSdhRecord(in.first(size), checksum_)) {

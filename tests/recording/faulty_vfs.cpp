@@ -115,6 +115,7 @@ void FaultyVfs::failAt(Fault fault, std::int64_t operation) {
 }
 
 int FaultyVfs::step() {
+  if (hook_) hook_();
   ++operations_;
   if (fault_ == Fault::kNone || operations_ < failAt_) return SQLITE_OK;
   const bool once = fault_ == Fault::kFullOnce || fault_ == Fault::kErrorOnce;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <random>
 #include <string>
@@ -32,6 +33,8 @@ class FaultyVfs {
   // Operations are writes, truncations, syncs and deletions; they count from 1.
   void failAt(Fault fault, std::int64_t operation);
   void heal() { fault_ = Fault::kNone; }
+  // Called at the begin of every operation, by the thread that writes: a slow disk.
+  void setHook(std::function<void()> hook) { hook_ = std::move(hook); }
   std::int64_t operations() const { return operations_; }
   bool struck() const { return struck_; }
 
@@ -58,6 +61,7 @@ class FaultyVfs {
   int step();  // counts an operation; an SQLite error code where it fails
   static void apply(std::string& content, const Change& change);
 
+  std::function<void()> hook_;
   Fault fault_ = Fault::kNone;
   std::int64_t failAt_ = 0;
   std::int64_t operations_ = 0;

@@ -126,6 +126,8 @@ const std::vector<Command>& allCommands() {
       {"emulate", "the emulated hand on two ports, until it is interrupted", &emulateCommand},
       {"info", "what is in a recording", &infoCommand},
       {"kinematics", "where the taxels are at a set of joint angles", &kinematicsCommand},
+      {"ports", "which ports there are, and what answers behind each", &portsCommand},
+      {"record", "records a connected hand", &recordCommand},
       {"recover", "saves what can be saved of a damaged or unfinished recording", &recoverCommand},
       {"render", "a picture of one frame: PNG, SVG or PDF", &renderCommand},
       {"signals", "characteristic signals of each matrix as CSV", &signalsCommand},

@@ -27,6 +27,8 @@ int demoCommand(const Words& words);
 int emulateCommand(const Words& words);
 int infoCommand(const Words& words);
 int kinematicsCommand(const Words& words);
+int portsCommand(const Words& words);
+int recordCommand(const Words& words);
 int recoverCommand(const Words& words);
 int renderCommand(const Words& words);
 int signalsCommand(const Words& words);

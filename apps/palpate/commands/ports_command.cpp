@@ -1,0 +1,174 @@
+// palpate ports: which ports there are, and what answers behind each.
+#include <algorithm>
+#include <filesystem>
+#include <future>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "palpate/core/json.h"
+#include "palpate/core/one_line.h"
+#include "palpate/device/port_list.h"
+#include "palpate/device/port_probe.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+
+namespace palpate::commands {
+namespace {
+
+constexpr std::size_t kProbesAtOnce = 16;
+
+struct Row {
+  PortInfo info;
+  bool wanted = false;             // to be asked
+  std::optional<PortProbe> probe;  // absent: not asked
+};
+
+// Where a name leads to; the name itself where that is no file.
+std::string deviceOf(const std::string& name) {
+  std::error_code failed;
+  const std::string path = std::filesystem::canonical(name, failed).string();
+  return failed ? name : path;
+}
+
+// The ports of the machine, then those named besides, each device once.
+std::vector<Row> rowsOf(const std::vector<std::string>& named) {
+  std::vector<Row> rows;
+  // Opening a Bluetooth port calls the other side.
+  for (PortInfo& info : listPorts()) {
+    const bool wanted = named.empty() && !info.bluetooth;
+    rows.push_back({std::move(info), wanted, std::nullopt});
+  }
+  for (const std::string& name : named) {
+    const std::string device = deviceOf(name);
+    const auto known = std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
+      return deviceOf(row.info.name) == device;
+    });
+    if (known != rows.end()) {
+      known->wanted = true;
+      continue;
+    }
+    PortInfo info;
+    info.name = name;
+    info.stableName = stableNameOf(name);
+    rows.push_back({std::move(info), true, std::nullopt});
+  }
+  return rows;
+}
+
+// Asks the wanted ports, several at a time: each takes up to 2.5 s.
+void probe(std::vector<Row>& rows) {
+  std::vector<std::pair<Row*, std::future<PortProbe>>> asked;
+  const auto collect = [&] {
+    for (auto& [row, answer] : asked) row->probe = answer.get();
+    asked.clear();
+  };
+  for (Row& row : rows) {
+    if (!row.wanted) continue;
+    if (asked.size() == kProbesAtOnce) collect();
+    asked.emplace_back(
+        &row, std::async(std::launch::async, [name = row.info.name] { return probePort(name); }));
+  }
+  collect();
+}
+
+std::string answerText(const Row& row) {
+  const std::string text = row.probe ? row.probe->message : "not asked";
+  return row.info.description.empty() ? text : text + " [" + row.info.description + "]";
+}
+
+std::string byIdText(const Row& row) {
+  return row.info.stableName == row.info.name ? "-" : row.info.stableName;
+}
+
+std::string tableText(const std::vector<Row>& rows) {
+  std::size_t nameWidth = 4;
+  std::size_t byIdWidth = 10;
+  for (const Row& row : rows) {
+    nameWidth = std::max(nameWidth, oneLine(row.info.name).size());
+    byIdWidth = std::max(byIdWidth, oneLine(byIdText(row)).size());
+  }
+  const auto line = [&](const std::string& name, const std::string& byId, const std::string& what) {
+    std::string text = oneLine(name);
+    text.resize(nameWidth + 2, ' ');
+    text += oneLine(byId);
+    text.resize(nameWidth + byIdWidth + 4, ' ');
+    return text + oneLine(what) + "\n";
+  };
+  std::string text = line("port", "by-id name", "what answers");
+  for (const Row& row : rows) text += line(row.info.name, byIdText(row), answerText(row));
+  return text;
+}
+
+// The one port with that answer, under its lasting name; nothing when there is none or more than one.
+std::optional<std::string> onlyPort(const std::vector<Row>& rows, PortAnswer answer) {
+  std::optional<std::string> found;
+  for (const Row& row : rows) {
+    if (!row.probe || row.probe->answer != answer) continue;
+    if (found) return std::nullopt;
+    found = row.info.stableName;
+  }
+  return found;
+}
+
+std::string adviceText(const std::vector<Row>& rows) {
+  if (rows.empty())
+    return "no serial port is there: plug the hand's adapter in, or name a port (a pty, "
+           "tcp:HOST:PORT)\n";
+  const auto tactile = onlyPort(rows, PortAnswer::kTactile);
+  const auto motion = onlyPort(rows, PortAnswer::kMotion);
+  if (!tactile && !motion) return {};
+  return "connect with:" + (tactile ? " --dsa " + oneLine(*tactile) : "") +
+         (motion ? " --sdh " + oneLine(*motion) : "") + "\n";
+}
+
+std::string jsonText(const std::vector<Row>& rows) {
+  Json list = Json::array();
+  for (const Row& row : rows) {
+    const PortInfo& info = row.info;
+    Json port = Json::object();
+    port.set("port", info.name)
+        .set("by_id", info.stableName == info.name ? Json() : Json(info.stableName))
+        .set("description", info.description)
+        .set("usb", info.usb)
+        .set("answer", row.probe ? row.probe->answerName() : "not_asked")
+        .set("firmware", row.probe ? row.probe->firmware : "")
+        .set("serial", row.probe ? row.probe->serial : "")
+        .set("message", row.probe ? row.probe->message : "");
+    list.push(port);
+  }
+  return Json::object().set("ports", list).text() + "\n";
+}
+
+}  // namespace
+
+int portsCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate ports [PORT...] [--json] [--no-probe]",
+       .purpose =
+           "Lists the serial ports and asks each what is behind it: the hand's motion controller, "
+           "its\ntactile controller, or neither. With PORTs (also ptys and tcp:HOST:PORT) only "
+           "these are asked.\nA port that another program holds is left alone; every other one is "
+           "sent a few bytes: use\n--no-probe where devices are attached that these could "
+           "disturb.",
+       .options = {{"json", "", "one JSON object"}, {"no-probe", "", "list only, send nothing"}},
+       .example = "palpate ports"},
+      words);
+  if (given.helpShown()) return kDone;
+  std::vector<Row> rows = rowsOf(given.words());
+  if (!given.has("no-probe")) probe(rows);
+  StandardOutput out;
+  if (given.has("json")) {
+    out.write(jsonText(rows));
+  } else {
+    out.write(tableText(rows));
+    if (!given.quiet()) out.write(adviceText(rows));
+  }
+  out.finish();
+  return kDone;
+}
+
+}  // namespace palpate::commands

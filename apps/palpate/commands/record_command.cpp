@@ -1,0 +1,246 @@
+// palpate record --dsa PORT [--sdh PORT] -o OUT.palpate: headless capture of a hand.
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include <pthread.h>
+#include <signal.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "palpate/capture/capture_session.h"
+#include "palpate/capture/recording_name.h"
+#include "palpate/core/error.h"
+#include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/one_line.h"
+#include "palpate/device/live_hand.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+
+namespace palpate::commands {
+namespace {
+namespace fs = std::filesystem;
+
+// Ctrl-C and its kin end the recording, they don't kill it: blocked in every thread, asked for here.
+class StopSignals {
+ public:
+  StopSignals() {
+    sigemptyset(&set_);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+      struct sigaction now {};
+      // What was ignored when we were started (nohup) stays so.
+      if (::sigaction(number, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) continue;
+      sigaddset(&set_, number);
+    }
+    ::pthread_sigmask(SIG_BLOCK, &set_, &before_);
+  }
+  ~StopSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+  // Waits so long at most; whether one came.
+  bool wait(long milliseconds) const {
+    const timespec limit{milliseconds / 1000, milliseconds % 1000 * 1'000'000};
+    return ::sigtimedwait(&set_, nullptr, &limit) > 0;
+  }
+
+ private:
+  sigset_t set_{};
+  sigset_t before_{};
+};
+
+// How it goes, on one line of a terminal.
+class StatusLine {
+ public:
+  explicit StatusLine(bool quiet) : enabled_(!quiet && ::isatty(STDERR_FILENO) == 1) {}
+  ~StatusLine() { wipe(); }
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+
+  void show(const LinkHealth& health, const std::vector<RecordingEvent>& events) {
+    if (!enabled_) return;
+    for (const RecordingEvent& event : events) {
+      wipe();
+      std::fprintf(stderr, "%s: %s\n", oneLine(event.kind).c_str(), oneLine(event.text).c_str());
+    }
+    const RecorderStatus& recorder = health.recorder;
+    std::string line =
+        recorder.state == RecorderStatus::State::kWaiting
+            ? "waiting for the first frame"
+            : fixedText(recorder.recordedS, 1) + " s, " + std::to_string(recorder.frames) +
+                  " frames, " + fixedText(health.frames.rateHz, 1) + "/s, " +
+                  fixedText(static_cast<double>(recorder.bytesOnDisk) / 1e6, 1) + " MB";
+    if (!health.alarms.empty()) line += " | " + oneLine(health.alarms.front().text);
+    std::fprintf(stderr, "\r\033[K%s", std::string(beginningOf(line, 118)).c_str());
+    std::fflush(stderr);
+    shown_ = true;
+  }
+
+ private:
+  void wipe() {
+    if (shown_) std::fputs("\r\033[K", stderr);
+    shown_ = false;
+  }
+  bool enabled_;
+  bool shown_ = false;
+};
+
+fs::path outputPath(const CommandLine& given) {
+  const fs::path out(given.text("output").value());
+  if (out.extension() != ".palpate")
+    throw UsageError("a recording is written as .palpate, not '" + out.string() +
+                     "'; 'palpate convert' makes .dsa, .csv and .npz of it");
+  if (out.string().find('{') == std::string::npos) return out;
+  const RecordingNameFields fields{systemClock().wallUs(),
+                                   given.text("operator").value_or(""),
+                                   given.text("object").value_or("")};
+  try {
+    return nextRecordingPath(
+        out.has_parent_path() ? out.parent_path() : fs::path("."), out.filename().string(), fields);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
+RecordingOptions recordingOptions(const CommandLine& given) {
+  RecordingOptions options;
+  options.path = outputPath(given);
+  options.preTriggerS = 0.0;
+  options.stopAfterS = given.number("duration", 0.05, 1e7);
+  for (const char* key : {"operator", "object", "run", "notes"})
+    if (const auto text = given.text(key)) options.meta[key] = *text;
+  if (const auto minutes = given.number("split-minutes", 1.0 / 60.0, 1e5))
+    options.splitS = *minutes * 60.0;
+  if (const auto megabytes = given.number("split-mb", 0.1, 1e6))
+    options.splitBytes = static_cast<std::int64_t>(*megabytes * 1e6);
+  return options;
+}
+
+// Until it stops by itself, a signal comes, or no first frame does.
+void recordUntilDone(CaptureSession& session,
+                     const StopSignals& signals,
+                     double firstFrameS,
+                     bool quiet) {
+  constexpr long kLookMs = 50;
+  constexpr int kShowEvery = 10;
+  session.start();
+  StatusLine status(quiet);
+  for (int look = 0; session.recording(); ++look) {
+    if (signals.wait(kLookMs)) return;
+    const RecorderStatus recorder = session.recorderStatus();
+    if (recorder.state == RecorderStatus::State::kWaiting && recorder.elapsedS >= firstFrameS &&
+        !session.health().frames.ageMs)
+      return;
+    if (look % kShowEvery == 0) status.show(session.health(), session.takeEvents());
+  }
+}
+
+// Why nothing came, and what to do.
+std::string nothingText(const DeviceStatus& device, const std::string& port) {
+  const PortStatus& tactile = device.tactile;
+  if (!tactile.message.empty()) return port + ": no frame came: " + tactile.message;
+  return port +
+         ": no frame came; is the hand switched on, and this its tactile port? ('palpate ports' "
+         "tells)";
+}
+
+std::uint64_t badChecksumsOf(const DeviceStatus& device) {
+  return device.tactile.badChecksums + (device.motion ? device.motion->badChecksums : 0);
+}
+
+Json rateJson(double hz) { return hz > 0.0 ? Json(hz) : Json(); }
+
+std::string jsonText(const RecordingReport& report, const DeviceStatus& device) {
+  Json files = Json::array();
+  for (const fs::path& path : report.paths) files.push(path.string());
+  return Json::object()
+      .set("files", files)
+      .set("frames", report.frames)
+      .set("angles", report.angles)
+      .set("temperatures", report.temperatures)
+      .set("bad_checksums", static_cast<std::int64_t>(badChecksumsOf(device)))
+      .set("suspect", static_cast<std::int64_t>(device.tactile.suspect))
+      .set("lost", static_cast<std::int64_t>(device.tactile.lost) + report.lost)
+      .set("recorder_lost", report.lost)
+      .set("gaps", report.gaps)
+      .set("events", report.events)
+      .set("duration_s", report.durationS)
+      .set("rate_hz", rateJson(report.rateHz))
+      .set("mean_rate_hz", rateJson(report.meanRateHz))
+      .set("bytes", report.bytes)
+      .set("complete", report.complete)
+      .text();
+}
+
+std::string lineText(const RecordingReport& report, const DeviceStatus& device) {
+  std::string line = report.paths.front().string();
+  if (report.paths.size() > 1) line += " and " + std::to_string(report.paths.size() - 1) + " more";
+  return line + ": " + std::to_string(report.frames) + " frames in " +
+         fixedText(report.durationS, 1) + " s (" + fixedText(report.meanRateHz, 1) + "/s), " +
+         std::to_string(report.angles) + " angles, " + std::to_string(report.temperatures) +
+         " temperatures; " +
+         std::to_string(static_cast<std::int64_t>(device.tactile.lost) + report.lost) + " lost, " +
+         std::to_string(badChecksumsOf(device)) + " bad checksums, " + std::to_string(report.gaps) +
+         " gaps";
+}
+
+}  // namespace
+
+int recordCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate record --dsa PORT [--sdh PORT] -o OUT.palpate [--duration S] ..",
+       .purpose =
+           "Records a hand until Ctrl-C, or for S seconds from the first frame. What came is on "
+           "disk within\n150 ms; OUT is written from the first frame on and never replaced. PORT: "
+           "a "
+           "serial device, a\n/dev/serial/by-id name, a pty, or tcp:HOST:PORT. OUT may hold "
+           "{date}, "
+           "{time}, {operator},\n{object}, {run} (next free number). Exit code 3: something is "
+           "missing in the recording.",
+       .options = {{"dsa", "PORT", "tactile controller"},
+                   {"sdh", "PORT", "motion controller: angles and temperatures"},
+                   {"output,o", "OUT.palpate", "where to record"},
+                   {"duration", "S", "stop after so many seconds from the first frame"},
+                   {"wait", "S", "give up when no frame comes within so many seconds, default 15"},
+                   {"operator", "NAME", "who records"},
+                   {"object", "NAME", "what is grasped"},
+                   {"run", "TEXT", "which run"},
+                   {"notes", "TEXT", "whatever else"},
+                   {"split-minutes", "M", "a new file after M minutes: NAME_002.palpate, .."},
+                   {"split-mb", "N", "a new file at about N MB"},
+                   {"json", "", "report as JSON"}},
+       .example = "palpate record --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1 -o grasp.palpate",
+       .mostWords = 0},
+      words);
+  if (given.helpShown()) return kDone;
+  const auto dsa = given.text("dsa");
+  if (!dsa || dsa->empty()) throw UsageError("record needs --dsa PORT");
+  if (!given.has("output")) throw UsageError("record needs -o OUT.palpate");
+  LiveHandOptions hand;
+  hand.dsaPort = *dsa;
+  hand.sdhPort = given.text("sdh").value_or("");
+  const double firstFrameS = given.number("wait", 0.1, 1e6).value_or(15.0);
+  RecordingOptions options = recordingOptions(given);
+  // Before any thread is made, so that all of them leave signals alone; until the file is finished.
+  const auto signals = std::make_unique<StopSignals>();
+  CaptureSession session(std::make_unique<LiveHand>(std::move(hand)));
+  session.startRecording(std::move(options));
+  recordUntilDone(session, *signals, firstFrameS, given.quiet());
+  const LinkHealth health = session.health();
+  const DeviceStatus& device = health.device;
+  session.stop();
+  const RecordingReport report = session.stopRecording();
+  if (report.paths.empty())
+    throw Error(health.frames.ageMs ? report.message : nothingText(device, *dsa));
+  const std::string text = given.has("json") ? jsonText(report, device) : lineText(report, device);
+  if (given.has("json") || !given.quiet()) std::printf("%s\n", text.c_str());
+  if (report.complete) return kDone;
+  std::fprintf(stderr, "palpate: %s\n", oneLine(report.message).c_str());
+  return kPartlyDone;
+}
+
+}  // namespace palpate::commands

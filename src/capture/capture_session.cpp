@@ -1,0 +1,243 @@
+#include "palpate/capture/capture_session.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <unistd.h>
+
+#include "palpate/core/json.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kMostShown = 1000;
+
+std::unique_ptr<Device> required(std::unique_ptr<Device> device) {
+  if (!device) throw std::invalid_argument("CaptureSession: no device");
+  return device;
+}
+
+// What the device says about itself, as text for a recording's `meta`.
+std::map<std::string, std::string> describe(const Device& device) {
+  std::map<std::string, std::string> meta{{"hand", device.hand().name},
+                                          {"program", "palpate " PALPATE_VERSION}};
+  const DeviceFacts facts = device.facts();
+  meta["serial"] = facts.serial;
+  meta["firmware"] = facts.firmware;
+  if (!facts.motionFirmware.empty()) meta["motion_firmware"] = facts.motionFirmware;
+  if (facts.matrices.empty()) return meta;
+  Json settings = Json::array();
+  for (const MatrixSettings& matrix : facts.matrices)
+    settings.push(Json::object()
+                      .set("sensitivity", matrix.sensitivity)
+                      .set("threshold_counts", matrix.thresholdCounts));
+  meta["settings"] = settings.text(-1);
+  return meta;
+}
+
+std::map<std::string, std::int64_t> countersOf(const DeviceStatus& status) {
+  std::map<std::string, std::int64_t> counters;
+  const auto add = [&counters](const std::string& prefix, const PortStatus& port) {
+    counters[prefix + "bad_checksums"] = static_cast<std::int64_t>(port.badChecksums);
+    counters[prefix + "suspect"] = static_cast<std::int64_t>(port.suspect);
+    counters[prefix + "skipped_bytes"] = static_cast<std::int64_t>(port.skippedBytes);
+    counters[prefix + "lost"] = static_cast<std::int64_t>(port.lost);
+    counters[prefix + "reconnects"] = static_cast<std::int64_t>(port.reconnects);
+    counters[prefix + "retries"] = static_cast<std::int64_t>(port.retries);
+  };
+  add("", status.tactile);
+  if (status.motion) add("motion_", *status.motion);
+  return counters;
+}
+
+}  // namespace
+
+CaptureSession::CaptureSession(std::unique_ptr<Device> device,
+                               CaptureOptions options,
+                               const Clock& clock)
+    : options_(std::move(options)),
+      clock_(clock),
+      device_(required(std::move(device))),
+      recorder_(
+          [this] {
+            RecorderOptions forRecorder = options_.recorder;
+            forRecorder.notice = [this](const RecordingEvent& event) {
+              show(event);
+              if (options_.recorder.notice) options_.recorder.notice(event);
+            };
+            return forRecorder;
+          }(),
+          clock),
+      meter_(options_.health),
+      saturationCounts_(device_->hand().saturationCounts) {}
+
+CaptureSession::~CaptureSession() {
+  stop();
+  const std::lock_guard lock(feedsMutex_);
+  for (const auto& feed : feeds_) feed->close();
+}
+
+void CaptureSession::start() {
+  if (started_) return;
+  if (!recorder_.recording()) recorder_.forget();
+  meter_.reset();
+  takeFrame();
+  takeAngles();
+  takeTemperatures();
+  {
+    const std::lock_guard lock(shownMutex_);
+    shown_.clear();
+    lastTemperatures_.reset();
+  }
+  saturationCounts_ = device_->hand().saturationCounts;
+  if (options_.ownThread) recorder_.run();
+  device_->start(*this);
+  started_ = true;
+}
+
+void CaptureSession::stop() noexcept {
+  if (!started_) return;
+  device_->stop();
+  started_ = false;
+  recorder_.stop();
+  recorder_.halt();
+}
+
+void CaptureSession::startRecording(RecordingOptions options) {
+  // What the link counted before isn't this recording's.
+  const auto before = countersOf(device_->status());
+  const auto given = options.counters;
+  options.counters = [this, before, given] {
+    auto counters = countersOf(device_->status());
+    for (auto& [name, value] : counters) {
+      const auto earlier = before.find(name);
+      if (earlier != before.end() && earlier->second <= value) value -= earlier->second;
+    }
+    if (given)
+      for (const auto& [name, value] : given()) counters[name] = value;
+    return counters;
+  };
+  options.describe = [this, more = options.describe] {
+    auto meta = describe(*device_);
+    if (more)
+      for (const auto& [key, value] : more()) meta[key] = value;
+    return meta;
+  };
+  recorder_.start(std::move(options));
+}
+
+RecordingReport CaptureSession::stopRecording() { return recorder_.stop(); }
+
+void CaptureSession::mark(const std::string& text, std::optional<int> digit) {
+  RecordingEvent event;
+  event.tUs = event.t1Us = nowUs();
+  event.kind = text.empty() ? "mark" : "label";
+  event.text = text;
+  if (digit) event.json = Json::object().set("digit", *digit).text(-1);
+  show(event);
+  hand(event);
+}
+
+void CaptureSession::onFrame(TactileFrame&& frame) {
+  const float limit = saturationCounts_;
+  bool saturated = false;
+  for (const float value : frame.values) saturated |= value >= limit;
+  meter_.frame(clock_.monotonicUs(), saturated);
+  auto shared = std::make_shared<const TactileFrame>(std::move(frame));
+  screenFrame_.put(shared);
+  hand(CaptureItem(std::move(shared)));
+}
+
+void CaptureSession::onAngles(JointAngles&& angles) {
+  screenAngles_.put(angles);
+  hand(CaptureItem(std::move(angles)));
+}
+
+void CaptureSession::onTemperatures(Temperatures&& temperatures) {
+  screenTemperatures_.put(temperatures);
+  {
+    const std::lock_guard lock(shownMutex_);
+    lastTemperatures_ = temperatures;
+  }
+  hand(CaptureItem(std::move(temperatures)));
+}
+
+void CaptureSession::onEvent(DeviceEvent&& event) {
+  const RecordingEvent recorded{
+      event.tUs, event.t1Us, event.kind, event.matrix, event.text, event.json};
+  show(recorded);
+  hand(recorded);
+}
+
+void CaptureSession::hand(const CaptureItem& item) {
+  if (numFeeds_ > 0) {
+    std::vector<std::shared_ptr<CaptureFeed>> feeds;
+    {
+      const std::lock_guard lock(feedsMutex_);
+      std::erase_if(feeds_, [](const auto& feed) { return feed->closed(); });
+      numFeeds_ = feeds_.size();
+      feeds = feeds_;
+    }
+    for (const auto& feed : feeds) feed->put(item);  // one for a replay may wait here
+  }
+  recorder_.offer(item);
+}
+
+void CaptureSession::show(const RecordingEvent& event) {
+  const std::lock_guard lock(shownMutex_);
+  if (shown_.size() == kMostShown) shown_.pop_front();
+  shown_.push_back(event);
+}
+
+std::shared_ptr<CaptureFeed> CaptureSession::subscribe(std::string consumer,
+                                                       const FeedOptions& options) {
+  auto feed = std::make_shared<CaptureFeed>(std::move(consumer), options);
+  const std::lock_guard lock(feedsMutex_);
+  feeds_.push_back(feed);
+  numFeeds_ = feeds_.size();
+  // Let go, it is closed, so that nobody waits for room in it.
+  CaptureFeed* const bare = feed.get();
+  return {bare, [owner = std::move(feed)](CaptureFeed*) { owner->close(); }};
+}
+
+SharedFrame CaptureSession::takeFrame() { return screenFrame_.take().value_or(nullptr); }
+
+std::optional<JointAngles> CaptureSession::takeAngles() { return screenAngles_.take(); }
+
+std::optional<Temperatures> CaptureSession::takeTemperatures() {
+  return screenTemperatures_.take();
+}
+
+std::vector<RecordingEvent> CaptureSession::takeEvents() {
+  const std::lock_guard lock(shownMutex_);
+  std::vector<RecordingEvent> events(shown_.begin(), shown_.end());
+  shown_.clear();
+  return events;
+}
+
+LinkInputs CaptureSession::inputs() const {
+  LinkInputs inputs;
+  inputs.started = started_;
+  inputs.device = device_->status();
+  inputs.frames = meter_.read(clock_.monotonicUs());
+  inputs.queues = recorder_.feedStats();
+  inputs.recorder = recorder_.status();
+  return inputs;
+}
+
+LinkHealth CaptureSession::health() const { return assessHealth(inputs(), options_.health); }
+
+BeforeRun CaptureSession::checkBeforeRun(const fs::path& folder) const {
+  std::optional<Temperatures> temperatures;
+  {
+    const std::lock_guard lock(shownMutex_);
+    temperatures = lastTemperatures_;
+  }
+  const auto& ask = options_.recorder.freeBytes;
+  const FolderState state{
+      folder, ::access(folder.c_str(), W_OK | X_OK) == 0, ask ? ask(folder) : freeBytesOf(folder)};
+  return palpate::checkBeforeRun(inputs(), temperatures, state, options_.health);
+}
+
+}  // namespace palpate

@@ -1,0 +1,223 @@
+#include "palpate/capture/link_health.h"
+
+#include <algorithm>
+
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kWindowUs = 2'000'000;
+constexpr double kExpectationS = 5.0;  // so much must have come before its mean is expected
+constexpr double kMeasuredS = 5.0;     // so much must be recorded before its size is believed
+constexpr double kBlockedAlarmS = 1.0;
+
+double seconds(std::int64_t us) { return static_cast<double>(us) / 1e6; }
+
+std::string hoursText(double hours) {
+  return hours < 10.0 ? fixedText(hours, 1) + " h" : fixedText(hours, 0) + " h";
+}
+
+std::string portFault(const PortStatus& port, const std::string& name) {
+  const std::string where = name + (port.port.empty() ? "" : " " + port.port);
+  const std::string why = port.message.empty() ? "" : ": " + port.message;
+  switch (port.state) {
+    case PortState::kStreaming:
+      return {};
+    case PortState::kClosed:
+      return where + " is closed" + why;
+    case PortState::kConnecting:
+      return where + " is not connected yet" + why;
+    case PortState::kSilent:
+      return where + " is silent" + (why.empty() ? ": check the hand's power and cable" : why);
+    case PortState::kLost:
+      return where + " is gone" + (why.empty() ? ": plug it in again" : why);
+  }
+  return {};
+}
+
+std::string noDataText(const LinkInputs& inputs) {
+  const std::string fault = portFault(inputs.device.tactile, "the tactile port");
+  if (!fault.empty()) return fault;
+  return "no frame for " + fixedText(inputs.frames.ageMs.value_or(0.0) / 1000.0, 1) + " s";
+}
+
+bool noData(const LinkInputs& inputs, const HealthOptions& options) {
+  if (!inputs.started) return false;
+  if (!inputs.frames.ageMs) {
+    const PortState state = inputs.device.tactile.state;
+    return state == PortState::kSilent || state == PortState::kLost;
+  }
+  const double periodS = inputs.frames.meanRateHz > 0.0 ? 1.0 / inputs.frames.meanRateHz : 0.0;
+  return *inputs.frames.ageMs / 1000.0 > std::max(options.noDataS, 3.0 * periodS);
+}
+
+double bytesPerSecond(const RecorderStatus& recorder, const HealthOptions& options) {
+  if (recorder.recordedS < kMeasuredS) return options.nominalBytesPerS;
+  return static_cast<double>(recorder.bytesOnDisk) / recorder.recordedS;
+}
+
+std::optional<double> hoursOf(std::optional<std::uint64_t> freeBytes, double bytesPerS) {
+  if (!freeBytes || bytesPerS <= 0.0) return {};
+  return static_cast<double>(*freeBytes) / bytesPerS / 3600.0;
+}
+
+void addRecorderAlarms(const RecorderStatus& recorder,
+                       const HealthOptions& options,
+                       std::vector<Alarm>& alarms) {
+  if (recorder.state == RecorderStatus::State::kWaiting &&
+      recorder.elapsedS > options.emptyRecordingS)
+    alarms.push_back({AlarmKind::kEmptyRecording,
+                      "the recording is empty: no frame for " + fixedText(recorder.elapsedS, 0) +
+                          " s; is the hand switched on?"});
+  if (!recorder.writeError.empty())
+    alarms.push_back(
+        {AlarmKind::kWriteError,
+         recorder.writeError + " (what comes waits in memory, writing is tried again)"});
+  if (recorder.blockedS > kBlockedAlarmS)
+    alarms.push_back({AlarmKind::kSlowDisk,
+                      "the disk has kept the recorder waiting for " +
+                          fixedText(recorder.blockedS, 0) + " s; what comes waits in memory"});
+  if (recorder.lost > 0)
+    alarms.push_back({AlarmKind::kOverflow,
+                      std::to_string(recorder.lost) +
+                          " items are missing in the recording; its gap events tell which"});
+}
+
+}  // namespace
+
+const LinkMeter::Arrival& LinkMeter::arrival(std::size_t age) const {
+  return ring_[(frames_ - 1 - age) % kRing];
+}
+
+void LinkMeter::reset() {
+  const std::lock_guard lock(mutex_);
+  frames_ = saturated_ = 0;
+  lowSinceUs_.reset();
+}
+
+void LinkMeter::frame(std::int64_t monoUs, bool saturated) {
+  const std::lock_guard lock(mutex_);
+  if (frames_ == 0) firstUs_ = monoUs;
+  ++frames_;
+  saturated_ += saturated ? 1 : 0;
+  ring_[(frames_ - 1) % kRing] = {monoUs, saturated};
+  // Looking once in a while is enough, and costs less.
+  constexpr std::uint64_t kEvery = 8;
+  if (frames_ % kEvery != 0) return;
+  const Reading now = readLocked(monoUs);
+  const bool low =
+      now.expectedRateHz > 0.0 && now.rateHz < options_.lowRateShare * now.expectedRateHz;
+  if (!low)
+    lowSinceUs_.reset();
+  else if (!lowSinceUs_)
+    lowSinceUs_ = monoUs;
+}
+
+LinkMeter::Reading LinkMeter::read(std::int64_t monoUs) const {
+  const std::lock_guard lock(mutex_);
+  return readLocked(monoUs);
+}
+
+LinkMeter::Reading LinkMeter::readLocked(std::int64_t monoUs) const {
+  Reading reading;
+  reading.frames = frames_;
+  reading.saturatedFrames = saturated_;
+  if (frames_ == 0) return reading;
+  const std::int64_t newestUs = arrival(0).monoUs;
+  reading.ageMs = static_cast<double>(monoUs - newestUs) / 1000.0;
+  if (newestUs > firstUs_)
+    reading.meanRateHz = static_cast<double>(frames_ - 1) / seconds(newestUs - firstUs_);
+  // Arrivals not older than the window are the newest n; found by halving.
+  std::size_t n = 0;
+  for (std::size_t beyond = std::min<std::uint64_t>(frames_, kRing); n < beyond;) {
+    const std::size_t middle = n + (beyond - n) / 2;
+    if (arrival(middle).monoUs >= monoUs - kWindowUs)
+      n = middle + 1;
+    else
+      beyond = middle;
+  }
+  if (n >= 2) {
+    const std::int64_t oldestUs = arrival(n - 1).monoUs;
+    const double spanS = seconds(newestUs - oldestUs);
+    const double periodS = spanS / static_cast<double>(n - 1);
+    const double silentS = seconds(monoUs - newestUs);
+    // Intervals between frames say it exactly, until the next one is overdue.
+    const double overS = silentS > 2.0 * periodS ? spanS + silentS : spanS;
+    if (overS > 0.0) reading.rateHz = static_cast<double>(n - 1) / overS;
+  }
+  std::size_t saturated = 0;
+  for (std::size_t age = 0; age < n; ++age) saturated += arrival(age).saturated ? 1 : 0;
+  if (n > 0) reading.saturatedShare = static_cast<double>(saturated) / static_cast<double>(n);
+  if (options_.expectedRateHz)
+    reading.expectedRateHz = *options_.expectedRateHz;
+  else if (seconds(newestUs - firstUs_) >= kExpectationS)
+    reading.expectedRateHz = reading.meanRateHz;
+  if (lowSinceUs_) reading.lowRateS = std::max(0.0, seconds(monoUs - *lowSinceUs_));
+  return reading;
+}
+
+LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options) {
+  LinkHealth health;
+  health.frames = inputs.frames;
+  health.device = inputs.device;
+  health.queues = inputs.queues;
+  health.recorder = inputs.recorder;
+  health.lost = inputs.device.tactile.lost;
+  health.badChecksums = inputs.device.tactile.badChecksums;
+  if (inputs.device.motion) health.badChecksums += inputs.device.motion->badChecksums;
+  health.bytesPerS = bytesPerSecond(inputs.recorder, options);
+  health.freeBytes = inputs.recorder.freeBytes;
+  health.diskHours = hoursOf(health.freeBytes, health.bytesPerS);
+  const bool silent = noData(inputs, options);
+  if (silent) health.alarms.push_back({AlarmKind::kNoData, noDataText(inputs)});
+  if (!silent && inputs.frames.lowRateS > options.lowRateS)
+    health.alarms.push_back({AlarmKind::kLowRate,
+                             "only " + fixedText(inputs.frames.rateHz, 1) +
+                                 " frames/s instead of " +
+                                 fixedText(inputs.frames.expectedRateHz, 1)});
+  addRecorderAlarms(inputs.recorder, options, health.alarms);
+  if (health.diskHours && *health.diskHours < options.lowDiskHours)
+    health.alarms.push_back({AlarmKind::kLowDisk,
+                             "the disk is full in " + fixedText(*health.diskHours * 60.0, 0) +
+                                 " minutes: make room, or record elsewhere"});
+  return health;
+}
+
+BeforeRun checkBeforeRun(const LinkInputs& inputs,
+                         const std::optional<Temperatures>& temperatures,
+                         const FolderState& folder,
+                         const HealthOptions& options) {
+  const auto red = [](std::string text) {
+    return BeforeRun{false, "not ready: " + std::move(text)};
+  };
+  if (!inputs.started) return red("no hand is connected");
+  for (const std::string& fault :
+       {portFault(inputs.device.tactile, "the tactile port"),
+        inputs.device.motion ? portFault(*inputs.device.motion, "the motion port") : std::string()})
+    if (!fault.empty()) return red(fault);
+  if (!inputs.frames.ageMs || noData(inputs, options)) return red(noDataText(inputs));
+  const LinkMeter::Reading& frames = inputs.frames;
+  if (frames.expectedRateHz > 0.0 && frames.rateHz < options.lowRateShare * frames.expectedRateHz)
+    return red("only " + fixedText(frames.rateHz, 1) + " frames/s instead of " +
+               fixedText(frames.expectedRateHz, 1));
+  const std::string where = folder.path.string();
+  if (!folder.writable)
+    return red(where + " can't be written: choose another folder, or change its permissions");
+  const auto hours = hoursOf(folder.freeBytes, bytesPerSecond(inputs.recorder, options));
+  if (hours && *hours < options.lowDiskHours)
+    return red("room for only " + fixedText(*hours * 60.0, 0) + " minutes in " + where);
+  std::string text = "ready: " + fixedText(frames.rateHz, 1) + " frames/s";
+  if (temperatures && !temperatures->degC.empty()) {
+    const double hottest = *std::max_element(temperatures->degC.begin(), temperatures->degC.end());
+    if (hottest > options.hottestDegC)
+      return red("the hand is " + fixedText(hottest, 0) + " deg C hot: let it cool down");
+    text += ", up to " + fixedText(hottest, 0) + " deg C";
+  } else if (inputs.device.motion) {
+    return red("no temperature has come yet");
+  }
+  if (hours) text += ", disk for " + hoursText(*hours);
+  return {true, text};
+}
+
+}  // namespace palpate

@@ -1,0 +1,337 @@
+#include "palpate/capture/recorder.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <condition_variable>
+#include <cstdlib>
+#include <deque>
+#include <numeric>
+#include <stdexcept>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+
+#include "capture/recording_parts.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::chrono::milliseconds kRound{20};
+constexpr std::chrono::milliseconds kFinishRetry{100};
+constexpr int kFinishAttempts = 20;  // 2 s
+constexpr std::int64_t kClockJumpUs = 50'000;
+constexpr std::int64_t kOtherTimeUs = 2'000'000;  // stamps so far from the clock are a replay's
+constexpr std::int64_t kFreeBytesUs = 1'000'000;
+constexpr std::int64_t kBlockedUs = 250'000;
+constexpr std::size_t kMostKept = 32'768;
+
+void require(bool right, const std::string& message) {
+  if (!right) throw std::invalid_argument("Recorder: " + message);
+}
+
+FeedOptions feedFor(FeedOptions options) {
+  if (options.wakeAtItems <= 1)
+    options.wakeAtItems = std::max<std::size_t>(1, options.tactileItems / 2);
+  return options;
+}
+
+}  // namespace
+
+struct Recorder::Impl {
+  Impl(RecorderOptions given, const Clock& theClock)
+      : options(std::move(given)), clock(theClock), feed("the recorder", feedFor(options.feed)) {
+    require(options.preTriggerS >= 0.0 && options.preTriggerS <= 60.0, "preTriggerS must be 0..60");
+    require(options.commitIntervalMs >= 1.0 && options.commitIntervalMs <= 10'000.0,
+            "commitIntervalMs must be 1..10000");
+    if (!options.freeBytes) options.freeBytes = freeBytesOf;
+  }
+
+  RoundTime now() const { return {clock.monotonicUs(), nowUs()}; }
+
+  std::int64_t nowUs() const { return otherTime.load() ? newestUs.load() : host->nowUs(); }
+
+  std::int64_t lostInQueues() const {
+    const auto lost = feed.stats().lost;
+    return static_cast<std::int64_t>(std::accumulate(lost.begin(), lost.end(), std::uint64_t{0}));
+  }
+
+  // What was offered before, from the newest one's stamp.
+  void keep(const CaptureItem& item) {
+    kept.push_back(item);
+    keptNewestUs = std::max(keptNewestUs, stampOf(item));
+    const std::int64_t horizonUs =
+        keptNewestUs - static_cast<std::int64_t>(std::llround(options.preTriggerS * 1e6));
+    while (!kept.empty() && (stampOf(kept.front()) < horizonUs || kept.size() > kMostKept))
+      kept.pop_front();
+  }
+
+  void notify(const RecordingEvent& event) const {
+    if (options.notice) options.notice(event);
+  }
+
+  void checkClock() {
+    const std::int64_t offsetUs = host->wallOffsetUs();
+    if (std::abs(offsetUs - wallOffsetUs) <= kClockJumpUs) return;
+    const double seconds = static_cast<double>(offsetUs - wallOffsetUs) / 1e6;
+    wallOffsetUs = offsetUs;
+    const std::int64_t atUs = nowUs();
+    const RecordingEvent event{
+        atUs,
+        atUs,
+        "clock",
+        {},
+        "the wall clock moved by " + fixedText(seconds, 3) + " s; time stamps go on without a jump",
+        "{\"wall_offset_us\":" + std::to_string(offsetUs) + "}"};
+    notify(event);
+    feed.put(event);
+  }
+
+  void beginWhenAsked() {
+    std::optional<RecordingOptions> asked;
+    RoundTime askedAt;
+    {
+      const std::lock_guard lock(mutex);
+      std::swap(asked, request);
+      askedAt = requestTime;
+    }
+    if (!asked) return;
+    parts = std::make_unique<RecordingParts>(
+        std::move(*asked), options, askedAt, [this](const RecordingEvent& event) {
+          notify(event);
+        });
+    freeBytesMonoUs.reset();
+    finishAttempts = 0;
+    const RoundTime time = now();
+    for (const CaptureItem& item : kept) parts->add(item, time);
+  }
+
+  void handle(std::vector<CaptureItem>& taken) {
+    const RoundTime time = now();
+    for (const CaptureItem& item : taken) {
+      const auto* event = std::get_if<RecordingEvent>(&item);
+      if (event && event->kind == "gap" && feedMade(*event)) notify(*event);
+      if (parts) parts->add(item, time);
+      keep(item);
+    }
+    taken.clear();
+  }
+  static bool feedMade(const RecordingEvent& event) {
+    return event.json.find("\"reason\":\"the recorder") != std::string::npos;
+  }
+
+  // One round; see step().
+  void round() {
+    roundBeganUs.store(clock.monotonicUs());
+    bool stopping = false;
+    {
+      const std::lock_guard lock(mutex);
+      stopping = stopRequested;
+    }
+    beginWhenAsked();
+    checkClock();
+    feed.take(items);
+    if (stopping) feed.takeOpenGaps(items);
+    handle(items);
+    if (parts) {
+      const RoundTime time = now();
+      parts->noteQueueLosses(lostInQueues() - lostAtStart.load());
+      parts->round(time);
+      if (stopping || parts->ended(time)) finish(time);
+    }
+    publish();
+    roundBeganUs.store(-1);
+  }
+
+  void finish(RoundTime time) {
+    finishing = true;
+    if (!parts->finish(time) && ++finishAttempts < kFinishAttempts) return;
+    RecordingReport done = parts->report();
+    parts.reset();  // tries once more to commit what waits
+    end(std::move(done));
+  }
+
+  void giveUp(const std::string& why) {
+    RecordingReport done;
+    if (parts) done = parts->report();
+    done.complete = false;
+    done.message = why;
+    parts.reset();
+    end(std::move(done));
+  }
+
+  void end(RecordingReport done) {
+    finishing = false;
+    const std::lock_guard lock(mutex);
+    report = std::move(done);
+    request.reset();
+    stopRequested = false;
+    active = false;
+    stopped.notify_all();
+  }
+
+  void publish() {
+    std::optional<std::uint64_t> freeNow;
+    const std::int64_t monoUs = clock.monotonicUs();
+    const bool ask = parts && (!freeBytesMonoUs || monoUs - *freeBytesMonoUs >= kFreeBytesUs);
+    if (ask) {
+      freeNow = options.freeBytes(parts->folder());
+      freeBytesMonoUs = monoUs;
+    }
+    RecorderStatus next;
+    if (parts) parts->describe(next);
+    const std::lock_guard lock(mutex);
+    next.freeBytes = ask ? freeNow : status.freeBytes;
+    status = std::move(next);
+  }
+
+  RecorderOptions options;
+  const Clock& clock;
+  std::optional<HostTime> host{clock};  // as stamps of a live hand
+  CaptureFeed feed;
+  std::atomic<bool> otherTime = false;          // stamps come from another time than the clock's
+  std::atomic<std::int64_t> newestUs = 0;       // stamp of the newest sample offered
+  std::atomic<std::int64_t> roundBeganUs = -1;  // monotonic; -1 between rounds
+  std::atomic<std::int64_t> lostAtStart = 0;
+
+  // The recorder's thread alone.
+  std::vector<CaptureItem> items;
+  std::deque<CaptureItem> kept;
+  std::int64_t keptNewestUs = INT64_MIN;
+  std::unique_ptr<RecordingParts> parts;
+  std::int64_t wallOffsetUs = 0;
+  std::optional<std::int64_t> freeBytesMonoUs;
+  int finishAttempts = 0;
+  std::atomic<bool> finishing = false;
+
+  mutable std::mutex mutex;
+  std::condition_variable stopped;
+  std::optional<RecordingOptions> request;
+  RoundTime requestTime;
+  bool active = false;
+  bool stopRequested = false;
+  RecordingReport report;
+  RecorderStatus status;
+
+  std::jthread thread;
+};
+
+Recorder::Recorder(RecorderOptions options, const Clock& clock)
+    : impl_(std::make_unique<Impl>(std::move(options), clock)) {}
+
+Recorder::~Recorder() {
+  stop();
+  halt();
+}
+
+void Recorder::run() {
+  Impl& impl = *impl_;
+  if (impl.thread.joinable()) return;
+  impl.thread = std::jthread([&impl](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      impl.feed.wait(impl.finishing ? kFinishRetry : kRound, stop);
+      try {
+        impl.round();
+      } catch (const std::exception& error) {  // out of memory: what was committed is safe
+        impl.giveUp(error.what());
+      }
+    }
+  });
+}
+
+void Recorder::halt() noexcept {
+  if (!impl_->thread.joinable()) return;
+  impl_->thread.request_stop();
+  impl_->thread.join();
+  impl_->thread = {};
+}
+
+void Recorder::step() {
+  if (impl_->thread.joinable()) throw std::logic_error("Recorder: its thread makes the rounds");
+  impl_->round();
+}
+
+bool Recorder::offer(CaptureItem item) {
+  if (const auto* frame = std::get_if<SharedFrame>(&item); frame && !*frame) return false;
+  if (streamOf(item) != CaptureStream::kEvents) {
+    const std::int64_t stampUs = stampOf(item);
+    impl_->newestUs.store(stampUs);
+    impl_->otherTime.store(std::abs(stampUs - impl_->host->nowUs()) > kOtherTimeUs);
+  }
+  return impl_->feed.put(std::move(item));
+}
+
+void Recorder::forget() {
+  Impl& impl = *impl_;
+  if (impl.thread.joinable() || recording())
+    throw std::logic_error("Recorder: can't forget while it runs");
+  impl.feed.take(impl.items);
+  impl.feed.takeOpenGaps(impl.items);
+  impl.items.clear();
+  impl.kept.clear();
+  impl.keptNewestUs = INT64_MIN;
+  impl.newestUs.store(0);
+  impl.otherTime.store(false);
+  impl.host.emplace(impl.clock);
+  impl.wallOffsetUs = 0;
+}
+
+void Recorder::start(RecordingOptions options) {
+  options.validate();
+  requireNewFile(options.path);
+  Impl& impl = *impl_;
+  RoundTime time = impl.now();
+  // Nothing has come yet: whatever comes does so after the start, whichever time its stamps are in.
+  if (impl.newestUs.load() == 0) time.nowUs = INT64_MIN / 2;
+  const std::int64_t lost = impl.lostInQueues();
+  const std::lock_guard lock(impl.mutex);
+  if (impl.active) throw std::logic_error("Recorder: records already");
+  impl.lostAtStart.store(lost);
+  impl.active = true;
+  impl.request = std::move(options);
+  impl.requestTime = time;
+  impl.report = {};
+  impl.status = {};
+  impl.status.state = RecorderStatus::State::kWaiting;
+}
+
+RecordingReport Recorder::stop() {
+  Impl& impl = *impl_;
+  std::unique_lock lock(impl.mutex);
+  if (!impl.active) return impl.report;
+  impl.stopRequested = true;
+  lock.unlock();
+  if (impl.thread.joinable()) {
+    impl.feed.wake();
+    lock.lock();
+    impl.stopped.wait(lock, [&impl] { return !impl.active; });
+    return impl.report;
+  }
+  while (recording()) impl.round();
+  lock.lock();
+  return impl.report;
+}
+
+bool Recorder::recording() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->active;
+}
+
+RecorderStatus Recorder::status() const {
+  const Impl& impl = *impl_;
+  const std::int64_t beganUs = impl.roundBeganUs.load();
+  const std::int64_t monoUs = impl.clock.monotonicUs();
+  const std::lock_guard lock(impl.mutex);
+  RecorderStatus status = impl.status;
+  if (impl.active) status.elapsedS = static_cast<double>(monoUs - impl.requestTime.monoUs) / 1e6;
+  if (impl.active && beganUs >= 0 && monoUs - beganUs >= kBlockedUs)
+    status.blockedS = static_cast<double>(monoUs - beganUs) / 1e6;
+  return status;
+}
+
+FeedStats Recorder::feedStats() const { return impl_->feed.stats(); }
+
+std::int64_t Recorder::nowUs() const { return impl_->nowUs(); }
+
+}  // namespace palpate

@@ -1,0 +1,183 @@
+#include "palpate/capture/recording_name.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <regex>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+#include <time.h>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/one_line.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kMostPart = 60;
+// Leaves room for "_002.palpate-journal" within the 255 bytes of a name.
+constexpr std::size_t kMostStem = 170;  // before run and time are put in
+constexpr char kRunMark = '\x01';       // stand for what is put in last; no text can hold them
+constexpr char kTimeMark = '\x02';
+
+// Without what a name may not begin or end with.
+std::string trimmed(std::string text) {
+  const auto loose = [](char c) { return c == '.' || c == '-' || c == '_'; };
+  while (!text.empty() && loose(text.back())) text.pop_back();
+  const auto begin = std::find_if_not(text.begin(), text.end(), loose);
+  text.erase(text.begin(), begin);
+  return text;
+}
+
+std::string harmless(std::string_view text) {
+  // oneLine makes it valid UTF-8 without controls; the backslashes of its escapes go below.
+  std::string name = oneLine(text);
+  for (char& c : name)
+    if (std::string_view(" /\\:*?\"<>|{}$`'&;!~%#").find(c) != std::string_view::npos) c = '_';
+  return name;
+}
+
+struct LocalTime {
+  std::string date;
+  std::string time;
+};
+LocalTime localTime(std::int64_t timeUs) {
+  const auto seconds = static_cast<time_t>(timeUs / 1'000'000 - (timeUs % 1'000'000 < 0 ? 1 : 0));
+  struct tm parts {};
+  ::localtime_r(&seconds, &parts);
+  char text[64];
+  LocalTime local;
+  std::snprintf(
+      text, sizeof text, "%04d-%02d-%02d", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday);
+  local.date = text;
+  std::snprintf(text, sizeof text, "%02d-%02d-%02d", parts.tm_hour, parts.tm_min, parts.tm_sec);
+  local.time = text;
+  return local;
+}
+
+std::string valueOf(std::string_view placeholder, const RecordingNameFields& fields) {
+  if (placeholder == "date") return localTime(fields.timeUs).date;
+  if (placeholder == "time") return {kTimeMark};
+  if (placeholder == "operator") return fileNamePart(fields.operatorName);
+  if (placeholder == "object") return fileNamePart(fields.object);
+  if (placeholder == "run") return {kRunMark};
+  throw std::invalid_argument("RecordingName: {" + oneLine(placeholder) +
+                              "} isn't known; use {date}, {time}, {operator}, {object}, {run}");
+}
+
+// The name without its ending; marks stand where time and run go.
+std::string markedStem(std::string_view nameTemplate, const RecordingNameFields& fields) {
+  constexpr std::string_view kEnding = ".palpate";
+  if (nameTemplate.ends_with(kEnding)) nameTemplate.remove_suffix(kEnding.size());
+  std::string stem;
+  std::vector<std::string_view> used;
+  while (!nameTemplate.empty()) {
+    const std::size_t open = std::min(nameTemplate.find('{'), nameTemplate.size());
+    stem += harmless(nameTemplate.substr(0, open));
+    nameTemplate.remove_prefix(open);
+    if (nameTemplate.empty()) break;
+    const std::size_t close = nameTemplate.find('}');
+    if (close == std::string_view::npos)
+      throw std::invalid_argument("RecordingName: a '{' without its '}'");
+    const std::string_view placeholder = nameTemplate.substr(1, close - 1);
+    stem += valueOf(placeholder, fields);
+    if (std::find(used.begin(), used.end(), placeholder) != used.end())
+      throw std::invalid_argument("RecordingName: {" + std::string(placeholder) + "} stands twice");
+    used.push_back(placeholder);
+    nameTemplate.remove_prefix(close + 1);
+  }
+  // What an empty field leaves behind.
+  stem.erase(
+      std::unique(stem.begin(), stem.end(), [](char a, char b) { return a == '_' && b == '_'; }),
+      stem.end());
+  stem = trimmed(std::string(beginningOf(trimmed(stem), kMostStem)));
+  return stem.empty() ? "recording" : stem;
+}
+
+std::string runText(int run) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%03d", run);
+  return text;
+}
+
+std::string filled(const std::string& marked, const RecordingNameFields& fields, int run) {
+  std::string name;
+  for (const char c : marked) {
+    if (c == kTimeMark)
+      name += localTime(fields.timeUs).time;
+    else if (c == kRunMark)
+      name += runText(run);
+    else
+      name += c;
+  }
+  return name + ".palpate";
+}
+
+// Recordings (parts and journals of them, too) that differ in run and time only.
+std::regex patternOf(const std::string& marked) {
+  std::string pattern;
+  for (const char c : marked) {
+    if (c == kTimeMark)
+      pattern += "[0-9]{2}-[0-9]{2}-[0-9]{2}";
+    else if (c == kRunMark)
+      pattern += "([0-9]{1,9})";
+    else if (std::string_view(".[]()*+?^$|\\").find(c) != std::string_view::npos)
+      pattern += std::string("\\") + c;
+    else
+      pattern += c;
+  }
+  return std::regex(pattern + "(?:_[0-9]{3,})?\\.palpate.*");
+}
+
+int largestRun(const fs::path& folder, const std::string& marked) {
+  std::error_code failure;
+  fs::directory_iterator entries(folder, failure);
+  const std::regex pattern = patternOf(marked);
+  std::int64_t largest = 0;
+  for (; !failure && entries != fs::directory_iterator(); entries.increment(failure)) {
+    const std::string name = entries->path().filename().string();
+    std::smatch match;
+    if (std::regex_match(name, match, pattern) && match.size() > 1)
+      largest = std::max(largest, parseInteger(match[1].str()).value_or(0));
+  }
+  if (failure) throw FileError(folder, "can't be listed: " + failure.message());
+  return static_cast<int>(largest);
+}
+
+bool taken(const fs::path& path) {
+  std::error_code ignored;
+  fs::path journal = path;
+  journal += "-journal";
+  return fs::exists(fs::symlink_status(path, ignored)) ||
+         fs::exists(fs::symlink_status(journal, ignored));
+}
+
+}  // namespace
+
+std::string fileNamePart(std::string_view text) {
+  return trimmed(std::string(beginningOf(trimmed(harmless(text)), kMostPart)));
+}
+
+std::string recordingFileName(std::string_view nameTemplate,
+                              const RecordingNameFields& fields,
+                              int run) {
+  return filled(markedStem(nameTemplate, fields), fields, run);
+}
+
+fs::path nextRecordingPath(const fs::path& folder,
+                           std::string_view nameTemplate,
+                           const RecordingNameFields& fields) {
+  const std::string marked = markedStem(nameTemplate, fields);
+  const bool numbered = marked.find(kRunMark) != std::string::npos;
+  int run = largestRun(folder, marked) + 1;
+  fs::path path = folder / filled(marked, fields, run);
+  for (int next = 2; taken(path); ++next) {
+    path = folder / filled(numbered ? marked : marked + "-" + std::to_string(next), fields, ++run);
+  }
+  return path;
+}
+
+}  // namespace palpate

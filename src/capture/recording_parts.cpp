@@ -1,0 +1,374 @@
+#include "capture/recording_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::int64_t kRetryUs = 100'000;
+constexpr std::size_t kMostHeld = 32'768;  // items that wait for a file: 64 MB of frames
+constexpr std::int64_t kHeldWithoutFrameUs = 60'000'000;
+constexpr std::size_t kMostDirty = 4096;  // items of one commit
+constexpr std::int64_t kCountersUs = 1'000'000;
+constexpr std::int64_t kEndGraceUs =
+    1'000'000;  // no frame comes any more: the end is noticed so late
+
+std::int64_t microseconds(double seconds) {
+  return static_cast<std::int64_t>(std::llround(seconds * 1e6));
+}
+
+}  // namespace
+
+bool isReservedMeta(std::string_view key) noexcept {
+  constexpr std::array<std::string_view, 9> kReserved{"format",
+                                                      "finished",
+                                                      "value_type",
+                                                      "frames",
+                                                      "angle_samples",
+                                                      "temperature_samples",
+                                                      "seconds",
+                                                      "part",
+                                                      "part_of"};
+  return std::find(kReserved.begin(), kReserved.end(), key) != kReserved.end();
+}
+
+RecordingParts::RecordingParts(RecordingOptions options,
+                               const RecorderOptions& recorder,
+                               RoundTime start,
+                               Notice notice)
+    : options_(std::move(options)),
+      commitIntervalUs_(static_cast<std::int64_t>(recorder.commitIntervalMs * 1000.0)),
+      vfs_(recorder.vfs),
+      start_(start),
+      notice_(std::move(notice)),
+      folder_(options_.path.has_parent_path() ? options_.path.parent_path() : fs::path(".")) {}
+
+// Whether an item falls between the pre-trigger's begin and the end; sees the end.
+bool RecordingParts::belongs(const CaptureItem& item) {
+  const std::int64_t stampUs = stampOf(item);
+  if (ended_ || stampUs < start_.nowUs - microseconds(options_.preTriggerS)) return false;
+  const bool isFrame = streamOf(item) == CaptureStream::kTactile;
+  if (isFrame && stampUs >= start_.nowUs && framesSinceStart_ == 0 && options_.stopAfterS)
+    endUs_ = stampUs + microseconds(*options_.stopAfterS);
+  if (endUs_ && stampUs >= *endUs_) {
+    ended_ = isFrame;  // what comes on the other port may be ahead
+    return false;
+  }
+  if (isFrame && stampUs >= start_.nowUs) {
+    ++framesSinceStart_;
+    // This one is the last.
+    if (options_.stopAfterFrames && framesSinceStart_ == *options_.stopAfterFrames)
+      endUs_ = stampUs + 1;
+  }
+  return true;
+}
+
+void RecordingParts::add(const CaptureItem& item, RoundTime time) {
+  if (!belongs(item)) return;
+  const auto* frame = std::get_if<SharedFrame>(&item);
+  if (!writer_) {
+    hold(item);
+    if (frame && time.monoUs >= nextTryMonoUs_) open((*frame)->layout, time);
+    return;
+  }
+  if (frame && splitDue(**frame)) split(**frame, time);
+  write(item, time);
+}
+
+void RecordingParts::hold(const CaptureItem& item) {
+  frameHeld_ = frameHeld_ || streamOf(item) == CaptureStream::kTactile;
+  if (const auto* frame = std::get_if<SharedFrame>(&item)) layout_ = (*frame)->layout;
+  held_.push_back(item);
+  // Before the first frame nothing is being recorded yet: old angles may go.
+  while (!frameHeld_ && stampOf(held_.front()) < stampOf(item) - kHeldWithoutFrameUs)
+    held_.pop_front();
+  if (held_.size() <= kMostHeld) return;
+  lose(held_.front());
+  held_.pop_front();
+}
+
+std::unique_ptr<PalpateWriter> RecordingParts::makeWriter(
+    const std::shared_ptr<const SensorLayout>& layout) {
+  std::map<std::string, std::string> meta = options_.meta;
+  if (options_.describe)
+    for (const auto& [key, value] : options_.describe())
+      if (!isReservedMeta(key)) meta.insert_or_assign(key, value);
+  // A name that was taken meanwhile is passed over: nothing is ever replaced.
+  std::error_code ignored;
+  while (fs::exists(fs::symlink_status(partPath(options_.path, nextPart_), ignored))) ++nextPart_;
+  const fs::path path = partPath(options_.path, nextPart_);
+  if (!paths_.empty()) {
+    meta["part"] = std::to_string(paths_.size() + 1);
+    meta["part_of"] = paths_.front().filename().string();
+  }
+  PalpateWriterOptions writerOptions;
+  writerOptions.commitIntervalUs = INT64_MAX;  // we commit ourselves, by the clock
+  writerOptions.vfs = vfs_;
+  auto writer = std::make_unique<PalpateWriter>(path, layout, meta, writerOptions);
+  ++nextPart_;
+  paths_.push_back(path);
+  return writer;
+}
+
+void RecordingParts::open(const std::shared_ptr<const SensorLayout>& layout, RoundTime time) {
+  try {
+    writer_ = makeWriter(layout);
+  } catch (const std::exception& error) {  // the disk, or a sensor that no recording can hold
+    return failed(error.what(), time);
+  }
+  layout_ = layout;
+  lastCounters_.clear();
+  for (const CaptureItem& item : held_) write(item, time);
+  held_.clear();
+  worked(time);
+}
+
+bool RecordingParts::splitDue(const TactileFrame& frame) const {
+  if (!partHasFrames_ || closing_) return false;
+  if (frame.values.size() != layout_->numPlaces())
+    return true;  // another sensor: a file of its own
+  if (options_.splitS && frame.hostUs >= partFirstUs_ + microseconds(*options_.splitS)) return true;
+  return options_.splitBytes && writer_->bytesOnDisk() >= *options_.splitBytes;
+}
+
+void RecordingParts::split(const TactileFrame& frame, RoundTime time) {
+  if (time.monoUs < nextTryMonoUs_) return;
+  try {
+    std::unique_ptr<PalpateWriter> next = makeWriter(frame.layout);
+    writeOwed();
+    closing_ = std::exchange(writer_, std::move(next));
+    layout_ = frame.layout;
+    partHasFrames_ = false;
+    dirtySinceMonoUs_.reset();
+    dirtyItems_ = 0;
+    lastCounters_.clear();
+  } catch (const std::exception& error) {
+    return failed(error.what(), time);  // goes on in the old part
+  }
+  closeOldPart(time);
+}
+
+bool RecordingParts::closeOldPart(RoundTime time) {
+  if (!closing_) return true;
+  try {
+    closing_->finish();
+  } catch (const FileError& error) {
+    failed(error.what(), time);
+    return false;
+  }
+  framesInOldParts_ += closing_->framesOnDisk();
+  bytesInOldParts_ += closing_->bytesOnDisk();
+  closing_.reset();
+  return true;
+}
+
+void RecordingParts::write(const CaptureItem& item, RoundTime time) {
+  try {
+    writeTo(item);
+  } catch (const FileError&) {  // commits have been failing for so long that the memory is full
+    return lose(item);
+  } catch (const std::invalid_argument& error) {
+    ++counts_.refused;
+    refusedWhy_ = error.what();
+    return;
+  }
+  endLoss(item.index());
+  ++dirtyItems_;
+  if (!dirtySinceMonoUs_) dirtySinceMonoUs_ = time.monoUs;
+}
+
+void RecordingParts::writeTo(const CaptureItem& item) {
+  if (const auto* frame = std::get_if<SharedFrame>(&item)) {
+    writer_->addFrame(**frame);
+    if (!partHasFrames_) partFirstUs_ = (*frame)->hostUs;
+    partHasFrames_ = true;
+    intervals_.add((*frame)->hostUs);
+    ++counts_.frames;
+  } else if (const auto* angles = std::get_if<JointAngles>(&item)) {
+    writer_->addAngles(*angles);
+    ++counts_.angles;
+  } else if (const auto* temperatures = std::get_if<Temperatures>(&item)) {
+    writer_->addTemperatures(*temperatures);
+    ++counts_.temperatures;
+  } else if (const auto* event = std::get_if<RecordingEvent>(&item)) {
+    writer_->addEvent(*event);
+    ++counts_.events;
+  }
+}
+
+void RecordingParts::lose(const CaptureItem& item) {
+  ++counts_.lost;
+  std::optional<CaptureLoss>& loss = losses_.at(item.index());
+  const std::int64_t stampUs = stampOf(item);
+  if (!loss) loss = CaptureLoss{stampUs, stampUs, 0};
+  loss->lastUs = stampUs;
+  ++loss->count;
+}
+
+void RecordingParts::endLoss(std::size_t stream) {
+  std::optional<CaptureLoss>& loss = losses_.at(stream);
+  if (!loss) return;
+  addOwn(gapEvent(static_cast<CaptureStream>(stream), *loss, "the disk could not be written"));
+  loss.reset();
+}
+
+void RecordingParts::endLosses() {
+  for (std::size_t stream = 0; stream < kCaptureStreams; ++stream) endLoss(stream);
+}
+
+void RecordingParts::addOwn(RecordingEvent event) {
+  if (notice_) notice_(event);
+  owed_.push_back(std::move(event));
+}
+
+void RecordingParts::writeOwed() {
+  while (!owed_.empty()) {
+    writer_->addEvent(owed_.front());  // throws while there is no room; then it stays owed
+    ++counts_.events;
+    ++dirtyItems_;
+    owed_.erase(owed_.begin());
+  }
+}
+
+void RecordingParts::updateCounters(RoundTime time) {
+  countersMonoUs_ = time.monoUs;
+  std::map<std::string, std::int64_t> counters;
+  if (options_.counters) counters = options_.counters();
+  counters["recorder_lost"] = counts_.lost;
+  counters["recorder_refused"] = counts_.refused;
+  for (const auto& [name, value] : counters) {
+    const auto last = lastCounters_.find(name);
+    if (last != lastCounters_.end() && last->second == value) continue;
+    writer_->setCounter(name, value);
+    lastCounters_[name] = value;
+  }
+}
+
+void RecordingParts::round(RoundTime time) {
+  if (closing_ && time.monoUs >= nextTryMonoUs_ && closeOldPart(time)) worked(time);
+  if (!writer_) {
+    if (frameHeld_ && time.monoUs >= nextTryMonoUs_) open(layout_, time);
+    return;
+  }
+  if (options_.stopAfterBytes && bytesOnDisk() >= *options_.stopAfterBytes) ended_ = true;
+  if (!countersMonoUs_ || time.monoUs - *countersMonoUs_ >= kCountersUs) updateCounters(time);
+  const bool due = (dirtySinceMonoUs_ && time.monoUs - *dirtySinceMonoUs_ >= commitIntervalUs_) ||
+                   dirtyItems_ >= kMostDirty || !owed_.empty();
+  if (due && time.monoUs >= nextTryMonoUs_) commit(time);
+}
+
+void RecordingParts::commit(RoundTime time) {
+  try {
+    writer_->commit();
+    // Only now there is room again for what is owed.
+    if (!owed_.empty()) {
+      writeOwed();
+      writer_->commit();
+    }
+  } catch (const FileError& error) {
+    return failed(error.what(), time);
+  }
+  dirtySinceMonoUs_.reset();
+  dirtyItems_ = 0;
+  if (!closing_) worked(time);
+}
+
+void RecordingParts::failed(const std::string& what, RoundTime time) {
+  ++counts_.writeFailures;
+  nextTryMonoUs_ = time.monoUs + kRetryUs;
+  error_ = what;
+  if (failingSince_) return;
+  failingSince_ = time;
+  if (notice_) notice_({time.nowUs, time.nowUs, "alarm", {}, "writing failed: " + what, ""});
+}
+
+void RecordingParts::worked(RoundTime time) {
+  if (!failingSince_) return;
+  const double seconds = static_cast<double>(time.monoUs - failingSince_->monoUs) / 1e6;
+  addOwn({failingSince_->nowUs,
+          time.nowUs,
+          "alarm",
+          {},
+          "writing failed for " + fixedText(seconds, 1) + " s and works again: " + error_,
+          ""});
+  failingSince_.reset();
+  error_.clear();
+}
+
+bool RecordingParts::ended(RoundTime time) const {
+  return ended_ || (endUs_ && time.nowUs >= *endUs_ + kEndGraceUs);
+}
+
+bool RecordingParts::finish(RoundTime time) {
+  if (!writer_ && frameHeld_) open(layout_, time);
+  if (!writer_) {
+    unfinished_ = frameHeld_;
+    return !frameHeld_;
+  }
+  try {
+    if (!closeOldPart(time)) return !(unfinished_ = true);
+    writer_->commit();
+    worked(time);
+    endLosses();
+    writeOwed();
+    updateCounters(time);
+    writer_->finish();
+  } catch (const FileError& error) {
+    failed(error.what(), time);
+    return !(unfinished_ = true);
+  }
+  unfinished_ = false;
+  return true;
+}
+
+std::int64_t RecordingParts::bytesOnDisk() const {
+  return bytesInOldParts_ + (closing_ ? closing_->bytesOnDisk() : 0) +
+         (writer_ ? writer_->bytesOnDisk() : 0);
+}
+
+void RecordingParts::describe(RecorderStatus& status) const {
+  using State = RecorderStatus::State;
+  status.state = paths_.empty() ? State::kWaiting : State::kRecording;
+  status.path = paths_.empty() ? options_.path : paths_.back();
+  status.parts = static_cast<int>(paths_.size());
+  status.frames = counts_.frames;
+  status.angles = counts_.angles;
+  status.temperatures = counts_.temperatures;
+  status.recordedS = intervals_.durationS();
+  status.framesOnDisk = framesInOldParts_ + (closing_ ? closing_->framesOnDisk() : 0) +
+                        (writer_ ? writer_->framesOnDisk() : 0);
+  status.bytesOnDisk = bytesOnDisk();
+  status.lost = counts_.lost + lostInQueues_;
+  status.refused = counts_.refused;
+  status.writeError = error_;
+}
+
+RecordingReport RecordingParts::report() const {
+  RecordingReport report = counts_;
+  report.paths = paths_;
+  report.lost += lostInQueues_;
+  report.gaps = intervals_.gaps();
+  report.durationS = intervals_.durationS();
+  report.rateHz = intervals_.rateHz();
+  report.meanRateHz = intervals_.meanRateHz();
+  report.bytes = bytesOnDisk();
+  if (unfinished_)
+    report.message =
+        error_ + "; what was written before is safe: 'palpate recover' finishes the file";
+  else if (report.lost > 0)
+    report.message = std::to_string(report.lost) + " items were lost; gap events tell which";
+  else if (report.refused > 0)
+    report.message = std::to_string(report.refused) + " items were refused: " + refusedWhy_;
+  else if (paths_.empty())
+    report.message = "no frame came: nothing was recorded";
+  report.complete = report.message.empty();
+  return report;
+}
+
+}  // namespace palpate

@@ -1,0 +1,120 @@
+// One recording in the making: which items belong to it, its parts on disk, what to do when the disk
+// fails. Not thread-safe: the recorder's thread owns it.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "palpate/capture/recorder.h"
+#include "palpate/recording/palpate_writer.h"
+
+#include "capture/interval_statistics.h"
+
+namespace palpate {
+
+// Keys of `meta` that the writer sets itself.
+bool isReservedMeta(std::string_view key) noexcept;
+
+// Says before the first frame what would fail there. Throws FileError: exists, no folder, not writable.
+void requireNewFile(const std::filesystem::path& path);
+
+// The moment of a round on both clocks.
+struct RoundTime {
+  std::int64_t monoUs = 0;  // what waiting and retrying go by
+  std::int64_t nowUs = 0;   // host time as stamps have it
+};
+
+class RecordingParts {
+ public:
+  using Notice = std::function<void(const RecordingEvent&)>;
+  // The recording was asked for at `start`.
+  RecordingParts(RecordingOptions options,
+                 const RecorderOptions& recorder,
+                 RoundTime start,
+                 Notice notice);
+
+  // Takes what belongs to it. A failing disk throws nothing: it is noted, and tried again.
+  void add(const CaptureItem& item, RoundTime time);
+  // Commits what is due, tries again what failed.
+  void round(RoundTime time);
+  // A limit of the options has been reached.
+  bool ended(RoundTime time) const;
+  // One attempt to finish; false: failed, ask again.
+  bool finish(RoundTime time);
+
+  // Items that the queues lost since the start; their gaps come as events.
+  void noteQueueLosses(std::int64_t items) noexcept { lostInQueues_ = items; }
+  void describe(RecorderStatus& status) const;
+  RecordingReport report() const;
+  const std::filesystem::path& folder() const noexcept { return folder_; }
+
+ private:
+  bool belongs(const CaptureItem& item);
+  void hold(const CaptureItem& item);
+  void open(const std::shared_ptr<const SensorLayout>& layout, RoundTime time);
+  std::unique_ptr<PalpateWriter> makeWriter(const std::shared_ptr<const SensorLayout>& layout);
+  bool splitDue(const TactileFrame& frame) const;
+  void split(const TactileFrame& frame, RoundTime time);
+  bool closeOldPart(RoundTime time);
+  void write(const CaptureItem& item, RoundTime time);
+  void writeTo(const CaptureItem& item);
+  void lose(const CaptureItem& item);
+  void endLosses();
+  void endLoss(std::size_t stream);
+  void addOwn(RecordingEvent event);
+  void writeOwed();
+  void updateCounters(RoundTime time);
+  void commit(RoundTime time);
+  void failed(const std::string& what, RoundTime time);
+  void worked(RoundTime time);
+  std::int64_t bytesOnDisk() const;
+
+  const RecordingOptions options_;
+  const std::int64_t commitIntervalUs_;
+  const std::string vfs_;
+  const RoundTime start_;
+  const Notice notice_;
+  const std::filesystem::path folder_;
+
+  // Parts.
+  std::vector<std::filesystem::path> paths_;
+  int nextPart_ = 1;
+  std::unique_ptr<PalpateWriter> writer_;
+  std::unique_ptr<PalpateWriter> closing_;  // the part before, while it can't be finished
+  std::shared_ptr<const SensorLayout> layout_;
+  std::int64_t partFirstUs_ = 0;
+  bool partHasFrames_ = false;
+  std::int64_t framesInOldParts_ = 0;
+  std::int64_t bytesInOldParts_ = 0;
+  std::deque<CaptureItem> held_;  // until there is a file
+  bool frameHeld_ = false;
+
+  // What waits for a commit.
+  std::optional<std::int64_t> dirtySinceMonoUs_;
+  std::size_t dirtyItems_ = 0;
+  std::vector<RecordingEvent> owed_;  // own events that aren't in a writer yet
+  std::optional<std::int64_t> countersMonoUs_;
+  std::map<std::string, std::int64_t> lastCounters_;
+
+  // Trouble.
+  std::string error_;  // of the disk; empty: writing works
+  std::optional<RoundTime> failingSince_;
+  std::int64_t nextTryMonoUs_ = 0;
+  std::array<std::optional<CaptureLoss>, kCaptureStreams> losses_;
+  std::string refusedWhy_;
+  bool unfinished_ = false;
+
+  // Counts.
+  IntervalStatistics intervals_;
+  std::int64_t framesSinceStart_ = 0;
+  std::optional<std::int64_t> endUs_;  // the recording ends before this stamp
+  bool ended_ = false;
+  RecordingReport counts_;
+  std::int64_t lostInQueues_ = 0;
+};
+
+}  // namespace palpate

@@ -1,0 +1,269 @@
+#include "palpate/capture/replay.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <limits>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+constexpr double kSlowest = 0.1;
+constexpr double kFastest = 16.0;
+
+void requireSpeed(double factor) {
+  if (!(factor >= kSlowest && factor <= kFastest))
+    throw std::invalid_argument("Replay: speed must be 0.1..16, is " + std::to_string(factor));
+}
+
+}  // namespace
+
+struct Replay::Impl {
+  Impl(Profile recorded,
+       const ReplayOptions& given,
+       std::vector<RecordingEvent> noted,
+       const Clock& theClock)
+      : profile(std::move(recorded)),
+        pace(given.pace),
+        events(std::move(noted)),
+        clock(theClock),
+        speed(given.speed) {
+    std::stable_sort(
+        events.begin(), events.end(), [](const auto& a, const auto& b) { return a.tUs < b.tUs; });
+  }
+
+  void rewind() {
+    frame = angle = temperature = event = 0;
+    warned = false;
+    const std::lock_guard lock(mutex);
+    status = {};
+    status.tactile.port = "replay";
+    status.tactile.state = PortState::kStreaming;
+    if (profile.numAngles() + profile.numTemperatures() > 0) status.motion = status.tactile;
+    ended = false;
+  }
+
+  // Stamp of what comes next; kNever at the end.
+  std::int64_t nextUs() const {
+    return std::min({eventUs(), temperatureUs(), angleUs(), frameUs()});
+  }
+  std::int64_t frameUs() const {
+    return frame < profile.numFrames() ? profile.frameTimeUs(frame) : kNever;
+  }
+  std::int64_t angleUs() const {
+    return angle < profile.numAngles() ? profile.angleTimeUs(angle) : kNever;
+  }
+  std::int64_t temperatureUs() const {
+    return temperature < profile.numTemperatures() ? profile.temperatureTimeUs(temperature)
+                                                   : kNever;
+  }
+  std::int64_t eventUs() const { return event < events.size() ? events[event].tUs : kNever; }
+
+  // Delivers what comes next, stamped `atUs`.
+  void deliver(std::int64_t atUs) {
+    if (eventUs() == atUs) {
+      const RecordingEvent& noted = events[event++];
+      sink->onEvent({noted.tUs, noted.t1Us, noted.kind, noted.matrix, noted.text, noted.json});
+    } else if (temperatureUs() == atUs) {
+      const std::size_t index = temperature++;
+      read(atUs, false, [&] { sink->onTemperatures(profile.temperatures(index)); });
+    } else if (angleUs() == atUs) {
+      const std::size_t index = angle++;
+      read(atUs, false, [&] { sink->onAngles(profile.angles(index)); });
+    } else {
+      const std::size_t index = frame++;
+      read(atUs, true, [&] { sink->onFrame(profile.frame(index)); });
+    }
+  }
+
+  template <typename Read>
+  void read(std::int64_t atUs, bool tactile, Read delivers) {
+    std::string fault;
+    try {
+      delivers();
+    } catch (const Error& error) {
+      fault = error.what();
+    }
+    {
+      const std::lock_guard lock(mutex);
+      PortStatus& port = tactile ? status.tactile : *status.motion;
+      ++(fault.empty() ? port.items : port.lost);
+      if (fault.empty())
+        port.lastItemUs = atUs;
+      else
+        port.message = fault;
+    }
+    if (fault.empty() || warned) return;
+    warned = true;
+    sink->onEvent({atUs, atUs, "alarm", {}, fault, ""});
+  }
+
+  void end() {
+    {
+      const std::lock_guard lock(mutex);
+      ended = true;
+      const auto silence = [](PortStatus& port) {
+        port.state = PortState::kSilent;
+        if (port.message.empty()) port.message = "the recording has ended";
+      };
+      silence(status.tactile);
+      if (status.motion) silence(*status.motion);
+    }
+    sink->onEvent({lastUs, lastUs, "link", {}, "the recording has ended", ""});
+  }
+
+  // Delivers up to and with `untilUs`; false at the end.
+  bool deliverUntil(std::int64_t untilUs, const std::stop_token& stop) {
+    for (std::int64_t at = nextUs(); at <= untilUs && !stop.stop_requested(); at = nextUs()) {
+      if (at == kNever) {
+        end();
+        return false;
+      }
+      deliver(at);
+      lastUs = at;
+    }
+    return true;
+  }
+
+  void run(const std::stop_token& stop) {
+    if (pace == ReplayPace::kAsFastAsTaken) {
+      deliverUntil(kNever, stop);
+      return;
+    }
+    double positionUs = 0.0;  // in the recording
+    std::int64_t monoUs = clock.monotonicUs();
+    while (!stop.stop_requested()) {
+      const double factor = speedNow();
+      const std::int64_t nowUs = clock.monotonicUs();
+      positionUs += static_cast<double>(nowUs - monoUs) * factor;
+      monoUs = nowUs;
+      const bool empty = nextUs() == kNever;
+      if (!deliverUntil(empty ? kNever : firstUs + static_cast<std::int64_t>(positionUs), stop))
+        return;
+      // The end is seen at once, not after kNever.
+      if (nextUs() == kNever) {
+        deliverUntil(kNever, stop);
+        return;
+      }
+      const double waitUs = (static_cast<double>(nextUs() - firstUs) - positionUs) / factor;
+      std::unique_lock lock(mutex);
+      moved.wait_for(
+          lock, stop, std::chrono::microseconds(static_cast<std::int64_t>(waitUs) + 1), [&] {
+            return speed != factor;
+          });
+    }
+  }
+
+  double speedNow() const {
+    const std::lock_guard lock(mutex);
+    return speed;
+  }
+
+  const Profile profile;
+  const ReplayPace pace;
+  std::vector<RecordingEvent> events;
+  const Clock& clock;
+  DeviceSink* sink = nullptr;
+
+  // Of the delivering thread.
+  std::size_t frame = 0;
+  std::size_t angle = 0;
+  std::size_t temperature = 0;
+  std::size_t event = 0;
+  std::int64_t lastUs = 0;  // delivered
+  bool warned = false;
+  std::int64_t handUs = 0;  // kByHand: position in the recording
+  std::int64_t firstUs = 0;
+
+  mutable std::mutex mutex;
+  std::condition_variable_any moved;
+  double speed;
+  DeviceStatus status;
+  bool ended = false;
+
+  std::jthread thread;
+};
+
+Replay::Replay(Profile profile,
+               const ReplayOptions& options,
+               std::vector<RecordingEvent> events,
+               const Clock& clock) {
+  requireSpeed(options.speed);
+  impl_ = std::make_unique<Impl>(std::move(profile), options, std::move(events), clock);
+  impl_->status.tactile.port = "replay";
+}
+
+Replay::~Replay() { stop(); }
+
+HandDescription Replay::hand() const { return impl_->profile.hand(); }
+
+DeviceFacts Replay::facts() const {
+  DeviceFacts facts;
+  facts.serial = impl_->profile.info().serial;
+  facts.firmware = impl_->profile.info().firmware;
+  return facts;
+}
+
+void Replay::start(DeviceSink& sink) {
+  Impl& impl = *impl_;
+  if (impl.sink) throw std::logic_error("Replay::start: it was started already");
+  impl.sink = &sink;
+  impl.rewind();
+  impl.lastUs = impl.firstUs = impl.nextUs() == kNever ? 0 : impl.nextUs();
+  impl.handUs = 0;
+  if (impl.pace == ReplayPace::kByHand) return;
+  impl.thread = std::jthread([&impl](const std::stop_token& stop) { impl.run(stop); });
+}
+
+void Replay::stop() noexcept {
+  Impl& impl = *impl_;
+  if (!impl.sink) return;
+  impl.thread = {};  // asks it to stop, and waits
+  impl.sink = nullptr;
+  const std::lock_guard lock(impl.mutex);
+  impl.status.tactile.state = PortState::kClosed;
+  if (impl.status.motion) impl.status.motion->state = PortState::kClosed;
+}
+
+DeviceStatus Replay::status() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->status;
+}
+
+std::future<CommandAnswer> Replay::submit(DeviceCommand) {
+  std::promise<CommandAnswer> refused;
+  refused.set_exception(std::make_exception_ptr(DeviceError(
+      DeviceFault::kUnsupported, "replay", "a recording takes no command: connect a hand")));
+  return refused.get_future();
+}
+
+void Replay::setSpeed(double factor) {
+  requireSpeed(factor);
+  const std::lock_guard lock(impl_->mutex);
+  impl_->speed = factor;
+  impl_->moved.notify_all();
+}
+
+void Replay::advance(std::int64_t recordedUs) {
+  Impl& impl = *impl_;
+  if (!impl.sink || impl.pace != ReplayPace::kByHand)
+    throw std::logic_error("Replay::advance: it isn't moved by hand, or wasn't started");
+  if (recordedUs < 0) throw std::invalid_argument("Replay::advance: time only goes forward");
+  if (finished()) return;
+  impl.handUs += recordedUs;
+  if (!impl.deliverUntil(impl.firstUs + impl.handUs, {})) return;
+  if (impl.nextUs() == kNever) impl.deliverUntil(kNever, {});
+}
+
+bool Replay::finished() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->ended;
+}
+
+}  // namespace palpate

@@ -1,0 +1,202 @@
+#include "palpate/capture/link_health.h"
+
+#include <algorithm>
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000;
+
+std::vector<AlarmKind> kindsOf(const LinkHealth& health) {
+  std::vector<AlarmKind> kinds;
+  for (const Alarm& alarm : health.alarms) kinds.push_back(alarm.kind);
+  return kinds;
+}
+
+// A hand that delivers 31.25 frames a second for ten seconds.
+LinkMeter::Reading steady(LinkMeter& meter, std::int64_t& monoUs) {
+  for (int i = 0; i <= 312; ++i) {
+    monoUs = i * 32'000;
+    meter.frame(monoUs, false);
+  }
+  return meter.read(monoUs);
+}
+
+LinkInputs streaming() {
+  LinkInputs inputs;
+  inputs.started = true;
+  inputs.device.tactile.state = PortState::kStreaming;
+  LinkMeter meter;
+  std::int64_t monoUs = 0;
+  inputs.frames = steady(meter, monoUs);
+  return inputs;
+}
+
+TEST(LinkMeter, tellsRateAndAgeExactly) {
+  LinkMeter meter;
+  EXPECT_FALSE(meter.read(5).ageMs);
+  EXPECT_EQ(meter.read(5).rateHz, 0.0);
+  std::int64_t monoUs = 0;
+  const auto reading = steady(meter, monoUs);
+  EXPECT_EQ(reading.frames, 313u);
+  EXPECT_NEAR(reading.rateHz, 31.25, 1e-9);
+  EXPECT_NEAR(reading.meanRateHz, 31.25, 1e-9);
+  EXPECT_EQ(meter.read(monoUs + 5'000).ageMs, 5.0);
+}
+
+TEST(LinkMeter, theRateFallsWhenFramesCease) {
+  LinkMeter meter;
+  std::int64_t monoUs = 0;
+  steady(meter, monoUs);
+  // Of the last 2 s only 1 s brought frames: from the oldest one to now 31.25 Hz * 1 s / 2 s.
+  EXPECT_NEAR(meter.read(monoUs + kSecond).rateHz, 15.6, 0.3);
+  EXPECT_EQ(meter.read(monoUs + 3 * kSecond).rateHz, 0.0);
+  EXPECT_NEAR(meter.read(monoUs + 3 * kSecond).meanRateHz, 31.25, 1e-9);
+}
+
+TEST(LinkMeter, countsSaturatedFramesAndTheirShareOfTheLastTwoSeconds) {
+  LinkMeter meter;
+  for (int i = 0; i < 100; ++i) meter.frame(i * 100'000, i < 50 || i % 4 == 0);
+  const auto reading = meter.read(99 * 100'000);
+  EXPECT_EQ(reading.saturatedFrames, 50u + 12u);  // 52, 56, .., 96
+  // Frames 79..99 lie in the window, of these 80, 84, 88, 92, 96 are saturated.
+  EXPECT_NEAR(reading.saturatedShare, 5.0 / 21.0, 1e-12);
+}
+
+TEST(LinkMeter, lowIsMeasuredByTheExpectedRateAndLasts) {
+  HealthOptions options;
+  options.expectedRateHz = 31.25;
+  LinkMeter meter(options);
+  std::int64_t monoUs = 0;
+  EXPECT_EQ(steady(meter, monoUs).lowRateS, 0.0);
+  for (int i = 0; i < 100; ++i) meter.frame(monoUs += 100'000, false);
+  const auto reading = meter.read(monoUs);
+  EXPECT_NEAR(reading.rateHz, 10.0, 1e-9);
+  EXPECT_GT(reading.lowRateS, 7.0);
+  EXPECT_LT(reading.lowRateS, 10.0);
+  for (int i = 0; i < 200; ++i) meter.frame(monoUs += 32'000, false);
+  EXPECT_EQ(meter.read(monoUs).lowRateS, 0.0);
+}
+
+TEST(LinkMeter, staysBoundedAtAnyRate) {
+  LinkMeter meter;
+  for (int i = 0; i < 1'000'000; ++i) meter.frame(i * 10, false);
+  EXPECT_EQ(meter.read(10'000'000).frames, 1'000'000u);
+  EXPECT_NEAR(meter.read(9'999'990).rateHz, 100'000.0, 1.0);
+  meter.reset();
+  EXPECT_EQ(meter.read(0).frames, 0u);
+}
+
+TEST(LinkHealth, aSteadyLinkRaisesNoAlarm) {
+  LinkInputs inputs = streaming();
+  inputs.device.tactile.badChecksums = 3;
+  inputs.device.tactile.lost = 2;
+  inputs.device.motion = PortStatus{};
+  inputs.device.motion->badChecksums = 4;
+  inputs.recorder.state = RecorderStatus::State::kRecording;
+  inputs.recorder.recordedS = 100.0;
+  inputs.recorder.bytesOnDisk = 2'000'000;
+  inputs.recorder.freeBytes = 720'000'000;
+  const LinkHealth health = assessHealth(inputs);
+  EXPECT_TRUE(health.alarms.empty()) << health.alarms[0].text;
+  EXPECT_EQ(health.badChecksums, 7u);
+  EXPECT_EQ(health.lost, 2u);
+  EXPECT_DOUBLE_EQ(health.bytesPerS, 20'000.0);
+  ASSERT_TRUE(health.diskHours);
+  EXPECT_DOUBLE_EQ(*health.diskHours, 10.0);
+}
+
+TEST(LinkHealth, everyTroubleHasItsAlarm) {
+  LinkInputs inputs = streaming();
+  inputs.frames.ageMs = 1200.0;
+  EXPECT_EQ(kindsOf(assessHealth(inputs)), std::vector{AlarmKind::kNoData});
+  inputs = streaming();
+  inputs.frames.lowRateS = 2.5;
+  EXPECT_EQ(kindsOf(assessHealth(inputs)), std::vector{AlarmKind::kLowRate});
+  inputs = streaming();
+  inputs.recorder.state = RecorderStatus::State::kWaiting;
+  inputs.recorder.elapsedS = 1.9;
+  EXPECT_TRUE(assessHealth(inputs).alarms.empty());
+  inputs.recorder.elapsedS = 2.1;
+  EXPECT_EQ(kindsOf(assessHealth(inputs)), std::vector{AlarmKind::kEmptyRecording});
+  inputs = streaming();
+  inputs.recorder.writeError = "a.palpate: the disk is full";
+  inputs.recorder.lost = 4;
+  inputs.recorder.blockedS = 3.0;
+  EXPECT_EQ(kindsOf(assessHealth(inputs)),
+            (std::vector{AlarmKind::kWriteError, AlarmKind::kSlowDisk, AlarmKind::kOverflow}));
+  inputs = streaming();
+  inputs.recorder.freeBytes = 18'000 * 3600 / 2;  // half an hour, at the nominal rate
+  const LinkHealth low = assessHealth(inputs);
+  EXPECT_EQ(kindsOf(low), std::vector{AlarmKind::kLowDisk});
+  EXPECT_NE(low.alarms[0].text.find("30 minutes"), std::string::npos);
+}
+
+TEST(LinkHealth, aSlowDeviceIsNotSilent) {
+  LinkInputs inputs = streaming();
+  inputs.frames.meanRateHz = 0.33;  // pull mode: one frame in 3 s
+  inputs.frames.ageMs = 3'100.0;
+  EXPECT_TRUE(assessHealth(inputs).alarms.empty());
+}
+
+TEST(LinkHealth, aDeviceThatNeverCameIsAnAlarmOnlyOnceItIsSilentOrLost) {
+  LinkInputs inputs;
+  EXPECT_TRUE(assessHealth(inputs).alarms.empty());
+  inputs.started = true;
+  inputs.device.tactile.state = PortState::kConnecting;
+  EXPECT_TRUE(assessHealth(inputs).alarms.empty());
+  inputs.device.tactile.state = PortState::kLost;
+  inputs.device.tactile.port = "/dev/ttyUSB0";
+  const LinkHealth health = assessHealth(inputs);
+  ASSERT_EQ(kindsOf(health), std::vector{AlarmKind::kNoData});
+  EXPECT_EQ(health.alarms[0].text, "the tactile port /dev/ttyUSB0 is gone: plug it in again");
+}
+
+const FolderState kGoodFolder{"/data", true, std::uint64_t{18'000} * 3600 * 120};
+
+TEST(CheckBeforeRun, saysReadyInOneLine) {
+  LinkInputs inputs = streaming();
+  inputs.device.motion = PortStatus{};
+  inputs.device.motion->state = PortState::kStreaming;
+  Temperatures temperatures{0, std::vector<double>(9, 31.0)};
+  temperatures.degC[4] = 38.4;
+  const BeforeRun check = checkBeforeRun(inputs, temperatures, kGoodFolder);
+  EXPECT_TRUE(check.ready);
+  EXPECT_EQ(check.text, "ready: 31.2 frames/s, up to 38 deg C, disk for 120 h");
+}
+
+TEST(CheckBeforeRun, namesTheFirstThingThatIsWrong) {
+  const Temperatures warm{0, {30.0}};
+  const auto textOf = [&](const LinkInputs& inputs, const FolderState& folder = kGoodFolder) {
+    const BeforeRun check = checkBeforeRun(inputs, warm, folder);
+    EXPECT_FALSE(check.ready);
+    EXPECT_EQ(check.text.find("not ready: "), 0u);
+    EXPECT_EQ(check.text.find('\n'), std::string::npos);
+    return check.text;
+  };
+  LinkInputs inputs;
+  EXPECT_NE(textOf(inputs).find("no hand"), std::string::npos);
+  inputs = streaming();
+  inputs.device.tactile.state = PortState::kSilent;
+  EXPECT_NE(textOf(inputs).find("silent"), std::string::npos);
+  inputs = streaming();
+  inputs.device.motion = PortStatus{};
+  inputs.device.motion->state = PortState::kLost;
+  EXPECT_NE(textOf(inputs).find("motion port"), std::string::npos);
+  inputs = streaming();
+  inputs.frames.rateHz = 20.0;
+  EXPECT_NE(textOf(inputs).find("20.0 frames/s"), std::string::npos);
+  inputs = streaming();
+  EXPECT_NE(textOf(inputs, {"/ro", false, 1u << 30}).find("/ro can't be written"),
+            std::string::npos);
+  EXPECT_NE(textOf(inputs, {"/full", true, 18'000 * 60 * 12}).find("12 minutes"),
+            std::string::npos);
+  const BeforeRun hot = checkBeforeRun(inputs, Temperatures{0, {30.0, 70.2}}, kGoodFolder);
+  EXPECT_FALSE(hot.ready);
+  EXPECT_NE(hot.text.find("70 deg C"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace palpate

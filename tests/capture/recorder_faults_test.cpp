@@ -1,0 +1,293 @@
+// The recorder's bad days: a disk that is full, fails, or keeps it waiting (R3, R10); queues that overflow.
+#include <condition_variable>
+#include <thread>
+
+#include "palpate/core/error.h"
+#include "palpate/core/json.h"
+#include "palpate/recording/recording.h"
+
+#include "capture/scripted_device.h"
+#include "recording/faulty_vfs.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+using namespace testing;
+namespace fs = std::filesystem;
+using Fault = FaultyVfs::Fault;
+
+CaptureOptions onFaultyDisk() {
+  CaptureOptions options;
+  options.recorder.vfs = FaultyVfs::name();
+  options.recorder.freeBytes = [](const fs::path&) { return std::uint64_t{1} << 40; };
+  return options;
+}
+
+RecordingOptions to(const fs::path& path) {
+  RecordingOptions options;
+  options.path = path;
+  return options;
+}
+
+bool hasAlarm(const CaptureSession& session, AlarmKind kind) {
+  for (const Alarm& alarm : session.health().alarms)
+    if (alarm.kind == kind) return true;
+  return false;
+}
+
+void expectFrames(const fs::path& path, std::size_t from, std::size_t to) {
+  const Profile profile = openRecording(path);
+  ASSERT_EQ(profile.numFrames(), to - from);
+  for (std::size_t i = 0; i < profile.numFrames(); ++i)
+    ASSERT_EQ(numberOf(profile.frame(i)), from + i);
+  EXPECT_EQ(verifyRecording(path).state, VerifyReport::State::kSound);
+}
+
+// So many operations has a recording of a second.
+std::int64_t operationsOfASecond() {
+  const TemporaryFolder folder;
+  FaultyVfs vfs;
+  ScriptedSession scripted(onFaultyDisk());
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  scripted.run(1.0);
+  EXPECT_TRUE(scripted.session->stopRecording().complete);
+  return vfs.operations();
+}
+
+// R3: the disk fails at the n-th operation and all that follow, for half a second.
+TEST(RecorderFaults, aDiskThatFailsAtAnyOperationAndRecoversCostsNothing) {
+  const std::int64_t operations = operationsOfASecond();
+  ASSERT_GT(operations, 50);
+  for (const Fault fault : {Fault::kFull, Fault::kError}) {
+    for (std::int64_t n = 1; n < operations; n += 3) {
+      SCOPED_TRACE("operation " + std::to_string(n));
+      const TemporaryFolder folder;
+      FaultyVfs vfs;
+      ScriptedSession scripted(onFaultyDisk());
+      vfs.failAt(fault, n);
+      scripted.session->startRecording(to(folder / "a.palpate"));
+      bool alarm = false;
+      for (int i = 0; i < 20 && !vfs.struck(); ++i) scripted.run(0.05);
+      for (int i = 0; i < 10 && vfs.struck(); ++i) {
+        scripted.run(0.05);
+        alarm |= hasAlarm(*scripted.session, AlarmKind::kWriteError);
+      }
+      EXPECT_EQ(alarm, vfs.struck()) << "said within half a second";
+      vfs.heal();
+      scripted.run(0.5);
+      EXPECT_FALSE(hasAlarm(*scripted.session, AlarmKind::kWriteError));
+      const RecordingReport report = scripted.session->stopRecording();
+      EXPECT_TRUE(report.complete) << report.message;
+      ASSERT_EQ(report.paths.size(), 1u);
+      expectFrames(report.paths[0], 0, scripted.frames);
+      EXPECT_EQ(openRecording(report.paths[0]).numAngles(), scripted.samples);
+      std::size_t told = 0;
+      for (const RecordingEvent& event : readEvents(report.paths[0]).events)
+        told += event.kind == "alarm" ? 1 : 0;
+      EXPECT_EQ(told, vfs.struck() ? 1u : 0u) << "in the recording, too";
+    }
+  }
+}
+
+TEST(RecorderFaults, aDiskThatStaysFullLeavesTheFileValidAndCaptureGoesOn) {
+  const std::int64_t operations = operationsOfASecond();
+  for (std::int64_t n = 10; n < operations; n += 12) {
+    SCOPED_TRACE("operation " + std::to_string(n));
+    const TemporaryFolder folder;
+    FaultyVfs vfs;
+    ScriptedSession scripted(onFaultyDisk());
+    vfs.failAt(Fault::kFull, n);
+    scripted.session->startRecording(to(folder / "a.palpate"));
+    scripted.run(2.0);
+    const auto onDisk = static_cast<std::size_t>(scripted.session->recorderStatus().framesOnDisk);
+    const RecordingReport report = scripted.session->stopRecording();
+    EXPECT_FALSE(report.complete);
+    EXPECT_FALSE(report.message.empty());
+    // The session lives: frames come, and the next recording is none of this one's business.
+    scripted.run(0.2);
+    EXPECT_TRUE(scripted.session->takeFrame());
+    if (!report.paths.empty()) expectFrames(report.paths[0], 0, onDisk);
+    vfs.heal();
+    scripted.session->startRecording(to(folder / "b.palpate"));
+    scripted.run(0.5);
+    EXPECT_TRUE(scripted.session->stopRecording().complete);
+  }
+}
+
+TEST(RecorderFaults, whatTheMemoryCanNotHoldIsAnExactGap) {
+  const TemporaryFolder folder;
+  FaultyVfs vfs;
+  ScriptedSession scripted(onFaultyDisk());
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  scripted.run(0.5);
+  vfs.failAt(Fault::kFull, vfs.operations() + 1);
+  // Large events fill the 64 MB that may wait.
+  const std::string longText(200'000, 'x');
+  for (int i = 0; i < 400; ++i) {
+    scripted.session->mark(longText);
+    scripted.run(0.02);
+  }
+  const RecorderStatus status = scripted.session->recorderStatus();
+  EXPECT_GT(status.lost, 0);
+  vfs.heal();
+  const std::size_t before = scripted.frames;
+  scripted.run(0.5);
+  const RecordingReport report = scripted.session->stopRecording();
+  EXPECT_FALSE(report.complete);
+  const Profile profile = openRecording(folder / "a.palpate");
+  std::int64_t lost = 0;
+  std::int64_t lostFrames = 0;
+  for (const RecordingEvent& event : readEvents(folder / "a.palpate").events) {
+    if (event.kind != "gap") continue;
+    const Json json = Json::parse(event.json);
+    lost += json.at("lost").asInteger();
+    if (json.at("stream").asString() != "tactile") continue;
+    lostFrames += json.at("lost").asInteger();
+    // Frames come every 10 ms: the span is exactly theirs, and no frame of it is in the recording.
+    EXPECT_EQ(event.t1Us - event.tUs, (json.at("lost").asInteger() - 1) * 10'000);
+    const std::size_t at = *profile.frameAt(event.tUs);
+    EXPECT_EQ(profile.frameTimeUs(at), event.tUs - 10'000);
+    EXPECT_EQ(profile.frameTimeUs(at + 1), event.t1Us + 10'000);
+  }
+  EXPECT_EQ(lost, report.lost);
+  EXPECT_GT(lostFrames, 0);
+  EXPECT_EQ(static_cast<std::int64_t>(profile.numFrames()) + lostFrames,
+            static_cast<std::int64_t>(scripted.frames));
+  EXPECT_GT(scripted.frames, before);
+}
+
+// R10, on the test's clock: the recorder gets no turn for so long, at 30 frames/s and 110 angles/s.
+TEST(RecorderFaults, aRecorderThatIsBlockedUpTo30SecondsLosesNothing) {
+  for (const double blockedS : {0.1, 1.0, 5.0, 30.0, 60.0}) {
+    SCOPED_TRACE(blockedS);
+    const TemporaryFolder folder;
+    ScriptedSession scripted;
+    scripted.session->startRecording(to(folder / "a.palpate"));
+    scripted.run(0.2);
+    std::size_t frames = scripted.frames;
+    std::size_t samples = scripted.samples;
+    const std::int64_t endUs =
+        scripted.clock.monotonicUs() + static_cast<std::int64_t>(blockedS * 1e6);
+    for (std::int64_t i = 1; scripted.clock.monotonicUs() < endUs; ++i) {
+      scripted.clock.pass(9'000);
+      scripted.device->angles(samples++, scripted.clock.hostUs());
+      if (i * 9 / 33 != (i - 1) * 9 / 33) scripted.device->frame(frames++, scripted.clock.hostUs());
+    }
+    scripted.frames = frames;
+    scripted.samples = samples;
+    scripted.run(0.2);
+    const RecordingReport report = scripted.session->stopRecording();
+    EXPECT_TRUE(report.complete) << report.message;
+    expectFrames(folder / "a.palpate", 0, scripted.frames);
+    EXPECT_EQ(openRecording(folder / "a.palpate").numAngles(), scripted.samples);
+  }
+}
+
+// 300 frames/s: 27 s fit, then frames are lost, counted and named to the microsecond.
+TEST(RecorderFaults, blockedTooLongLeavesOneExactGapAndAnAlarm) {
+  const TemporaryFolder folder;
+  ScriptedSession scripted;
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  scripted.run(0.2);
+  const std::size_t before = scripted.frames;
+  const std::size_t capacity = scripted.session->health().queues.tactile.capacity;
+  EXPECT_GE(capacity, 27u * 300u);
+  const std::int64_t startUs = scripted.clock.hostUs();
+  for (std::size_t i = 1; i <= 30 * 300; ++i) {
+    scripted.clock.pass(3'333);
+    scripted.device->frame(before + i - 1, scripted.clock.hostUs());
+  }
+  const std::size_t lost = 30 * 300 - capacity;
+  scripted.frames = before + 30 * 300;
+  scripted.session->step();
+  scripted.run(0.2);
+  EXPECT_TRUE(hasAlarm(*scripted.session, AlarmKind::kOverflow));
+  EXPECT_EQ(scripted.session->health().queues.tactile.highWater, capacity);
+  const RecordingReport report = scripted.session->stopRecording();
+  EXPECT_EQ(report.lost, static_cast<std::int64_t>(lost));
+  EXPECT_FALSE(report.complete);
+  const auto events = readEvents(folder / "a.palpate").events;
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, "gap");
+  EXPECT_EQ(events[0].tUs, startUs + 3'333 * static_cast<std::int64_t>(capacity + 1));
+  EXPECT_EQ(events[0].t1Us, startUs + 3'333 * 30 * 300);
+  EXPECT_EQ(Json::parse(events[0].json).at("lost").asInteger(), static_cast<std::int64_t>(lost));
+  const Profile profile = openRecording(folder / "a.palpate");
+  EXPECT_EQ(profile.numFrames(), scripted.frames - lost);
+}
+
+TEST(RecorderFaults, aGapThatIsStillOpenAtTheStopIsToldToo) {
+  const TemporaryFolder folder;
+  CaptureOptions options;
+  options.recorder.feed.tactileItems = 10;
+  ScriptedSession scripted(options);
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  scripted.run(0.5, false);  // 50 frames, no round
+  const RecordingReport report = scripted.session->stopRecording();
+  EXPECT_EQ(report.lost, 40);
+  const auto events = readEvents(folder / "a.palpate").events;
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].tUs, kWallStartUs + 110'000);
+  EXPECT_EQ(events[0].t1Us, kWallStartUs + 500'000);
+}
+
+// The real thread, blocked in a write of the real file: the device's thread never waits, the alarm comes.
+TEST(RecorderFaults, aDiskThatBlocksAWriteIsAnAlarmAndCostsNothing) {
+  const TemporaryFolder folder;
+  FaultyVfs vfs;
+  std::mutex mutex;
+  std::condition_variable moved;
+  bool block = false;
+  bool blocked = false;
+  vfs.setHook([&] {
+    std::unique_lock lock(mutex);
+    blocked = block;
+    moved.notify_all();
+    moved.wait(lock, [&] { return !block; });
+  });
+  HandClock clock;
+  auto owned = std::make_unique<ScriptedDevice>();
+  ScriptedDevice& device = *owned;
+  CaptureSession session(std::move(owned), onFaultyDisk(), clock);
+  session.start();
+  session.startRecording(to(folder / "a.palpate"));
+  std::size_t frames = 0;
+  const auto deliver = [&](std::int64_t periodUs) {
+    clock.pass(periodUs);
+    device.frame(frames++, clock.hostUs());
+  };
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  // Lets time pass until something is so.
+  const auto await = [&](const auto& isSo) {
+    while (!isSo() && std::chrono::steady_clock::now() < deadline) {
+      clock.pass(1'000);
+      std::this_thread::yield();
+    }
+  };
+  for (int i = 0; i < 10; ++i) deliver(33'000);
+  await([&] { return session.recorderStatus().framesOnDisk == 10; });
+  {
+    const std::lock_guard lock(mutex);
+    block = true;
+  }
+  deliver(33'000);
+  await([&] {
+    const std::lock_guard lock(mutex);
+    return blocked;
+  });
+  for (int i = 0; i < 900; ++i) deliver(33'000);  // 30 s
+  EXPECT_GT(session.recorderStatus().blockedS, 29.0);
+  EXPECT_TRUE(hasAlarm(session, AlarmKind::kSlowDisk));
+  {
+    const std::lock_guard lock(mutex);
+    block = false;
+    moved.notify_all();
+  }
+  const RecordingReport report = session.stopRecording();
+  session.stop();
+  EXPECT_TRUE(report.complete) << report.message;
+  expectFrames(folder / "a.palpate", 0, frames);
+}
+
+}  // namespace
+}  // namespace palpate

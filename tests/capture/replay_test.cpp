@@ -1,0 +1,262 @@
+#include "palpate/capture/replay.h"
+
+#include <thread>
+
+#include "palpate/core/error.h"
+#include "palpate/emulator/synthetic_profile.h"
+#include "palpate/model/profile_builder.h"
+#include "palpate/recording/recording.h"
+
+#include "capture/scripted_device.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+using namespace testing;
+
+// What came, in the order in which it came.
+class Listener : public DeviceSink {
+ public:
+  struct Item {
+    char kind;
+    std::int64_t tUs;
+  };
+  std::vector<Item> items;
+  std::vector<TactileFrame> frames;
+  std::vector<JointAngles> angles;
+  std::vector<Temperatures> temperatures;
+  std::vector<DeviceEvent> events;
+
+  void onFrame(TactileFrame&& frame) override {
+    items.push_back({'f', frame.hostUs});
+    frames.push_back(std::move(frame));
+  }
+  void onAngles(JointAngles&& sample) override {
+    items.push_back({'a', sample.hostUs});
+    angles.push_back(std::move(sample));
+  }
+  void onTemperatures(Temperatures&& sample) override {
+    items.push_back({'t', sample.hostUs});
+    temperatures.push_back(std::move(sample));
+  }
+  void onEvent(DeviceEvent&& event) override {
+    items.push_back({'e', event.tUs});
+    events.push_back(std::move(event));
+  }
+  std::string order() const {
+    std::string text;
+    for (const Item& item : items) text += item.kind;
+    return text;
+  }
+};
+
+// Frames at 0, 10, 20, 40 ms; angles at 5, 10, 35 ms; a temperature at 10 ms.
+Profile shortProfile() {
+  ProfileBuilder builder(sdh2().layout);
+  for (const std::int64_t ms : {0, 10, 20, 40})
+    builder.addFrame(kWallStartUs + ms * 1000,
+                     numberedFrame(static_cast<std::size_t>(ms), 0).values,
+                     ms % 20 == 0 ? std::optional(ms) : std::nullopt);
+  for (const std::int64_t ms : {5, 10, 35})
+    builder.addAngles(kWallStartUs + ms * 1000, numberedAngles(1, 0).deg);
+  builder.addTemperatures(kWallStartUs + 10'000, std::vector<double>(9, 33.25));
+  return builder.finish({});
+}
+
+ReplayOptions byHand() { return {ReplayPace::kByHand, 1.0}; }
+
+TEST(Replay, deliversInOrderOfTimeAndWhatBelongsToAFrameBeforeIt) {
+  Listener listener;
+  const RecordingEvent label{kWallStartUs + 10'000, kWallStartUs + 12'000, "label", 2, "x", "{}"};
+  Replay replay(shortProfile(), byHand(), {label});
+  replay.start(listener);
+  EXPECT_EQ(listener.order(), "");
+  replay.advance(0);
+  EXPECT_EQ(listener.order(), "f");
+  replay.advance(9'999);
+  EXPECT_EQ(listener.order(), "fa");
+  replay.advance(1);
+  EXPECT_EQ(listener.order(), "faetaf");
+  EXPECT_FALSE(replay.finished());
+  replay.advance(1'000'000);
+  EXPECT_EQ(listener.order(), "faetaffafe");
+  EXPECT_TRUE(replay.finished());
+  EXPECT_EQ(listener.events[0].kind, "label");
+  EXPECT_EQ(listener.events[0].matrix, 2);
+  EXPECT_EQ(listener.events[0].t1Us, kWallStartUs + 12'000);
+  EXPECT_EQ(listener.events[1].text, "the recording has ended");
+  EXPECT_EQ(listener.frames[1].deviceMs, std::nullopt);
+  EXPECT_EQ(listener.frames[2].deviceMs, 20);
+  replay.advance(1'000'000);  // nothing comes twice
+  EXPECT_EQ(listener.items.size(), 10u);
+}
+
+TEST(Replay, startsAnewFromTheBeginning) {
+  Listener listener;
+  Replay replay(shortProfile(), byHand());
+  EXPECT_THROW(replay.advance(1), std::logic_error);
+  replay.start(listener);
+  EXPECT_THROW(replay.start(listener), std::logic_error);
+  replay.advance(15'000);
+  replay.stop();
+  EXPECT_EQ(replay.status().tactile.state, PortState::kClosed);
+  listener = {};
+  replay.start(listener);
+  replay.advance(100'000);
+  EXPECT_EQ(listener.order(), "fataffafe");
+}
+
+TEST(Replay, itsStatusIsThatOfAHand) {
+  Listener listener;
+  Replay replay(shortProfile(), byHand());
+  replay.start(listener);
+  replay.advance(20'000);
+  DeviceStatus status = replay.status();
+  EXPECT_EQ(status.tactile.state, PortState::kStreaming);
+  EXPECT_EQ(status.tactile.items, 3u);
+  EXPECT_EQ(status.tactile.lastItemUs, kWallStartUs + 20'000);
+  ASSERT_TRUE(status.motion);
+  EXPECT_EQ(status.motion->items, 3u);
+  replay.advance(20'000);
+  status = replay.status();
+  EXPECT_EQ(status.tactile.state, PortState::kSilent);
+  EXPECT_EQ(status.tactile.message, "the recording has ended");
+  EXPECT_EQ(replay.hand().name, shortProfile().hand().name);
+}
+
+TEST(Replay, takesNoCommand) {
+  Replay replay(shortProfile());
+  try {
+    replay.submit(StopMotion{}).get();
+    FAIL();
+  } catch (const DeviceError& error) {
+    EXPECT_EQ(error.fault(), DeviceFault::kUnsupported);
+  }
+}
+
+TEST(Replay, anEmptyRecordingEndsAtOnce) {
+  Listener listener;
+  Replay replay(ProfileBuilder(sdh2().layout).finish({}), {ReplayPace::kRecorded, 1.0});
+  replay.start(listener);
+  while (!replay.finished()) std::this_thread::yield();
+  replay.stop();
+  EXPECT_EQ(listener.order(), "e");
+  EXPECT_FALSE(replay.status().motion);
+}
+
+TEST(Replay, keepsTimeTimesItsSpeed) {
+  for (const double speed : {16.0, 4.0}) {
+    Listener listener;
+    SyntheticOptions options;
+    options.durationS = 2.0;
+    options.grasps = 1;
+    const Profile profile = synthesize(options);
+    Replay replay(profile, {ReplayPace::kRecorded, speed});
+    const auto begin = std::chrono::steady_clock::now();
+    replay.start(listener);
+    while (!replay.finished()) std::this_thread::yield();
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    replay.stop();
+    EXPECT_EQ(listener.frames.size(), profile.numFrames());
+    // Never early; late only as a busy machine may be.
+    EXPECT_GE(took.count(), static_cast<double>(profile.durationUs()) / 1e6 / speed - 0.001);
+    EXPECT_LT(took.count(), 10.0);
+  }
+  EXPECT_THROW(Replay(shortProfile(), {ReplayPace::kRecorded, 17.0}), std::invalid_argument);
+  Replay replay(shortProfile());
+  EXPECT_THROW(replay.setSpeed(0.05), std::invalid_argument);
+}
+
+Profile twoFrames(double apartS) {
+  ProfileBuilder builder(sdh2().layout);
+  const std::vector<float> zero(sdh2().layout->numPlaces());
+  builder.addFrame(kWallStartUs, zero);
+  builder.addFrame(kWallStartUs + static_cast<std::int64_t>(apartS * 1e6), zero);
+  return builder.finish({});
+}
+
+TEST(Replay, itsSpeedChangesWhileItWaits) {
+  Listener listener;
+  Replay replay(twoFrames(3.0), {ReplayPace::kRecorded, 0.1});  // 30 s
+  const auto begin = std::chrono::steady_clock::now();
+  replay.start(listener);
+  while (replay.status().tactile.items < 1) std::this_thread::yield();
+  replay.setSpeed(16.0);  // 0.2 s
+  while (!replay.finished()) std::this_thread::yield();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(15));
+  EXPECT_EQ(listener.frames.size(), 2u);
+}
+
+TEST(Replay, stopsAtOnceThoughItWaits) {
+  Listener listener;
+  Replay replay(twoFrames(3600.0));
+  const auto begin = std::chrono::steady_clock::now();
+  replay.start(listener);
+  while (replay.status().tactile.items < 1) std::this_thread::yield();
+  replay.stop();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+  EXPECT_EQ(listener.frames.size(), 1u);
+}
+
+void expectSame(const Profile& a, const Profile& b) {
+  ASSERT_EQ(a.numFrames(), b.numFrames());
+  ASSERT_EQ(a.numAngles(), b.numAngles());
+  ASSERT_EQ(a.numTemperatures(), b.numTemperatures());
+  for (std::size_t i = 0; i < a.numFrames(); ++i) {
+    const TactileFrame x = a.frame(i);
+    const TactileFrame y = b.frame(i);
+    ASSERT_EQ(x.values, y.values) << i;
+    ASSERT_EQ(x.hostUs, y.hostUs) << i;
+    ASSERT_EQ(x.deviceMs, y.deviceMs) << i;
+  }
+  for (std::size_t i = 0; i < a.numAngles(); ++i) {
+    ASSERT_EQ(a.angles(i).deg, b.angles(i).deg) << i;
+    ASSERT_EQ(a.angleTimeUs(i), b.angleTimeUs(i)) << i;
+  }
+  for (std::size_t i = 0; i < a.numTemperatures(); ++i) {
+    ASSERT_EQ(a.temperatures(i).degC, b.temperatures(i).degC) << i;
+    ASSERT_EQ(a.temperatureTimeUs(i), b.temperatureTimeUs(i)) << i;
+  }
+}
+
+// Replays a profile through a session into a recording of its own.
+Profile recordedAgain(const Profile& profile, const std::filesystem::path& path) {
+  CaptureOptions options;
+  options.recorder.feed.waitForRoom = true;
+  auto replay = std::make_unique<Replay>(profile, ReplayOptions{ReplayPace::kAsFastAsTaken, 1.0});
+  const Replay& running = *replay;
+  CaptureSession session(std::move(replay), options);
+  RecordingOptions recording;
+  recording.path = path;
+  recording.preTriggerS = 60.0;
+  session.startRecording(recording);
+  session.start();
+  while (!running.finished()) std::this_thread::yield();
+  session.stop();
+  const RecordingReport report = session.stopRecording();
+  EXPECT_TRUE(report.complete) << report.message;
+  return openRecording(path);
+}
+
+// R17.
+TEST(Replay, aRealRecordingReplayedAndRecordedIsTheSameBitByBit) {
+  const auto recordings = recordingsFolder();
+  PALPATE_NEED(recordings);
+  const TemporaryFolder folder;
+  const Profile original = openRecording(*recordings / "grasps/foam_ball.dsa");
+  ASSERT_GT(original.numFrames(), 1000u);
+  const Profile first = recordedAgain(original, folder / "1.palpate");
+  expectSame(original, first);
+  expectSame(first, recordedAgain(first, folder / "2.palpate"));
+}
+
+TEST(Replay, aSyntheticRecordingReplayedAndRecordedIsTheSameBitByBit) {
+  const TemporaryFolder folder;
+  SyntheticOptions options;
+  options.noiseCounts = 8.0;
+  const Profile original = synthesize(options);
+  expectSame(original, recordedAgain(original, folder / "1.palpate"));
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,122 @@
+// A device and a clock that do what a test says, when it says it.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "palpate/capture/capture_session.h"
+#include "palpate/core/error.h"
+#include "palpate/core/time.h"
+#include "palpate/device/device.h"
+
+namespace palpate::testing {
+
+constexpr std::int64_t kWallStartUs = 1'700'000'000'000'000;
+
+// Moves only when it is told to.
+class HandClock : public Clock {
+ public:
+  std::int64_t monotonicUs() const override { return monoUs_; }
+  std::int64_t wallUs() const override { return kWallStartUs + monoUs_ + jumpUs_; }
+  void pass(std::int64_t us) { monoUs_ += us; }
+  void jumpWall(std::int64_t us) { jumpUs_ += us; }
+  // Host time, of a session that began at 0.
+  std::int64_t hostUs() const { return kWallStartUs + monoUs_; }
+
+ private:
+  std::atomic<std::int64_t> monoUs_ = 0;
+  std::atomic<std::int64_t> jumpUs_ = 0;
+};
+
+// The values of the n-th frame tell which one it is.
+inline TactileFrame numberedFrame(std::size_t n, std::int64_t hostUs) {
+  TactileFrame frame(sdh2().layout);
+  frame.hostUs = hostUs;
+  frame.deviceMs = static_cast<std::int64_t>(n) * 32 + 7;
+  frame.values[0] = static_cast<float>(n % 4096);
+  frame.values[1] = static_cast<float>(n / 4096 % 4096);
+  for (std::size_t k = 2; k < 60; ++k)
+    frame.values[k * 8] = static_cast<float>((n * 7919 + k * 104729) % 3400);
+  return frame;
+}
+inline JointAngles numberedAngles(std::size_t n, std::int64_t hostUs) {
+  std::vector<double> deg(7, 0.125 * static_cast<double>(n % 700));
+  deg[6] = 0.1;  // no float holds it
+  return {hostUs, deg};
+}
+
+class ScriptedDevice : public Device {
+ public:
+  // What the test moves it by; lives as long as the device.
+  DeviceSink* sink = nullptr;
+  DeviceStatus state;
+  DeviceFacts says;
+
+  ScriptedDevice() { state.tactile.port = "/dev/scripted"; }
+  HandDescription hand() const override { return sdh2(); }
+  DeviceFacts facts() const override { return says; }
+  void start(DeviceSink& to) override {
+    sink = &to;
+    state.tactile.state = PortState::kStreaming;
+  }
+  void stop() noexcept override {
+    sink = nullptr;
+    state.tactile.state = PortState::kClosed;
+  }
+  DeviceStatus status() const override { return state; }
+  std::future<CommandAnswer> submit(DeviceCommand) override {
+    std::promise<CommandAnswer> none;
+    none.set_exception(std::make_exception_ptr(
+        DeviceError(DeviceFault::kUnsupported, "/dev/scripted", "takes no command")));
+    return none.get_future();
+  }
+
+  void frame(std::size_t n, std::int64_t hostUs) { sink->onFrame(numberedFrame(n, hostUs)); }
+  void angles(std::size_t n, std::int64_t hostUs) { sink->onAngles(numberedAngles(n, hostUs)); }
+  void temperatures(double degC, std::int64_t hostUs) {
+    sink->onTemperatures({hostUs, std::vector<double>(9, degC)});
+  }
+};
+
+// A session on a scripted device, its recorder moved by the test, by a clock of the test.
+struct ScriptedSession {
+  HandClock clock;
+  ScriptedDevice* device = nullptr;
+  std::unique_ptr<CaptureSession> session;
+  std::size_t frames = 0;  // delivered by run()
+  std::size_t samples = 0;
+
+  explicit ScriptedSession(CaptureOptions options = {}) {
+    auto owned = std::make_unique<ScriptedDevice>();
+    device = owned.get();
+    options.ownThread = false;
+    session = std::make_unique<CaptureSession>(std::move(owned), std::move(options), clock);
+    session->start();
+  }
+
+  // Lets time pass: a frame every 10 ms, angles every 5 ms, temperatures every second, a round of the
+  // recorder every 20 ms.
+  void run(double seconds, bool rounds = true) {
+    const auto steps = static_cast<std::int64_t>(seconds * 200.0 + 0.5);
+    for (std::int64_t i = 0; i < steps; ++i) {
+      clock.pass(5'000);
+      const std::int64_t now = clock.hostUs();
+      const std::int64_t tick = clock.monotonicUs() / 5'000;
+      if (tick % 200 == 0) device->temperatures(30.0, now);
+      device->angles(samples++, now);
+      if (tick % 2 == 0) device->frame(frames++, now);
+      if (rounds && tick % 4 == 0) session->step();
+    }
+  }
+};
+
+// Which frame of a scripted device it is.
+inline std::size_t numberOf(const TactileFrame& frame) {
+  return static_cast<std::size_t>(frame.values[0]) +
+         4096 * static_cast<std::size_t>(frame.values[1]);
+}
+
+}  // namespace palpate::testing

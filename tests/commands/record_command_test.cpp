@@ -1,0 +1,194 @@
+// The real program on an emulated hand that runs in the test: what the hand sends is what is recorded.
+#include <chrono>
+#include <csignal>
+
+#include "palpate/core/json.h"
+#include "palpate/emulator/emulated_hand.h"
+#include "palpate/recording/recording.h"
+
+#include "commands/palpate_program.h"
+#include "commands/record_kills.h"
+#include "emulator/numbered_hand.h"
+#include "testing/background_program.h"
+
+namespace palpate {
+namespace {
+namespace fs = std::filesystem;
+using namespace testing;
+
+std::unique_ptr<EmulatedHand> handAt(double hz) {
+  EmulatedHandOptions options;
+  options.rate = EmulationRate::kHz;
+  options.hz = hz;
+  return std::make_unique<EmulatedHand>(std::make_unique<NumberedHand>(), options);
+}
+
+// Each frame is one that was sent, none is missing in between.
+void expectConsecutive(const std::vector<fs::path>& paths) {
+  std::optional<std::uint64_t> last;
+  for (const fs::path& path : paths) {
+    const Profile profile = openRecording(path);
+    for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+      const auto number = NumberedHand::numberOf(profile.frame(i).values);
+      ASSERT_TRUE(number) << path << ", frame " << i << " was never sent";
+      ASSERT_EQ(*number, last.value_or(*number - 1) + 1) << path << ", frame " << i;
+      last = number;
+    }
+  }
+}
+
+TEST(RecordCommand, RecordsWhatTheHandSends) {
+  const TemporaryFolder folder;
+  const auto hand = handAt(100.0);
+  const auto result = palpate({"record",
+                               "--dsa",
+                               hand->dsaPort(),
+                               "--sdh",
+                               hand->sdhPort(),
+                               "-o",
+                               folder / "a.palpate",
+                               "--duration",
+                               "1.5",
+                               "--json",
+                               "--operator",
+                               "Ada"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const Json json = Json::parse(result.out);
+  const Profile profile = openRecording(folder / "a.palpate");
+  EXPECT_EQ(json.at("frames").asInteger(), static_cast<std::int64_t>(profile.numFrames()));
+  EXPECT_EQ(json.at("angles").asInteger(), static_cast<std::int64_t>(profile.numAngles()));
+  EXPECT_EQ(json.at("temperatures").asInteger(),
+            static_cast<std::int64_t>(profile.numTemperatures()));
+  EXPECT_EQ(json.at("bad_checksums").asInteger(), 0);
+  EXPECT_EQ(json.at("lost").asInteger(), 0);
+  EXPECT_EQ(json.at("gaps").asInteger(), 0);
+  EXPECT_NEAR(json.at("rate_hz").asDouble(), 100.0, 15.0);
+  EXPECT_NEAR(json.at("mean_rate_hz").asDouble(), 100.0, 10.0);
+  EXPECT_TRUE(json.at("complete").asBool());
+  // S counts from the first frame.
+  EXPECT_LT(profile.durationUs(), 1'500'000);
+  EXPECT_GT(profile.durationUs(), 1'300'000);
+  EXPECT_GT(profile.numAngles(), 60u);
+  EXPECT_GE(profile.numTemperatures(), 1u);
+  expectConsecutive({folder / "a.palpate"});
+  EXPECT_EQ(verifyRecording(folder / "a.palpate").state, VerifyReport::State::kSound);
+}
+
+TEST(RecordCommand, ASignalEndsItCleanly) {
+  const TemporaryFolder folder;
+  const auto hand = handAt(100.0);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    const fs::path path = folder / (std::to_string(number) + ".palpate");
+    BackgroundProgram program(PALPATE_PROGRAM,
+                              {"record", "--dsa", hand->dsaPort(), "-o", path.string()});
+    ASSERT_TRUE(awaitFrames(path, 20));
+    program.signal(number);
+    EXPECT_EQ(program.wait(), 0) << program.err();
+    EXPECT_NE(program.out().find(" frames in "), std::string::npos) << program.out();
+    EXPECT_EQ(verifyRecording(path).state, VerifyReport::State::kSound);
+    EXPECT_FALSE(fs::exists(path.string() + "-journal"));
+    EXPECT_FALSE(fs::exists(path.string() + ".lock"));
+    expectConsecutive({path});
+  }
+}
+
+TEST(RecordCommand, SplitPartsHoldEverythingOnce) {
+  const TemporaryFolder folder;
+  const auto hand = handAt(300.0);
+  const auto result = palpate({"record",
+                               "--dsa",
+                               hand->dsaPort(),
+                               "-o",
+                               folder / "a.palpate",
+                               "--duration",
+                               "2.5",
+                               "--split-minutes",
+                               "0.0167",
+                               "--json"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const std::vector<fs::path> parts{
+      folder / "a.palpate", folder / "a_002.palpate", folder / "a_003.palpate"};
+  EXPECT_EQ(Json::parse(result.out).at("files").size(), 3u);
+  std::size_t frames = 0;
+  for (const fs::path& part : parts) frames += openRecording(part).numFrames();
+  EXPECT_EQ(Json::parse(result.out).at("frames").asInteger(), static_cast<std::int64_t>(frames));
+  expectConsecutive(parts);
+}
+
+TEST(RecordCommand, NamesFromATemplateCountUp) {
+  const TemporaryFolder folder;
+  const auto hand = handAt(100.0);
+  for (int i = 0; i < 2; ++i) {
+    const auto result = palpate({"record",
+                                 "--dsa",
+                                 hand->dsaPort(),
+                                 "-o",
+                                 folder / "{object}_{run}.palpate",
+                                 "--object",
+                                 "../foam ball",
+                                 "--duration",
+                                 "0.2"});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+  }
+  EXPECT_EQ(openRecording(folder / "foam_ball_001.palpate").info().format, "palpate");
+  EXPECT_EQ(openRecording(folder / "foam_ball_002.palpate").info().format, "palpate");
+}
+
+TEST(RecordCommand, WithoutAFrameItFailsAndLeavesNothing) {
+  const TemporaryFolder folder;
+  EmulatedHandOptions options;
+  options.rate = EmulationRate::kHz;
+  EmulatedHand mute(std::make_unique<NumberedHand>(), options);
+  mute.mute(true);
+  expectOneLineError(
+      palpate({"record", "--dsa", mute.dsaPort(), "-o", folder / "a.palpate", "--wait", "0.5"}),
+      1,
+      {mute.dsaPort(), "no frame"});
+  expectOneLineError(
+      palpate({"record", "--dsa", folder / "no_port", "-o", folder / "a.palpate", "--wait", "0.3"}),
+      1,
+      {"no_port", "no frame"});
+  BackgroundProgram program(PALPATE_PROGRAM,
+                            {"record", "--dsa", mute.dsaPort(), "-o", folder / "a.palpate"});
+  program.signal(SIGINT);  // at any moment, even before it listens
+  EXPECT_NE(program.wait(), 0);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(RecordCommand, NeverReplacesARecording) {
+  const TemporaryFolder folder;
+  writeFile(folder / "a.palpate", "precious");
+  expectOneLineError(
+      palpate({"record", "--dsa", "/dev/null", "-o", folder / "a.palpate"}), 1, {"never replaced"});
+  EXPECT_EQ(readFile(folder / "a.palpate"), "precious");
+  expectOneLineError(palpate({"record", "--dsa", "/dev/null", "-o", folder / "no/a.palpate"}),
+                     1,
+                     {"is no folder"});
+}
+
+TEST(RecordCommand, RefusesWrongUsage) {
+  expectOneLineError(palpate({"record", "-o", "a.palpate"}), 2, {"--dsa"});
+  expectOneLineError(palpate({"record", "--dsa", "x"}), 2, {"-o"});
+  expectOneLineError(palpate({"record", "--dsa", "x", "-o", "a.dsa"}), 2, {"palpate convert"});
+  expectOneLineError(
+      palpate({"record", "--dsa", "x", "-o", "a.palpate", "--duration", "0"}), 2, {"--duration"});
+  expectOneLineError(palpate({"record", "--dsa", "x", "-o", "{foo}.palpate"}), 2, {"{foo}"});
+}
+
+// R1, short form; the long one is commands/record_kills_long.
+TEST(RecordCommand, KilledAtAnyMomentItLosesAtMost150Milliseconds) {
+  const KillReport report = killRecordings(killsToDo(6));
+  EXPECT_EQ(report.opened, report.kills);
+  EXPECT_EQ(report.wrongFrames, 0u);
+  EXPECT_EQ(report.doubledOrMissing, 0u);
+  EXPECT_EQ(report.strayFiles, 0u);
+  EXPECT_LE(report.mostLostMs, 150.0);
+  std::printf("%zu kills: %zu opened, at most %.0f ms lost\n",
+              report.kills,
+              report.opened,
+              report.mostLostMs);
+}
+
+}  // namespace
+}  // namespace palpate
