@@ -98,6 +98,9 @@ class EmulatedHand {
   // Accidents. Pulls plugs, in the middle of a packet or where it is: the client sees a hang-up, the link is gone.
   // The controllers go on and notice nothing.
   void unplug(bool dsa = true, bool sdh = true);
+  // Pulls the tactile plug at a certain byte: so many more leave, the client has 5 ms to read them, then it
+  // sees the hang-up. Returns at once.
+  void unplugAfter(std::uint64_t bytes);
   // Plugs in again what is out: a new pty under the same link. Throws as the constructor.
   void replug();
   // Off and on: settings as stored, stream and power off, deaf for `bootS`.
