@@ -91,6 +91,7 @@ class EmulatedHand {
   std::string dsaPort() const;
   std::string sdhPort() const;
 
+  // Counts follow what a client has read by a fraction of a millisecond.
   EmulatedHandCounts counts() const;
   // The last few thousand frames that have left, oldest first.
   std::vector<SentFrame> sentFrames() const;
