@@ -1,5 +1,5 @@
-// One port of the emulated hand: what a server says goes through the faults and over the paced line to whoever
-// reads.
+// One port of the emulated hand: what a server says goes through the faults and over the paced line
+// to whoever reads.
 #pragma once
 
 #include <cstdint>

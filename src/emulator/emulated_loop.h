@@ -1,5 +1,5 @@
-// The thread of an emulated hand: keeps its time, moves bytes between the ports and the two servers, and does
-// what other threads ask for.
+// The thread of an emulated hand: keeps its time, moves bytes between the ports and the two
+// servers, and does what other threads ask for.
 #pragma once
 
 #include <atomic>
