@@ -236,7 +236,10 @@ void DsaServer::sendFrame(std::int64_t atUs) {
   ++numFrames_;
   output_.push_back(std::move(message));
   if (!push_) --singles_;
-  nextFrameUs_ += periodUs();
+  const bool recorded = model_.nextIntervalS().has_value();
+  const double onLineUs =
+      recorded ? 0.0 : options_.lineByteUs * static_cast<double>(scanned_->bytes);
+  nextFrameUs_ += std::max(periodUs(), onLineUs);
 }
 
 std::vector<LineMessage> DsaServer::take() { return std::exchange(output_, {}); }

@@ -27,6 +27,8 @@ EmulatedHandOptions completed(EmulatedHandOptions options) {
   const bool real = options.rate == EmulationRate::kReal;
   options.dsa.frameHz.reset();
   if (options.rate == EmulationRate::kHz) options.dsa.frameHz = options.hz;
+  // The hand's time runs as on a real line, though no byte waits.
+  options.dsa.lineByteUs = options.rate == EmulationRate::kMax ? kSerialByteUs : 0.0;
   options.sdh.leastThinkUs = real ? kLeastThinkUs : 0.0;
   options.sdh.mostThinkUs = real ? kMostThinkUs : 0.0;
   options.sdh.requestByteUs = real ? kSerialByteUs : 0.0;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "palpate/core/number_text.h"
+#include "palpate/model/preshape.h"
 
 #include "emulator/sdh_motion.h"
 
@@ -32,20 +33,11 @@ std::string joined(const std::vector<double>& values, int decimals) {
   return text;
 }
 
-// Angles of the built-in grips [deg] as function of the close ratio, order of the axes (values of the prior program's
-// table; the firmware's own are not known).
+// The built-in grips, by id (the firmware's own angles are not known; those of the preshapes of the same names).
+constexpr const char* kGrips[] = {"centrical", "parallel", "cylindrical", "spherical"};
+
 std::vector<double> gripAngles(unsigned grip, double ratio) {
-  const double c = ratio;
-  switch (grip) {
-    case 0:
-      return {60, -75 + 82 * c, 75 - 82 * c, -75 + 82 * c, 75 - 82 * c, -75 + 82 * c, 75 - 82 * c};
-    case 1:
-      return {0, -75 + 82 * c, 75 - 82 * c, -75 + 82 * c, 75 - 82 * c, -75 + 82 * c, 75 - 82 * c};
-    case 2:
-      return {0, -30 + 30 * c, 30 + 35 * c, -30 + 30 * c, 30 + 35 * c, -30 + 30 * c, 30 + 35 * c};
-    default:
-      return {60, -40 + 25 * c, 40 + 15 * c, -40 + 25 * c, 40 + 15 * c, -40 + 25 * c, 40 + 15 * c};
-  }
+  return sdh2Preshape(kGrips[grip]).anglesDeg(ratio);
 }
 
 }  // namespace

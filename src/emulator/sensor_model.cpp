@@ -41,8 +41,7 @@ SensorModel::SensorModel(const HandDescription& hand,
     setting.thresholdCounts = setting.factoryThresholdCounts = matrix.thresholdCounts;
     setting.dynamicMask.assign(layout_.matrix(m).numPlaces(), 1);
     settings_.push_back(std::move(setting));
-    for (const std::size_t place : matrix.warmPlaces)
-      warm_.at(layout_.offset(m) + place) = matrix.warmCounts;
+    for (const std::size_t place : matrix.warmPlaces) warm_.at(layout_.offset(m) + place) = 1.0;
   }
 }
 
@@ -83,13 +82,14 @@ void SensorModel::scan(std::span<const double> degC, std::span<std::uint16_t> co
     const MatrixLayout& layout = layout_.matrix(m);
     const MatrixCharacteristics& matrix = characteristics_.matrices[m];
     const MatrixSetting& setting = settings_[m];
-    const double rest = matrix.noiseIntercept + matrix.noiseSlope * degC[m] - matrix.meanBelowLine;
+    const double rest = matrix.meanAtRest(degC[m]);
+    const double warm = matrix.warmAtRest(degC[m]);
     const double gain = characteristics_.gainCountsPerKpa(degC[m]) * setting.sensitivity;
     const double threshold = setting.thresholdCounts;
     for (std::size_t i = 0; i < layout.numPlaces(); ++i, ++place) {
       counts[place] = 0;
       if (layout.staticMask[i] == 0 || setting.dynamicMask[i] == 0) continue;
-      double raw = rest + warm_[place] + gain * responseKpa(place);
+      double raw = rest + warm_[place] * warm + gain * responseKpa(place);
       if (raw + kNoiseReach * matrix.taxelSd < threshold) continue;  // noise doesn't lift it
       raw += matrix.taxelSd * normal_(random_);
       const double above =

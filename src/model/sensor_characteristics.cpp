@@ -7,25 +7,23 @@ namespace {
 
 SensorCharacteristics makeSdh2() {
   SensorCharacteristics sensor;
-  // slope, intercept, rmse: lines of the maximum. Below line, sd: from the same recording.
-  const double lines[6][5] = {{0.3317, 33.628, 2.425417, 7.17, 0.75},
-                              {0.1999, 42.565, 0.708428, 2.06, 0.83},
-                              {0.3604, 41.551, 2.894096, 20.19, 0.89},
-                              {0.1632, 40.170, 0.930476, 2.64, 0.90},
-                              {0.4078, 30.616, 2.646151, 9.21, 0.87},
-                              {0.1741, 45.296, 0.850922, 2.48, 0.92}};
+  // Slope, intercept, rmse of the maximum; slope, intercept of the mean; noise of a taxel.
+  const double lines[6][6] = {{0.3317, 33.628, 2.425417, 0.1612, 34.409, 0.74},
+                              {0.1999, 42.565, 0.708428, 0.1978, 40.542, 0.72},
+                              {0.3604, 41.551, 2.894096, 0.1406, 31.887, 0.78},
+                              {0.1632, 40.170, 0.930476, 0.1598, 37.639, 0.79},
+                              {0.4078, 30.616, 2.646151, 0.1559, 32.861, 0.72},
+                              {0.1741, 45.296, 0.850922, 0.1731, 42.811, 0.80}};
   for (const auto& line : lines) {
     const bool proximal = sensor.matrices.size() % 2 == 0;
     MatrixCharacteristics matrix;
     matrix.noiseSlope = line[0];
     matrix.noiseIntercept = line[1];
     matrix.noiseRmse = line[2];
-    matrix.meanBelowLine = line[3];
-    matrix.taxelSd = line[4];
-    if (proximal) {
-      matrix.warmPlaces = {42, 48, 78};  // column 0, rows 7, 8, 13
-      matrix.warmCounts = line[3] - 1.5;
-    }
+    matrix.meanSlope = line[3];
+    matrix.meanIntercept = line[4];
+    matrix.taxelSd = line[5];
+    if (proximal) matrix.warmPlaces = {42, 48, 78};  // column 0, rows 7, 8, 13
     matrix.thresholdCounts = proximal ? 150 : 300;
     sensor.matrices.push_back(matrix);
   }
@@ -41,6 +39,12 @@ SensorCharacteristics makeSdh2() {
 }
 
 }  // namespace
+
+double MatrixCharacteristics::warmAtRest(double degC) const {
+  // The largest of a few noisy places lies about one standard deviation above their mean.
+  const double above = noiseIntercept + noiseSlope * degC - meanAtRest(degC) - taxelSd;
+  return above > 0.0 ? above : 0.0;
+}
 
 double SensorCharacteristics::gainCountsPerKpa(double degC) const {
   return 1.0 / (pressure[2] + pressure[3] * degC);

@@ -123,6 +123,7 @@ const std::vector<Command>& allCommands() {
        "from one form of a recording to another: .dsa, .palpate, .csv, .npz",
        &convertCommand},
       {"demo", "a headless tour: reads, reports and draws a recording", &demoCommand},
+      {"emulate", "the emulated hand on two ports, until it is interrupted", &emulateCommand},
       {"info", "what is in a recording", &infoCommand},
       {"kinematics", "where the taxels are at a set of joint angles", &kinematicsCommand},
       {"ports", "which ports there are, and what answers behind each", &portsCommand},

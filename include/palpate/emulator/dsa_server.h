@@ -20,14 +20,17 @@ namespace palpate {
 
 struct DsaServerOptions {
   std::uint32_t serial = 0x1D9B0057;  // of controller and sensor
-  // Below 0x1000: a release number (218..288), with what those can't: thresholds before 268; sensitivities read as 0.5 up to 218;
-  // a single frame starts a stream up to 288, except 269.
+  // Below 0x1000: a release number (218..288), with what those can't: thresholds before 268;
+  // sensitivities read as 0.5 up to 218; a single frame starts a stream up to 288, except 269.
   std::uint16_t firmware = 0x2900;
   std::uint16_t generatedBy = 105;
   std::uint32_t startMs = 0;  // controller's clock when it is switched on [ms]; wraps at 2^32
   double bootS = 0.0;         // deaf for so long after the start [s]
-  std::optional<double>
-      frameHz;  // frames at this rate [1/s], 0.01..1000, instead of scan time and recorded intervals
+  // A frame takes at least so long per byte [us], though the caller's line is faster; not for recorded
+  // intervals.
+  double lineByteUs = 0.0;
+  // Frames at this rate [1/s], 0.01..1000, instead of scan time and recorded intervals.
+  std::optional<double> frameHz = {};
 };
 
 // Time of one scan [us], by the number of taxels that the dynamic masks enable: 13.2 ms for up to 2, 17.7 ms for 78, 31.5 ms

@@ -32,7 +32,7 @@ struct EmulatedHandOptions {
   double hz = 31.7;  // with kHz: 0.01..1000
   Faults faults = {};
   std::uint64_t seed = 1;     // of faults and think times
-  DsaServerOptions dsa = {};  // frameHz is set by `rate`
+  DsaServerOptions dsa = {};  // frameHz and lineByteUs are set by `rate`
   SdhServerOptions sdh = {};  // checksum by the kind of port, think times by `rate`
 };
 

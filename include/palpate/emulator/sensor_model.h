@@ -35,7 +35,7 @@ class SensorModel {
   std::vector<MatrixSetting> settings_;
   std::vector<double> first_, lagged_, creep_;  // per place [kPa]
   bool atRest_ = true;
-  std::vector<double> warm_;  // per place [counts]
+  std::vector<double> warm_;  // per place: 1 where it rests higher
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
 };

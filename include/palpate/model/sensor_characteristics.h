@@ -2,6 +2,7 @@
 // settings of the controller.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace palpate {
@@ -11,12 +12,17 @@ struct MatrixCharacteristics {
   double noiseSlope = 0.0;      // [counts/deg C]
   double noiseIntercept = 0.0;  // [counts]
   double noiseRmse = 0.0;       // of single frames about the line [counts]
-  // The mean taxel lies so far below that line; the noise of one taxel from frame to frame.
-  double meanBelowLine = 0.0;  // [counts]
+  // The mean taxel: a line as well; and the noise of one taxel from frame to frame.
+  double meanSlope = 0.0;      // [counts/deg C]
+  double meanIntercept = 0.0;  // [counts]
   double taxelSd = 0.0;        // [counts]
-  // Places that rest higher than the others, and by how much (edges of the proximal pads).
+  // Places that rest higher than the others (edges of the proximal pads): they make the maximum.
   std::vector<std::size_t> warmPlaces;
-  double warmCounts = 0.0;
+
+  double meanAtRest(double degC) const { return meanIntercept + meanSlope * degC; }
+  // How much a warm place rests above the mean [counts].
+  double warmAtRest(double degC) const;
+
   // Settings at power-up.
   double sensitivity = 0.5;
   int thresholdCounts = 0;

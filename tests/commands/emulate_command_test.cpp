@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <csignal>
+
+#include "commands/palpate_program.h"
+#include "emulator/hand_session.h"
+#include "testing/background_program.h"
+
+namespace palpate {
+namespace {
+namespace fs = std::filesystem;
+
+using testing::BackgroundProgram;
+using testing::expectOneLineError;
+using testing::kPush;
+using testing::kStop;
+using testing::LineClient;
+using testing::palpate;
+using testing::readFrames;
+using testing::TemporaryFolder;
+
+TEST(EmulateCommand, SaysWhereItIsAndServesBothPortsUntilInterrupted) {
+  const TemporaryFolder folder;
+  const std::string tactilePort = folder / "tactile", motionPort = folder / "motion";
+  for (const int signal : {SIGINT, SIGTERM}) {
+    BackgroundProgram program(PALPATE_PROGRAM,
+                              {"emulate", "--dsa", tactilePort, "--sdh", motionPort});
+    const auto line = program.awaitLine("dsa=");
+    ASSERT_TRUE(line) << program.err();
+    EXPECT_EQ(*line, "dsa=" + tactilePort + " sdh=" + motionPort);
+    {
+      LineClient tactile(tactilePort), motion(motionPort);
+      tactile.send(kPush);
+      EXPECT_EQ(readFrames(tactile, 3).size(), 3u);
+      motion.send("ver\r\n");
+      EXPECT_EQ(motion.receiveLine(), "VER=0.0.3.3");
+    }
+    program.signal(signal);
+    EXPECT_EQ(program.wait(), 0);
+    EXPECT_EQ(program.err(), "");
+    EXPECT_FALSE(fs::is_symlink(fs::symlink_status(tactilePort)));
+    EXPECT_FALSE(fs::is_symlink(fs::symlink_status(motionPort)));
+  }
+}
+
+TEST(EmulateCommand, WritesTheTruthOfEachFrameSent) {
+  const TemporaryFolder folder;
+  const std::string port = folder / "d", table = folder / "truth.csv";
+  BackgroundProgram program(
+      PALPATE_PROGRAM,
+      {"emulate", "--dsa", port, "--truth", table, "--rate", "200", "--scene", "ball"});
+  ASSERT_TRUE(program.awaitLine("dsa=")) << program.err();
+  std::size_t frames = 0;
+  {
+    LineClient client(port);
+    client.send(kPush);
+    frames = readFrames(client, 20).size();
+    client.send(kStop);
+    client.scanner().feed(client.receiveUntilSilent(std::chrono::milliseconds(200)));
+    while (const auto packet = client.scanner().next()) frames += packet->id == 0 ? 1 : 0;
+  }
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
+  const std::string truth = testing::readFile(table);
+  const std::string head =
+      "time_ms,matrix,contact,force_n,x_mm,y_mm,z_mm,slip_x_taxels,slip_y_taxels,turn_deg\n";
+  EXPECT_EQ(truth.substr(0, head.size()), head);
+  EXPECT_EQ(std::size_t(std::count(truth.begin(), truth.end(), '\n')), 1 + 6 * frames);
+  expectOneLineError(palpate({"emulate", "--truth", table}), 1, {"--force"});
+  EXPECT_EQ(testing::readFile(table), truth);
+}
+
+TEST(EmulateCommand, ReplaysARecordingAsFastAsItIsRead) {
+  const TemporaryFolder folder;
+  const std::string recording = folder / "grasp.dsa", port = folder / "d";
+  ASSERT_EQ(palpate({"synthesize", "-o", recording, "--duration", "2", "--grasps", "1"}).exitCode,
+            0);
+  BackgroundProgram program(PALPATE_PROGRAM,
+                            {"emulate", "--replay", recording, "--rate", "max", "--dsa", port});
+  ASSERT_TRUE(program.awaitLine("dsa=")) << program.err();
+  LineClient client(port);
+  client.send(kPush);
+  // 2 s at 31.7 frames/s, both ends included.
+  EXPECT_EQ(readFrames(client, 64).size(), 64u);
+  EXPECT_TRUE(client.receive(std::chrono::milliseconds(200)).empty());
+}
+
+TEST(EmulateCommand, ListensOnThisMachineOnlyWhenAsked) {
+  BackgroundProgram program(
+      PALPATE_PROGRAM,
+      {"emulate", "--dsa", "tcp:127.0.0.1:0", "--rate", "300", "--faults", "junk_start=100"});
+  const auto line = program.awaitLine("dsa=tcp:127.0.0.1:");
+  ASSERT_TRUE(line) << program.err();
+  EXPECT_NE(line->find(" sdh=/dev/pts/"), std::string::npos);
+  LineClient client(line->substr(4, line->find(' ') - 4));
+  client.send(kStop);
+  EXPECT_EQ(client.receiveUntilSilent(std::chrono::milliseconds(200)).size(), 110u);
+}
+
+TEST(EmulateCommand, RefusesBadOptions) {
+  const TemporaryFolder folder;
+  testing::writeFile(folder / "file", "precious");
+  expectOneLineError(palpate({"emulate", "--scene", "desert"}), 1, {"desert", "ball", "empty"});
+  expectOneLineError(palpate({"emulate", "--scene", folder / "none.json"}), 1, {"none.json"});
+  expectOneLineError(palpate({"emulate", "--replay", folder / "none.dsa"}), 1, {"none.dsa"});
+  expectOneLineError(palpate({"emulate", "--faults", "fire=1"}), 2, {"--faults", "fire"});
+  expectOneLineError(palpate({"emulate", "--rate", "fast"}), 2, {"--rate", "real", "max"});
+  expectOneLineError(palpate({"emulate", "--rate", "0"}), 2, {"--rate"});
+  expectOneLineError(palpate({"emulate", "--dsa", "tcp:0.0.0.0:5000"}), 2, {"127.0.0.1"});
+  expectOneLineError(palpate({"emulate", "--sdh-firmware", "new one"}), 2, {"new one"});
+  expectOneLineError(palpate({"emulate", "--replay", "a.dsa", "--scene", "ball"}), 2, {"--scene"});
+  expectOneLineError(palpate({"emulate", "--replay", "a.dsa", "--truth", "t.csv"}), 2, {"--truth"});
+  expectOneLineError(palpate({"emulate", "--dsa", "x", "--sdh", "x"}), 2, {"different"});
+  expectOneLineError(palpate({"emulate", "extra"}), 2, {"usage"});
+  expectOneLineError(palpate({"emulate", "--dsa", folder / "file"}), 1, {"file"});
+  EXPECT_EQ(testing::readFile(folder / "file"), "precious");
+}
+
+}  // namespace
+}  // namespace palpate

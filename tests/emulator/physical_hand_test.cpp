@@ -1,0 +1,255 @@
+#include "palpate/emulator/physical_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "palpate/kinematics/hand_geometry.h"
+#include "palpate/model/preshape.h"
+
+#include "testing/testing.h"
+
+namespace palpate::testing {
+namespace {
+
+Scene sceneOf(const std::string& name) { return loadScene(name, dataFolder() / "scenes"); }
+
+// A scene's script without its actions: the test moves the hand itself.
+Scene quietScene(const std::string& name) {
+  Scene scene = sceneOf(name);
+  scene.script.clear();
+  return scene;
+}
+
+std::vector<std::uint16_t> scanAt(PhysicalHand& hand, double timeS) {
+  hand.advanceTo(timeS);
+  std::vector<std::uint16_t> counts(sdh2().layout->numPlaces());
+  hand.scan(counts);
+  return counts;
+}
+
+std::vector<int> activeFingers(const std::vector<std::uint16_t>& counts) {
+  std::vector<int> fingers;
+  for (std::size_t m = 0; m < 6; ++m) {
+    const auto from = counts.begin() + static_cast<std::ptrdiff_t>(sdh2().layout->offset(m));
+    const auto to = from + static_cast<std::ptrdiff_t>(sdh2().layout->matrix(m).numPlaces());
+    const int finger = static_cast<int>(m) / 2;
+    if (std::any_of(from, to, [](std::uint16_t value) { return value > 0; }) &&
+        (fingers.empty() || fingers.back() != finger))
+      fingers.push_back(finger);
+  }
+  return fingers;
+}
+
+void close(PhysicalHand& hand, const std::string& preshape, double velocity = 40.0) {
+  hand.joints().setVelocities(std::vector<double>(7, velocity));
+  hand.joints().setTargets(sdh2Preshape(preshape).anglesDeg(1.0));
+  hand.joints().startMotion();
+}
+
+TEST(PhysicalHand, AnOpenHandFeelsNothingAndStaysOpen) {
+  PhysicalHand hand(sceneOf("empty"));
+  for (const double timeS : {0.0, 1.0, 60.0, 3600.0, 86'400.0}) {
+    const auto counts = scanAt(hand, timeS);
+    EXPECT_EQ(*std::max_element(counts.begin(), counts.end()), 0);
+    for (const MatrixTruth& truth : hand.truth()) EXPECT_FALSE(truth.contact);
+  }
+  EXPECT_EQ(hand.joints().angles(), sdh2Preshape("centrical").anglesDeg(0.0));
+}
+
+TEST(PhysicalHand, ClosingOnEachObjectTouchesItWithAtLeastTwoFingers) {
+  for (const char* name : {"ball", "foam_ball", "bottle", "pen", "box", "slipping_handle"}) {
+    const Scene scene = quietScene(name);
+    PhysicalHand hand(scene);
+    close(hand, scene.preshape);
+    EXPECT_GE(activeFingers(scanAt(hand, 8.0)).size(), 2u) << name;
+    double force = 0.0;
+    for (const MatrixTruth& truth : hand.truth()) force += truth.forceN;
+    EXPECT_GT(force, 10.0) << name;
+    EXPECT_LT(force, 200.0) << name << ": motors give up before";
+  }
+}
+
+// The scripts of the scenes do the same by themselves, and let go again.
+TEST(PhysicalHand, ScriptsGraspAndRelease) {
+  for (const char* name : {"ball", "foam_ball", "bottle", "pen", "box", "slipping_handle"}) {
+    PhysicalHand hand(sceneOf(name));
+    EXPECT_EQ(activeFingers(scanAt(hand, 1.0)).size(), 0u) << name;
+    EXPECT_GE(activeFingers(scanAt(hand, 8.0)).size(), 2u) << name;
+    EXPECT_EQ(activeFingers(scanAt(hand, 25.0)).size(), 0u) << name;
+  }
+}
+
+TEST(PhysicalHand, FingersStopAtAHardObject) {
+  const Scene scene = quietScene("box");
+  PhysicalHand hand(scene);
+  close(hand, "parallel");
+  hand.advanceTo(8.0);
+  const std::vector<double> wanted = sdh2Preshape("parallel").anglesDeg(1.0);
+  for (const std::size_t axis : {1u, 3u, 5u}) {
+    EXPECT_LT(hand.joints().angles()[axis], wanted[axis] - 3.0) << axis;
+    EXPECT_EQ(hand.joints().states()[axis], AxisState::kBlockedClockwise) << axis;
+  }
+  EXPECT_FALSE(hand.joints().moving());
+}
+
+// A flat pad and a sphere pressed in by d over it: the elastic foundation's force is
+// k * integral over the cap of its depth = k pi d^2 (R - d/3).
+TEST(PhysicalHand, ForceOfASphereOnAFlatPadIsTheFoundationsIntegral) {
+  const HandGeometry geometry;
+  const auto angles = sdh2Preshape("centrical").anglesDeg(0.0);
+  const HandPose pose = geometry.pose(angles);
+  constexpr double kRadiusMm = 25.0, kDepthMm = 1.2;
+  Scene scene;
+  SceneObject ball;
+  ball.shape = {ShapeKind::kSphere, Eigen::Vector3d::Constant(2 * kRadiusMm)};
+  ball.stiffnessNPerMm3 = 1e4;
+  ball.massKg = 0.0;
+  ball.friction = 10.0;  // stays where it is
+  // Over the middle of a proximal pad, between taxels.
+  ball.positionMm = pose.pointMm(2, 2.5 * 3.4, 6.5 * 3.4) +
+                    pose.normalAt(2, 2.5 * 3.4, 6.5 * 3.4) * (kRadiusMm - kDepthMm);
+  scene.objects.push_back(ball);
+  PhysicalHandOptions options;
+  PhysicalHand hand(scene, options);
+  scanAt(hand, 0.02);
+  const double k = options.rubberNPerMm3 * 1e4 / (options.rubberNPerMm3 + 1e4);
+  const double expected = k * std::numbers::pi * kDepthMm * kDepthMm * (kRadiusMm - kDepthMm / 3.0);
+  ASSERT_TRUE(hand.truth()[2].contact);
+  EXPECT_NEAR(hand.truth()[2].forceN, expected, 0.05 * expected) << "taxels of 3.4 mm sample it";
+  // Blurring by the rubber keeps the force: pressure times area over all taxels.
+  double sum = 0.0;
+  for (const double kpa : hand.pressureKpa()) sum += kpa * 1e-3 * 3.4 * 3.4;
+  EXPECT_NEAR(sum, hand.truth()[2].forceN, 1e-9);
+  // And the centre of pressure is where it presses.
+  const Eigen::Vector3d centre(hand.truth()[2].xMm, hand.truth()[2].yMm, hand.truth()[2].zMm);
+  EXPECT_LT((centre - pose.pointMm(2, 2.5 * 3.4, 6.5 * 3.4)).norm(), 0.2);
+}
+
+TEST(PhysicalHand, ThreeFingersBalanceOnABall) {
+  PhysicalHand hand(quietScene("ball"));
+  close(hand, "centrical");
+  scanAt(hand, 10.0);
+  EXPECT_NEAR(hand.truth()[1].forceN, hand.truth()[3].forceN, 0.05);
+  EXPECT_NEAR(hand.truth()[1].forceN, hand.truth()[5].forceN, 0.05);
+}
+
+TEST(PhysicalHand, ASofterObjectTouchesMoreTaxelsWithLess) {
+  PhysicalHand hard(quietScene("ball")), soft(quietScene("foam_ball"));
+  close(hard, "centrical");
+  close(soft, "centrical");
+  const auto hardCounts = scanAt(hard, 10.0), softCounts = scanAt(soft, 10.0);
+  const auto active = [](const std::vector<std::uint16_t>& counts) {
+    return std::count_if(counts.begin(), counts.end(), [](std::uint16_t v) { return v > 0; });
+  };
+  EXPECT_GT(active(softCounts), active(hardCounts));
+  EXPECT_LT(*std::max_element(softCounts.begin(), softCounts.end()),
+            *std::max_element(hardCounts.begin(), hardCounts.end()) / 2);
+}
+
+TEST(PhysicalHand, AHandleThatIsPulledSlipsAndStopsWhenThePullEnds) {
+  PhysicalHand hand(sceneOf("slipping_handle"));
+  scanAt(hand, 6.9);
+  const MatrixTruth before = hand.truth()[1];
+  scanAt(hand, 7.5);
+  EXPECT_NEAR(hand.truth()[1].slipYTaxels, before.slipYTaxels, 0.1) << "friction holds at first";
+  scanAt(hand, 9.5);
+  // Pulled up, towards the fingertips: against y.
+  EXPECT_LT(hand.truth()[1].slipYTaxels, before.slipYTaxels - 2.0);
+  EXPECT_LT(hand.truth()[5].slipYTaxels, before.slipYTaxels - 2.0);
+  scanAt(hand, 10.2);
+  const double rested = hand.truth()[1].slipYTaxels;
+  scanAt(hand, 10.9);
+  EXPECT_NEAR(hand.truth()[1].slipYTaxels, rested, 0.02);
+  const double unturned = hand.truth()[1].turnDeg;
+  scanAt(hand, 14.0);
+  EXPECT_NEAR(std::abs(hand.truth()[1].turnDeg - unturned), 25.0, 1.5);
+  EXPECT_NEAR(hand.truth()[1].turnDeg, -hand.truth()[5].turnDeg, 1.5) << "seen from both sides";
+}
+
+// What the truth calls slip is what the pressure does on the matrix: its centroid moves with a small object.
+TEST(PhysicalHand, SlipInTaxelsIsTheMotionOfThePrint) {
+  const HandGeometry geometry;
+  const HandPose pose = geometry.pose(sdh2Preshape("centrical").anglesDeg(0.0));
+  Scene scene;
+  SceneObject ball;
+  ball.shape = {ShapeKind::kSphere, Eigen::Vector3d::Constant(24.0)};
+  ball.friction = 10.0;
+  ball.massKg = 0.0;
+  const Eigen::Vector3d at = pose.pointMm(0, 2.0 * 3.4, 4.0 * 3.4);
+  const Eigen::Vector3d normal = pose.normalAt(0, 2.0 * 3.4, 4.0 * 3.4);
+  ball.positionMm = at + normal * 10.5;
+  scene.objects.push_back(ball);
+  const Eigen::Vector3d by = pose.pointMm(0, 3.5 * 3.4, 7.0 * 3.4) - at;
+  scene.script.push_back({0.1, MoveObject{0, by, 1.0}});
+  PhysicalHand hand(scene);
+  scanAt(hand, 0.1);
+  EXPECT_NEAR(hand.truth()[0].slipXTaxels, 0.0, 1e-6);
+  scanAt(hand, 1.3);
+  EXPECT_NEAR(hand.truth()[0].slipXTaxels, 1.5, 0.01);
+  EXPECT_NEAR(hand.truth()[0].slipYTaxels, 3.0, 0.01);
+  const Eigen::Vector3d centre(hand.truth()[0].xMm, hand.truth()[0].yMm, hand.truth()[0].zMm);
+  EXPECT_LT((centre - at - by).norm(), 0.4);
+}
+
+TEST(PhysicalHand, SettingsOfTheScriptReachTheSensor) {
+  Scene scene;
+  scene.script = {{1.0, SetSceneThreshold{std::nullopt, 0}},
+                  {2.0, SetSceneThreshold{1, 200}},
+                  {3.0, SetSceneSensitivity{3, 1.0}}};
+  PhysicalHand hand(scene);
+  const auto silent = scanAt(hand, 0.9);
+  EXPECT_EQ(*std::max_element(silent.begin(), silent.end()), 0);
+  const auto noisy = scanAt(hand, 1.1);
+  EXPECT_GT(noisy[0], 20);
+  EXPECT_GT(noisy[100], 20);
+  const auto quieter = scanAt(hand, 2.1);
+  EXPECT_GT(quieter[0], 20);
+  EXPECT_EQ(quieter[100], 0);
+  hand.advanceTo(3.1);
+  EXPECT_EQ(hand.settings()[3].sensitivity, 1.0);
+  EXPECT_EQ(hand.settings()[2].sensitivity, 0.5);
+}
+
+TEST(PhysicalHand, MotorsWarmUpUnderLoadAndCoolDown) {
+  PhysicalHand hand(quietScene("bottle"));
+  const std::vector<double> cold = hand.temperatures();
+  ASSERT_EQ(cold.size(), 9u);
+  for (const double degC : cold) {
+    EXPECT_GE(degC, 34.0);
+    EXPECT_LE(degC, 49.0);
+  }
+  close(hand, "cylindrical");
+  hand.advanceTo(5.0);
+  hand.advanceTo(1800.0);
+  const std::vector<double> warm = hand.temperatures();
+  for (const std::size_t axis : {1u, 2u, 3u, 4u, 5u, 6u})
+    EXPECT_GT(warm[axis], cold[axis] + 1.5) << axis;
+  EXPECT_LT(*std::max_element(warm.begin(), warm.end()), 70.0);
+  hand.joints().setPower(std::vector<bool>(7, false));
+  hand.advanceTo(9000.0);
+  for (std::size_t i = 0; i < 9; ++i)
+    EXPECT_LT(hand.temperatures()[i], std::max(warm[i], cold[i] + 1.0)) << i;
+}
+
+TEST(PhysicalHand, TheSameSceneGivesTheSameFrames) {
+  PhysicalHand a(sceneOf("ball")), b(sceneOf("ball"));
+  for (int i = 1; i < 200; ++i) EXPECT_EQ(scanAt(a, i * 0.0315), scanAt(b, i * 0.0315));
+}
+
+TEST(PhysicalHand, WrongOptionsAreRefused) {
+  PhysicalHandOptions options;
+  options.rubberNPerMm3 = 0.0;
+  EXPECT_THROW(PhysicalHand({}, options), std::invalid_argument);
+  options = {};
+  options.motorNmm.pop_back();
+  EXPECT_THROW(PhysicalHand({}, options), std::invalid_argument);
+  options = {};
+  options.stepS = 1.0;
+  EXPECT_THROW(PhysicalHand({}, options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace palpate::testing

@@ -1,0 +1,118 @@
+#include "palpate/emulator/scene.h"
+
+#include <gtest/gtest.h>
+
+#include "palpate/core/error.h"
+
+#include "testing/testing.h"
+
+namespace palpate::testing {
+namespace {
+
+std::string faultOf(const std::string& json) {
+  try {
+    parseScene(json, "scene.json");
+  } catch (const FormatError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Scene, ReadsAllThereIs) {
+  const Scene scene = parseScene(R"({
+    "objects": [
+      {"shape": "cylinder", "size_mm": [50, 120], "stiffness_n_per_mm3": 2.5, "friction": 0.4,
+       "mass_kg": 0.3, "pose": {"position_mm": [1, -2, 140.5], "rotation_deg": [90, 0, 0]}},
+      {"shape": "sphere", "size_mm": 30}],
+    "hand": {"preshape": "cylindrical", "close": 0.25},
+    "script": [
+      {"at_s": 3, "load": {"object": 1, "force_n": [0, 0, -4], "torque_nmm": [0, 0, 9], "duration_s": 2}},
+      {"at_s": 1, "grasp": {"preshape": "parallel", "close": 0.8, "velocity_deg_per_s": 20}},
+      {"at_s": 4, "move": {"object": 1, "by_mm": [1, 2, 3], "duration_s": 0.5}},
+      {"at_s": 5, "turn": {"by_deg": [0, 0, 30]}},
+      {"at_s": 6, "temperature": {"ambient_c": 45}},
+      {"at_s": 7, "threshold": {"matrix": 2, "counts": 60}},
+      {"at_s": 8, "sensitivity": {"value": 1}},
+      {"at_s": 9, "release": {}}]})",
+                                 "somewhere/mine.json");
+  EXPECT_EQ(scene.name, "mine");
+  ASSERT_EQ(scene.objects.size(), 2u);
+  EXPECT_EQ(scene.objects[0].shape.kind, ShapeKind::kCylinder);
+  EXPECT_EQ(scene.objects[0].shape.sizeMm, Eigen::Vector3d(50, 50, 120));
+  EXPECT_EQ(scene.objects[0].stiffnessNPerMm3, 2.5);
+  EXPECT_EQ(scene.objects[0].friction, 0.4);
+  EXPECT_EQ(scene.objects[0].massKg, 0.3);
+  EXPECT_EQ(scene.objects[0].positionMm, Eigen::Vector3d(1, -2, 140.5));
+  // 90 degrees about x take its axis z to -y.
+  EXPECT_LT(
+      (scene.objects[0].rotation * Eigen::Vector3d::UnitZ() + Eigen::Vector3d::UnitY()).norm(),
+      1e-12);
+  EXPECT_EQ(scene.preshape, "cylindrical");
+  EXPECT_EQ(scene.close, 0.25);
+  ASSERT_EQ(scene.script.size(), 8u);
+  EXPECT_EQ(scene.script[0].atS, 1.0) << "in order of time";
+  const auto& grasp = std::get<GraspAction>(scene.script[0].action);
+  EXPECT_EQ(*grasp.preshape, "parallel");
+  EXPECT_EQ(grasp.velocityDegPerS, 20.0);
+  const auto& load = std::get<LoadObject>(scene.script[1].action);
+  EXPECT_EQ(load.object, 1u);
+  EXPECT_EQ(load.torqueNmm.z(), 9.0);
+  EXPECT_EQ(std::get<SetSceneThreshold>(scene.script[5].action).matrix, 2u);
+  EXPECT_FALSE(std::get<SetSceneSensitivity>(scene.script[6].action).matrix);
+}
+
+TEST(Scene, SaysWhichFieldIsWrong) {
+  const auto expectFault = [](const std::string& json, const std::string& place) {
+    const std::string fault = faultOf(json);
+    EXPECT_NE(fault.find("scene.json"), std::string::npos) << fault;
+    EXPECT_NE(fault.find(place), std::string::npos) << fault << " should name " << place;
+  };
+  expectFault("{", "scene.json");
+  expectFault("[]", "no JSON object");
+  expectFault(R"({"object": []})", "unknown key 'object'");
+  expectFault(R"({"objects": [{"shape": "banana", "size_mm": 3}]})", "objects[0].shape");
+  expectFault(R"({"objects": [{"shape": "sphere"}]})", "size_mm");
+  expectFault(R"({"objects": [{"shape": "box", "size_mm": [1, 2]}]})", "three lengths");
+  expectFault(R"({"objects": [{"shape": "sphere", "size_mm": -3}]})", "objects[0].size_mm");
+  expectFault(R"({"objects": [{"shape": "sphere", "size_mm": 3, "friction": "high"}]})",
+              "friction");
+  expectFault(
+      R"({"objects": [{"shape": "sphere", "size_mm": 3, "pose": {"position_mm": [1, 2]}}]})",
+      "position_mm");
+  expectFault(R"({"hand": {"preshape": "fist"}})", "hand.preshape");
+  expectFault(R"({"hand": {"close": 1.5}})", "hand.close");
+  expectFault(R"({"script": [{"grasp": {}}]})", "at_s");
+  expectFault(R"({"script": [{"at_s": 1}]})", "script[0]");
+  expectFault(R"({"script": [{"at_s": 1, "dance": {}}]})", "dance");
+  expectFault(R"({"script": [{"at_s": 1, "move": {}}]})", "needs an object");
+  expectFault(R"({"script": [{"at_s": 1, "threshold": {"matrix": 6}}]})", "matrix");
+  expectFault(R"({"script": [{"at_s": -1, "release": {}}]})", "at_s");
+  expectFault(R"({"objects": )" + std::string(600, '[') + std::string(600, ']') + "}",
+              "scene.json");
+}
+
+TEST(Scene, AllThatComeWithTheProgramLoad) {
+  const auto folder = dataFolder() / "scenes";
+  const std::vector<std::string> names = sceneNames(folder);
+  for (const char* promised :
+       {"empty", "ball", "foam_ball", "bottle", "pen", "box", "slipping_handle"})
+    EXPECT_NE(std::find(names.begin(), names.end(), promised), names.end()) << promised;
+  for (const std::string& name : names) EXPECT_EQ(loadScene(name, folder).name, name);
+}
+
+TEST(Scene, AnUnknownNameListsThoseThatExist) {
+  try {
+    loadScene("moon", dataFolder() / "scenes");
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("slipping_handle"), std::string::npos);
+  }
+  const TemporaryFolder folder;
+  EXPECT_THROW(loadScene((folder / "none.json").string(), folder.path()), FileError);
+  EXPECT_THROW(loadScene(folder.path().string() + "/", folder.path()), FileError);
+  writeFile(folder / "mine.json", "{}");
+  EXPECT_TRUE(loadScene((folder / "mine.json").string(), "nowhere").objects.empty());
+}
+
+}  // namespace
+}  // namespace palpate::testing
