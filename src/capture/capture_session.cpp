@@ -74,6 +74,7 @@ CaptureSession::CaptureSession(std::unique_ptr<Device> device,
 
 CaptureSession::~CaptureSession() {
   stop();
+  recorder_.stop();  // one that was asked for, though the device was never started
   const std::lock_guard lock(feedsMutex_);
   for (const auto& feed : feeds_) feed->close();
 }
@@ -136,7 +137,7 @@ void CaptureSession::mark(const std::string& text, std::optional<int> digit) {
   event.text = text;
   if (digit) event.json = Json::object().set("digit", *digit).text(-1);
   show(event);
-  hand(event);
+  pass(event);
 }
 
 void CaptureSession::onFrame(TactileFrame&& frame) {
@@ -146,12 +147,12 @@ void CaptureSession::onFrame(TactileFrame&& frame) {
   meter_.frame(clock_.monotonicUs(), saturated);
   auto shared = std::make_shared<const TactileFrame>(std::move(frame));
   screenFrame_.put(shared);
-  hand(CaptureItem(std::move(shared)));
+  pass(CaptureItem(std::move(shared)));
 }
 
 void CaptureSession::onAngles(JointAngles&& angles) {
   screenAngles_.put(angles);
-  hand(CaptureItem(std::move(angles)));
+  pass(CaptureItem(std::move(angles)));
 }
 
 void CaptureSession::onTemperatures(Temperatures&& temperatures) {
@@ -160,17 +161,17 @@ void CaptureSession::onTemperatures(Temperatures&& temperatures) {
     const std::lock_guard lock(shownMutex_);
     lastTemperatures_ = temperatures;
   }
-  hand(CaptureItem(std::move(temperatures)));
+  pass(CaptureItem(std::move(temperatures)));
 }
 
 void CaptureSession::onEvent(DeviceEvent&& event) {
   const RecordingEvent recorded{
       event.tUs, event.t1Us, event.kind, event.matrix, event.text, event.json};
   show(recorded);
-  hand(recorded);
+  pass(recorded);
 }
 
-void CaptureSession::hand(const CaptureItem& item) {
+void CaptureSession::pass(const CaptureItem& item) {
   if (numFeeds_ > 0) {
     std::vector<std::shared_ptr<CaptureFeed>> feeds;
     {
