@@ -8,6 +8,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/device/port_list.h"
 
 #include "device/motion_link.h"
 #include "device/tactile_link.h"
@@ -41,8 +42,14 @@ void LiveHandOptions::validate() const {
 
 struct LiveHand::Impl {
   Impl(const LiveHandOptions& options, const Clock& clock) : time(clock) {
+    // A plug that comes back may get another number; its name under /dev/serial/by-id stays.
     PortLink::Open open = options.open;
-    if (!open) open = [](const std::string& port) { return openChannel(port); };
+    if (!open)
+      open = [stable = std::string()](const std::string& port) mutable {
+        std::unique_ptr<ByteChannel> channel = openChannel(stable.empty() ? port : stable);
+        if (stable.empty()) stable = stableNameOf(port);
+        return channel;
+      };
     if (!options.dsaPort.empty())
       tactile =
           std::make_unique<TactileLink>(options.dsaPort, open, options.runLength, time, clock);
