@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -367,6 +368,12 @@ TEST(PhysicalHand, WrongOptionsAreRefused) {
   options = {};
   options.stepS = 1.0;
   EXPECT_THROW(PhysicalHand({}, options), std::invalid_argument);
+  PhysicalHand hand({});
+  EXPECT_THROW(hand.advanceTo(std::numeric_limits<double>::infinity()), std::invalid_argument);
+  EXPECT_THROW(hand.advanceTo(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+  hand.advanceTo(1.0);
+  hand.advanceTo(0.5);
+  EXPECT_EQ(hand.timeS(), 1.0) << "never back";
 }
 
 }  // namespace

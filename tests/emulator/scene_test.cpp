@@ -104,6 +104,16 @@ TEST(Scene, AllThatComeWithTheProgramLoad) {
   for (const std::string& name : names) EXPECT_EQ(loadScene(name, folder).name, name);
 }
 
+// The page shows one as an example.
+TEST(Scene, TheExampleOfTheDocumentIsOne) {
+  const std::string page = readFile(dataFolder().parent_path() / "docs" / "emulator.md");
+  const std::size_t from = page.find("    {\"objects\"");
+  ASSERT_NE(from, std::string::npos);
+  const Scene scene = parseScene(page.substr(from, page.find("\n\n", from) - from), "emulator.md");
+  EXPECT_EQ(scene.objects.size(), 1u);
+  EXPECT_EQ(scene.script.size(), 2u);
+}
+
 TEST(Scene, AnUnknownNameListsThoseThatExist) {
   try {
     loadScene("moon", dataFolder() / "scenes");
