@@ -199,6 +199,7 @@ const HandDescription& PhysicalHand::hand() const { return sdh2(); }
 
 void PhysicalHand::advanceTo(double timeS) {
   Impl& hand = *impl_;
+  if (!std::isfinite(timeS)) throw std::invalid_argument("PhysicalHand: time is not a number");
   while (hand.nowS < timeS) {
     while (hand.nextStep < hand.script.size() && hand.script[hand.nextStep].atS <= hand.nowS)
       hand.act(hand.script[hand.nextStep++].action);

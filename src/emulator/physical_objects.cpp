@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 namespace palpate {
@@ -17,9 +18,9 @@ constexpr double kMobilityMmPerNs = 2.0;  // how an object gives way [mm/s per N
 constexpr double kArmMm = 30.0;           // turns the same into rotation
 constexpr double kMostMmPerS = 100.0;
 constexpr double kMostRadPerS = 4.0;
-constexpr double kSlideMmPerNs = 8.0;  // what friction doesn't hold slides so fast
-constexpr double kTouchN = 0.05;       // less is no contact
-constexpr double kPutDownS = 0.5;      // untouched for so long it stands again
+constexpr double kLeastHoldN = 1e-6;  // of friction, along a normal
+constexpr double kTouchN = 0.05;      // less is no contact
+constexpr double kPutDownS = 0.5;     // untouched for so long it stands again
 constexpr double kQuietMmPerS = 0.05;
 constexpr double kReachMm = 8.0;  // sensor surfaces are bent: slack of the quick check
 
@@ -35,7 +36,8 @@ PhysicalObjects::PhysicalObjects(const std::vector<SceneObject>& objects,
                                  double rubberNPerMm3)
     : geometry_(geometry),
       rubberNPerMm3_(rubberNPerMm3),
-      contacts_(geometry.description().layout.numMatrices()) {
+      contacts_(geometry.description().layout.numMatrices()),
+      strongestN_(contacts_.size()) {
   for (const SceneObject& object : objects) {
     Body body;
     body.object = object;
@@ -47,57 +49,10 @@ PhysicalObjects::PhysicalObjects(const std::vector<SceneObject>& objects,
 }
 
 void PhysicalObjects::press(const HandPose& pose, std::vector<double>& pressureKpa) {
-  const SensorLayout& layout = geometry_.description().layout;
-  pressureKpa.assign(layout.numPlaces(), 0.0);
+  pressureKpa.assign(geometry_.description().layout.numPlaces(), 0.0);
   std::fill(contacts_.begin(), contacts_.end(), MatrixContact{});
-  std::vector<double> strongest(layout.numMatrices(), 0.0);
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    Body& body = bodies_[b];
-    body.normalForceN = body.normalTorqueNmm = Vector3d::Zero();
-    body.grip = body.gripArmNmm = 0.0;
-    const double k = rubberNPerMm3_ * body.object.stiffnessNPerMm3 /
-                     (rubberNPerMm3_ + body.object.stiffnessNPerMm3);
-    const Eigen::Matrix3d toBody = body.rotation.transpose();
-    for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
-      const MatrixLayout& matrix = layout.matrix(m);
-      const Vector3d middle = pose.positionMm(m, matrix.rows / 2, matrix.columns / 2);
-      const double radius =
-          std::hypot(matrix.rows * matrix.pitchMm, matrix.columns * matrix.pitchMm) / 2.0;
-      if (body.object.shape.distanceMm(toBody * (middle - body.positionMm)) > radius + kReachMm)
-        continue;
-      const double area = matrix.taxelAreaMm2();
-      double here = 0.0;
-      std::size_t place = layout.offset(m);
-      for (int y = 0; y < matrix.rows; ++y)
-        for (int x = 0; x < matrix.columns; ++x, ++place) {
-          if (!matrix.exists(y, x)) continue;
-          const Vector3d& at = pose.positionsMm()[place];
-          const double depth = -body.object.shape.distanceMm(toBody * (at - body.positionMm));
-          if (depth <= 0.0) continue;
-          const double forceN = k * depth * area;
-          pressureKpa[place] += k * depth * kKpaPerNPerMm2;
-          const Vector3d& normal = pose.normals()[place];
-          const Vector3d onObject = normal * forceN;
-          const Vector3d arm = at - body.positionMm;
-          body.normalForceN += onObject;
-          body.normalTorqueNmm += arm.cross(onObject);
-          body.grip += forceN;
-          body.gripArmNmm += forceN * arm.norm();
-          MatrixContact& contact = contacts_[m];
-          contact.forceN += forceN;
-          contact.forceOnPadN -= onObject;
-          contact.centreMm += at * forceN;
-          contact.normal += onObject;
-          contact.surfaceXMm += matrix.pitchMm * x * forceN;
-          contact.surfaceYMm += matrix.pitchMm * y * forceN;
-          here += forceN;
-        }
-      if (here > strongest[m]) {
-        strongest[m] = here;
-        contacts_[m].object = b;
-      }
-    }
-  }
+  std::fill(strongestN_.begin(), strongestN_.end(), 0.0);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) pressBody(b, pose, pressureKpa);
   for (MatrixContact& contact : contacts_) {
     if (contact.forceN <= 0.0) continue;
     contact.centreMm /= contact.forceN;
@@ -105,6 +60,100 @@ void PhysicalObjects::press(const HandPose& pose, std::vector<double>& pressureK
     contact.surfaceYMm /= contact.forceN;
     contact.normal.normalize();
   }
+}
+
+void PhysicalObjects::pressBody(std::size_t index,
+                                const HandPose& pose,
+                                std::vector<double>& pressureKpa) {
+  const SensorLayout& layout = geometry_.description().layout;
+  Body& body = bodies_[index];
+  body.touches.clear();
+  body.normalForceN = body.normalTorqueNmm = Vector3d::Zero();
+  body.grip = body.stiffnessNPerMm = body.turnStiffnessNmm = 0.0;
+  // Rubber and object's surface are two springs in a row.
+  const double k = rubberNPerMm3_ * body.object.stiffnessNPerMm3 /
+                   (rubberNPerMm3_ + body.object.stiffnessNPerMm3);
+  const Eigen::Matrix3d toBody = body.rotation.transpose();
+  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
+    const MatrixLayout& matrix = layout.matrix(m);
+    const Vector3d middle = pose.positionMm(m, matrix.rows / 2, matrix.columns / 2);
+    const double radius =
+        std::hypot(matrix.rows * matrix.pitchMm, matrix.columns * matrix.pitchMm) / 2.0;
+    if (body.object.shape.distanceMm(toBody * (middle - body.positionMm)) > radius + kReachMm)
+      continue;
+    const double area = matrix.taxelAreaMm2();
+    MatrixContact& contact = contacts_[m];
+    Touch touch;
+    double armSquares = 0.0;
+    std::size_t place = layout.offset(m);
+    for (int y = 0; y < matrix.rows; ++y)
+      for (int x = 0; x < matrix.columns; ++x, ++place) {
+        if (!matrix.exists(y, x)) continue;
+        const Vector3d& at = pose.positionsMm()[place];
+        const Vector3d arm = at - body.positionMm;
+        const double depth = -body.object.shape.distanceMm(toBody * arm);
+        if (depth <= 0.0) continue;
+        const double forceN = k * depth * area;
+        pressureKpa[place] += k * depth * kKpaPerNPerMm2;
+        const Vector3d onObject = pose.normals()[place] * forceN;
+        body.normalForceN += onObject;
+        body.normalTorqueNmm += arm.cross(onObject);
+        body.stiffnessNPerMm += k * area;
+        body.turnStiffnessNmm += k * area * arm.squaredNorm();
+        touch.forceN += forceN;
+        touch.normal += onObject;
+        touch.armMm += arm * forceN;
+        armSquares += arm.squaredNorm() * forceN;
+        contact.forceN += forceN;
+        contact.forceOnPadN -= onObject;
+        contact.centreMm += at * forceN;
+        contact.normal += onObject;
+        contact.surfaceXMm += matrix.pitchMm * x * forceN;
+        contact.surfaceYMm += matrix.pitchMm * y * forceN;
+      }
+    if (touch.forceN <= 0.0) continue;
+    body.grip += touch.forceN;
+    touch.normal.normalize();
+    touch.armMm /= touch.forceN;
+    touch.printMm = std::sqrt(std::max(armSquares / touch.forceN - touch.armMm.squaredNorm(), 0.0));
+    body.touches.push_back(touch);
+    if (touch.forceN > strongestN_[m]) {
+      strongestN_[m] = touch.forceN;
+      contact.object = index;
+    }
+  }
+}
+
+double PhysicalObjects::holdsN(const Body& body, const Vector3d& direction) {
+  double sum = 0.0;
+  for (const Touch& touch : body.touches)
+    sum += touch.forceN * touch.normal.cross(direction).norm();
+  return body.object.friction * sum;
+}
+
+Vector3d PhysicalObjects::unheldN(const Body& body, const Vector3d& forceN) {
+  if (body.touches.empty()) return forceN;
+  Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
+  for (const Touch& touch : body.touches)
+    normals += touch.forceN * touch.normal * touch.normal.transpose();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal;
+  principal.computeDirect(normals);
+  double used = 0.0;  // share of the limit, squared
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d axis = principal.eigenvectors().col(i);
+    const double share = forceN.dot(axis) / std::max(holdsN(body, axis), kLeastHoldN);
+    used += share * share;
+  }
+  return used <= 1.0 ? Vector3d(Vector3d::Zero())
+                     : Vector3d(forceN * (1.0 - 1.0 / std::sqrt(used)));
+}
+
+double PhysicalObjects::holdsNmm(const Body& body, const Vector3d& axis) {
+  double sum = 0.0;
+  for (const Touch& touch : body.touches)
+    sum += touch.forceN * (touch.normal.cross(axis.cross(touch.armMm)).norm() +
+                           touch.printMm * std::abs(touch.normal.dot(axis)));
+  return body.object.friction * sum;
 }
 
 void PhysicalObjects::advance(double dtS) {
@@ -119,26 +168,30 @@ void PhysicalObjects::advanceBody(Body& body, double dtS) {
     body.loadLeftS -= dtS;
   }
   const Vector3d pull = body.loadN - Vector3d::UnitZ() * (body.object.massKg * kGravity);
-  const double carries = body.object.friction * body.grip;
   body.untouchedS = body.grip < kTouchN ? body.untouchedS + dtS : 0.0;
   if (body.untouchedS > kPutDownS) body.held = false;
-  if (carries > pull.norm()) body.held = true;
+  if (body.grip >= kTouchN && holdsN(body, pull.normalized()) >= pull.norm()) body.held = true;
 
-  // Friction of all contacts together holds against what drives the object; the rest moves it.
-  const auto moves = [](const Vector3d& drive, double holds, double most, double mobility) {
-    const double excess = drive.norm() - holds;
-    return excess > 0.0 ? limited(drive.normalized() * (excess * mobility), most)
-                        : Vector3d(Vector3d::Zero());
-  };
-  Vector3d velocity = moves(body.normalForceN + (body.held ? pull : Vector3d(Vector3d::Zero())),
-                            carries,
-                            kMostMmPerS,
-                            kMobilityMmPerNs);
-  Vector3d angular =
-      moves(body.normalTorqueNmm + (body.held ? body.loadNmm : Vector3d(Vector3d::Zero())),
-            body.object.friction * body.gripArmNmm,
-            kMostRadPerS,
-            kMobilityMmPerNs / (kArmMm * kArmMm));
+  // What friction doesn't hold moves it: as fast as thick oil lets it, and never past the place where the
+  // contacts' springs balance it (the denominator).
+  Vector3d velocity = Vector3d::Zero(), angular = Vector3d::Zero();
+  if (!body.object.fixed) {
+    const auto speed = [dtS](double mobility, double spring) {
+      return mobility / (1.0 + mobility * spring * dtS);
+    };
+    Vector3d force = body.normalForceN, torque = body.normalTorqueNmm;
+    if (body.held) {
+      force += pull;
+      torque += body.loadNmm;
+    }
+    velocity =
+        limited(unheldN(body, force) * speed(kMobilityMmPerNs, body.stiffnessNPerMm), kMostMmPerS);
+    const double excess = torque.norm() - holdsNmm(body, torque.normalized());
+    if (excess > 0.0)
+      angular = limited(torque.normalized() * excess *
+                            speed(kMobilityMmPerNs / (kArmMm * kArmMm), body.turnStiffnessNmm),
+                        kMostRadPerS);
+  }
   if (body.moved.leftS > 0.0) {
     velocity = body.moved.perS * std::min(1.0, body.moved.leftS / dtS);
     body.moved.leftS -= dtS;

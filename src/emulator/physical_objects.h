@@ -1,5 +1,9 @@
 // The objects of a scene between the fingers: elastic contact, giving way, friction, weight and load.
-// Quasi-static: an object moves as in thick oil, until forces balance or friction holds them.
+// Quasi-static: an object moves as in thick oil, until forces balance or friction holds it. Friction is
+// Coulomb's, contact by contact: across a contact it holds up to friction times normal force, and about its
+// normal up to that times the print's radius; along the normal it holds nothing. Forces in several
+// directions at once share it: an ellipsoid over the principal axes of the normals is the limit (the limit
+// surface of Goyal, Ruina and Papadopoulos, 1991, in its usual approximation).
 #pragma once
 
 #include <array>
@@ -57,16 +61,23 @@ class PhysicalObjects {
     Eigen::Vector3d perS = Eigen::Vector3d::Zero();
     double leftS = 0.0;
   };
+  struct Touch {  // between the object and one matrix
+    double forceN = 0.0;
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // mean, towards the object
+    Eigen::Vector3d armMm = Eigen::Vector3d::Zero();   // from the object's middle
+    double printMm = 0.0;                              // radius of gyration of its pressure
+  };
   struct Body {
     SceneObject object;
     Eigen::Vector3d positionMm;
     Eigen::Matrix3d rotation;
     bool held = false;  // friction carries it: weight and load act
     double untouchedS = 0.0;
-    Eigen::Vector3d normalForceN;  // sum over all contacts, on the object
-    Eigen::Vector3d normalTorqueNmm;
-    double grip = 0.0;        // sum of the normal forces [N]
-    double gripArmNmm = 0.0;  // sum of normal force times distance from the middle
+    std::vector<Touch> touches;                     // one per matrix that it meets
+    Eigen::Vector3d normalForceN, normalTorqueNmm;  // sum over all contacts, on the object
+    double grip = 0.0;                              // sum of the normal forces [N]
+    double stiffnessNPerMm = 0.0;                   // of all contacts together
+    double turnStiffnessNmm = 0.0;                  // [N mm/rad]
     Eigen::Vector3d loadN = Eigen::Vector3d::Zero(), loadNmm = Eigen::Vector3d::Zero();
     Eigen::Vector3d wantedN = Eigen::Vector3d::Zero(), wantedNmm = Eigen::Vector3d::Zero();
     double loadLeftS = 0.0;
@@ -74,12 +85,19 @@ class PhysicalObjects {
     Motion motion;
   };
 
-  void advanceBody(Body& body, double dtS);
+  void pressBody(std::size_t index, const HandPose& pose, std::vector<double>& pressureKpa);
+  static void advanceBody(Body& body, double dtS);
+  // What is left of a force [N] that friction opposes; zero where it holds.
+  static Eigen::Vector3d unheldN(const Body& body, const Eigen::Vector3d& forceN);
+  // What friction holds against a force in a direction [N], a torque about an axis [N mm] (unit vectors).
+  static double holdsN(const Body& body, const Eigen::Vector3d& direction);
+  static double holdsNmm(const Body& body, const Eigen::Vector3d& axis);
 
   const HandGeometry& geometry_;
   double rubberNPerMm3_;
   std::vector<Body> bodies_;
   std::vector<MatrixContact> contacts_;
+  std::vector<double> strongestN_;  // per matrix: of the object that presses it most
 };
 
 }  // namespace palpate

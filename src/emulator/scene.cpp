@@ -80,6 +80,10 @@ class Field {
     if (!json_.isString()) fail("is no text");
     return json_.asString();
   }
+  bool flag() const {
+    if (!json_.isBool()) fail("is neither true nor false");
+    return json_.asBool();
+  }
   std::size_t index(std::string_view key, std::size_t count) const {
     if (!has(key)) return 0;
     const double value = at(key).number(0.0, static_cast<double>(count) - 1.0);
@@ -146,12 +150,13 @@ Shape shapeOf(const Field& field) {
 }
 
 SceneObject objectOf(const Field& field) {
-  field.only({"shape", "size_mm", "stiffness_n_per_mm3", "friction", "mass_kg", "pose"});
+  field.only({"shape", "size_mm", "stiffness_n_per_mm3", "friction", "mass_kg", "fixed", "pose"});
   SceneObject object;
   object.shape = shapeOf(field);
   object.stiffnessNPerMm3 = field.number("stiffness_n_per_mm3", object.stiffnessNPerMm3, 1e-4, 1e4);
   object.friction = field.number("friction", object.friction, 0.0, 10.0);
   object.massKg = field.number("mass_kg", object.massKg, 0.0, 100.0);
+  if (field.has("fixed")) object.fixed = field.at("fixed").flag();
   if (!field.has("pose")) return object;
   const Field pose = field.at("pose");
   pose.only({"position_mm", "rotation_deg"});

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -108,7 +110,7 @@ TEST(PhysicalHand, ForceOfASphereOnAFlatPadIsTheFoundationsIntegral) {
   ball.shape = {ShapeKind::kSphere, Eigen::Vector3d::Constant(2 * kRadiusMm)};
   ball.stiffnessNPerMm3 = 1e4;
   ball.massKg = 0.0;
-  ball.friction = 10.0;  // stays where it is
+  ball.fixed = true;
   // Over the middle of a proximal pad, between taxels.
   ball.positionMm = pose.pointMm(2, 2.5 * 3.4, 6.5 * 3.4) +
                     pose.normalAt(2, 2.5 * 3.4, 6.5 * 3.4) * (kRadiusMm - kDepthMm);
@@ -135,6 +137,86 @@ TEST(PhysicalHand, ThreeFingersBalanceOnABall) {
   scanAt(hand, 10.0);
   EXPECT_NEAR(hand.truth()[1].forceN, hand.truth()[3].forceN, 0.05);
   EXPECT_NEAR(hand.truth()[1].forceN, hand.truth()[5].forceN, 0.05);
+}
+
+// Along the normals friction holds nothing: an object beside the middle is pushed there, however rough, and
+// the two fingers press it alike.
+TEST(PhysicalHand, AnObjectBesideTheMiddleIsPushedThere) {
+  for (const double friction : {0.3, 0.9, 3.0}) {
+    Scene scene = quietScene("pen");
+    scene.objects[0].friction = friction;
+    scene.objects[0].positionMm.y() += 6.0;
+    PhysicalHand hand(scene);
+    close(hand, "pinch-parallel", 30.0);
+    scanAt(hand, 9.0);
+    const MatrixTruth &one = hand.truth()[1], &other = hand.truth()[5];
+    EXPECT_GT(one.forceN, 5.0) << friction;
+    EXPECT_NEAR(one.forceN, other.forceN, 0.05 * one.forceN) << friction;
+    EXPECT_NEAR(one.yMm, -other.yMm, 1.0) << friction;
+  }
+}
+
+// A pinched sphere under a torque about y, the direction of the grasp. Each contact of force F holds it by its
+// print, up to friction * F * radius of gyration, and by its distance from that axis (the pads are tilted:
+// they touch below the middle), up to friction * F * distance.
+TEST(PhysicalHand, ATorqueAboveWhatThePrintsHoldTurnsTheObject) {
+  for (const double share : {0.85, 1.25}) {
+    constexpr double kRadiusMm = 20.0, kFriction = 0.6;
+    Scene scene = quietScene("pen");
+    SceneObject& ball = scene.objects[0];
+    ball.shape = {ShapeKind::kSphere, Eigen::Vector3d::Constant(2.0 * kRadiusMm)};
+    ball.massKg = 0.0;
+    ball.friction = kFriction;
+    const auto pinched = [&] {
+      auto hand = std::make_unique<PhysicalHand>(scene);
+      close(*hand, "pinch-parallel", 30.0);
+      scanAt(*hand, 9.9);
+      return hand;
+    };
+    const MatrixTruth contact = pinched()->truth()[1];
+    ASSERT_GT(contact.forceN, 5.0);
+    // Elastic foundation: F = pi k R d^2, print of radius a with a^2 = 2 R d and paraboloid pressure, whose
+    // mean square distance from its middle is a^2 / 3.
+    const double k = 0.15 * 20.0 / (0.15 + 20.0);
+    const double depth = std::sqrt(contact.forceN / (std::numbers::pi * k * kRadiusMm));
+    const double printMm = std::sqrt(2.0 * kRadiusMm * depth / 3.0);
+    const double belowMm = 150.0 - contact.zMm;
+    const double holds = 2.0 * kFriction * contact.forceN *
+                         (printMm * std::sqrt(1.0 - belowMm * belowMm / (kRadiusMm * kRadiusMm)) +
+                          std::abs(belowMm));
+    scene.script = {{10.0, LoadObject{0, {0, 0, 0}, {0, share * holds, 0}, 0.1}}};
+    const auto hand = pinched();
+    scanAt(*hand, 12.0);
+    const double turned = std::abs(hand->truth()[1].turnDeg - contact.turnDeg);
+    if (share < 1.0)
+      EXPECT_LT(turned, 0.2) << share;
+    else
+      EXPECT_GT(turned, 3.0) << share;
+  }
+}
+
+// A box between two fingers and the thumb: the thumb takes what both fingers give, but for the friction of
+// pads that are tilted by some ten degrees (0.5 * 60 N * sin 10).
+TEST(PhysicalHand, TheThumbHoldsAgainstBothFingers) {
+  PhysicalHand hand(quietScene("box"));
+  close(hand, "parallel", 30.0);
+  scanAt(hand, 9.0);
+  const double fingers = hand.truth()[1].forceN + hand.truth()[5].forceN;
+  EXPECT_GT(fingers, 20.0);
+  EXPECT_NEAR(hand.truth()[3].forceN,
+              fingers,
+              0.5 * 60.0 * std::sin(10.0 * std::numbers::pi / 180.0) + 1.0);
+}
+
+TEST(PhysicalHand, AFixedObjectIsNotPushedAway) {
+  Scene scene = quietScene("pen");
+  scene.objects[0].fixed = true;
+  scene.objects[0].positionMm.y() += 6.0;
+  PhysicalHand hand(scene);
+  close(hand, "pinch-parallel", 30.0);
+  scanAt(hand, 9.0);
+  EXPECT_TRUE(hand.truth()[5].contact);
+  EXPECT_NEAR(hand.truth()[5].yMm, 6.0 + 7.0, 1.5) << "the pen's near side, 7 mm from its middle";
 }
 
 TEST(PhysicalHand, ASofterObjectTouchesMoreTaxelsWithLess) {
@@ -213,7 +295,7 @@ TEST(PhysicalHand, SlipInTaxelsIsTheMotionOfThePrint) {
   Scene scene;
   SceneObject ball;
   ball.shape = {ShapeKind::kSphere, Eigen::Vector3d::Constant(24.0)};
-  ball.friction = 10.0;
+  ball.fixed = true;
   ball.massKg = 0.0;
   const Eigen::Vector3d at = pose.pointMm(0, 2.0 * 3.4, 4.0 * 3.4);
   const Eigen::Vector3d normal = pose.normalAt(0, 2.0 * 3.4, 4.0 * 3.4);
@@ -286,6 +368,12 @@ TEST(PhysicalHand, WrongOptionsAreRefused) {
   options = {};
   options.stepS = 1.0;
   EXPECT_THROW(PhysicalHand({}, options), std::invalid_argument);
+  PhysicalHand hand({});
+  EXPECT_THROW(hand.advanceTo(std::numeric_limits<double>::infinity()), std::invalid_argument);
+  EXPECT_THROW(hand.advanceTo(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+  hand.advanceTo(1.0);
+  hand.advanceTo(0.5);
+  EXPECT_EQ(hand.timeS(), 1.0) << "never back";
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ TEST(Scene, ReadsAllThereIs) {
     "objects": [
       {"shape": "cylinder", "size_mm": [50, 120], "stiffness_n_per_mm3": 2.5, "friction": 0.4,
        "mass_kg": 0.3, "pose": {"position_mm": [1, -2, 140.5], "rotation_deg": [90, 0, 0]}},
-      {"shape": "sphere", "size_mm": 30}],
+      {"shape": "sphere", "size_mm": 30, "fixed": true}],
     "hand": {"preshape": "cylindrical", "close": 0.25},
     "script": [
       {"at_s": 3, "load": {"object": 1, "force_n": [0, 0, -4], "torque_nmm": [0, 0, 9], "duration_s": 2}},
@@ -47,6 +47,8 @@ TEST(Scene, ReadsAllThereIs) {
   EXPECT_LT(
       (scene.objects[0].rotation * Eigen::Vector3d::UnitZ() + Eigen::Vector3d::UnitY()).norm(),
       1e-12);
+  EXPECT_FALSE(scene.objects[0].fixed);
+  EXPECT_TRUE(scene.objects[1].fixed);
   EXPECT_EQ(scene.preshape, "cylindrical");
   EXPECT_EQ(scene.close, 0.25);
   ASSERT_EQ(scene.script.size(), 8u);
@@ -79,6 +81,8 @@ TEST(Scene, SaysWhichFieldIsWrong) {
   expectFault(
       R"({"objects": [{"shape": "sphere", "size_mm": 3, "pose": {"position_mm": [1, 2]}}]})",
       "position_mm");
+  expectFault(R"({"objects": [{"shape": "sphere", "size_mm": 3, "fixed": 1}]})",
+              "objects[0].fixed");
   expectFault(R"({"hand": {"preshape": "fist"}})", "hand.preshape");
   expectFault(R"({"hand": {"close": 1.5}})", "hand.close");
   expectFault(R"({"script": [{"grasp": {}}]})", "at_s");
@@ -98,6 +102,16 @@ TEST(Scene, AllThatComeWithTheProgramLoad) {
        {"empty", "ball", "foam_ball", "bottle", "pen", "box", "slipping_handle"})
     EXPECT_NE(std::find(names.begin(), names.end(), promised), names.end()) << promised;
   for (const std::string& name : names) EXPECT_EQ(loadScene(name, folder).name, name);
+}
+
+// The page shows one as an example.
+TEST(Scene, TheExampleOfTheDocumentIsOne) {
+  const std::string page = readFile(dataFolder().parent_path() / "docs" / "emulator.md");
+  const std::size_t from = page.find("    {\"objects\"");
+  ASSERT_NE(from, std::string::npos);
+  const Scene scene = parseScene(page.substr(from, page.find("\n\n", from) - from), "emulator.md");
+  EXPECT_EQ(scene.objects.size(), 1u);
+  EXPECT_EQ(scene.script.size(), 2u);
 }
 
 TEST(Scene, AnUnknownNameListsThoseThatExist) {

@@ -28,6 +28,7 @@ class PhysicalHand final : public HandModel {
   ~PhysicalHand() override;
 
   const HandDescription& hand() const override;
+  // Throws std::invalid_argument when the time isn't finite.
   void advanceTo(double timeS) override;
   double timeS() const override;
   JointMotion& joints() override;

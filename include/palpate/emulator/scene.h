@@ -3,7 +3,7 @@
 //                 "mass_kg": 0.2, "pose": {"position_mm": [0,0,150], "rotation_deg": [0,0,0]}}],
 //    "hand": {"preshape": "centrical", "close": 0.0},
 //    "script": [{"at_s": 1, "grasp": {"close": 1, "velocity_deg_per_s": 30}}, ..]}
-// Every key but "shape" and "at_s" may be absent. Positions in the hand's base frame; rotations about
+// Every key but "shape", "size_mm" and "at_s" may be absent. Positions in the hand's base frame; rotations about
 // its fixed axes x, y, z, in that order. An object stands where it is put until fingers touch it; then
 // it gives way to them, and weight and load pull at it.
 #pragma once
@@ -27,6 +27,7 @@ struct SceneObject {
       10.0;               // of its surface, against indentation; 10: rigid beside the rubber
   double friction = 0.6;  // coefficient against the rubber
   double massKg = 0.1;
+  bool fixed = false;  // held in place: only a script moves it
   Eigen::Vector3d positionMm = Eigen::Vector3d::Zero();
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
 };
