@@ -41,6 +41,12 @@ std::string listOf(const std::vector<double>& values) {
   return text + "]";
 }
 
+bool anyMoves(const std::vector<int>& states) {
+  return std::any_of(states.begin(), states.end(), [](int state) {
+    return state == kPositioning || state == kSpeedMode;
+  });
+}
+
 }  // namespace
 
 MotionLink::MotionLink(const std::string& port,
@@ -97,6 +103,10 @@ void MotionLink::connect(ByteChannel& channel) {
     // The port went away during a motion: nobody watched it. Stop, whatever it is doing.
     controller_->stop();
     eventNow("motion", "stopped: the motion port had been gone during a motion");
+  } else if (anyMoves(controller_->states())) {
+    // A program that died has left it so, or one on another port.
+    controller_->stop();
+    eventNow("motion", "stopped: the hand was moving when it was connected, watched by nobody");
   }
   std::lock_guard lock(mutex_);
   known_ = facts;
@@ -189,9 +199,7 @@ void MotionLink::pollTemperatures() {
 
 void MotionLink::pollStates() {
   const std::vector<int> states = controller_->states();
-  const bool moves = std::any_of(states.begin(), states.end(), [](int state) {
-    return state == kPositioning || state == kSpeedMode;
-  });
+  const bool moves = anyMoves(states);
   {
     std::lock_guard lock(mutex_);
     states_ = states;
@@ -221,6 +229,11 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
   motionFromUs_ = time_.nowUs();
   moving_ = true;  // also when the answer gets lost: then it may be moving
   CommandAnswer answer;
+  {
+    // Until they are asked: whoever waits for the end mustn't take the states of before for it.
+    std::lock_guard lock(mutex_);
+    states_.assign(axes.size(), kPositioning);
+  }
   answer.durationS = controller_->move();
   nextStatesUs_ = clock_.monotonicUs() + kStatesPeriodUs;
   event("motion",
