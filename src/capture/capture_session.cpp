@@ -74,6 +74,7 @@ CaptureSession::CaptureSession(std::unique_ptr<Device> device,
 
 CaptureSession::~CaptureSession() {
   stop();
+  recorder_.stop();  // one that was asked for, though the device was never started
   const std::lock_guard lock(feedsMutex_);
   for (const auto& feed : feeds_) feed->close();
 }
@@ -140,7 +141,7 @@ void CaptureSession::mark(const std::string& text, std::optional<int> digit) {
 
 void CaptureSession::note(const RecordingEvent& event) {
   show(event);
-  hand(event);
+  pass(event);
 }
 
 void CaptureSession::onFrame(TactileFrame&& frame) {
@@ -150,12 +151,12 @@ void CaptureSession::onFrame(TactileFrame&& frame) {
   meter_.frame(clock_.monotonicUs(), saturated);
   auto shared = std::make_shared<const TactileFrame>(std::move(frame));
   screenFrame_.put(shared);
-  hand(CaptureItem(std::move(shared)));
+  pass(CaptureItem(std::move(shared)));
 }
 
 void CaptureSession::onAngles(JointAngles&& angles) {
   screenAngles_.put(angles);
-  hand(CaptureItem(std::move(angles)));
+  pass(CaptureItem(std::move(angles)));
 }
 
 void CaptureSession::onTemperatures(Temperatures&& temperatures) {
@@ -164,17 +165,17 @@ void CaptureSession::onTemperatures(Temperatures&& temperatures) {
     const std::lock_guard lock(shownMutex_);
     lastTemperatures_ = temperatures;
   }
-  hand(CaptureItem(std::move(temperatures)));
+  pass(CaptureItem(std::move(temperatures)));
 }
 
 void CaptureSession::onEvent(DeviceEvent&& event) {
   const RecordingEvent recorded{
       event.tUs, event.t1Us, event.kind, event.matrix, event.text, event.json};
   show(recorded);
-  hand(recorded);
+  pass(recorded);
 }
 
-void CaptureSession::hand(const CaptureItem& item) {
+void CaptureSession::pass(const CaptureItem& item) {
   if (numFeeds_ > 0) {
     std::vector<std::shared_ptr<CaptureFeed>> feeds;
     {

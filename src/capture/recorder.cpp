@@ -18,7 +18,7 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::chrono::milliseconds kRound{20};
+constexpr std::chrono::milliseconds kRound{15};
 constexpr std::chrono::milliseconds kFinishRetry{100};
 constexpr int kFinishAttempts = 20;  // 2 s
 constexpr std::int64_t kClockJumpUs = 50'000;

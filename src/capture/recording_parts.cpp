@@ -127,6 +127,7 @@ void RecordingParts::open(const std::shared_ptr<const SensorLayout>& layout, Rou
   for (const CaptureItem& item : held_) write(item, time);
   held_.clear();
   worked(time);
+  commit(time);  // from its first moment on the file holds what came
 }
 
 bool RecordingParts::splitDue(const TactileFrame& frame) const {

@@ -99,6 +99,10 @@ void MotionLink::connect(ByteChannel& channel) {
   options.urgent = [this] { return stopping() || stopWaits(); };
   controller_ = std::make_unique<SdhController>(channel, clock_, options);
   const SdhFacts facts = controller_->open();
+  if (const auto known = this->facts(); wasConnected() && known && known->serial != facts.serial)
+    throw DeviceError(DeviceFault::kWrongDevice,
+                      port_,
+                      "another hand answers here than before; connect anew if that is meant");
   if (std::exchange(stopAfterReturn_, false)) {
     // The port went away during a motion: nobody watched it. Stop, whatever it is doing.
     controller_->stop();

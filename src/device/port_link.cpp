@@ -7,7 +7,12 @@
 namespace palpate {
 namespace {
 constexpr std::int64_t kRetryUs = 100'000;  // between two attempts to open a port that is gone
-}
+
+// A pseudo-terminal named by its number, not by a link. Once it is gone the number may belong to anybody:
+// to another program's terminal.
+bool namesAPtyByNumber(const std::string& port) { return port.starts_with("/dev/pts/"); }
+
+}  // namespace
 
 PortLink::PortLink(
     std::string port, std::string what, Open open, const HostTime& time, const Clock& clock)
@@ -53,6 +58,7 @@ void PortLink::begin(DeviceSink& sink) {
   sink_ = &sink;
   stopping_ = false;
   wasConnected_ = false;
+  goneForGood_ = false;
   nextTryUs_ = 0;
   lastFailure_.clear();
   status_ = PortStatus{};
@@ -68,6 +74,7 @@ void PortLink::step() {
       return;
     }
     rejectOrders("the " + what_ + " is not connected");
+    if (goneForGood_) nextTryUs_ = clock_.monotonicUs() + kRetryUs;
     if (clock_.monotonicUs() < nextTryUs_) {
       waitForOrder(nextTryUs_);
       return;
@@ -101,6 +108,14 @@ void PortLink::lose(const DeviceError& error) {
   }
   if (stopping_) return;
   nextTryUs_ = clock_.monotonicUs() + kRetryUs;
+  if (wasConnected_ && error.fault() == DeviceFault::kGone && namesAPtyByNumber(port_)) {
+    goneForGood_ = true;
+    const std::string message =
+        port_ + ": the pseudo-terminal is gone; connect anew (a link to it would be followed)";
+    setState(PortState::kLost, message);
+    eventNow("alarm", message);
+    return;
+  }
   setState(wasConnected_ ? PortState::kLost : PortState::kConnecting, error.what());
   // Said once, not ten times a second.
   if (std::exchange(lastFailure_, error.what()) != error.what())

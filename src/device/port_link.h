@@ -78,6 +78,8 @@ class PortLink {
              std::optional<int> matrix = {},
              const std::string& json = {});
   void eventNow(const std::string& kind, const std::string& text);
+  // Since start(); a device that answers now should be the same one.
+  bool wasConnected() const noexcept { return wasConnected_; }
   // A stamp later than the last one given for `lastUs` [us since 1970].
   std::int64_t stampAfter(std::int64_t& lastUs) const;
 
@@ -98,6 +100,7 @@ class PortLink {
   PortStatus status_;
   std::unique_ptr<ByteChannel> channel_;  // replaced by the port's thread only, under mutex_
   bool wasConnected_ = false;
+  bool goneForGood_ = false;
   std::int64_t nextTryUs_ = 0;
   std::string lastFailure_;
 };

@@ -59,7 +59,13 @@ void TactileLink::connect(ByteChannel& channel) {
   delivering_ = false;
   controller_ = std::make_unique<DsaController>(
       channel, [this](std::span<const std::byte> payload) { onPayload(payload); }, clock_, options);
-  controller_->open();
+  const DsaFacts& facts = controller_->open();
+  if (const auto known = this->facts(); wasConnected() && known && known->serial != facts.serial)
+    throw DeviceError(
+        DeviceFault::kWrongDevice,
+        port_,
+        "another tactile controller answers here than before; connect anew if that is "
+        "meant");
   learn();
   restoreSettings();
   deviceClock_.reset();

@@ -192,7 +192,8 @@ std::optional<std::int64_t> DsaServer::nextFrameUs(std::int64_t lineFreeUs) cons
 
 std::optional<std::int64_t> DsaServer::nextUs(std::int64_t lineFreeUs) const {
   if (bootQueries_ < kBootQueries) {
-    // About a second before it is ready, three times within 0.82 s; closer together when it boots faster.
+    // About a second before it is ready, three times within 0.82 s; closer together when it boots
+    // faster.
     const double readyUs = static_cast<double>(bootEndUs_ - switchedOnUs_);
     const double leadUs = std::min(1e6, readyUs);
     return bootEndUs_ - static_cast<std::int64_t>(leadUs * (1.0 - 0.41 * bootQueries_));

@@ -38,6 +38,10 @@ void EmulatedHand::unplug(bool dsa, bool sdh) {
   });
 }
 
+void EmulatedHand::unplugAfter(std::uint64_t bytes) {
+  loop_->call([&] { loop_->dsaLane().cutAfter(bytes); });
+}
+
 void EmulatedHand::replug() {
   loop_->call([&] {
     loop_->dsaLane().port().plug();

@@ -31,7 +31,7 @@ void EmulatedLane::setFaults(const Faults& faults) {
 }
 
 bool EmulatedLane::ready() const noexcept {
-  return port_->connected() && !muted_ && !blocked_ && line_.pendingBytes() < kReadyBytes;
+  return port_->connected() && !muted_ && !blocked_ && !cut() && line_.pendingBytes() < kReadyBytes;
 }
 
 std::span<const std::byte> EmulatedLane::receive(std::int64_t nowUs, FaultCounts& counts) {
@@ -78,10 +78,12 @@ void EmulatedLane::flush(std::int64_t nowUs) {
 void EmulatedLane::write(std::int64_t nowUs) {
   blocked_ = false;
   for (;;) {
-    const auto bytes = line_.due(nowUs);
+    auto bytes = line_.due(nowUs);
+    if (bytesUntilCut_) bytes = bytes.first(std::min<std::uint64_t>(bytes.size(), *bytesUntilCut_));
     if (bytes.empty()) return;
     const std::size_t taken = port_->write(bytes);
     counts_.bytesSent += taken;
+    if (bytesUntilCut_) *bytesUntilCut_ -= taken;
     const std::size_t rest = bytes.size() - taken;
     line_.pass(taken, false, ended_);
     if (rest == 0) continue;
@@ -107,10 +109,12 @@ void EmulatedLane::unplug() {
   line_.clear(ended_);
   counts_.pending = 0;
   blocked_ = false;
+  bytesUntilCut_.reset();
   port_->unplug();
 }
 
 std::optional<std::int64_t> EmulatedLane::nextDueUs() const {
+  if (cut()) return std::nullopt;
   if (const auto due = line_.nextDueUs()) return due;
   if (babble_ > 0 && port_->connected()) return 0;
   return std::nullopt;

@@ -1,9 +1,10 @@
-// One port of the emulated hand: what a server says goes through the faults and over the paced line to whoever
-// reads.
+// One port of the emulated hand: what a server says goes through the faults and over the paced line
+// to whoever reads.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,9 @@ class EmulatedLane {
   // Hands to the system what is due. Appends to ended() the messages that have left.
   void flush(std::int64_t nowUs);
   void unplug();
+  // After so many bytes more nothing leaves any more; then cut() is true, until the plug is out.
+  void cutAfter(std::uint64_t bytes) noexcept { bytesUntilCut_ = bytes; }
+  bool cut() const noexcept { return bytesUntilCut_ == 0; }
   std::vector<SentMessage>& ended() noexcept { return ended_; }
   // When flush() has something to do; nothing: nothing pends.
   std::optional<std::int64_t> nextDueUs() const;
@@ -59,6 +63,7 @@ class EmulatedLane {
   bool muted_ = false;
   bool blocked_ = false;
   std::uint64_t babble_ = 0;
+  std::optional<std::uint64_t> bytesUntilCut_;
   std::vector<std::byte> input_;
   std::vector<SentMessage> ended_;
   EmulatedPortCounts counts_;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::int64_t kQuietUs = 200'000;  // half a request is given up after this silence
 constexpr std::int64_t kTickUs = 50'000;    // the model's time goes on at least so often
+constexpr std::int64_t kCutUs = 5000;       // for the client to read what came ahead of a hang-up
 constexpr std::int64_t kTidyUs = 500'000;
 constexpr std::int64_t kRetryUs =
     1000;  // of a line that takes nothing; doubled up to 16 times that
@@ -195,7 +196,21 @@ void EmulatedHand::Loop::step() {
     dsaLane_.flush(now);
     sdhLane_.flush(now);
   }
+  endCut(dsaLane_, dsaCutUs_);
+  endCut(sdhLane_, sdhCutUs_);
   collect();
+}
+
+// A hang-up takes from the client what it has not read yet: it comes a moment after the last byte.
+void EmulatedHand::Loop::endCut(EmulatedLane& lane, std::int64_t& sinceUs) {
+  const std::int64_t wallUs = systemClock().monotonicUs();
+  if (!lane.cut()) {
+    sinceUs = 0;
+  } else if (sinceUs == 0) {
+    sinceUs = wallUs;
+  } else if (wallUs - sinceUs >= kCutUs) {
+    lane.unplug();
+  }
 }
 
 void EmulatedHand::Loop::receive(std::int64_t nowUs) {
@@ -297,6 +312,7 @@ std::int64_t EmulatedHand::Loop::waitUs(std::int64_t nowUs) {
   };
   for (const Incident& incident : incidents_)
     consider(incident.begun ? incident.endUs : incident.beginUs);
+  if (dsaLane_.cut() || sdhLane_.cut()) consider(nowUs + kCutUs);
   if (stalled_) return std::max<std::int64_t>(0, until - nowUs);
   consider(dsa_.nextUs(dsaLane_.freeAtUs()));
   consider(sdh_.nextUs());

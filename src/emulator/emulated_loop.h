@@ -1,5 +1,5 @@
-// The thread of an emulated hand: keeps its time, moves bytes between the ports and the two servers, and does
-// what other threads ask for.
+// The thread of an emulated hand: keeps its time, moves bytes between the ports and the two
+// servers, and does what other threads ask for.
 #pragma once
 
 #include <atomic>
@@ -54,6 +54,7 @@ class EmulatedHand::Loop {
   void forwardMotion(std::int64_t nowUs);
   bool somethingIsDue(std::int64_t nowUs) const;
   bool jumpToNextFrame();
+  void endCut(EmulatedLane& lane, std::int64_t& sinceUs);
   void collect();
   void wait();
   std::int64_t waitUs(std::int64_t nowUs);
@@ -73,6 +74,7 @@ class EmulatedHand::Loop {
   bool stalled_ = false;
   std::int64_t dsaInputUs_ = 0, sdhInputUs_ = 0;  // monotonic: when the client spoke last
   std::int64_t tidiedUs_ = 0;
+  std::int64_t dsaCutUs_ = 0, sdhCutUs_ = 0;  // monotonic: since when a cut line is silent
   int blockedTurns_ = 0;
   std::deque<ScannedFrame> onTheLine_;
   EmulatedHandCounts working_;

@@ -18,6 +18,12 @@ constexpr double kStartAcceleration = 100.0;  // [deg/s^2]
 constexpr double kAtTargetDeg = 1e-9;
 constexpr double kHeld = 0.02;  // an axis that is slower than this share of its speed is held
 
+// The cruising velocity of the trapezoid that covers d in T with acceleration a: d = v (T - v/a).
+double cruise(double distance, double durationS, double a) {
+  const double root = a * a * durationS * durationS - 4.0 * a * distance;
+  return (a * durationS - std::sqrt(std::max(root, 0.0))) / 2.0;
+}
+
 }  // namespace
 
 JointMotion::JointMotion(const HandDescription& hand, std::vector<double> startDeg)
@@ -143,7 +149,7 @@ double JointMotion::startMotion() {
   motionProfile_ = profile_;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const bool moves = soloDuration(i) > 0.0;
-    paths_[i] = {angleDeg_[i], targetDeg_[i] - angleDeg_[i], 0.0, moves};
+    paths_[i] = {angleDeg_[i], targetDeg_[i] - angleDeg_[i], accelerationDegPerS2_[i], 0.0, moves};
     states_[i] = moves ? AxisState::kPositioning : AxisState::kIdle;
     velocityDegPerS_[i] = 0.0;
   }
@@ -160,12 +166,6 @@ void JointMotion::stop() {
   }
 }
 
-// The cruising velocity of the trapezoid that covers d in T with acceleration a: d = v (T - v/a).
-static double cruise(double distance, double durationS, double a) {
-  const double root = a * a * durationS * durationS - 4.0 * a * distance;
-  return (a * durationS - std::sqrt(std::max(root, 0.0))) / 2.0;
-}
-
 double JointMotion::covered(std::size_t axis, double timeS) const {
   const double distance = std::abs(paths_[axis].distanceDeg);
   if (timeS >= durationS_) return distance;
@@ -173,7 +173,7 @@ double JointMotion::covered(std::size_t axis, double timeS) const {
     const double phase = timeS / durationS_;
     return distance * (phase - std::sin(2.0 * pi * phase) / (2.0 * pi));
   }
-  const double a = accelerationDegPerS2_[axis];
+  const double a = paths_[axis].accelerationDegPerS2;
   const double v = cruise(distance, durationS_, a);
   const double rampS = v / a;
   if (timeS < rampS) return a * timeS * timeS / 2.0;
@@ -189,7 +189,7 @@ double JointMotion::speedAt(std::size_t axis, double timeS) const {
     const double sine = std::sin(pi * timeS / durationS_);
     return 2.0 * distance / durationS_ * sine * sine;
   }
-  const double a = accelerationDegPerS2_[axis];
+  const double a = paths_[axis].accelerationDegPerS2;
   return std::min({cruise(distance, durationS_, a), a * timeS, a * (durationS_ - timeS)});
 }
 
@@ -239,7 +239,6 @@ void JointMotion::advanceVelocity(double dtS) {
     const double before = referenceDegPerS_[i];
     const double wanted = targetVelocityDegPerS_[i];
     double& reference = referenceDegPerS_[i];
-    const double free = freedom(i, wanted);
     double moved = wanted * dtS;
     if (controller_ == ControllerType::kVelocity) {
       reference = wanted;
@@ -250,23 +249,27 @@ void JointMotion::advanceVelocity(double dtS) {
       reference = rampS < dtS ? wanted : before + sign * accelerationDegPerS2_[i] * dtS;
       moved = (before + reference) / 2.0 * rampS + reference * (dtS - rampS);
     }
-    moved *= free;
-    if (moved == 0.0 && wanted != 0.0 && free == 0.0) {
+    // A braking axis still moves the old way.
+    const double direction = moved != 0.0 ? moved : wanted;
+    const double free = freedom(i, direction);
+    if (direction != 0.0 && free == 0.0) {
       velocityDegPerS_[i] = reference = 0.0;
-      states_[i] = moved > 0.0 ? AxisState::kBlockedClockwise : AxisState::kBlockedCounterClockwise;
+      states_[i] = wanted == 0.0     ? AxisState::kIdle
+                   : direction > 0.0 ? AxisState::kBlockedClockwise
+                                     : AxisState::kBlockedCounterClockwise;
       continue;
     }
-    const double next = angleDeg_[i] + moved;
+    const double next = angleDeg_[i] + moved * free;
     angleDeg_[i] = std::clamp(next, axes_[i].minimumDeg, axes_[i].maximumDeg);
     if (angleDeg_[i] != next) {
       velocityDegPerS_[i] = reference = 0.0;
       states_[i] = AxisState::kLimitReached;
       continue;
     }
-    velocityDegPerS_[i] = reference;
+    velocityDegPerS_[i] = reference * free;
     if (reference != 0.0 || wanted != 0.0)
       states_[i] = AxisState::kSpeedMode;
-    else if (states_[i] == AxisState::kSpeedMode)
+    else if (states_[i] != AxisState::kLimitReached)
       states_[i] = AxisState::kIdle;
   }
 }

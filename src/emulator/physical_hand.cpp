@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 #include <Eigen/Geometry>
@@ -50,7 +51,7 @@ struct PhysicalHand::Impl {
     geometry.pose(joints.angles(), pose);
     before = pose;
     objects.press(pose, pressure);
-    blurPressure(*sdh2().layout, pressure);
+    spreadPressure(*sdh2().layout, sdh2Sensor().spreadShare, pressure);
   }
 
   void step(double dtS) {
@@ -66,7 +67,7 @@ struct PhysicalHand::Impl {
       objects.advance(dtS);
       hold();
       follow(dtS, moved);
-      blurPressure(*sdh2().layout, pressure);
+      spreadPressure(*sdh2().layout, sdh2Sensor().spreadShare, pressure);
     }
     still = !moved && objects.quiet();
     sensor.advance(pressure, dtS);
@@ -224,7 +225,8 @@ void PhysicalHand::scan(std::span<std::uint16_t> counts) {
   // The motor nearest to matrix m drives axis m + 1.
   for (std::size_t m = 0; m < sdh2().layout->numMatrices(); ++m)
     degC.push_back(impl_->degC.at(m + 1));
-  impl_->sensor.scan(degC, counts);
+  const double sum = std::accumulate(impl_->degC.begin(), impl_->degC.end(), 0.0);
+  impl_->sensor.scan(degC, sum / static_cast<double>(impl_->degC.size()), counts);
   impl_->scanned = impl_->truth;
 }
 

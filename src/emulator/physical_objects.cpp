@@ -22,7 +22,6 @@ constexpr double kTouchN = 0.05;       // less is no contact
 constexpr double kPutDownS = 0.5;      // untouched for so long it stands again
 constexpr double kQuietMmPerS = 0.05;
 constexpr double kReachMm = 8.0;  // sensor surfaces are bent: slack of the quick check
-constexpr double kSpread = 0.08;  // share that each of four neighbours gets
 
 Vector3d limited(const Vector3d& v, double most) {
   const double norm = v.norm();
@@ -176,28 +175,6 @@ void PhysicalObjects::load(const LoadObject& load) {
   body.wantedN = load.forceN;
   body.wantedNmm = load.torqueNmm;
   body.loadLeftS = std::max(load.durationS, 1e-9);
-}
-
-void blurPressure(const SensorLayout& layout, std::vector<double>& pressureKpa) {
-  std::vector<double> spread;
-  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
-    const MatrixLayout& matrix = layout.matrix(m);
-    double* const of = &pressureKpa[layout.offset(m)];
-    if (std::all_of(of, of + matrix.numPlaces(), [](double kpa) { return kpa == 0.0; })) continue;
-    spread.assign(of, of + matrix.numPlaces());
-    for (int y = 0; y < matrix.rows; ++y)
-      for (int x = 0; x < matrix.columns; ++x) {
-        const auto place = static_cast<std::size_t>(y * matrix.columns + x);
-        if (of[place] == 0.0) continue;
-        for (const auto& [dy, dx] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-          if (!matrix.exists(y + dy, x + dx)) continue;
-          const double given = of[place] * kSpread;
-          spread[place] -= given;
-          spread[static_cast<std::size_t>((y + dy) * matrix.columns + x + dx)] += given;
-        }
-      }
-    std::copy(spread.begin(), spread.end(), of);
-  }
 }
 
 }  // namespace palpate

@@ -82,7 +82,4 @@ class PhysicalObjects {
   std::vector<MatrixContact> contacts_;
 };
 
-// Spreads pressure over the neighbours, as rubber does; sums stay. Only over places with a taxel.
-void blurPressure(const SensorLayout& layout, std::vector<double>& pressureKpa);
-
 }  // namespace palpate

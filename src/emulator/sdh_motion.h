@@ -1,5 +1,5 @@
-// The motion controller's commands, whatever form they came in: quantities with one value per axis, motions and
-// text answers.
+// The motion controller's commands, whatever form they came in: quantities with one value per axis,
+// motions and text answers.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// Input, timing and binary records; what the commands do stands in sdh_motion.cpp and sdh_text_commands.cpp.
+// Input, timing and binary records; what the commands do stands in sdh_motion.cpp and
+// sdh_text_commands.cpp.
 #include "palpate/emulator/sdh_server.h"
 
 #include <algorithm>

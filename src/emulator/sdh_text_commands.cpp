@@ -33,7 +33,8 @@ std::string joined(const std::vector<double>& values, int decimals) {
   return text;
 }
 
-// The built-in grips, by id (the firmware's own angles are not known; those of the preshapes of the same names).
+// The built-in grips, by id (the firmware's own angles are not known; those of the preshapes of the
+// same names).
 constexpr const char* kGrips[] = {"centrical", "parallel", "cylindrical", "spherical"};
 
 std::vector<double> gripAngles(unsigned grip, double ratio) {

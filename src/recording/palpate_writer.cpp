@@ -51,6 +51,26 @@ void requireLater(const char* what, std::optional<std::int64_t> last, std::int64
     throw std::invalid_argument(std::string(what) + ": time must be later than the last one's");
 }
 
+// The recording without a sample: made in memory, so that the file appears whole or not at all, at
+// whatever moment the process is killed.
+void publishEmpty(const fs::path& path,
+                  const SensorLayout& layout,
+                  const std::map<std::string, std::string>& meta) {
+  SqliteDatabase database(":memory:", SqliteDatabase::Mode::kCreate);
+  database.execute("PRAGMA page_size=4096; PRAGMA auto_vacuum=NONE; PRAGMA application_id=" +
+                   std::to_string(kPalpateApplicationId) +
+                   "; PRAGMA user_version=" + std::to_string(kPalpateVersion) + ";");
+  database.execute("BEGIN IMMEDIATE");
+  createTables(database);
+  insertMeta(database, "format", "palpate");
+  for (const auto& [key, value] : meta) insertMeta(database, key, value);
+  insertMatrices(database, layout);
+  database.execute("COMMIT");
+  OutputFile file(path, Overwrite::kRefuse);
+  file.write(database.bytes());
+  file.commit();
+}
+
 }  // namespace
 
 struct PalpateWriter::Impl {
@@ -61,33 +81,19 @@ struct PalpateWriter::Impl {
       : options(std::move(writerOptions)),
         layout(std::move(sensorLayout)),
         lock(std::make_unique<RecordingLock>(path)),
-        database((refuseExisting(path), path), SqliteDatabase::Mode::kCreate, options.vfs) {
+        database((refuseExisting(path), publishEmpty(path, *layout, meta), path),
+                 SqliteDatabase::Mode::kReadWrite,
+                 options.vfs) {
     try {
-      create(meta);
+      database.execute("PRAGMA journal_mode=TRUNCATE");
+      database.execute(options.synced ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=OFF");
+      rows.emplace(database);
     } catch (...) {
-      // Nobody has seen the file yet: none is better than one that can't be opened.
-      database.rollBack();
+      // Nobody has seen the file yet: none is better than one that nobody writes.
       std::error_code ignored;
       fs::remove(path, ignored);
-      fs::remove(journalPathOf(path), ignored);
       throw;
     }
-  }
-
-  void create(const std::map<std::string, std::string>& meta) {
-    database.execute(
-        "PRAGMA page_size=4096; PRAGMA auto_vacuum=NONE;"
-        "PRAGMA journal_mode=TRUNCATE; PRAGMA application_id=" +
-        std::to_string(kPalpateApplicationId) +
-        "; PRAGMA user_version=" + std::to_string(kPalpateVersion) + ";");
-    database.execute(options.synced ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=OFF");
-    database.execute("BEGIN IMMEDIATE");
-    createTables(database);
-    insertMeta(database, "format", "palpate");
-    for (const auto& [key, value] : meta) insertMeta(database, key, value);
-    insertMatrices(database, *layout);
-    database.execute("COMMIT");
-    rows.emplace(database);
   }
 
   // Refuses a sample while too much waits for the disk.

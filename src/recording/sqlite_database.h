@@ -66,6 +66,8 @@ class SqliteDatabase {
   // each other make b-trees of any length); they throw FormatError. Counts from here on.
   void limitWork(std::uint64_t fileBytes);
   void unlimitWork();
+  // The whole database as the bytes of its file, what was committed. Throws FileError (no memory).
+  std::string bytes() const;
   const std::filesystem::path& path() const noexcept { return path_; }
 
  private:

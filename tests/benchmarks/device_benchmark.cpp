@@ -55,7 +55,8 @@ void framePacket(benchmark::State& state, Content content) {
     bytes += all[next].size();
     next = (next + 1) % all.size();
   }
-  if (decoded != static_cast<std::uint64_t>(state.iterations())) state.SkipWithError("frames were refused");
+  if (decoded != static_cast<std::uint64_t>(state.iterations()))
+    state.SkipWithError("frames were refused");
   state.counters["bytes"] = static_cast<double>(bytes) / static_cast<double>(state.iterations());
 }
 

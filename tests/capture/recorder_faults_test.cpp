@@ -35,11 +35,12 @@ bool hasAlarm(const CaptureSession& session, AlarmKind kind) {
   return false;
 }
 
-void expectFrames(const fs::path& path, std::size_t from, std::size_t to) {
+// The first frames, each once: at least so many, at most so many.
+void expectFrames(const fs::path& path, std::size_t least, std::size_t most) {
   const Profile profile = openRecording(path);
-  ASSERT_EQ(profile.numFrames(), to - from);
-  for (std::size_t i = 0; i < profile.numFrames(); ++i)
-    ASSERT_EQ(numberOf(profile.frame(i)), from + i);
+  ASSERT_GE(profile.numFrames(), least);
+  ASSERT_LE(profile.numFrames(), most);
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) ASSERT_EQ(numberOf(profile.frame(i)), i);
   EXPECT_EQ(verifyRecording(path).state, VerifyReport::State::kSound);
 }
 
@@ -79,7 +80,7 @@ TEST(RecorderFaults, aDiskThatFailsAtAnyOperationAndRecoversCostsNothing) {
       const RecordingReport report = scripted.session->stopRecording();
       EXPECT_TRUE(report.complete) << report.message;
       ASSERT_EQ(report.paths.size(), 1u);
-      expectFrames(report.paths[0], 0, scripted.frames);
+      expectFrames(report.paths[0], scripted.frames, scripted.frames);
       EXPECT_EQ(openRecording(report.paths[0]).numAngles(), scripted.samples);
       std::size_t told = 0;
       for (const RecordingEvent& event : readEvents(report.paths[0]).events)
@@ -106,7 +107,9 @@ TEST(RecorderFaults, aDiskThatStaysFullLeavesTheFileValidAndCaptureGoesOn) {
     // The session lives: frames come, and the next recording is none of this one's business.
     scripted.run(0.2);
     EXPECT_TRUE(scripted.session->takeFrame());
-    if (!report.paths.empty()) expectFrames(report.paths[0], 0, onDisk);
+    // A commit whose very last step failed may be there all the same.
+    if (!report.paths.empty())
+      expectFrames(report.paths[0], onDisk, static_cast<std::size_t>(report.frames));
     vfs.heal();
     scripted.session->startRecording(to(folder / "b.palpate"));
     scripted.run(0.5);
@@ -178,7 +181,7 @@ TEST(RecorderFaults, aRecorderThatIsBlockedUpTo30SecondsLosesNothing) {
     scripted.run(0.2);
     const RecordingReport report = scripted.session->stopRecording();
     EXPECT_TRUE(report.complete) << report.message;
-    expectFrames(folder / "a.palpate", 0, scripted.frames);
+    expectFrames(folder / "a.palpate", scripted.frames, scripted.frames);
     EXPECT_EQ(openRecording(folder / "a.palpate").numAngles(), scripted.samples);
   }
 }
@@ -286,7 +289,7 @@ TEST(RecorderFaults, aDiskThatBlocksAWriteIsAnAlarmAndCostsNothing) {
   const RecordingReport report = session.stopRecording();
   session.stop();
   EXPECT_TRUE(report.complete) << report.message;
-  expectFrames(folder / "a.palpate", 0, frames);
+  expectFrames(folder / "a.palpate", frames, frames);
 }
 
 }  // namespace

@@ -19,11 +19,14 @@ struct BabblerControls {
   std::atomic<std::uint64_t> most{0};   // babble ends there, then silence
   std::atomic<unsigned> threshold2{0};  // of matrix 2, as the controller has it
   std::atomic<bool> setWhileStreaming{false};
+  std::atomic<unsigned> serialByte{0x57};  // lowest byte of the controller's serial number
 };
 
 class BabblingChannel : public ByteChannel {
  public:
-  explicit BabblingChannel(BabblerControls& controls) : controls_(controls) {}
+  explicit BabblingChannel(BabblerControls& controls) : controls_(controls) {
+    hand_.serialByte = controls.serialByte;
+  }
 
   std::size_t read(std::span<std::byte> into, std::chrono::milliseconds timeout) override {
     switch (controls_.behaviour.load()) {

@@ -12,6 +12,7 @@ class FakeDsa {
  public:
   // How it behaves.
   unsigned firmware = 0x2900;
+  unsigned serialByte = 0x57;
   bool knowsMasks = true;
   std::int64_t deafUntilUs = 0;  // boots
   int swallow = 0;               // requests it doesn't answer
@@ -49,6 +50,7 @@ class FakeDsa {
     switch (id) {
       case 0x01: {
         Bytes record = bytesOf("00 00 57 00 9B 1D 10 00 00 80 70 00 00 00 00 00 00 00");
+        record[2] = static_cast<std::byte>(serialByte);
         record[7] = static_cast<std::byte>(firmware & 0xFFu);
         record[8] = static_cast<std::byte>(firmware >> 8);
         return answer(record);

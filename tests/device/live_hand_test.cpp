@@ -147,6 +147,42 @@ TEST_F(LiveHandTest, AHandThatReturnsStreamsAgainWithItsSettings) {
     }
 }
 
+// Its number may be another program's terminal by now: nothing may be written there.
+TEST_F(LiveHandTest, APtyNamedByItsNumberIsNotOpenedAgainOnceItIsGone) {
+  std::atomic<int> opened = 0;
+  LiveHandOptions given = options();
+  given.dsaPort = "/dev/pts/4711";
+  given.open = [&](const std::string&) -> std::unique_ptr<ByteChannel> {
+    ++opened;
+    return std::make_unique<BabblingChannel>(controls);
+  };
+  LiveHand named(given);
+  named.start(sink);
+  ASSERT_TRUE(sink.awaitFrames(3));
+  controls.behaviour = Behaviour::kGone;
+  ASSERT_TRUE(sink.await([&] { return named.status().tactile.state == PortState::kLost; }));
+  controls.behaviour = Behaviour::kHonest;
+  EXPECT_FALSE(sink.await([&] { return opened > 1; }, milliseconds(400)));
+  EXPECT_NE(named.status().tactile.message.find("connect anew"), std::string::npos);
+  named.stop();
+}
+
+TEST_F(LiveHandTest, AnotherControllerInTheSamePlaceIsNotTakenForTheFirst) {
+  hand.start(sink);
+  ASSERT_TRUE(sink.awaitFrames(3));
+  controls.behaviour = Behaviour::kGone;
+  ASSERT_TRUE(sink.await([&] { return hand.status().tactile.state == PortState::kLost; }));
+  const std::size_t frames = sink.numFrames();
+  controls.serialByte = 0x99;
+  controls.behaviour = Behaviour::kHonest;
+  ASSERT_TRUE(sink.await([&] {
+    return hand.status().tactile.message.find("another tactile controller") != std::string::npos;
+  }));
+  EXPECT_EQ(sink.numFrames(), frames);
+  controls.serialByte = 0x57;
+  EXPECT_TRUE(sink.awaitFrames(frames + 3)) << "the first one is back";
+}
+
 TEST_F(LiveHandTest, StopsSoonWhateverTheStateOfThePort) {
   for (const Behaviour behaviour : {Behaviour::kHonest,
                                     Behaviour::kSilent,

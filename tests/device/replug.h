@@ -40,7 +40,7 @@ class ReplugRun {
   ~ReplugRun() { live_->stop(); }
 
   void cycle() {
-    ASSERT_TRUE(awaitMore()) << live_->status().tactile.message;
+    ASSERT_TRUE(awaitMore()) << stateText();
     std::this_thread::sleep_for(std::chrono::microseconds(random_() % 60'000));
     const std::size_t frames = sink_.numFrames();
     const std::size_t gaps = numGaps();
@@ -49,12 +49,12 @@ class ReplugRun {
     ASSERT_TRUE(sink_.await([&] {
       const DeviceStatus status = live_->status();
       return status.tactile.state == PortState::kLost && status.motion->state == PortState::kLost;
-    })) << live_->status().tactile.message;
+    })) << stateText();
     figures_.mostNoticedMs = std::max(figures_.mostNoticedMs, since(from));
     std::this_thread::sleep_for(std::chrono::microseconds(random_() % 300'000));
     from = Clock::now();
     hand_.replug();
-    ASSERT_TRUE(awaitMore()) << live_->status().tactile.message;
+    ASSERT_TRUE(awaitMore()) << stateText();
     figures_.mostReturnMs = std::max(figures_.mostReturnMs, since(from));
     EXPECT_EQ(numGaps(), gaps + 1) << "the gap is recorded";
     EXPECT_GT(sink_.numFrames(), frames);
@@ -95,6 +95,14 @@ class ReplugRun {
     });
     return sink_.await(
         [&] { return sink_.frames.size() > frames && sink_.angles.size() > angles; });
+  }
+  std::string stateText() const {
+    const DeviceStatus status = live_->status();
+    const auto text = [](const PortStatus& port) {
+      return std::to_string(static_cast<int>(port.state)) + " " + std::to_string(port.items) +
+             " items " + port.message + "; ";
+    };
+    return text(status.tactile) + text(*status.motion);
   }
   std::size_t numGaps() {
     std::size_t count = 0;

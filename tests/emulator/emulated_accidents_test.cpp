@@ -78,6 +78,26 @@ TEST(EmulatedAccidents, UnpluggedAndPluggedAgainAHundredTimes) {
   EXPECT_EQ(readFrames(client, 3).size(), 3u);
 }
 
+TEST(EmulatedAccidents, ThePlugIsPulledAtAGivenByte) {
+  EmulatedHand hand(std::make_unique<StillHand>(), fastHand());
+  for (const std::size_t bytes : {0u, 1u, 9u, 10u, 11u, 50u, 89u, 500u}) {
+    LineClient client(hand.dsaPort());
+    client.send(kStop);
+    client.receiveUntilSilent(20ms);
+    hand.unplugAfter(bytes);
+    client.send(kPush);
+    Octets all;
+    while (!client.hungUp() && all.size() <= 500) {
+      const Octets more = client.receive(1000ms);
+      if (more.empty() && !client.hungUp()) break;
+      all.insert(all.end(), more.begin(), more.end());
+    }
+    EXPECT_TRUE(client.hungUp()) << bytes;
+    EXPECT_EQ(all.size(), bytes);
+    hand.replug();
+  }
+}
+
 TEST(EmulatedAccidents, OnePlugAlone) {
   EmulatedHand hand(std::make_unique<StillHand>(), fastHand());
   LineClient tactile(hand.dsaPort()), motion(hand.sdhPort());

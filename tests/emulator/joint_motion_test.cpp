@@ -220,6 +220,68 @@ TEST(JointMotion, AnAxisThatIsSlowedDownArrivesLaterAndOneThatIsLetGoGoesOn) {
   EXPECT_EQ(joints.angles(), all(60.0));
 }
 
+// An acceleration that is set on the way counts from the next motion on: nothing jumps.
+TEST(JointMotion, NewAccelerationsWaitForTheNextStart) {
+  JointMotion joints = hand();
+  joints.setProfile(VelocityProfile::kRamp);
+  Values target = all(0.0);
+  target[3] = 40.0;
+  joints.setTargets(target);
+  joints.startMotion();
+  joints.advance(0.3);
+  EXPECT_NEAR(joints.angles()[3], 4.5, 1e-9);
+  joints.setAccelerations(all(400.0));
+  joints.advance(0.1);
+  EXPECT_NEAR(joints.angles()[3], 8.0, 1e-9);
+  joints.advance(1.0);
+  EXPECT_EQ(joints.angles()[3], 40.0);
+}
+
+TEST(JointMotion, VelocityControllersAreBlockedAndSlowedDownLikeMotions) {
+  for (const ControllerType type :
+       {ControllerType::kVelocity, ControllerType::kVelocityAcceleration}) {
+    JointMotion joints = hand();
+    joints.setController(type);
+    joints.setPower(std::vector<bool>(7, true));
+    joints.setVelocities({0, 20, -20, 20, 0, 0, 0});
+    run(joints, 1.0);  // both at full speed
+    joints.setBlocked(1, true, false);
+    joints.setBlocked(2, false, true);
+    joints.setResistance(3, 0.25, 0.0);
+    const Values before = joints.angles();
+    run(joints, 1.0);
+    EXPECT_EQ(joints.angles()[1], before[1]);
+    EXPECT_EQ(joints.angles()[2], before[2]);
+    EXPECT_NEAR(joints.angles()[3], before[3] + 15.0, 1e-9);
+    EXPECT_NEAR(joints.velocities()[3], 15.0, 1e-9) << "the actual one";
+    EXPECT_NEAR(joints.referenceVelocities()[3], 20.0, 1e-9);
+    EXPECT_EQ(joints.states()[1], AxisState::kBlockedClockwise);
+    EXPECT_EQ(joints.states()[2], AxisState::kBlockedCounterClockwise);
+    EXPECT_EQ(joints.velocities()[1], 0.0);
+    joints.setVelocities({0, -20, 0, 0, 0, 0, 0});
+    run(joints, 1.0);
+    EXPECT_LT(joints.angles()[1], before[1] - 15.0) << "back it may";
+    EXPECT_EQ(joints.states()[2], AxisState::kIdle) << "pushes no more";
+  }
+}
+
+// While it still brakes, an axis moves the old way, and is stopped there.
+TEST(JointMotion, ABrakingAxisDoesNotPassThroughWhatBlocksIt) {
+  JointMotion joints = hand();
+  joints.setController(ControllerType::kVelocityAcceleration);
+  joints.setPower(std::vector<bool>(7, true));
+  joints.setVelocities({0, 40, 0, 0, 0, 0, 0});
+  run(joints, 0.5);
+  joints.setVelocities({0, -40, 0, 0, 0, 0, 0});
+  joints.setBlocked(1, true, false);
+  const double there = joints.angles()[1];
+  for (int i = 0; i < 300; ++i) {
+    joints.advance(0.001);
+    ASSERT_LE(joints.angles()[1], there);
+  }
+  EXPECT_LT(joints.angles()[1], there) << "it turned round at once";
+}
+
 TEST(JointMotion, WrongValuesChangeNothing) {
   JointMotion joints = hand();
   EXPECT_THROW(joints.setTargets(all(-1.0)), std::out_of_range) << "axis 0 begins at 0";

@@ -1,9 +1,16 @@
 #include "palpate/emulator/sensor_model.h"
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numeric>
 
 #include <gtest/gtest.h>
+
+#include "palpate/core/number_text.h"
+#include "palpate/filter/characteristic_signals.h"
+
+#include "testing/testing.h"
 
 namespace palpate {
 namespace {
@@ -18,7 +25,7 @@ class SensorModelTest : public ::testing::Test {
   std::vector<std::uint16_t> counts = std::vector<std::uint16_t>(kPlaces);
 
   void settle(double seconds = 60.0) { sensor.advance(pressure, seconds); }
-  void scan(double degC = 36.0) { sensor.scan(std::vector<double>(6, degC), counts); }
+  void scan(double degC = 36.0) { sensor.scan(std::vector<double>(6, degC), degC, counts); }
   void setThresholds(int threshold) {
     for (MatrixSetting& setting : sensor.settings()) setting.thresholdCounts = threshold;
   }
@@ -44,33 +51,68 @@ TEST_F(SensorModelTest, UnloadedAtDefaultThresholdsItReadsZero) {
   EXPECT_EQ(runLengthUnits(), 33u) << "486 = 32 x 15 + 6";
 }
 
-// The 65-minute recording at threshold 0: 29..72 counts, 306..349 units per frame.
+// The 65-minute recording at threshold 0: 29..72 counts over all frames, 292..375 units per frame, 330 on
+// average (nine tenths of the frames: 306..349).
 TEST_F(SensorModelTest, AtThresholdZeroItReadsTheNoiseOfTheRealHand) {
   setThresholds(0);
   double units = 0.0;
-  for (int i = 0; i < 200; ++i) {
-    scan(20.5 + 40.0 * i / 200.0);
-    units += static_cast<double>(runLengthUnits()) / 200.0;
+  std::uint16_t least = 4095, most = 0;
+  constexpr int kFrames = 1297;
+  for (int i = 0; i < kFrames; ++i) {
+    scan(20.5 + 37.0 * (1.0 - std::exp(-4.0 * i / kFrames)));  // it warms up
+    units += static_cast<double>(runLengthUnits()) / kFrames;
     std::size_t place = 0;
     for (const MatrixLayout& matrix : sdh2().layout->matrices())
       for (const std::uint8_t exists : matrix.staticMask) {
         if (exists == 0) {
           EXPECT_EQ(counts[place], 0);
         } else {
-          EXPECT_GE(counts[place], 27);
-          EXPECT_LE(counts[place], 74);
+          least = std::min(least, counts[place]);
+          most = std::max(most, counts[place]);
         }
         ++place;
       }
   }
-  EXPECT_GT(units, 306.0);
-  EXPECT_LT(units, 349.0);
+  EXPECT_NEAR(units, 330.0, 8.0);
+  EXPECT_NEAR(least, 29, 3);
+  EXPECT_NEAR(most, 72, 5);
 }
 
-// The noise lines of the study: the mean over many frames of the matrix' maximum.
+// Measured on that recording, taxel by taxel: edges of the proximal pads lie higher and flicker, the rest
+// lies within a tenth of a count.
+TEST_F(SensorModelTest, TheEdgesOfTheProximalPadsRestHigherAndLessQuietly) {
+  setThresholds(0);
+  constexpr int kFrames = 2000;
+  std::vector<double> sum(kPlaces, 0.0), squares(kPlaces, 0.0);
+  for (int i = 0; i < kFrames; ++i) {
+    scan(45.0);
+    for (std::size_t p = 0; p < kPlaces; ++p) {
+      sum[p] += counts[p];
+      squares[p] += double(counts[p]) * counts[p];
+    }
+  }
+  const auto meanOf = [&](std::size_t p) { return sum[p] / kFrames; };
+  const auto sdOf = [&](std::size_t p) {
+    return std::sqrt(squares[p] / kFrames - meanOf(p) * meanOf(p));
+  };
+  // Column 0, row 7 (place 42), and its right neighbour; means of the recording at 45 deg C by its lines.
+  const double measured[3][4] = {
+      {47.2, 3.1, 41.5, 0.77}, {54.1, 4.0, 36.9, 0.93}, {46.4, 3.27, 39.4, 0.92}};
+  for (std::size_t pad = 0; pad < 3; ++pad) {
+    const std::size_t edge = sdh2().layout->offset(2 * pad) + 42;
+    EXPECT_NEAR(meanOf(edge), measured[pad][0], 0.5);
+    EXPECT_NEAR(sdOf(edge), measured[pad][1], 0.25);
+    EXPECT_NEAR(meanOf(edge + 1), measured[pad][2], 0.3);
+    EXPECT_NEAR(sdOf(edge + 1), measured[pad][3], 0.06);
+    EXPECT_LT(sdOf(edge - 6), 1.1) << "the row above it is ordinary";
+  }
+}
+
+// The noise lines of the study: the mean over many frames of the matrix' maximum, at temperatures where the
+// recording has many (a fifth of it lies below 32).
 TEST_F(SensorModelTest, TheMaximumOfAMatrixLiesOnItsNoiseLine) {
   setThresholds(0);
-  for (const double degC : {25.0, 40.0, 55.0}) {
+  for (const double degC : {30.0, 42.0, 55.0}) {
     std::vector<double> sum(6, 0.0);
     constexpr int kFrames = 400;
     for (int i = 0; i < kFrames; ++i) {
@@ -83,7 +125,7 @@ TEST_F(SensorModelTest, TheMaximumOfAMatrixLiesOnItsNoiseLine) {
     }
     for (std::size_t m = 0; m < 6; ++m) {
       const MatrixCharacteristics& line = sdh2Sensor().matrices[m];
-      EXPECT_NEAR(sum[m] / kFrames, line.noiseIntercept + line.noiseSlope * degC, 1.6) << m;
+      EXPECT_NEAR(sum[m] / kFrames, line.noiseIntercept + line.noiseSlope * degC, 1.0) << m;
     }
   }
 }
@@ -112,18 +154,145 @@ TEST_F(SensorModelTest, AStepIsAnsweredAsSecondOrderLagWithCreep) {
   EXPECT_EQ(sensor.responseKpa(20), 0.0);
 }
 
-// 700 g on 1.1 cm^2 (62.3 kPa) at sensitivity 1 and threshold 100 read 589.3 - 11.4 counts; proportional
-// to sensitivity. Within a tenth: the recordings differ by as much.
-TEST_F(SensorModelTest, KnownPressureReadsTheMeasuredCounts) {
-  setThresholds(100);
-  for (const double sensitivity : {0.3, 0.5, 1.0}) {
-    setSensitivities(sensitivity);
-    pressure[84 + 40] = 62.286 / (1.0 + sdh2Sensor().creepShare);  // after the creep
-    settle();
-    scan(32.0);
-    const double measured = 589.3 * sensitivity - 11.4;
-    EXPECT_NEAR(counts[84 + 40], measured, 0.1 * 589.3) << sensitivity;
+// What the study measured: a stamp of 10.5 mm x 10.5 mm on the flat part of matrix 1 at threshold 100; its
+// signal is the mean of the Gaussian-filtered active taxels (eq. 3.2), without the later drift.
+class Stamp {
+ public:
+  Stamp() { without_.creepShare = 0.0; }
+
+  // Mean over nine places of the stamp between the taxels.
+  double signal(double kpa, double sensitivity, double motorDegC, double handDegC) {
+    double sum = 0.0;
+    for (int i = 0; i < 9; ++i) {
+      SensorModel sensor(sdh2(), without_, 1);
+      sensor.settings()[1].thresholdCounts = 100;
+      sensor.settings()[1].sensitivity = sensitivity;
+      std::vector<double> pressure(kPlaces, 0.0);
+      press(pressure, kpa, 2.0 + (i % 3) / 3.0, 8.5 + (i / 3) / 3.0);
+      spreadPressure(*sdh2().layout, without_.spreadShare, pressure);
+      sensor.advance(pressure, 60.0);
+      std::vector<std::uint16_t> counts(kPlaces);
+      sensor.scan(std::vector<double>(6, motorDegC), handDegC, counts);
+      TactileFrame frame(sdh2().layout);
+      std::copy(counts.begin(), counts.end(), frame.values.begin());
+      sum += characteristicSignals(frame)[1].filteredMean;
+    }
+    return sum / 9.0;
   }
+
+ private:
+  // The share of each taxel that the stamp covers.
+  static void press(std::vector<double>& pressure, double kpa, double x, double y) {
+    constexpr double kHalf = 10.5 / 3.4 / 2.0;
+    const auto covered = [](double middle, int at) {
+      return std::clamp(
+          std::min(at + 0.5, middle + kHalf) - std::max(at - 0.5, middle - kHalf), 0.0, 1.0);
+    };
+    for (int row = 0; row < 13; ++row)
+      for (int column = 0; column < 6; ++column)
+        pressure[static_cast<std::size_t>(84 + 6 * row + column)] =
+            kpa * covered(y, row) * covered(x, column);
+  }
+
+  SensorCharacteristics without_ = sdh2Sensor();
+};
+
+// K of 24 measured loading steps at three temperatures; the study's own plane misses them by 28 counts rms.
+TEST_F(SensorModelTest, LoadingStepsReadWhatWasMeasured) {
+  const auto golden = testing::goldenFolder();
+  PALPATE_NEED(golden);
+  std::ifstream file(*golden / "pressure_calibration.csv");
+  std::string line;
+  std::getline(file, line);
+  Stamp stamp;
+  double bias = 0.0, squares = 0.0;
+  int steps = 0;
+  while (std::getline(file, line)) {
+    std::vector<std::string> fields(1);
+    for (const char c : line)
+      if (c == ',')
+        fields.emplace_back();
+      else if (c != '\r')
+        fields.back() += c;
+    ASSERT_EQ(fields.size(), 10u) << line;
+    const double kpa = parseDouble(fields[3]).value(), measured = parseDouble(fields[4]).value();
+    const double off =
+        stamp.signal(kpa, 1.0, parseDouble(fields[9]).value(), parseDouble(fields[8]).value()) -
+        measured;
+    EXPECT_LT(std::abs(off), 90.0) << line;
+    bias += off;
+    squares += off * off;
+    ++steps;
+  }
+  ASSERT_EQ(steps, 24);
+  EXPECT_LT(std::abs(bias / steps), 8.0);
+  EXPECT_LT(std::sqrt(squares / steps), 45.0);
+}
+
+// 700 g on it (62.286 kPa), sensitivity 0.1 to 1.0: measured 589.3 s - 11.4 counts, at 37.1 deg C (mean of its sensors).
+TEST_F(SensorModelTest, SignalsAreProportionalToSensitivityAsMeasured) {
+  Stamp stamp;
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (int i = 1; i <= 10; ++i) {
+    const double s = i / 10.0, k = stamp.signal(62.286, s, 33.1, 37.1);
+    n += 1;
+    sx += s;
+    sy += k;
+    sxx += s * s;
+    sxy += s * k;
+  }
+  const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  EXPECT_NEAR(slope, 589.3, 0.1 * 589.3);
+  EXPECT_NEAR((sy - slope * sx) / n, -11.4, 20.0);
+}
+
+// A grasped pen's contact falls from 80 to 10 % within 60..90 ms when it is let go.
+TEST_F(SensorModelTest, AReleasedContactIsGoneWithinThreeFrames) {
+  pressure[20] = 80.0;
+  settle();
+  setThresholds(0);
+  setSensitivities(1.0);
+  scan();
+  const double loaded = counts[20];
+  pressure[20] = 0.0;
+  settle(0.09);
+  scan();
+  EXPECT_LT(counts[20], 0.1 * loaded);
+  // What is only relieved keeps its share of the creep, and creeps on when loaded again.
+  pressure[20] = 80.0;
+  settle();
+  pressure[20] = 40.0;
+  settle(0.5);
+  EXPECT_NEAR(sensor.responseKpa(20), 40.0 * (1.0 + sdh2Sensor().creepShare), 0.01);
+}
+
+TEST_F(SensorModelTest, SpreadingKeepsTheSumAndStaysOnTaxels) {
+  for (std::size_t i = 0; i < kPlaces; i += 7) pressure[i] = 1.0 + double(i);
+  std::size_t place = 0;
+  for (const MatrixLayout& matrix : sdh2().layout->matrices())
+    for (const std::uint8_t exists : matrix.staticMask)
+      if (exists == 0)
+        pressure[place++] = 0.0;
+      else
+        ++place;
+  const auto sumOf = [&](std::size_t m) {
+    const auto from = pressure.begin() + static_cast<std::ptrdiff_t>(sdh2().layout->offset(m));
+    return std::accumulate(
+        from, from + static_cast<std::ptrdiff_t>(sdh2().layout->matrix(m).numPlaces()), 0.0);
+  };
+  std::vector<double> sums;
+  for (std::size_t m = 0; m < 6; ++m) sums.push_back(sumOf(m));
+  spreadPressure(*sdh2().layout, 0.1, pressure);
+  for (std::size_t m = 0; m < 6; ++m) EXPECT_NEAR(sumOf(m), sums[m], 1e-9);
+  EXPECT_EQ(pressure[84], 0.0) << "the cut corner";
+  std::fill(pressure.begin(), pressure.end(), 0.0);
+  pressure[20] = 10.0;
+  spreadPressure(*sdh2().layout, 0.1, pressure);
+  EXPECT_DOUBLE_EQ(pressure[20], 6.0);
+  for (const std::size_t neighbour : {14u, 19u, 21u, 26u})
+    EXPECT_DOUBLE_EQ(pressure[neighbour], 1.0);
+  pressure.pop_back();
+  EXPECT_THROW(spreadPressure(*sdh2().layout, 0.1, pressure), std::invalid_argument);
 }
 
 TEST_F(SensorModelTest, ReadingsBendTowardsTheSaturationAndNeverReach4095) {
@@ -160,14 +329,16 @@ TEST_F(SensorModelTest, TheSameSeedMakesTheSameNoise) {
     for (MatrixSetting& setting : model->settings()) setting.thresholdCounts = 0;
   std::vector<std::uint16_t> b(kPlaces), c(kPlaces);
   scan();
-  same.scan(kTemperatures, b);
-  other.scan(kTemperatures, c);
+  same.scan(kTemperatures, 36.0, b);
+  other.scan(kTemperatures, 36.0, c);
   EXPECT_EQ(counts, b);
   EXPECT_NE(counts, c);
 }
 
 TEST_F(SensorModelTest, WrongSizesAreRefused) {
-  EXPECT_THROW(sensor.scan(std::vector<double>(5), counts), std::invalid_argument);
+  EXPECT_THROW(sensor.scan(std::vector<double>(5), 36.0, counts), std::invalid_argument);
+  sensor.settings()[2].dynamicMask.pop_back();
+  EXPECT_THROW(scan(), std::invalid_argument);
   counts.resize(10);
   EXPECT_THROW(scan(), std::invalid_argument);
   SensorCharacteristics few = sdh2Sensor();

@@ -83,6 +83,7 @@ int openFile(sqlite3_vfs*, const char* path, sqlite3_file* file, int flags, int*
   const int code = under->xOpen(under, path, faulty.real(), flags, outFlags);
   faulty.base.pMethods = code == SQLITE_OK ? &kMethods : nullptr;
   if (code == SQLITE_OK) faulty.path = new std::string(path ? path : "");
+  if (code == SQLITE_OK && path && (flags & SQLITE_OPEN_MAIN_DB) != 0) theOne->found(path);
   return code;
 }
 int deleteFile(sqlite3_vfs*, const char* path, int syncFolder) {
@@ -122,6 +123,10 @@ int FaultyVfs::step() {
   if (once && operations_ > failAt_) return SQLITE_OK;
   struck_ = true;
   return fault_ == Fault::kFull || fault_ == Fault::kFullOnce ? SQLITE_FULL : SQLITE_IOERR_WRITE;
+}
+
+void FaultyVfs::found(const std::string& path) {
+  if (!files_.contains(path)) files_[path].durable = readFile(path);
 }
 
 int FaultyVfs::write(const std::string& path,

@@ -42,7 +42,8 @@ class FaultyVfs {
   // since, in any combination, torn at multiples of 512 bytes. Written to `folder`.
   void writeRemains(const std::filesystem::path& folder, std::mt19937& random) const;
 
-  // Of one open file, called by the file system.
+  // Of one open file, called by the file system. What was in it before counts as synced.
+  void found(const std::string& path);
   int write(const std::string& path, const char* bytes, std::int64_t size, std::int64_t offset);
   int truncate(const std::string& path, std::int64_t size);
   int sync(const std::string& path);

@@ -2,6 +2,8 @@
 // writer said was on disk is there afterwards, nothing is wrong, nothing is there twice.
 #include "recording/palpate_faults.h"
 
+#include <sys/stat.h>
+
 #include "testing/testing.h"
 
 namespace palpate {
@@ -54,6 +56,26 @@ TEST(PalpateFaults, theMemoryForWhatWaitsIsBoundedAndSaysSo) {
 TEST(PalpateFaults, killedAtAnyMomentItOpensWithAllThatWasCommitted) {
   std::mt19937 random(20261121);
   for (int round = 0; round < 30; ++round) killAfter(random() % 30, random());
+}
+
+TEST(PalpateFaults, killedTheMomentItsNameAppearsItOpens) {
+  for (int round = 0; round < 20; ++round) {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder / "r.palpate";
+    const pid_t child = fork();
+    if (child == 0) {
+      PalpateWriter writer(path, sdh2().layout, {{"serial", "1D9B0057"}});
+      for (std::size_t i = 0;; ++i) addSamples(writer, i, i + 1);
+    }
+    ASSERT_GT(child, 0);
+    struct stat found {};
+    while (::stat(path.c_str(), &found) != 0) ASSERT_EQ(waitpid(child, nullptr, WNOHANG), 0);
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    const Profile profile = openRecording(path);
+    EXPECT_EQ(profile.info().serial, "1D9B0057");
+    EXPECT_EQ(verifyRecording(path).state, VerifyReport::State::kSound);
+  }
 }
 
 }  // namespace

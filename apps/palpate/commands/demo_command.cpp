@@ -1,6 +1,7 @@
 // palpate demo -o DIR: a headless tour over what the program can do, a line per step.
 #include <cstdio>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "palpate/core/error.h"
@@ -13,6 +14,7 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/demo_hand.h"
 #include "commands/display.h"
 #include "gui/workbench.h"
 
@@ -93,54 +95,76 @@ Json recordingReport(const fs::path& file, const Profile& profile, const SignalT
 int demoCommand(const Words& words) {
   const CommandLine given(
       {.synopsis = "palpate demo -o DIR",
-       .purpose =
-           "A headless tour: reads the recording that comes with the program, reports what is "
-           "in it and\ndraws the window, into DIR (DIR-2, DIR-3, .. when it exists). A line "
-           "per step: ok, skipped\nor failed, and a figure. Steps that this version does not "
-           "have yet are skipped.",
+       .purpose = "A headless tour: starts an emulated hand, connects to its ports, records while "
+                  "it grasps "
+                  "a ball,\nreplays and exports the recording, reports what is in it and draws the "
+                  "window, "
+                  "into DIR\n(DIR-2, DIR-3, .. when it exists). A line per step: ok, skipped or "
+                  "failed, and "
+                  "a figure.\nSteps that this version does not have yet are skipped.",
        .options = {{"output,o", "DIR", "folder to make, default palpate-demo"}},
        .example = "palpate demo -o tour",
        .mostWords = 0},
       words);
   if (given.helpShown()) return kDone;
   const fs::path folder = makeFolder(given.text("output").value_or("palpate-demo"));
-  const fs::path file = dataFolder() / "demo_grasps.dsa";
+  const fs::path file = folder / "grasp.palpate";
 
   Tour tour;
   std::optional<Profile> profile;
   std::optional<SignalTable> table;
   Json report = Json::object();
-  for (const char* step : {"emulate", "grasp", "record"})
-    tour.skip(step, "the emulated hand comes in a later version");
-  tour.step("read", [&] {
-    profile = openRecording(file);
-    return std::to_string(profile->numFrames()) + " frames";
-  });
-  if (profile) {
-    tour.step("signals", [&] {
-      table = SignalTable::of(*profile);
-      report.set("recording", recordingReport(file, *profile, *table));
-      const std::size_t frame = table->frameOfLargestSum();
-      return "largest sum in frame " + std::to_string(frame);
+  {
+    std::unique_ptr<DemoHand> hand;
+    tour.step("emulate", [&] {
+      hand = std::make_unique<DemoHand>(dataFolder() / "scenes");
+      return hand->connect();
     });
-    tour.step("window", [&] {
-      gui::ScreenshotOptions options;
-      options.out = folder / "window.png";
-      options.file = file;
-      options.dataFolder = dataFolder();
-      const RuntimeFolder runtime;
-      drawWithoutDisplay();
-      std::string name = "palpate";
-      char* arguments[] = {name.data(), nullptr};
-      int count = 1;
-      if (gui::takeScreenshot(count, arguments, options) != kDone) throw Error("no picture");
-      return std::to_string(fs::file_size(options.out)) + " bytes of window.png";
+    // Each step needs the one before.
+    const auto next = [&](const std::string& name, const std::function<std::string()>& work) {
+      if (tour.failed()) return tour.skip(name, "a step before it failed");
+      tour.step(name, work);
+    };
+    next("grasp", [&] {
+      hand->startRecording(file);
+      return hand->grasp();
     });
-  } else {
-    for (const char* step : {"signals", "window"}) tour.skip(step, "there is no recording");
+    next("record", [&] { return hand->finishRecording(); });
   }
-  for (const char* step : {"export", "slip", "recognition"})
-    tour.skip(step, "comes in a later version");
+  const auto next = [&](const std::string& name, const std::function<std::string()>& work) {
+    if (!fs::exists(file) || (name != "replay" && !profile))
+      return tour.skip(name, "there is no recording");
+    tour.step(name, work);
+  };
+  next("replay", [&] {
+    profile = openRecording(file);
+    return replayAndCompare(*profile);
+  });
+  next("export", [&] {
+    const fs::path dsa = folder / "grasp.dsa";
+    saveRecording(*profile, readEvents(file).events, dsa);
+    return std::to_string(openRecording(dsa).numFrames()) + " frames in grasp.dsa";
+  });
+  next("signals", [&] {
+    table = SignalTable::of(*profile);
+    report.set("recording", recordingReport(file, *profile, *table));
+    const std::size_t frame = table->frameOfLargestSum();
+    return "largest sum in frame " + std::to_string(frame);
+  });
+  next("window", [&] {
+    gui::ScreenshotOptions options;
+    options.out = folder / "window.png";
+    options.file = file;
+    options.dataFolder = dataFolder();
+    const RuntimeFolder runtime;
+    drawWithoutDisplay();
+    std::string name = "palpate";
+    char* arguments[] = {name.data(), nullptr};
+    int count = 1;
+    if (gui::takeScreenshot(count, arguments, options) != kDone) throw Error("no picture");
+    return std::to_string(fs::file_size(options.out)) + " bytes of window.png";
+  });
+  for (const char* step : {"slip", "recognition"}) tour.skip(step, "comes in a later version");
 
   report.set("version", PALPATE_VERSION).set("steps", tour.steps());
   OutputFile out(folder / "report.json");

@@ -1,13 +1,12 @@
 // palpate record --dsa PORT [--sdh PORT] -o OUT.palpate: headless capture of a hand.
 #include <algorithm>
-#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <ctime>
+#include <memory>
 #include <optional>
 #include <string>
 
-#include <pthread.h>
-#include <signal.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "palpate/capture/capture_session.h"

@@ -56,7 +56,7 @@ struct FeedOptions {
   std::size_t eventItems = 1024;
   // Who puts waits for room instead of losing: only for a replay, which can wait.
   bool waitForRoom = false;
-  // Wakes a wait()ing consumer when a queue holds as many; the recorder looks every 20 ms anyway.
+  // Wakes a wait()ing consumer when a queue holds as many; the recorder looks every 15 ms anyway.
   std::size_t wakeAtItems = 1;
 };
 

@@ -93,7 +93,7 @@ class CaptureSession : private DeviceSink {
   void onTemperatures(Temperatures&& temperatures) override;
   void onEvent(DeviceEvent&& event) override;
 
-  void hand(const CaptureItem& item);
+  void pass(const CaptureItem& item);
   void show(const RecordingEvent& event);
   LinkInputs inputs() const;
 

@@ -1,7 +1,7 @@
 // The recorder: takes what a capture session delivers and writes it as native recordings, on a thread of
 // its own. It keeps the last two seconds, so that a recording holds what came just before its start.
 //
-// What came is committed within 100 ms (a round every 20 ms, a commit every 60). When the disk is full
+// What came is committed within 100 ms (a round every 15 ms, a commit every 45). When the disk is full
 // or fails, capture goes on, up to 64 MB wait in memory, and writing is tried again every 100 ms; when
 // that was not enough, an event "gap" says exactly what is missing, and status() says it at once.
 #pragma once
@@ -24,7 +24,7 @@ namespace palpate {
 
 struct RecorderOptions {
   double preTriggerS = 2.0;        // what is kept from before a start [s], 0..60
-  double commitIntervalMs = 60.0;  // oldest item not committed, at most [ms], 1..10000
+  double commitIntervalMs = 40.0;  // oldest item not committed, at most [ms], 1..10000
   std::string vfs;                 // SQLite file system to write with; empty: the default one
   FeedOptions feed;                // queues; wakeAtItems 1 means half of the tactile one
   // Bytes left on the disk of a folder, nothing when unknown; empty: statvfs.

@@ -1,10 +1,11 @@
-// The tactile controller (DSACON32-M) as it looks from its line: takes bytes, answers packets, streams frames. Written from the
-// protocol alone, without the driver's code, so that each checks the other. Knows neither line nor clock: the caller hands in bytes
-// and times, and takes the messages.
+// The tactile controller (DSACON32-M) as it looks from its line: takes bytes, answers packets,
+// streams frames. Written from the protocol alone, without the driver's code, so that each checks
+// the other. Knows neither line nor clock: the caller hands in bytes and times, and takes the
+// messages.
 //
-// Packet: AA AA AA | id u8 | length u16 | payload | checksum u16 (only with a payload), little-endian. A request that can't be
-// carried out is answered by its id and a bare error code. Not answered at all: what is no packet, and settings with the
-// persistent flag (as the real one).
+// Packet: AA AA AA | id u8 | length u16 | payload | checksum u16 (only with a payload),
+// little-endian. A request that can't be carried out is answered by its id and a bare error code.
+// Not answered at all: what is no packet, and settings with the persistent flag (as the real one).
 #pragma once
 
 #include <cstddef>
@@ -26,15 +27,16 @@ struct DsaServerOptions {
   std::uint16_t generatedBy = 105;
   std::uint32_t startMs = 0;  // controller's clock when it is switched on [ms]; wraps at 2^32
   double bootS = 0.0;         // deaf for so long after the start [s]
-  // A frame takes at least so long per byte [us], though the caller's line is faster; not for recorded
-  // intervals.
+  // A frame takes at least so long per byte [us], though the caller's line is faster; not for
+  // recorded intervals.
   double lineByteUs = 0.0;
   // Frames at this rate [1/s], 0.01..1000, instead of scan time and recorded intervals.
   std::optional<double> frameHz = {};
 };
 
-// Time of one scan [us], by the number of taxels that the dynamic masks enable: 13.2 ms for up to 2, 17.7 ms for 78, 31.5 ms
-// from 456 on, straight lines between (measured on a real hand: 76, 56 and 31.7 frames/s).
+// Time of one scan [us], by the number of taxels that the dynamic masks enable: 13.2 ms for up to
+// 2, 17.7 ms for 78, 31.5 ms from 456 on, straight lines between (measured on a real hand: 76, 56
+// and 31.7 frames/s).
 double dsaScanUs(std::size_t enabledTaxels);
 
 // A frame as it went out.
@@ -56,8 +58,8 @@ class DsaServer {
   // The client has been silent for a while: a request that isn't complete by now never will be.
   void quiet();
   bool expectsMore() const noexcept { return !input_.empty(); }
-  // Does what is due: noise of booting, at most one frame. `lineFreeUs`: when the line will have sent all that was
-  // taken; a frame isn't scanned before.
+  // Does what is due: noise of booting, at most one frame. `lineFreeUs`: when the line will have
+  // sent all that was taken; a frame isn't scanned before.
   void advance(std::int64_t nowUs, std::int64_t lineFreeUs);
   // When advance() has something to do again; nothing: not before the client speaks.
   std::optional<std::int64_t> nextUs(std::int64_t lineFreeUs) const;

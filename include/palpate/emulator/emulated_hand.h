@@ -1,5 +1,6 @@
-// The hand that isn't there: both controllers on two ports, with a thread of its own that keeps their time. What a client sees is
-// what it would see on the lines of a real hand; what a test needs besides (truth, counters, accidents) is here.
+// The hand that isn't there: both controllers on two ports, with a thread of its own that keeps
+// their time. What a client sees is what it would see on the lines of a real hand; what a test
+// needs besides (truth, counters, accidents) is here.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +21,9 @@ namespace palpate {
 enum class EmulationRate {
   kReal,  // bytes at 115200 baud, frames by scan time, commands with 2..3 ms of thinking
   kHz,    // frames at a given rate, lines and commands without delay
-  kMax,  // frames as fast as the client takes them; the hand's time runs with the frames, each at its nominal
-         // interval, and with the wall clock while nothing streams
+  // Frames as fast as the client takes them; the hand's time runs with the frames, each at its nominal
+  // interval, and with the wall clock while nothing streams.
+  kMax,
 };
 
 enum class EmulatedPort { kTactile, kMotion };
@@ -30,7 +32,8 @@ using ReceiveObserver = std::function<void(
     EmulatedPort port, std::span<const std::byte> bytes, std::int64_t monotonicUs)>;
 
 struct EmulatedHandOptions {
-  // Where the ports are: path of a link to be made, "tcp:127.0.0.1:PORT" (0: any), or empty: a pty without a link.
+  // Where the ports are: path of a link to be made, "tcp:127.0.0.1:PORT" (0: any), or empty: a pty
+  // without a link.
   std::string dsaPort = {};
   std::string sdhPort = {};
   EmulationRate rate = EmulationRate::kReal;
@@ -56,8 +59,8 @@ using FrameObserver = std::function<void(const EmulatedFrame&)>;
 struct SentFrame {
   std::uint64_t number = 0;  // as in ScannedFrame
   std::uint32_t deviceMs = 0;
-  std::int64_t hostUs =
-      0;               // host time at which its last byte was handed to the system [us since 1970]
+  // Host time at which its last byte was handed to the system [us since 1970].
+  std::int64_t hostUs = 0;
   bool whole = false;  // every byte, unchanged
 };
 
@@ -81,7 +84,8 @@ struct EmulatedHandCounts {
   std::string failure;  // why the hand has stopped by itself; empty: it runs
 };
 
-// Every member may be called from any thread; those that change something return when it has happened.
+// Every member may be called from any thread; those that change something return when it has
+// happened.
 class EmulatedHand {
  public:
   // Opens the ports and starts. `observer`: called from the hand's thread for each frame.
@@ -98,13 +102,17 @@ class EmulatedHand {
   std::string dsaPort() const;
   std::string sdhPort() const;
 
+  // Counts follow what a client has read by a fraction of a millisecond.
   EmulatedHandCounts counts() const;
   // The last few thousand frames that have left, oldest first.
   std::vector<SentFrame> sentFrames() const;
 
-  // Accidents. Pulls plugs, in the middle of a packet or where it is: the client sees a hang-up, the link is gone.
-  // The controllers go on and notice nothing.
+  // Accidents. Pulls plugs, in the middle of a packet or where it is: the client sees a hang-up,
+  // the link is gone. The controllers go on and notice nothing.
   void unplug(bool dsa = true, bool sdh = true);
+  // Pulls the tactile plug at a certain byte: so many more leave, the client has 5 ms to read them,
+  // then it sees the hang-up. Returns at once.
+  void unplugAfter(std::uint64_t bytes);
   // Plugs in again what is out: a new pty under the same link. Throws as the constructor.
   void replug();
   // Off and on: settings as stored, stream and power off, deaf for `bootS`.
@@ -113,7 +121,8 @@ class EmulatedHand {
   void mute(bool on);
   // So many random bytes on the chosen ports, as fast as the lines take them.
   void babble(std::uint64_t bytes, bool dsa = true, bool sdh = true);
-  // From now on (times of stalls and unplugs count from here). A `bootS` switches the hand off and on.
+  // From now on (times of stalls and unplugs count from here). A `bootS` switches the hand off and
+  // on.
   void setFaults(const Faults& faults);
   // Calls `visit` with the model, at rest, in the hand's thread.
   void withModel(const std::function<void(HandModel&)>& visit);

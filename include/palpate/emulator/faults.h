@@ -1,5 +1,6 @@
-// Bad days of a hand, on purpose: spoilt checksums, bytes that vanish or appear, silence, a pulled plug, junk at
-// the start, a slow boot. Seeded: the same seed makes the same faults in the same bytes.
+// Bad days of a hand, on purpose: spoilt checksums, bytes that vanish or appear, silence, a pulled
+// plug, junk at the start, a slow boot. Seeded: the same seed makes the same faults in the same
+// bytes.
 #pragma once
 
 #include <cstddef>
@@ -31,8 +32,9 @@ struct Faults {
   bool operator==(const Faults&) const = default;
 };
 
-// "crc=0.01,drop=1e-4,insert=1e-4,stall=2@10,unplug=1@20,junk_start=500,boot=8", each optional, stall and unplug more
-// than once; empty: no faults. Throws std::invalid_argument that names the word and what it should be.
+// "crc=0.01,drop=1e-4,insert=1e-4,stall=2@10,unplug=1@20,junk_start=500,boot=8", each optional,
+// stall and unplug more than once; empty: no faults. Throws std::invalid_argument that names the
+// word and what it should be.
 Faults parseFaults(std::string_view text);
 
 struct FaultCounts {
@@ -50,8 +52,8 @@ class ByteFaults {
  public:
   // Throws std::invalid_argument for a rate outside 0..1.
   ByteFaults(const Faults& faults, std::uint64_t seed);
-  // Changes the message as the rates say, marks it as damaged and counts. A byte inserted behind the last one leaves the
-  // message whole.
+  // Changes the message as the rates say, marks it as damaged and counts. A byte inserted behind
+  // the last one leaves the message whole.
   void apply(LineMessage& message, FaultCounts& counts);
   // Random bytes.
   std::vector<std::byte> junk(std::size_t count);

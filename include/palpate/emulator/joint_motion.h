@@ -78,8 +78,9 @@ class JointMotion {
   // A motion to a target: distance is covered in the motion's duration, by the profile.
   struct Path {
     double startDeg = 0.0;
-    double distanceDeg = 0.0;  // signed
-    double timeS = 0.0;        // how far it is; behind the others' where it was held up
+    double distanceDeg = 0.0;           // signed
+    double accelerationDegPerS2 = 0.0;  // as set when it began
+    double timeS = 0.0;                 // how far it is; behind the others' where it was held up
     bool active = false;
   };
   void require(const char* what,

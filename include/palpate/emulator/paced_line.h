@@ -1,5 +1,6 @@
-// The sending half of a serial line: messages queue up, and each byte leaves at its own time (115200 baud,
-// 8N1: 86.8 us per byte). Holds no descriptor and no clock: the caller says what time it is.
+// The sending half of a serial line: messages queue up, and each byte leaves at its own time
+// (115200 baud, 8N1: 86.8 us per byte). Holds no descriptor and no clock: the caller says what time
+// it is.
 #pragma once
 
 #include <cstddef>
@@ -40,12 +41,13 @@ class PacedLine {
   // When the last byte will have left [us]; 0 without pacing.
   std::int64_t freeAtUs() const noexcept;
   std::size_t pendingBytes() const noexcept { return buffer_.size() - head_; }
-  // When the next bytes are due; nothing when there are none. Bytes come due in pieces of at most 64 (5.6 ms),
-  // each when its last byte has left, and a message of up to 64 bytes in one piece.
+  // When the next bytes are due; nothing when there are none. Bytes come due in pieces of at most
+  // 64 (5.6 ms), each when its last byte has left, and a message of up to 64 bytes in one piece.
   std::optional<std::int64_t> nextDueUs() const;
   // The bytes that have left the line by now; valid until the next call.
   std::span<const std::byte> due(std::int64_t nowUs) const;
-  // The first `count` bytes of due() are gone: taken by the system, or lost. Appends the messages that ended.
+  // The first `count` bytes of due() are gone: taken by the system, or lost. Appends the messages
+  // that ended.
   void pass(std::size_t count, bool lost, std::vector<SentMessage>& ended);
   // All that is pending is lost.
   void clear(std::vector<SentMessage>& ended);

@@ -13,8 +13,9 @@ namespace palpate {
 
 struct PhysicalHandOptions {
   std::uint64_t seed = 1;  // of the sensors' noise
-  // Elastic foundation of the sensor's rubber: 1 mm of indentation are 250 kPa.
-  double rubberNPerMm3 = 0.25;
+  // Elastic foundation of the sensor's rubber: 1 mm of indentation are 150 kPa, which read about the 3554
+  // counts that the study takes for 1 mm.
+  double rubberNPerMm3 = 0.15;
   // What each motor holds against before it gives up (current limit) [N mm].
   std::vector<double> motorNmm = {3000, 2100, 1400, 2100, 1400, 2100, 1400};
   double stepS = 0.004;  // of the simulation while something moves [s]

@@ -1,6 +1,8 @@
-// A recording as the hand behind the ports: each frame of it once, in order, at its own intervals; joint angles and temperatures of the
-// same moments. Masks that a client sets are applied, thresholds and sensitivities only remembered: what was recorded has been through
-// them. Time stands still while nobody streams (between two frames of a stream it goes on), and after the last frame.
+// A recording as the hand behind the ports: each frame of it once, in order, at its own intervals;
+// joint angles and temperatures of the same moments. Masks that a client sets are applied,
+// thresholds and sensitivities only remembered: what was recorded has been through them. Time
+// stands still while nobody streams (between two frames of a stream it goes on), and after the last
+// frame.
 #pragma once
 
 #include <optional>
@@ -19,7 +21,8 @@ class ReplayedHand final : public HandModel {
   const HandDescription& hand() const override { return profile_.hand(); }
   void advanceTo(double timeS) override;
   double timeS() const override { return timeS_; }
-  // Standing where the recording has them, within the range of the axes; motions have no effect on it.
+  // Standing where the recording has them, within the range of the axes; motions have no effect on
+  // it.
   JointMotion& joints() override { return joints_; }
   std::vector<MatrixSetting>& settings() override { return settings_; }
   void scan(std::span<std::uint16_t> counts) override;

@@ -1,9 +1,11 @@
-// The SDH-2's motion controller as it looks from its line: text commands and binary records, mixed. Written from the protocol alone,
-// without the driver's code. Knows neither line nor clock: the caller hands in bytes and times, and takes the messages.
+// The SDH-2's motion controller as it looks from its line: text commands and binary records, mixed.
+// Written from the protocol alone, without the driver's code. Knows neither line nor clock: the
+// caller hands in bytes and times, and takes the messages.
 //
-// Text: `name`, `name(i)`, `name(i)=x`, `name=x0,..,x6`, ended by CR or LF or both; the answer is `NAME=..` CR LF, or `E` and an error
-// number. Binary: cmd u8 (>= 0x80) | length u8 | count u8 (0 or 7) | floats | checksum u16; the answer has always 34 bytes.
-// One command at a time: what comes meanwhile waits (up to 4096 bytes, then it is lost). `grip`, `selgrip` and `ref` answer when the
+// Text: `name`, `name(i)`, `name(i)=x`, `name=x0,..,x6`, ended by CR or LF or both; the answer is
+// `NAME=..` CR LF, or `E` and an error number. Binary: cmd u8 (>= 0x80) | length u8 | count u8 (0
+// or 7) | floats | checksum u16; the answer has always 34 bytes. One command at a time: what comes
+// meanwhile waits (up to 4096 bytes, then it is lost). `grip`, `selgrip` and `ref` answer when the
 // motion has ended and are deaf until then, to `stop` too.
 #pragma once
 
@@ -23,8 +25,9 @@
 namespace palpate {
 
 struct SdhServerOptions {
-  // Release; letters, digits, '.' and '-'. Commands that came later are unknown to it (rvel, con 0.0.2.6; vlim 0.0.2.1; alim
-  // 0.0.2.7); before 0.0.3.1 lines that begin with @ precede some answers.
+  // Release; letters, digits, '.' and '-'. Commands that came later are unknown to it (rvel, con
+  // 0.0.2.6; vlim 0.0.2.1; alim 0.0.2.7); before 0.0.3.1 lines that begin with @ precede some
+  // answers.
   std::string firmware = "0.0.3.3";
   std::string firmwareDate = "2013-09-19";
   std::string soc = "2009-10-26-r1";
@@ -45,14 +48,15 @@ class SdhMotion;
 // Not thread-safe. Times [us] are the caller's, since the start of the hand, and never go back.
 class SdhServer {
  public:
-  // The model must outlive it. Throws std::invalid_argument for think times that are negative or in the wrong order, or for a
-  // firmware that is no release.
+  // The model must outlive it. Throws std::invalid_argument for think times that are negative or in
+  // the wrong order, or for a firmware that is no release.
   SdhServer(HandModel& model, const SdhServerOptions& options = {});
   ~SdhServer();
 
   // Bytes of the client.
   void receive(std::span<const std::byte> bytes, std::int64_t nowUs);
-  // The client has been silent for a while: a binary record that isn't complete by now never will be. Half a text line stays.
+  // The client has been silent for a while: a binary record that isn't complete by now never will
+  // be. Half a text line stays.
   void quiet();
   // Whether quiet() would change anything.
   bool expectsMore() const noexcept;
