@@ -153,7 +153,12 @@ void MotionLink::countBytes() {
 }
 
 void MotionLink::work() {
-  executeOrders();
+  try {
+    executeOrders();
+  } catch (const SdhInterrupted&) {
+    // A motion given up for a stop, which waits: the line is in order.
+    return;
+  }
   if (stopping()) return;
   const std::int64_t nowUs = clock_.monotonicUs();
   try {
