@@ -8,14 +8,15 @@
 #include <thread>
 
 #include "palpate/control/grasp_control.h"
+#include "palpate/core/error.h"
 #include "palpate/device/live_hand.h"
 #include "palpate/emulator/emulated_hand.h"
 #include "palpate/emulator/physical_hand.h"
 
 #include "control/motion_log.h"
 #include "emulator/still_hand.h"
-#include "testing/machine_load.h"
 #include "testing/testing.h"
+#include "testing/timely.h"
 
 namespace palpate::testing {
 
@@ -43,7 +44,6 @@ inline std::unique_ptr<HandModel> stillHand() {
 struct EmulatedBench {
   const TemporaryFolder folder;
   MotionLog log;
-  MachineLoad load;
   std::unique_ptr<EmulatedHand> hand;
   std::unique_ptr<CaptureSession> session;
   std::unique_ptr<GraspControl> control;

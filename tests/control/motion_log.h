@@ -60,6 +60,12 @@ class MotionLog {
     const std::lock_guard lock(mutex_);
     commands_.clear();
   }
+  // After a plug was pulled: what had come of a command will never be completed.
+  void restart() {
+    const std::lock_guard lock(mutex_);
+    commands_.clear();
+    pending_.clear();
+  }
 
  private:
   bool takeOne(std::int64_t monoUs) {
