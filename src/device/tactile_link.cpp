@@ -53,7 +53,8 @@ void TactileLink::connect(ByteChannel& channel) {
   DsaControllerOptions options;
   options.runLength = runLength_;
   options.giveUp = [this] {
-    rejectOrders("the tactile controller is not connected yet");
+    // Also asked while a setting is changed: the next ones wait for it.
+    if (!delivering_) rejectOrders("the tactile controller is not connected yet");
     return stopping();
   };
   delivering_ = false;

@@ -3,7 +3,7 @@
 namespace palpate {
 
 void SignalsStage::onFrame(LiveResults& results, std::vector<RecordingEvent>&) {
-  results.signals = characteristicSignals(*results.frame);
+  results.matrixSignals = characteristicSignals(*results.frame);
   results.peak = taxelPeak(*results.frame);
 }
 

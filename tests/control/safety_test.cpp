@@ -303,6 +303,20 @@ TEST(Safety, SettingsOfTheTactileControllerDoNotChangeInAReactiveGrasp) {
   EXPECT_EQ(thresholds, (std::vector<int>{150, 300, 77, 300, 150, 300}));
 }
 
+TEST(Safety, AHeapOfSettingsArrivesWhole) {
+  EmulatedBench bench(stillHand());
+  bench.connect();
+  std::vector<std::shared_future<CommandAnswer>> answers;
+  for (int m = 0; m < 6; ++m) answers.push_back(bench.control->change(SetThreshold{m, 50 + m}));
+  answers.push_back(bench.control->change(SetSensitivity{4, 0.75}));
+  for (const auto& answer : answers) EXPECT_NO_THROW(answer.get());
+  bench.hand->withModel([&](HandModel& model) {
+    for (int m = 0; m < 6; ++m)
+      EXPECT_EQ(model.settings()[static_cast<std::size_t>(m)].thresholdCounts, 50 + m);
+    EXPECT_NEAR(model.settings()[4].sensitivity, 0.75, 1e-6);
+  });
+}
+
 TEST(Safety, StopAtRandomMomentsIsOnTheWireWithinTwentyMilliseconds) {
   stopAtRandomMoments(30, 150'000);
 }

@@ -36,7 +36,7 @@ void append(std::string& bytes, double value) {
 std::string bitsOf(const LiveResults& results) {
   std::string bytes;
   append(bytes, static_cast<double>(results.frame->hostUs));
-  for (const CharacteristicSignals& s : results.signals)
+  for (const CharacteristicSignals& s : results.matrixSignals)
     for (const double value :
          {s.mean, s.filteredMean, s.minimum, s.maximum, s.sum, s.areaMm2, double(s.active)})
       append(bytes, value);
@@ -105,8 +105,8 @@ void expectDeterministic(const Profile& profile) {
   ChainOptions options;
   options.onResults = [&](const LiveResults& results) {
     for (std::size_t m = 0; m < table.numMatrices(); ++m) {
-      ASSERT_EQ(results.signals.at(m).filteredMean, table.at(frame, m).filteredMean);
-      ASSERT_EQ(results.signals.at(m).sum, table.at(frame, m).sum);
+      ASSERT_EQ(results.matrixSignals.at(m).filteredMean, table.at(frame, m).filteredMean);
+      ASSERT_EQ(results.matrixSignals.at(m).sum, table.at(frame, m).sum);
     }
     ++frame;
   };

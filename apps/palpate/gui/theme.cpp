@@ -60,6 +60,9 @@ QPushButton { background: @raised; border: 1px solid @border; border-radius: 5px
 QPushButton:hover, QPushButton:focus { border-color: @accent; }
 QPushButton:pressed { background: @accentSoft; }
 QPushButton[primary="true"] { background: @accentSoft; border-color: @accent; color: @accent; }
+QPushButton[danger="true"] { background: @dangerSoft; border-color: @danger; color: @danger; font-weight: bold; }
+QPushButton[danger="true"]:pressed { background: @danger; color: @window; }
+QPushButton[danger="true"]:disabled { background: transparent; border-color: @border; color: @muted; }
 QAbstractSpinBox { background: @window; border: 1px solid @border; border-radius: 4px; padding: 3px 5px; }
 QAbstractSpinBox:focus { border-color: @accent; }
 QAbstractSpinBox:disabled { color: @muted; }

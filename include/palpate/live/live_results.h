@@ -27,7 +27,7 @@ struct LiveResults {
   std::optional<JointAngles> angles;
   std::optional<Temperatures> temperatures;
   // Of the signals stage: one per matrix, and of the whole frame.
-  std::vector<CharacteristicSignals> signals;
+  std::vector<CharacteristicSignals> matrixSignals;
   TaxelPeak peak;
 };
 

@@ -1,0 +1,310 @@
+// The dock Hand against the emulated hand: what is clicked is what arrives there.
+#include "gui/hand_dock.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QPushButton>
+#include <QSlider>
+#include <QTest>
+
+#include <palpate/model/preshape.h>
+
+#include "control/emulated_bench.h"
+#include "gui/facts_view.h"
+#include "gui/tactile_settings_panel.h"
+#include "gui/value_slider.h"
+#include "testing/testing.h"
+
+namespace palpate::gui {
+namespace {
+using testing::EmulatedBench;
+using testing::stillHand;
+
+// As the test's hand, but hot.
+class HotHand final : public HandModel {
+ public:
+  const HandDescription& hand() const override { return still_.hand(); }
+  void advanceTo(double timeS) override { still_.advanceTo(timeS); }
+  double timeS() const override { return still_.timeS(); }
+  JointMotion& joints() override { return still_.joints(); }
+  std::vector<MatrixSetting>& settings() override { return still_.settings(); }
+  void scan(std::span<std::uint16_t> counts) override { still_.scan(counts); }
+  std::vector<double> temperatures() override { return {40, 41, 42, 71.5, 44, 45, 46, 47, 48}; }
+  std::vector<MatrixTruth> truth() const override { return still_.truth(); }
+
+ private:
+  testing::StillHand still_;
+};
+
+class HandDockTest : public ::testing::Test {
+ protected:
+  HandDockTest()
+      : settings_(QString::fromStdString((folder_ / "palpate.ini").string()), QSettings::IniFormat),
+        dock_(std::make_unique<HandDock>(settings_)) {
+    dock_->resize(455, 800);
+    dock_->show();
+  }
+  ~HandDockTest() override { dock_->setHand(nullptr, nullptr); }
+
+  void connectTo(std::unique_ptr<HandModel> model, EmulatedHandOptions options = {}) {
+    bench_ = std::make_unique<EmulatedBench>(std::move(model), std::move(options));
+    bench_->connect();
+    dock_->setHand(bench_->session.get(), bench_->control.get());
+  }
+  template <class Widget>
+  Widget* find(const char* name) {
+    auto* found = dock_->findChild<Widget*>(name);
+    if (!found) throw std::runtime_error(std::string("no ") + name);
+    return found;
+  }
+  void click(const char* name) { QTest::mouseClick(find<QPushButton>(name), Qt::LeftButton); }
+  QString state() { return find<QLabel>("handState")->text(); }
+  bool isEnabled(const char* name) { return find<QPushButton>(name)->isEnabled(); }
+  static bool await(const std::function<bool()>& condition) {
+    return QTest::qWaitFor(condition, 20'000);
+  }
+  void type(const char* slider, const QString& text) {
+    QDoubleSpinBox* field = find<ValueSlider>(slider)->field();
+    field->setFocus();
+    field->selectAll();
+    QTest::keyClicks(field, text);
+    QTest::keyClick(field, Qt::Key_Return);
+    field->clearFocus();
+  }
+  std::vector<MatrixSetting> onTheHand() {
+    std::vector<MatrixSetting> settings;
+    bench_->hand->withModel([&](HandModel& model) { settings = model.settings(); });
+    return settings;
+  }
+
+  const testing::TemporaryFolder folder_;
+  QSettings settings_;
+  std::unique_ptr<EmulatedBench> bench_;
+  std::unique_ptr<HandDock> dock_;
+};
+
+TEST_F(HandDockTest, WithoutAHandItSaysSoAndOffersNothing) {
+  EXPECT_EQ(state(), "No hand is connected.");
+  for (const char* name :
+       {"openHand", "graspHand", "reactiveGrasp", "relaxHand", "stopHand", "resetSettings"})
+    EXPECT_FALSE(isEnabled(name)) << name;
+  EXPECT_EQ(find<QPushButton>("graspHand")->toolTip(), "No hand is connected");
+}
+
+TEST_F(HandDockTest, OpeningItMovesNothing) {
+  connectTo(stillHand());
+  EXPECT_TRUE(await([&] { return isEnabled("graspHand") && isEnabled("reactiveGrasp"); }));
+  EXPECT_EQ(state(), "Ready.");
+  EXPECT_TRUE(bench_->log.deeds().empty());
+}
+
+TEST_F(HandDockTest, GraspGoesWhereTheControlsSay) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  auto* preshape = find<QComboBox>("preshape");
+  preshape->setCurrentIndex(preshape->findData("cylindrical"));
+  type("closeRatio", "0,25");  // a comma is a point
+  type("velocity", "80");
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return bench_->log.firstSince("m", 0).has_value(); }));
+  // Table of the study: 0 | -30 + 30 c, 30 + 35 c.
+  std::vector<double> target;
+  for (const auto& command : bench_->log.named("p"))
+    if (!command.values.empty()) target = command.values;
+  EXPECT_EQ(target, (std::vector<double>{0, -22.5, 38.75, -22.5, 38.75, -22.5, 38.75}));
+  EXPECT_TRUE(await([&] { return state().contains("plain grasp: cylindrical"); }))
+      << state().toStdString();
+  EXPECT_FALSE(isEnabled("graspHand"));
+  EXPECT_FALSE(isEnabled("reactiveGrasp"));
+  EXPECT_TRUE(isEnabled("stopHand"));
+  EXPECT_TRUE(await([&] { return state() == "finished: at its target"; }));
+  EXPECT_TRUE(isEnabled("graspHand"));
+}
+
+TEST_F(HandDockTest, StopStops) {
+  connectTo(stillHand());
+  type("velocity", "5");
+  type("closeRatio", "1");
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  click("graspHand");
+  ASSERT_TRUE(bench_->awaitMotion());
+  click("stopHand");
+  EXPECT_TRUE(await([&] { return state() == "stopped by the user"; }));
+  EXPECT_FALSE(bench_->handMoves());
+}
+
+// From a field, from a menu that is open, from another window.
+TEST_F(HandDockTest, EscapeStopsFromAnyFocus) {
+  connectTo(stillHand());
+  type("velocity", "5");
+  type("closeRatio", "1");
+  QWidget other;
+  auto* line = new QLineEdit(&other);
+  other.show();
+  QMenu menu;
+  menu.addAction("nothing");
+  const std::vector<std::function<QWidget*()>> places = {
+      [&]() -> QWidget* {
+        find<ValueSlider>("limit")->field()->setFocus();
+        return find<ValueSlider>("limit")->field();
+      },
+      [&]() -> QWidget* {
+        line->setFocus();
+        return line;
+      },
+      [&]() -> QWidget* {
+        menu.popup({10, 10});
+        return &menu;
+      }};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    ASSERT_TRUE(await([&] { return isEnabled("graspHand"); })) << i;
+    click("graspHand");
+    ASSERT_TRUE(bench_->awaitMotion()) << i;
+    QWidget* place = places[i]();
+    QTest::keyClick(place, Qt::Key_Escape);
+    EXPECT_TRUE(await([&] { return !bench_->handMoves(); })) << i;
+    EXPECT_TRUE(await([&] { return state() == "stopped by the user"; }))
+        << i << state().toStdString();
+    // Whatever else Escape means there it didn't do: first the hand.
+    EXPECT_TRUE(place != &menu || menu.isVisible());
+  }
+  // Nothing moves: Escape is Escape again.
+  QTest::keyClick(&menu, Qt::Key_Escape);
+  EXPECT_FALSE(menu.isVisible());
+}
+
+TEST_F(HandDockTest, ReactiveGraspSaysWhereItStopped) {
+  connectTo(testing::handWith("ball"));
+  type("velocity", "60");
+  type("limit", "300");
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  click("reactiveGrasp");
+  EXPECT_TRUE(await([&] { return state().startsWith("limit reached: finger "); }))
+      << state().toStdString();
+  // Once more: it is over the limit, and says so.
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  click("reactiveGrasp");
+  EXPECT_TRUE(await([&] { return state().contains("over the limit of 300 already"); }))
+      << state().toStdString();
+}
+
+TEST_F(HandDockTest, RelaxTakesThePower) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return isEnabled("relaxHand"); }));
+  click("relaxHand");
+  EXPECT_TRUE(await([&] { return !bench_->log.named("power").empty(); }));
+}
+
+TEST_F(HandDockTest, SettingsGoToTheMatrixThatWasChosen) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold1")->value() == 300.0; }));
+  EXPECT_EQ(find<ValueSlider>("threshold0")->value(), 150.0);
+  type("threshold3", "77");
+  EXPECT_TRUE(await([&] { return onTheHand()[3].thresholdCounts == 77; }));
+  ValueSlider* sensitivity = find<ValueSlider>("sensitivity4");
+  QTest::keyClick(sensitivity->slider(), Qt::Key_Right);  // 0.05 more
+  EXPECT_TRUE(await([&] { return std::abs(onTheHand()[4].sensitivity - 0.55) < 1e-6; }));
+  type("threshold-1", "60");  // all
+  EXPECT_TRUE(await([&] {
+    const auto now = onTheHand();
+    return std::all_of(
+        now.begin(), now.end(), [](const auto& each) { return each.thresholdCounts == 60; });
+  }));
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold5")->value() == 60.0; }));
+  click("resetSettings");
+  EXPECT_TRUE(await([&] {
+    const auto now = onTheHand();
+    return now[0].thresholdCounts == 150 && now[5].thresholdCounts == 300 &&
+           std::abs(now[4].sensitivity - 0.5) < 1e-6;
+  }));
+}
+
+TEST_F(HandDockTest, ASliderSendsWhenItIsLetGo) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold2")->value() == 150.0; }));
+  QSlider* slider = find<ValueSlider>("threshold2")->slider();
+  int chosen = 0;
+  QObject::connect(
+      find<ValueSlider>("threshold2"), &ValueSlider::chosen, dock_.get(), [&] { ++chosen; });
+  slider->setSliderDown(true);
+  for (const int value : {160, 180, 210}) slider->setSliderPosition(value);
+  EXPECT_EQ(chosen, 0);
+  slider->setSliderDown(false);
+  EXPECT_EQ(chosen, 1);
+  EXPECT_TRUE(await([&] { return onTheHand()[2].thresholdCounts == 210; }));
+}
+
+TEST_F(HandDockTest, SettingsAreKeptByNameForEachHand) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold0")->value() == 150.0; }));
+  type("threshold0", "42");
+  ASSERT_TRUE(await([&] { return onTheHand()[0].thresholdCounts == 42; }));
+  ASSERT_TRUE(await([&] { return isEnabled("saveSettings"); }));
+  QTest::qWait(0);
+  dock_->tactileSettings().askForName = [](const QString&) { return QString("soft / things"); };
+  ASSERT_TRUE(await(
+      [&] { return bench_->session->device().facts().matrices.at(0).thresholdCounts == 42; }));
+  click("saveSettings");
+  auto* names = find<QComboBox>("savedSettings");
+  EXPECT_EQ(names->currentText(), "soft / things");
+  click("resetSettings");
+  ASSERT_TRUE(await([&] { return onTheHand()[0].thresholdCounts == 150; }));
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold0")->value() == 150.0; }));
+  // As after a restart.
+  dock_->setHand(nullptr, nullptr);
+  dock_ = std::make_unique<HandDock>(settings_);
+  dock_->setHand(bench_->session.get(), bench_->control.get());
+  names = find<QComboBox>("savedSettings");
+  ASSERT_EQ(names->count(), 2);
+  names->setCurrentIndex(1);
+  emit names->activated(1);
+  EXPECT_TRUE(await([&] { return onTheHand()[0].thresholdCounts == 42; }));
+  // Another hand has none of them.
+  HandSettingsStore store(settings_);
+  EXPECT_TRUE(store.names("another").isEmpty());
+}
+
+TEST_F(HandDockTest, ShowsJointAnglesAndTemperatures) {
+  connectTo(stillHand());
+  auto* angles = find<FactsView>("liveAngles");
+  EXPECT_TRUE(await([&] { return angles->facts()[1].value == "-75.0°"; }));
+  EXPECT_EQ(angles->facts()[0].value, "60.0°");
+  auto* temperatures = find<FactsView>("liveTemperatures");
+  EXPECT_TRUE(await([&] { return temperatures->facts()[3].value == "41.8 °C"; }))
+      << temperatures->facts()[3].value.toStdString();
+  EXPECT_FALSE(find<QLabel>("handHeat")->isVisible());
+}
+
+TEST_F(HandDockTest, WarnsOfAHotMotor) {
+  connectTo(std::make_unique<HotHand>());
+  auto* heat = find<QLabel>("handHeat");
+  EXPECT_TRUE(await([&] { return heat->isVisible(); }));
+  EXPECT_TRUE(heat->text().contains("motor 3 71.5 °C")) << heat->text().toStdString();
+  EXPECT_FALSE(heat->text().contains("motor 2"));
+}
+
+TEST_F(HandDockTest, AGoneMotionPortIsSaidAndNothingIsOffered) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  bench_->hand->unplug(false, true);
+  EXPECT_TRUE(await([&] { return state().startsWith("The hand can't move:"); }));
+  EXPECT_FALSE(isEnabled("graspHand"));
+  EXPECT_FALSE(isEnabled("reactiveGrasp"));
+  EXPECT_TRUE(isEnabled("stopHand"));  // always
+}
+
+TEST_F(HandDockTest, ChoicesAreRemembered) {
+  find<QComboBox>("preshape")->setCurrentIndex(find<QComboBox>("preshape")->findData("parallel"));
+  type("velocity", "33");
+  type("limit", "450");
+  dock_ = std::make_unique<HandDock>(settings_);
+  EXPECT_EQ(find<QComboBox>("preshape")->currentData().toString(), "parallel");
+  EXPECT_EQ(find<ValueSlider>("velocity")->value(), 33.0);
+  EXPECT_EQ(find<ValueSlider>("limit")->value(), 450.0);
+}
+
+}  // namespace
+}  // namespace palpate::gui
