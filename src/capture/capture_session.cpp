@@ -136,6 +136,10 @@ void CaptureSession::mark(const std::string& text, std::optional<int> digit) {
   event.kind = text.empty() ? "mark" : "label";
   event.text = text;
   if (digit) event.json = Json::object().set("digit", *digit).text(-1);
+  note(event);
+}
+
+void CaptureSession::note(const RecordingEvent& event) {
   show(event);
   pass(event);
 }

@@ -48,7 +48,10 @@ struct Recorder::Impl {
     if (!options.freeBytes) options.freeBytes = freeBytesOf;
   }
 
-  RoundTime now() const { return {clock.monotonicUs(), nowUs()}; }
+  RoundTime now() const {
+    const std::int64_t monoUs = clock.monotonicUs();
+    return {monoUs, nowUs(), takenMonoUs.value_or(monoUs)};
+  }
 
   std::int64_t nowUs() const { return otherTime.load() ? newestUs.load() : host->nowUs(); }
 
@@ -131,9 +134,12 @@ struct Recorder::Impl {
     }
     beginWhenAsked();
     checkClock();
+    // However long the disk kept us: what came meanwhile is as old as that.
+    const std::int64_t takingMonoUs = clock.monotonicUs();
     feed.take(items);
     if (stopping) feed.takeOpenGaps(items);
     handle(items);
+    takenMonoUs = takingMonoUs;
     if (parts) {
       const RoundTime time = now();
       parts->noteQueueLosses(lostInQueues() - lostAtStart.load());
@@ -197,6 +203,7 @@ struct Recorder::Impl {
 
   // The recorder's thread alone.
   std::vector<CaptureItem> items;
+  std::optional<std::int64_t> takenMonoUs;  // when the last round took its items
   std::deque<CaptureItem> kept;
   std::int64_t keptNewestUs = INT64_MIN;
   std::unique_ptr<RecordingParts> parts;
@@ -281,7 +288,7 @@ void Recorder::start(RecordingOptions options) {
   options.validate();
   requireNewFile(options.path);
   Impl& impl = *impl_;
-  RoundTime time = impl.now();
+  RoundTime time{impl.clock.monotonicUs(), impl.nowUs(), 0};
   // Nothing has come yet: whatever comes does so after the start, whichever time its stamps are in.
   if (impl.newestUs.load() == 0) time.nowUs = INT64_MIN / 2;
   const std::int64_t lost = impl.lostInQueues();

@@ -181,7 +181,7 @@ void RecordingParts::write(const CaptureItem& item, RoundTime time) {
   }
   endLoss(item.index());
   ++dirtyItems_;
-  if (!dirtySinceMonoUs_) dirtySinceMonoUs_ = time.monoUs;
+  if (!dirtySinceMonoUs_) dirtySinceMonoUs_ = time.sinceMonoUs;
 }
 
 void RecordingParts::writeTo(const CaptureItem& item) {

@@ -24,8 +24,9 @@ void requireNewFile(const std::filesystem::path& path);
 
 // The moment of a round on both clocks.
 struct RoundTime {
-  std::int64_t monoUs = 0;  // what waiting and retrying go by
-  std::int64_t nowUs = 0;   // host time as stamps have it
+  std::int64_t monoUs = 0;       // what waiting and retrying go by
+  std::int64_t nowUs = 0;        // host time as stamps have it
+  std::int64_t sinceMonoUs = 0;  // what this round takes came after this moment
 };
 
 class RecordingParts {

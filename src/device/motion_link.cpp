@@ -41,6 +41,12 @@ std::string listOf(const std::vector<double>& values) {
   return text + "]";
 }
 
+bool anyMoves(const std::vector<int>& states) {
+  return std::any_of(states.begin(), states.end(), [](int state) {
+    return state == kPositioning || state == kSpeedMode;
+  });
+}
+
 }  // namespace
 
 MotionLink::MotionLink(const std::string& port,
@@ -101,6 +107,10 @@ void MotionLink::connect(ByteChannel& channel) {
     // The port went away during a motion: nobody watched it. Stop, whatever it is doing.
     controller_->stop();
     eventNow("motion", "stopped: the motion port had been gone during a motion");
+  } else if (anyMoves(controller_->states())) {
+    // A program that died has left it so, or one on another port.
+    controller_->stop();
+    eventNow("motion", "stopped: the hand was moving when it was connected, watched by nobody");
   }
   std::lock_guard lock(mutex_);
   known_ = facts;
@@ -143,7 +153,12 @@ void MotionLink::countBytes() {
 }
 
 void MotionLink::work() {
-  executeOrders();
+  try {
+    executeOrders();
+  } catch (const SdhInterrupted&) {
+    // A motion given up for a stop, which waits: the line is in order.
+    return;
+  }
   if (stopping()) return;
   const std::int64_t nowUs = clock_.monotonicUs();
   try {
@@ -193,9 +208,7 @@ void MotionLink::pollTemperatures() {
 
 void MotionLink::pollStates() {
   const std::vector<int> states = controller_->states();
-  const bool moves = std::any_of(states.begin(), states.end(), [](int state) {
-    return state == kPositioning || state == kSpeedMode;
-  });
+  const bool moves = anyMoves(states);
   {
     std::lock_guard lock(mutex_);
     states_ = states;
@@ -225,6 +238,11 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
   motionFromUs_ = time_.nowUs();
   moving_ = true;  // also when the answer gets lost: then it may be moving
   CommandAnswer answer;
+  {
+    // Until they are asked: whoever waits for the end mustn't take the states of before for it.
+    std::lock_guard lock(mutex_);
+    states_.assign(axes.size(), kPositioning);
+  }
   answer.durationS = controller_->move();
   nextStatesUs_ = clock_.monotonicUs() + kStatesPeriodUs;
   event("motion",

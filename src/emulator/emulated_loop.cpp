@@ -217,12 +217,14 @@ void EmulatedHand::Loop::receive(std::int64_t nowUs) {
   const std::int64_t wallUs = systemClock().monotonicUs();
   if (const auto bytes = dsaLane_.receive(nowUs, faultCounts_); !bytes.empty()) {
     dsaInputUs_ = wallUs;
+    if (options_.received) options_.received(EmulatedPort::kTactile, bytes, wallUs);
     dsa_.receive(bytes, nowUs);
   } else if (dsa_.expectsMore() && wallUs - dsaInputUs_ > kQuietUs) {
     dsa_.quiet();
   }
   if (const auto bytes = sdhLane_.receive(nowUs, faultCounts_); !bytes.empty()) {
     sdhInputUs_ = wallUs;
+    if (options_.received) options_.received(EmulatedPort::kMotion, bytes, wallUs);
     sdh_.receive(bytes, nowUs);
   } else if (sdh_.expectsMore() && wallUs - sdhInputUs_ > kQuietUs) {
     sdh_.quiet();

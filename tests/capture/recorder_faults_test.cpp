@@ -292,5 +292,19 @@ TEST(RecorderFaults, aDiskThatBlocksAWriteIsAnAlarmAndCostsNothing) {
   expectFrames(folder / "a.palpate", frames, frames);
 }
 
+// What came while a commit took long is as old as that: it doesn't wait for another interval.
+TEST(RecorderFaults, afterASlowCommitTheNextOneFollowsAtOnce) {
+  const TemporaryFolder folder;
+  ScriptedSession scripted;
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  scripted.run(0.2);
+  for (std::size_t i = 0; i < 10; ++i) {  // 0.1 s in which the recorder gets no turn
+    scripted.clock.pass(10'000);
+    scripted.device->frame(scripted.frames++, scripted.clock.hostUs());
+  }
+  scripted.session->step();
+  EXPECT_EQ(scripted.session->recorderStatus().framesOnDisk, 30);
+}
+
 }  // namespace
 }  // namespace palpate

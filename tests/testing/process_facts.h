@@ -13,4 +13,11 @@ struct ProcessFacts {
 
 ProcessFacts processFacts();
 
+// Sanitizers keep memory of their own: then residentBytes says nothing about ours.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kMemoryIsOurs = false;
+#else
+constexpr bool kMemoryIsOurs = true;
+#endif
+
 }  // namespace palpate::testing

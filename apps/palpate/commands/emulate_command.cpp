@@ -1,14 +1,8 @@
 // palpate emulate: the emulated hand on two ports, until it is interrupted.
-#include <array>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
-
-#include <poll.h>
-#include <sys/eventfd.h>
-#include <unistd.h>
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
@@ -21,42 +15,10 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/interruption.h"
 
 namespace palpate::commands {
 namespace {
-
-// Waits for SIGINT, SIGTERM or SIGHUP. A handler, not a blocked signal: libraries have threads of their own, which
-// would take it.
-class Interruption {
- public:
-  Interruption() {
-    descriptor_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    struct sigaction action {};
-    action.sa_handler = [](int) {
-      const std::uint64_t one = 1;
-      [[maybe_unused]] const ssize_t written = ::write(descriptor_, &one, sizeof one);
-    };
-    for (std::size_t i = 0; i < kSignals.size(); ++i)
-      ::sigaction(kSignals[i], &action, &before_[i]);
-  }
-  ~Interruption() {
-    for (std::size_t i = 0; i < kSignals.size(); ++i)
-      ::sigaction(kSignals[i], &before_[i], nullptr);
-    ::close(descriptor_);
-  }
-  Interruption(const Interruption&) = delete;
-  Interruption& operator=(const Interruption&) = delete;
-
-  bool came(int withinMs) const {
-    pollfd polled{descriptor_, POLLIN, 0};
-    return ::poll(&polled, 1, withinMs) > 0;
-  }
-
- private:
-  static constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
-  static inline int descriptor_ = -1;
-  std::array<struct sigaction, 3> before_{};
-};
 
 void setRate(const std::string& text, EmulatedHandOptions& options) {
   if (text == "real") {
@@ -130,7 +92,7 @@ CommandSpec spec() {
 }
 
 // Until a signal comes. Throws what stopped the hand by itself.
-void waitForEnd(const EmulatedHand& hand, const Interruption& interruption) {
+void waitForEnd(const EmulatedHand& hand, Interruption& interruption) {
   constexpr int kLookMs = 200;
   while (!interruption.came(kLookMs))
     if (const std::string failure = hand.counts().failure; !failure.empty())
@@ -157,7 +119,7 @@ int emulateCommand(const Words& words) {
     observer = [&truth](const EmulatedFrame& frame) {
       truth->add(frame.hostUs, frame.model.truth());
     };
-  const Interruption interruption;
+  Interruption interruption;
   try {
     EmulatedHand hand(std::move(model), options, observer);
     std::printf("dsa=%s sdh=%s\n", hand.dsaPort().c_str(), hand.sdhPort().c_str());

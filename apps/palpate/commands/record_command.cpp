@@ -19,38 +19,11 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/interruption.h"
 
 namespace palpate::commands {
 namespace {
 namespace fs = std::filesystem;
-
-// Ctrl-C and its kin end the recording, they don't kill it: blocked in every thread, asked for here.
-class StopSignals {
- public:
-  StopSignals() {
-    sigemptyset(&set_);
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-      struct sigaction now {};
-      // What was ignored when we were started (nohup) stays so.
-      if (::sigaction(number, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) continue;
-      sigaddset(&set_, number);
-    }
-    ::pthread_sigmask(SIG_BLOCK, &set_, &before_);
-  }
-  ~StopSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  StopSignals(const StopSignals&) = delete;
-  StopSignals& operator=(const StopSignals&) = delete;
-
-  // Waits so long at most; whether one came.
-  bool wait(long milliseconds) const {
-    const timespec limit{milliseconds / 1000, milliseconds % 1000 * 1'000'000};
-    return ::sigtimedwait(&set_, nullptr, &limit) > 0;
-  }
-
- private:
-  sigset_t set_{};
-  sigset_t before_{};
-};
 
 // How it goes, on one line of a terminal.
 class StatusLine {
@@ -121,15 +94,15 @@ RecordingOptions recordingOptions(const CommandLine& given) {
 
 // Until it stops by itself, a signal comes, or no first frame does.
 void recordUntilDone(CaptureSession& session,
-                     const StopSignals& signals,
+                     Interruption& interruption,
                      double firstFrameS,
                      bool quiet) {
-  constexpr long kLookMs = 50;
+  constexpr int kLookMs = 50;
   constexpr int kShowEvery = 10;
   session.start();
   StatusLine status(quiet);
   for (int look = 0; session.recording(); ++look) {
-    if (signals.wait(kLookMs)) return;
+    if (interruption.came(kLookMs)) return;
     const RecorderStatus recorder = session.recorderStatus();
     if (recorder.state == RecorderStatus::State::kWaiting && recorder.elapsedS >= firstFrameS &&
         !session.health().frames.ageMs)
@@ -224,11 +197,10 @@ int recordCommand(const Words& words) {
   hand.sdhPort = given.text("sdh").value_or("");
   const double firstFrameS = given.number("wait", 0.1, 1e6).value_or(15.0);
   RecordingOptions options = recordingOptions(given);
-  // Before any thread is made, so that all of them leave signals alone; until the file is finished.
-  const auto signals = std::make_unique<StopSignals>();
+  Interruption interruption;  // until the file is finished
   CaptureSession session(std::make_unique<LiveHand>(std::move(hand)));
   session.startRecording(std::move(options));
-  recordUntilDone(session, *signals, firstFrameS, given.quiet());
+  recordUntilDone(session, interruption, firstFrameS, given.quiet());
   const LinkHealth health = session.health();
   const DeviceStatus& device = health.device;
   session.stop();

@@ -64,6 +64,10 @@ class CaptureSession : private DeviceSink {
   // empty, an event "mark". Recorded when something is, shown in any case.
   void mark(const std::string& text = {}, std::optional<int> digit = {});
 
+  // An event of whoever works on this session (a grasp that began, a person's note): shown, recorded when
+  // something is. Stamps as nowUs() has them. Safe from any thread.
+  void note(const RecordingEvent& event);
+
   LinkHealth health() const;
   BeforeRun checkBeforeRun(const std::filesystem::path& folder) const;
 

@@ -24,7 +24,7 @@ namespace palpate {
 
 struct RecorderOptions {
   double preTriggerS = 2.0;        // what is kept from before a start [s], 0..60
-  double commitIntervalMs = 40.0;  // oldest item not committed, at most [ms], 1..10000
+  double commitIntervalMs = 50.0;  // oldest item not committed, at most [ms], 1..10000
   std::string vfs;                 // SQLite file system to write with; empty: the default one
   FeedOptions feed;                // queues; wakeAtItems 1 means half of the tactile one
   // Bytes left on the disk of a folder, nothing when unknown; empty: statvfs.

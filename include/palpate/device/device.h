@@ -127,7 +127,8 @@ class Device {
   // the answer or a DeviceError / std::invalid_argument (value out of range: nothing was sent).
   virtual std::future<CommandAnswer> submit(DeviceCommand command) = 0;
   // Latest axis states (SDH-2: 0 idle, 1 positioning, 2 speed mode, 3 not initialised, 4, 5 blocked, 6
-  // disabled, 7 limit reached); empty where unknown. Polled while a motion runs.
+  // disabled, 7 limit reached); empty where unknown. Polled while a motion runs; "positioning" from its
+  // command on until the hand was asked.
   virtual std::vector<int> axisStates() const { return {}; }
 };
 

@@ -26,6 +26,11 @@ enum class EmulationRate {
   kMax,
 };
 
+enum class EmulatedPort { kTactile, kMotion };
+// monotonicUs: of the machine's clock [us]. `bytes` are valid inside of the call.
+using ReceiveObserver = std::function<void(
+    EmulatedPort port, std::span<const std::byte> bytes, std::int64_t monotonicUs)>;
+
 struct EmulatedHandOptions {
   // Where the ports are: path of a link to be made, "tcp:127.0.0.1:PORT" (0: any), or empty: a pty
   // without a link.
@@ -37,6 +42,8 @@ struct EmulatedHandOptions {
   std::uint64_t seed = 1;     // of faults and think times
   DsaServerOptions dsa = {};  // frameHz and lineByteUs are set by `rate`
   SdhServerOptions sdh = {};  // checksum by the kind of port, think times by `rate`
+  // Told of what a client sent, as it arrives and before it is understood; from the hand's thread.
+  ReceiveObserver received = {};
 };
 
 // A tactile frame as it was scanned and put on the line. Valid inside of the call.

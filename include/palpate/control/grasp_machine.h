@@ -1,0 +1,93 @@
+// A grasp as a machine of states: told what is felt, what the axes do and what time it is, it says what to send.
+// Knows no thread, no port and no clock; GraspControl runs it.
+//
+//   idle --begin--> preshaping --> closing --> idle        (preshaping only with a start ratio)
+//                        `------------`--> stopping --> idle
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <palpate/control/grasp_request.h>
+#include <palpate/control/stream_watch.h>
+#include <palpate/device/device.h>
+#include <palpate/model/hand_description.h>
+#include <palpate/model/tactile_frame.h>
+
+namespace palpate {
+
+enum class GraspPhase { kIdle, kPreshaping, kClosing, kStopping };
+std::string_view nameOf(GraspPhase phase);  // "idle", "preshaping", "closing", "stopping"
+
+class GraspMachine {
+ public:
+  explicit GraspMachine(HandDescription hand) : hand_(std::move(hand)) {}
+
+  // Begins a grasp; then takeCommand() has the first motion. Throws std::invalid_argument (request) and
+  // DeviceError, kRefused (a grasp runs; a reactive one without a living tactile stream, or with a taxel
+  // over the limit already): nothing is to be sent then. hostUs: for the report.
+  void begin(const GraspRequest& request, std::int64_t monoUs, std::int64_t hostUs);
+
+  // Frames are watched all the time, so that a grasp knows its stream when it begins.
+  void onFrame(const TactileFrame& frame, std::int64_t monoUs);
+  // The hand took the motion that was sent, and announced its duration [s] ..
+  void onMoveTaken(double durationS, std::int64_t monoUs);
+  // .. or the stop; ..
+  void onStopTaken();
+  // .. or the command failed: `why` is one line. Not sent: the hand knows nothing of it.
+  void onCommandFailed(const std::string& why, bool sent, std::int64_t monoUs);
+  // Device::axisStates(): ends a motion when none moves.
+  void onAxisStates(const std::vector<int>& states, std::int64_t monoUs);
+  void onMotionPortGone(const std::string& why);
+  void onTactilePortGone(const std::string& why, std::int64_t monoUs);
+  // The user: stops what runs, does nothing when idle (but a stop is to be sent whatever this says).
+  void stop(std::int64_t monoUs);
+  void relax();
+  void onTime(std::int64_t monoUs);
+  // When onTime() has something to do [monotonic us]; nothing: not before something happens.
+  std::optional<std::int64_t> nextUs() const;
+
+  // What is to be sent now, once: a MoveJoints or a StopMotion.
+  std::optional<DeviceCommand> takeCommand();
+  // The report of a grasp that has ended, once; endUs is the caller's to fill in.
+  std::optional<GraspReport> takeReport();
+
+  GraspPhase phase() const noexcept { return phase_; }
+  bool active() const noexcept { return phase_ != GraspPhase::kIdle; }
+  // Fingers move under tactile control: nobody may change what a count means.
+  bool underTactileControl() const noexcept {
+    return active() && report_.request.mode == GraspMode::kReactive;
+  }
+  const GraspReport& running() const noexcept { return report_; }
+  const StreamWatch& stream() const noexcept { return stream_; }
+  const TaxelPeak& peak() const noexcept { return peak_; }  // of the newest frame
+
+ private:
+  void move(double closeRatio, GraspPhase phase, std::int64_t monoUs);
+  void halt(GraspOutcome outcome, const std::string& text, std::int64_t monoUs);
+  void end(GraspOutcome outcome, const std::string& text);
+  void motionEnded(const std::vector<int>& states, std::int64_t monoUs);
+  bool moves() const noexcept {
+    return phase_ == GraspPhase::kPreshaping || phase_ == GraspPhase::kClosing;
+  }
+  std::string placeOf(const TaxelPeak& peak) const;
+  void refuse(const std::string& why) const;
+
+  const HandDescription hand_;
+  StreamWatch stream_;
+  TaxelPeak peak_;
+
+  GraspPhase phase_ = GraspPhase::kIdle;
+  GraspReport report_;  // of the grasp that runs
+  std::optional<DeviceCommand> command_;
+  std::optional<GraspReport> ended_;
+  std::int64_t sentUs_ = 0;       // the motion, or the last stop
+  bool taken_ = false;            // the hand has answered the motion
+  std::int64_t announcedUs_ = 0;  // end of the motion by the hand's announcement
+  std::int64_t patienceUs_ = 0;   // then it is given up
+  int stops_ = 0;
+};
+
+}  // namespace palpate

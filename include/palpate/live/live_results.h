@@ -1,0 +1,34 @@
+// What the stages of live processing found in one frame. A stage adds its own part and may read those of the
+// stages before it; nothing is taken away.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <palpate/capture/capture_feed.h>
+#include <palpate/filter/characteristic_signals.h>
+#include <palpate/model/hand_state.h>
+
+namespace palpate {
+
+// The taxel of largest value in a frame; the first of equals in wire order.
+struct TaxelPeak {
+  std::size_t matrix = 0;
+  int row = 0;  // 0 is the fingertip
+  int column = 0;
+  float counts = 0.0F;  // 0: no taxel is active
+};
+TaxelPeak taxelPeak(const TactileFrame& frame);
+
+struct LiveResults {
+  SharedFrame frame;  // never null
+  // The last samples at or before the frame; nothing: none came yet.
+  std::optional<JointAngles> angles;
+  std::optional<Temperatures> temperatures;
+  // Of the signals stage: one per matrix, and of the whole frame.
+  std::vector<CharacteristicSignals> signals;
+  TaxelPeak peak;
+};
+
+}  // namespace palpate

@@ -1,0 +1,14 @@
+// The first stage: characteristic signals of every matrix, and the largest taxel of all.
+#pragma once
+
+#include <palpate/live/stage.h>
+
+namespace palpate {
+
+// Fills LiveResults::signals and LiveResults::peak.
+class SignalsStage final : public Stage {
+ public:
+  void onFrame(LiveResults& results, std::vector<RecordingEvent>& out) override;
+};
+
+}  // namespace palpate

@@ -1,0 +1,300 @@
+#include "palpate/control/grasp_control.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace {
+
+using std::chrono::microseconds;
+
+constexpr std::int64_t kRoundUs = 5000;  // while something moves: looks at answers, axes and ports
+constexpr std::int64_t kIdleUs = 100'000;  // else, when nothing comes
+constexpr std::chrono::milliseconds kGoodbye{300};
+constexpr std::size_t kMostChanges = 1000;
+constexpr std::size_t kWaitingFrames = 64;  // two seconds: then this thread didn't run at all
+
+template <typename Future>
+bool isReady(const Future& future) {
+  return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+FeedOptions smallFeed() {
+  FeedOptions options;
+  options.tactileItems = kWaitingFrames;
+  options.motionItems = 8 * kWaitingFrames;
+  options.eventItems = kWaitingFrames;
+  return options;
+}
+
+bool isSetting(const DeviceCommand& command) {
+  return std::holds_alternative<SetThreshold>(command) ||
+         std::holds_alternative<SetSensitivity>(command) ||
+         std::holds_alternative<SetDynamicMask>(command);
+}
+
+}  // namespace
+
+GraspControl::GraspControl(CaptureSession& session, const Clock& clock)
+    : session_(session),
+      clock_(clock),
+      feed_(session.subscribe("motion control", smallFeed())),
+      machine_(session.device().hand()) {}
+
+GraspControl::~GraspControl() {
+  bool moving = false;
+  {
+    const std::lock_guard lock(mutex_);
+    moving = machine_.active();
+  }
+  if (moving) stop();
+  thread_ = {};  // asks it to end, and waits
+  const std::lock_guard lock(mutex_);
+  if (!asked_) return;
+  asked_->answer.wait_for(kGoodbye);
+  try {
+    round();
+  } catch (const std::exception&) {
+    // The stop is on the wire: there is no more to do.
+  }
+}
+
+void GraspControl::run() {
+  if (thread_.joinable()) return;
+  thread_ = std::jthread([this](const std::stop_token& stop) { loop(stop); });
+}
+
+void GraspControl::loop(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    std::int64_t waitUs = kIdleUs;
+    {
+      const std::lock_guard lock(mutex_);
+      const std::int64_t nowUs = clock_.monotonicUs();
+      if (machine_.active()) waitUs = kRoundUs;
+      if (const auto nextUs = machine_.nextUs())
+        waitUs = std::clamp<std::int64_t>(*nextUs - nowUs, 0, waitUs);
+    }
+    feed_->wait(microseconds(waitUs), stop);
+    if (!stop.stop_requested()) step();
+  }
+}
+
+void GraspControl::step() {
+  const std::lock_guard lock(mutex_);
+  round();
+}
+
+void GraspControl::round() {
+  hear();
+  send();
+  heedAnswers();
+  heedPorts();
+  machine_.onTime(clock_.monotonicUs());
+  send();
+  report();
+}
+
+void GraspControl::hear() {
+  items_.clear();
+  feed_->take(items_);
+  const std::int64_t nowUs = clock_.monotonicUs();
+  for (const CaptureItem& item : items_)
+    if (const auto* frame = std::get_if<SharedFrame>(&item)) machine_.onFrame(**frame, nowUs);
+  items_.clear();
+}
+
+void GraspControl::send() {
+  while (auto command = machine_.takeCommand()) {
+    const bool isStop = std::holds_alternative<StopMotion>(*command);
+    asked_ = Asked{session_.device().submit(std::move(*command)), isStop};
+  }
+}
+
+void GraspControl::heedAnswers() {
+  std::erase_if(free_, [](const auto& answer) { return isReady(answer); });
+  std::erase_if(settings_, [](const auto& answer) { return isReady(answer); });
+  if (!asked_ || !isReady(asked_->answer)) return;
+  Asked asked = std::move(*asked_);
+  asked_.reset();
+  const std::int64_t nowUs = clock_.monotonicUs();
+  try {
+    const CommandAnswer answer = asked.answer.get();
+    if (asked.isStop)
+      machine_.onStopTaken();
+    else
+      machine_.onMoveTaken(answer.durationS, nowUs);
+  } catch (const DeviceError& error) {
+    machine_.onCommandFailed(error.what(), error.fault() != DeviceFault::kUnsupported, nowUs);
+  } catch (const std::exception& error) {
+    machine_.onCommandFailed(error.what(), true, nowUs);
+  }
+}
+
+void GraspControl::heedPorts() {
+  if (!machine_.active()) return;
+  if (const std::string why = motionProblem(); !why.empty()) return machine_.onMotionPortGone(why);
+  const std::int64_t nowUs = clock_.monotonicUs();
+  const PortStatus tactile = session_.device().status().tactile;
+  if (tactile.state == PortState::kLost || tactile.state == PortState::kClosed)
+    machine_.onTactilePortGone(tactile.message.empty() ? "closed" : tactile.message, nowUs);
+  machine_.onAxisStates(session_.device().axisStates(), nowUs);
+}
+
+std::string GraspControl::motionProblem() const {
+  const auto motion = session_.device().status().motion;
+  if (!motion) return "no motion port is connected";
+  switch (motion->state) {
+    case PortState::kStreaming:
+    case PortState::kSilent:  // asked again, or given up as lost, within a second
+      return {};
+    case PortState::kClosed:
+      return "it is closed";
+    case PortState::kConnecting:
+    case PortState::kLost:
+      break;
+  }
+  return motion->message.empty() ? "no motion controller answers" : motion->message;
+}
+
+void GraspControl::report() {
+  if (auto ended = machine_.takeReport()) {
+    ended->endUs = session_.nowUs();
+    asked_.reset();
+    session_.note(endEvent(*ended));
+    tell(GraspPhase::kIdle, ended->text, ended);
+    last_ = std::move(ended);
+  }
+  if (machine_.phase() == told_) return;
+  const bool stopping = machine_.phase() == GraspPhase::kStopping;
+  tell(machine_.phase(),
+       std::string(nameOf(machine_.phase())) + (stopping ? ": " + machine_.running().text : ""));
+}
+
+void GraspControl::tell(GraspPhase phase,
+                        const std::string& text,
+                        std::optional<GraspReport> report) {
+  told_ = phase;
+  if (changes_.size() == kMostChanges) changes_.pop_front();
+  changes_.push_back({session_.nowUs(), phase, text, std::move(report)});
+}
+
+void GraspControl::refused(const GraspRequest& request, const std::string& why) {
+  GraspReport report;
+  report.request = request;
+  report.outcome = GraspOutcome::kRefused;
+  report.text = why;
+  report.beginUs = report.endUs = session_.nowUs();
+  session_.note(endEvent(report));
+  last_ = report;
+}
+
+void GraspControl::grasp(const GraspRequest& request) {
+  {
+    const std::lock_guard lock(mutex_);
+    round();  // what has come by now counts
+    try {
+      request.validate();
+      if (const std::string why = motionProblem(); !why.empty())
+        throw DeviceError(DeviceFault::kRefused, "grasp", "refused: the hand can't move: " + why);
+      if (request.mode == GraspMode::kReactive && settingsPending())
+        throw DeviceError(
+            DeviceFault::kRefused,
+            "grasp",
+            "refused: a tactile setting is just being changed; once more in a second");
+      machine_.begin(request, clock_.monotonicUs(), session_.nowUs());
+    } catch (const std::exception& error) {
+      refused(request, error.what());
+      throw;
+    }
+    session_.note(beginEvent(machine_.running()));
+    send();
+    report();
+  }
+  feed_->wake();
+}
+
+void GraspControl::preshape(const std::string& name, double velocityDegPerS) {
+  GraspRequest open;
+  open.preshape = name;
+  open.closeRatio = 0.0;
+  open.velocityDegPerS = velocityDegPerS;
+  grasp(open);
+}
+
+void GraspControl::stop() noexcept {
+  {
+    const std::lock_guard lock(mutex_);
+    try {
+      machine_.stop(clock_.monotonicUs());
+      const bool sentBefore = asked_ && asked_->isStop;
+      send();
+      // Nothing runs that we know of, or a stop is under way: it goes out all the same.
+      if (sentBefore || !machine_.active()) free_.push_back(session_.device().submit(StopMotion{}));
+      report();
+    } catch (const std::exception&) {
+      // Out of memory, after the stop was handed over.
+    }
+  }
+  feed_->wake();
+}
+
+void GraspControl::relax() noexcept {
+  const std::lock_guard lock(mutex_);
+  try {
+    free_.push_back(session_.device().submit(StopMotion{}));
+    free_.push_back(session_.device().submit(SetPower{}));
+    machine_.relax();
+    report();
+  } catch (const std::exception&) {
+  }
+}
+
+bool GraspControl::settingsPending() const {
+  return std::any_of(
+      settings_.begin(), settings_.end(), [](const auto& answer) { return !isReady(answer); });
+}
+
+std::shared_future<CommandAnswer> GraspControl::change(const DeviceCommand& setting) {
+  if (!isSetting(setting))
+    throw std::invalid_argument("GraspControl::change: that is no tactile setting");
+  const std::lock_guard lock(mutex_);
+  if (machine_.underTactileControl())
+    throw DeviceError(DeviceFault::kRefused,
+                      "settings",
+                      "refused: fingers move under tactile control; stop the grasp first");
+  std::shared_future<CommandAnswer> answer = session_.device().submit(setting).share();
+  settings_.push_back(answer);
+  return answer;
+}
+
+GraspStatus GraspControl::status() const {
+  const std::lock_guard lock(mutex_);
+  GraspStatus status;
+  status.phase = machine_.phase();
+  if (machine_.active()) status.request = machine_.running().request;
+  status.last = last_;
+  status.cannotMove = motionProblem();
+  status.cannotReact = status.cannotMove;
+  if (status.cannotReact.empty() && !machine_.stream().alive(clock_.monotonicUs()))
+    status.cannotReact = "no tactile frames come";
+  if (status.cannotReact.empty() && settingsPending())
+    status.cannotReact = "a tactile setting is just being changed";
+  if (machine_.underTactileControl()) status.cannotChange = "fingers move under tactile control";
+  status.periodMs = static_cast<double>(machine_.stream().medianPeriodUs()) / 1e3;
+  status.silenceLimitMs = static_cast<double>(machine_.stream().silenceLimitUs()) / 1e3;
+  return status;
+}
+
+std::vector<GraspChange> GraspControl::takeChanges() {
+  const std::lock_guard lock(mutex_);
+  std::vector<GraspChange> changes(changes_.begin(), changes_.end());
+  changes_.clear();
+  return changes;
+}
+
+}  // namespace palpate

@@ -1,0 +1,230 @@
+#include "palpate/control/grasp_machine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kAnswerUs = 5'000'000;   // a motion that is not answered
+constexpr std::int64_t kStopAgainUs = 250'000;  // a stop that is not answered is sent again ..
+constexpr int kStops = 20;                      // .. so often, then it is given up and said
+// A motion may take so much longer than announced: fingers slow down at what they press.
+constexpr double kDurationFactor = 3.0;
+constexpr double kDurationMoreS = 5.0;
+
+// Axis states of the SDH-2.
+constexpr int kPositioning = 1;
+constexpr int kSpeedMode = 2;
+constexpr int kBlockedClockwise = 4;
+constexpr int kBlockedCounterClockwise = 5;
+
+std::string millisecondsText(std::int64_t us) {
+  return fixedText(static_cast<double>(us) / 1e3, 0);
+}
+
+}  // namespace
+
+std::string_view nameOf(GraspPhase phase) {
+  switch (phase) {
+    case GraspPhase::kIdle:
+      break;
+    case GraspPhase::kPreshaping:
+      return "preshaping";
+    case GraspPhase::kClosing:
+      return "closing";
+    case GraspPhase::kStopping:
+      return "stopping";
+  }
+  return "idle";
+}
+
+void GraspMachine::refuse(const std::string& why) const {
+  throw DeviceError(DeviceFault::kRefused, "grasp", why);
+}
+
+std::string GraspMachine::placeOf(const TaxelPeak& peak) const {
+  return hand_.matrixName(peak.matrix) + ", x " + std::to_string(peak.column) + ", y " +
+         std::to_string(peak.row) + ": " + numberText(peak.counts) + " counts";
+}
+
+void GraspMachine::begin(const GraspRequest& request, std::int64_t monoUs, std::int64_t hostUs) {
+  request.validate();
+  if (active()) refuse("refused: the hand is " + std::string(nameOf(phase_)) + "; stop it first");
+  if (request.mode == GraspMode::kReactive) {
+    if (!stream_.alive(monoUs)) {
+      const auto silence = stream_.silenceUs(monoUs);
+      refuse("refused: a reactive grasp needs tactile frames, and " +
+             (silence ? "none has come for " + millisecondsText(*silence) + " ms"
+                      : std::string("none has come yet")));
+    }
+    if (peak_.counts > static_cast<float>(request.limitCounts))
+      refuse("refused: over the limit of " + std::to_string(request.limitCounts) + " already, at " +
+             placeOf(peak_) + "; open the hand, or raise the limit");
+  }
+  GraspReport report;
+  report.request = request;
+  report.beginUs = hostUs;
+  // Both are checked before the first one is sent.
+  if (request.startRatio) motionTo(request, *request.startRatio, hand_);
+  motionTo(request, request.closeRatio, hand_);
+  report_ = report;
+  stops_ = 0;
+  if (request.startRatio)
+    move(*request.startRatio, GraspPhase::kPreshaping, monoUs);
+  else
+    move(request.closeRatio, GraspPhase::kClosing, monoUs);
+}
+
+void GraspMachine::move(double closeRatio, GraspPhase phase, std::int64_t monoUs) {
+  command_ = motionTo(report_.request, closeRatio, hand_);
+  phase_ = phase;
+  sentUs_ = monoUs;
+  taken_ = false;
+  announcedUs_ = 0;
+  patienceUs_ = monoUs + kAnswerUs;
+}
+
+void GraspMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) {
+  const auto silence = stream_.frame(frame.hostUs, monoUs);
+  peak_ = taxelPeak(frame);
+  if (!moves() || !underTactileControl()) return;
+  if (peak_.counts > static_cast<float>(report_.request.limitCounts)) {
+    report_.peak = peak_;
+    halt(GraspOutcome::kLimitReached, "limit reached: " + placeOf(peak_), monoUs);
+  } else if (silence) {
+    halt(GraspOutcome::kStreamDead,
+         "stopped: no tactile frames for " + millisecondsText(*silence) + " ms",
+         monoUs);
+  }
+}
+
+void GraspMachine::onMoveTaken(double durationS, std::int64_t monoUs) {
+  if (!moves() || taken_) return;
+  taken_ = true;
+  // What is no duration announces nothing.
+  const double seconds = std::isfinite(durationS) ? std::clamp(durationS, 0.0, 1e4) : 0.0;
+  announcedUs_ = monoUs + std::llround(seconds * 1e6);
+  patienceUs_ = monoUs + std::llround((seconds * kDurationFactor + kDurationMoreS) * 1e6);
+}
+
+void GraspMachine::onAxisStates(const std::vector<int>& states, std::int64_t monoUs) {
+  if (!moves() || !taken_ || states.empty()) return;
+  bool held = false;
+  for (const int state : states) {
+    if (state == kPositioning || state == kSpeedMode) return;
+    held = held || state == kBlockedClockwise || state == kBlockedCounterClockwise;
+  }
+  // Old firmware says "idle" too early.
+  if (!held && monoUs < announcedUs_) return;
+  motionEnded(states, monoUs);
+}
+
+void GraspMachine::motionEnded(const std::vector<int>& states, std::int64_t monoUs) {
+  std::string axes;
+  report_.heldAxes.clear();
+  for (std::size_t axis = 0; axis < states.size(); ++axis) {
+    if (states[axis] != kBlockedClockwise && states[axis] != kBlockedCounterClockwise) continue;
+    report_.heldAxes.push_back(static_cast<int>(axis));
+    axes += (axes.empty() ? "" : ", ") +
+            (axis < hand_.axes.size() ? hand_.axes[axis].name : std::to_string(axis));
+  }
+  if (phase_ == GraspPhase::kPreshaping && axes.empty())
+    return move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
+  const std::string text = axes.empty() ? "finished: at its target" : "finished: held: " + axes;
+  // Where it is held the motors go on pushing. Nobody watches the taxels after this, so they must not.
+  if (!axes.empty() && underTactileControl())
+    return halt(GraspOutcome::kFinished, text + "; the limit was not reached", monoUs);
+  end(GraspOutcome::kFinished, text);
+}
+
+void GraspMachine::halt(GraspOutcome outcome, const std::string& text, std::int64_t monoUs) {
+  report_.outcome = outcome;
+  report_.text = text;
+  phase_ = GraspPhase::kStopping;
+  command_ = StopMotion{};  // instead of a motion that wasn't taken yet
+  sentUs_ = monoUs;
+  ++stops_;
+}
+
+void GraspMachine::end(GraspOutcome outcome, const std::string& text) {
+  report_.outcome = outcome;
+  report_.text = text;
+  phase_ = GraspPhase::kIdle;
+  command_.reset();
+  ended_ = report_;
+}
+
+void GraspMachine::onStopTaken() {
+  if (phase_ == GraspPhase::kStopping) end(report_.outcome, report_.text);
+}
+
+void GraspMachine::onCommandFailed(const std::string& why, bool sent, std::int64_t monoUs) {
+  if (active() && !sent) return end(GraspOutcome::kRefused, "refused: " + why);
+  // The hand may move all the same: an answer can get lost. A stop is sent again when its time comes.
+  if (moves()) halt(GraspOutcome::kFailed, "failed: " + why, monoUs);
+}
+
+void GraspMachine::onMotionPortGone(const std::string& why) {
+  if (!active()) return;
+  const std::string gone =
+      "the motion port is gone: " + why + "; the hand finishes its motion by itself";
+  end(GraspOutcome::kPortGone,
+      phase_ == GraspPhase::kStopping ? report_.text + ", but " + gone : gone);
+}
+
+void GraspMachine::onTactilePortGone(const std::string& why, std::int64_t monoUs) {
+  if (moves() && underTactileControl())
+    halt(GraspOutcome::kStreamDead, "stopped: the tactile port is gone: " + why, monoUs);
+}
+
+void GraspMachine::stop(std::int64_t monoUs) {
+  if (moves()) halt(GraspOutcome::kStopped, "stopped by the user", monoUs);
+}
+
+void GraspMachine::relax() {
+  if (active()) end(GraspOutcome::kRelaxed, "relaxed by the user: the motors are off");
+}
+
+void GraspMachine::onTime(std::int64_t monoUs) {
+  if (phase_ == GraspPhase::kStopping) {
+    if (monoUs - sentUs_ < kStopAgainUs) return;
+    if (stops_ >= kStops)
+      return end(GraspOutcome::kFailed, report_.text + "; the hand doesn't answer the stop");
+    command_ = StopMotion{};
+    sentUs_ = monoUs;
+    ++stops_;
+    return;
+  }
+  if (!moves()) return;
+  if (underTactileControl() && monoUs > stream_.deadAtUs())
+    return halt(GraspOutcome::kStreamDead,
+                "stopped: no tactile frames for " +
+                    millisecondsText(stream_.silenceUs(monoUs).value_or(0)) + " ms",
+                monoUs);
+  if (monoUs > patienceUs_)
+    halt(GraspOutcome::kFailed,
+         taken_ ? "failed: the motion didn't end in time: stopped"
+                : "failed: the hand didn't answer: stopped",
+         monoUs);
+}
+
+std::optional<std::int64_t> GraspMachine::nextUs() const {
+  if (phase_ == GraspPhase::kStopping) return sentUs_ + kStopAgainUs;
+  if (!moves()) return std::nullopt;
+  return underTactileControl() ? std::min(patienceUs_, stream_.deadAtUs() + 1) : patienceUs_;
+}
+
+std::optional<DeviceCommand> GraspMachine::takeCommand() {
+  return std::exchange(command_, std::nullopt);
+}
+
+std::optional<GraspReport> GraspMachine::takeReport() {
+  return std::exchange(ended_, std::nullopt);
+}
+
+}  // namespace palpate

@@ -1,0 +1,123 @@
+#include "palpate/control/grasp_request.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
+#include "palpate/model/preshape.h"
+
+namespace palpate {
+namespace {
+
+// Also refuses what is no number.
+void requireRange(const char* field, double value, double least, double most, const char* unit) {
+  if (value >= least && value <= most) return;
+  throw std::invalid_argument(std::string("grasp: ") + field + " " + numberText(value) +
+                              " is not in " + numberText(least) + ".." + numberText(most) + unit);
+}
+
+Json parameters(const GraspRequest& request) {
+  Json json = Json::object();
+  json.set("mode", nameOf(request.mode)).set("preshape", request.preshape);
+  if (request.startRatio) json.set("start", *request.startRatio);
+  json.set("close", request.closeRatio).set("velocity_deg_per_s", request.velocityDegPerS);
+  if (request.mode == GraspMode::kReactive) json.set("limit_counts", request.limitCounts);
+  return json;
+}
+
+}  // namespace
+
+std::string_view nameOf(GraspMode mode) {
+  return mode == GraspMode::kReactive ? "reactive" : "plain";
+}
+
+std::string_view nameOf(GraspOutcome outcome) {
+  switch (outcome) {
+    case GraspOutcome::kNone:
+      break;
+    case GraspOutcome::kFinished:
+      return "finished";
+    case GraspOutcome::kLimitReached:
+      return "limit_reached";
+    case GraspOutcome::kStopped:
+      return "stopped";
+    case GraspOutcome::kRelaxed:
+      return "relaxed";
+    case GraspOutcome::kStreamDead:
+      return "stream_dead";
+    case GraspOutcome::kPortGone:
+      return "port_gone";
+    case GraspOutcome::kFailed:
+      return "failed";
+    case GraspOutcome::kRefused:
+      return "refused";
+  }
+  return "running";
+}
+
+void GraspRequest::validate() const {
+  sdh2Preshape(preshape);
+  if (startRatio) requireRange("start ratio", *startRatio, 0.0, 1.0, "");
+  requireRange("close ratio", closeRatio, 0.0, 1.0, "");
+  requireRange("velocity", velocityDegPerS, kSlowestGraspDegPerS, kFastestGraspDegPerS, " deg/s");
+  if (mode == GraspMode::kReactive)
+    requireRange("limit", limitCounts, kLeastGraspLimitCounts, kMostGraspLimitCounts, " counts");
+}
+
+MoveJoints motionTo(const GraspRequest& request, double closeRatio, const HandDescription& hand) {
+  request.validate();
+  MoveJoints move;
+  move.targetDeg = sdh2Preshape(request.preshape).anglesDeg(closeRatio);
+  if (move.targetDeg.size() != hand.axes.size())
+    throw std::invalid_argument("grasp: the preshape has " + std::to_string(move.targetDeg.size()) +
+                                " axes, the hand " + std::to_string(hand.axes.size()));
+  for (std::size_t axis = 0; axis < hand.axes.size(); ++axis) {
+    const AxisDescription& is = hand.axes[axis];
+    requireRange(is.name.c_str(), move.targetDeg[axis], is.minimumDeg, is.maximumDeg, " deg");
+    move.velocityDegPerS.push_back(std::min(request.velocityDegPerS, is.maximumVelocityDegPerS));
+  }
+  move.ramp = request.mode == GraspMode::kReactive;
+  return move;
+}
+
+std::string describe(const GraspRequest& request) {
+  std::string text = std::string(nameOf(request.mode)) + " grasp: " + request.preshape;
+  if (request.startRatio) text += ", from " + numberText(*request.startRatio);
+  text += std::string(request.startRatio ? " to " : ", to ") + numberText(request.closeRatio) +
+          ", " + numberText(request.velocityDegPerS) + " deg/s";
+  if (request.mode == GraspMode::kReactive)
+    text += ", limit " + std::to_string(request.limitCounts) + " counts";
+  return text;
+}
+
+RecordingEvent beginEvent(const GraspReport& report) {
+  return {report.beginUs,
+          report.beginUs,
+          "grasp",
+          {},
+          describe(report.request),
+          parameters(report.request).text(-1)};
+}
+
+RecordingEvent endEvent(const GraspReport& report) {
+  Json json = parameters(report.request);
+  json.set("outcome", nameOf(report.outcome));
+  RecordingEvent event{report.beginUs, report.endUs, "grasp", {}, report.text, {}};
+  if (report.outcome == GraspOutcome::kLimitReached || report.peak.counts > 0.0F) {
+    event.matrix = static_cast<int>(report.peak.matrix);
+    json.set("matrix", report.peak.matrix)
+        .set("x", report.peak.column)
+        .set("y", report.peak.row)
+        .set("counts", static_cast<double>(report.peak.counts));
+  }
+  if (!report.heldAxes.empty()) {
+    Json held = Json::array();
+    for (const int axis : report.heldAxes) held.push(axis);
+    json.set("held_axes", held);
+  }
+  event.json = json.text(-1);
+  return event;
+}
+
+}  // namespace palpate

@@ -1,0 +1,209 @@
+#include "palpate/live/processing_chain.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/time.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::chrono::milliseconds kLook{100};  // a wait that nothing ends
+// Samples per frame that may wait besides: at 250 Hz and 15 frames/s there are 17.
+constexpr std::size_t kMotionPerFrame = 32;
+constexpr std::size_t kProgressEvery = 256;
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+// At one instant: events, temperatures, angles, then the frame they belong to.
+bool isEarlier(const CaptureItem& a, const CaptureItem& b) {
+  const std::int64_t aUs = stampOf(a), bUs = stampOf(b);
+  return aUs != bUs ? aUs < bUs : streamOf(a) > streamOf(b);
+}
+
+}  // namespace
+
+ProcessingChain::ProcessingChain(std::vector<std::unique_ptr<Stage>> stages, ChainOptions options)
+    : stages_(std::move(stages)), options_(std::move(options)) {
+  if (stages_.empty() || std::any_of(stages_.begin(), stages_.end(), [](const auto& stage) {
+        return stage == nullptr;
+      }))
+    throw std::invalid_argument("ProcessingChain: no stage");
+  if (options_.waitingFrames == 0)
+    throw std::invalid_argument("ProcessingChain: waitingFrames must be at least 1");
+}
+
+ProcessingChain::~ProcessingChain() { stop(); }
+
+void ProcessingChain::connect(CaptureSession& session) {
+  if (thread_.joinable()) throw std::logic_error("ProcessingChain::connect: it is running");
+  FeedOptions feed;
+  feed.tactileItems = options_.waitingFrames;
+  feed.motionItems = options_.waitingFrames * kMotionPerFrame;
+  feed.waitForRoom = options_.lossless;
+  feed_.reset();
+  reset();
+  feed_ = session.subscribe("live processing", feed);
+}
+
+void ProcessingChain::start() {
+  if (thread_.joinable()) return;
+  thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+void ProcessingChain::stop() noexcept {
+  if (!thread_.joinable()) return;
+  thread_.request_stop();
+  thread_.join();
+  thread_ = {};
+}
+
+void ProcessingChain::run(const std::stop_token& stop) {
+  const auto feed = feed_;
+  if (!feed) throw std::logic_error("ProcessingChain::run: it listens to no session");
+  try {
+    while (!stop.stop_requested()) {
+      if (processWaiting() > 0) continue;
+      if (feed->closed()) return;
+      feed->wait(kLook, stop);
+    }
+  } catch (const std::exception& error) {
+    {
+      const std::lock_guard lock(mutex_);
+      failure_ = error.what();
+    }
+    feed->close();  // a lossless source would wait for ever
+  }
+}
+
+std::size_t ProcessingChain::step() {
+  if (!feed_) throw std::logic_error("ProcessingChain::step: it listens to no session");
+  const std::uint64_t before = stats().frames;
+  while (processWaiting() > 0) {
+  }
+  return stats().frames - before;
+}
+
+// Returns how many items were taken or processed.
+//
+// The feed's queues are emptied one after the other, frames first. So what lies behind the newest frame taken
+// may have come after another frame that wasn't there yet when its queue was looked at: it is held back
+// until the next look, which finds that frame.
+std::size_t ProcessingChain::processWaiting() {
+  std::int64_t safeUs = std::numeric_limits<std::int64_t>::min();
+  for (const CaptureItem& item : items_) safeUs = std::max(safeUs, stampOf(item));  // held back
+  const std::size_t held = items_.size();
+  const std::size_t taken = feed_->take(items_);
+  if (taken == 0) feed_->takeOpenGaps(items_);
+  for (const CaptureItem& item : items_)
+    if (streamOf(item) == CaptureStream::kTactile || taken == 0)
+      safeUs = std::max(safeUs, stampOf(item));
+  std::stable_sort(items_.begin(), items_.end(), isEarlier);
+  const auto end = std::find_if(items_.begin(), items_.end(), [&](const CaptureItem& item) {
+    return stampOf(item) > safeUs;
+  });
+  const std::size_t handled = held + taken + (taken == 0 ? items_.size() - held : 0);
+  std::for_each(items_.begin(), end, [this](const CaptureItem& item) { process(item); });
+  items_.erase(items_.begin(), end);
+  const std::uint64_t skipped =
+      feed_->stats().lost.at(static_cast<std::size_t>(CaptureStream::kTactile));
+  const std::lock_guard lock(mutex_);
+  stats_.skipped = skipped;
+  return handled;
+}
+
+void ProcessingChain::reset() {
+  for (const auto& stage : stages_) stage->reset();
+  items_.clear();
+  angles_.reset();
+  temperatures_.reset();
+  newest_.take();
+  const std::lock_guard lock(mutex_);
+  stats_ = {};
+  failure_.clear();
+}
+
+void ProcessingChain::process(const CaptureItem& item) {
+  if (const auto* frame = std::get_if<SharedFrame>(&item)) {
+    processFrame(*frame);
+  } else if (const auto* angles = std::get_if<JointAngles>(&item)) {
+    angles_ = *angles;
+    for (const auto& stage : stages_) stage->onAngles(*angles);
+  } else if (const auto* temperatures = std::get_if<Temperatures>(&item)) {
+    temperatures_ = *temperatures;
+    for (const auto& stage : stages_) stage->onTemperatures(*temperatures);
+  } else {
+    for (const auto& stage : stages_) stage->onEvent(std::get<RecordingEvent>(item));
+  }
+}
+
+void ProcessingChain::processFrame(const SharedFrame& frame) {
+  const std::int64_t fromUs = systemClock().monotonicUs();
+  LiveResults results;
+  results.frame = frame;
+  results.angles = angles_;
+  results.temperatures = temperatures_;
+  found_.clear();
+  for (const auto& stage : stages_) stage->onFrame(results, found_);
+  const auto tookUs = static_cast<double>(systemClock().monotonicUs() - fromUs);
+  {
+    const std::lock_guard lock(mutex_);
+    ++stats_.frames;
+    stats_.lastUs = tookUs;
+    stats_.longestUs = std::max(stats_.longestUs, tookUs);
+  }
+  if (options_.onResults) options_.onResults(results);
+  if (options_.onEvent)
+    for (const RecordingEvent& event : found_) options_.onEvent(event);
+  newest_.put(std::move(results));
+}
+
+void ProcessingChain::runOver(const Profile& profile,
+                              std::vector<RecordingEvent> events,
+                              const Progress& progress) {
+  if (thread_.joinable()) throw std::logic_error("ProcessingChain::runOver: it is running");
+  reset();
+  std::stable_sort(
+      events.begin(), events.end(), [](const auto& a, const auto& b) { return a.tUs < b.tUs; });
+  std::size_t event = 0, temperature = 0, angle = 0;
+  const auto bringUpTo = [&](std::int64_t untilUs) {
+    while (true) {
+      const std::int64_t eventUs = event < events.size() ? events[event].tUs : kNever;
+      const std::int64_t temperatureUs =
+          temperature < profile.numTemperatures() ? profile.temperatureTimeUs(temperature) : kNever;
+      const std::int64_t angleUs =
+          angle < profile.numAngles() ? profile.angleTimeUs(angle) : kNever;
+      const std::int64_t nextUs = std::min({eventUs, temperatureUs, angleUs});
+      if (nextUs > untilUs || nextUs == kNever) return;
+      if (eventUs == nextUs)
+        process(events[event++]);
+      else if (temperatureUs == nextUs)
+        process(profile.temperatures(temperature++));
+      else
+        process(profile.angles(angle++));
+    }
+  };
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    if (progress && i % kProgressEvery == 0 &&
+        !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
+      throw Cancelled();
+    bringUpTo(profile.frameTimeUs(i));
+    processFrame(std::make_shared<const TactileFrame>(profile.frame(i)));
+  }
+  bringUpTo(kNever);
+}
+
+ChainStats ProcessingChain::stats() const {
+  const std::lock_guard lock(mutex_);
+  return stats_;
+}
+
+std::string ProcessingChain::failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+}  // namespace palpate

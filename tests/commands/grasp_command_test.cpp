@@ -1,0 +1,248 @@
+// The real program on an emulated hand that runs in the test: what it says, and what arrives at the hand.
+#include <csignal>
+
+#include "palpate/core/number_text.h"
+
+#include "commands/palpate_program.h"
+#include "control/emulated_bench.h"
+#include "testing/background_program.h"
+
+namespace palpate {
+namespace {
+using namespace testing;
+
+// The states of the lines "SECONDS STATE[: TEXT]", in order.
+std::vector<std::string> statesOf(const std::string& out) {
+  std::vector<std::string> states;
+  std::istringstream lines(out);
+  double before = 0.0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t blank = line.find(' ');
+    const auto seconds = parseDouble(line.substr(0, blank));
+    EXPECT_TRUE(seconds.has_value()) << line;
+    EXPECT_GE(seconds.value_or(-1.0), before) << line;
+    before = seconds.value_or(before);
+    const std::string rest = line.substr(blank + 1);
+    states.push_back(rest.substr(0, rest.find(':')));
+  }
+  return states;
+}
+
+using States = std::vector<std::string>;
+
+TEST(GraspCommand, PlainGraspGoesToThePreshape) {
+  EmulatedBench bench(stillHand(), {.rate = EmulationRate::kHz, .hz = 30.0});
+  const auto result = palpate({"grasp",
+                               "--sdh",
+                               bench.hand->sdhPort(),
+                               "--preshape",
+                               "cylindrical",
+                               "--close",
+                               "0.4",
+                               "--velocity",
+                               "83"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(statesOf(result.out), (States{"connecting", "ready", "closing", "finished"}));
+  std::vector<double> angles;
+  bench.hand->withModel([&](HandModel& model) { angles = model.joints().angles(); });
+  // Table of the study: 0 | -30 + 30 c, 30 + 35 c.
+  for (std::size_t axis = 0; axis < 7; ++axis)
+    EXPECT_NEAR(angles[axis], axis == 0 ? 0.0 : axis % 2 == 1 ? -18.0 : 44.0, 0.01) << axis;
+  EXPECT_TRUE(bench.log.named("grip").empty());
+  EXPECT_TRUE(bench.log.named("selgrip").empty());
+  EXPECT_TRUE(bench.log.named("power").empty());
+  EXPECT_TRUE(bench.log.named("stop").empty());
+}
+
+TEST(GraspCommand, ReactiveGraspStopsAtTheBall) {
+  EmulatedBench bench(handWith("ball"));
+  const auto result = palpate({"grasp",
+                               "--sdh",
+                               bench.hand->sdhPort(),
+                               "--dsa",
+                               bench.hand->dsaPort(),
+                               "--preshape",
+                               "centrical",
+                               "--mode",
+                               "reactive",
+                               "--velocity",
+                               "60",
+                               "--limit",
+                               "400"});
+  ASSERT_EQ(result.exitCode, 0) << result.err << result.out;
+  EXPECT_EQ(statesOf(result.out),
+            (States{"connecting", "ready", "preshaping", "closing", "stopping", "limit_reached"}));
+  EXPECT_NE(result.out.find(" counts"), std::string::npos);
+  EXPECT_FALSE(bench.log.named("stop").empty());
+  EXPECT_FALSE(bench.handMoves());
+}
+
+TEST(GraspCommand, ReactiveGraspOfNothingCloses) {
+  EmulatedBench bench(stillHand(), {.rate = EmulationRate::kHz, .hz = 60.0});
+  const auto result = palpate({"grasp",
+                               "--sdh",
+                               bench.hand->sdhPort(),
+                               "--dsa",
+                               bench.hand->dsaPort(),
+                               "--preshape",
+                               "centrical",
+                               "--mode",
+                               "reactive",
+                               "--close",
+                               "0.5",
+                               "--velocity",
+                               "100"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(statesOf(result.out),
+            (States{"connecting", "ready", "preshaping", "closing", "finished"}));
+  std::vector<double> angles;
+  bench.hand->withModel([&](HandModel& model) { angles = model.joints().angles(); });
+  EXPECT_NEAR(angles[1], -34.0, 0.01);
+}
+
+// From the signal to the stop that arrives at the hand [us].
+std::optional<std::int64_t> stopAfterSignalUs(int number) {
+  EmulatedBench bench(stillHand());
+  BackgroundProgram program(PALPATE_PROGRAM,
+                            {"grasp",
+                             "--sdh",
+                             bench.hand->sdhPort(),
+                             "--preshape",
+                             "centrical",
+                             "--close",
+                             "1",
+                             "--velocity",
+                             "5"});
+  EXPECT_TRUE(program.awaitLine("closing").has_value()) << program.err();
+  EXPECT_TRUE(bench.awaitMotion());
+  const std::int64_t pressedUs = systemClock().monotonicUs();
+  program.signal(number);
+  EXPECT_EQ(program.wait(), 3) << program.err();
+  EXPECT_EQ(statesOf(program.out()),
+            (States{"connecting", "ready", "closing", "stopping", "stopped"}));
+  EXPECT_NE(program.err().find("stopped before the grasp was done"), std::string::npos);
+  EXPECT_FALSE(bench.handMoves());
+  const auto stop = bench.log.firstSince("stop", pressedUs);
+  EXPECT_TRUE(stop.has_value());
+  return stop ? std::optional(stop->monoUs - pressedUs) : std::nullopt;
+}
+
+TEST(GraspCommand, CtrlCStopsTheHandFirst) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    const Timely timely = inTime(20'000, 4, [&] { return stopAfterSignalUs(number); });
+    ASSERT_TRUE(timely.bestUs.has_value());
+    EXPECT_LE(*timely.bestUs, 20'000) << "signal " << number;
+  }
+}
+
+// A dead process can send nothing: docs/safety.md. The next one stops what it finds.
+TEST(GraspCommand, KilledInAMotionTheHandGoesOnAndTheNextProgramStopsIt) {
+  EmulatedBench bench(stillHand());
+  {
+    BackgroundProgram program(PALPATE_PROGRAM,
+                              {"grasp",
+                               "--sdh",
+                               bench.hand->sdhPort(),
+                               "--preshape",
+                               "centrical",
+                               "--close",
+                               "1",
+                               "--velocity",
+                               "5"});
+    ASSERT_TRUE(program.awaitLine("closing").has_value()) << program.err();
+    ASSERT_TRUE(bench.awaitMotion());
+    program.signal(SIGKILL);
+    program.wait();
+  }
+  EXPECT_TRUE(bench.handMoves());
+  EXPECT_TRUE(bench.log.named("stop").empty());
+  bench.connect();
+  EXPECT_FALSE(bench.handMoves());
+  EXPECT_EQ(bench.log.named("stop").size(), 1u);
+}
+
+TEST(GraspCommand, AHandThatIsUnpluggedIsSaid) {
+  EmulatedBench bench(stillHand());
+  BackgroundProgram program(PALPATE_PROGRAM,
+                            {"grasp",
+                             "--sdh",
+                             bench.hand->sdhPort(),
+                             "--preshape",
+                             "centrical",
+                             "--close",
+                             "1",
+                             "--velocity",
+                             "5"});
+  ASSERT_TRUE(program.awaitLine("closing").has_value()) << program.err();
+  ASSERT_TRUE(bench.awaitMotion());
+  bench.hand->unplug(false, true);
+  EXPECT_EQ(program.wait(), 1) << program.out();
+  EXPECT_EQ(statesOf(program.out()).back(), "port_gone");
+  EXPECT_NE(program.err().find("the motion port is gone"), std::string::npos) << program.err();
+}
+
+TEST(GraspCommand, WrongUsageMovesNothing) {
+  EmulatedBench bench(stillHand());
+  const std::string sdh = bench.hand->sdhPort();
+  const auto refused = [&](std::vector<std::string> more, const std::string& word) {
+    more.insert(more.begin(), "grasp");
+    expectOneLineError(palpate(more), 2, {word});
+  };
+  refused({"--preshape", "centrical"}, "--sdh");
+  refused({"--sdh", sdh}, "--preshape");
+  refused({"--sdh", sdh, "--preshape", "fist"}, "pinch-tilted");
+  refused({"--sdh", sdh, "--preshape", "centrical", "--close", "1.5"}, "close");
+  refused({"--sdh", sdh, "--preshape", "centrical", "--close", "nan"}, "close");
+  refused({"--sdh", sdh, "--preshape", "centrical", "--velocity", "0"}, "velocity");
+  refused({"--sdh", sdh, "--preshape", "centrical", "--velocity", "inf"}, "velocity");
+  refused({"--sdh", sdh, "--preshape", "centrical", "--mode", "crush"}, "mode");
+  refused({"--sdh", sdh, "--preshape", "centrical", "--mode", "reactive"}, "--dsa");
+  refused({"--sdh", sdh, "--preshape", "centrical", "--limit", "100"}, "limit");
+  refused({"--sdh",
+           sdh,
+           "--dsa",
+           bench.hand->dsaPort(),
+           "--preshape",
+           "centrical",
+           "--mode",
+           "reactive",
+           "--limit",
+           "2"},
+          "limit");
+  EXPECT_TRUE(bench.log.all().empty());
+}
+
+TEST(GraspCommand, AHandThatDoesNotAnswerIsOneLine) {
+  const TemporaryFolder folder;
+  const auto result = palpate({"grasp",
+                               "--sdh",
+                               folder / "nothing",
+                               "--preshape",
+                               "centrical",
+                               "--wait",
+                               "0.3",
+                               "--quiet"});
+  expectOneLineError(result, 1, {"nothing"});
+  EXPECT_EQ(result.out, "");
+}
+
+TEST(GraspCommand, OverTheLimitAlreadyIsRefused) {
+  auto still = std::make_unique<StillHand>(std::vector<double>{60, -75, 75, -75, 75, -75, 75});
+  still->values[3] = 900;
+  EmulatedBench bench(std::move(still), {.rate = EmulationRate::kHz, .hz = 60.0});
+  const auto result = palpate({"grasp",
+                               "--sdh",
+                               bench.hand->sdhPort(),
+                               "--dsa",
+                               bench.hand->dsaPort(),
+                               "--preshape",
+                               "centrical",
+                               "--mode",
+                               "reactive"});
+  expectOneLineError(result, 1, {"over the limit of 200 already", "900 counts"});
+  EXPECT_TRUE(bench.log.deeds().empty());
+}
+
+}  // namespace
+}  // namespace palpate

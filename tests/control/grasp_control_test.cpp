@@ -1,0 +1,289 @@
+#include "palpate/control/grasp_control.h"
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+
+#include "palpate/capture/replay.h"
+#include "palpate/core/error.h"
+#include "palpate/core/json.h"
+#include "palpate/emulator/synthetic_profile.h"
+#include "palpate/recording/recording.h"
+
+#include "control/scripted_hand.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+using testing::GraspBench;
+
+GraspRequest reactive(int limit = 200) {
+  GraspRequest request;
+  request.mode = GraspMode::kReactive;
+  request.closeRatio = 1.0;
+  request.limitCounts = limit;
+  return request;
+}
+
+TEST(GraspControl, ConnectingSendsNothing) {
+  GraspBench bench;
+  bench.feel(50, 2000.0F);
+  bench.wait(10'000'000);
+  EXPECT_TRUE(bench.hand->commands.empty());
+  bench.control.reset();
+  EXPECT_TRUE(bench.hand->commands.empty());
+}
+
+TEST(GraspControl, ReactiveGraspStopsWithTheFrameThatCrossesTheLimit) {
+  GraspBench bench;
+  bench.control->grasp(reactive(200));
+  ASSERT_EQ(bench.hand->count<MoveJoints>(), 1u);
+  bench.hand->states.assign(7, 1);
+  bench.feel(5, 199.0F);
+  EXPECT_EQ(bench.hand->count<StopMotion>(), 0u);
+  bench.feel(1, 250.0F);  // one round
+  EXPECT_EQ(bench.hand->count<StopMotion>(), 1u);
+  const GraspStatus status = bench.control->status();
+  EXPECT_EQ(status.phase, GraspPhase::kIdle);
+  ASSERT_TRUE(status.last.has_value());
+  EXPECT_EQ(status.last->outcome, GraspOutcome::kLimitReached);
+  EXPECT_EQ(status.last->text, "limit reached: finger 2 distal, x 1, y 6: 250 counts");
+}
+
+TEST(GraspControl, TellsWhatHappensInOrder) {
+  GraspBench bench;
+  GraspRequest request = reactive(200);
+  request.startRatio = 0.0;
+  bench.hand->answers = false;
+  bench.control->grasp(request);
+  bench.hand->states.assign(7, 1);
+  bench.hand->waiting[0].set_value({.durationS = 0.05});
+  bench.feel(1);
+  bench.hand->states.assign(7, 0);
+  bench.feel(3);
+  ASSERT_EQ(bench.hand->count<MoveJoints>(), 2u);
+  bench.hand->waiting[1].set_value({.durationS = 2.0});
+  bench.hand->states.assign(7, 1);
+  bench.feel(2, 300.0F);
+  ASSERT_EQ(bench.hand->count<StopMotion>(), 1u);
+  bench.hand->waiting[2].set_value({});
+  bench.wait(1000);
+  std::vector<GraspPhase> phases;
+  std::vector<GraspChange> changes = bench.control->takeChanges();
+  for (const GraspChange& change : changes) phases.push_back(change.phase);
+  EXPECT_EQ(phases,
+            (std::vector<GraspPhase>{GraspPhase::kPreshaping,
+                                     GraspPhase::kClosing,
+                                     GraspPhase::kStopping,
+                                     GraspPhase::kIdle}));
+  ASSERT_TRUE(changes.back().report.has_value());
+  EXPECT_EQ(changes.back().report->outcome, GraspOutcome::kLimitReached);
+  EXPECT_TRUE(bench.control->takeChanges().empty());
+}
+
+TEST(GraspControl, ARecordingHoldsWhatHappened) {
+  const testing::TemporaryFolder folder;
+  GraspBench bench;
+  RecordingOptions options;
+  options.path = folder / "grasp.palpate";
+  bench.session->startRecording(options);
+  bench.control->grasp(reactive(200));
+  bench.hand->states.assign(7, 1);
+  bench.feel(10, 100.0F);
+  bench.feel(1, 222.0F);
+  EXPECT_THROW(bench.control->grasp(reactive(100)), DeviceError);  // over the limit already
+  bench.session->step();
+  bench.session->stopRecording();
+  const EventsReport events = readEvents(folder / "grasp.palpate");
+  std::vector<RecordingEvent> grasps;
+  for (const RecordingEvent& event : events.events)
+    if (event.kind == "grasp") grasps.push_back(event);
+  ASSERT_EQ(grasps.size(), 3u);
+  EXPECT_FALSE(Json::parse(grasps[0].json).contains("outcome"));
+  EXPECT_EQ(Json::parse(grasps[1].json).at("outcome").asString(), "limit_reached");
+  EXPECT_EQ(Json::parse(grasps[1].json).at("counts").asDouble(), 222.0);
+  EXPECT_EQ(grasps[1].matrix, 5);
+  EXPECT_EQ(grasps[1].t1Us - grasps[1].tUs, 11 * 30'000);
+  EXPECT_EQ(Json::parse(grasps[2].json).at("outcome").asString(), "refused");
+}
+
+TEST(GraspControl, RefusesBadValuesBeforeAnythingIsSent) {
+  GraspBench bench;
+  GraspRequest request;
+  request.closeRatio = std::nan("");
+  EXPECT_THROW(bench.control->grasp(request), std::invalid_argument);
+  request = {};
+  request.velocityDegPerS = 1000.0;
+  EXPECT_THROW(bench.control->grasp(request), std::invalid_argument);
+  EXPECT_THROW(bench.control->grasp(reactive(4000)), std::invalid_argument);
+  EXPECT_THROW(bench.control->preshape("fist", 20.0), std::invalid_argument);
+  EXPECT_TRUE(bench.hand->commands.empty());
+  EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kRefused);
+}
+
+TEST(GraspControl, RefusesWithoutAMotionPort) {
+  GraspBench bench;
+  bench.hand->state.motion->state = PortState::kLost;
+  bench.hand->state.motion->message = "/dev/motion: unplugged";
+  EXPECT_THROW(bench.control->grasp({}), DeviceError);
+  EXPECT_EQ(bench.control->status().cannotMove, "/dev/motion: unplugged");
+  bench.hand->state.motion.reset();
+  EXPECT_THROW(bench.control->grasp({}), DeviceError);
+  EXPECT_TRUE(bench.hand->commands.empty());
+  EXPECT_EQ(bench.control->status().cannotMove, "no motion port is connected");
+}
+
+TEST(GraspControl, RefusesAReactiveGraspWhenNoFramesCome) {
+  GraspBench bench;
+  bench.wait(150'000);
+  EXPECT_EQ(bench.control->status().cannotReact, "no tactile frames come");
+  EXPECT_THROW(bench.control->grasp(reactive()), DeviceError);
+  EXPECT_TRUE(bench.hand->commands.empty());
+}
+
+TEST(GraspControl, SilenceStopsAReactiveGrasp) {
+  GraspBench bench;
+  bench.control->grasp(reactive());
+  bench.hand->states.assign(7, 1);
+  bench.feel(3);
+  bench.wait(100'000);
+  EXPECT_EQ(bench.hand->count<StopMotion>(), 0u);
+  bench.wait(1);
+  EXPECT_EQ(bench.hand->count<StopMotion>(), 1u);
+  bench.wait(1);
+  EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kStreamDead);
+}
+
+TEST(GraspControl, SettingsAreRefusedWhileFingersMoveUnderTactileControl) {
+  GraspBench bench;
+  bench.hand->states.assign(7, 1);
+  bench.control->grasp(reactive());
+  EXPECT_THROW(bench.control->change(SetThreshold{{}, 10}), DeviceError);
+  EXPECT_THROW(bench.control->change(SetSensitivity{1, 0.9}), DeviceError);
+  EXPECT_THROW(bench.control->change(SetDynamicMask{0, Mask(84, 1)}), DeviceError);
+  EXPECT_EQ(bench.hand->commands.size(), 1u);  // the motion
+  EXPECT_FALSE(bench.control->status().cannotChange.empty());
+  bench.control->stop();
+  bench.wait(1);
+  EXPECT_TRUE(bench.control->status().cannotChange.empty());
+  EXPECT_NO_THROW(bench.control->change(SetThreshold{{}, 10}).get());
+  bench.control->grasp({});  // plain: they mean nothing to it
+  EXPECT_NO_THROW(bench.control->change(SetSensitivity{1, 0.9}));
+  EXPECT_THROW(bench.control->change(StopMotion{}), std::invalid_argument);
+}
+
+TEST(GraspControl, AReactiveGraspWaitsForSettingsThatAreBeingChanged) {
+  GraspBench bench;
+  bench.hand->answers = false;
+  const auto answer = bench.control->change(SetThreshold{{}, 100});
+  EXPECT_THROW(bench.control->grasp(reactive()), DeviceError);
+  bench.hand->waiting[0].set_value({});
+  EXPECT_NO_THROW(bench.control->grasp(reactive()));
+}
+
+TEST(GraspControl, AStopGoesOutInTheCallItselfAndAlways) {
+  GraspBench bench;
+  bench.hand->answers = false;
+  bench.control->stop();  // nothing moves that we know of
+  EXPECT_EQ(bench.hand->count<StopMotion>(), 1u);
+  bench.control->grasp({});
+  bench.control->stop();
+  EXPECT_EQ(bench.hand->count<StopMotion>(), 2u);
+  bench.control->stop();  // the first one isn't answered yet
+  EXPECT_EQ(bench.hand->count<StopMotion>(), 3u);
+  // No motion comes behind it.
+  bench.wait(100'000);
+  EXPECT_EQ(bench.hand->count<MoveJoints>(), 1u);
+  EXPECT_TRUE(std::holds_alternative<StopMotion>(bench.hand->commands.back()));
+}
+
+TEST(GraspControl, NoSecondMotionFollowsAStopBetweenTheTwoOfAGrasp) {
+  GraspBench bench;
+  GraspRequest request = reactive();
+  request.startRatio = 0.0;
+  bench.hand->durationS = 0.05;
+  bench.control->grasp(request);
+  bench.hand->states.assign(7, 1);
+  bench.feel(2);
+  bench.control->stop();
+  bench.hand->states.assign(7, 0);
+  bench.feel(50);
+  EXPECT_EQ(bench.hand->count<MoveJoints>(), 1u);
+  EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kStopped);
+}
+
+TEST(GraspControl, RelaxStopsAndSwitchesTheMotorsOff) {
+  GraspBench bench;
+  bench.control->grasp({});
+  bench.control->relax();
+  ASSERT_EQ(bench.hand->commands.size(), 3u);
+  EXPECT_TRUE(std::holds_alternative<StopMotion>(bench.hand->commands[1]));
+  EXPECT_FALSE(std::get<SetPower>(bench.hand->commands[2]).on);
+  EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kRelaxed);
+  EXPECT_EQ(bench.control->status().phase, GraspPhase::kIdle);
+}
+
+TEST(GraspControl, AMotionPortThatGoesAwayEndsTheGrasp) {
+  GraspBench bench;
+  bench.control->grasp({});
+  bench.hand->state.motion->state = PortState::kLost;
+  bench.hand->state.motion->message = "unplugged";
+  bench.wait(5000);
+  EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kPortGone);
+}
+
+TEST(GraspControl, ClosingStopsWhatRuns) {
+  GraspBench bench;
+  bench.control->grasp({});
+  bench.control.reset();
+  EXPECT_EQ(bench.hand->count<StopMotion>(), 1u);
+}
+
+TEST(GraspControl, ARecordingThatIsReplayedCannotBeMoved) {
+  SyntheticOptions options;
+  options.durationS = 5.0;
+  ReplayOptions byHand;
+  byHand.pace = ReplayPace::kByHand;
+  testing::HandClock clock;
+  CaptureOptions capture;
+  capture.ownThread = false;
+  auto replay =
+      std::make_unique<Replay>(synthesize(options), byHand, std::vector<RecordingEvent>{}, clock);
+  Replay& source = *replay;
+  CaptureSession session(std::move(replay), capture, clock);
+  GraspControl control(session, clock);
+  session.start();
+  source.advance(1'000'000);
+  control.step();
+  try {
+    control.grasp({});
+    control.step();
+    EXPECT_EQ(control.status().last->outcome, GraspOutcome::kRefused);
+  } catch (const DeviceError&) {
+    // said at once
+  }
+  EXPECT_EQ(control.status().phase, GraspPhase::kIdle);
+}
+
+// Time passes when the test says so; that the thread sees what came is waited for.
+TEST(GraspControl, RunsOnAThreadOfItsOwn) {
+  GraspBench bench;
+  bench.control->run();
+  bench.control->grasp(reactive());
+  bench.hand->sink->onFrame([&] {
+    TactileFrame frame(sdh2().layout);
+    frame.hostUs = bench.clock.hostUs() + 1;
+    frame.matrix(0)(0, 0) = 500.0F;
+    return frame;
+  }());
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (bench.control->status().phase != GraspPhase::kIdle &&
+         std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(bench.control->status().last.has_value());
+  EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kLimitReached);
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,153 @@
+#include "palpate/control/grasp_request.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "palpate/core/json.h"
+#include "palpate/model/preshape.h"
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+GraspRequest reactive() {
+  GraspRequest request;
+  request.mode = GraspMode::kReactive;
+  request.closeRatio = 1.0;
+  return request;
+}
+
+TEST(GraspRequest, RefusesWhatIsOutOfRangeOrNoNumber) {
+  EXPECT_NO_THROW(GraspRequest{}.validate());
+  EXPECT_NO_THROW(reactive().validate());
+  for (const double value : {-0.01, 1.01, kNan, kInf, -kInf}) {
+    GraspRequest request;
+    request.closeRatio = value;
+    EXPECT_THROW(request.validate(), std::invalid_argument) << value;
+    request = {};
+    request.startRatio = value;
+    EXPECT_THROW(request.validate(), std::invalid_argument) << value;
+  }
+  for (const double value : {0.0, 0.99, 100.5, -10.0, kNan, kInf}) {
+    GraspRequest request;
+    request.velocityDegPerS = value;
+    EXPECT_THROW(request.validate(), std::invalid_argument) << value;
+  }
+  for (const int value : {2, 0, -5, 3601, std::numeric_limits<int>::max()}) {
+    GraspRequest request = reactive();
+    request.limitCounts = value;
+    EXPECT_THROW(request.validate(), std::invalid_argument) << value;
+  }
+  GraspRequest unknown;
+  unknown.preshape = "fist";
+  EXPECT_THROW(unknown.validate(), std::invalid_argument);
+}
+
+TEST(GraspRequest, SaysWhatIsWrong) {
+  GraspRequest request;
+  request.velocityDegPerS = 250.0;
+  try {
+    request.validate();
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    const std::string text = error.what();
+    for (const char* word : {"velocity", "250", "1..100", "deg/s"})
+      EXPECT_NE(text.find(word), std::string::npos) << text;
+  }
+}
+
+// The study's table of preshapes, phi0 | f0 | f1 | f2, c = 0.5.
+TEST(GraspRequest, NamesAllAxesOfTheHand) {
+  struct Row {
+    const char* preshape;
+    std::vector<double> deg;
+  };
+  for (const Row& row : {Row{"parallel", {0, -34, 34, -34, 34, -34, 34}},
+                         Row{"cylindrical", {0, -15, 47.5, -15, 47.5, -15, 47.5}},
+                         Row{"centrical", {60, -34, 34, -34, 34, -34, 34}},
+                         Row{"spherical", {60, -27.5, 47.5, -27.5, 47.5, -27.5, 47.5}},
+                         Row{"pinch-parallel", {90, -30.5, 30.5, -90, 0, -30.5, 30.5}},
+                         Row{"pinch-tilted", {90, -20, 16.5, -90, 0, -20, 16.5}},
+                         Row{"calibration", {90, 0, 0, -90, -90, -90, -90}}}) {
+    GraspRequest request;
+    request.preshape = row.preshape;
+    const MoveJoints move = motionTo(request, 0.5, sdh2());
+    EXPECT_EQ(move.targetDeg, row.deg) << row.preshape;
+    EXPECT_EQ(move.velocityDegPerS, std::vector<double>(7, 10.0));
+  }
+}
+
+TEST(GraspRequest, EveryPreshapeStaysInRangeAtEveryRatio) {
+  for (const Preshape& preshape : sdh2Preshapes())
+    for (int percent = 0; percent <= 100; ++percent) {
+      GraspRequest request;
+      request.preshape = preshape.name;
+      EXPECT_NO_THROW(motionTo(request, percent / 100.0, sdh2())) << preshape.name << percent;
+    }
+}
+
+TEST(GraspRequest, ASlowAxisGoesAsFastAsItCan) {
+  GraspRequest request;
+  request.velocityDegPerS = 100.0;
+  const MoveJoints move = motionTo(request, 1.0, sdh2());
+  EXPECT_EQ(move.velocityDegPerS, (std::vector<double>{83, 100, 100, 100, 100, 100, 100}));
+  EXPECT_FALSE(move.ramp);
+  EXPECT_TRUE(motionTo(reactive(), 1.0, sdh2()).ramp);
+}
+
+TEST(GraspRequest, IsRefusedByAHandThatCannotReachIt) {
+  HandDescription hand = sdh2();
+  hand.axes[1].minimumDeg = -60.0;
+  EXPECT_THROW(motionTo(GraspRequest{}, 0.0, hand), std::invalid_argument);
+  EXPECT_NO_THROW(motionTo(GraspRequest{}, 0.5, hand));
+  hand.axes.pop_back();
+  EXPECT_THROW(motionTo(GraspRequest{}, 0.5, hand), std::invalid_argument);
+}
+
+TEST(GraspReport, IsAnEventWithParametersAndOutcome) {
+  GraspReport report;
+  report.request = reactive();
+  report.request.startRatio = 0.25;
+  report.beginUs = 5'000'000;
+  report.endUs = 7'000'000;
+  const RecordingEvent begin = beginEvent(report);
+  EXPECT_EQ(begin.kind, "grasp");
+  EXPECT_EQ(begin.tUs, 5'000'000);
+  EXPECT_EQ(begin.t1Us, 5'000'000);
+  EXPECT_EQ(begin.text, "reactive grasp: centrical, from 0.25 to 1, 10 deg/s, limit 200 counts");
+  const Json parameters = Json::parse(begin.json);
+  EXPECT_EQ(parameters.at("mode").asString(), "reactive");
+  EXPECT_EQ(parameters.at("start").asDouble(), 0.25);
+  EXPECT_EQ(parameters.at("limit_counts").asInteger(), 200);
+  EXPECT_FALSE(parameters.contains("outcome"));
+
+  report.outcome = GraspOutcome::kLimitReached;
+  report.text = "limit reached";
+  report.peak = {3, 4, 5, 231.0F};
+  const RecordingEvent end = endEvent(report);
+  EXPECT_EQ(end.tUs, 5'000'000);
+  EXPECT_EQ(end.t1Us, 7'000'000);
+  EXPECT_EQ(end.matrix, 3);
+  const Json outcome = Json::parse(end.json);
+  EXPECT_EQ(outcome.at("outcome").asString(), "limit_reached");
+  EXPECT_EQ(outcome.at("x").asInteger(), 5);
+  EXPECT_EQ(outcome.at("y").asInteger(), 4);
+  EXPECT_EQ(outcome.at("counts").asDouble(), 231.0);
+  EXPECT_EQ(outcome.at("preshape").asString(), "centrical");
+
+  GraspReport plain;
+  plain.outcome = GraspOutcome::kFinished;
+  plain.heldAxes = {1, 5};
+  const Json held = Json::parse(endEvent(plain).json);
+  EXPECT_EQ(held.at("held_axes").at(1).asInteger(), 5);
+  EXPECT_FALSE(held.contains("limit_counts"));
+  EXPECT_FALSE(endEvent(plain).matrix.has_value());
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,310 @@
+// The safety of the hand (R18, docs/safety.md), as the hand itself sees it: on the emulated hand's motion port.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <mutex>
+#include <stdexcept>
+
+#include "palpate/core/error.h"
+#include "palpate/core/json.h"
+#include "palpate/model/preshape.h"
+#include "palpate/recording/recording.h"
+
+#include "control/emulated_bench.h"
+#include "control/stop_moments.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+using namespace testing;
+
+constexpr std::int64_t kSilenceUs = 100'000;
+constexpr std::int64_t kReactionUs = 20'000;
+
+TEST(Safety, ConnectingMovesNothing) {
+  EmulatedBench bench(stillHand());
+  bench.connect();
+  EXPECT_TRUE(eventuallyTrue([&] { return bench.log.named("pos").size() > 20; }));
+  bench.control.reset();
+  bench.session.reset();
+  EXPECT_TRUE(bench.log.deeds().empty()) << bench.log.deeds().front().name;
+  EXPECT_TRUE(bench.log.named("stop").empty());
+}
+
+TEST(Safety, BeyondARangeOrNoNumberIsRefusedAndNoByteIsSent) {
+  EmulatedBench bench(stillHand());
+  bench.connect();
+  GraspRequest wrong;
+  wrong.closeRatio = 1.001;
+  EXPECT_THROW(bench.control->grasp(wrong), std::invalid_argument);
+  wrong.closeRatio = std::nan("");
+  EXPECT_THROW(bench.control->grasp(wrong), std::invalid_argument);
+  wrong = {};
+  wrong.velocityDegPerS = 101.0;
+  EXPECT_THROW(bench.control->grasp(wrong), std::invalid_argument);
+  EXPECT_THROW(bench.control->grasp(reactiveGrasp(3601)), std::invalid_argument);
+  // Whoever goes past the control meets the driver.
+  const auto refusedByDriver = [&](std::vector<double> deg, std::vector<double> velocity) {
+    auto answer = bench.session->device().submit(MoveJoints{deg, velocity, false});
+    EXPECT_THROW(answer.get(), std::invalid_argument);
+  };
+  refusedByDriver({60, -91, 75, -75, 75, -75, 75}, {});
+  refusedByDriver({60, -75, 75, std::nan(""), 75, -75, 75}, {});
+  refusedByDriver({60, -75, 75, -75, 75, -75, HUGE_VAL}, {});
+  refusedByDriver({-1, -75, 75, -75, 75, -75, 75}, {});
+  refusedByDriver({60, -75, 75, -75, 75, -75}, {});  // an axis is missing
+  refusedByDriver({60, -75, 75, -75, 75, -75, 75}, {1000, 10, 10, 10, 10, 10, 10});
+  refusedByDriver({60, -75, 75, -75, 75, -75, 75}, {10, 10, 10, 10, 10, 10, std::nan("")});
+  const std::size_t asked = bench.log.named("pos").size();
+  EXPECT_TRUE(eventuallyTrue([&] { return bench.log.named("pos").size() > asked + 5; }));
+  EXPECT_TRUE(bench.log.deeds().empty()) << bench.log.deeds().front().name;
+}
+
+TEST(Safety, NoAxisIsEverSetToZeroByOmission) {
+  EmulatedBench bench(stillHand(), {.rate = EmulationRate::kHz, .hz = 60.0});
+  bench.connect();
+  std::vector<std::vector<double>> expected;
+  for (const Preshape& preshape : sdh2Preshapes()) {
+    GraspRequest request;
+    request.preshape = preshape.name;
+    request.closeRatio = 0.25;
+    request.velocityDegPerS = 90.0;
+    ASSERT_NO_THROW(bench.control->grasp(request));
+    ASSERT_TRUE(bench.awaitMotion());
+    bench.control->stop();
+    ASSERT_TRUE(bench.awaitEnd().has_value());
+    expected.push_back(preshape.anglesDeg(0.25));
+  }
+  const auto targets = bench.log.named("p");
+  std::size_t set = 0;
+  for (const ArrivedCommand& target : targets) {
+    if (target.values.empty()) continue;  // asked
+    ASSERT_LT(set, expected.size());
+    EXPECT_EQ(target.values, expected[set++]);
+  }
+  EXPECT_EQ(set, expected.size());
+  for (const ArrivedCommand& velocity : bench.log.named("v"))
+    if (!velocity.values.empty()) {
+      EXPECT_EQ(velocity.values, (std::vector<double>{83, 90, 90, 90, 90, 90, 90}));
+    }
+  // Nothing else was ever set, and the hand was never asked for a grasp of its own.
+  for (const ArrivedCommand& deed : bench.log.deeds())
+    EXPECT_TRUE(deed.name == "p" || deed.name == "v" || deed.name == "vp" || deed.name == "m")
+        << deed.name;
+}
+
+TEST(Safety, RelaxIsTheOnlyThingThatTakesThePower) {
+  EmulatedBench bench(stillHand());
+  bench.connect();
+  bench.control->preshape("centrical", 50.0);
+  bench.control->relax();
+  ASSERT_TRUE(eventuallyTrue([&] { return !bench.log.named("power").empty(); }));
+  const auto power = bench.log.named("power");
+  EXPECT_EQ(power.front().values, std::vector<double>(7, 0.0));
+  EXPECT_FALSE(bench.log.named("stop").empty());
+  EXPECT_LE(bench.log.named("stop").front().monoUs, power.front().monoUs);
+  EXPECT_FALSE(bench.handMoves());
+}
+
+// A grasp of the ball: from the frame over the limit, whose last byte has left the hand, to the stop that arrives
+// there [us].
+std::optional<std::int64_t> reactionUs(const std::filesystem::path& recorded) {
+  constexpr int kLimit = 200;
+  std::mutex mutex;
+  std::optional<std::uint64_t> crossing;
+  const HostTime time;
+  EmulatedBench bench(handWith("ball"), {}, [&](const EmulatedFrame& frame) {
+    const std::lock_guard lock(mutex);
+    if (!crossing && std::any_of(frame.counts.begin(), frame.counts.end(), [](auto counts) {
+          return counts > kLimit;
+        }))
+      crossing = frame.scanned.number;
+  });
+  bench.connect();
+  RecordingOptions recording;
+  recording.path = recorded;
+  bench.session->startRecording(recording);
+  bench.control->grasp(reactiveGrasp(kLimit, 60.0));
+  const auto report = bench.awaitEnd();
+  if (!report || report->outcome == GraspOutcome::kStreamDead) return {};
+  EXPECT_EQ(report->outcome, GraspOutcome::kLimitReached) << report->text;
+  EXPECT_GT(report->peak.counts, static_cast<float>(kLimit));
+  EXPECT_FALSE(bench.handMoves());
+  bench.session->stopRecording();
+  const auto stop = bench.log.firstSince("stop", 0);
+  if (!stop) {
+    ADD_FAILURE() << "no stop came";
+    return {};
+  }
+  std::int64_t leftUs = 0;  // host time
+  for (const SentFrame& frame : bench.hand->sentFrames())
+    if (frame.number == crossing.value()) leftUs = frame.hostUs;
+  EXPECT_NE(leftUs, 0);
+  return time.nowUs() - (systemClock().monotonicUs() - stop->monoUs) - leftUs;
+}
+
+TEST(Safety, AReactiveGraspStopsWithinMillisecondsOfTheFrameThatCrosses) {
+  const TemporaryFolder folder;
+  int number = 0;
+  std::filesystem::path path;
+  const Timely timely = inTime(kReactionUs, 4, [&] {
+    path = folder / (std::to_string(number++) + ".palpate");
+    return reactionUs(path);
+  });
+  ASSERT_TRUE(timely.bestUs.has_value());
+  std::printf("frame over the limit to stop on the wire: %.2f ms (%d tries)\n",
+              static_cast<double>(*timely.bestUs) / 1e3,
+              timely.tries);
+  EXPECT_LE(*timely.bestUs, kReactionUs);
+  const EventsReport events = readEvents(path);
+  const auto count = [&](const std::string& kind) {
+    return std::count_if(events.events.begin(), events.events.end(), [&](const auto& event) {
+      return event.kind == kind;
+    });
+  };
+  EXPECT_EQ(count("grasp"), 2);
+  EXPECT_EQ(count("motion"), 2);  // began, stopped
+}
+
+// How a dead stream is made; the hand goes on listening.
+struct Death {
+  const char* name;
+  std::function<void(EmulatedHand&)> happen;
+};
+class DeadStream : public ::testing::TestWithParam<Death> {};
+
+// From the accident, before which the last frame left, to the stop that arrives [us].
+std::optional<std::int64_t> silenceUntilStopUs(const Death& death) {
+  EmulatedBench bench(stillHand());
+  bench.connect();
+  bench.control->grasp(reactiveGrasp(200, 10.0));
+  if (!bench.awaitMotion()) return {};
+  const std::int64_t beforeUs = systemClock().monotonicUs();
+  death.happen(*bench.hand);
+  const std::int64_t deadUs = systemClock().monotonicUs();
+  if (!eventuallyTrue([&] { return bench.log.firstSince("stop", beforeUs).has_value(); })) {
+    ADD_FAILURE() << "no stop came";
+    return {};
+  }
+  const auto stop = bench.log.firstSince("stop", beforeUs);
+  EXPECT_TRUE(eventuallyTrue([&] { return !bench.handMoves(); }));
+  bench.hand->mute(false);
+  const auto report = bench.awaitEnd();
+  EXPECT_TRUE(report.has_value());
+  if (report) {
+    EXPECT_TRUE(report->outcome == GraspOutcome::kStreamDead ||
+                report->outcome == GraspOutcome::kPortGone)
+        << report->text;
+  }
+  return stop->monoUs - deadUs;
+}
+
+TEST_P(DeadStream, StopsAReactiveGrasp) {
+  const Timely timely =
+      inTime(kSilenceUs + kReactionUs, 4, [] { return silenceUntilStopUs(GetParam()); });
+  ASSERT_TRUE(timely.bestUs.has_value());
+  std::printf("%s: stop on the wire after %.1f ms (%d tries)\n",
+              GetParam().name,
+              static_cast<double>(*timely.bestUs) / 1e3,
+              timely.tries);
+  EXPECT_LE(*timely.bestUs, kSilenceUs + kReactionUs);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Deaths,
+    DeadStream,
+    ::testing::Values(Death{"unplugged", [](EmulatedHand& hand) { hand.unplug(true, false); }},
+                      Death{"both silent", [](EmulatedHand& hand) { hand.mute(true); }}),
+    [](const auto& instance) {
+      return instance.param.name[0] == 'u' ? std::string("Unplugged") : std::string("BothSilent");
+    });
+
+TEST(Safety, APlainGraspGoesOnWithoutATactileStream) {
+  EmulatedBench bench(stillHand());
+  bench.connect();
+  GraspRequest request;
+  request.closeRatio = 0.3;
+  request.velocityDegPerS = 60.0;
+  bench.control->grasp(request);
+  ASSERT_TRUE(bench.awaitMotion());
+  bench.hand->unplug(true, false);
+  const auto report = bench.awaitEnd();
+  ASSERT_TRUE(report.has_value());
+  EXPECT_EQ(report->outcome, GraspOutcome::kFinished) << report->text;
+  EXPECT_TRUE(bench.log.named("stop").empty());
+}
+
+TEST(Safety, AMotionPortThatReturnsBringsAStopBeforeAnythingElse) {
+  EmulatedBench bench(stillHand());
+  bench.connect();
+  GraspRequest request;
+  request.closeRatio = 1.0;
+  request.velocityDegPerS = 5.0;  // 16 s: still going on at the return
+  bench.control->grasp(request);
+  ASSERT_TRUE(bench.awaitMotion());
+  bench.hand->unplug(false, true);
+  const auto report = bench.awaitEnd();
+  ASSERT_TRUE(report.has_value());
+  EXPECT_EQ(report->outcome, GraspOutcome::kPortGone) << report->text;
+  EXPECT_TRUE(bench.handMoves());  // as docs/safety.md says: an `m` motion runs to its target
+  EXPECT_THROW(bench.control->grasp(request), DeviceError);
+  bench.log.restart();
+  bench.hand->replug();
+  ASSERT_TRUE(eventuallyTrue([&] { return !bench.handMoves(); }));
+  EXPECT_FALSE(bench.log.named("stop").empty());
+  EXPECT_TRUE(bench.log.deeds().empty());
+}
+
+// As a program leaves it that was killed.
+TEST(Safety, AHandFoundMovingIsStopped) {
+  EmulatedBench bench(stillHand());
+  bench.hand->withModel([](HandModel& model) {
+    model.joints().setVelocities(std::vector<double>(7, 5.0));
+    model.joints().setTargets({60, 7, -7, 7, -7, 7, -7});
+    model.joints().startMotion();
+  });
+  EXPECT_TRUE(bench.handMoves());
+  bench.connect();
+  EXPECT_TRUE(eventuallyTrue([&] { return !bench.handMoves(); }));
+  EXPECT_EQ(bench.log.named("stop").size(), 1u);
+  EXPECT_TRUE(bench.log.deeds().empty());
+}
+
+TEST(Safety, ClosingTheSessionInAMotionStopsTheHand) {
+  EmulatedBench bench(stillHand());
+  bench.connect();
+  GraspRequest request;
+  request.closeRatio = 1.0;
+  bench.control->grasp(request);
+  ASSERT_TRUE(bench.awaitMotion());
+  bench.session->stop();
+  EXPECT_FALSE(bench.handMoves());
+  EXPECT_FALSE(bench.log.named("stop").empty());
+  const auto report = bench.awaitEnd();
+  ASSERT_TRUE(report.has_value());
+  EXPECT_EQ(report->outcome, GraspOutcome::kPortGone) << report->text;
+}
+
+TEST(Safety, SettingsOfTheTactileControllerDoNotChangeInAReactiveGrasp) {
+  EmulatedBench bench(stillHand());
+  bench.connect();
+  bench.control->grasp(reactiveGrasp(200, 10.0));
+  ASSERT_TRUE(bench.awaitMotion());
+  EXPECT_THROW(bench.control->change(SetThreshold{{}, 0}), DeviceError);
+  bench.control->stop();
+  ASSERT_TRUE(bench.awaitEnd().has_value());
+  bench.control->change(SetThreshold{2, 77}).get();
+  std::vector<int> thresholds;
+  bench.hand->withModel([&](HandModel& model) {
+    for (const MatrixSetting& setting : model.settings())
+      thresholds.push_back(setting.thresholdCounts);
+  });
+  EXPECT_EQ(thresholds, (std::vector<int>{150, 300, 77, 300, 150, 300}));
+}
+
+TEST(Safety, StopAtRandomMomentsIsOnTheWireWithinTwentyMilliseconds) {
+  stopAtRandomMoments(30, 150'000);
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,83 @@
+// A hand that does what a test says and notes what it was told, its session and its control, by a clock of the
+// test and without a thread.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "palpate/control/grasp_control.h"
+
+#include "capture/scripted_device.h"
+
+namespace palpate::testing {
+
+class ScriptedHand : public ScriptedDevice {
+ public:
+  ScriptedHand() {
+    state.motion.emplace();
+    state.motion->port = "/dev/motion";
+    state.motion->state = PortState::kStreaming;
+  }
+  std::future<CommandAnswer> submit(DeviceCommand command) override {
+    std::promise<CommandAnswer> answer;
+    std::future<CommandAnswer> future = answer.get_future();
+    if (answers)
+      answer.set_value({.durationS = durationS});
+    else
+      waiting.push_back(std::move(answer));
+    commands.push_back(std::move(command));
+    return future;
+  }
+  std::vector<int> axisStates() const override { return states; }
+
+  template <typename Command>
+  std::size_t count() const {
+    std::size_t found = 0;
+    for (const DeviceCommand& command : commands) found += std::holds_alternative<Command>(command);
+    return found;
+  }
+
+  bool answers = true;  // at once; else the test answers what is waiting
+  double durationS = 1.0;
+  std::vector<DeviceCommand> commands;  // all that were handed in
+  std::vector<std::promise<CommandAnswer>> waiting;
+  std::vector<int> states = std::vector<int>(7, 6);
+};
+
+struct GraspBench {
+  HandClock clock;
+  ScriptedHand* hand = nullptr;
+  std::unique_ptr<CaptureSession> session;
+  std::unique_ptr<GraspControl> control;
+  std::size_t frames = 0;
+
+  GraspBench() {
+    auto owned = std::make_unique<ScriptedHand>();
+    hand = owned.get();
+    CaptureOptions options;
+    options.ownThread = false;
+    session = std::make_unique<CaptureSession>(std::move(owned), options, clock);
+    session->start();
+    control = std::make_unique<GraspControl>(*session, clock);
+    feel(20);
+  }
+  // Frames every 30 ms whose largest taxel is at finger 2 distal, x 1, y 6.
+  void feel(int count, float counts = 0.0F) {
+    for (int i = 0; i < count; ++i) {
+      clock.pass(30'000);
+      TactileFrame frame(sdh2().layout);
+      frame.hostUs = clock.hostUs();
+      frame.matrix(5)(6, 1) = counts;
+      hand->sink->onFrame(std::move(frame));
+      control->step();
+    }
+  }
+  void wait(std::int64_t us) {
+    clock.pass(us);
+    control->step();
+  }
+};
+
+}  // namespace palpate::testing

@@ -1,0 +1,33 @@
+#include "palpate/live/signals_stage.h"
+
+#include "palpate/model/hand_description.h"
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+TEST(SignalsStage, FillsInTheSignalsOfEveryMatrixAndThePeak) {
+  auto frame = std::make_shared<TactileFrame>(sdh2().layout);
+  frame->matrix(1)(4, 2) = 100.0F;
+  frame->matrix(1)(4, 3) = 300.0F;
+  LiveResults results;
+  results.frame = frame;
+  std::vector<RecordingEvent> events;
+  SignalsStage stage;
+  stage.onFrame(results, events);
+  ASSERT_EQ(results.signals.size(), 6u);
+  EXPECT_DOUBLE_EQ(results.signals[1].mean, 200.0);
+  EXPECT_DOUBLE_EQ(results.signals[1].minimum, 100.0);
+  EXPECT_DOUBLE_EQ(results.signals[1].maximum, 300.0);
+  EXPECT_DOUBLE_EQ(results.signals[1].sum, 400.0);
+  EXPECT_EQ(results.signals[1].active, 2);
+  EXPECT_DOUBLE_EQ(results.signals[1].areaMm2, 2 * 3.4 * 3.4);
+  EXPECT_EQ(results.signals[0].active, 0);
+  EXPECT_EQ(results.peak.matrix, 1u);
+  EXPECT_EQ(results.peak.column, 3);
+  EXPECT_TRUE(events.empty());
+}
+
+}  // namespace
+}  // namespace palpate
