@@ -98,16 +98,19 @@ void MotionLink::connect(ByteChannel& channel) {
   SdhControllerOptions options;
   options.urgent = [this] { return stopping() || stopWaits(); };
   controller_ = std::make_unique<SdhController>(channel, clock_, options);
+  const bool leftMoving = stopAfterReturn_;
+  if (leftMoving) {
+    // The port went away during a motion: nobody watched it. Stop, whatever it is doing, ahead of all questions.
+    controller_->stop();
+    stopAfterReturn_ = false;
+    eventNow("motion", "stopped: the motion port had been gone during a motion");
+  }
   const SdhFacts facts = controller_->open();
   if (const auto known = this->facts(); wasConnected() && known && known->serial != facts.serial)
     throw DeviceError(DeviceFault::kWrongDevice,
                       port_,
                       "another hand answers here than before; connect anew if that is meant");
-  if (std::exchange(stopAfterReturn_, false)) {
-    // The port went away during a motion: nobody watched it. Stop, whatever it is doing.
-    controller_->stop();
-    eventNow("motion", "stopped: the motion port had been gone during a motion");
-  } else if (anyMoves(controller_->states())) {
+  if (!leftMoving && anyMoves(controller_->states())) {
     // A program that died has left it so, or one on another port.
     controller_->stop();
     eventNow("motion", "stopped: the hand was moving when it was connected, watched by nobody");

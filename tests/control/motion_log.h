@@ -60,6 +60,11 @@ class MotionLog {
     const std::lock_guard lock(mutex_);
     commands_.clear();
   }
+  // What came of a command that isn't complete.
+  std::string pending() const {
+    const std::lock_guard lock(mutex_);
+    return pending_;
+  }
   // After a plug was pulled: what had come of a command will never be completed.
   void restart() {
     const std::lock_guard lock(mutex_);

@@ -251,7 +251,8 @@ TEST(Safety, AMotionPortThatReturnsBringsAStopBeforeAnythingElse) {
   bench.log.restart();
   bench.hand->replug();
   ASSERT_TRUE(eventuallyTrue([&] { return !bench.handMoves(); }));
-  EXPECT_FALSE(bench.log.named("stop").empty());
+  ASSERT_FALSE(bench.log.all().empty()) << ::testing::PrintToString(bench.log.pending());
+  EXPECT_EQ(bench.log.all().front().name, "stop");
   EXPECT_TRUE(bench.log.deeds().empty());
 }
 
