@@ -108,10 +108,13 @@ void PortLink::lose(const DeviceError& error) {
   }
   if (stopping_) return;
   nextTryUs_ = clock_.monotonicUs() + kRetryUs;
-  if (wasConnected_ && error.fault() == DeviceFault::kGone && namesAPtyByNumber(port_)) {
+  const bool isGone =
+      error.fault() == DeviceFault::kGone || error.fault() == DeviceFault::kNotFound;
+  if (isGone && namesAPtyByNumber(port_)) {
     goneForGood_ = true;
-    const std::string message =
-        port_ + ": the pseudo-terminal is gone; connect anew (a link to it would be followed)";
+    const std::string message = port_ +
+                                ": there is no such pseudo-terminal (any more); connect anew (a "
+                                "link to it would be followed)";
     setState(PortState::kLost, message);
     eventNow("alarm", message);
     return;

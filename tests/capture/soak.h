@@ -70,10 +70,10 @@ inline void soak(std::size_t frames) {
     const auto done = static_cast<std::size_t>(session.recorderStatus().frames);
     if (!isWarm && done > frames / 10) {
       isWarm = true;
-      warm = processFacts();
+      warm = leastProcessFacts();
     }
     if (done < frames * 9 / 10 || end.threads != 0) continue;
-    end = processFacts();
+    end = leastProcessFacts();
   }
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();

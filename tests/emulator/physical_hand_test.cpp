@@ -149,7 +149,7 @@ TEST(PhysicalHand, AnObjectBesideTheMiddleIsPushedThere) {
     PhysicalHand hand(scene);
     close(hand, "pinch-parallel", 30.0);
     scanAt(hand, 9.0);
-    const MatrixTruth &one = hand.truth()[1], &other = hand.truth()[5];
+    const MatrixTruth one = hand.truth()[1], other = hand.truth()[5];
     EXPECT_GT(one.forceN, 5.0) << friction;
     EXPECT_NEAR(one.forceN, other.forceN, 0.05 * one.forceN) << friction;
     EXPECT_NEAR(one.yMm, -other.yMm, 1.0) << friction;

@@ -1,7 +1,10 @@
 #include "testing/process_facts.h"
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include <unistd.h>
 
@@ -18,6 +21,18 @@ std::size_t entriesOf(const char* folder) {
 }
 
 }  // namespace
+
+ProcessFacts leastProcessFacts() {
+  ProcessFacts least = processFacts();
+  for (int i = 0; i < 10; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    const ProcessFacts now = processFacts();
+    least.residentBytes = std::min(least.residentBytes, now.residentBytes);
+    least.descriptors = std::min(least.descriptors, now.descriptors);
+    least.threads = std::min(least.threads, now.threads);
+  }
+  return least;
+}
 
 ProcessFacts processFacts() {
   ProcessFacts facts;

@@ -12,6 +12,8 @@ struct ProcessFacts {
 };
 
 ProcessFacts processFacts();
+// The least of each over 50 ms: without what is open for a moment only (a journal, a folder being synced).
+ProcessFacts leastProcessFacts();
 
 // Sanitizers keep memory of their own: then residentBytes says nothing about ours.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
