@@ -92,6 +92,7 @@ TEST_F(HandDockTest, WithoutAHandItSaysSoAndOffersNothing) {
        {"openHand", "graspHand", "reactiveGrasp", "relaxHand", "stopHand", "resetSettings"})
     EXPECT_FALSE(isEnabled(name)) << name;
   EXPECT_EQ(find<QPushButton>("graspHand")->toolTip(), "No hand is connected");
+  EXPECT_EQ(find<ValueSlider>("threshold2")->field()->text(), "–");
 }
 
 TEST_F(HandDockTest, OpeningItMovesNothing) {

@@ -16,6 +16,7 @@
 #include <palpate/recording/recording.h>
 
 #include "gui/dock.h"
+#include "gui/hand_dock.h"
 #include "gui/inspect_panel.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
@@ -147,11 +148,15 @@ void MainWindow::buildDocks() {
   timeline_ = new TimelineChart(this);
   auto* inspectDock = new Dock("Inspect", inspect_, nullptr, this);
   auto* timelineDock = new Dock("Timeline", timeline_, timelineHeader_, this);
-  docks_ = {inspectDock, timelineDock};
+  hand_ = new HandDock(settings_, this);
+  handDock_ = new Dock("Hand", hand_, nullptr, this);
+  docks_ = {inspectDock, timelineDock, handDock_};
   setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
   setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
   addDockWidget(Qt::RightDockWidgetArea, inspectDock);
   addDockWidget(Qt::BottomDockWidgetArea, timelineDock);
+  addDockWidget(Qt::RightDockWidgetArea, handDock_);
+  tabifyDockWidget(inspectDock, handDock_);
   QList<QAction*> toggles;
   for (Dock* dock : docks_) {
     QAction* toggle = dock->toggleViewAction();
@@ -161,6 +166,7 @@ void MainWindow::buildDocks() {
   }
   inspectDock->toggleViewAction()->setShortcut(QKeySequence("Ctrl+I"));
   timelineDock->toggleViewAction()->setShortcut(QKeySequence("Ctrl+L"));
+  handDock_->toggleViewAction()->setShortcut(QKeySequence("Ctrl+H"));
   menus_ = std::make_unique<WindowMenus>(*this, actions_, toggles);
 }
 

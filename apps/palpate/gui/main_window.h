@@ -26,6 +26,7 @@
 namespace palpate::gui {
 
 class Dock;
+class HandDock;
 class InspectPanel;
 class MatricesPanel;
 class MessageBanner;
@@ -58,6 +59,7 @@ class MainWindow : public QMainWindow {
   QStringList dockNames() const;
   void showDock(const QString& name);  // one of dockNames()
 
+  HandDock& hand() noexcept { return *hand_; }  // told of a hand by whoever connects one
   PlaybackController& playback() noexcept { return playback_; }
   RecordingOpener& opener() noexcept { return opener_; }
   const Actions& actionList() const noexcept { return actions_; }
@@ -150,8 +152,10 @@ class MainWindow : public QMainWindow {
   TimelineHeader* timelineHeader_ = nullptr;
   TimelineChart* timeline_ = nullptr;
   InspectPanel* inspect_ = nullptr;
+  HandDock* hand_ = nullptr;
   StatusStrip* status_ = nullptr;
   QList<Dock*> docks_;
+  Dock* handDock_ = nullptr;  // one of them; hidden until it is asked for
   std::unique_ptr<WindowMenus> menus_;
 };
 

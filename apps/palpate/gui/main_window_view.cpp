@@ -9,6 +9,7 @@
 #include <palpate/core/number_text.h>
 
 #include "gui/dock.h"
+#include "gui/hand_dock.h"
 #include "gui/icons.h"
 #include "gui/inspect_panel.h"
 #include "gui/main_window.h"
@@ -70,6 +71,7 @@ void MainWindow::applyTheme() {
   playbackBar_->setTheme(theme);
   timeline_->setTheme(theme);
   inspect_->setTheme(theme);
+  hand_->setTheme(theme);
   status_->setTheme(theme);
   for (Dock* dock : docks_) dock->setTheme(theme);
   showPlotted();
@@ -175,7 +177,8 @@ void MainWindow::setPlaceForRecording(bool there) {
   if (stack_->currentIndex() == page && !fresh && there) return;
   if (there) {
     stack_->setCurrentIndex(page);
-    for (Dock* dock : docks_) dock->show();
+    for (Dock* dock : docks_)
+      if (dock != handDock_) dock->show();
     if (layout_.isEmpty() || !restoreState(layout_)) defaultLayout();
     sizedOnce_ = true;
   } else {
@@ -193,9 +196,11 @@ void MainWindow::defaultLayout() {
   }
   addDockWidget(Qt::RightDockWidgetArea, docks_[0]);
   addDockWidget(Qt::BottomDockWidgetArea, docks_[1]);
+  addDockWidget(Qt::RightDockWidgetArea, handDock_);
+  tabifyDockWidget(docks_[0], handDock_);
   for (Dock* dock : docks_) {
     dock->setFloating(false);
-    dock->show();
+    dock->setVisible(dock != handDock_);
   }
   const int inspect = std::max(kNarrowestInspect, static_cast<int>(width() * kInspectShare));
   resizeDocks({docks_[0]}, {inspect}, Qt::Horizontal);

@@ -44,14 +44,14 @@ TactileSettingsPanel::TactileSettingsPanel(QSettings& settings, QWidget* parent)
   grid->setVerticalSpacing(4);
   grid->addWidget(caption("matrix", table_), 0, kName);
   grid->addWidget(caption("sensitivity", table_), 0, kSensitivity);
-  grid->addWidget(caption("threshold", table_), 0, kThreshold);
+  grid->addWidget(caption("threshold, counts", table_), 0, kThreshold);
   grid->setColumnStretch(kSensitivity, 1);
   grid->setColumnStretch(kThreshold, 1);
   makeRow(0, "all");
   for (const MatrixDescription& matrix : sdh2().matrices)
     makeRow(static_cast<int>(rows_.size()), QString::fromStdString(matrix.shortName));
   note_ = caption({}, this);
-  note_->setWordWrap(true);
+  note_->setMinimumHeight(fontMetrics().lineSpacing());  // nothing jumps when it says something
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(8);
@@ -204,8 +204,7 @@ void TactileSettingsPanel::refresh(const GraspStatus& status) {
     why = "Not now: " + QString::fromStdString(status.cannotChange) + ".";
   else if (!pending_.empty())
     why = "Being changed: the stream pauses for half a second.";
-  note_->setText(why);
-  note_->setVisible(!why.isEmpty());
+  if (note_->text() != why) note_->setText(why);
   const bool may = why.isEmpty() || !pending_.empty();
   table_->setEnabled(may);
   reset_->setEnabled(may);
@@ -214,6 +213,11 @@ void TactileSettingsPanel::refresh(const GraspStatus& status) {
   remove_->setEnabled(may && names_->currentIndex() > 0);
   if (listedFor_ != serial()) listNames();
   if (pending_.empty() && !values.empty()) showValues(values);
+  if (values.empty())
+    for (const Row& row : rows_) {
+      row.sensitivity->showUnknown();
+      row.threshold->showUnknown();
+    }
 }
 
 void TactileSettingsPanel::showValues(const TactileSettings& values) {

@@ -65,9 +65,15 @@ void ValueSlider::showValue(double value) {
   if (slider_->isSliderDown() || field_->hasFocus()) return;
   const QSignalBlocker quietField(field_);
   const QSignalBlocker quietSlider(slider_);
+  if (!field_->specialValueText().isEmpty()) field_->setSpecialValueText({});
   field_->setValue(value);
   slider_->setValue(ticksOf(value));
   shown_ = field_->value();
+}
+
+void ValueSlider::showUnknown() {
+  showValue(range_.least);
+  field_->setSpecialValueText("–");  // of the least value
 }
 
 void ValueSlider::choose() {

@@ -25,6 +25,7 @@ class ValueSlider : public QWidget {
   double value() const;
   // Shows a value; nothing is chosen by that. While the user is at it, nothing is changed.
   void showValue(double value);
+  void showUnknown();  // a dash
   QDoubleSpinBox* field() const noexcept { return field_; }
   QSlider* slider() const noexcept { return slider_; }
 
