@@ -92,6 +92,17 @@ TEST_F(LiveHandTest, ASettingPausesTheStreamAndLeavesAnEvent) {
   EXPECT_EQ(hand.status().tactile.lost, 0u);
 }
 
+TEST_F(LiveHandTest, SettingsInARowAreAllCarriedOut) {
+  hand.start(sink);
+  ASSERT_TRUE(sink.awaitFrames(5));
+  std::vector<std::future<CommandAnswer>> answers;
+  for (int matrix = 0; matrix < 6; ++matrix)
+    answers.push_back(hand.submit(SetThreshold{matrix, 60 + matrix}));
+  for (auto& answer : answers) EXPECT_NO_THROW(answer.get());
+  for (std::size_t m = 0; m < 6; ++m)
+    EXPECT_EQ(hand.facts().matrices[m].thresholdCounts, 60 + static_cast<int>(m));
+}
+
 TEST_F(LiveHandTest, AMaskChangesTheHandItDelivers) {
   hand.start(sink);
   ASSERT_TRUE(sink.awaitFrames(5));
