@@ -77,13 +77,16 @@ inline void soak(std::size_t frames) {
   }
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+  if (end.threads == 0) end = leastProcessFacts();
+  ASSERT_TRUE(isWarm);
   const RecordingReport report = session.stopRecording();
   session.stop();
   EXPECT_TRUE(report.complete) << report.message;
   ASSERT_EQ(report.frames, static_cast<std::int64_t>(frames));
   EXPECT_EQ(session.health().badChecksums, 0u);
-  EXPECT_EQ(end.descriptors, warm.descriptors);
-  EXPECT_EQ(end.threads, warm.threads);
+  // Fewer are possible: the recording may have ended while we looked.
+  EXPECT_LE(end.descriptors, warm.descriptors);
+  EXPECT_LE(end.threads, warm.threads);
   // The queues fill while the disk syncs; they hold 64 MB at most. Nothing grows with the recording.
   if (kMemoryIsOurs) {
     EXPECT_LT(end.residentBytes, warm.residentBytes + (80u << 20));
