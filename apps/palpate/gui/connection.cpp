@@ -1,0 +1,85 @@
+#include "gui/connection.h"
+
+#include <QFileInfo>
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kKind = "connection/kind";
+constexpr const char* kDsaPort = "connection/tactile_port";
+constexpr const char* kSdhPort = "connection/motion_port";
+constexpr const char* kScene = "connection/scene";
+constexpr const char* kRecording = "connection/recording";
+
+QString keyOf(Connection::Kind kind) {
+  switch (kind) {
+    case Connection::Kind::kPorts:
+      return "ports";
+    case Connection::Kind::kReplay:
+      return "replay";
+    case Connection::Kind::kEmulated:
+      break;
+  }
+  return "emulated";
+}
+
+// "/dev/ttyUSB0" is known by its last part, "tcp:host:1" as a whole.
+QString shortName(const QString& port) {
+  return port.startsWith('/') ? port.section('/', -1) : port;
+}
+
+}  // namespace
+
+QString describe(const Connection& connection) {
+  switch (connection.kind) {
+    case Connection::Kind::kPorts: {
+      QStringList ports;
+      for (const QString& port : {connection.dsaPort, connection.sdhPort})
+        if (!port.isEmpty()) ports.append(shortName(port));
+      return "hand on " + ports.join(" and ");
+    }
+    case Connection::Kind::kReplay:
+      return "replay of " + QFileInfo(connection.recording).fileName();
+    case Connection::Kind::kEmulated:
+      break;
+  }
+  return "emulated hand · " + QFileInfo(connection.scene).completeBaseName();
+}
+
+QString problemOf(const Connection& connection) {
+  switch (connection.kind) {
+    case Connection::Kind::kPorts:
+      if (connection.dsaPort.isEmpty() && connection.sdhPort.isEmpty())
+        return "Choose the port of the tactile controller, of the motion controller, or both.";
+      if (connection.dsaPort == connection.sdhPort)
+        return "Tactile and motion controller need different ports.";
+      return {};
+    case Connection::Kind::kReplay:
+      return connection.recording.isEmpty() ? "Choose a recording." : "";
+    case Connection::Kind::kEmulated:
+      break;
+  }
+  return connection.scene.isEmpty() ? "Choose a scene." : "";
+}
+
+Connection loadConnection(const QSettings& settings) {
+  Connection connection;
+  const QString kind = settings.value(kKind).toString();
+  for (const Connection::Kind each : kAllConnectionKinds)
+    if (keyOf(each) == kind) connection.kind = each;
+  connection.dsaPort = settings.value(kDsaPort).toString();
+  connection.sdhPort = settings.value(kSdhPort).toString();
+  connection.scene = settings.value(kScene, connection.scene).toString();
+  connection.recording = settings.value(kRecording).toString();
+  return connection;
+}
+
+void saveConnection(const Connection& connection, QSettings& settings) {
+  settings.setValue(kKind, keyOf(connection.kind));
+  settings.setValue(kDsaPort, connection.dsaPort);
+  settings.setValue(kSdhPort, connection.sdhPort);
+  settings.setValue(kScene, connection.scene);
+  settings.setValue(kRecording, connection.recording);
+}
+
+}  // namespace palpate::gui
