@@ -9,6 +9,7 @@ constexpr const char* kKind = "connection/kind";
 constexpr const char* kDsaPort = "connection/tactile_port";
 constexpr const char* kSdhPort = "connection/motion_port";
 constexpr const char* kScene = "connection/scene";
+constexpr const char* kSceneActs = "connection/scene_acts";
 constexpr const char* kRecording = "connection/recording";
 
 QString keyOf(Connection::Kind kind) {
@@ -70,6 +71,7 @@ Connection loadConnection(const QSettings& settings) {
   connection.dsaPort = settings.value(kDsaPort).toString();
   connection.sdhPort = settings.value(kSdhPort).toString();
   connection.scene = settings.value(kScene, connection.scene).toString();
+  connection.sceneActs = settings.value(kSceneActs, connection.sceneActs).toBool();
   connection.recording = settings.value(kRecording).toString();
   return connection;
 }
@@ -79,6 +81,7 @@ void saveConnection(const Connection& connection, QSettings& settings) {
   settings.setValue(kDsaPort, connection.dsaPort);
   settings.setValue(kSdhPort, connection.sdhPort);
   settings.setValue(kScene, connection.scene);
+  settings.setValue(kSceneActs, connection.sceneActs);
   settings.setValue(kRecording, connection.recording);
 }
 
