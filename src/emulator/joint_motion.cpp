@@ -144,6 +144,7 @@ double JointMotion::durationOfPending() const {
 
 double JointMotion::startMotion() {
   if (controller_ != ControllerType::kPose) return 0.0;
+  ++orders_;
   setPower(std::vector<bool>(axes_.size(), true));
   durationS_ = durationOfPending();
   motionProfile_ = profile_;
@@ -157,6 +158,7 @@ double JointMotion::startMotion() {
 }
 
 void JointMotion::stop() {
+  if (moving()) ++orders_;
   durationS_ = 0.0;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     paths_[i].active = false;

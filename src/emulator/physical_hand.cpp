@@ -146,11 +146,13 @@ struct PhysicalHand::Impl {
     if (const auto* move = std::get_if<MoveObject>(&action)) objects.move(*move);
     if (const auto* turn = std::get_if<TurnObject>(&action)) objects.turn(*turn);
     if (const auto* load = std::get_if<LoadObject>(&action)) objects.load(*load);
-    if (const auto* grasp = std::get_if<GraspAction>(&action)) {
+    // Once a client moves the hand, the script leaves it to him.
+    const bool mayMove = joints.orders() == ordersOfScript;
+    if (const auto* grasp = std::get_if<GraspAction>(&action); grasp && mayMove) {
       if (grasp->preshape) preshape = *grasp->preshape;
       go(grasp->close, grasp->velocityDegPerS);
     }
-    if (const auto* release = std::get_if<ReleaseAction>(&action))
+    if (const auto* release = std::get_if<ReleaseAction>(&action); release && mayMove)
       go(0.0, release->velocityDegPerS);
     if (const auto* ambient = std::get_if<SetTemperature>(&action))
       ambientDegC = ambient->ambientDegC;
@@ -170,6 +172,7 @@ struct PhysicalHand::Impl {
     joints.setVelocities(std::vector<double>(sdh2().axes.size(), velocityDegPerS));
     joints.setTargets(sdh2Preshape(preshape).anglesDeg(close));
     joints.startMotion();
+    ordersOfScript = joints.orders();
   }
 
   PhysicalHandOptions options;
@@ -180,6 +183,7 @@ struct PhysicalHand::Impl {
   std::string preshape;
   std::vector<ScriptStep> script;
   std::size_t nextStep = 0;
+  std::uint64_t ordersOfScript = 0;  // JointMotion::orders() after its last motion
   double nowS = 0.0;
   bool still = false;
   HandPose pose, before;

@@ -4,6 +4,7 @@ namespace palpate {
 
 void SignalsStage::onFrame(LiveResults& results, std::vector<RecordingEvent>&) {
   results.matrixSignals = characteristicSignals(*results.frame);
+  results.wholeSignals = wholeFrameSignals(*results.frame);
   results.peak = taxelPeak(*results.frame);
 }
 

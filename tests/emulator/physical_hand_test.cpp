@@ -353,6 +353,17 @@ TEST(PhysicalHand, MotorsWarmUpUnderLoadAndCoolDown) {
     EXPECT_LT(hand.temperatures()[i], std::max(warm[i], cold[i] + 1.0)) << i;
 }
 
+TEST(PhysicalHand, OnceAClientMovesTheHandTheScriptLeavesItToHim) {
+  PhysicalHand hand(sceneOf("ball"));  // grasps at 1.5 s
+  hand.advanceTo(1.0);
+  const std::vector<double> open = sdh2Preshape("parallel").anglesDeg(0.0);
+  hand.joints().setTargets(open);
+  hand.joints().startMotion();
+  hand.advanceTo(8.0);
+  for (std::size_t i = 0; i < open.size(); ++i)
+    EXPECT_NEAR(hand.joints().angles()[i], open[i], 1e-9) << i;
+}
+
 TEST(PhysicalHand, TheSameSceneGivesTheSameFrames) {
   PhysicalHand a(sceneOf("ball")), b(sceneOf("ball"));
   for (int i = 1; i < 200; ++i) EXPECT_EQ(scanAt(a, i * 0.0315), scanAt(b, i * 0.0315));

@@ -95,7 +95,7 @@ void WindowTest::press(Qt::Key key, Qt::KeyboardModifiers modifiers) {
 }
 
 QString WindowTest::bannerText() {
-  const auto* banner = window_->findChild<MessageBanner*>();
+  const auto* banner = window_->findChild<MessageBanner*>("MessageBanner");
   return banner->isVisible() ? banner->message() : QString();
 }
 

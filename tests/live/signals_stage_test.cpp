@@ -24,6 +24,9 @@ TEST(SignalsStage, FillsInTheSignalsOfEveryMatrixAndThePeak) {
   EXPECT_EQ(results.matrixSignals[1].active, 2);
   EXPECT_DOUBLE_EQ(results.matrixSignals[1].areaMm2, 2 * 3.4 * 3.4);
   EXPECT_EQ(results.matrixSignals[0].active, 0);
+  EXPECT_DOUBLE_EQ(results.wholeSignals.mean, 200.0);
+  EXPECT_DOUBLE_EQ(results.wholeSignals.sum, 400.0);
+  EXPECT_EQ(results.wholeSignals.active, 2);
   EXPECT_EQ(results.peak.matrix, 1u);
   EXPECT_EQ(results.peak.column, 3);
   EXPECT_TRUE(events.empty());

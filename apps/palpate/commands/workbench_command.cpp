@@ -33,6 +33,8 @@ int screenshot(const CommandLine& given) {
   if (given.words().size() > 1) throw UsageError("--screenshot takes one FILE");
   if (!given.words().empty()) options.file = given.words()[0];
   if (options.demo && options.file) throw UsageError("give FILE or --demo, not both");
+  if (options.demo && options.frame)
+    throw UsageError("--frame needs a FILE: a demo has no frames yet");
   if (!options.demo && !options.file && (options.frame || given.has("after") || given.has("dock")))
     throw UsageError("--frame, --after and --dock need a FILE or --demo");
   const RuntimeFolder runtime;
@@ -49,7 +51,7 @@ int workbenchCommand(const Words& words) {
   const CommandLine given(
       {.synopsis = "palpate [FILE...] | palpate --demo | palpate --screenshot OUT.png ..",
        .purpose = "Opens the window: on recordings, on a demonstration, or on its start page.",
-       .options = {{"demo", "", "open on a demonstration"},
+       .options = {{"demo", "", "open on the emulated hand, which grasps a ball"},
                    {"screenshot", "OUT.png", "save a picture of the window and leave"},
                    {"size", "WxH", "with --screenshot: size in pixels, default 1600x1000"},
                    {"frame", "N", "with --screenshot: default the frame of largest sum"},

@@ -13,6 +13,7 @@ namespace {
 
 constexpr const char* kSectionProperty = "section";
 constexpr int kMatricesWithKeys = 9;
+constexpr int kDigits = 10;
 
 QKeySequence key(const char* text) { return QKeySequence(QString(text)); }
 
@@ -100,14 +101,37 @@ Actions::Actions(QWidget* window) : window_(window) {
   skipGaps = make("Playback", "Skip &gaps", {key("G")}, true);
   skipGaps->setToolTip("Jump over the gaps of a recording while playing (G)");
 
+  connectHand = make("Hand", "&Connect…", {key("Ctrl+K")});
+  tryEmulated = make("Hand", "Try the &emulated hand", {key("Ctrl+Shift+D")});
+  disconnectHand = make("Hand", "&Disconnect", {key("Ctrl+Shift+K")});
+  live = make("Hand", "Show &live", {key("F6")}, true);
+  live->setToolTip("Back to what is connected (F6)");
+  hold = make("Hand", "&Hold the live picture", {key("P")}, true);
+  record = make("Hand", "&Record", {key("Ctrl+R")});
+  recordingSettings = make("Hand", "Recording &names and marks…", {key("Ctrl+N")});
+  openRecorded = make("Hand", "&Open what was recorded last", {key("Ctrl+Shift+O")});
+  mark = make("Hand", "&Mark the moment", {key("Space")});
+  for (int digit = 0; digit < kDigits; ++digit)
+    labels.append(
+        make("Hand", "Mark " + QString::number(digit), {QKeySequence(QString::number(digit))}));
+  muteAlarms = make("Hand", "Alarms are &silent", {key("Ctrl+Shift+M")}, true);
+  scanOnly = make("Hand", "Scan &only the chosen taxels", {});
+  scanWithout = make("Hand", "&Leave the chosen taxels out", {});
+  scanAlso = make("Hand", "Scan the chosen taxels, &too", {});
+  scanAll = make("Hand", "Scan &all taxels", {});
+  chooseNone = make("Hand", "Choose no ta&xel", {key("Ctrl+Shift+A")});
+
   // On a button the text stands beside an icon: short, and not too close to it.
-  for (QAction* action : {open, exportPicture, loop, skipGaps, interpolated, values})
+  for (QAction* action :
+       {open, exportPicture, loop, skipGaps, interpolated, values, connectHand, record})
     action->setIconText(" " + plainText(*action));
   exportPicture->setIconText(" Export");
+  live->setIconText(" Live");
 
   keys = make("Help", "&Keys", {key("F1")});
   about = make("Help", "&About Palpate");
-  dismiss = make("Help", "Close the message, stop opening, leave full screen", {key("Esc")});
+  dismiss = make(
+      "Help", "Stop the hand; close the message, stop opening, leave full screen", {key("Esc")});
 
   QStringList names;
   for (const ColorMapName map : kAllColorMaps) names.append(nameOf(map));
@@ -132,6 +156,8 @@ void Actions::setTheme(Theme theme) {
   stepForward->setIcon(makeIcon(IconShape::kStepForward, theme));
   loop->setIcon(makeIcon(IconShape::kLoop, theme));
   skipGaps->setIcon(makeIcon(IconShape::kSkipGaps, theme));
+  connectHand->setIcon(makeIcon(IconShape::kConnect, theme));
+  live->setIcon(makeIcon(IconShape::kLive, theme));
   keys->setIcon(makeIcon(IconShape::kHelp, theme));
   interpolated->setIcon(makeIcon(IconShape::kInterpolated, theme));
   values->setIcon(makeIcon(IconShape::kValues, theme));

@@ -50,6 +50,23 @@ struct Actions {
   QAction* loop;
   QAction* skipGaps;
 
+  QAction* connectHand;
+  QAction* tryEmulated;
+  QAction* disconnectHand;
+  QAction* live;  // checked: what is connected is shown, not a recording
+  QAction* hold;
+  QAction* record;
+  QAction* recordingSettings;
+  QAction* openRecorded;  // what was recorded last
+  QAction* mark;
+  QList<QAction*> labels;  // of the digit keys 0..9
+  QAction* muteAlarms;
+  QAction* scanOnly;  // masks, from the taxels that are chosen
+  QAction* scanWithout;
+  QAction* scanAlso;
+  QAction* scanAll;
+  QAction* chooseNone;
+
   QAction* keys;
   QAction* about;
   QAction* dismiss;

@@ -162,7 +162,7 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
     facts.push_back({QString::fromStdString(sensor.name), kNothing});
   temperatures_->setFacts(std::move(facts));
   heat_->hide();
-  if (control)
+  if (session)
     timer_.start();
   else
     timer_.stop();
@@ -185,7 +185,8 @@ void HandDock::say(const QString& text, bool bad) {
 }
 
 void HandDock::showState(const GraspStatus& status) {
-  if (!control_) return say("No hand is connected.", false);
+  if (!session_) return say("No hand is connected.", false);
+  if (!control_) return say("A recording is replayed: there is nothing to move.", false);
   if (status.phase != GraspPhase::kIdle) {
     said_.clear();
     const std::string_view phase = nameOf(status.phase);

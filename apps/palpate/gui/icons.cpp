@@ -59,6 +59,21 @@ QPainterPath filledPart(IconShape shape) {
         for (const double y : {2.0, 8.6}) squares.addRect(x, y, 5.4, 5.4);
       return squares;
     }
+    case IconShape::kRecord: {
+      QPainterPath dot;
+      dot.addEllipse(QPointF(8, 8), 5.0, 5.0);
+      return dot;
+    }
+    case IconShape::kStopRecording: {
+      QPainterPath square;
+      square.addRoundedRect(QRectF(3.5, 3.5, 9, 9), 1.5, 1.5);
+      return square;
+    }
+    case IconShape::kLive: {
+      QPainterPath dot;
+      dot.addEllipse(QPointF(8, 8), 2.4, 2.4);
+      return dot;
+    }
     default:
       return {};
   }
@@ -95,6 +110,23 @@ QPainterPath strokedPart(IconShape shape) {
       path = lines({{4, 4}, {12, 12}});
       path.addPath(lines({{12, 4}, {4, 12}}));
       return path;
+    case IconShape::kConnect:  // a plug before its socket
+      path = lines({{1, 8}, {4.5, 8}});
+      path.addPath(polygon({{4.5, 4.5}, {8, 4.5}, {8, 11.5}, {4.5, 11.5}}));
+      path.addPath(lines({{8, 6.2}, {10.6, 6.2}}));
+      path.addPath(lines({{8, 9.8}, {10.6, 9.8}}));
+      path.addPath(lines({{12.5, 4}, {12.5, 12}}));
+      path.addPath(lines({{12.5, 8}, {15, 8}}));
+      return path;
+    case IconShape::kLive:
+      for (const double radius : {4.2, 6.6}) {
+        const QRectF around(8 - radius, 8 - radius, 2 * radius, 2 * radius);
+        for (const double from : {-40.0, 140.0}) {
+          path.arcMoveTo(around, from);
+          path.arcTo(around, from, 80.0);
+        }
+      }
+      return path;
     case IconShape::kInterpolated:
       path.moveTo(1.5, 12.5);
       path.cubicTo(6, 12.5, 5, 3.5, 8, 3.5);
@@ -112,6 +144,7 @@ class PathIconEngine : public QIconEngine {
   void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State state) override {
     const ThemeColors& colors = colorsOf(theme_);
     QColor color = state == QIcon::On ? colors.accent : colors.text;
+    if (shape_ == IconShape::kRecord || shape_ == IconShape::kStopRecording) color = colors.danger;
     constexpr float kFaded = 0.45F;
     if (mode == QIcon::Disabled) {
       color = colors.muted;

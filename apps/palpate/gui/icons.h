@@ -20,7 +20,11 @@ enum class IconShape {
   kHelp,
   kClose,
   kInterpolated,
-  kValues
+  kValues,
+  kConnect,
+  kRecord,  // in the colour of danger
+  kStopRecording,
+  kLive
 };
 
 // Switched on (checked) it takes the accent colour, disabled a faded one.

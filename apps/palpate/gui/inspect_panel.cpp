@@ -3,6 +3,7 @@
 #include <QBoxLayout>
 #include <QLabel>
 #include <QResizeEvent>
+#include <algorithm>
 
 #include <palpate/core/number_text.h>
 #include <palpate/core/time.h>
@@ -97,7 +98,8 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
 
   auto* left = new QVBoxLayout;
   left->setSpacing(4);
-  left->addWidget(heading("Recording", content));
+  heading_ = heading("Recording", content);
+  left->addWidget(heading_);
   left->addWidget(facts_);
   left->addStretch(1);
   auto* right = new QVBoxLayout;
@@ -131,38 +133,59 @@ void InspectPanel::setRecording(const OpenedRecordingPtr& recording) {
     temperatures_->setFacts({});
     return;
   }
+  heading_->setText("RECORDING");
   facts_->setFacts(factsOf(*recording));
-  std::vector<Fact> angles;
-  if (recording->profile.numAngles() > 0)
-    for (const AxisDescription& axis : recording->profile.hand().axes)
-      angles.push_back({QString::fromStdString(axis.name), ""});
-  angles_->setFacts(angles.empty() ? noneOf() : std::move(angles));
-  std::vector<Fact> temperatures;
-  if (recording->profile.numTemperatures() > 0)
-    for (const auto& sensor : recording->profile.hand().temperatureSensors)
-      temperatures.push_back({QString::fromStdString(sensor.name), ""});
-  temperatures_->setFacts(temperatures.empty() ? noneOf() : std::move(temperatures));
+  listSensors(recording->profile.hand(),
+              recording->profile.numAngles() > 0,
+              recording->profile.numTemperatures() > 0);
+}
+
+void InspectPanel::setHand(const HandDescription& hand) {
+  recording_.reset();
+  model_->setHand(hand);
+  heading_->setText("LINK");
+  facts_->setFacts({});
+  listSensors(hand, true, true);
+}
+
+void InspectPanel::listSensors(const HandDescription& hand, bool angles, bool temperatures) {
+  std::vector<Fact> rows;
+  for (const AxisDescription& axis : hand.axes)
+    if (angles) rows.push_back({QString::fromStdString(axis.name), "–"});
+  angles_->setFacts(rows.empty() ? noneOf() : rows);
+  rows.clear();
+  for (const auto& sensor : hand.temperatureSensors)
+    if (temperatures) rows.push_back({QString::fromStdString(sensor.name), "–"});
+  temperatures_->setFacts(rows.empty() ? noneOf() : rows);
+}
+
+void InspectPanel::setLiveFacts(std::vector<Fact> facts) { facts_->setFacts(std::move(facts)); }
+
+void InspectPanel::showLive(const LiveResults& results) {
+  std::vector<CharacteristicSignals> rows = results.matrixSignals;
+  rows.push_back(results.wholeSignals);
+  model_->showSignals(rows);
+  if (results.angles) showAngles(*results.angles);
+  if (results.temperatures) showTemperatures(*results.temperatures);
 }
 
 void InspectPanel::showFrame(std::size_t frame) {
   if (!recording_) return;
   model_->showFrame(frame);
-  showAngles(frame);
-  showTemperatures(frame);
+  if (const auto angles = recording_->profile.anglesAtFrame(frame)) showAngles(*angles);
+  if (const auto temperatures = recording_->profile.temperaturesAtFrame(frame))
+    showTemperatures(*temperatures);
 }
 
-void InspectPanel::showAngles(std::size_t frame) {
-  const auto angles = recording_->profile.anglesAtFrame(frame);
-  if (!angles) return;
-  for (std::size_t i = 0; i < angles->deg.size(); ++i)
-    angles_->setValue(i, number(angles->deg[i], 1) + "°");
+void InspectPanel::showAngles(const JointAngles& angles) {
+  for (std::size_t i = 0; i < std::min(angles.deg.size(), angles_->facts().size()); ++i)
+    angles_->setValue(i, number(angles.deg[i], 1) + "°");
 }
 
-void InspectPanel::showTemperatures(std::size_t frame) {
-  const auto temperatures = recording_->profile.temperaturesAtFrame(frame);
-  if (!temperatures) return;
-  for (std::size_t i = 0; i < temperatures->degC.size(); ++i) {
-    const double value = temperatures->degC[i];
+void InspectPanel::showTemperatures(const Temperatures& temperatures) {
+  const std::size_t rows = std::min(temperatures.degC.size(), temperatures_->facts().size());
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double value = temperatures.degC[i];
     temperatures_->setValue(i, value == 0.0 ? QString("–") : number(value, 1) + " °C");
   }
 }

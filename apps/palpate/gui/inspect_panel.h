@@ -3,6 +3,9 @@
 
 #include <QScrollArea>
 
+#include <palpate/live/live_results.h>
+#include <palpate/model/hand_state.h>
+
 #include "gui/facts_view.h"
 #include "gui/matrix_table.h"
 #include "gui/opened_recording.h"
@@ -18,6 +21,10 @@ class InspectPanel : public QScrollArea {
   explicit InspectPanel(QWidget* parent = nullptr);
   void setRecording(const OpenedRecordingPtr& recording);
   void showFrame(std::size_t frame);
+  // A live hand instead of a recording.
+  void setHand(const HandDescription& hand);
+  void setLiveFacts(std::vector<Fact> facts);  // of the link
+  void showLive(const LiveResults& results);
   void setTheme(Theme theme);
   MatrixTableModel& table() noexcept { return *model_; }
   QSize sizeHint() const override { return {470, 400}; }
@@ -26,12 +33,14 @@ class InspectPanel : public QScrollArea {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  void showAngles(std::size_t frame);
-  void showTemperatures(std::size_t frame);
+  void listSensors(const HandDescription& hand, bool angles, bool temperatures);
+  void showAngles(const JointAngles& angles);
+  void showTemperatures(const Temperatures& temperatures);
 
   OpenedRecordingPtr recording_;
   MatrixTableModel* model_;
   MatrixTable* matrices_;
+  QLabel* heading_;
   FactsView* facts_;
   FactsView* angles_;
   FactsView* temperatures_;

@@ -19,6 +19,8 @@ const std::vector<KeyEntry>& mouseEntries() {
       {"Mouse", "Wheel", "In the timeline: zoom; with Shift: pan"},
       {"Mouse", "Middle button or Shift+drag", "In the timeline: pan"},
       {"Mouse", "Double click", "In the timeline: show all of it"},
+      {"Mouse", "Click or drag", "Over taxels: choose them; with Ctrl: choose more"},
+      {"Mouse", "Right button", "Over the matrices: which taxels are scanned"},
       {"Mouse", "Hover", "Over a taxel or the timeline: the values there"},
       {"Mouse", "Drop a file", "Anywhere: open it"}};
   return entries;
@@ -57,7 +59,7 @@ QWidget* columnOf(const std::vector<KeyEntry>& entries, QWidget* parent) {
 
 std::vector<KeyEntry> keysOf(const QList<QAction*>& actions) {
   std::vector<KeyEntry> entries;
-  for (const char* section : {"File", "View", "Playback", "Help"}) {
+  for (const char* section : {"File", "Hand", "Playback", "View", "Help"}) {
     for (const QAction* action : actions) {
       if (sectionOf(*action) != section || !action->isVisible()) continue;
       QStringList keys;

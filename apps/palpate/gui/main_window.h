@@ -1,5 +1,5 @@
-// The one main window: start page or heat maps in the middle, the timeline below, Inspect beside.
-// It wires the parts together; what it remembers is in ViewSettings and the layout's state.
+// The one main window: start page or heat maps in the middle, the timeline below, docks beside; of a recording
+// or of what is connected. It wires the parts together; what it remembers is in ViewSettings and the layout's state.
 #pragma once
 
 #include <QMainWindow>
@@ -9,17 +9,22 @@
 #include <QTimer>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include <palpate/control/tactile_masks.h>
 #include <palpate/core/time.h>
 
 #include "gui/actions.h"
+#include "gui/alarm_bell.h"
+#include "gui/live_controller.h"
 #include "gui/matrices_painter.h"
 #include "gui/playback_controller.h"
 #include "gui/recent_files.h"
 #include "gui/recording_opener.h"
+#include "gui/recording_settings.h"
 #include "gui/window_menus.h"
 #include "gui/window_settings.h"
 
@@ -28,8 +33,12 @@ namespace palpate::gui {
 class Dock;
 class HandDock;
 class InspectPanel;
+class LinkPanel;
+class LiveChart;
 class MatricesPanel;
+class MatricesView;
 class MessageBanner;
+class OfferStrip;
 class OpeningStrip;
 class PlaybackBar;
 class StartPage;
@@ -54,12 +63,20 @@ class MainWindow : public QMainWindow {
   // Opens in the background; the first that can be opened is shown, the others can be reached.
   void openFiles(const std::vector<std::filesystem::path>& files);
   // The demo recording, playing in a loop.
+  void openDemoRecording();
+  // What `palpate --demo` shows: the emulated hand, grasping a ball by itself.
   void openDemo();
+  // Ends what is connected before; never moves a hand.
+  void connectTo(const Connection& connection);
   void setTheme(ThemeChoice choice);
   QStringList dockNames() const;
   void showDock(const QString& name);  // one of dockNames()
 
-  HandDock& hand() noexcept { return *hand_; }  // told of a hand by whoever connects one
+  HandDock& hand() noexcept { return *hand_; }
+  LiveController& live() noexcept { return live_; }
+  // What is connected is shown, not a recording.
+  bool liveShown() const noexcept { return liveShown_; }
+  MatricesView& matricesView();
   PlaybackController& playback() noexcept { return playback_; }
   RecordingOpener& opener() noexcept { return opener_; }
   const Actions& actionList() const noexcept { return actions_; }
@@ -70,6 +87,13 @@ class MainWindow : public QMainWindow {
   // How files are asked for; an empty answer means cancelled. Tests answer themselves.
   std::function<QStringList()> askForRecordings;
   std::function<QString(const QString& suggestion)> askForPicture;
+  // Nothing: cancelled.
+  std::function<std::optional<Connection>(const Connection& last)> askForConnection;
+  // What a recording shall be called, before it begins or in between; nothing: cancelled.
+  std::function<std::optional<RecordingSettings>(const RecordingSettings&, const QString& button)>
+      askForRecording;
+  // Whether a recording that runs may be ended now.
+  std::function<bool()> askToEndRecording;
   // Waits until pictures being written are on disk.
   void waitForExports() { workers_.waitForDone(); }
 
@@ -87,6 +111,8 @@ class MainWindow : public QMainWindow {
 
  private:
   // main_window.cpp: parts, opening, recordings
+  // Where the window is: with each place its own layout of docks.
+  enum class Place { kStart, kRecording, kLive };
   void buildParts(const std::filesystem::path& dataFolder);
   void buildDocks();
   void connectOpening();
@@ -98,8 +124,32 @@ class MainWindow : public QMainWindow {
   void showNeighbour(int step);
   void closeCurrent();
   void listRecordings();
+  QString pictureName() const;
+  bool somethingIsShown() const;
   void exportPicture();
   void copyPicture();
+  // main_window_live.cpp: what is connected
+  void connectLive();
+  void connectScanActions();
+  void askAndConnect();
+  void tryEmulatedHand();
+  void fillConnections();
+  void liveCame();
+  void liveLeaving();
+  void liveEnded();
+  void showLive();
+  void showLook();
+  void showStale();
+  void scan(MaskChoice choice);
+  QString selectionText() const;
+  void updateLiveStatus();
+  // main_window_recording.cpp
+  void connectRecording();
+  void useRecordingSettings();
+  void toggleRecording();
+  void markNow(const QString& label, std::optional<int> digit);
+  void showRecordingState();
+  void recordingEnded(const RecordingReport& report);
   // main_window_actions.cpp: what actions and controls do
   void connectPlayback();
   void connectViewActions();
@@ -114,7 +164,8 @@ class MainWindow : public QMainWindow {
   void updateStatus();
   QString noticeNow() const;
   void flash(const QString& notice);
-  void setPlaceForRecording(bool there);
+  void setPlace(Place place);
+  void placeDocks(Place place);
   void defaultLayout();
   void enableActions();
   void dismiss();
@@ -128,6 +179,8 @@ class MainWindow : public QMainWindow {
   Actions actions_;
   PlaybackController playback_;
   RecordingOpener opener_;
+  AlarmBell bell_;
+  LiveController live_;
   QThreadPool workers_;
 
   std::filesystem::path demoPath_;
@@ -137,11 +190,21 @@ class MainWindow : public QMainWindow {
   std::vector<OpenedRecordingPtr> recordings_;
   std::vector<std::size_t> lastFrames_;  // where each was left
   OpenedRecordingPtr current_;
-  QByteArray layout_;  // of docks, while the start page hides them
+  Place place_ = Place::kStart;
+  std::map<Place, QByteArray> layouts_;  // of docks
   QString hover_;
   QString flash_;
   QTimer flashTimer_;
-  bool sizedOnce_ = false;
+  bool placed_ = false;   // setPlace() was called
+  bool closing_ = false;  // as soon as nothing is connected any more
+  bool liveShown_ = false;
+  bool held_ = false;  // the live picture
+  bool alarmIsNew_ = false;
+  RecordingSettings recordingSettings_;
+  std::vector<std::filesystem::path> lastRecorded_;  // parts
+  bool recordingShown_ = false;                      // by the button
+  Theme recordingTheme_ = Theme::kDark;
+  const SignalHistory* shownHistory_ = nullptr;  // of the source that is shown; never looked into
 
   QStackedWidget* stack_ = nullptr;
   MessageBanner* banner_ = nullptr;
@@ -150,12 +213,20 @@ class MainWindow : public QMainWindow {
   MatricesPanel* matrices_ = nullptr;
   PlaybackBar* playbackBar_ = nullptr;
   TimelineHeader* timelineHeader_ = nullptr;
+  QStackedWidget* charts_ = nullptr;
   TimelineChart* timeline_ = nullptr;
+  LiveChart* liveChart_ = nullptr;
   InspectPanel* inspect_ = nullptr;
   HandDock* hand_ = nullptr;
   StatusStrip* status_ = nullptr;
   QList<Dock*> docks_;
-  Dock* handDock_ = nullptr;  // one of them; hidden until it is asked for
+  Dock* inspectDock_ = nullptr;
+  Dock* timelineDock_ = nullptr;
+  Dock* handDock_ = nullptr;
+  Dock* linkDock_ = nullptr;
+  LinkPanel* link_ = nullptr;
+  MessageBanner* alarmStrip_ = nullptr;
+  OfferStrip* offer_ = nullptr;
   std::unique_ptr<WindowMenus> menus_;
 };
 

@@ -5,6 +5,7 @@
 #include "gui/about_dialog.h"
 #include "gui/inspect_panel.h"
 #include "gui/keys_dialog.h"
+#include "gui/live_chart.h"
 #include "gui/main_window.h"
 #include "gui/matrices_panel.h"
 #include "gui/playback_bar.h"
@@ -82,9 +83,16 @@ void MainWindow::connectViewActions() {
   on(actions_.nextSignal, [this] {
     changeView([](ViewSettings& view) { view.signal = after(kAllPlottedSignals, view.signal); });
   });
-  on(actions_.zoomIn, [this] { timeline_->zoom(kZoomStep); });
-  on(actions_.zoomOut, [this] { timeline_->zoom(1.0 / kZoomStep); });
-  on(actions_.fit, [this] { timeline_->fit(); });
+  const auto zoom = [this](double factor) {
+    if (liveShown_)
+      liveChart_->setWindowS(liveChart_->windowS() / factor);
+    else
+      timeline_->zoom(factor);
+  };
+  on(actions_.zoomIn, [zoom] { zoom(kZoomStep); });
+  on(actions_.zoomOut, [zoom] { zoom(1.0 / kZoomStep); });
+  on(actions_.fit,
+     [this] { liveShown_ ? liveChart_->setWindowS(LiveChart::kUsualS) : timeline_->fit(); });
   on(actions_.nextTheme, [this] {
     const bool dark = resolved(view_.theme) == Theme::kDark;
     setTheme(dark ? ThemeChoice::kLight : ThemeChoice::kDark);
@@ -105,9 +113,9 @@ void MainWindow::connectViewActions() {
   const auto last = actions_.plots.size() - 1;
   for (qsizetype i = 0; i <= last; ++i)
     on(actions_.plots[i], [this, i, last](bool checked) {
-      if (!current_) return;
-      const auto row = i == last ? current_->numMatrices() : static_cast<std::size_t>(i);
-      inspect_->table().setPlotted(row, checked);
+      MatrixTableModel& table = inspect_->table();
+      if (table.numMatrices() == 0) return;
+      table.setPlotted(i == last ? table.numMatrices() : static_cast<std::size_t>(i), checked);
     });
 }
 

@@ -2,6 +2,7 @@
 #include <QApplication>
 #include <QCloseEvent>
 #include <QComboBox>
+#include <QDateTime>
 #include <QStatusBar>
 #include <algorithm>
 #include <iterator>
@@ -12,9 +13,12 @@
 #include "gui/hand_dock.h"
 #include "gui/icons.h"
 #include "gui/inspect_panel.h"
+#include "gui/link_panel.h"
+#include "gui/live_chart.h"
 #include "gui/main_window.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
+#include "gui/offer_strip.h"
 #include "gui/playback_bar.h"
 #include "gui/start_page.h"
 #include "gui/status_strip.h"
@@ -24,10 +28,14 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kCompactBelow = 1080;       // [px] of width: buttons lose their text
-constexpr int kNarrowestInspect = 455;    // [px] its table is read without eliding
-constexpr double kInspectShare = 0.345;   // of the window's width
-constexpr double kTimelineShare = 0.235;  // of the window's height
+constexpr std::int64_t kUsPerMs = 1000;
+constexpr int kCompactBelow = 1240;      // [px] of width: buttons lose their text
+constexpr int kNarrowestInspect = 455;   // [px] its table is read without eliding
+constexpr double kInspectShare = 0.345;  // of the window's width
+constexpr double kLiveInspectShare = 0.24;
+constexpr int kNarrowestLiveInspect = 330;  // [px]
+constexpr int kHandWidth = 380;             // [px]
+constexpr double kTimelineShare = 0.235;    // of the window's height
 
 template <class Choices, class Choice>
 void check(const QActionGroup* group, const Choices& all, Choice now) {
@@ -48,6 +56,7 @@ void MainWindow::applyView() {
   matrices_->setSettings(view_, resolved(view_.theme));
   timelineHeader_->setSignal(view_.signal);
   timeline_->setSignal(view_.signal);
+  liveChart_->setSignal(view_.signal);
   actions_.interpolated->setChecked(view_.interpolated);
   actions_.values->setChecked(view_.values);
   check(actions_.maps, kAllColorMaps, view_.map);
@@ -66,16 +75,20 @@ void MainWindow::applyTheme() {
   const Theme theme = resolved(view_.theme);
   gui::applyTheme(*qApp, theme);
   actions_.setTheme(theme);
-  banner_->setTheme(theme);
   startPage_->setTheme(theme);
   playbackBar_->setTheme(theme);
   timeline_->setTheme(theme);
+  liveChart_->setTheme(theme);
+  link_->setTheme(theme);
+  for (MessageBanner* banner : {alarmStrip_, banner_}) banner->setTheme(theme);
+  offer_->setTheme(theme);
   inspect_->setTheme(theme);
   hand_->setTheme(theme);
   status_->setTheme(theme);
   for (Dock* dock : docks_) dock->setTheme(theme);
   showPlotted();
   showPlaybackState();
+  showRecordingState();
 }
 
 void MainWindow::showFrame(std::size_t frame) {
@@ -103,28 +116,29 @@ void MainWindow::showPlaybackState() {
 }
 
 void MainWindow::showPlotted() {
-  const auto& plotted = inspect_->table().plotted();
-  timeline_->setPlotted(plotted);
-  timelineHeader_->setPlotted(current_, plotted, resolved(view_.theme));
+  const MatrixTableModel& table = inspect_->table();
+  const auto& plotted = table.plotted();
+  (liveShown_ ? liveChart_->setPlotted(plotted) : timeline_->setPlotted(plotted));
+  timelineHeader_->setPlotted(table.hand(), plotted, resolved(view_.theme));
   const auto last = actions_.plots.size() - 1;
   for (qsizetype i = 0; i < last; ++i) {
     const auto row = static_cast<std::size_t>(i);
-    const bool there = current_ && row < current_->numMatrices();
+    const bool there = row < table.numMatrices();
     actions_.plots[i]->setVisible(there);
     actions_.plots[i]->setEnabled(there);
     if (!there) continue;
-    actions_.plots[i]->setText("Plot " +
-                               QString::fromStdString(current_->profile.hand().matrixName(row)));
+    actions_.plots[i]->setText("Plot " + QString::fromStdString(table.hand().matrixName(row)));
     actions_.plots[i]->setChecked(plotted[row]);
   }
-  actions_.plots[last]->setEnabled(current_ != nullptr);
+  actions_.plots[last]->setEnabled(table.numMatrices() > 0);
   actions_.plots[last]->setChecked(!plotted.empty() && plotted.back());
 }
 
 QString MainWindow::noticeNow() const {
   if (!flash_.isEmpty()) return flash_;
   if (!hover_.isEmpty()) return hover_;
-  if (!current_) return {};
+  if (const QString chosen = selectionText(); !chosen.isEmpty()) return chosen;
+  if (!current_ || liveShown_) return {};
   if (const Gap* gap = current_->gapAt(playback_.positionS()))
     return "gap of " + QString::number(gap->seconds, 'f', 1) + " s: nothing was recorded";
   const auto gaps = current_->timing.gaps.size();
@@ -133,12 +147,16 @@ QString MainWindow::noticeNow() const {
 }
 
 void MainWindow::updateStatus() {
+  if (liveShown_) return updateLiveStatus();
   Status now;
   const QString opening = opener_.busy() ? " · opening another" : "";
   if (!current_) {
-    now.state = opener_.busy() ? "opening a recording" : "nothing open";
+    now.state = live_.state() == LiveController::State::kConnecting
+                    ? "connecting: " + describe(live_.connection())
+                : opener_.busy() ? "opening a recording"
+                                 : "nothing open";
     now.figures.clear();
-    now.notice = flash_.isEmpty() ? "Open a recording to begin (Ctrl+O)" : flash_;
+    now.notice = flash_.isEmpty() ? "Connect a hand (Ctrl+K) or open a recording (Ctrl+O)" : flash_;
     now.right = "F1 shows all keys";
   } else {
     const bool playing = playback_.playing();
@@ -170,45 +188,57 @@ void MainWindow::flash(const QString& notice) {
   updateStatus();
 }
 
-// The start page stands alone: docks without content would only be in the way.
-void MainWindow::setPlaceForRecording(bool there) {
-  const int page = there ? 1 : 0;
-  const bool fresh = !sizedOnce_ && there;
-  if (stack_->currentIndex() == page && !fresh && there) return;
+// The start page stands alone: docks without content would only be in the way. A recording and what is
+// connected have a layout each.
+void MainWindow::setPlace(Place place) {
+  if (placed_ && place == place_) return;
+  if (placed_ && place_ != Place::kStart) layouts_[place_] = saveState();
+  placed_ = true;
+  place_ = place;
+  const bool there = place != Place::kStart;
+  stack_->setCurrentIndex(there ? 1 : 0);
+  charts_->setCurrentIndex(place == Place::kLive ? 1 : 0);
+  playbackBar_->setVisible(place == Place::kRecording);
   if (there) {
-    stack_->setCurrentIndex(page);
-    for (Dock* dock : docks_)
-      if (dock != handDock_) dock->show();
-    if (layout_.isEmpty() || !restoreState(layout_)) defaultLayout();
-    sizedOnce_ = true;
+    if (layouts_[place].isEmpty() || !restoreState(layouts_[place])) defaultLayout();
   } else {
-    if (sizedOnce_ && stack_->currentIndex() == 1) layout_ = saveState();
     for (Dock* dock : docks_) dock->hide();
-    stack_->setCurrentIndex(page);
   }
   for (Dock* dock : docks_) dock->toggleViewAction()->setEnabled(there);
 }
 
-void MainWindow::defaultLayout() {
-  if (!current_) {
-    layout_.clear();
-    return;
-  }
-  addDockWidget(Qt::RightDockWidgetArea, docks_[0]);
-  addDockWidget(Qt::BottomDockWidgetArea, docks_[1]);
-  addDockWidget(Qt::RightDockWidgetArea, handDock_);
-  tabifyDockWidget(docks_[0], handDock_);
+// An operator has the hand at his left hand; an analyst asks for it.
+void MainWindow::placeDocks(Place place) {
+  const bool live = place == Place::kLive;
+  addDockWidget(live ? Qt::LeftDockWidgetArea : Qt::RightDockWidgetArea, handDock_);
+  addDockWidget(Qt::RightDockWidgetArea, inspectDock_);
+  addDockWidget(Qt::RightDockWidgetArea, linkDock_);
+  addDockWidget(Qt::BottomDockWidgetArea, timelineDock_);
+  tabifyDockWidget(inspectDock_, linkDock_);
+  if (!live) tabifyDockWidget(inspectDock_, handDock_);
   for (Dock* dock : docks_) {
     dock->setFloating(false);
-    dock->setVisible(dock != handDock_);
+    dock->setVisible(live || (dock != handDock_ && dock != linkDock_));
   }
-  const int inspect = std::max(kNarrowestInspect, static_cast<int>(width() * kInspectShare));
-  resizeDocks({docks_[0]}, {inspect}, Qt::Horizontal);
-  resizeDocks({docks_[1]}, {static_cast<int>(height() * kTimelineShare)}, Qt::Vertical);
+  inspectDock_->raise();
+}
+
+void MainWindow::defaultLayout() {
+  if (place_ == Place::kStart) {
+    layouts_.clear();
+    return;
+  }
+  placeDocks(place_);
+  const double share = place_ == Place::kLive ? kLiveInspectShare : kInspectShare;
+  const int narrowest = place_ == Place::kLive ? kNarrowestLiveInspect : kNarrowestInspect;
+  const int inspect = std::max(narrowest, static_cast<int>(width() * share));
+  resizeDocks({inspectDock_}, {inspect}, Qt::Horizontal);
+  if (place_ == Place::kLive) resizeDocks({handDock_}, {kHandWidth}, Qt::Horizontal);
+  resizeDocks({timelineDock_}, {static_cast<int>(height() * kTimelineShare)}, Qt::Vertical);
 }
 
 void MainWindow::enableActions() {
-  const bool frames = playback_.hasFrames();
+  const bool frames = playback_.hasFrames() && !liveShown_;
   for (QAction* action : {actions_.play,
                           actions_.stepBack,
                           actions_.stepForward,
@@ -216,13 +246,21 @@ void MainWindow::enableActions() {
                           actions_.tenForward,
                           actions_.toStart,
                           actions_.toEnd,
-                          actions_.goToFrame,
-                          actions_.exportPicture,
-                          actions_.copyPicture,
-                          actions_.zoomIn,
-                          actions_.zoomOut,
-                          actions_.fit})
+                          actions_.goToFrame})
     action->setEnabled(frames);
+  for (QAction* action : {actions_.zoomIn, actions_.zoomOut, actions_.fit})
+    action->setEnabled(frames || liveShown_);
+  for (QAction* action : {actions_.exportPicture, actions_.copyPicture})
+    action->setEnabled(somethingIsShown());
+  const bool connected = live_.source() != nullptr;
+  actions_.disconnectHand->setEnabled(live_.state() != LiveController::State::kNone);
+  actions_.live->setEnabled(connected);
+  actions_.live->setChecked(liveShown_);
+  actions_.hold->setEnabled(liveShown_);
+  actions_.record->setEnabled(connected);
+  // The space bar and the digits: marks while live is shown, playback else.
+  actions_.mark->setEnabled(liveShown_);
+  for (QAction* label : actions_.labels) label->setEnabled(liveShown_);
   actions_.closeRecording->setEnabled(current_ != nullptr);
   for (QAction* action : {actions_.nextRecording, actions_.previousRecording})
     action->setEnabled(recordings_.size() > 1);
@@ -231,8 +269,11 @@ void MainWindow::enableActions() {
 // One thing at a time, the most urgent first.
 void MainWindow::dismiss() {
   if (QWidget* field = focusWidget()) field->clearFocus();
+  if (!alarmStrip_->isHidden()) return alarmStrip_->hide();
   if (!banner_->isHidden()) return banner_->dismiss();
   if (opener_.busy()) return opener_.cancel();
+  if (live_.state() == LiveController::State::kConnecting) return live_.end();
+  if (!matrices_->view().selection().empty()) return matrices_->view().clearSelection();
   if (isFullScreen()) toggleFullScreen(false);
 }
 
@@ -243,6 +284,12 @@ void MainWindow::toggleFullScreen(bool on) {
 
 MatricesPictureOptions MainWindow::exportOptions() const {
   MatricesPictureOptions options = matrices_->pictureOptions();
+  if (liveShown_) {
+    options.title = describe(live_.connection());
+    options.caption = QDateTime::fromMSecsSinceEpoch(matrices_->frame().hostUs / kUsPerMs)
+                          .toString("yyyy-MM-dd HH:mm:ss.zzz");
+    return options;
+  }
   options.title = QString::fromStdString(current_->path.filename().string());
   options.caption = "frame " + QString::number(playback_.frame()) + " · " +
                     seconds(current_->timeS.at(playback_.frame()));
@@ -269,15 +316,25 @@ void MainWindow::remember() {
   view_.skipGaps = playback_.skipGaps();
   saveViewSettings(view_, settings_);
   settings_.setValue("window/geometry", saveGeometry());
-  if (current_) layout_ = saveState();
-  settings_.setValue("window/layout", layout_);
+  if (place_ != Place::kStart) layouts_[place_] = saveState();
+  settings_.setValue("window/layout", layouts_[Place::kRecording]);
+  settings_.setValue("window/live_layout", layouts_[Place::kLive]);
   settings_.sync();
 }
 
+// What is connected is ended first, beside the window: a hand that moves is stopped, a recording finished.
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (live_.state() == LiveController::State::kNone) {
+    remember();
+    opener_.cancel();
+    return event->accept();
+  }
+  event->ignore();
+  if (closing_ || (live_.recording() && !askToEndRecording())) return;
+  closing_ = true;
   remember();
-  opener_.cancel();
-  event->accept();
+  offer_->say("Closing: the hand is let go, a recording is finished …");
+  live_.end();
 }
 
 void MainWindow::showEvent(QShowEvent* event) {

@@ -10,12 +10,15 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
 
 namespace palpate::gui {
 namespace {
 
-constexpr int kControlHeight = 26;  // [px] of boxes beside buttons
-constexpr int kCompactBelow = 700;  // [px] of width: buttons lose their text
+constexpr int kControlHeight = 26;         // [px] of boxes beside buttons
+constexpr int kCompactBelow = 700;         // [px] of width: buttons lose their text
+constexpr double kLeastLiveRange = 500.0;  // [counts] a first light touch isn't glaring
+constexpr double kLiveRangeStep = 250.0;   // [counts]
 
 QToolButton* buttonFor(QAction* action, QWidget* parent) {
   auto* button = new QToolButton(parent);
@@ -110,12 +113,41 @@ void MatricesPanel::resizeEvent(QResizeEvent* event) {
 void MatricesPanel::setRecording(const OpenedRecordingPtr& recording) {
   recording_ = recording;
   frame_ = TactileFrame();
+  hand_.reset();
   if (!recording_) {
     view_->clear();
     return;
   }
-  view_->setHand(recording_->profile.hand());
+  range_->setItemText(0, nameOf(RangeMode::kRecording));
+  hand_ = recording_->profile.hand();
+  view_->setHand(*hand_);
   applyLook();
+}
+
+void MatricesPanel::setHand(const HandDescription& hand) {
+  recording_.reset();
+  frame_ = TactileFrame();
+  range_->setItemText(0, "largest so far");  // there is no whole recording yet
+  if (!hand_) largestLive_ = kLeastLiveRange;  // else the same one, with other taxels scanned
+  hand_ = hand;
+  view_->setHand(hand);
+  applyLook();
+}
+
+void MatricesPanel::showLive(const TactileFrame& frame) {
+  frame_ = frame;
+  if (settings_.range == RangeMode::kFrame) {
+    applyLook();
+  } else {
+    const auto largest =
+        static_cast<double>(*std::max_element(frame_.values.begin(), frame_.values.end()));
+    // In steps, so that the colours don't creep while somebody presses harder.
+    if (largest > largestLive_) {
+      largestLive_ = std::ceil(largest / kLiveRangeStep) * kLiveRangeStep;
+      applyLook();
+    }
+  }
+  view_->setFrame(frame_);
 }
 
 void MatricesPanel::showFrame(std::size_t frame) {
@@ -130,7 +162,9 @@ void MatricesPanel::setSettings(const ViewSettings& settings, Theme theme) {
   theme_ = theme;
   const QSignalBlocker blockedMin(minimum_), blockedMax(maximum_);
   map_->setCurrentText(nameOf(settings.map));
-  range_->setCurrentText(nameOf(settings.range));
+  range_->setCurrentIndex(static_cast<int>(
+      std::find(kAllRangeModes.begin(), kAllRangeModes.end(), settings.range) -
+      kAllRangeModes.begin()));
   minimum_->setValue(settings.manualMin);
   maximum_->setValue(settings.manualMax);
   const bool manual = settings.range == RangeMode::kManual;
@@ -147,14 +181,14 @@ ValueRange MatricesPanel::rangeNow() const {
     case RangeMode::kManual:
       return {settings_.manualMin, settings_.manualMax};
     case RangeMode::kFullScale:
-      if (recording_) maximum = static_cast<double>(recording_->profile.hand().maximumCounts);
+      if (hand_) maximum = static_cast<double>(hand_->maximumCounts);
       break;
     case RangeMode::kFrame:
       for (const float value : frame_.values)
         maximum = std::max(maximum, static_cast<double>(value));
       break;
     case RangeMode::kRecording:
-      if (recording_) maximum = std::max(maximum, recording_->maximum);
+      maximum = std::max(maximum, recording_ ? recording_->maximum : largestLive_);
       break;
   }
   return {0.0, maximum};

@@ -3,6 +3,7 @@
 
 #include <QList>
 #include <QWidget>
+#include <optional>
 
 #include "gui/matrices_view.h"
 #include "gui/opened_recording.h"
@@ -24,6 +25,11 @@ class MatricesPanel : public QWidget {
 
   void setRecording(const OpenedRecordingPtr& recording);  // null: none
   void showFrame(std::size_t frame);
+  // A live hand instead of a recording; its frames come by showLive().
+  void setHand(const HandDescription& hand);
+  void showLive(const TactileFrame& frame);
+  // Whose frames are shown; null: nobody's.
+  const HandDescription* hand() const noexcept { return hand_ ? &*hand_ : nullptr; }
   // Map, look and range; theme as resolved.
   void setSettings(const ViewSettings& settings, Theme theme);
   MatricesView& view() noexcept { return *view_; }
@@ -51,6 +57,8 @@ class MatricesPanel : public QWidget {
   QLabel* to_;
   QDoubleSpinBox* maximum_;
   OpenedRecordingPtr recording_;
+  std::optional<HandDescription> hand_;
+  double largestLive_ = 0.0;  // end of the colour range of a live hand [counts]
   TactileFrame frame_;
   ViewSettings settings_;
   Theme theme_ = Theme::kDark;

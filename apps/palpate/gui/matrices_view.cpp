@@ -17,14 +17,21 @@ MatricesView::MatricesView(QWidget* parent) : QWidget(parent) {
 }
 
 void MatricesView::setHand(const HandDescription& hand) {
+  // Another mask of the same hand: what is chosen stays.
+  const TaxelSelection fresh(*hand.layout);
+  if (selection_.numMatrices() != fresh.numMatrices()) selection_ = fresh;
   hand_ = hand;
   frame_.reset();
+  paintedUs_ = 0;
   setHover(std::nullopt);
   renew();
 }
 
 void MatricesView::clear() {
   hand_.reset();
+  selection_ = {};
+  notice_.clear();
+  paintedUs_ = 0;
   frame_.reset();
   setHover(std::nullopt);
   renew();
@@ -88,8 +95,7 @@ void MatricesView::paintEvent(QPaintEvent* event) {
                         QSizeF(part.size()) * devicePixelRatioF());
     painter.drawPixmap(QRectF(part), background_, source);
   }
-  if (!frame_) return;
-  for (std::size_t m = 0; m < geometry_.numMatrices(); ++m)
+  for (std::size_t m = 0; frame_ && m < geometry_.numMatrices(); ++m)
     if (event->region().intersects(geometry_.matrixRect(m).toAlignedRect()))
       paintMatrixValues(painter, geometry_, m, *frame_, *hand_, look_.range, options);
   if (hover_) {
@@ -97,6 +103,97 @@ void MatricesView::paintEvent(QPaintEvent* event) {
     painter.setBrush(Qt::NoBrush);
     painter.drawRect(geometry_.taxelRect(hover_->matrix, hover_->y, hover_->x));
   }
+  paintSelection(painter);
+  if (!notice_.isEmpty()) paintNotice(painter);
+  if (!frame_ || frame_->hostUs == paintedUs_) return;
+  paintedUs_ = frame_->hostUs;
+  emit painted(paintedUs_);
+}
+
+// An outline around what is chosen: inner borders would hide the values.
+void MatricesView::paintSelection(QPainter& painter) const {
+  if (selection_.empty()) return;
+  painter.setPen(QPen(colorsOf(look_.theme).accent, 2.0));
+  for (std::size_t m = 0; m < geometry_.numMatrices(); ++m) {
+    const MatrixLayout& layout = hand_->layout->matrix(m);
+    const auto chosen = [&](int y, int x) {
+      return y >= 0 && y < layout.rows && x >= 0 && x < layout.columns &&
+             selection_.contains(m, y, x);
+    };
+    for (int y = 0; y < layout.rows; ++y)
+      for (int x = 0; x < layout.columns; ++x) {
+        if (!chosen(y, x)) continue;
+        const QRectF rect = geometry_.taxelRect(m, y, x).adjusted(0, 0, -1, -1);
+        if (!chosen(y - 1, x)) painter.drawLine(rect.topLeft(), rect.topRight());
+        if (!chosen(y + 1, x)) painter.drawLine(rect.bottomLeft(), rect.bottomRight());
+        if (!chosen(y, x - 1)) painter.drawLine(rect.topLeft(), rect.bottomLeft());
+        if (!chosen(y, x + 1)) painter.drawLine(rect.topRight(), rect.bottomRight());
+      }
+  }
+}
+
+void MatricesView::paintNotice(QPainter& painter) const {
+  const ThemeColors& colors = colorsOf(look_.theme);
+  QColor veil = colors.window;
+  constexpr int kVeil = 150;  // of 255
+  veil.setAlpha(kVeil);
+  painter.fillRect(rect(), veil);
+  const QFontMetrics metrics(font());
+  constexpr int kAround = 12;
+  QRect box = metrics.boundingRect(
+      rect().adjusted(40, 0, -40, 0), Qt::AlignCenter | Qt::TextWordWrap, notice_);
+  box.adjust(-kAround, -kAround / 2, kAround, kAround / 2);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(colors.warning, 1.0));
+  painter.setBrush(colors.panel);
+  painter.drawRoundedRect(box, 6, 6);
+  painter.setPen(colors.warning);
+  painter.drawText(box, Qt::AlignCenter | Qt::TextWordWrap, notice_);
+}
+
+void MatricesView::setNotice(const QString& notice) {
+  if (notice == notice_) return;
+  notice_ = notice;
+  update();
+}
+
+void MatricesView::select(const TaxelSelection& selection) {
+  if (selection == selection_ || selection.numMatrices() != selection_.numMatrices()) return;
+  selection_ = selection;
+  update();
+  emit selectionChanged();
+}
+
+void MatricesView::clearSelection() {
+  TaxelSelection none = selection_;
+  none.clear();
+  select(none);
+}
+
+void MatricesView::choose(const TaxelPlace& from, const TaxelPlace& to) {
+  TaxelSelection wanted = selectedBefore_;
+  if (from == to && wanted.contains(from.matrix, from.y, from.x))
+    wanted.toggle(from.matrix, from.y, from.x);  // Ctrl+click on a chosen one
+  else
+    wanted.add(from.matrix, from.y, from.x, to.y, to.x);
+  select(wanted);
+}
+
+void MatricesView::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton || !hand_) return QWidget::mousePressEvent(event);
+  selectedBefore_ = selection_;
+  if (!(event->modifiers() & Qt::ControlModifier)) selectedBefore_.clear();
+  pressed_ = geometry_.placeAt(event->position());
+  if (pressed_)
+    choose(*pressed_, *pressed_);
+  else
+    select(selectedBefore_);
+}
+
+void MatricesView::mouseReleaseEvent(QMouseEvent*) { pressed_.reset(); }
+
+void MatricesView::contextMenuEvent(QContextMenuEvent* event) {
+  if (hand_) emit menuAsked(event->globalPos());
 }
 
 void MatricesView::resizeEvent(QResizeEvent*) { renew(); }
@@ -115,7 +212,18 @@ void MatricesView::setHover(std::optional<TaxelPlace> place) {
 
 void MatricesView::mouseMoveEvent(QMouseEvent* event) {
   std::optional<TaxelPlace> place;
-  if (hand_ && frame_) place = geometry_.placeAt(event->position());
+  if (hand_) place = geometry_.placeAt(event->position());
+  if (pressed_ && (event->buttons() & Qt::LeftButton)) {
+    // A drag stays in its matrix, whatever the mouse is over.
+    const QRectF matrix = geometry_.matrixRect(pressed_->matrix);
+    const double side = geometry_.taxelSide(pressed_->matrix);
+    const QPointF inside(std::clamp(event->position().x(), matrix.left(), matrix.right() - 1),
+                         std::clamp(event->position().y(), matrix.top(), matrix.bottom() - 1));
+    choose(*pressed_,
+           {pressed_->matrix,
+            static_cast<int>((inside.y() - matrix.top()) / side),
+            static_cast<int>((inside.x() - matrix.left()) / side)});
+  }
   if (place && !hand_->layout->matrix(place->matrix).exists(place->y, place->x)) place.reset();
   setHover(place);
   if (place)
@@ -127,12 +235,13 @@ void MatricesView::mouseMoveEvent(QMouseEvent* event) {
 void MatricesView::leaveEvent(QEvent*) { setHover(std::nullopt); }
 
 QString MatricesView::hoverText() const {
-  if (!hover_ || !hand_ || !frame_) return {};
+  if (!hover_ || !hand_) return {};
   const auto [m, y, x] = *hover_;
   const MatrixLayout& layout = hand_->layout->matrix(m);
   const QString place = QString::fromStdString(hand_->matrixName(m)) + " · x " +
                         QString::number(x) + ", y " + QString::number(y) + " · ";
   if (!layout.enabled(y, x)) return place + "masked: not scanned";
+  if (!frame_) return place + "no frame yet";
   const float value = static_cast<const TactileFrame&>(*frame_).matrix(m)(y, x);
   if (!(value > 0.0F)) return place + "0 counts, at rest";
   const QString number = value == std::round(value)

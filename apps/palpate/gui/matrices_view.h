@@ -4,7 +4,10 @@
 
 #include <QPixmap>
 #include <QWidget>
+#include <cstdint>
 #include <optional>
+
+#include <palpate/model/taxel_selection.h>
 
 #include "gui/matrices_painter.h"
 
@@ -34,16 +37,33 @@ class MatricesView : public QWidget {
   const MatricesGeometry& geometryOfMatrices() const noexcept { return geometry_; }
   // What lies under the mouse: "finger 0 distal · x 3, y 5 · 812 counts"; empty beside the taxels.
   QString hoverText() const;
+
+  // Click and drag choose taxels, Ctrl adds to what is chosen, a click beside them (or Escape) lets go.
+  const TaxelSelection& selection() const noexcept { return selection_; }
+  void select(const TaxelSelection& selection);
+  void clearSelection();
+  // Over an old picture: greyed, with a line that says so. Empty: the picture is of now.
+  void setNotice(const QString& notice);
+  const QString& notice() const noexcept { return notice_; }
+  // Of the newest frame that is wholly on screen [us since 1970]; 0: none yet.
+  std::int64_t paintedUs() const noexcept { return paintedUs_; }
   QSize sizeHint() const override { return {560, 560}; }
   QSize minimumSizeHint() const override { return {320, 240}; }
 
  signals:
   void hovered(const QString& text);
+  void selectionChanged();
+  void menuAsked(const QPoint& globalPosition);  // the right button
+  // The paint event that first shows a frame has ended.
+  void painted(qint64 frameHostUs);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void changeEvent(QEvent* event) override;
 
@@ -51,6 +71,9 @@ class MatricesView : public QWidget {
   MatricesPictureOptions pictureOptions() const;
   void renew();
   void setHover(std::optional<TaxelPlace> place);
+  void choose(const TaxelPlace& from, const TaxelPlace& to);
+  void paintSelection(QPainter& painter) const;
+  void paintNotice(QPainter& painter) const;
 
   std::optional<HandDescription> hand_;
   std::optional<TactileFrame> frame_;
@@ -58,6 +81,11 @@ class MatricesView : public QWidget {
   MatricesGeometry geometry_;
   QPixmap background_;
   std::optional<TaxelPlace> hover_;
+  TaxelSelection selection_;
+  TaxelSelection selectedBefore_;      // what a drag adds to
+  std::optional<TaxelPlace> pressed_;  // where the drag began
+  QString notice_;
+  std::int64_t paintedUs_ = 0;
 };
 
 }  // namespace palpate::gui

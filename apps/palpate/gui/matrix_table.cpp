@@ -61,6 +61,7 @@ void MatrixTableModel::setRecording(const OpenedRecordingPtr& recording) {
   shown_.clear();
   plotted_.clear();
   if (recording_) {
+    hand_ = recording_->profile.hand();
     shown_.resize(recording_->numMatrices() + 1);
     // What never felt anything isn't worth a line; neither is the sum of all, until asked for.
     plotted_ = recording_->touched;
@@ -70,15 +71,32 @@ void MatrixTableModel::setRecording(const OpenedRecordingPtr& recording) {
   emit plottedChanged();
 }
 
+void MatrixTableModel::setHand(const HandDescription& hand) {
+  beginResetModel();
+  recording_.reset();
+  hand_ = hand;
+  shown_.assign(hand.layout->numMatrices() + 1, {});
+  plotted_.assign(hand.layout->numMatrices(), true);
+  plotted_.push_back(false);
+  endResetModel();
+  emit plottedChanged();
+}
+
+void MatrixTableModel::showRow(std::size_t row, const CharacteristicSignals& now) {
+  if (sameText(now, shown_[row])) return;
+  shown_[row] = now;
+  const int at = static_cast<int>(row);
+  emit dataChanged(index(at, kActive), index(at, kArea), {Qt::DisplayRole});
+}
+
 void MatrixTableModel::showFrame(std::size_t frame) {
   if (!recording_ || frame >= recording_->profile.numFrames()) return;
-  for (std::size_t row = 0; row < shown_.size(); ++row) {
-    const CharacteristicSignals& now = recording_->at(frame, row);
-    if (sameText(now, shown_[row])) continue;
-    shown_[row] = now;
-    const int at = static_cast<int>(row);
-    emit dataChanged(index(at, kActive), index(at, kArea), {Qt::DisplayRole});
-  }
+  for (std::size_t row = 0; row < shown_.size(); ++row) showRow(row, recording_->at(frame, row));
+}
+
+void MatrixTableModel::showSignals(const std::vector<CharacteristicSignals>& rows) {
+  if (rows.size() != shown_.size()) return;
+  for (std::size_t row = 0; row < shown_.size(); ++row) showRow(row, rows[row]);
 }
 
 void MatrixTableModel::setTheme(Theme theme) {
@@ -108,8 +126,7 @@ QString MatrixTableModel::text(std::size_t row, int column) const {
   switch (column) {
     case kName: {
       if (whole) return "all";
-      const auto& matrices = recording_->profile.hand().matrices;
-      return QString::fromStdString(matrices[row].shortName);
+      return QString::fromStdString(hand_.matrices[row].shortName);
     }
     case kActive:
       return QString::number(now.active);

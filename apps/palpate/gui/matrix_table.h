@@ -1,11 +1,13 @@
 // The table of the Inspect dock: a row per matrix and one for the whole hand; signals of the current
-// frame; a tick plots the row in the timeline.
+// frame, of a recording or live; a tick plots the row in the timeline.
 #pragma once
 
 #include <QAbstractTableModel>
 #include <QTableView>
 #include <array>
 #include <vector>
+
+#include <palpate/model/hand_description.h>
 
 #include "gui/opened_recording.h"
 #include "gui/theme.h"
@@ -20,7 +22,13 @@ class MatrixTableModel : public QAbstractTableModel {
   using QAbstractTableModel::QAbstractTableModel;
 
   void setRecording(const OpenedRecordingPtr& recording);  // null: empty
+  // A live hand: all matrices are plotted; values come by showSignals().
+  void setHand(const HandDescription& hand);
   void showFrame(std::size_t frame);
+  // One per matrix, the whole last; another number is ignored.
+  void showSignals(const std::vector<CharacteristicSignals>& rows);
+  std::size_t numMatrices() const noexcept { return shown_.empty() ? 0 : shown_.size() - 1; }
+  const HandDescription& hand() const noexcept { return hand_; }
   void setTheme(Theme theme);
   // Which rows are plotted; the last one is the whole hand.
   const std::vector<bool>& plotted() const noexcept { return plotted_; }
@@ -39,7 +47,10 @@ class MatrixTableModel : public QAbstractTableModel {
  private:
   QString text(std::size_t row, int column) const;
 
+  void showRow(std::size_t row, const CharacteristicSignals& now);
+
   OpenedRecordingPtr recording_;
+  HandDescription hand_;
   std::vector<CharacteristicSignals> shown_;  // of the current frame, the whole last
   std::vector<bool> plotted_;
   Theme theme_ = Theme::kDark;

@@ -43,6 +43,11 @@ void MessageBanner::showMessage(const QString& message) {
   show();
 }
 
+void MessageBanner::showAll(const QStringList& messages) {
+  text_->setText(messages.join('\n'));
+  setVisible(!messages.isEmpty());
+}
+
 void MessageBanner::dismiss() {
   text_->clear();
   hide();

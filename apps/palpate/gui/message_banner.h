@@ -16,6 +16,8 @@ class MessageBanner : public QWidget {
   explicit MessageBanner(QWidget* parent = nullptr);
   // Failures of several files are shown together.
   void showMessage(const QString& message);
+  // Exactly these, instead of what was shown; none: hides.
+  void showAll(const QStringList& messages);
   void dismiss();
   QString message() const;
   void setTheme(Theme theme);

@@ -25,12 +25,32 @@ void openAndWait(MainWindow& window, const ScreenshotOptions& options) {
                    &loop,
                    [&](const QString&, const QString& message) { failure = message; });
   QObject::connect(&window.opener(), &RecordingOpener::finished, &loop, &QEventLoop::quit);
-  if (options.demo)
-    window.openDemo();
-  else
-    window.openFiles({*options.file});
+  window.openFiles({*options.file});
   loop.exec();
   if (!failure.isEmpty()) throw Error(failure.toStdString());
+}
+
+void runFor(double seconds) {
+  QEventLoop loop;
+  QTimer::singleShot(static_cast<int>(seconds * kMsPerS), &loop, &QEventLoop::quit);
+  loop.exec();
+}
+
+// Connects, waits for the first frame, and lets it run.
+void runDemo(MainWindow& window, const ScreenshotOptions& options) {
+  constexpr double kPatienceS = 30.0;
+  constexpr double kLookS = 0.02;
+  QString failure;
+  const auto told = QObject::connect(
+      &window.live(), &LiveController::failed, [&](const QString& message) { failure = message; });
+  window.openDemo();
+  for (double waitedS = 0.0; !window.live().framesCameYet(); waitedS += kLookS) {
+    if (failure.isEmpty() && waitedS > kPatienceS) failure = "no frame of the emulated hand came";
+    if (!failure.isEmpty()) throw Error(failure.toStdString());
+    runFor(kLookS);
+  }
+  QObject::disconnect(told);
+  runFor(options.afterS);
 }
 
 void goToFrame(MainWindow& window, const ScreenshotOptions& options) {
@@ -41,9 +61,7 @@ void goToFrame(MainWindow& window, const ScreenshotOptions& options) {
                 std::to_string(static_cast<long long>(playback.numFrames()) - 1));
   if (options.afterS > 0.0) {
     playback.play();
-    QEventLoop loop;
-    QTimer::singleShot(static_cast<int>(options.afterS * kMsPerS), &loop, &QEventLoop::quit);
-    loop.exec();
+    runFor(options.afterS);
   }
   playback.pause();
   if (options.frame)
@@ -65,7 +83,7 @@ void showDocks(MainWindow& window, const ScreenshotOptions& options) {
     if (!window.dockNames().contains(name))
       throw Error("no dock '" + dock + "': there are " +
                   window.dockNames().join(", ").toStdString());
-    if (window.current()) window.showDock(name);
+    if (window.current() || window.liveShown()) window.showDock(name);
   }
 }
 
@@ -88,9 +106,11 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   window.setTheme(theme);
   window.setFixedSize(options.size);
   window.show();
-  if (options.file || options.demo) {
+  if (options.file) {
     openAndWait(window, options);
     goToFrame(window, options);
+  } else if (options.demo) {
+    runDemo(window, options);
   }
   showDocks(window, options);
   // Layout requests and queued replots come one after the other.

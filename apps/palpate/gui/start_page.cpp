@@ -1,6 +1,7 @@
 #include "gui/start_page.h"
 
 #include <QFileInfo>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -64,21 +65,37 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   auto* subtitle = new QLabel("See what a robot hand feels.", this);
   subtitle->setProperty("role", "muted");
   subtitle->setFont(scaled(font(), 1.15, false));
-  auto* open = new QPushButton("Open a recording…", this);
-  open->setObjectName("startOpen");
-  open->setProperty("primary", true);
-  open->setMinimumHeight(38);
-  connect(open, &QPushButton::clicked, this, &StartPage::openAsked);
-  auto* buttons = new QHBoxLayout;
+  auto* buttons = new QGridLayout;
   buttons->setSpacing(10);
-  buttons->addWidget(open, 1);
-  if (withDemo) {
-    auto* demo = new QPushButton("Try the demo recording", this);
-    demo->setObjectName("startDemo");
-    demo->setMinimumHeight(38);
-    connect(demo, &QPushButton::clicked, this, &StartPage::demoAsked);
-    buttons->addWidget(demo, 1);
-  }
+  buttons->setColumnStretch(0, 1);
+  buttons->setColumnStretch(1, 1);
+  const auto button = [&](const QString& text, const char* name, const QString& tip) {
+    auto* made = new QPushButton(text, this);
+    made->setObjectName(name);
+    made->setMinimumHeight(38);
+    made->setToolTip(tip);
+    buttons->addWidget(made, buttons->count() / 2, buttons->count() % 2);
+    return made;
+  };
+  auto* connectHand =
+      button("Connect a hand…", "startConnect", "Ports, emulated hand, replay (Ctrl+K)");
+  connectHand->setProperty("primary", true);
+  connect(connectHand, &QPushButton::clicked, this, &StartPage::connectAsked);
+  connect(button("Try the emulated hand",
+                 "startEmulated",
+                 "A hand that isn't there, with a ball in it (Ctrl+Shift+D)"),
+          &QPushButton::clicked,
+          this,
+          &StartPage::emulatedAsked);
+  connect(button("Open a recording…", "startOpen", "(Ctrl+O)"),
+          &QPushButton::clicked,
+          this,
+          &StartPage::openAsked);
+  if (withDemo)
+    connect(button("Try the demo recording", "startDemo", "(Ctrl+D)"),
+            &QPushButton::clicked,
+            this,
+            &StartPage::demoAsked);
   dropHint_ = new QLabel("or drop a recording (.dsa, .palpate) anywhere in this window", this);
   dropHint_->setObjectName("DropHint");
   dropHint_->setAlignment(Qt::AlignCenter);

@@ -22,7 +22,9 @@ class StartPage : public QWidget {
 
  signals:
   void openAsked();
-  void demoAsked();
+  void demoAsked();  // the demo recording
+  void connectAsked();
+  void emulatedAsked();
   void fileChosen(const QString& path);
 
  protected:

@@ -82,6 +82,12 @@ QProgressBar::chunk { background: @accent; border-radius: 3px; }
 QLabel[role="heading"] { color: @muted; font-weight: bold; }
 QLabel[role="muted"] { color: @muted; }
 #MessageBanner { background: @dangerSoft; border-bottom: 1px solid @danger; }
+#AlarmStrip { background: @dangerSoft; border-bottom: 1px solid @danger; }
+#OfferStrip { background: @accentSoft; border-bottom: 1px solid @accent; }
+#LinkPill { background: @dangerSoft; border: 1px solid @warning; border-radius: 10px; padding: 2px 10px; margin: 0 4px; color: @warning; }
+#LinkPill[good="true"] { background: @accentSoft; border-color: @accentSoft; color: @accent; }
+QToolButton[recording="true"] { background: @dangerSoft; border: 1px solid @danger; color: @danger; font-weight: bold; }
+#linkLog { background: @window; border: 1px solid @border; border-radius: 4px; color: @muted; }
 #OpeningStrip { background: @panel; border-bottom: 1px solid @border; }
 #ViewHeader, #PlaybackBar { background: @panel; }
 #PlaybackBar { border-top: 1px solid @border; }
@@ -101,6 +107,7 @@ QString styleOf(Theme theme) {
   const std::pair<const char*, QColor> names[] = {{"@accentSoft", colors.accentSoft},
                                                   {"@dangerSoft", colors.dangerSoft},
                                                   {"@accent", colors.accent},
+                                                  {"@warning", colors.warning},
                                                   {"@danger", colors.danger},
                                                   {"@window", colors.window},
                                                   {"@panel", colors.panel},

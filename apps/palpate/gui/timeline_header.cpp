@@ -69,17 +69,16 @@ TimelineHeader::TimelineHeader(QWidget* parent) : QWidget(parent) {
 
 void TimelineHeader::setSignal(PlottedSignal signal) { signal_->setCurrentText(nameOf(signal)); }
 
-void TimelineHeader::setPlotted(const OpenedRecordingPtr& recording,
+void TimelineHeader::setPlotted(const HandDescription& hand,
                                 const std::vector<bool>& plotted,
                                 Theme theme) {
   std::vector<Legend::Entry> entries;
-  for (std::size_t row = 0; recording && row < plotted.size(); ++row) {
+  for (std::size_t row = 0; row < plotted.size(); ++row) {
     if (!plotted[row]) continue;
-    if (row == recording->numMatrices())
+    if (row + 1 == plotted.size())
       entries.push_back({wholeColor(theme), "all"});
     else
-      entries.push_back({matrixColor(row, theme),
-                         QString::fromStdString(recording->profile.hand().matrixName(row))});
+      entries.push_back({matrixColor(row, theme), QString::fromStdString(hand.matrixName(row))});
   }
   legend_->setEntries(std::move(entries), theme);
 }

@@ -4,7 +4,8 @@
 #include <QWidget>
 #include <vector>
 
-#include "gui/opened_recording.h"
+#include <palpate/model/hand_description.h>
+
 #include "gui/plotted_signal.h"
 #include "gui/theme.h"
 
@@ -39,9 +40,8 @@ class TimelineHeader : public QWidget {
  public:
   explicit TimelineHeader(QWidget* parent = nullptr);
   void setSignal(PlottedSignal signal);
-  void setPlotted(const OpenedRecordingPtr& recording,
-                  const std::vector<bool>& plotted,
-                  Theme theme);
+  // plotted: one per matrix of the hand, the whole last; empty: nothing is open.
+  void setPlotted(const HandDescription& hand, const std::vector<bool>& plotted, Theme theme);
 
  signals:
   void signalChosen(palpate::gui::PlottedSignal signal);

@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QMainWindow>
 #include <QMenuBar>
+#include <QStyle>
 #include <QToolBar>
 #include <QToolButton>
 
@@ -64,6 +65,23 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   view->addAction(actions.nextTheme);
   view->addAction(actions.fullScreen);
 
+  QMenu* hand = window.menuBar()->addMenu("H&and");
+  hand->addActions({actions.connectHand, actions.tryEmulated, actions.disconnectHand});
+  hand->addSeparator();
+  hand->addActions({actions.live, actions.hold});
+  hand->addSeparator();
+  hand->addActions({actions.record, actions.recordingSettings, actions.openRecorded});
+  QMenu* marks = hand->addMenu("&Marks");
+  marks->addAction(actions.mark);
+  marks->addActions(actions.labels);
+  hand->addSeparator();
+  scanned = hand->addMenu("Scanned &taxels");
+  scanned->setToolTipsVisible(true);
+  scanned->addActions({actions.scanOnly, actions.scanWithout, actions.scanAlso, actions.scanAll});
+  scanned->addSeparator();
+  scanned->addAction(actions.chooseNone);
+  hand->addAction(actions.muteAlarms);
+
   QMenu* playback = window.menuBar()->addMenu("&Playback");
   playback->addAction(actions.play);
   playback->addSeparator();
@@ -93,6 +111,24 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   bar->addWidget(brand);
   bar->addActions({actions.open, actions.exportPicture});
   bar->addSeparator();
+  connections = new QMenu(bar);
+  connections->setToolTipsVisible(true);
+  auto* connectButton = new QToolButton(bar);
+  connectButton->setObjectName("connectButton");
+  connectButton->setDefaultAction(actions.connectHand);
+  connectButton->setMenu(connections);
+  connectButton->setPopupMode(QToolButton::InstantPopup);
+  connectButton->setFocusPolicy(Qt::NoFocus);  // it has a key
+  bar->addWidget(connectButton);
+  link = new QLabel(bar);
+  link->setObjectName("LinkPill");
+  link->setTextFormat(Qt::PlainText);
+  linkAction_ = bar->addWidget(link);
+  bar->addAction(actions.record);
+  record = qobject_cast<QToolButton*>(bar->widgetForAction(actions.record));
+  record->setObjectName("recordButton");
+  bar->addAction(actions.live);
+  bar->addSeparator();
   bar->addActions({actions.toStart, actions.stepBack, actions.play, actions.stepForward});
   speed = new QComboBox(bar);
   speed->setObjectName("speedBox");
@@ -103,10 +139,17 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   for (const QAction* each : actions.speeds->actions()) speed->addItem(each->text());
   bar->addWidget(speed);
   bar->addActions({actions.loop, actions.skipGaps});
-  for (QAction* action :
-       {actions.open, actions.exportPicture, actions.play, actions.loop, actions.skipGaps})
+  for (QAction* action : {actions.open,
+                          actions.exportPicture,
+                          actions.play,
+                          actions.loop,
+                          actions.skipGaps,
+                          actions.live})
     withText_.append(qobject_cast<QToolButton*>(bar->widgetForAction(action)));
+  connectButton->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  record->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   play_ = bar->widgetForAction(actions.play);
+  showLink({}, false);
   setCompact(false);
   auto* spacer = new QWidget(bar);
   spacer->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
@@ -129,6 +172,22 @@ void WindowMenus::setCompact(bool on) {
   // "Play" and "Pause" take the same room: nothing jumps when the playback starts.
   const int textWidth = play_->fontMetrics().horizontalAdvance(" Pause");
   play_->setMinimumWidth(on ? 0 : textWidth + kIconAndPadding);
+}
+
+void WindowMenus::showLink(const QString& text, bool good) {
+  if (linkAction_->isVisible() == text.isEmpty()) linkAction_->setVisible(!text.isEmpty());
+  if (link->text() != text) link->setText(text);
+  if (link->property("good").toBool() == good && link->property("good").isValid()) return;
+  link->setProperty("good", good);
+  link->style()->unpolish(link);
+  link->style()->polish(link);
+}
+
+void WindowMenus::showRecording(bool on) {
+  if (record->property("recording").toBool() == on) return;
+  record->setProperty("recording", on);
+  record->style()->unpolish(record);
+  record->style()->polish(record);
 }
 
 }  // namespace palpate::gui

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <QList>
+#include <QString>
 
 class QAction;
 class QComboBox;
+class QLabel;
 class QMainWindow;
 class QMenu;
 class QToolButton;
@@ -20,7 +22,14 @@ struct WindowMenus {
 
   // Buttons without text, for a narrow window.
   void setCompact(bool on);
+  // What is connected; empty: nothing is shown. `good`: data come.
+  void showLink(const QString& text, bool good);
+  void showRecording(bool on);  // the button turns red
 
+  QMenu* connections;         // of the button Connect; filled by its owner when it is about to show
+  QMenu* scanned;             // which taxels are scanned; also shown over the matrices
+  QLabel* link;               // beside Connect: what is connected, in a word
+  QToolButton* record;        // red while it records
   QMenu* recent;              // filled by its owner when it is about to show
   QComboBox* speed;           // of the toolbar; index into PlaybackController::kSpeeds
   QComboBox* recordings;      // open recordings
@@ -29,6 +38,7 @@ struct WindowMenus {
  private:
   QList<QToolButton*> withText_;
   QWidget* play_;
+  QAction* linkAction_;
   void buildMenuBar(QMainWindow& window, const Actions& actions, const QList<QAction*>& toggles);
   void buildToolBar(QMainWindow& window, const Actions& actions);
 };

@@ -73,6 +73,9 @@ class JointMotion {
   ControllerType controller() const noexcept { return controller_; }
   VelocityProfile profile() const noexcept { return profile_; }
   bool moving() const;
+  // Motions begun, and motions stopped before their end: who counts his own knows when somebody else
+  // moves the hand.
+  std::uint64_t orders() const noexcept { return orders_; }
 
  private:
   // A motion to a target: distance is covered in the motion's duration, by the profile.
@@ -103,6 +106,7 @@ class JointMotion {
   std::vector<double> resistsClockwise_, resistsCounterClockwise_;
   std::vector<AxisState> states_;
   std::vector<Path> paths_;
+  std::uint64_t orders_ = 0;
   double durationS_ = 0.0;  // of the motion; 0: none runs
   VelocityProfile motionProfile_ = VelocityProfile::kSinSquare;
   ControllerType controller_ = ControllerType::kPose;

@@ -26,8 +26,9 @@ struct LiveResults {
   // The last samples at or before the frame; nothing: none came yet.
   std::optional<JointAngles> angles;
   std::optional<Temperatures> temperatures;
-  // Of the signals stage: one per matrix, and of the whole frame.
+  // Of the signals stage: one per matrix, and of all matrices together.
   std::vector<CharacteristicSignals> matrixSignals;
+  CharacteristicSignals wholeSignals;
   TaxelPeak peak;
 };
 

@@ -5,7 +5,7 @@
 
 namespace palpate {
 
-// Fills LiveResults::matrixSignals and LiveResults::peak.
+// Fills LiveResults::matrixSignals, wholeSignals and peak.
 class SignalsStage final : public Stage {
  public:
   void onFrame(LiveResults& results, std::vector<RecordingEvent>& out) override;

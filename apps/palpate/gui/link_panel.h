@@ -1,0 +1,57 @@
+// The content of the dock Link: is everything ready for a run, how does the line do, what is wrong, what happened.
+#pragma once
+
+#include <QScrollArea>
+#include <optional>
+#include <vector>
+
+#include <palpate/capture/link_health.h>
+#include <palpate/recording/recording_event.h>
+
+#include "gui/facts_view.h"
+#include "gui/theme.h"
+
+class QCheckBox;
+class QLabel;
+class QPlainTextEdit;
+
+namespace palpate::gui {
+
+// The state of a port for a person: "streaming", "silent for 2 s", ..
+QString nameOf(PortState state);
+// What is known of the link, row by row: for the dock and for tests.
+std::vector<Fact> factsOf(const LinkHealth& health);
+
+class LinkPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit LinkPanel(QWidget* parent = nullptr);
+  // Nothing is connected; what was logged stays.
+  void clear();
+  void showHealth(const LinkHealth& health, const std::optional<BeforeRun>& check);
+  void showAlarms(const QStringList& alarms);
+  void addEvent(const RecordingEvent& event);
+  // A line of the window's own: "connected to ..".
+  void log(const QString& line);
+  void setMuted(bool muted);
+  void setTheme(Theme theme);
+  QSize sizeHint() const override { return {455, 420}; }
+
+ signals:
+  void mutedChanged(bool muted);
+
+ private:
+  void showCheck();
+
+  QLabel* check_;
+  QLabel* alarms_;
+  QCheckBox* sound_;
+  FactsView* facts_;
+  QPlainTextEdit* log_;
+  std::optional<BeforeRun> lastCheck_;
+  bool recording_ = false;
+  bool connected_ = false;
+  Theme theme_ = Theme::kDark;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,278 @@
+#include "gui/live_chart.h"
+
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kUsPerS = 1e6;
+constexpr double kWheelStep = 1.25;  // per notch
+constexpr double kNotch = 120.0;     // angleDelta of one notch
+constexpr double kHeadroom = 1.06;
+constexpr double kShrinkBelow = 0.35;  // of the axis: then it is made shorter
+constexpr double kOldS = 0.4;  // without a frame for so long the picture rolls by itself [s]
+constexpr std::size_t kMostEvents = 200;
+
+void styleAxis(QCPAxis& axis, const ThemeColors& colors, const QFont& font) {
+  axis.setBasePen(QPen(colors.border));
+  axis.setTickPen(QPen(colors.border));
+  axis.setSubTickPen(Qt::NoPen);
+  axis.setTickLabelColor(colors.muted);
+  axis.setLabelColor(colors.muted);
+  axis.setTickLabelFont(font);
+  axis.setLabelFont(font);
+  axis.grid()->setPen(QPen(colors.grid));
+  axis.grid()->setZeroLinePen(QPen(colors.grid));
+  axis.grid()->setSubGridVisible(false);
+}
+
+// 1, 2 or 5 times a power of ten, at or above: the axis doesn't creep.
+double niceAbove(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-9))));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= value) return factor * power;
+  return 10.0 * power;
+}
+
+QString nameOfEvent(const RecordingEvent& event) {
+  const QString text = QString::fromStdString(event.text);
+  if (event.kind == "mark") return "mark";
+  if (event.kind == "label") return text;
+  if (event.kind == "gap") return "gap";
+  if (event.kind == "grasp") return text.section(':', 0, 0);
+  return QString::fromStdString(event.kind);
+}
+
+}  // namespace
+
+LiveChart::LiveChart(QWidget* parent)
+    : QCustomPlot(parent), secondsTicker_(new QCPAxisTickerFixed) {
+  setLocale(QLocale::c());
+  setPlottingHint(QCP::phFastPolylines, true);
+  setNotAntialiasedElements(QCP::aeAll);
+  setAccessibleName("Live chart");
+  setToolTip("Wheel: how many seconds are seen");
+  xAxis->setLabel("time since the first frame in s");
+  xAxis->setTicker(secondsTicker_);
+  yAxis->ticker()->setTickCount(4);
+  xAxis->grid()->setVisible(false);
+  xAxis->setNumberFormat("gb");
+  yAxis->setNumberFormat("gb");
+  xAxis->setTickLengthIn(0);
+  yAxis->setTickLengthIn(0);
+  xAxis->setTickLengthOut(4);
+  axisRect()->setMinimumMargins(QMargins(52, 10, 20, 10));
+  roll(0.0);
+}
+
+double LiveChart::secondsOf(std::int64_t hostUs) const {
+  return static_cast<double>(hostUs - originUs_.value_or(hostUs)) / kUsPerS;
+}
+
+void LiveChart::setHistory(const SignalHistory* history, std::size_t numMatrices) {
+  history_ = history;
+  originUs_.reset();
+  newestUs_ = 0;
+  held_ = false;
+  largest_ = 0.0;
+  plotted_.assign(history ? numMatrices + 1 : 0, true);
+  if (!plotted_.empty()) plotted_.back() = false;
+  forget(std::numeric_limits<double>::infinity());
+  rebuild();
+}
+
+void LiveChart::setSignal(PlottedSignal signal) {
+  if (signal == signal_) return;
+  signal_ = signal;
+  rebuild();
+}
+
+void LiveChart::setPlotted(const std::vector<bool>& plotted) {
+  if (plotted == plotted_) return;
+  plotted_ = plotted;
+  rebuild();
+}
+
+void LiveChart::setTheme(Theme theme) {
+  theme_ = theme;
+  const ThemeColors& colors = colorsOf(theme);
+  setBackground(QBrush(colors.window));
+  styleAxis(*xAxis, colors, font());
+  styleAxis(*yAxis, colors, font());
+  for (const Shown& event : events_) event.name->setColor(colors.text);
+  rebuild();
+}
+
+void LiveChart::setWindowS(double seconds) {
+  const double wanted = std::clamp(seconds, kShortestS, kLongestS);
+  if (wanted == windowS_) return;
+  windowS_ = wanted;
+  roll(nowS_);
+  emit windowChanged(windowS_);
+}
+
+void LiveChart::setHeld(bool held) { held_ = held; }
+
+void LiveChart::rebuild() {
+  clearGraphs();
+  rows_.clear();
+  nameAxis();
+  for (std::size_t row = 0; row < plotted_.size(); ++row) {
+    if (!plotted_[row]) continue;
+    const bool whole = row + 1 == plotted_.size();
+    // Lines of one pixel are drawn several times as fast as wider ones.
+    QPen pen(whole ? wholeColor(theme_) : matrixColor(row, theme_), 1.0);
+    if (whole) pen.setStyle(Qt::DashLine);
+    QCPGraph* graph = addGraph();
+    graph->setPen(pen);
+    rows_.push_back(row);
+  }
+  largest_ = 0.0;
+  newestUs_ = 0;
+  if (history_) append(history_->after(std::numeric_limits<std::int64_t>::min()), false);
+  roll(nowS_);
+}
+
+void LiveChart::append(const std::vector<SignalSample>& samples, bool areNew) {
+  for (const SignalSample& sample : samples) {
+    if (!originUs_) originUs_ = sample.hostUs;
+    const double atS = secondsOf(sample.hostUs);
+    for (std::size_t g = 0; g < rows_.size(); ++g) {
+      auto& series = *graph(static_cast<int>(g))->data();
+      if (sample.afterGap && series.size() > 0)
+        series.add(QCPGraphData((series.constEnd() - 1)->key + 1e-6,
+                                std::numeric_limits<double>::quiet_NaN()));
+      if (rows_[g] < sample.rows.size())
+        series.add(QCPGraphData(atS, valueOf(sample.rows[rows_[g]], signal_)));
+    }
+    if (sample.afterGap && areNew && newestUs_ != 0)
+      shade(secondsOf(newestUs_), atS, "gap", colorsOf(theme_).warning);
+    newestUs_ = sample.hostUs;
+  }
+}
+
+void LiveChart::refresh(double silentS) {
+  if (!history_ || held_) return;
+  const auto samples = history_->after(newestUs_);
+  append(samples, true);
+  if (samples.empty() && (silentS < kOldS || !originUs_)) return;
+  const double newestS = originUs_ ? secondsOf(newestUs_) : 0.0;
+  nowS_ = samples.empty() ? newestS + silentS : newestS;
+  forget(nowS_ - kLongestS);
+  roll(nowS_);
+}
+
+void LiveChart::roll(double nowS) {
+  nowS_ = nowS;
+  const double toS = std::max(nowS, windowS_);
+  xAxis->setRange(toS - windowS_, toS);
+  constexpr double kTicks = 12.0;
+  secondsTicker_->setTickStep(niceAbove(windowS_ / kTicks));
+  fitHeight(toS - windowS_);
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+void LiveChart::fitHeight(double fromS) {
+  double largest = 0.0;
+  for (int g = 0; g < graphCount(); ++g) {
+    const auto series = graph(g)->data();
+    for (auto at = series->findBegin(fromS, false); at != series->constEnd(); ++at)
+      if (at->value > largest) largest = at->value;  // not for a gap's NaN
+  }
+  if (largest > largest_ || largest < kShrinkBelow * largest_)
+    largest_ = largest > 0.0 ? niceAbove(largest * kHeadroom) : 0.0;
+  yAxis->setRange(0.0, largest_ > 0.0 ? largest_ : 1.0);
+}
+
+void LiveChart::forget(double beforeS) {
+  for (int g = 0; g < graphCount(); ++g) graph(g)->data()->removeBefore(beforeS);
+  while (!events_.empty() && (events_.front().endS < beforeS || events_.size() > kMostEvents)) {
+    if (events_.front().shape) removeItem(events_.front().shape);
+    if (events_.front().name) removeItem(events_.front().name);
+    events_.pop_front();
+  }
+}
+
+void LiveChart::addEvent(const RecordingEvent& event) {
+  if (!history_) return;
+  const ThemeColors& colors = colorsOf(theme_);
+  const double beginS = secondsOf(event.tUs);
+  if (event.kind == "gap") return;  // seen in the samples
+  if (event.kind == "mark" || event.kind == "label")
+    line(beginS, nameOfEvent(event), colors.accent);
+  else if (event.kind == "grasp")
+    line(event.t1Us > event.tUs ? secondsOf(event.t1Us) : beginS, nameOfEvent(event), colors.muted);
+}
+
+void LiveChart::line(double atS, const QString& name, const QColor& color) {
+  auto* shape = new QCPItemLine(this);
+  for (QCPItemPosition* end : {shape->start, shape->end}) {
+    end->setTypeX(QCPItemPosition::ptPlotCoords);
+    end->setTypeY(QCPItemPosition::ptAxisRectRatio);
+  }
+  shape->start->setCoords(atS, 0.0);
+  shape->end->setCoords(atS, 1.0);
+  shape->setPen(QPen(color, 1.0));
+  auto* text = new QCPItemText(this);
+  text->position->setTypeX(QCPItemPosition::ptPlotCoords);
+  text->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
+  text->position->setCoords(atS, 0.03);
+  text->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
+  text->setPadding(QMargins(4, 0, 0, 0));
+  text->setText(name);
+  text->setFont(font());
+  text->setColor(colorsOf(theme_).text);
+  events_.push_back({atS, atS, shape, text});
+}
+
+void LiveChart::shade(double beginS, double endS, const QString& name, const QColor& color) {
+  auto* shape = new QCPItemRect(this);
+  for (QCPItemPosition* corner : {shape->topLeft, shape->bottomRight}) {
+    corner->setTypeX(QCPItemPosition::ptPlotCoords);
+    corner->setTypeY(QCPItemPosition::ptAxisRectRatio);
+  }
+  shape->topLeft->setCoords(beginS, 0.0);
+  shape->bottomRight->setCoords(endS, 1.0);
+  shape->setPen(Qt::NoPen);
+  shape->setBrush(colorsOf(theme_).gap);
+  shape->setLayer("background");
+  auto* text = new QCPItemText(this);
+  text->position->setTypeX(QCPItemPosition::ptPlotCoords);
+  text->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
+  text->position->setCoords((beginS + endS) / 2, 0.04);
+  text->setPositionAlignment(Qt::AlignHCenter | Qt::AlignTop);
+  text->setText(name + " " + QString::number(endS - beginS, 'f', 1) + " s");
+  text->setFont(font());
+  text->setColor(color);
+  events_.push_back({beginS, endS, shape, text});
+}
+
+// A low chart has no room for more than the unit.
+void LiveChart::nameAxis() {
+  QString whole = nameOf(signal_);
+  if (!whole.endsWith(unitOf(signal_))) whole += " in " + unitOf(signal_);
+  constexpr int kAroundAxis = 60;  // [px] above and below it
+  const bool fits = fontMetrics().horizontalAdvance(whole) < height() - kAroundAxis;
+  yAxis->setLabel(fits ? whole : unitOf(signal_));
+}
+
+void LiveChart::wheelEvent(QWheelEvent* event) {
+  setWindowS(windowS_ / std::pow(kWheelStep, event->angleDelta().y() / kNotch));
+  event->accept();
+}
+
+void LiveChart::resizeEvent(QResizeEvent* event) {
+  QCustomPlot::resizeEvent(event);
+  nameAxis();
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+void LiveChart::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::FontChange) setTheme(theme_);
+  QCustomPlot::changeEvent(event);
+}
+
+}  // namespace palpate::gui

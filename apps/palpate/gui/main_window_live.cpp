@@ -1,0 +1,385 @@
+// The main window on what is connected: a hand, the emulated hand, a replay.
+#include <QApplication>
+#include <QMenu>
+#include <QMessageBox>
+#include <algorithm>
+
+#include <palpate/core/number_text.h>
+#include <palpate/emulator/scene.h>
+
+#include "gui/hand_dock.h"
+#include "gui/inspect_panel.h"
+#include "gui/link_panel.h"
+#include "gui/live_chart.h"
+#include "gui/main_window.h"
+#include "gui/matrices_panel.h"
+#include "gui/message_banner.h"
+#include "gui/offer_strip.h"
+#include "gui/status_strip.h"
+
+namespace palpate::gui {
+namespace {
+
+QString number(double value, int decimals) {
+  return QString::fromStdString(fixedText(value, decimals));
+}
+
+std::vector<Fact> factsOf(const Connection& connection,
+                          const DeviceFacts& device,
+                          const QString& hand) {
+  std::vector<Fact> facts{{"source", describe(connection)}, {"hand", hand}};
+  const auto add = [&](const QString& name, const std::string& value) {
+    if (!value.empty()) facts.push_back({name, QString::fromStdString(value)});
+  };
+  add("serial", device.serial);
+  add("tactile firmware", device.firmware);
+  add("motion firmware", device.motionFirmware);
+  facts.push_back({"calibration", "none: values are counts"});
+  return facts;
+}
+
+}  // namespace
+
+MatricesView& MainWindow::matricesView() { return matrices_->view(); }
+
+void MainWindow::connectLive() {
+  askToEndRecording = [this] {
+    return QMessageBox::question(this,
+                                 "Palpate",
+                                 "A recording is running. Finish it and go on?",
+                                 QMessageBox::Yes | QMessageBox::Cancel,
+                                 QMessageBox::Yes) == QMessageBox::Yes;
+  };
+  connect(&live_, &LiveController::came, this, &MainWindow::liveCame);
+  connect(&live_, &LiveController::leaving, this, &MainWindow::liveLeaving);
+  connect(&live_, &LiveController::ended, this, &MainWindow::liveEnded);
+  connect(&live_, &LiveController::failed, this, [this](const QString& message) {
+    banner_->showMessage(message);
+    link_->log("not connected: " + message);
+  });
+  connect(&live_, &LiveController::stateChanged, this, [this] {
+    enableActions();
+    showLook();
+    updateStatus();
+  });
+  connect(&live_, &LiveController::frameCame, this, [this](const TactileFrame& frame) {
+    if (!liveShown_ || held_) return;
+    const bool first = matrices_->frame().values.empty();
+    matrices_->showLive(frame);
+    if (first) enableActions();
+  });
+  connect(&live_, &LiveController::resultsCame, this, [this](const LiveResults& results) {
+    if (!liveShown_ || held_) return;
+    inspect_->showLive(results);
+    liveChart_->refresh(0.0);
+  });
+  connect(&live_, &LiveController::staleChanged, this, &MainWindow::showStale);
+  connect(&live_, &LiveController::looked, this, &MainWindow::showLook);
+  connect(
+      &live_, &LiveController::eventsCame, this, [this](const std::vector<RecordingEvent>& events) {
+        for (const RecordingEvent& event : events) {
+          link_->addEvent(event);
+          liveChart_->addEvent(event);
+        }
+      });
+  connect(&bell_, &AlarmBell::changed, this, [this](const QStringList& alarms) {
+    link_->showAlarms(alarms);
+    // Closed by the user it stays closed until something new is wrong.
+    if (alarms.isEmpty() || alarmIsNew_ || !alarmStrip_->isHidden()) alarmStrip_->showAll(alarms);
+    alarmIsNew_ = false;
+  });
+  connect(&bell_, &AlarmBell::raised, this, [this](const QString& text) {
+    alarmIsNew_ = true;
+    link_->log("alarm: " + text);
+    QApplication::alert(this);
+  });
+  const auto mute = [this](bool muted) {
+    bell_.setMuted(muted);
+    link_->setMuted(muted);
+    actions_.muteAlarms->setChecked(muted);
+    settings_.setValue("alarms/muted", muted);
+  };
+  connect(link_, &LinkPanel::mutedChanged, this, mute);
+  connect(actions_.muteAlarms, &QAction::triggered, this, mute);
+  mute(settings_.value("alarms/muted", false).toBool());
+
+  const auto on = [this](QAction* action, auto what) {
+    connect(action, &QAction::triggered, this, what);
+  };
+  on(actions_.connectHand, [this] { askAndConnect(); });
+  on(actions_.tryEmulated, [this] { tryEmulatedHand(); });
+  on(actions_.disconnectHand, [this] {
+    if (!live_.recording() || askToEndRecording()) live_.end();
+  });
+  on(actions_.live, [this] { showLive(); });
+  on(actions_.hold, [this](bool held) {
+    held_ = held;
+    liveChart_->setHeld(held);
+    showStale();
+    updateStatus();
+  });
+  connect(menus_->connections, &QMenu::aboutToShow, this, &MainWindow::fillConnections);
+  const double windowS = settings_.value("live/window_s", LiveChart::kUsualS).toDouble();
+  liveChart_->setWindowS(windowS);
+  connect(liveChart_, &LiveChart::windowChanged, this, [this](double seconds) {
+    settings_.setValue("live/window_s", seconds);
+  });
+  connectScanActions();
+}
+
+void MainWindow::connectScanActions() {
+  const auto on = [this](QAction* action, auto what) {
+    connect(action, &QAction::triggered, this, what);
+  };
+  on(actions_.scanOnly, [this] { scan(MaskChoice::kOnly); });
+  on(actions_.scanWithout, [this] { scan(MaskChoice::kWithout); });
+  on(actions_.scanAlso, [this] { scan(MaskChoice::kAlso); });
+  on(actions_.scanAll, [this] { scan(MaskChoice::kAll); });
+  on(actions_.chooseNone, [this] { matrices_->view().clearSelection(); });
+  connect(&matrices_->view(), &MatricesView::selectionChanged, this, &MainWindow::updateStatus);
+  connect(menus_->scanned, &QMenu::aboutToShow, this, [this] {
+    const bool live = liveShown_ && live_.source() && live_.source()->control;
+    const bool chosen = !matrices_->view().selection().empty();
+    for (QAction* action : {actions_.scanOnly, actions_.scanWithout, actions_.scanAlso})
+      action->setEnabled(live && chosen);
+    actions_.scanAll->setEnabled(live);
+    actions_.chooseNone->setEnabled(chosen);
+  });
+  // Enabled again when the menu is gone: their keys must not depend on it.
+  connect(menus_->scanned, &QMenu::aboutToHide, this, [this] {
+    actions_.chooseNone->setEnabled(true);
+  });
+  connect(&matrices_->view(), &MatricesView::menuAsked, this, [this](const QPoint& at) {
+    menus_->scanned->popup(at);
+  });
+}
+
+void MainWindow::connectTo(const Connection& connection) {
+  if (live_.recording() && !askToEndRecording()) return;
+  banner_->dismiss();
+  live_.connectTo(connection);
+}
+
+void MainWindow::askAndConnect() {
+  if (const auto wanted = askForConnection(loadConnection(settings_))) connectTo(*wanted);
+}
+
+void MainWindow::tryEmulatedHand() {
+  Connection ball;
+  ball.kind = Connection::Kind::kEmulated;
+  ball.scene = "ball";
+  connectTo(ball);
+}
+
+void MainWindow::openDemo() {
+  Connection ball;
+  ball.kind = Connection::Kind::kEmulated;
+  ball.scene = "ball";
+  ball.sceneActs = true;
+  connectTo(ball);
+}
+
+// The last one first, then every scene, then what needs a dialogue.
+void MainWindow::fillConnections() {
+  QMenu* menu = menus_->connections;
+  menu->clear();
+  const Connection last = loadConnection(settings_);
+  if (problemOf(last).isEmpty())
+    connect(menu->addAction("Again: " + describe(last).replace('&', "&&")),
+            &QAction::triggered,
+            this,
+            [this, last] { connectTo(last); });
+  menu->addAction(actions_.connectHand);
+  menu->addSeparator();
+  QMenu* scenes = menu->addMenu("&Emulated hand");
+  for (const std::string& name : sceneNames(demoPath_.parent_path() / "scenes")) {
+    Connection connection;
+    connection.kind = Connection::Kind::kEmulated;
+    connection.scene = QString::fromStdString(name);
+    connect(scenes->addAction(QString(connection.scene).replace('_', ' ')),
+            &QAction::triggered,
+            this,
+            [this, connection] { connectTo(connection); });
+  }
+  QMenu* replays = menu->addMenu("&Replay of a recording");
+  const auto replay = [&](const QString& path) {
+    Connection connection;
+    connection.kind = Connection::Kind::kReplay;
+    connection.recording = path;
+    QString name = path.section('/', -1);
+    connect(
+        replays->addAction(name.replace('&', "&&")), &QAction::triggered, this, [this, connection] {
+          connectTo(connection);
+        });
+  };
+  for (const QString& path : recent_.paths())
+    if (RecentFiles::exists(path)) replay(path);
+  if (actions_.openDemo->isEnabled()) replay(QString::fromStdString(demoPath_.string()));
+  if (replays->isEmpty()) replays->addAction("no recent recording")->setEnabled(false);
+  menu->addSeparator();
+  menu->addAction(actions_.disconnectHand);
+}
+
+void MainWindow::liveCame() {
+  LiveSource& source = *live_.source();
+  saveConnection(source.connection, settings_);
+  hand_->setHand(source.session.get(), source.control.get());
+  link_->log("connected: " + describe(source.connection));
+  showLive();
+}
+
+void MainWindow::liveLeaving() {
+  hand_->setHand(nullptr, nullptr);
+  liveChart_->setHistory(nullptr, 0);
+  link_->clear();
+  bell_.hear({}, 0);
+  link_->log("disconnected: " + describe(live_.connection()));
+  shownHistory_ = nullptr;
+  if (liveShown_) matrices_->view().setNotice("not connected any more");
+}
+
+void MainWindow::liveEnded() {
+  if (closing_) {
+    close();
+    return;
+  }
+  if (live_.state() != LiveController::State::kNone) return;
+  menus_->showLink({}, false);
+  if (!liveShown_) return enableActions();
+  liveShown_ = false;
+  held_ = false;
+  actions_.hold->setChecked(false);
+  matrices_->view().setNotice({});
+  const OpenedRecordingPtr recording = current_;
+  current_.reset();
+  showRecording(recording);
+}
+
+void MainWindow::showLive() {
+  LiveSource* source = live_.source();
+  if (!source) return;
+  const bool newly = !liveShown_ || source->history.get() != shownHistory_;
+  liveShown_ = true;
+  playback_.pause();
+  setPlace(Place::kLive);
+  if (newly) {
+    const HandDescription hand = source->session->device().hand();
+    shownHistory_ = source->history.get();
+    matrices_->setRecording(nullptr);
+    matrices_->setHand(hand);
+    liveChart_->setHistory(source->history.get(), hand.layout->numMatrices());
+    inspect_->setHand(hand);
+    held_ = false;
+    actions_.hold->setChecked(false);
+  }
+  setWindowTitle(describe(source->connection) + " – Palpate");
+  showStale();
+  showPlotted();
+  enableActions();
+  showLook();
+}
+
+void MainWindow::showStale() {
+  if (!liveShown_) return;
+  QString notice;
+  if (held_) {
+    // What is held is meant to be old.
+  } else if (live_.stale()) {
+    const PortStatus& port = live_.health().device.tactile;
+    notice = !live_.framesCameYet() ? QString("waiting for the first frame")
+                                    : "no frame for " + number(live_.silentS(), 1) + " s";
+    if (!port.message.empty()) notice += ": " + QString::fromStdString(port.message);
+  }
+  matrices_->view().setNotice(notice);
+}
+
+// Four times a second: everything but the frames.
+void MainWindow::showLook() {
+  LiveSource* source = live_.source();
+  if (!source) {
+    menus_->showLink(live_.state() == LiveController::State::kConnecting ? "connecting …" : "",
+                     false);
+    menus_->showRecording(false);
+    return;
+  }
+  const LinkHealth& health = live_.health();
+  bell_.hear(health.alarms, systemClock().monotonicUs());
+  link_->showHealth(health, live_.beforeRun());
+  menus_->showLink(
+      describe(source->connection) +
+          (live_.stale() ? " · no data" : " · " + number(health.frames.rateHz, 1) + " fps"),
+      !live_.stale());
+  showRecordingState();
+  if (!liveShown_) return;
+  const HandDescription hand = source->session->device().hand();
+  inspect_->setLiveFacts(factsOf(
+      source->connection, source->session->device().facts(), QString::fromStdString(hand.name)));
+  // Other taxels are scanned now, or another hand was found.
+  if (matrices_->hand() && !(*matrices_->hand()->layout == *hand.layout)) matrices_->setHand(hand);
+  if (live_.stale() && !held_) {
+    showStale();
+    if (live_.framesCameYet()) liveChart_->refresh(live_.silentS());
+  }
+  updateStatus();
+}
+
+void MainWindow::scan(MaskChoice choice) {
+  LiveSource* source = live_.source();
+  if (!source || !source->control) return;
+  try {
+    const auto commands = maskCommands(
+        *source->session->device().hand().layout, matrices_->view().selection(), choice);
+    for (const DeviceCommand& command : commands) source->control->change(command);
+    flash(commands.empty() ? "these taxels are scanned already"
+                           : "which taxels are scanned is being changed: the stream pauses");
+  } catch (const std::exception& error) {
+    banner_->showMessage(error.what());
+  }
+}
+
+QString MainWindow::selectionText() const {
+  const TaxelSelection& selection = matrices_->view().selection();
+  const std::size_t count = selection.count();
+  if (count == 0) return {};
+  QString text = QString::number(count) + (count == 1 ? " taxel chosen" : " taxels chosen");
+  const TactileFrame& frame = matrices_->frame();
+  if (frame.values.empty() || !matrices_->hand()) return text;
+  double sum = 0.0, largest = 0.0;
+  for (std::size_t m = 0; m < selection.numMatrices(); ++m) {
+    const auto values = frame.matrix(m);
+    for (int y = 0; y < values.rows(); ++y)
+      for (int x = 0; x < values.cols(); ++x)
+        if (selection.contains(m, y, x)) {
+          sum += static_cast<double>(values(y, x));
+          largest = std::max(largest, static_cast<double>(values(y, x)));
+        }
+  }
+  return text + ": mean " + number(sum / static_cast<double>(count), 0) + ", max " +
+         number(largest, 0) + " counts";
+}
+
+void MainWindow::updateLiveStatus() {
+  Status now;
+  const LinkHealth& health = live_.health();
+  now.lamp = live_.stale() ? Status::Lamp::kWarning : Status::Lamp::kGood;
+  const RecorderStatus& recorder = health.recorder;
+  if (live_.stale())
+    now.state = live_.framesCameYet() ? "no data" : "waiting for data";
+  else if (recorder.state != RecorderStatus::State::kIdle)
+    now.state = recorder.framesOnDisk >= recorder.frames
+                    ? "all frames on disk"
+                    : QString::number(recorder.frames - recorder.framesOnDisk) + " frames to write";
+  else
+    now.state = held_ ? "live · held (P goes on)" : "live";
+  now.figures = {
+      "rate " + number(health.frames.rateHz, 1) + " fps",
+      "age " + (live_.stale() ? QString("–") : number(health.device.tactile.ageMs, 0)) + " ms",
+      "lost " + QString::number(health.lost),
+      "bad " + QString::number(health.badChecksums),
+      "saturated " + QString::number(health.frames.saturatedFrames)};
+  now.notice = noticeNow();
+  now.right = describe(live_.connection());
+  status_->setStatus(now);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,51 @@
+// The last minutes of the characteristic signals, for a chart that rolls: filled by live processing, read by
+// the screen.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <vector>
+
+#include <palpate/filter/characteristic_signals.h>
+#include <palpate/live/live_results.h>
+
+namespace palpate {
+
+struct SignalSample {
+  std::int64_t hostUs = 0;  // stamp of the frame [us since 1970]
+  // Nothing came for longer than max(1 s, 5 median intervals) before it: no line leads here.
+  bool afterGap = false;
+  std::vector<CharacteristicSignals> rows;  // one per matrix, then all matrices together
+};
+
+struct SignalHistoryOptions {
+  double keepS = 300.0;             // [s], > 0
+  std::size_t keepSamples = 30000;  // at most, whatever the rate; about 0.4 kB each
+};
+
+// Every member may be called from any thread.
+class SignalHistory {
+ public:
+  // Throws std::invalid_argument naming the field.
+  explicit SignalHistory(const SignalHistoryOptions& options = {});
+
+  // The results of the signals stage. A frame that isn't later than the last one is left out.
+  void add(const LiveResults& results);
+  void clear();
+  // What is later than a stamp, oldest first.
+  std::vector<SignalSample> after(std::int64_t hostUs) const;
+  std::size_t size() const;
+
+ private:
+  std::int64_t medianIntervalUs() const;
+
+  static constexpr std::size_t kIntervals = 15;
+  const SignalHistoryOptions options_;
+  mutable std::mutex mutex_;
+  std::deque<SignalSample> samples_;
+  std::deque<std::int64_t> intervalsUs_;  // the last ones
+};
+
+}  // namespace palpate

@@ -1,0 +1,305 @@
+// The window on a hand that isn't there: connect, watch, record, mark, stop, accidents, leaving.
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QToolButton>
+
+#include <palpate/recording/recording.h>
+
+#include "control/emulated_bench.h"
+#include "gui/hand_dock.h"
+#include "gui/live_chart.h"
+#include "gui/matrices_view.h"
+#include "gui/matrix_table.h"
+#include "gui/offer_strip.h"
+#include "gui/status_strip.h"
+#include "gui/timeline_chart.h"
+#include "window_fixture.h"
+
+namespace palpate::gui {
+namespace {
+namespace fs = std::filesystem;
+using State = LiveController::State;
+
+class LiveWindowTest : public WindowTest {
+ protected:
+  LiveWindowTest() {
+    fs::create_directory_symlink(testing::dataFolder() / "scenes", folder_ / "scenes");
+    QSettings(settingsFile(), QSettings::IniFormat).setValue("grasp/velocity_deg_per_s", 40.0);
+    ready();
+  }
+  void ready() {
+    start();
+    window().askForRecording = [this](RecordingSettings settings, const QString&) {
+      ++asked_;
+      settings.folder = QString::fromStdString((folder_ / "runs").string());
+      settings.nameTemplate = "{object}_{run}";
+      settings.object = "ball";
+      settings.markLabels[2] = "slip";
+      return std::optional(settings);
+    };
+    window().askToEndRecording = [this] {
+      ++askedToEnd_;
+      return mayEnd_;
+    };
+  }
+  static bool await(const std::function<bool()>& condition) {
+    return QTest::qWaitFor(condition, 20'000);
+  }
+  void connectTo(const Connection& connection) {
+    window().connectTo(connection);
+    ASSERT_TRUE(await([&] { return !live().stale() && window().liveShown(); }));
+  }
+  void connectEmulated(const QString& scene = "ball") {
+    Connection connection;
+    connection.kind = Connection::Kind::kEmulated;
+    connection.scene = scene;
+    connectTo(connection);
+  }
+  void connectBench() {
+    bench_ = std::make_unique<testing::EmulatedBench>(testing::handWith("ball"));
+    Connection connection;
+    connection.kind = Connection::Kind::kPorts;
+    connection.dsaPort = QString::fromStdString(bench_->hand->dsaPort());
+    connection.sdhPort = QString::fromStdString(bench_->hand->sdhPort());
+    connectTo(connection);
+    ASSERT_TRUE(await([&] { return live().source()->control->status().cannotReact.empty(); }));
+  }
+  LiveController& live() { return window().live(); }
+  MatricesView& view() { return window().matricesView(); }
+  LiveChart& chart() { return *window().findChild<LiveChart*>(); }
+  QString offered() {
+    const auto* strip = window().findChild<OfferStrip*>();
+    return strip->isVisible() ? strip->text() : QString();
+  }
+  // As soon as it may be clicked.
+  void click(const char* name) {
+    auto* button = find<QPushButton>(name);
+    ASSERT_TRUE(await([&] { return button->isEnabled() && button->isVisible(); })) << name;
+    QTest::mouseClick(button, Qt::LeftButton);
+  }
+
+  std::unique_ptr<testing::EmulatedBench> bench_;
+  int asked_ = 0, askedToEnd_ = 0;
+  bool mayEnd_ = true;
+};
+
+TEST_F(LiveWindowTest, ShowsWhatIsConnected) {
+  connectEmulated();
+  EXPECT_EQ(window().windowTitle(), "emulated hand · ball – Palpate");
+  EXPECT_TRUE(find<QDockWidget>("Hand")->isVisible());
+  EXPECT_TRUE(find<QDockWidget>("Timeline")->isVisible());
+  EXPECT_TRUE(chart().isVisible());
+  EXPECT_FALSE(window().findChild<TimelineChart*>()->isVisible());
+  EXPECT_TRUE(await([&] { return find<StatusStrip>("statusStrip")->status().state == "live"; }));
+  EXPECT_TRUE(await([&] { return find<QLabel>("LinkPill")->text().contains("fps"); }));
+  EXPECT_TRUE(view().notice().isEmpty());
+  EXPECT_TRUE(actions().record->isEnabled());
+  EXPECT_FALSE(actions().play->isEnabled());
+}
+
+TEST_F(LiveWindowTest, NothingIsConnectedWithoutBeingAsked) {
+  EXPECT_EQ(live().state(), State::kNone);
+  EXPECT_FALSE(actions().record->isEnabled());
+  EXPECT_FALSE(actions().live->isEnabled());
+  EXPECT_FALSE(actions().disconnectHand->isEnabled());
+  EXPECT_FALSE(actions().mark->isEnabled());
+}
+
+TEST_F(LiveWindowTest, AReactiveGraspIsFeltSeenAndStopped) {
+  connectBench();
+  EXPECT_FALSE(bench_->handMoves()) << "connecting moves nothing";
+  click("reactiveGrasp");
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  auto* table = window().findChild<MatrixTableModel*>();
+  const auto active = [&] {
+    return table->index(static_cast<int>(table->numMatrices()), MatrixTableModel::kActive)
+        .data()
+        .toInt();
+  };
+  ASSERT_TRUE(await([&] { return active() > 0; })) << "the ball is felt";
+  ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
+  EXPECT_TRUE(find<QLabel>("handState")->text().contains("limit"));
+}
+
+TEST_F(LiveWindowTest, EscapeStopsTheHandWhateverIsShown) {
+  connectBench();
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  open({"good.dsa"});
+  EXPECT_FALSE(window().liveShown());
+  press(Qt::Key_Escape);
+  ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
+  EXPECT_NE(window().current(), nullptr) << "Escape stopped the hand and did nothing else";
+}
+
+TEST_F(LiveWindowTest, RecordsWithMarksAndOpensWhatWasRecorded) {
+  connectEmulated();
+  press(Qt::Key_R, Qt::ControlModifier);
+  EXPECT_EQ(asked_, 1);
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 5; }));
+  EXPECT_TRUE(await([&] { return actions().record->iconText().contains("MB"); }))
+      << actions().record->iconText().toStdString();
+  EXPECT_TRUE(find<QToolButton>("recordButton")->property("recording").toBool());
+  press(Qt::Key_Space);
+  press(Qt::Key_2);
+  ASSERT_TRUE(await([&] { return chart().numEvents() == 2; }));
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return offered().contains("ball_001.palpate"); }));
+  EXPECT_TRUE(offered().contains("nothing lost"));
+  const auto events = readEvents(folder_ / "runs" / "ball_001.palpate").events;
+  const auto count = [&](const std::string& kind, const std::string& text) {
+    return std::count_if(events.begin(), events.end(), [&](const RecordingEvent& event) {
+      return event.kind == kind && event.text == text;
+    });
+  };
+  EXPECT_EQ(count("mark", ""), 1);
+  EXPECT_EQ(count("label", "slip"), 1);
+  const Profile profile = openRecording(folder_ / "runs" / "ball_001.palpate");
+  EXPECT_GT(profile.numFrames(), 5u);
+  EXPECT_GT(profile.numAngles(), 0u);
+
+  click("offerAccept");
+  EXPECT_TRUE(await([&] { return window().opener().numWaiting() == 0 && reads_ > 0; }));
+  press(Qt::Key_F6);
+  EXPECT_TRUE(window().liveShown());
+}
+
+TEST_F(LiveWindowTest, ARecordingGoesOnWhileAnotherIsLookedAt) {
+  connectEmulated();
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 0; }));
+  open({"good.dsa"});
+  EXPECT_FALSE(window().liveShown());
+  EXPECT_TRUE(actions().play->isEnabled()) << "the space bar plays now";
+  EXPECT_FALSE(actions().mark->isEnabled());
+  const auto before = live().health().recorder.framesOnDisk;
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > before + 5; }));
+  press(Qt::Key_F6);
+  EXPECT_TRUE(window().liveShown());
+  EXPECT_TRUE(actions().mark->isEnabled());
+  press(Qt::Key_W, Qt::ControlModifier);
+  EXPECT_TRUE(window().liveShown()) << "the recording is closed, the hand stays";
+}
+
+TEST_F(LiveWindowTest, ClosingAsksOnceAndFinishesTheRecording) {
+  connectEmulated();
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 5; }));
+  mayEnd_ = false;
+  window().close();
+  EXPECT_EQ(askedToEnd_, 1);
+  EXPECT_TRUE(window().isVisible());
+  EXPECT_TRUE(live().recording());
+  mayEnd_ = true;
+  window().close();
+  EXPECT_EQ(askedToEnd_, 2);
+  ASSERT_TRUE(await([&] { return !window().isVisible(); }));
+  EXPECT_EQ(verifyRecording(folder_ / "runs" / "ball_001.palpate").state,
+            VerifyReport::State::kSound);
+}
+
+TEST_F(LiveWindowTest, ClosingWhileTheHandMovesStopsIt) {
+  connectBench();
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  window().close();
+  ASSERT_TRUE(await([&] { return !window().isVisible(); }));
+  EXPECT_FALSE(bench_->handMoves());
+  EXPECT_EQ(askedToEnd_, 0) << "no recording, no question";
+}
+
+TEST_F(LiveWindowTest, APulledPlugIsSaidAndTheHandIsFoundAgain) {
+  connectBench();
+  bench_->hand->unplug();
+  ASSERT_TRUE(await([&] { return !view().notice().isEmpty(); }));
+  ASSERT_TRUE(await(
+      [&] { return find<StatusStrip>("statusStrip")->status().lamp == Status::Lamp::kWarning; }));
+  EXPECT_TRUE(await([&] { return find<QWidget>("AlarmStrip")->isVisible(); }));
+  bench_->hand->replug();
+  ASSERT_TRUE(await([&] { return view().notice().isEmpty(); }));
+  ASSERT_TRUE(await([&] { return !find<QWidget>("AlarmStrip")->isVisible(); }));
+  EXPECT_TRUE(await([&] { return live().health().device.tactile.reconnects == 1; }));
+}
+
+TEST_F(LiveWindowTest, ThePictureIsHeldAndGoesOn) {
+  connectEmulated("ball");
+  ASSERT_TRUE(await([&] { return view().paintedUs() > 0; }));
+  press(Qt::Key_P);
+  const auto held = view().paintedUs();
+  const auto frames = live().health().frames.frames;
+  ASSERT_TRUE(await([&] { return live().health().frames.frames > frames + 10; }));
+  EXPECT_EQ(view().paintedUs(), held);
+  press(Qt::Key_P);
+  click("reactiveGrasp");
+  EXPECT_TRUE(await([&] { return view().paintedUs() > held; }));
+}
+
+TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {
+  connectBench();
+  TaxelSelection chosen(*sdh2().layout);
+  chosen.add(1, 5, 1, 8, 4);
+  view().select(chosen);
+  EXPECT_TRUE(find<StatusStrip>("statusStrip")->status().notice.contains("16 taxels chosen"));
+  actions().scanOnly->trigger();
+  const auto enabled = [&](std::size_t matrix) {
+    return live().source()->session->device().hand().layout->matrix(matrix).numEnabled();
+  };
+  ASSERT_TRUE(await([&] { return enabled(1) == 16; }));
+  EXPECT_EQ(enabled(0), sdh2().layout->matrix(0).numTaxels());
+  EXPECT_EQ(view().selection().count(), 16u) << "what is chosen stays chosen";
+  actions().scanAll->trigger();
+  ASSERT_TRUE(await([&] { return enabled(1) == sdh2().layout->matrix(1).numTaxels(); }));
+}
+
+TEST_F(LiveWindowTest, DisconnectingComesBackToWhatWasOpen) {
+  open({"good.dsa"});
+  connectEmulated();
+  EXPECT_TRUE(window().liveShown());
+  press(Qt::Key_K, Qt::ControlModifier | Qt::ShiftModifier);
+  ASSERT_TRUE(await([&] { return live().state() == State::kNone; }));
+  EXPECT_FALSE(window().liveShown());
+  ASSERT_NE(window().current(), nullptr);
+  EXPECT_TRUE(window().findChild<TimelineChart*>()->isVisible());
+  EXPECT_TRUE(view().notice().isEmpty());
+}
+
+TEST_F(LiveWindowTest, AConnectionThatFailsSaysWhyAndRemembersNothing) {
+  Connection wrong;
+  wrong.scene = "no_such_scene";
+  window().connectTo(wrong);
+  ASSERT_TRUE(await([&] { return bannerText().contains("no_such_scene"); }));
+  EXPECT_EQ(live().state(), State::kNone);
+  const QSettings settings(settingsFile(), QSettings::IniFormat);
+  EXPECT_EQ(loadConnection(settings), Connection{});
+}
+
+TEST_F(LiveWindowTest, TheConnectButtonOffersScenesAndTheLastConnection) {
+  connectEmulated("pen");
+  window().close();
+  ASSERT_TRUE(await([&] { return !window().isVisible(); }));
+  ready();
+  auto* menu = find<QToolButton>("connectButton")->menu();
+  emit menu->aboutToShow();
+  QStringList texts;
+  for (const QAction* action : menu->actions()) texts.append(action->text());
+  EXPECT_TRUE(texts.contains("Again: emulated hand · pen")) << texts.join("|").toStdString();
+  EXPECT_TRUE(texts.contains("&Emulated hand"));
+  EXPECT_TRUE(texts.contains("&Replay of a recording"));
+  menu->actions().front()->trigger();
+  ASSERT_TRUE(await([&] { return window().liveShown(); }));
+}
+
+TEST_F(LiveWindowTest, TheDemoGraspsByItself) {
+  window().openDemo();
+  auto* table = window().findChild<MatrixTableModel*>();
+  ASSERT_TRUE(await([&] {
+    return table->numMatrices() > 0 &&
+           table->index(static_cast<int>(table->numMatrices()), MatrixTableModel::kActive)
+                   .data()
+                   .toInt() > 10;
+  }));
+}
+
+}  // namespace
+}  // namespace palpate::gui
