@@ -254,6 +254,7 @@ Scene parseScene(std::string_view text, const fs::path& name) {
   root.only({"objects", "hand", "script", "description"});
   Scene scene;
   scene.name = name.stem().string();
+  if (root.has("description")) scene.description = root.at("description").text();
   if (root.has("objects"))
     for (const Field& object : root.at("objects").items(kMostObjects))
       scene.objects.push_back(objectOf(object));

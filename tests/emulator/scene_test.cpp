@@ -33,9 +33,11 @@ TEST(Scene, ReadsAllThereIs) {
       {"at_s": 6, "temperature": {"ambient_c": 45}},
       {"at_s": 7, "threshold": {"matrix": 2, "counts": 60}},
       {"at_s": 8, "sensitivity": {"value": 1}},
-      {"at_s": 9, "release": {}}]})",
+      {"at_s": 9, "release": {}}],
+    "description": "Two things"})",
                                  "somewhere/mine.json");
   EXPECT_EQ(scene.name, "mine");
+  EXPECT_EQ(scene.description, "Two things");
   ASSERT_EQ(scene.objects.size(), 2u);
   EXPECT_EQ(scene.objects[0].shape.kind, ShapeKind::kCylinder);
   EXPECT_EQ(scene.objects[0].shape.sizeMm, Eigen::Vector3d(50, 50, 120));
@@ -72,6 +74,7 @@ TEST(Scene, SaysWhichFieldIsWrong) {
   expectFault("{", "scene.json");
   expectFault("[]", "no JSON object");
   expectFault(R"({"object": []})", "unknown key 'object'");
+  expectFault(R"({"description": 3})", "description is no text");
   expectFault(R"({"objects": [{"shape": "banana", "size_mm": 3}]})", "objects[0].shape");
   expectFault(R"({"objects": [{"shape": "sphere"}]})", "size_mm");
   expectFault(R"({"objects": [{"shape": "box", "size_mm": [1, 2]}]})", "three lengths");

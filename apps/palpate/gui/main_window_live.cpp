@@ -7,6 +7,7 @@
 #include <palpate/core/number_text.h>
 #include <palpate/emulator/scene.h>
 
+#include "gui/connect_dialog.h"
 #include "gui/hand_dock.h"
 #include "gui/inspect_panel.h"
 #include "gui/link_panel.h"
@@ -43,6 +44,20 @@ std::vector<Fact> factsOf(const Connection& connection,
 MatricesView& MainWindow::matricesView() { return matrices_->view(); }
 
 void MainWindow::connectLive() {
+  askForConnection = [this](const Connection& last) -> std::optional<Connection> {
+    PortScan scan;
+    // What is connected now answers us, not a probe.
+    const Connection& now = live_.connection();
+    if (live_.source()) scan.setBusy({now.dsaPort, now.sdhPort});
+    ConnectDialog dialog({.last = last,
+                          .scenesFolder = demoPath_.parent_path() / "scenes",
+                          .recentRecordings = recent_.paths(),
+                          .theme = resolved(view_.theme)},
+                         scan,
+                         this);
+    if (dialog.exec() != QDialog::Accepted) return std::nullopt;
+    return dialog.connection();
+  };
   askToEndRecording = [this] {
     return QMessageBox::question(this,
                                  "Palpate",

@@ -2,7 +2,8 @@
 //   {"objects": [{"shape": "sphere", "size_mm": 60, "stiffness_n_per_mm3": 0.5, "friction": 0.6,
 //                 "mass_kg": 0.2, "pose": {"position_mm": [0,0,150], "rotation_deg": [0,0,0]}}],
 //    "hand": {"preshape": "centrical", "close": 0.0},
-//    "script": [{"at_s": 1, "grasp": {"close": 1, "velocity_deg_per_s": 30}}, ..]}
+//    "script": [{"at_s": 1, "grasp": {"close": 1, "velocity_deg_per_s": 30}}, ..],
+//    "description": "A soft ball in the middle"}
 // Every key but "shape", "size_mm" and "at_s" may be absent. Positions in the hand's base frame; rotations about
 // its fixed axes x, y, z, in that order. An object stands where it is put until fingers touch it; then
 // it gives way to them, and weight and load pull at it.
@@ -84,6 +85,7 @@ struct ScriptStep {
 
 struct Scene {
   std::string name;
+  std::string description;  // for a person, one line; may be empty
   std::vector<SceneObject> objects;
   std::string preshape = "centrical";
   double close = 0.0;

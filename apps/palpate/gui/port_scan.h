@@ -1,0 +1,78 @@
+// Lists the serial ports and asks each what is behind it, in threads of its own. Signals come in the
+// thread of this object.
+#pragma once
+
+#include <QList>
+#include <QObject>
+#include <QStringList>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <palpate/device/port_list.h>
+#include <palpate/device/port_probe.h>
+
+namespace palpate::gui {
+
+struct ScannedPort {
+  PortInfo info;
+  QString notAsked = {};  // why this port isn't asked, one line; empty: it is
+};
+
+// The device that a name of a port leads to; the name itself where that is no file.
+QString deviceOf(const QString& port);
+
+class PortScan : public QObject {
+  Q_OBJECT
+ public:
+  // listPorts() and probePort(); tests hand in their own. Both are called from other threads.
+  struct Functions {
+    std::function<std::vector<PortInfo>()> list;
+    // Has to return soon after `giveUp` says true.
+    std::function<PortProbe(const std::string& port, const std::function<bool()>& giveUp)> probe;
+  };
+
+  explicit PortScan(QObject* parent = nullptr);
+  PortScan(Functions functions, QObject* parent = nullptr);
+  // As cancel(). A thread that the system holds up longer ends by itself later, and is heard no more.
+  ~PortScan() override;
+
+  // Ports (by any of their names) that aren't asked: those of our own connection.
+  void setBusy(const QStringList& ports) { busyPorts_ = ports; }
+  // Lists the ports, then asks them, several at a time. Does nothing while it is running.
+  void scan();
+  // Asks one port more that isn't listed: a pty, "tcp:HOST:PORT". Nothing for one of setBusy().
+  void ask(const QString& port);
+  // Ends what is running, without finished(). Returns when the ports are free again, at most 150 ms
+  // later; false: one isn't yet.
+  bool cancel();
+  // A list or an answer is still to come.
+  bool running() const noexcept { return pending_ > 0; }
+
+ signals:
+  // In the order of listPorts(); one probed() follows for each that is asked.
+  void listed(const QList<palpate::gui::ScannedPort>& ports);
+  // `port` as listed (PortInfo::name) or as handed to ask().
+  void probed(const QString& port, const palpate::PortProbe& probe);
+  // Nothing is to come any more.
+  void finished();
+
+ private:
+  struct Round;
+  Round& currentRound();
+  void askNext();
+  void takeList(std::vector<PortInfo> found);
+  void takeProbe(const QString& port, const PortProbe& probe);
+  void conclude();
+  bool isBusy(const QString& port) const;
+
+  Functions functions_;
+  QStringList busyPorts_;
+  QStringList waiting_;  // to be asked as soon as a thread is free
+  int pending_ = 0;      // the list, and the ports that are asked or wait
+  int asking_ = 0;       // ports that are asked now
+  std::shared_ptr<Round> round_;
+};
+
+}  // namespace palpate::gui

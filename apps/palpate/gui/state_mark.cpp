@@ -1,0 +1,67 @@
+#include "gui/state_mark.h"
+
+#include <QPainter>
+#include <QPainterPath>
+
+namespace palpate::gui {
+namespace {
+
+// Drawn in a square of 16 x 16 units.
+constexpr int kUnits = 16;
+constexpr QPointF kMiddle(8.0, 8.0);
+constexpr double kRadius = 6.5;
+constexpr double kStroke = 1.8;
+
+QPolygonF check() { return QPolygonF(QList<QPointF>{{5.0, 8.3}, {7.2, 10.5}, {11.2, 5.8}}); }
+QPolygonF triangle() { return QPolygonF(QList<QPointF>{{8.0, 1.8}, {15.0, 14.2}, {1.0, 14.2}}); }
+
+}  // namespace
+
+StateMark::StateMark(Theme theme, QWidget* parent) : QWidget(parent), theme_(theme) {
+  setFixedSize(kUnits, kUnits);
+}
+
+void StateMark::setState(State state) {
+  state_ = state;
+  update();
+}
+
+void StateMark::paintEvent(QPaintEvent*) {
+  const ThemeColors& colors = colorsOf(theme_);
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QPen inside(colors.panel, kStroke, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin);
+  painter.setPen(Qt::NoPen);
+  switch (state_) {
+    case State::kNone:
+      break;
+    case State::kAtWork:
+      painter.setBrush(colors.muted);
+      for (const double x : {3.0, 8.0, 13.0})
+        painter.drawEllipse(QPointF(x, kMiddle.y()), 1.5, 1.5);
+      break;
+    case State::kGood:
+      painter.setBrush(colors.accent);
+      painter.drawEllipse(kMiddle, kRadius, kRadius);
+      painter.setPen(inside);
+      painter.setBrush(Qt::NoBrush);
+      painter.drawPolyline(check());
+      break;
+    case State::kWarning:
+      painter.setBrush(colors.warning);
+      painter.drawPolygon(triangle());
+      painter.setPen(inside);
+      painter.drawLine(QPointF(8.0, 6.4), QPointF(8.0, 9.6));
+      painter.drawPoint(QPointF(8.0, 12.2));
+      break;
+    case State::kBad:
+      painter.setBrush(colors.danger);
+      painter.drawEllipse(kMiddle, kRadius, kRadius);
+      painter.setPen(inside);
+      painter.drawLine(QPointF(5.7, 5.7), QPointF(10.3, 10.3));
+      painter.drawLine(QPointF(10.3, 5.7), QPointF(5.7, 10.3));
+      break;
+  }
+}
+
+}  // namespace palpate::gui
