@@ -1,6 +1,7 @@
 #include "gui/window_menus.h"
 
 #include <QComboBox>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QMainWindow>
 #include <QMenuBar>
@@ -128,27 +129,11 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   record = qobject_cast<QToolButton*>(bar->widgetForAction(actions.record));
   record->setObjectName("recordButton");
   bar->addAction(actions.live);
-  bar->addSeparator();
-  bar->addActions({actions.toStart, actions.stepBack, actions.play, actions.stepForward});
-  speed = new QComboBox(bar);
-  speed->setObjectName("speedBox");
-  speed->setMinimumHeight(kControlHeight);
-  speed->setToolTip("Speed (Up, Down)");
-  speed->setAccessibleName("Speed");
-  speed->setFocusPolicy(Qt::NoFocus);  // it has a key
-  for (const QAction* each : actions.speeds->actions()) speed->addItem(each->text());
-  bar->addWidget(speed);
-  bar->addActions({actions.loop, actions.skipGaps});
-  for (QAction* action : {actions.open,
-                          actions.exportPicture,
-                          actions.play,
-                          actions.loop,
-                          actions.skipGaps,
-                          actions.live})
+  for (QAction* action : {actions.open, actions.exportPicture, actions.live})
     withText_.append(qobject_cast<QToolButton*>(bar->widgetForAction(action)));
   connectButton->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   record->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  play_ = bar->widgetForAction(actions.play);
+  playback_ = bar->addWidget(makePlayback(*bar, actions));
   showLink({}, false);
   setCompact(false);
   auto* spacer = new QWidget(bar);
@@ -165,6 +150,38 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   recordingsAction = bar->addWidget(recordings);
   bar->addAction(actions.keys);
 }
+
+// What plays a recording, as one: while live is shown nothing of it is of use.
+QWidget* WindowMenus::makePlayback(QToolBar& bar, const Actions& actions) {
+  auto* group = new QWidget(&bar);
+  auto* row = new QHBoxLayout(group);
+  row->setContentsMargins(8, 0, 0, 0);
+  row->setSpacing(5);
+  const auto add = [&](QAction* action) {
+    auto* button = new QToolButton(group);
+    button->setDefaultAction(action);
+    button->setIconSize(bar.iconSize());
+    button->setFocusPolicy(Qt::NoFocus);  // it has a key
+    row->addWidget(button);
+    return button;
+  };
+  add(actions.toStart);
+  add(actions.stepBack);
+  play_ = add(actions.play);
+  add(actions.stepForward);
+  speed = new QComboBox(group);
+  speed->setObjectName("speedBox");
+  speed->setMinimumHeight(kControlHeight);
+  speed->setToolTip("Speed (Up, Down)");
+  speed->setAccessibleName("Speed");
+  speed->setFocusPolicy(Qt::NoFocus);  // it has a key
+  for (const QAction* each : actions.speeds->actions()) speed->addItem(each->text());
+  row->addWidget(speed);
+  withText_.append({play_, add(actions.loop), add(actions.skipGaps)});
+  return group;
+}
+
+void WindowMenus::setPlaybackShown(bool on) { playback_->setVisible(on); }
 
 void WindowMenus::setCompact(bool on) {
   for (QToolButton* button : withText_)
