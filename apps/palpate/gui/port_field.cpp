@@ -92,7 +92,7 @@ void PortField::setDetail(int choice, const QString& detail) {
 
 void PortField::showState(const PortState& state) {
   mark_->setState(state.mark);
-  answer_->setText(port().isEmpty() ? whenEmpty_ : state.text);
+  answer_->setText(state.text.isEmpty() && port().isEmpty() ? whenEmpty_ : state.text);
 }
 
 }  // namespace palpate::gui
