@@ -103,7 +103,11 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
   resize(kUsualSize);
 }
 
-ConnectDialog::~ConnectDialog() = default;
+ConnectDialog::~ConnectDialog() {
+  ports_->disconnect(this);
+  scenes_->disconnect(this);
+  replay_->disconnect(this);
+}
 
 QWidget* ConnectDialog::makeKinds() {
   auto* side = new QFrame(this);

@@ -61,6 +61,11 @@ PortsPage::PortsPage(PortScan& scan, Theme theme, QWidget* parent)
   refresh();
 }
 
+PortsPage::~PortsPage() {
+  tactile_->disconnect(this);
+  motion_->disconnect(this);
+}
+
 QWidget* PortsPage::makeSwapRow() {
   swapRow_ = new QFrame(this);
   swapRow_->setObjectName("swapRow");

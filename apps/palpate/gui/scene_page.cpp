@@ -73,6 +73,8 @@ ScenePage::ScenePage(const std::filesystem::path& folder, Theme theme, QWidget* 
   list_->setCurrentRow(0);
 }
 
+ScenePage::~ScenePage() { list_->disconnect(this); }
+
 void ScenePage::addScene(const QString& scene, const QString& title) {
   auto* item = new QListWidgetItem(title, list_);
   item->setData(kSceneRole, scene);
