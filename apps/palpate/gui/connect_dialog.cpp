@@ -1,6 +1,9 @@
 #include "gui/connect_dialog.h"
 
+#include <QCheckBox>
+#include <QComboBox>
 #include <QFrame>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QRadioButton>
@@ -38,6 +41,19 @@ KindText textOf(Connection::Kind kind) {
   return {"kindEmulated", "&Emulated hand", "No hand needed: it grasps objects that aren't there"};
 }
 
+// The style takes outlines from the background and darkens it: on a dark one nothing is seen of them.
+void outlineFields(QWidget& dialog, Theme theme) {
+  if (theme != Theme::kDark) return;
+  const auto outline = [&](QWidget* field) {
+    QPalette palette = field->palette();
+    palette.setColor(QPalette::Window, colorsOf(theme).muted);
+    field->setPalette(palette);
+  };
+  for (QComboBox* box : dialog.findChildren<QComboBox*>()) outline(box);
+  for (QCheckBox* box : dialog.findChildren<QCheckBox*>()) outline(box);
+  for (QRadioButton* button : dialog.findChildren<QRadioButton*>()) outline(button);
+}
+
 std::size_t indexOf(Connection::Kind kind) {
   std::size_t index = 0;
   while (kAllConnectionKinds[index] != kind) ++index;
@@ -65,11 +81,13 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
     pages_->addWidget(kind == Connection::Kind::kPorts      ? static_cast<QWidget*>(ports_)
                       : kind == Connection::Kind::kEmulated ? static_cast<QWidget*>(scenes_)
                                                             : static_cast<QWidget*>(replay_));
-  pages_->setContentsMargins(kMargin, kMargin, kMargin, 14);
+  auto* page = new QHBoxLayout;
+  page->setContentsMargins(kMargin, kMargin, kMargin, 16);
+  page->addWidget(pages_);
   auto* middle = new QHBoxLayout;
   middle->setSpacing(0);
   middle->addWidget(makeKinds());
-  middle->addWidget(pages_, 1);
+  middle->addLayout(page, 1);
   auto* whole = new QVBoxLayout(this);
   whole->setContentsMargins(0, 0, 0, 0);
   whole->setSpacing(0);
@@ -80,11 +98,16 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
   connect(replay_, &ReplayPage::changed, this, &ConnectDialog::refresh);
   kinds_[indexOf(kind_)]->setChecked(true);
   pages_->setCurrentIndex(static_cast<int>(indexOf(kind_)));
+  outlineFields(*this, theme_);
   refresh();
   resize(kUsualSize);
 }
 
-ConnectDialog::~ConnectDialog() = default;
+ConnectDialog::~ConnectDialog() {
+  ports_->disconnect(this);
+  scenes_->disconnect(this);
+  replay_->disconnect(this);
+}
 
 QWidget* ConnectDialog::makeKinds() {
   auto* side = new QFrame(this);
@@ -142,6 +165,10 @@ QWidget* ConnectDialog::makeFoot() {
   connect_->setProperty("primary", true);
   connect_->setDefault(true);
   connect_->setMinimumWidth(110);
+  const ThemeColors& colors = colorsOf(theme_);
+  connect_->setStyleSheet(
+      QString("QPushButton:disabled { background: transparent; border-color: %1; color: %2; }")
+          .arg(colors.border.name(), colors.muted.name()));
   connect(connect_, &QPushButton::clicked, this, &QDialog::accept);
   auto* row = new QHBoxLayout(foot);
   row->setContentsMargins(16, 12, kMargin, 12);
