@@ -41,19 +41,6 @@ KindText textOf(Connection::Kind kind) {
   return {"kindEmulated", "&Emulated hand", "No hand needed: it grasps objects that aren't there"};
 }
 
-// The style takes outlines from the background and darkens it: on a dark one nothing is seen of them.
-void outlineFields(QWidget& dialog, Theme theme) {
-  if (theme != Theme::kDark) return;
-  const auto outline = [&](QWidget* field) {
-    QPalette palette = field->palette();
-    palette.setColor(QPalette::Window, colorsOf(theme).muted);
-    field->setPalette(palette);
-  };
-  for (QComboBox* box : dialog.findChildren<QComboBox*>()) outline(box);
-  for (QCheckBox* box : dialog.findChildren<QCheckBox*>()) outline(box);
-  for (QRadioButton* button : dialog.findChildren<QRadioButton*>()) outline(button);
-}
-
 std::size_t indexOf(Connection::Kind kind) {
   std::size_t index = 0;
   while (kAllConnectionKinds[index] != kind) ++index;
@@ -98,7 +85,6 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
   connect(replay_, &ReplayPage::changed, this, &ConnectDialog::refresh);
   kinds_[indexOf(kind_)]->setChecked(true);
   pages_->setCurrentIndex(static_cast<int>(indexOf(kind_)));
-  outlineFields(*this, theme_);
   refresh();
   resize(kUsualSize);
 }
@@ -165,10 +151,6 @@ QWidget* ConnectDialog::makeFoot() {
   connect_->setProperty("primary", true);
   connect_->setDefault(true);
   connect_->setMinimumWidth(110);
-  const ThemeColors& colors = colorsOf(theme_);
-  connect_->setStyleSheet(
-      QString("QPushButton:disabled { background: transparent; border-color: %1; color: %2; }")
-          .arg(colors.border.name(), colors.muted.name()));
   connect(connect_, &QPushButton::clicked, this, &QDialog::accept);
   auto* row = new QHBoxLayout(foot);
   row->setContentsMargins(16, 12, kMargin, 12);

@@ -129,10 +129,9 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   record = qobject_cast<QToolButton*>(bar->widgetForAction(actions.record));
   record->setObjectName("recordButton");
   bar->addAction(actions.live);
+  withText_.append(connectButton);
   for (QAction* action : {actions.open, actions.exportPicture, actions.live})
     withText_.append(qobject_cast<QToolButton*>(bar->widgetForAction(action)));
-  connectButton->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  record->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   playback_ = bar->addWidget(makePlayback(*bar, actions));
   showLink({}, false);
   setCompact(false);
@@ -184,6 +183,8 @@ QWidget* WindowMenus::makePlayback(QToolBar& bar, const Actions& actions) {
 void WindowMenus::setPlaybackShown(bool on) { playback_->setVisible(on); }
 
 void WindowMenus::setCompact(bool on) {
+  compact_ = on;
+  styleRecord();
   for (QToolButton* button : withText_)
     button->setToolButtonStyle(on ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
   // "Play" and "Pause" take the same room: nothing jumps when the playback starts.
@@ -200,9 +201,16 @@ void WindowMenus::showLink(const QString& text, bool good) {
   link->style()->polish(link);
 }
 
+// While it records, how long and how much is always read.
+void WindowMenus::styleRecord() {
+  const bool text = !compact_ || record->property("recording").toBool();
+  record->setToolButtonStyle(text ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
+}
+
 void WindowMenus::showRecording(bool on) {
   if (record->property("recording").toBool() == on) return;
   record->setProperty("recording", on);
+  styleRecord();
   record->style()->unpolish(record);
   record->style()->polish(record);
 }

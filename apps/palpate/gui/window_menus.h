@@ -41,6 +41,8 @@ struct WindowMenus {
   QList<QToolButton*> withText_;
   QToolButton* play_;
   QAction* playback_;
+  bool compact_ = false;
+  void styleRecord();
   QAction* linkAction_;
   void buildMenuBar(QMainWindow& window, const Actions& actions, const QList<QAction*>& toggles);
   void buildToolBar(QMainWindow& window, const Actions& actions);
