@@ -48,6 +48,7 @@ MarksByKey::MarksByKey(QWidget* parent) : QWidget(parent) {
   column->addWidget(grid_);
   connect(header_, &QToolButton::toggled, this, [this](bool open) {
     fold(open);
+    layout()->activate();  // now, so that what is around can ask how high it wants to be
     emit folded();
   });
   fold(false);
@@ -103,7 +104,6 @@ MarksByKey::Labels MarksByKey::labels() const {
 void MarksByKey::fold(bool open) {
   header_->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
   grid_->setVisible(open);
-  summary_->setVisible(!open);
   sumUp();
 }
 
@@ -113,7 +113,10 @@ void MarksByKey::sumUp() {
   for (const std::size_t digit : kKeyOrder)
     if (!all[digit].isEmpty()) marks.append(QString::number(digit) + " " + all[digit]);
   const QString text = marks.isEmpty() ? "no labels" : marks.join(" · ");
-  summary_->setText(summary_->fontMetrics().elidedText(text, Qt::ElideRight, summary_->width()));
+  const bool open = header_->isChecked();  // then they are all seen
+  summary_->setText(
+      open ? QString()
+           : summary_->fontMetrics().elidedText(text, Qt::ElideRight, summary_->width()));
   summary_->setAccessibleName(text);
 }
 

@@ -14,6 +14,7 @@
 #include <QPushButton>
 #include <QTimer>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "gui/marks_by_key.h"
 
@@ -35,7 +36,20 @@ QLineEdit:focus, QPlainTextEdit:focus { border-color: palette(highlight); }
 #recordingPreview { background: palette(base); border: 1px solid palette(mid); border-radius: 6px; }
 #recordingFoot { border-top: 1px solid palette(mid); }
 #recordingProblem { color: palette(bright-text); }
+#recordingInsert { padding-right: 22px; }
+#recordingInsert::menu-indicator { subcontrol-origin: border; subcontrol-position: right center; right: 9px; }
+#recordingOk:disabled { background: transparent; border-color: palette(mid); color: palette(placeholder-text); }
 )";
+
+// A few lines, and more when the dialog is made taller.
+class NotesField : public QPlainTextEdit {
+ public:
+  using QPlainTextEdit::QPlainTextEdit;
+  QSize sizeHint() const override {
+    return {QPlainTextEdit::sizeHint().width(), kNoteLines * fontMetrics().lineSpacing() + 14};
+  }
+  QSize minimumSizeHint() const override { return sizeHint(); }
+};
 
 struct Placeholder {
   const char* text;
@@ -132,16 +146,13 @@ QWidget* RecordingDialog::makeFields() {
   object_ = makeField("recordingObject", kMostLetters);
   object_->setPlaceholderText("what is grasped");
   add("&Object", object_);
-  notes_ = new QPlainTextEdit(fields);
+  notes_ = new NotesField(fields);
   notes_->setObjectName("recordingNotes");
   notes_->setTabChangesFocus(true);
   notes_->setPlaceholderText("whatever else should be known of it");
   notes_->setToolTip("Kept in the recording. Ctrl+Enter: done");
-  notes_->setMinimumHeight(kNoteLines * fontMetrics().lineSpacing() + 14);
   notes_->installEventFilter(this);
-  QSizePolicy tall = notes_->sizePolicy();
-  tall.setVerticalPolicy(QSizePolicy::MinimumExpanding);
-  notes_->setSizePolicy(tall);
+  notes_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   add("No&tes", notes_);
   grid->setRowStretch(row - 1, 1);
   template_ = makeField("recordingTemplate", kMostLetters);
@@ -195,6 +206,7 @@ QWidget* RecordingDialog::makePreview() {
   problem_->setObjectName("recordingProblem");
   problem_->setTextFormat(Qt::PlainText);
   problem_->setWordWrap(true);
+  problem_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // a path has no end
   problem_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   // A problem takes the place of both lines, so that nothing jumps.
   problem_->setFixedHeight(2 * fontMetrics().lineSpacing() + 3);
@@ -279,7 +291,7 @@ void RecordingDialog::browse() {
 
 // Opened marks take room from below, never from the notes.
 void RecordingDialog::fitMarks() {
-  const int growth = notes_->height() - notes_->minimumHeight();
+  const int growth = std::max(0, notes_->height() - notes_->sizeHint().height());
   layout()->activate();
   resize(width(), sizeHint().height() + growth);
 }
@@ -292,6 +304,7 @@ void RecordingDialog::refresh() {
   place_->setVisible(good);
   problem_->setVisible(!good);
   problem_->setText(next_.problem);
+  problem_->setToolTip(next_.problem);
   ok_->setEnabled(good);
   showTexts();
 }
