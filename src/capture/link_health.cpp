@@ -188,8 +188,9 @@ BeforeRun checkBeforeRun(const LinkInputs& inputs,
                          const std::optional<Temperatures>& temperatures,
                          const FolderState& folder,
                          const HealthOptions& options) {
-  const auto red = [](std::string text) {
-    return BeforeRun{false, "not ready: " + std::move(text)};
+  const auto hours = hoursOf(folder.freeBytes, bytesPerSecond(inputs.recorder, options));
+  const auto red = [&](std::string text) {
+    return BeforeRun{false, "not ready: " + std::move(text), folder.freeBytes, hours};
   };
   if (!inputs.started) return red("no hand is connected");
   for (const std::string& fault :
@@ -204,7 +205,6 @@ BeforeRun checkBeforeRun(const LinkInputs& inputs,
   const std::string where = folder.path.string();
   if (!folder.writable)
     return red(where + " can't be written: choose another folder, or change its permissions");
-  const auto hours = hoursOf(folder.freeBytes, bytesPerSecond(inputs.recorder, options));
   if (hours && *hours < options.lowDiskHours)
     return red("room for only " + fixedText(*hours * 60.0, 0) + " minutes in " + where);
   std::string text = "ready: " + fixedText(frames.rateHz, 1) + " frames/s";
@@ -217,7 +217,7 @@ BeforeRun checkBeforeRun(const LinkInputs& inputs,
     return red("no temperature has come yet");
   }
   if (hours) text += ", disk for " + hoursText(*hours);
-  return {true, text};
+  return {true, text, folder.freeBytes, hours};
 }
 
 }  // namespace palpate

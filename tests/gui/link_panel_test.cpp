@@ -64,10 +64,10 @@ TEST(LinkPanel, OneLineBeforeARun) {
   LinkPanel panel;
   const auto* line = panel.findChild<QLabel*>("beforeRun");
   EXPECT_TRUE(line->text().contains("Ctrl+K"));
-  panel.showHealth(goodHealth(), BeforeRun{true, "ready: 31.7 frames/s"});
+  panel.showHealth(goodHealth(), BeforeRun{true, "ready: 31.7 frames/s", {}, {}});
   EXPECT_EQ(line->text(), "ready: 31.7 frames/s");
   EXPECT_TRUE(line->styleSheet().contains(colorsOf(Theme::kDark).accent.name()));
-  panel.showHealth(goodHealth(), BeforeRun{false, "not ready: no frame comes"});
+  panel.showHealth(goodHealth(), BeforeRun{false, "not ready: no frame comes", {}, {}});
   EXPECT_TRUE(line->styleSheet().contains(colorsOf(Theme::kDark).danger.name()));
   panel.clear();
   EXPECT_TRUE(line->text().contains("Ctrl+K"));

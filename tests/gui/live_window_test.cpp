@@ -3,6 +3,7 @@
 #include <QMenu>
 #include <QPushButton>
 #include <QToolButton>
+#include <set>
 
 #include <palpate/recording/recording.h>
 
@@ -96,6 +97,17 @@ TEST_F(LiveWindowTest, ShowsWhatIsConnected) {
   EXPECT_TRUE(view().notice().isEmpty());
   EXPECT_TRUE(actions().record->isEnabled());
   EXPECT_FALSE(actions().play->isEnabled());
+}
+
+TEST_F(LiveWindowTest, NoKeyMeansTwoThingsAtOnce) {
+  connectEmulated("empty");
+  std::set<QString> seen;
+  for (const QAction* action : window().actions())
+    for (const QKeySequence& key :
+         action->isEnabled() ? action->shortcuts() : QList<QKeySequence>())
+      EXPECT_TRUE(seen.insert(key.toString()).second) << key.toString().toStdString();
+  EXPECT_TRUE(seen.contains("Space"));
+  EXPECT_TRUE(seen.contains("0"));
 }
 
 TEST_F(LiveWindowTest, NothingIsConnectedWithoutBeingAsked) {

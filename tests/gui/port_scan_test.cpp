@@ -4,10 +4,16 @@
 #include <QSignalSpy>
 #include <QTest>
 #include <QThread>
-#include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
+#include <memory>
+#include <thread>
 
+#include <pty.h>
+#include <unistd.h>
+
+#include "control/emulated_bench.h"
 #include "fake_ports.h"
 #include "testing/testing.h"
 
@@ -15,6 +21,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kPatienceMs = 10'000;
+constexpr std::chrono::seconds kLong{10};  // a machine may be busy
 
 // What the scan says, in the order it says it.
 class Heard : public QObject {
@@ -164,7 +171,7 @@ TEST(PortScan, CancelFreesThePortsAndIsSilent) {
   Heard heard(scan);
   scan.scan();
   ASSERT_TRUE(QTest::qWaitFor([&] { return fake.numOpen() == 2; }, kPatienceMs));
-  EXPECT_TRUE(scan.cancel());
+  EXPECT_TRUE(scan.cancel(kLong));
   EXPECT_EQ(fake.numOpen(), 0);
   EXPECT_FALSE(scan.running());
   QCoreApplication::processEvents();
@@ -218,7 +225,8 @@ TEST(PortScan, EndsQuicklyWhileAPortHangs) {
   const auto begin = std::chrono::steady_clock::now();
   scan.reset();
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
-  EXPECT_EQ(fake.numOpen(), 0) << "it was given up, not left behind";
+  EXPECT_TRUE(QTest::qWaitFor([&] { return fake.numOpen() == 0; }, kPatienceMs))
+      << "it was given up, not left behind";
 }
 
 // A port whose driver holds a thread up: the program doesn't wait for it.
@@ -238,6 +246,41 @@ TEST(PortScan, LeavesAThreadBehindThatTheSystemHoldsUp) {
   EXPECT_TRUE(QTest::qWaitFor([&] { return fake.numOpen() == 0; }, kPatienceMs));
 }
 
+// The real functions, on the ptys of an emulated hand (not scan(): that would ask this machine's ports).
+TEST(PortScan, FindsTheControllersOfAHandAndMovesNothing) {
+  testing::EmulatedBench bench(testing::stillHand());
+  const QString tactile = QString::fromStdString(bench.hand->dsaPort());
+  const QString motion = QString::fromStdString(bench.hand->sdhPort());
+  PortScan scan;
+  Heard heard(scan);
+  scan.ask(tactile);
+  scan.ask(motion);
+  ASSERT_TRUE(heard.await("finished"));
+  ASSERT_EQ(heard.probes.size(), 2);
+  for (const PortProbe& probe : heard.probes)
+    EXPECT_EQ(probe.answer,
+              probe.port == tactile.toStdString() ? PortAnswer::kTactile : PortAnswer::kMotion)
+        << probe.message;
+  EXPECT_TRUE(bench.log.deeds().empty());
+  EXPECT_FALSE(bench.handMoves());
+}
+
+// A pty where nobody answers: asking takes 2.5 s, unless it is given up.
+TEST(PortScan, GivesUpAPortThatIsSilent) {
+  int ours = -1;
+  int theirs = -1;
+  std::array<char, 256> name = {};
+  ASSERT_EQ(::openpty(&ours, &theirs, name.data(), nullptr, nullptr), 0);
+  PortScan scan;
+  scan.ask(name.data());
+  // The question has come: the port is open.
+  std::array<char, 64> question = {};
+  EXPECT_GT(::read(ours, question.data(), question.size()), 0);
+  EXPECT_TRUE(scan.cancel(kLong));
+  ::close(theirs);
+  ::close(ours);
+}
+
 TEST(PortScan, CanBeDestroyedAtAnyMoment) {
   FakePorts fake;
   fake.list({usbPort("a"), usbPort("b"), usbPort("c")});
@@ -246,7 +289,7 @@ TEST(PortScan, CanBeDestroyedAtAnyMoment) {
     scan.scan();
     for (int rounds = 0; rounds < i % 5; ++rounds) QCoreApplication::processEvents();
   }
-  EXPECT_EQ(fake.numOpen(), 0);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return fake.numOpen() == 0; }, kPatienceMs));
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "gui/connect_dialog.h"
 
+#include <QCheckBox>
+#include <QComboBox>
 #include <QFrame>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QRadioButton>
@@ -65,11 +68,13 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
     pages_->addWidget(kind == Connection::Kind::kPorts      ? static_cast<QWidget*>(ports_)
                       : kind == Connection::Kind::kEmulated ? static_cast<QWidget*>(scenes_)
                                                             : static_cast<QWidget*>(replay_));
-  pages_->setContentsMargins(kMargin, kMargin, kMargin, 14);
+  auto* page = new QHBoxLayout;
+  page->setContentsMargins(kMargin, kMargin, kMargin, 16);
+  page->addWidget(pages_);
   auto* middle = new QHBoxLayout;
   middle->setSpacing(0);
   middle->addWidget(makeKinds());
-  middle->addWidget(pages_, 1);
+  middle->addLayout(page, 1);
   auto* whole = new QVBoxLayout(this);
   whole->setContentsMargins(0, 0, 0, 0);
   whole->setSpacing(0);
@@ -84,7 +89,11 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
   resize(kUsualSize);
 }
 
-ConnectDialog::~ConnectDialog() = default;
+ConnectDialog::~ConnectDialog() {
+  ports_->disconnect(this);
+  scenes_->disconnect(this);
+  replay_->disconnect(this);
+}
 
 QWidget* ConnectDialog::makeKinds() {
   auto* side = new QFrame(this);

@@ -24,9 +24,12 @@ QString keyOf(Connection::Kind kind) {
   return "emulated";
 }
 
-// "/dev/ttyUSB0" is known by its last part, "tcp:host:1" as a whole.
+// "/dev/ttyUSB0" is known by its last part, "tcp:host:1" as a whole; names by-id are long.
 QString shortName(const QString& port) {
-  return port.startsWith('/') ? port.section('/', -1) : port;
+  constexpr int kLongest = 28;
+  constexpr int kKept = 13;  // of both ends
+  const QString name = port.startsWith('/') ? port.section('/', -1) : port;
+  return name.size() <= kLongest ? name : name.left(kKept) + "…" + name.right(kKept);
 }
 
 }  // namespace

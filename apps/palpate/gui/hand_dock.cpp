@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -140,6 +141,9 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   column->addLayout(measured);
   column->addStretch(1);
   area->setWidget(content);
+  // Nothing is cut off at the side: there it can't be scrolled.
+  area->setMinimumWidth(content->minimumSizeHint().width() +
+                        area->verticalScrollBar()->sizeHint().width());
   return area;
 }
 

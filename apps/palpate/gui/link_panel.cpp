@@ -185,7 +185,12 @@ void LinkPanel::showHealth(const LinkHealth& health, const std::optional<BeforeR
   connected_ = true;
   recording_ = health.recorder.state != RecorderStatus::State::kIdle;
   lastCheck_ = check;
-  std::vector<Fact> facts = factsOf(health);
+  LinkHealth known = health;
+  if (!known.freeBytes && check) {  // the recorder asks only while it records
+    known.freeBytes = check->freeBytes;
+    known.diskHours = check->diskHours;
+  }
+  std::vector<Fact> facts = factsOf(known);
   if (facts.size() != facts_->facts().size()) {
     facts_->setFacts(std::move(facts));
   } else {

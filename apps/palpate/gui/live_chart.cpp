@@ -52,7 +52,6 @@ LiveChart::LiveChart(QWidget* parent)
     : QCustomPlot(parent), secondsTicker_(new QCPAxisTickerFixed) {
   setLocale(QLocale::c());
   setPlottingHint(QCP::phFastPolylines, true);
-  setNotAntialiasedElements(QCP::aeAll);
   setAccessibleName("Live chart");
   setToolTip("Wheel: how many seconds are seen");
   xAxis->setLabel("time since the first frame in s");
@@ -123,8 +122,7 @@ void LiveChart::rebuild() {
   for (std::size_t row = 0; row < plotted_.size(); ++row) {
     if (!plotted_[row]) continue;
     const bool whole = row + 1 == plotted_.size();
-    // Lines of one pixel are drawn several times as fast as wider ones.
-    QPen pen(whole ? wholeColor(theme_) : matrixColor(row, theme_), 1.0);
+    QPen pen(whole ? wholeColor(theme_) : matrixColor(row, theme_), 1.4);
     if (whole) pen.setStyle(Qt::DashLine);
     QCPGraph* graph = addGraph();
     graph->setPen(pen);

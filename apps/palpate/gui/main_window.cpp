@@ -100,8 +100,7 @@ void MainWindow::buildParts(const std::filesystem::path& dataFolder) {
   actions_.openDemo->setEnabled(withDemo);
 
   auto* page = new QWidget(this);
-  alarmStrip_ = new MessageBanner(page);
-  alarmStrip_->setObjectName("AlarmStrip");
+  alarmStrip_ = new MessageBanner(page, "AlarmStrip", "alarm");
   banner_ = new MessageBanner(page);
   offer_ = new OfferStrip(page);
   opening_ = new OpeningStrip(page);

@@ -48,7 +48,8 @@ void MainWindow::connectLive() {
     PortScan scan;
     // What is connected now answers us, not a probe.
     const Connection& now = live_.connection();
-    if (live_.source()) scan.setBusy({now.dsaPort, now.sdhPort});
+    if (live_.source() && now.kind == Connection::Kind::kPorts)
+      scan.setBusy({now.dsaPort, now.sdhPort});
     ConnectDialog dialog({.last = last,
                           .scenesFolder = demoPath_.parent_path() / "scenes",
                           .recentRecordings = recent_.paths(),

@@ -199,6 +199,7 @@ void MainWindow::setPlace(Place place) {
   stack_->setCurrentIndex(there ? 1 : 0);
   charts_->setCurrentIndex(place == Place::kLive ? 1 : 0);
   playbackBar_->setVisible(place == Place::kRecording);
+  menus_->setPlaybackShown(place != Place::kLive);
   if (there) {
     if (layouts_[place].isEmpty() || !restoreState(layouts_[place])) defaultLayout();
   } else {

@@ -127,7 +127,7 @@ void MatricesPanel::setRecording(const OpenedRecordingPtr& recording) {
 void MatricesPanel::setHand(const HandDescription& hand) {
   recording_.reset();
   frame_ = TactileFrame();
-  range_->setItemText(0, "largest so far");  // there is no whole recording yet
+  range_->setItemText(0, "largest so far");    // there is no whole recording yet
   if (!hand_) largestLive_ = kLeastLiveRange;  // else the same one, with other taxels scanned
   hand_ = hand;
   view_->setHand(hand);
@@ -162,9 +162,9 @@ void MatricesPanel::setSettings(const ViewSettings& settings, Theme theme) {
   theme_ = theme;
   const QSignalBlocker blockedMin(minimum_), blockedMax(maximum_);
   map_->setCurrentText(nameOf(settings.map));
-  range_->setCurrentIndex(static_cast<int>(
-      std::find(kAllRangeModes.begin(), kAllRangeModes.end(), settings.range) -
-      kAllRangeModes.begin()));
+  range_->setCurrentIndex(
+      static_cast<int>(std::find(kAllRangeModes.begin(), kAllRangeModes.end(), settings.range) -
+                       kAllRangeModes.begin()));
   minimum_->setValue(settings.manualMin);
   maximum_->setValue(settings.manualMax);
   const bool manual = settings.range == RangeMode::kManual;

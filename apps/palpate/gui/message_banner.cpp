@@ -13,16 +13,17 @@ constexpr qsizetype kMostLines = 4;
 
 }  // namespace
 
-MessageBanner::MessageBanner(QWidget* parent) : QWidget(parent) {
-  setObjectName("MessageBanner");
+MessageBanner::MessageBanner(QWidget* parent, const QString& name, const QString& part)
+    : QWidget(parent) {
+  setObjectName(name);
   setAttribute(Qt::WA_StyledBackground);
   text_ = new QLabel(this);
-  text_->setObjectName("bannerText");
+  text_->setObjectName(part + "Text");
   text_->setTextFormat(Qt::PlainText);  // file names are no mark-up
   text_->setWordWrap(true);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   close_ = new QToolButton(this);
-  close_->setObjectName("bannerClose");
+  close_->setObjectName(part + "Close");
   close_->setProperty("flat", true);
   close_->setIconSize({12, 12});
   close_->setFocusPolicy(Qt::NoFocus);

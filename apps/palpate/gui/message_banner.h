@@ -13,7 +13,10 @@ namespace palpate::gui {
 class MessageBanner : public QWidget {
   Q_OBJECT
  public:
-  explicit MessageBanner(QWidget* parent = nullptr);
+  // `part`: the beginning of its parts' names.
+  explicit MessageBanner(QWidget* parent = nullptr,
+                         const QString& name = "MessageBanner",
+                         const QString& part = "banner");
   // Failures of several files are shown together.
   void showMessage(const QString& message);
   // Exactly these, instead of what was shown; none: hides.

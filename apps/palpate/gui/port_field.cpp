@@ -56,6 +56,12 @@ PortField::PortField(const QString& title,
   connect(box_->lineEdit(), &QLineEdit::editingFinished, this, &PortField::entered);
 }
 
+// Dying with the keyboard in it, the box says that typing has ended: nobody is there any more to hear it.
+PortField::~PortField() {
+  box_->lineEdit()->disconnect(this);
+  box_->disconnect(this);
+}
+
 QString PortField::port() const { return box_->currentText().trimmed(); }
 
 void PortField::setPort(const QString& port) {
@@ -92,7 +98,7 @@ void PortField::setDetail(int choice, const QString& detail) {
 
 void PortField::showState(const PortState& state) {
   mark_->setState(state.mark);
-  answer_->setText(port().isEmpty() ? whenEmpty_ : state.text);
+  answer_->setText(state.text.isEmpty() && port().isEmpty() ? whenEmpty_ : state.text);
 }
 
 }  // namespace palpate::gui

@@ -29,6 +29,8 @@ class PortField : public QWidget {
             Theme theme,
             QWidget* parent);
 
+  ~PortField() override;
+
   QString port() const;  // as openChannel() takes it; empty: none
   void setPort(const QString& port);
   // The user has chosen or typed something: it is his.

@@ -2,7 +2,6 @@
 
 #include <QMetaObject>
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <filesystem>
@@ -15,8 +14,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kAtOnce = 8;                           // ports asked at the same time
-constexpr std::chrono::milliseconds kPatience{150};  // of cancel()
+constexpr int kAtOnce = 8;  // ports asked at the same time
 
 PortScan::Functions realFunctions() {
   return {[] { return listPorts(); },
@@ -77,11 +75,11 @@ struct PortScan::Round {
     });
   }
 
-  bool end() {
+  bool end(std::chrono::milliseconds patience) {
     cancelled = true;
     std::unique_lock lock(mutex);
     receiver = nullptr;
-    const bool allDone = idle.wait_for(lock, kPatience, [this] { return numRunning == 0; });
+    const bool allDone = idle.wait_for(lock, patience, [this] { return numRunning == 0; });
     reap();
     for (Worker& worker : workers) worker.thread.detach();
     return allDone;
@@ -130,12 +128,12 @@ void PortScan::ask(const QString& port) {
   askNext();
 }
 
-bool PortScan::cancel() {
+bool PortScan::cancel(std::chrono::milliseconds patience) {
   waiting_.clear();
   pending_ = 0;
   asking_ = 0;
   const auto round = std::exchange(round_, nullptr);
-  return !round || round->end();
+  return !round || round->end(patience);
 }
 
 void PortScan::takeList(std::vector<PortInfo> found) {

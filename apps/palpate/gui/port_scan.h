@@ -5,6 +5,7 @@
 #include <QList>
 #include <QObject>
 #include <QStringList>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -35,6 +36,7 @@ class PortScan : public QObject {
 
   explicit PortScan(QObject* parent = nullptr);
   PortScan(Functions functions, QObject* parent = nullptr);
+  static constexpr std::chrono::milliseconds kPatience{150};
   // As cancel(). A thread that the system holds up longer ends by itself later, and is heard no more.
   ~PortScan() override;
 
@@ -44,9 +46,9 @@ class PortScan : public QObject {
   void scan();
   // Asks one port more that isn't listed: a pty, "tcp:HOST:PORT". Nothing for one of setBusy().
   void ask(const QString& port);
-  // Ends what is running, without finished(). Returns when the ports are free again, at most 150 ms
-  // later; false: one isn't yet.
-  bool cancel();
+  // Ends what is running, without finished(). Returns when the ports are free again (usually
+  // after 20 ms), at the latest after `patience`; false: one isn't yet.
+  bool cancel(std::chrono::milliseconds patience = kPatience);
   // A list or an answer is still to come.
   bool running() const noexcept { return pending_ > 0; }
 

@@ -61,6 +61,11 @@ PortsPage::PortsPage(PortScan& scan, Theme theme, QWidget* parent)
   refresh();
 }
 
+PortsPage::~PortsPage() {
+  tactile_->disconnect(this);
+  motion_->disconnect(this);
+}
+
 QWidget* PortsPage::makeSwapRow() {
   swapRow_ = new QFrame(this);
   swapRow_->setObjectName("swapRow");
@@ -254,7 +259,9 @@ std::optional<PortProbe> PortsPage::probeOf(const PortField& field) const {
 }
 
 PortState PortsPage::stateOf(const PortField& field, PortAnswer wanted) const {
-  if (field.port().isEmpty()) return {};
+  if (field.port().isEmpty())
+    return scan_.running() && !field.touched() ? PortState{State::kAtWork, "Looking for it…"}
+                                               : PortState{};
   const QString key = keyOf(field.port());
   if (const auto probe = probeOf(field)) {
     const bool other =

@@ -25,6 +25,8 @@ class PortsPage : public QWidget {
   // `scan` must outlive this.
   PortsPage(PortScan& scan, Theme theme, QWidget* parent);
 
+  ~PortsPage() override;
+
   void setPorts(const QString& tactile, const QString& motion);
   QString tactilePort() const { return tactile_->port(); }
   QString motionPort() const { return motion_->port(); }

@@ -77,6 +77,8 @@ ReplayPage::ReplayPage(const QStringList& recent, Theme theme, QWidget* parent) 
   refresh();
 }
 
+ReplayPage::~ReplayPage() { path_->disconnect(this); }
+
 void ReplayPage::setRecording(const QString& path) {
   path_->setEditText(path);
   refresh();

@@ -22,6 +22,8 @@ class ReplayPage : public QWidget {
   // `recent`: paths, newest first.
   ReplayPage(const QStringList& recent, Theme theme, QWidget* parent);
 
+  ~ReplayPage() override;
+
   void setRecording(const QString& path);
   QString recording() const;
   // Why it can't be replayed, one line; empty: it can, or none is chosen.

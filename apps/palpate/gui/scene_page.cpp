@@ -73,10 +73,11 @@ ScenePage::ScenePage(const std::filesystem::path& folder, Theme theme, QWidget* 
   list_->setCurrentRow(0);
 }
 
+ScenePage::~ScenePage() { list_->disconnect(this); }
+
 void ScenePage::addScene(const QString& scene, const QString& title) {
   auto* item = new QListWidgetItem(title, list_);
   item->setData(kSceneRole, scene);
-  item->setToolTip(scene);
   try {
     const Scene loaded = loadScene(scene.toStdString(), folder_);
     item->setData(TwoLineDelegate::kDetailRole, QString::fromStdString(loaded.description));
@@ -86,6 +87,7 @@ void ScenePage::addScene(const QString& scene, const QString& title) {
     item->setData(TwoLineDelegate::kDetailRole, problem);
     item->setData(kProblemRole, "This scene can't be used: " + problem);
   }
+  item->setToolTip(scene + "\n" + item->data(TwoLineDelegate::kDetailRole).toString());
 }
 
 void ScenePage::setScene(const QString& scene) {

@@ -19,6 +19,8 @@ class ScenePage : public QWidget {
  public:
   ScenePage(const std::filesystem::path& folder, Theme theme, QWidget* parent);
 
+  ~ScenePage() override;
+
   // A name in the folder, or the path of a scene.
   void setScene(const QString& scene);
   QString scene() const;

@@ -60,6 +60,7 @@ QPushButton { background: @raised; border: 1px solid @border; border-radius: 5px
 QPushButton:hover, QPushButton:focus { border-color: @accent; }
 QPushButton:pressed { background: @accentSoft; }
 QPushButton[primary="true"] { background: @accentSoft; border-color: @accent; color: @accent; }
+QPushButton[primary="true"]:disabled { background: transparent; border-color: @border; color: @muted; }
 QPushButton[danger="true"] { background: @dangerSoft; border-color: @danger; color: @danger; font-weight: bold; }
 QPushButton[danger="true"]:pressed { background: @danger; color: @window; }
 QPushButton[danger="true"]:disabled { background: transparent; border-color: @border; color: @muted; }
@@ -117,6 +118,14 @@ QString styleOf(Theme theme) {
                                                   {"@muted", colors.muted}};
   for (const auto& [name, color] : names) style.replace(name, color.name());
   return style;
+}
+
+// The style takes outlines from the background and darkens it: on a dark one nothing is seen of them.
+void outlineFields(Theme theme) {
+  QPalette palette = paletteOf(theme);
+  if (theme == Theme::kDark) palette.setColor(QPalette::Window, colorsOf(theme).muted);
+  for (const char* field : {"QComboBox", "QCheckBox", "QRadioButton"})
+    QApplication::setPalette(palette, field);
 }
 
 }  // namespace
@@ -200,6 +209,7 @@ void applyTheme(QApplication& application, Theme theme) {
   systemTheme();  // read before the palette is ours
   QApplication::setStyle(QStyleFactory::create("Fusion"));
   QApplication::setPalette(paletteOf(theme));
+  outlineFields(theme);
   application.setStyleSheet(styleOf(theme));
 }
 

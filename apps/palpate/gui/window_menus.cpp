@@ -1,6 +1,7 @@
 #include "gui/window_menus.h"
 
 #include <QComboBox>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QMainWindow>
 #include <QMenuBar>
@@ -128,27 +129,10 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   record = qobject_cast<QToolButton*>(bar->widgetForAction(actions.record));
   record->setObjectName("recordButton");
   bar->addAction(actions.live);
-  bar->addSeparator();
-  bar->addActions({actions.toStart, actions.stepBack, actions.play, actions.stepForward});
-  speed = new QComboBox(bar);
-  speed->setObjectName("speedBox");
-  speed->setMinimumHeight(kControlHeight);
-  speed->setToolTip("Speed (Up, Down)");
-  speed->setAccessibleName("Speed");
-  speed->setFocusPolicy(Qt::NoFocus);  // it has a key
-  for (const QAction* each : actions.speeds->actions()) speed->addItem(each->text());
-  bar->addWidget(speed);
-  bar->addActions({actions.loop, actions.skipGaps});
-  for (QAction* action : {actions.open,
-                          actions.exportPicture,
-                          actions.play,
-                          actions.loop,
-                          actions.skipGaps,
-                          actions.live})
+  withText_.append(connectButton);
+  for (QAction* action : {actions.open, actions.exportPicture, actions.live})
     withText_.append(qobject_cast<QToolButton*>(bar->widgetForAction(action)));
-  connectButton->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  record->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  play_ = bar->widgetForAction(actions.play);
+  playback_ = bar->addWidget(makePlayback(*bar, actions));
   showLink({}, false);
   setCompact(false);
   auto* spacer = new QWidget(bar);
@@ -166,7 +150,41 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   bar->addAction(actions.keys);
 }
 
+// What plays a recording, as one: while live is shown nothing of it is of use.
+QWidget* WindowMenus::makePlayback(QToolBar& bar, const Actions& actions) {
+  auto* group = new QWidget(&bar);
+  auto* row = new QHBoxLayout(group);
+  row->setContentsMargins(8, 0, 0, 0);
+  row->setSpacing(5);
+  const auto add = [&](QAction* action) {
+    auto* button = new QToolButton(group);
+    button->setDefaultAction(action);
+    button->setIconSize(bar.iconSize());
+    button->setFocusPolicy(Qt::NoFocus);  // it has a key
+    row->addWidget(button);
+    return button;
+  };
+  add(actions.toStart);
+  add(actions.stepBack);
+  play_ = add(actions.play);
+  add(actions.stepForward);
+  speed = new QComboBox(group);
+  speed->setObjectName("speedBox");
+  speed->setMinimumHeight(kControlHeight);
+  speed->setToolTip("Speed (Up, Down)");
+  speed->setAccessibleName("Speed");
+  speed->setFocusPolicy(Qt::NoFocus);  // it has a key
+  for (const QAction* each : actions.speeds->actions()) speed->addItem(each->text());
+  row->addWidget(speed);
+  withText_.append({play_, add(actions.loop), add(actions.skipGaps)});
+  return group;
+}
+
+void WindowMenus::setPlaybackShown(bool on) { playback_->setVisible(on); }
+
 void WindowMenus::setCompact(bool on) {
+  compact_ = on;
+  styleRecord();
   for (QToolButton* button : withText_)
     button->setToolButtonStyle(on ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
   // "Play" and "Pause" take the same room: nothing jumps when the playback starts.
@@ -183,9 +201,16 @@ void WindowMenus::showLink(const QString& text, bool good) {
   link->style()->polish(link);
 }
 
+// While it records, how long and how much is always read.
+void WindowMenus::styleRecord() {
+  const bool text = !compact_ || record->property("recording").toBool();
+  record->setToolButtonStyle(text ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
+}
+
 void WindowMenus::showRecording(bool on) {
   if (record->property("recording").toBool() == on) return;
   record->setProperty("recording", on);
+  styleRecord();
   record->style()->unpolish(record);
   record->style()->polish(record);
 }

@@ -9,6 +9,7 @@ class QComboBox;
 class QLabel;
 class QMainWindow;
 class QMenu;
+class QToolBar;
 class QToolButton;
 class QWidget;
 
@@ -22,6 +23,7 @@ struct WindowMenus {
 
   // Buttons without text, for a narrow window.
   void setCompact(bool on);
+  void setPlaybackShown(bool on);
   // What is connected; empty: nothing is shown. `good`: data come.
   void showLink(const QString& text, bool good);
   void showRecording(bool on);  // the button turns red
@@ -37,10 +39,14 @@ struct WindowMenus {
 
  private:
   QList<QToolButton*> withText_;
-  QWidget* play_;
+  QToolButton* play_;
+  QAction* playback_;
+  bool compact_ = false;
+  void styleRecord();
   QAction* linkAction_;
   void buildMenuBar(QMainWindow& window, const Actions& actions, const QList<QAction*>& toggles);
   void buildToolBar(QMainWindow& window, const Actions& actions);
+  QWidget* makePlayback(QToolBar& bar, const Actions& actions);
 };
 
 }  // namespace palpate::gui

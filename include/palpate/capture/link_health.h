@@ -109,6 +109,8 @@ LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options =
 struct BeforeRun {
   bool ready = false;
   std::string text;
+  std::optional<std::uint64_t> freeBytes;  // in the folder that was asked about
+  std::optional<double> diskHours;         // at this rate
 };
 // `freeBytes` on the disk of `folder`, nothing when unknown; `writable`: whether files can be made there.
 struct FolderState {
