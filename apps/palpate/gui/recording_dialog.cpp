@@ -38,7 +38,6 @@ QLineEdit:focus, QPlainTextEdit:focus { border-color: palette(highlight); }
 #recordingProblem { color: palette(bright-text); }
 #recordingInsert { padding-right: 22px; }
 #recordingInsert::menu-indicator { subcontrol-origin: border; subcontrol-position: right center; right: 9px; }
-#recordingOk:disabled { background: transparent; border-color: palette(mid); color: palette(placeholder-text); }
 )";
 
 // A few lines, and more when the dialog is made taller.

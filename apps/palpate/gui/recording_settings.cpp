@@ -114,7 +114,8 @@ fs::path nextPath(const RecordingSettings& recording, std::int64_t nowUs) {
     if (checkFolder(folder)) {
       std::error_code failure;
       fs::create_directories(folder, failure);
-      if (failure) throw FileError(folder, "can't be made: " + failure.message());
+      if (failure)
+        throw FileError(folder, "can't be made (" + failure.message() + "); choose another folder");
     }
     return nextRecordingPath(
         folder, recording.nameTemplate.toStdString(), fieldsOf(recording, nowUs));

@@ -1,0 +1,176 @@
+#include "palpate/recording/unfinished_recordings.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <sys/stat.h>
+
+#include "palpate/core/error.h"
+#include "palpate/core/one_line.h"
+#include "palpate/recording/palpate_schema.h"
+
+#include "recording/palpate_access.h"
+#include "recording/palpate_lock.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kEnding = ".palpate";
+constexpr std::string_view kRecovered = "_recovered";
+// Leaves room in the 255 bytes of a name for "_recovered-99.palpate-journal".
+constexpr std::size_t kMostStem = 220;
+
+bool isRecordingName(std::string_view name) {
+  if (name.size() <= kEnding.size() || name.front() == '.') return false;
+  const std::string_view ending = name.substr(name.size() - kEnding.size());
+  return std::equal(ending.begin(), ending.end(), kEnding.begin(), [](unsigned char a, char b) {
+    return std::tolower(a) == b;
+  });
+}
+
+// "NAME_recovered" of NAME.palpate.
+std::string recoveredStem(const std::string& name) {
+  const std::string_view stem = std::string_view(name).substr(0, name.size() - kEnding.size());
+  return std::string(beginningOf(stem, kMostStem)) + std::string(kRecovered);
+}
+
+// Whether `names` has NAME_recovered.palpate or NAME_recovered-N.palpate of NAME.palpate.
+bool wasRecovered(const std::string& name, const std::set<std::string>& names) {
+  const std::string stem = recoveredStem(name);
+  for (auto at = names.lower_bound(stem); at != names.end() && at->starts_with(stem); ++at) {
+    std::string_view rest = std::string_view(*at).substr(stem.size());
+    if (rest == kEnding) return true;
+    if (!rest.starts_with('-') || !rest.ends_with(kEnding)) continue;
+    rest = rest.substr(1, rest.size() - 1 - kEnding.size());
+    if (!rest.empty() && rest.find_first_not_of("0123456789") == std::string_view::npos)
+      return true;
+  }
+  return false;
+}
+
+// Of a name that a regular file has; links aren't followed.
+std::optional<struct stat> regularFile(const fs::path& path) {
+  struct stat facts {};
+  if (::lstat(path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode)) return std::nullopt;
+  return facts;
+}
+
+// Something else than a file under the name of a side file could keep whoever opens it waiting.
+bool sideFilesAreFiles(const fs::path& recording) {
+  std::error_code ignored;
+  for (const fs::path& side : {lockPathOf(recording), journalPathOf(recording)})
+    if (fs::exists(fs::symlink_status(side, ignored)) && !regularFile(side)) return false;
+  return true;
+}
+
+std::uint32_t bigEndian(const char* bytes) {
+  std::uint32_t value = 0;
+  for (int i = 0; i < 4; ++i)
+    value = value << 8 | std::uint32_t{static_cast<unsigned char>(bytes[i])};
+  return value;
+}
+
+// What a file begins with, as far as it goes.
+std::string beginning(const fs::path& path, std::size_t numBytes) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes(numBytes, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(numBytes));
+  bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount())));
+  return bytes;
+}
+
+// A journal that has to be played back: its writer died inside a commit (the database file format of
+// SQLite, section 3). Of an empty database it would leave nothing.
+bool diedInCommit(const fs::path& recording) {
+  constexpr std::string_view kMagic = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
+  constexpr std::size_t kPagesAt = 16;  // pages of the database before
+  const std::string journal = beginning(journalPathOf(recording), kPagesAt + 4);
+  return journal.size() == kPagesAt + 4 && journal.starts_with(kMagic) &&
+         bigEndian(journal.data() + kPagesAt) > 0;
+}
+
+// By its header alone, which is the same at any moment of its life (section 1.3).
+bool looksLikeRecording(const fs::path& path) {
+  constexpr std::size_t kApplicationIdAt = 68;
+  const std::string header = beginning(path, kApplicationIdAt + 4);
+  return header.size() == kApplicationIdAt + 4 && header.starts_with("SQLite format 3") &&
+         bigEndian(header.data() + kApplicationIdAt) == std::uint32_t{kPalpateApplicationId};
+}
+
+// The lock comes first: a recording whose lock is free is never written again, so that nothing here
+// gets into the way of a writer, be it in this very process (where closing a file that SQLite has
+// open would drop SQLite's own locks on it).
+bool isUnfinished(const fs::path& path) {
+  if (!sideFilesAreFiles(path) || RecordingLock::isHeld(path)) return false;
+  // A copy, as the reader makes one, would take long for a long recording.
+  if (diedInCommit(path)) return looksLikeRecording(path);
+  try {
+    PalpateAccess access(path);
+    return access.unfinished() &&
+           access.database().integerOf(
+               "SELECT EXISTS(SELECT 1 FROM block) OR EXISTS(SELECT 1 FROM event)") != 0;
+  } catch (const Error&) {
+    return false;  // no recording, damaged, no permission
+  }
+}
+
+// Names of all that lies in a folder.
+std::set<std::string> listed(const fs::path& folder) {
+  std::set<std::string> names;
+  std::error_code failure;
+  fs::directory_iterator entries(folder, failure);
+  if (failure == std::errc::no_such_file_or_directory) return names;
+  for (; !failure && entries != fs::directory_iterator(); entries.increment(failure))
+    names.insert(entries->path().filename().string());
+  if (failure) throw FileError(folder, "can't be listed: " + failure.message());
+  return names;
+}
+
+}  // namespace
+
+std::vector<UnfinishedRecording> findUnfinished(const fs::path& folder, const Progress& progress) {
+  const std::set<std::string> names = listed(folder);
+  std::vector<UnfinishedRecording> found;
+  double seen = 0.0;
+  for (const std::string& name : names) {
+    if (progress && !progress(seen++ / static_cast<double>(names.size()))) throw Cancelled();
+    if (!isRecordingName(name) || wasRecovered(name, names)) continue;
+    const fs::path path = folder / name;
+    const auto facts = regularFile(path);
+    if (!facts || !isUnfinished(path)) continue;
+    found.push_back(
+        {path,
+         std::int64_t{facts->st_mtim.tv_sec} * 1'000'000 + facts->st_mtim.tv_nsec / 1000,
+         static_cast<std::uintmax_t>(facts->st_size)});
+  }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    return a.changedUs > b.changedUs;
+  });
+  return found;
+}
+
+fs::path recoveredPathOf(const fs::path& recording) {
+  const std::string name = recording.filename().string();
+  const std::string stem =
+      recoveredStem(isRecordingName(name) ? name : name + std::string(kEnding));
+  const auto isTaken = [](const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(fs::symlink_status(path, ignored)) ||
+           fs::exists(fs::symlink_status(journalPathOf(path), ignored));
+  };
+  fs::path path = recording;
+  path.replace_filename(stem + std::string(kEnding));
+  for (int next = 2; isTaken(path); ++next)
+    path.replace_filename(stem + "-" + std::to_string(next) + std::string(kEnding));
+  return path;
+}
+
+}  // namespace palpate
