@@ -228,21 +228,18 @@ LinkInputs CaptureSession::inputs() const {
   inputs.frames = meter_.read(clock_.monotonicUs());
   inputs.queues = recorder_.feedStats();
   inputs.recorder = recorder_.status();
+  const std::lock_guard lock(shownMutex_);
+  inputs.temperatures = lastTemperatures_;
   return inputs;
 }
 
 LinkHealth CaptureSession::health() const { return assessHealth(inputs(), options_.health); }
 
 BeforeRun CaptureSession::checkBeforeRun(const fs::path& folder) const {
-  std::optional<Temperatures> temperatures;
-  {
-    const std::lock_guard lock(shownMutex_);
-    temperatures = lastTemperatures_;
-  }
   const auto& ask = options_.recorder.freeBytes;
   const FolderState state{
       folder, ::access(folder.c_str(), W_OK | X_OK) == 0, ask ? ask(folder) : freeBytesOf(folder)};
-  return palpate::checkBeforeRun(inputs(), temperatures, state, options_.health);
+  return palpate::checkBeforeRun(inputs(), state, options_.health);
 }
 
 }  // namespace palpate

@@ -84,6 +84,11 @@ void addRecorderAlarms(const RecorderStatus& recorder,
                           " items are missing in the recording; its gap events tell which"});
 }
 
+std::optional<double> hottestOf(const LinkInputs& inputs) {
+  if (!inputs.temperatures || inputs.temperatures->degC.empty()) return std::nullopt;
+  return *std::max_element(inputs.temperatures->degC.begin(), inputs.temperatures->degC.end());
+}
+
 }  // namespace
 
 const LinkMeter::Arrival& LinkMeter::arrival(std::size_t age) const {
@@ -181,11 +186,15 @@ LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options) 
     health.alarms.push_back({AlarmKind::kLowDisk,
                              "the disk is full in " + fixedText(*health.diskHours * 60.0, 0) +
                                  " minutes: make room, or record elsewhere"});
+  if (const auto hottest = hottestOf(inputs); hottest && *hottest > options.hottestDegC)
+    health.alarms.push_back({AlarmKind::kTooHot,
+                             "the hand is " + fixedText(*hottest, 0) +
+                                 " deg C hot: relax it and let it cool down below " +
+                                 fixedText(options.hottestDegC, 0)});
   return health;
 }
 
 BeforeRun checkBeforeRun(const LinkInputs& inputs,
-                         const std::optional<Temperatures>& temperatures,
                          const FolderState& folder,
                          const HealthOptions& options) {
   const auto hours = hoursOf(folder.freeBytes, bytesPerSecond(inputs.recorder, options));
@@ -208,11 +217,10 @@ BeforeRun checkBeforeRun(const LinkInputs& inputs,
   if (hours && *hours < options.lowDiskHours)
     return red("room for only " + fixedText(*hours * 60.0, 0) + " minutes in " + where);
   std::string text = "ready: " + fixedText(frames.rateHz, 1) + " frames/s";
-  if (temperatures && !temperatures->degC.empty()) {
-    const double hottest = *std::max_element(temperatures->degC.begin(), temperatures->degC.end());
-    if (hottest > options.hottestDegC)
-      return red("the hand is " + fixedText(hottest, 0) + " deg C hot: let it cool down");
-    text += ", up to " + fixedText(hottest, 0) + " deg C";
+  if (const auto hottest = hottestOf(inputs)) {
+    if (*hottest > options.hottestDegC)
+      return red("the hand is " + fixedText(*hottest, 0) + " deg C hot: let it cool down");
+    text += ", up to " + fixedText(*hottest, 0) + " deg C";
   } else if (inputs.device.motion) {
     return red("no temperature has come yet");
   }

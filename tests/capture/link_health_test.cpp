@@ -154,6 +154,16 @@ TEST(LinkHealth, aDeviceThatNeverCameIsAnAlarmOnlyOnceItIsSilentOrLost) {
   EXPECT_EQ(health.alarms[0].text, "the tactile port /dev/ttyUSB0 is gone: plug it in again");
 }
 
+TEST(LinkHealth, aHandThatIsTooHotIsAnAlarm) {
+  LinkInputs inputs = streaming();
+  inputs.temperatures = Temperatures{0, {30.0, 65.0}};
+  EXPECT_TRUE(assessHealth(inputs).alarms.empty());
+  inputs.temperatures = Temperatures{0, {30.0, 70.2, 0.0}};
+  const LinkHealth hot = assessHealth(inputs);
+  ASSERT_EQ(kindsOf(hot), std::vector{AlarmKind::kTooHot});
+  EXPECT_EQ(hot.alarms[0].text, "the hand is 70 deg C hot: relax it and let it cool down below 65");
+}
+
 const FolderState kGoodFolder{"/data", true, std::uint64_t{18'000} * 3600 * 120};
 
 TEST(CheckBeforeRun, saysReadyInOneLine) {
@@ -162,15 +172,17 @@ TEST(CheckBeforeRun, saysReadyInOneLine) {
   inputs.device.motion->state = PortState::kStreaming;
   Temperatures temperatures{0, std::vector<double>(9, 31.0)};
   temperatures.degC[4] = 38.4;
-  const BeforeRun check = checkBeforeRun(inputs, temperatures, kGoodFolder);
+  inputs.temperatures = temperatures;
+  const BeforeRun check = checkBeforeRun(inputs, kGoodFolder);
   EXPECT_TRUE(check.ready);
   EXPECT_EQ(check.text, "ready: 31.2 frames/s, up to 38 deg C, disk for 120 h");
 }
 
 TEST(CheckBeforeRun, namesTheFirstThingThatIsWrong) {
   const Temperatures warm{0, {30.0}};
-  const auto textOf = [&](const LinkInputs& inputs, const FolderState& folder = kGoodFolder) {
-    const BeforeRun check = checkBeforeRun(inputs, warm, folder);
+  const auto textOf = [&](LinkInputs inputs, const FolderState& folder = kGoodFolder) {
+    inputs.temperatures = warm;
+    const BeforeRun check = checkBeforeRun(inputs, folder);
     EXPECT_FALSE(check.ready);
     EXPECT_EQ(check.text.find("not ready: "), 0u);
     EXPECT_EQ(check.text.find('\n'), std::string::npos);
@@ -193,7 +205,8 @@ TEST(CheckBeforeRun, namesTheFirstThingThatIsWrong) {
             std::string::npos);
   EXPECT_NE(textOf(inputs, {"/full", true, 18'000 * 60 * 12}).find("12 minutes"),
             std::string::npos);
-  const BeforeRun hot = checkBeforeRun(inputs, Temperatures{0, {30.0, 70.2}}, kGoodFolder);
+  inputs.temperatures = Temperatures{0, {30.0, 70.2}};
+  const BeforeRun hot = checkBeforeRun(inputs, kGoodFolder);
   EXPECT_FALSE(hot.ready);
   EXPECT_NE(hot.text.find("70 deg C"), std::string::npos);
 }

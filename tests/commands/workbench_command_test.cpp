@@ -1,4 +1,9 @@
+#include <chrono>
+#include <csignal>
+#include <thread>
+
 #include "commands/palpate_program.h"
+#include "testing/background_program.h"
 
 namespace palpate {
 namespace {
@@ -97,6 +102,29 @@ TEST(WorkbenchCommand, ScreenshotRefusesBadInput) {
   testing::writeFile(out, "precious");
   expectOneLineError(shot({demoFile()}), 1, {"w.png", "--force"});
   EXPECT_EQ(testing::readFile(out), "precious");
+}
+
+// Ctrl-C in the terminal that it was started from: settings are kept, and nobody was killed.
+TEST(WorkbenchCommand, AskedToEndItEndsInOrder) {
+  const testing::TemporaryFolder home;
+  const auto settings = home / "palpate/palpate.ini";
+  ::setenv("QT_QPA_PLATFORM", "offscreen", 1);
+  ::setenv("XDG_CONFIG_HOME", home.path().c_str(), 1);
+  for (const int number : {SIGINT, SIGTERM}) {
+    testing::BackgroundProgram program(PALPATE_PROGRAM, {"--demo"});
+    // It remembers what it is connected to: so long it needs to stand.
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!std::filesystem::exists(settings) && std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_TRUE(std::filesystem::exists(settings)) << program.err();
+    std::filesystem::remove(settings);
+    program.signal(number);
+    EXPECT_EQ(program.wait(), 0) << program.err();
+    EXPECT_TRUE(std::filesystem::exists(settings)) << number;
+    std::filesystem::remove(settings);
+  }
+  ::unsetenv("QT_QPA_PLATFORM");
+  ::unsetenv("XDG_CONFIG_HOME");
 }
 
 }  // namespace

@@ -68,6 +68,8 @@ class MainWindow : public QMainWindow {
   void openDemo();
   // Ends what is connected before; never moves a hand.
   void connectTo(const Connection& connection);
+  // Closes without asking: a recording is finished, a hand that moves is stopped.
+  void endNow();
   void setTheme(ThemeChoice choice);
   QStringList dockNames() const;
   void showDock(const QString& name);  // one of dockNames()

@@ -338,6 +338,12 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   live_.end();
 }
 
+void MainWindow::endNow() {
+  askToEndRecording = [] { return true; };
+  if (QWidget* dialog = QApplication::activeModalWidget()) dialog->close();
+  close();
+}
+
 void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
   enableActions();

@@ -5,6 +5,7 @@
 #include "gui/application.h"
 #include "gui/first_paint.h"
 #include "gui/main_window.h"
+#include "gui/termination.h"
 
 namespace palpate::gui {
 
@@ -15,6 +16,8 @@ int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options) {
                      .clock = nullptr,
                      .read = {}});
   const FirstPaint firstPaint(window);
+  const Termination termination;
+  QObject::connect(&termination, &Termination::asked, &window, &MainWindow::endNow);
   window.show();
   // The window is on screen before the first file is read.
   if (options.demo)

@@ -26,7 +26,7 @@ struct HealthOptions {
   double emptyRecordingS = 2.0;        // a recording without a frame after so long is empty [s]
   double lowDiskHours = 1.0;           // [h]
   double nominalBytesPerS = 18'000.0;  // until measured: an SDH-2 with angles writes 1.5 GB a day
-  double hottestDegC = 65.0;           // before a run; recorded hands reached 61 [deg C]
+  double hottestDegC = 65.0;           // recorded hands reached 61 [deg C]
 };
 
 // Rates and saturation of the frames that came, by the clock of their arrival. Thread-safe.
@@ -76,6 +76,7 @@ enum class AlarmKind {
   kWriteError,      // the disk is full or fails; capture goes on
   kSlowDisk,        // the disk keeps the recorder waiting
   kEmptyRecording,  // a recording was started, and no frame comes
+  kTooHot,          // a motor or a board is hotter than HealthOptions::hottestDegC
 };
 struct Alarm {
   AlarmKind kind = AlarmKind::kNoData;
@@ -89,6 +90,7 @@ struct LinkInputs {
   LinkMeter::Reading frames;
   FeedStats queues;
   RecorderStatus recorder;
+  std::optional<Temperatures> temperatures;  // the newest; nothing: none came yet
 };
 
 struct LinkHealth {
@@ -119,7 +121,6 @@ struct FolderState {
   std::optional<std::uint64_t> freeBytes;
 };
 BeforeRun checkBeforeRun(const LinkInputs& inputs,
-                         const std::optional<Temperatures>& temperatures,
                          const FolderState& folder,
                          const HealthOptions& options = {});
 
