@@ -46,7 +46,8 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
                                                            const Progress& progress) {
                                     return openRecording(path, progress);
                                   })),
-      live_(surroundings.dataFolder) {
+      live_(surroundings.dataFolder),
+      unfinished_(settings_) {
   setWindowTitle("Palpate");
   setMinimumSize(kSmallestWindow);
   setAcceptDrops(true);
@@ -84,6 +85,8 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   applyView();
   setPlace(Place::kStart);
   listRecordings();
+  // The window comes first.
+  if (surroundings.offerUnfinished) QTimer::singleShot(0, this, &MainWindow::offerUnfinished);
 }
 
 MainWindow::~MainWindow() {

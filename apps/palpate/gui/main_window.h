@@ -25,6 +25,7 @@
 #include "gui/recent_files.h"
 #include "gui/recording_opener.h"
 #include "gui/recording_settings.h"
+#include "gui/unfinished_finder.h"
 #include "gui/window_menus.h"
 #include "gui/window_settings.h"
 
@@ -52,6 +53,7 @@ struct WindowSurroundings {
   QString settingsPath;              // INI file
   const Clock* clock = nullptr;      // null: the system's
   RecordingOpener::Read read = {};   // empty: openRecording
+  bool offerUnfinished = false;      // recordings that an earlier day left, when the window opens
 };
 
 class MainWindow : public QMainWindow {
@@ -96,6 +98,9 @@ class MainWindow : public QMainWindow {
       askForRecording;
   // Whether a recording that runs may be ended now.
   std::function<bool()> askToEndRecording;
+  // Looks for recordings that were never finished, and offers to recover them.
+  void offerUnfinished();
+  UnfinishedFinder& unfinished() noexcept { return unfinished_; }
   // Waits until pictures being written are on disk.
   void waitForExports() { workers_.waitForDone(); }
 
@@ -132,7 +137,6 @@ class MainWindow : public QMainWindow {
   void copyPicture();
   // main_window_live.cpp: what is connected
   void connectLive();
-  void connectScanActions();
   void askAndConnect();
   void tryEmulatedHand();
   void fillConnections();
@@ -142,9 +146,11 @@ class MainWindow : public QMainWindow {
   void showLive();
   void showLook();
   void showStale();
+  void updateLiveStatus();
+  // main_window_taxels.cpp
+  void connectScanActions();
   void scan(MaskChoice choice);
   QString selectionText() const;
-  void updateLiveStatus();
   // main_window_recording.cpp
   void connectRecording();
   void useRecordingSettings();
@@ -152,6 +158,7 @@ class MainWindow : public QMainWindow {
   void markNow(const QString& label, std::optional<int> digit);
   void showRecordingState();
   void recordingEnded(const RecordingReport& report);
+  void connectUnfinished();
   // main_window_actions.cpp: what actions and controls do
   void connectPlayback();
   void connectViewActions();
@@ -204,7 +211,9 @@ class MainWindow : public QMainWindow {
   bool alarmIsNew_ = false;
   RecordingSettings recordingSettings_;
   std::vector<std::filesystem::path> lastRecorded_;  // parts
-  bool recordingShown_ = false;                      // by the button
+  UnfinishedFinder unfinished_;
+  std::vector<std::filesystem::path> recovered_;  // files of the recovery that runs
+  bool recordingShown_ = false;                   // by the button
   Theme recordingTheme_ = Theme::kDark;
   const SignalHistory* shownHistory_ = nullptr;  // of the source that is shown; never looked into
 

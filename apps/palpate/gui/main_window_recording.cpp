@@ -96,7 +96,57 @@ void MainWindow::connectRecording() {
     showRecordingState();
   });
   connect(&live_, &LiveController::recordingEnded, this, &MainWindow::recordingEnded);
+  connectUnfinished();
 }
+
+void MainWindow::connectUnfinished() {
+  connect(&unfinished_, &UnfinishedFinder::found, this, [this](const QStringList& paths) {
+    // What was just recorded is more urgent.
+    if (paths.isEmpty() || !offer_->isHidden()) return;
+    constexpr qsizetype kMostNames = 3;
+    QStringList names;
+    for (const QString& path : paths.mid(0, kMostNames)) names.append(path.section('/', -1));
+    if (paths.size() > kMostNames)
+      names.append(QString::number(paths.size() - kMostNames) + " more");
+    offer_->offer(
+        (paths.size() == 1 ? QString("A recording was never finished: ")
+                           : QString::number(paths.size()) + " recordings were never finished: ") +
+            names.join(", ") + ". Recovering makes a new file beside it and changes nothing.",
+        "Recover",
+        [this, paths] {
+          recovered_.clear();
+          offer_->say("Recovering …");
+          unfinished_.recover(paths);
+        },
+        [this, paths] { unfinished_.ignore(paths); });
+  });
+  connect(&unfinished_, &UnfinishedFinder::progressed, this, [this](double fraction) {
+    offer_->say("Recovering … " + number(100.0 * fraction, 0) + " %");
+  });
+  connect(&unfinished_,
+          &UnfinishedFinder::recovered,
+          this,
+          [this](const QString& path, const QString& message, const QString& saved) {
+            recovered_.emplace_back(saved.toStdString());
+            link_->log("recovered " + path.section('/', -1) + ": " + message);
+          });
+  connect(&unfinished_,
+          &UnfinishedFinder::failed,
+          this,
+          [this](const QString&, const QString& message) { banner_->showMessage(message); });
+  connect(&unfinished_, &UnfinishedFinder::finished, this, [this] {
+    offer_->dismiss();
+    if (recovered_.empty()) return;
+    const auto count = recovered_.size();
+    offer_->offer(
+        count == 1 ? "Recovered " + QString::fromStdString(recovered_.front().filename().string())
+                   : QString("Recovered %1 recordings").arg(count),
+        "Open",
+        [this, paths = recovered_] { openFiles(paths); });
+  });
+}
+
+void MainWindow::offerUnfinished() { unfinished_.look(recordingSettings_.folder); }
 
 void MainWindow::useRecordingSettings() {
   saveRecordingSettings(recordingSettings_, settings_);

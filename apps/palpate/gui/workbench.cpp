@@ -14,7 +14,8 @@ int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options) {
   MainWindow window({.dataFolder = options.dataFolder,
                      .settingsPath = settingsPath(),
                      .clock = nullptr,
-                     .read = {}});
+                     .read = {},
+                     .offerUnfinished = true});
   const FirstPaint firstPaint(window);
   const Termination termination;
   QObject::connect(&termination, &Termination::asked, &window, &MainWindow::endNow);
