@@ -1,0 +1,13 @@
+// The long form of R18 with the window open: a thousand times Escape.
+#include "gui/stop_in_the_window.h"
+#include "testing/testing.h"
+
+namespace palpate::gui {
+namespace {
+
+TEST(LiveSafetyLong, EscapeAtAThousandRandomMomentsIsOnTheWireWithinTwentyMilliseconds) {
+  escapeAtRandomMoments(1000, 400'000);
+}
+
+}  // namespace
+}  // namespace palpate::gui

@@ -1,0 +1,14 @@
+// The hand stays safe whatever the window does.
+
+#include "gui/stop_in_the_window.h"
+#include "testing/testing.h"
+
+namespace palpate::gui {
+namespace {
+
+TEST(LiveSafety, EscapeAtRandomMomentsIsOnTheWireWithinTwentyMilliseconds) {
+  escapeAtRandomMoments(15, 400'000);
+}
+
+}  // namespace
+}  // namespace palpate::gui
