@@ -15,10 +15,11 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
-#include "commands/interruption.h"
+#include "gui/interruption.h"
 
 namespace palpate::commands {
 namespace {
+using gui::Interruption;
 
 void setRate(const std::string& text, EmulatedHandOptions& options) {
   if (text == "real") {

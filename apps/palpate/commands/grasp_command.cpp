@@ -14,10 +14,11 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
-#include "commands/interruption.h"
+#include "gui/interruption.h"
 
 namespace palpate::commands {
 namespace {
+using gui::Interruption;
 
 constexpr int kLookMs = 20;
 

@@ -19,10 +19,11 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
-#include "commands/interruption.h"
+#include "gui/interruption.h"
 
 namespace palpate::commands {
 namespace {
+using gui::Interruption;
 namespace fs = std::filesystem;
 
 // How it goes, on one line of a terminal.

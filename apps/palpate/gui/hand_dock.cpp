@@ -9,8 +9,8 @@
 #include <algorithm>
 
 #include <palpate/capture/link_health.h>
-#include <palpate/core/number_text.h>
 
+#include "gui/captions.h"
 #include "gui/facts_view.h"
 #include "gui/grasp_panel.h"
 #include "gui/stop_key.h"
@@ -22,21 +22,6 @@ namespace {
 constexpr int kRefreshMs = 50;
 constexpr int kMargin = 12;
 constexpr const char* kNothing = "–";
-
-QString number(double value, int decimals) {
-  return QString::fromStdString(fixedText(value, decimals));
-}
-
-QLabel* heading(const QString& text, QWidget* parent) {
-  auto* label = new QLabel(text.toUpper(), parent);
-  label->setProperty("role", "heading");
-  QFont font = label->font();
-  constexpr double kSmaller = 0.86;
-  font.setPointSizeF(font.pointSizeF() * kSmaller);
-  font.setLetterSpacing(QFont::AbsoluteSpacing, 0.8);
-  label->setFont(font);
-  return label;
-}
 
 FeedOptions smallFeed() {
   FeedOptions options;
@@ -117,12 +102,12 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   temperatures_->setObjectName("liveTemperatures");
   auto* left = new QVBoxLayout;
   left->setSpacing(4);
-  left->addWidget(heading("Joint angles", content));
+  left->addWidget(sectionHeading("Joint angles", content));
   left->addWidget(angles_);
   left->addStretch(1);
   auto* right = new QVBoxLayout;
   right->setSpacing(4);
-  right->addWidget(heading("Temperatures", content));
+  right->addWidget(sectionHeading("Temperatures", content));
   right->addWidget(temperatures_);
   right->addStretch(1);
   auto* measured = new QHBoxLayout;
@@ -132,10 +117,10 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   auto* column = new QVBoxLayout(content);
   column->setContentsMargins(kMargin, 4, kMargin, 10);
   column->setSpacing(8);
-  column->addWidget(heading("Grasp", content));
+  column->addWidget(sectionHeading("Grasp", content));
   column->addWidget(grasp_);
   column->addSpacing(8);
-  column->addWidget(heading("Matrices", content));
+  column->addWidget(sectionHeading("Matrices", content));
   column->addWidget(tactile_);
   column->addSpacing(8);
   column->addLayout(measured);
@@ -225,7 +210,7 @@ void HandDock::showSamples() {
   }
   if (angles)
     for (std::size_t i = 0; i < std::min(angles->deg.size(), angles_->facts().size()); ++i)
-      angles_->setValue(i, number(angles->deg[i], 1) + "°");
+      angles_->setValue(i, figure(angles->deg[i], 1) + "°");
   if (temperatures) showTemperatures(*temperatures);
   items_.clear();
 }
@@ -236,14 +221,14 @@ void HandDock::showTemperatures(const Temperatures& temperatures) {
   QString hot;
   for (std::size_t i = 0; i < std::min(temperatures.degC.size(), facts.size()); ++i) {
     const double value = temperatures.degC[i];
-    facts[i].value = value == 0.0 ? QString(kNothing) : number(value, 1) + " °C";
+    facts[i].value = value == 0.0 ? QString(kNothing) : figure(value, 1) + " °C";
     facts[i].warning = value > hottest;
     if (facts[i].warning) hot += (hot.isEmpty() ? "" : ", ") + facts[i].name + " " + facts[i].value;
   }
   temperatures_->setFacts(std::move(facts));
   heat_->setVisible(!hot.isEmpty());
   heat_->setText("Too hot: " + hot + ". Relax the hand and let it cool below " +
-                 number(hottest, 0) + " °C.");
+                 figure(hottest, 0) + " °C.");
 }
 
 void HandDock::setTheme(Theme theme) {

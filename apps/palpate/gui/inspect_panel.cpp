@@ -5,33 +5,19 @@
 #include <QResizeEvent>
 #include <algorithm>
 
-#include <palpate/core/number_text.h>
 #include <palpate/core/time.h>
+
+#include "gui/captions.h"
 
 namespace palpate::gui {
 namespace {
 
 constexpr int kTwoColumnsFrom = 430;  // [px] of width
 
-QString number(double value, int decimals) {
-  return QString::fromStdString(fixedText(value, decimals));
-}
-
-QLabel* heading(const QString& text, QWidget* parent) {
-  auto* label = new QLabel(text.toUpper(), parent);
-  label->setProperty("role", "heading");
-  QFont font = label->font();
-  constexpr double kSmaller = 0.86;
-  font.setPointSizeF(font.pointSizeF() * kSmaller);
-  font.setLetterSpacing(QFont::AbsoluteSpacing, 0.8);
-  label->setFont(font);
-  return label;
-}
-
 // A recording may have 30 frames a second, or one in three seconds.
 QString rate(double hz) {
   constexpr double kSlow = 10.0;
-  return number(hz, hz < kSlow ? 2 : 1);
+  return figure(hz, hz < kSlow ? 2 : 1);
 }
 
 std::vector<Fact> factsOf(const OpenedRecording& recording) {
@@ -48,7 +34,7 @@ std::vector<Fact> factsOf(const OpenedRecording& recording) {
     facts.push_back({"start (UTC)", QString::fromStdString(start).left(19)});
   }
   facts.push_back({"frames", QString::number(profile.numFrames())});
-  facts.push_back({"duration", number(recording.timing.durationS, 2) + " s"});
+  facts.push_back({"duration", figure(recording.timing.durationS, 2) + " s"});
   facts.push_back(
       {"rate",
        rate(recording.timing.rateHz) + " Hz (mean " + rate(recording.timing.meanRateHz) + ")"});
@@ -57,7 +43,7 @@ std::vector<Fact> factsOf(const OpenedRecording& recording) {
   const auto gaps = recording.timing.gaps.size();
   facts.push_back({"gaps",
                    gaps == 0 ? QString("none")
-                             : QString::number(gaps) + ", longest " + number(longest, 1) + " s",
+                             : QString::number(gaps) + ", longest " + figure(longest, 1) + " s",
                    gaps > 0});
   const std::size_t taxels = profile.layout().numTaxels();
   std::size_t enabled = 0;
@@ -67,7 +53,7 @@ std::vector<Fact> factsOf(const OpenedRecording& recording) {
                        ? QString::number(taxels)
                        : QString::number(enabled) + " of " + QString::number(taxels) + " scanned",
                    enabled != taxels});
-  facts.push_back({"largest value", number(recording.maximum, 0) + " counts"});
+  facts.push_back({"largest value", figure(recording.maximum, 0) + " counts"});
   facts.push_back({"saturated frames",
                    QString::number(recording.saturatedFrames),
                    recording.saturatedFrames > 0});
@@ -98,16 +84,16 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
 
   auto* left = new QVBoxLayout;
   left->setSpacing(4);
-  heading_ = heading("Recording", content);
+  heading_ = sectionHeading("Recording", content);
   left->addWidget(heading_);
   left->addWidget(facts_);
   left->addStretch(1);
   auto* right = new QVBoxLayout;
   right->setSpacing(4);
-  right->addWidget(heading("Joint angles", content));
+  right->addWidget(sectionHeading("Joint angles", content));
   right->addWidget(angles_);
   right->addSpacing(12);
-  right->addWidget(heading("Temperatures", content));
+  right->addWidget(sectionHeading("Temperatures", content));
   right->addWidget(temperatures_);
   right->addStretch(1);
   columns_ = new QBoxLayout(QBoxLayout::LeftToRight);
@@ -179,14 +165,14 @@ void InspectPanel::showFrame(std::size_t frame) {
 
 void InspectPanel::showAngles(const JointAngles& angles) {
   for (std::size_t i = 0; i < std::min(angles.deg.size(), angles_->facts().size()); ++i)
-    angles_->setValue(i, number(angles.deg[i], 1) + "°");
+    angles_->setValue(i, figure(angles.deg[i], 1) + "°");
 }
 
 void InspectPanel::showTemperatures(const Temperatures& temperatures) {
   const std::size_t rows = std::min(temperatures.degC.size(), temperatures_->facts().size());
   for (std::size_t i = 0; i < rows; ++i) {
     const double value = temperatures.degC[i];
-    temperatures_->setValue(i, value == 0.0 ? QString("–") : number(value, 1) + " °C");
+    temperatures_->setValue(i, value == 0.0 ? QString("–") : figure(value, 1) + " °C");
   }
 }
 

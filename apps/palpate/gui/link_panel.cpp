@@ -7,7 +7,7 @@
 #include <QTime>
 #include <QVBoxLayout>
 
-#include <palpate/core/number_text.h>
+#include "gui/captions.h"
 
 namespace palpate::gui {
 namespace {
@@ -15,16 +15,12 @@ namespace {
 constexpr int kMostLines = 1000;  // of the log
 constexpr double kMsPerS = 1000.0;
 
-QString number(double value, int decimals) {
-  return QString::fromStdString(fixedText(value, decimals));
-}
-
 QString count(std::uint64_t value) { return QString::number(value); }
 
 QString bytes(double value) {
   constexpr double kMega = 1e6, kGiga = 1e9;
-  if (value >= kGiga) return number(value / kGiga, 1) + " GB";
-  return number(value / kMega, 1) + " MB";
+  if (value >= kGiga) return figure(value / kGiga, 1) + " GB";
+  return figure(value / kMega, 1) + " MB";
 }
 
 QString diskText(const LinkHealth& health) {
@@ -34,23 +30,12 @@ QString diskText(const LinkHealth& health) {
   if (!health.diskHours) return text;
   if (*health.diskHours > kYearH) return text + ", over a year";
   if (*health.diskHours > 2 * kDayH)
-    return text + ", " + number(*health.diskHours / kDayH, 0) + " days";
-  return text + ", " + number(*health.diskHours, 1) + " h";
+    return text + ", " + figure(*health.diskHours / kDayH, 0) + " days";
+  return text + ", " + figure(*health.diskHours, 1) + " h";
 }
 
 QString portText(const PortStatus& port) {
   return nameOf(port.state) + (port.port.empty() ? "" : " · " + QString::fromStdString(port.port));
-}
-
-QLabel* heading(const QString& text, QWidget* parent) {
-  auto* label = new QLabel(text.toUpper(), parent);
-  label->setProperty("role", "heading");
-  QFont font = label->font();
-  constexpr double kSmaller = 0.86;
-  font.setPointSizeF(font.pointSizeF() * kSmaller);
-  font.setLetterSpacing(QFont::AbsoluteSpacing, 0.8);
-  label->setFont(font);
-  return label;
 }
 
 }  // namespace
@@ -79,13 +64,13 @@ std::vector<Fact> factsOf(const LinkHealth& health) {
     facts.push_back({"motion", portText(*motion), motion->state != PortState::kStreaming});
   facts.push_back(
       {"rate",
-       number(health.frames.rateHz, 1) + " fps (mean " + number(health.frames.meanRateHz, 1) + ")",
+       figure(health.frames.rateHz, 1) + " fps (mean " + figure(health.frames.meanRateHz, 1) + ")",
        health.frames.lowRateS > 0.0});
   constexpr double kOldMs = 500.0;
   const auto age = health.frames.ageMs;
   const QString ageText = !age              ? QString("no frame yet")
-                          : *age >= kMsPerS ? number(*age / kMsPerS, 1) + " s"
-                                            : number(*age, 0) + " ms";
+                          : *age >= kMsPerS ? figure(*age / kMsPerS, 1) + " s"
+                                            : figure(*age, 0) + " ms";
   facts.push_back({"frame age", ageText, !age || *age > kOldMs});
   facts.push_back({"frames", count(health.frames.frames)});
   facts.push_back({"lost", count(health.lost), health.lost > 0});
@@ -93,7 +78,7 @@ std::vector<Fact> factsOf(const LinkHealth& health) {
   facts.push_back({"suspect", count(tactile.suspect), tactile.suspect > 0});
   facts.push_back({"saturated",
                    count(health.frames.saturatedFrames) + " frames, " +
-                       number(health.frames.saturatedShare * 100.0, 0) + " % now",
+                       figure(health.frames.saturatedShare * 100.0, 0) + " % now",
                    health.frames.saturatedShare > 0.0});
   const FeedStats::Port& queue = health.queues.tactile;
   facts.push_back({"queue",
@@ -147,19 +132,19 @@ LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
   auto* top = new QVBoxLayout(content);
   top->setContentsMargins(12, 10, 12, 6);
   top->setSpacing(6);
-  top->addWidget(heading("Before a run", content));
+  top->addWidget(sectionHeading("Before a run", content));
   top->addWidget(check_);
   top->addSpacing(4);
   auto* alarmRow = new QHBoxLayout;
-  alarmRow->addWidget(heading("Alarms", content), 1);
+  alarmRow->addWidget(sectionHeading("Alarms", content), 1);
   alarmRow->addWidget(sound_);
   top->addLayout(alarmRow);
   top->addWidget(alarms_);
   top->addSpacing(4);
-  top->addWidget(heading("Link", content));
+  top->addWidget(sectionHeading("Link", content));
   top->addWidget(facts_);
   top->addSpacing(4);
-  top->addWidget(heading("What happened", content));
+  top->addWidget(sectionHeading("What happened", content));
   top->addWidget(log_, 1);
   auto* area = new QScrollArea(this);
   area->setWidgetResizable(true);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "gui/chart_style.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -15,19 +17,6 @@ constexpr double kHeadroom = 1.06;
 constexpr double kShrinkBelow = 0.35;  // of the axis: then it is made shorter
 constexpr double kOldS = 0.4;  // without a frame for so long the picture rolls by itself [s]
 constexpr std::size_t kMostEvents = 200;
-
-void styleAxis(QCPAxis& axis, const ThemeColors& colors, const QFont& font) {
-  axis.setBasePen(QPen(colors.border));
-  axis.setTickPen(QPen(colors.border));
-  axis.setSubTickPen(Qt::NoPen);
-  axis.setTickLabelColor(colors.muted);
-  axis.setLabelColor(colors.muted);
-  axis.setTickLabelFont(font);
-  axis.setLabelFont(font);
-  axis.grid()->setPen(QPen(colors.grid));
-  axis.grid()->setZeroLinePen(QPen(colors.grid));
-  axis.grid()->setSubGridVisible(false);
-}
 
 // 1, 2 or 5 times a power of ten, at or above: the axis doesn't creep.
 double niceAbove(double value) {
@@ -50,20 +39,11 @@ QString nameOfEvent(const RecordingEvent& event) {
 
 LiveChart::LiveChart(QWidget* parent)
     : QCustomPlot(parent), secondsTicker_(new QCPAxisTickerFixed) {
-  setLocale(QLocale::c());
-  setPlottingHint(QCP::phFastPolylines, true);
+  arrangeChart(*this);
   setAccessibleName("Live chart");
   setToolTip("Wheel: how many seconds are seen");
   xAxis->setLabel("time since the first frame in s");
   xAxis->setTicker(secondsTicker_);
-  yAxis->ticker()->setTickCount(4);
-  xAxis->grid()->setVisible(false);
-  xAxis->setNumberFormat("gb");
-  yAxis->setNumberFormat("gb");
-  xAxis->setTickLengthIn(0);
-  yAxis->setTickLengthIn(0);
-  xAxis->setTickLengthOut(4);
-  axisRect()->setMinimumMargins(QMargins(52, 10, 20, 10));
   roll(0.0);
 }
 
@@ -97,11 +77,8 @@ void LiveChart::setPlotted(const std::vector<bool>& plotted) {
 
 void LiveChart::setTheme(Theme theme) {
   theme_ = theme;
-  const ThemeColors& colors = colorsOf(theme);
-  setBackground(QBrush(colors.window));
-  styleAxis(*xAxis, colors, font());
-  styleAxis(*yAxis, colors, font());
-  for (const Shown& event : events_) event.name->setColor(colors.text);
+  styleChart(*this, theme);
+  for (const Shown& event : events_) event.name->setColor(colorsOf(theme).text);
   rebuild();
 }
 
@@ -122,10 +99,8 @@ void LiveChart::rebuild() {
   for (std::size_t row = 0; row < plotted_.size(); ++row) {
     if (!plotted_[row]) continue;
     const bool whole = row + 1 == plotted_.size();
-    QPen pen(whole ? wholeColor(theme_) : matrixColor(row, theme_), 1.4);
-    if (whole) pen.setStyle(Qt::DashLine);
     QCPGraph* graph = addGraph();
-    graph->setPen(pen);
+    graph->setPen(curvePen(row, whole, theme_));
     rows_.push_back(row);
   }
   largest_ = 0.0;
@@ -214,48 +189,22 @@ void LiveChart::line(double atS, const QString& name, const QColor& color) {
   shape->start->setCoords(atS, 0.0);
   shape->end->setCoords(atS, 1.0);
   shape->setPen(QPen(color, 1.0));
-  auto* text = new QCPItemText(this);
-  text->position->setTypeX(QCPItemPosition::ptPlotCoords);
-  text->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
-  text->position->setCoords(atS, 0.03);
-  text->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
+  auto* text = wordAt(*this, atS, name, Qt::AlignLeft, colorsOf(theme_).text);
   text->setPadding(QMargins(4, 0, 0, 0));
-  text->setText(name);
-  text->setFont(font());
-  text->setColor(colorsOf(theme_).text);
   events_.push_back({atS, atS, shape, text});
 }
 
 void LiveChart::shade(double beginS, double endS, const QString& name, const QColor& color) {
-  auto* shape = new QCPItemRect(this);
-  for (QCPItemPosition* corner : {shape->topLeft, shape->bottomRight}) {
-    corner->setTypeX(QCPItemPosition::ptPlotCoords);
-    corner->setTypeY(QCPItemPosition::ptAxisRectRatio);
-  }
-  shape->topLeft->setCoords(beginS, 0.0);
-  shape->bottomRight->setCoords(endS, 1.0);
-  shape->setPen(Qt::NoPen);
-  shape->setBrush(colorsOf(theme_).gap);
-  shape->setLayer("background");
-  auto* text = new QCPItemText(this);
-  text->position->setTypeX(QCPItemPosition::ptPlotCoords);
-  text->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
-  text->position->setCoords((beginS + endS) / 2, 0.04);
-  text->setPositionAlignment(Qt::AlignHCenter | Qt::AlignTop);
-  text->setText(name + " " + QString::number(endS - beginS, 'f', 1) + " s");
-  text->setFont(font());
-  text->setColor(color);
+  auto* shape = shadeSpan(*this, beginS, endS, theme_);
+  auto* text = wordAt(*this,
+                      (beginS + endS) / 2,
+                      name + " " + QString::number(endS - beginS, 'f', 1) + " s",
+                      Qt::AlignHCenter,
+                      color);
   events_.push_back({beginS, endS, shape, text});
 }
 
-// A low chart has no room for more than the unit.
-void LiveChart::nameAxis() {
-  QString whole = nameOf(signal_);
-  if (!whole.endsWith(unitOf(signal_))) whole += " in " + unitOf(signal_);
-  constexpr int kAroundAxis = 60;  // [px] above and below it
-  const bool fits = fontMetrics().horizontalAdvance(whole) < height() - kAroundAxis;
-  yAxis->setLabel(fits ? whole : unitOf(signal_));
-}
+void LiveChart::nameAxis() { yAxis->setLabel(signalAxisName(signal_, *this)); }
 
 void LiveChart::wheelEvent(QWheelEvent* event) {
   setWindowS(windowS_ / std::pow(kWheelStep, event->angleDelta().y() / kNotch));

@@ -4,9 +4,9 @@
 #include <QMessageBox>
 #include <algorithm>
 
-#include <palpate/core/number_text.h>
 #include <palpate/emulator/scene.h>
 
+#include "gui/captions.h"
 #include "gui/connect_dialog.h"
 #include "gui/hand_dock.h"
 #include "gui/inspect_panel.h"
@@ -20,10 +20,6 @@
 
 namespace palpate::gui {
 namespace {
-
-QString number(double value, int decimals) {
-  return QString::fromStdString(fixedText(value, decimals));
-}
 
 std::vector<Fact> factsOf(const Connection& connection,
                           const DeviceFacts& device,
@@ -276,7 +272,7 @@ void MainWindow::showStale() {
   } else if (live_.stale()) {
     const PortStatus& port = live_.health().device.tactile;
     notice = !live_.framesCameYet() ? QString("waiting for the first frame")
-                                    : "no frame for " + number(live_.silentS(), 1) + " s";
+                                    : "no frame for " + figure(live_.silentS(), 1) + " s";
     if (!port.message.empty()) notice += ": " + QString::fromStdString(port.message);
   }
   matrices_->view().setNotice(notice);
@@ -296,7 +292,7 @@ void MainWindow::showLook() {
   link_->showHealth(health, live_.beforeRun());
   menus_->showLink(
       describe(source->connection) +
-          (live_.stale() ? " · no data" : " · " + number(health.frames.rateHz, 1) + " fps"),
+          (live_.stale() ? " · no data" : " · " + figure(health.frames.rateHz, 1) + " fps"),
       !live_.stale());
   showRecordingState();
   if (!liveShown_) return;
@@ -326,8 +322,8 @@ void MainWindow::updateLiveStatus() {
   else
     now.state = held_ ? "live · held (P goes on)" : "live";
   now.figures = {
-      "rate " + number(health.frames.rateHz, 1) + " fps",
-      "age " + (live_.stale() ? QString("–") : number(health.device.tactile.ageMs, 0)) + " ms",
+      "rate " + figure(health.frames.rateHz, 1) + " fps",
+      "age " + (live_.stale() ? QString("–") : figure(health.device.tactile.ageMs, 0)) + " ms",
       "lost " + QString::number(health.lost),
       "bad " + QString::number(health.badChecksums),
       "saturated " + QString::number(health.frames.saturatedFrames)};

@@ -2,8 +2,7 @@
 // unfinished.
 #include <QToolButton>
 
-#include <palpate/core/number_text.h>
-
+#include "gui/captions.h"
 #include "gui/icons.h"
 #include "gui/link_panel.h"
 #include "gui/main_window.h"
@@ -13,10 +12,6 @@
 
 namespace palpate::gui {
 namespace {
-
-QString number(double value, int decimals) {
-  return QString::fromStdString(fixedText(value, decimals));
-}
 
 // "01:16", "1:02:03"
 QString clockText(double seconds) {
@@ -30,13 +25,13 @@ QString clockText(double seconds) {
 
 QString megabytes(std::int64_t bytes) {
   constexpr double kMega = 1e6;
-  return number(static_cast<double>(bytes) / kMega, 1) + " MB";
+  return figure(static_cast<double>(bytes) / kMega, 1) + " MB";
 }
 
 QString summaryOf(const RecordingReport& report) {
   QString text = QString::fromStdString(report.paths.front().filename().string());
   if (report.paths.size() > 1) text += " and " + QString::number(report.paths.size() - 1) + " more";
-  text += ": " + QString::number(report.frames) + " frames in " + number(report.durationS, 1) +
+  text += ": " + QString::number(report.frames) + " frames in " + figure(report.durationS, 1) +
           " s, " + megabytes(report.bytes);
   text += report.lost > 0 ? ", " + QString::number(report.lost) + " lost" : ", nothing lost";
   if (report.gaps > 0)
@@ -121,7 +116,7 @@ void MainWindow::connectUnfinished() {
         [this, paths] { unfinished_.ignore(paths); });
   });
   connect(&unfinished_, &UnfinishedFinder::progressed, this, [this](double fraction) {
-    offer_->say("Recovering … " + number(100.0 * fraction, 0) + " %");
+    offer_->say("Recovering … " + figure(100.0 * fraction, 0) + " %");
   });
   connect(&unfinished_,
           &UnfinishedFinder::recovered,

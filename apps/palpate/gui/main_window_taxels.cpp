@@ -2,21 +2,12 @@
 #include <QMenu>
 #include <algorithm>
 
-#include <palpate/core/number_text.h>
-
+#include "gui/captions.h"
 #include "gui/main_window.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
 
 namespace palpate::gui {
-namespace {
-
-QString number(double value, int decimals) {
-  return QString::fromStdString(fixedText(value, decimals));
-}
-
-}  // namespace
-
 void MainWindow::connectScanActions() {
   const auto on = [this](QAction* action, auto what) {
     connect(action, &QAction::triggered, this, what);
@@ -75,8 +66,8 @@ QString MainWindow::selectionText() const {
           largest = std::max(largest, static_cast<double>(values(y, x)));
         }
   }
-  return text + ": mean " + number(sum / static_cast<double>(count), 0) + ", max " +
-         number(largest, 0) + " counts";
+  return text + ": mean " + figure(sum / static_cast<double>(count), 0) + ", max " +
+         figure(largest, 0) + " counts";
 }
 
 }  // namespace palpate::gui

@@ -3,27 +3,22 @@
 #pragma once
 
 #include <QObject>
-#include <array>
-#include <csignal>
 
-class QSocketNotifier;
+#include "gui/interruption.h"
 
 namespace palpate::gui {
 
-// One at a time. Signals that are ignored stay ignored; what was there before comes back at the end.
+// One at a time, and no other Interruption beside it.
 class Termination : public QObject {
   Q_OBJECT
  public:
   explicit Termination(QObject* parent = nullptr);
-  ~Termination() override;
 
  signals:
   void asked();  // SIGINT, SIGTERM, SIGHUP; in the thread of this object
 
  private:
-  static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
-  std::array<struct sigaction, kSignals.size()> before_{};
-  QSocketNotifier* notifier_;
+  Interruption interruption_;
 };
 
 }  // namespace palpate::gui

@@ -9,6 +9,8 @@
 
 #include <palpate/filter/min_max_decimation.h>
 
+#include "gui/chart_style.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -21,36 +23,13 @@ constexpr int kCursorWidth = 2;      // [px]
 constexpr double kPageRest = 0.1;    // part of the old page that a new page starts with
 constexpr std::size_t kMostGapMarks = 2000;
 
-void styleAxis(QCPAxis& axis, const ThemeColors& colors, const QFont& font) {
-  axis.setBasePen(QPen(colors.border));
-  axis.setTickPen(QPen(colors.border));
-  axis.setSubTickPen(Qt::NoPen);
-  axis.setTickLabelColor(colors.muted);
-  axis.setLabelColor(colors.muted);
-  axis.setTickLabelFont(font);
-  axis.setLabelFont(font);
-  axis.grid()->setPen(QPen(colors.grid));
-  axis.grid()->setZeroLinePen(QPen(colors.grid));
-  axis.grid()->setSubGridVisible(false);
-}
-
 }  // namespace
 
 TimelineChart::TimelineChart(QWidget* parent) : QCustomPlot(parent) {
-  setLocale(QLocale::c());
-  setPlottingHint(QCP::phFastPolylines, true);
+  arrangeChart(*this);
   setAccessibleName("Timeline");
   setMouseTracking(true);
   xAxis->setLabel("time from the first frame in s");
-  xAxis->ticker()->setTickCount(9);
-  yAxis->ticker()->setTickCount(4);
-  xAxis->grid()->setVisible(false);
-  xAxis->setNumberFormat("gb");
-  yAxis->setNumberFormat("gb");
-  xAxis->setTickLengthIn(0);
-  yAxis->setTickLengthIn(0);
-  xAxis->setTickLengthOut(4);
-  axisRect()->setMinimumMargins(QMargins(52, 10, 20, 10));
   cursor_ = new QWidget(this);
   cursor_->setAttribute(Qt::WA_TransparentForMouseEvents);
   cursor_->setAutoFillBackground(true);
@@ -87,9 +66,7 @@ void TimelineChart::setPlotted(const std::vector<bool>& plotted) {
 void TimelineChart::setTheme(Theme theme) {
   theme_ = theme;
   const ThemeColors& colors = colorsOf(theme);
-  setBackground(QBrush(colors.window));
-  styleAxis(*xAxis, colors, font());
-  styleAxis(*yAxis, colors, font());
+  styleChart(*this, theme);
   QPalette palette;
   palette.setColor(QPalette::Window, colors.accent);
   cursor_->setPalette(palette);
@@ -112,10 +89,8 @@ void TimelineChart::rebuildGraphs() {
     for (std::size_t i = 0; i < frames; ++i) values[i] = valueOf(recording_->at(i, row), signal_);
     largest = std::max(largest, *std::max_element(values.begin(), values.end()));
     const bool whole = row + 1 == plotted_.size();
-    QPen pen(whole ? wholeColor(theme_) : matrixColor(row, theme_), 1.4);
-    if (whole) pen.setStyle(Qt::DashLine);
     QCPGraph* graph = addGraph();
-    graph->setPen(pen);
+    graph->setPen(curvePen(row, whole, theme_));
     graph->setAdaptiveSampling(false);  // thinned already
     graphRows_.push_back(row);
     graphValues_.push_back(std::move(values));
@@ -125,38 +100,19 @@ void TimelineChart::rebuildGraphs() {
     const auto& gaps = recording_->timing.gaps;
     for (std::size_t i = 0; i < std::min(gaps.size(), kMostGapMarks); ++i) {
       const double begin = recording_->timeS[gaps[i].frame];
-      auto* shade = new QCPItemRect(this);
-      for (QCPItemPosition* corner : {shade->topLeft, shade->bottomRight}) {
-        corner->setTypeX(QCPItemPosition::ptPlotCoords);
-        corner->setTypeY(QCPItemPosition::ptAxisRectRatio);
-      }
-      shade->topLeft->setCoords(begin, 0.0);
-      shade->bottomRight->setCoords(begin + gaps[i].seconds, 1.0);
-      shade->setPen(Qt::NoPen);
-      shade->setBrush(colorsOf(theme_).gap);
-      shade->setLayer("background");
-      auto* label = new QCPItemText(this);
-      label->position->setTypeX(QCPItemPosition::ptPlotCoords);
-      label->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
-      label->position->setCoords(begin + gaps[i].seconds / 2, 0.04);
-      label->setPositionAlignment(Qt::AlignHCenter | Qt::AlignTop);
-      label->setText("gap " + QString::number(gaps[i].seconds, 'f', 1) + " s");
-      label->setFont(font());
-      label->setColor(colorsOf(theme_).warning);
+      shadeSpan(*this, begin, begin + gaps[i].seconds, theme_);
+      auto* label = wordAt(*this,
+                           begin + gaps[i].seconds / 2,
+                           "gap " + QString::number(gaps[i].seconds, 'f', 1) + " s",
+                           Qt::AlignHCenter,
+                           colorsOf(theme_).warning);
       gapLabels_.push_back(label);
     }
   }
   refill();
 }
 
-// A low chart has no room for more than the unit.
-void TimelineChart::nameAxis() {
-  QString whole = nameOf(signal_);
-  if (!whole.endsWith(unitOf(signal_))) whole += " in " + unitOf(signal_);
-  constexpr int kAroundAxis = 60;  // [px] above and below it
-  const bool fits = fontMetrics().horizontalAdvance(whole) < height() - kAroundAxis;
-  yAxis->setLabel(fits ? whole : unitOf(signal_));
-}
+void TimelineChart::nameAxis() { yAxis->setLabel(signalAxisName(signal_, *this)); }
 
 void TimelineChart::refill() {
   const QCPRange range = xAxis->range();

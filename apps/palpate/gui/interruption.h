@@ -4,7 +4,7 @@
 #include <array>
 #include <csignal>
 
-namespace palpate::commands {
+namespace palpate::gui {
 
 // One at a time, from before the first thread of ours until its end. A handler, not a blocked signal: libraries
 // have threads of their own, which would take it, and the program would be killed. What was ignored when we were
@@ -18,10 +18,12 @@ class Interruption {
 
   // Waits so long at most; whether one came, once for each call that says so.
   bool came(int withinMs);
+  // Can be read when one came: for a loop that waits for more than this.
+  int descriptor() const noexcept;
 
  private:
   static constexpr std::array<int, 3> kSignals = {SIGINT, SIGTERM, SIGHUP};
   std::array<struct sigaction, 3> before_{};
 };
 
-}  // namespace palpate::commands
+}  // namespace palpate::gui

@@ -1,4 +1,4 @@
-#include "commands/interruption.h"
+#include "gui/interruption.h"
 
 #include <cstdint>
 
@@ -6,20 +6,20 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-namespace palpate::commands {
+namespace palpate::gui {
 namespace {
 
-int descriptor = -1;  // of the one that waits; a handler knows nothing else
+int wakeup = -1;  // of the one that waits; a handler knows nothing else
 
 void onSignal(int) {
   const std::uint64_t one = 1;
-  [[maybe_unused]] const ssize_t written = ::write(descriptor, &one, sizeof one);
+  [[maybe_unused]] const ssize_t written = ::write(wakeup, &one, sizeof one);
 }
 
 }  // namespace
 
 Interruption::Interruption() {
-  descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  wakeup = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   struct sigaction action {};
   action.sa_handler = &onSignal;
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
@@ -30,15 +30,17 @@ Interruption::Interruption() {
 
 Interruption::~Interruption() {
   for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &before_[i], nullptr);
-  ::close(descriptor);
-  descriptor = -1;
+  ::close(wakeup);
+  wakeup = -1;
 }
+
+int Interruption::descriptor() const noexcept { return wakeup; }
 
 bool Interruption::came(int withinMs) {
-  pollfd polled{descriptor, POLLIN, 0};
+  pollfd polled{wakeup, POLLIN, 0};
   if (::poll(&polled, 1, withinMs) <= 0) return false;
   std::uint64_t count = 0;
-  return ::read(descriptor, &count, sizeof count) == sizeof count;
+  return ::read(wakeup, &count, sizeof count) == sizeof count;
 }
 
-}  // namespace palpate::commands
+}  // namespace palpate::gui
