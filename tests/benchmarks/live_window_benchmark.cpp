@@ -4,7 +4,6 @@
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QEventLoop>
-#include <QTemporaryDir>
 #include <QTimer>
 #include <algorithm>
 #include <cmath>
@@ -15,13 +14,12 @@
 
 #include <Eigen/Cholesky>
 #include <benchmark/benchmark.h>
-#include <sys/resource.h>
 
 #include "palpate/device/live_hand.h"
 #include "palpate/emulator/emulated_hand.h"
 
+#include "benchmarks/window_bench.h"
 #include "emulator/numbered_hand.h"
-#include "gui/application.h"
 #include "gui/main_window.h"
 #include "gui/matrices_view.h"
 #include "testing/process_facts.h"
@@ -31,36 +29,17 @@ namespace {
 namespace fs = std::filesystem;
 namespace gui = palpate::gui;
 using palpate::systemClock;
+using palpate::testing::processSeconds;
+using palpate::testing::windowApplication;
 
 constexpr double kUsPerMs = 1000.0;
 constexpr double kMsPerS = 1000.0;
-
-QApplication& application() {
-  if (qEnvironmentVariableIsEmpty("DISPLAY")) qputenv("QT_QPA_PLATFORM", "offscreen");
-  static const QTemporaryDir runtime;  // where nobody is logged in there is none, and Qt says so
-  if (!qEnvironmentVariableIsSet("XDG_RUNTIME_DIR"))
-    qputenv("XDG_RUNTIME_DIR", runtime.path().toLocal8Bit());
-  static int count = 1;
-  static char name[] = "palpate";
-  static char* arguments[] = {name, nullptr};
-  static const auto made = gui::makeApplication(count, arguments);
-  return *made;
-}
 
 void runFor(double seconds) {
   QEventLoop loop;
   QTimer::singleShot(
       static_cast<int>(seconds * kMsPerS), Qt::PreciseTimer, &loop, &QEventLoop::quit);
   loop.exec();
-}
-
-double processSeconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -98,7 +77,7 @@ class Heartbeat : public QObject {
 class Bench {
  public:
   explicit Bench(double hz) {
-    application();
+    windowApplication();
     hand_ = makeHand("a", hz);
     gui::WindowSurroundings surroundings;
     surroundings.dataFolder = palpate::testing::dataFolder();

@@ -2,18 +2,16 @@
 // `xvfb-run -a`; without one it uses Qt's offscreen platform.
 #include <QElapsedTimer>
 #include <QEventLoop>
-#include <QTemporaryDir>
 #include <QTimer>
 #include <filesystem>
 
 #include <benchmark/benchmark.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/recording/dsa_writer.h"
 
-#include "gui/application.h"
+#include "benchmarks/window_bench.h"
 #include "gui/main_window.h"
 #include "gui/matrices_view.h"
 #include "testing/program.h"
@@ -22,37 +20,15 @@
 namespace {
 namespace fs = std::filesystem;
 namespace gui = palpate::gui;
+using palpate::testing::processSeconds;
+using palpate::testing::usePlatform;
+using palpate::testing::windowApplication;
 
 // A real recording where there is one, else the demonstration.
 fs::path recording() {
   const auto folder = palpate::testing::recordingsFolder();
   return folder ? *folder / "grasps/foam_ball.dsa"
                 : palpate::testing::dataFolder() / "demo_grasps.dsa";
-}
-
-double processSeconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-void usePlatform() {
-  if (qEnvironmentVariableIsEmpty("DISPLAY")) qputenv("QT_QPA_PLATFORM", "offscreen");
-}
-
-QApplication& application() {
-  usePlatform();
-  static const QTemporaryDir runtime;  // where nobody is logged in there is none, and Qt says so
-  if (!qEnvironmentVariableIsSet("XDG_RUNTIME_DIR"))
-    qputenv("XDG_RUNTIME_DIR", runtime.path().toLocal8Bit());
-  static int count = 1;
-  static char name[] = "palpate";
-  static char* arguments[] = {name, nullptr};
-  static const auto application = gui::makeApplication(count, arguments);
-  return *application;
 }
 
 // From the start of the process to the saved picture of the window with a recording open: an upper
@@ -111,7 +87,7 @@ constexpr double kHeldFromS = 9.0;
 // 20 s of a window of 1600 x 1000. Counters: CPU time of the process as percent of one core (target
 // while playing: 15), paint events of the heat maps per second. The reference repaints all widgets.
 void window(benchmark::State& state, Work work) {
-  application();
+  windowApplication();
   const QTemporaryDir settings;
   gui::MainWindow window({.dataFolder = palpate::testing::dataFolder(),
                           .settingsPath = settings.filePath("palpate.ini"),
