@@ -294,27 +294,33 @@ void windowReplug(benchmark::State& state) {
   }
 }
 
-// Ten minutes (PALPATE_BENCHMARK_MINUTES of them; one where nothing is said): memory, descriptors and threads after a
-// tenth of it, and at the end.
+// Twelve minutes by PALPATE_BENCHMARK_MINUTES=12 (one where nothing is said): descriptors, threads and memory, this in
+// six parts of the time. The chart remembers five minutes: until then memory grows by what it keeps.
 void windowSoak(benchmark::State& state) {
   const int asked = qEnvironmentVariableIntValue("PALPATE_BENCHMARK_MINUTES");
   const double seconds = 60.0 * std::max(1, asked);
+  constexpr int kParts = 6;
   for (auto _ : state) {
     Bench bench(0.0);
+    runFor(5.0);
+    bench.takeAges();
     const double from = processSeconds();
-    runFor(0.1 * seconds);
     const palpate::testing::ProcessFacts before = facts();
     const Heartbeat heartbeat;
     std::vector<double> ages;
-    bench.takeAges();
-    for (double doneS = 0.1 * seconds; doneS < seconds; doneS += 5.0) {
-      runFor(5.0);
-      for (const double age : bench.takeAges()) ages.push_back(age);
+    QElapsedTimer clock;
+    clock.start();
+    for (int part = 1; part <= kParts; ++part) {
+      while (static_cast<double>(clock.elapsed()) < part * seconds * kMsPerS / kParts) {
+        runFor(5.0);
+        for (const double age : bench.takeAges()) ages.push_back(age);
+      }
+      state.counters["mb_" + std::to_string(part)] =
+          static_cast<double>(facts().residentBytes) / 1e6;
     }
-    const palpate::testing::ProcessFacts after = facts();
     count(state, ages);
     state.counters["core_share"] = (processSeconds() - from) / seconds;
-    countGrowth(state, before, after);
+    countGrowth(state, before, facts());
     state.counters["window_away_max_ms"] = heartbeat.longestMs();
     state.SetIterationTime(seconds);
   }

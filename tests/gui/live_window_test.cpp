@@ -302,6 +302,24 @@ TEST_F(LiveWindowTest, TheConnectButtonOffersScenesAndTheLastConnection) {
   ASSERT_TRUE(await([&] { return window().liveShown(); }));
 }
 
+TEST_F(LiveWindowTest, AReplayThatEndsIsNoAlarm) {
+  connectEmulated("empty");
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 5; }));
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return offered().contains("ball_001.palpate"); }));
+  Connection replay;
+  replay.kind = Connection::Kind::kReplay;
+  replay.recording = QString::fromStdString((folder_ / "runs/ball_001.palpate").string());
+  window().connectTo(replay);
+  ASSERT_TRUE(await([&] { return live().source() && live().source()->finished(); }));
+  ASSERT_TRUE(await([&] { return view().notice() == "the replay has ended"; }));
+  // A second without a frame is an alarm elsewhere.
+  ASSERT_TRUE(await([&] { return live().silentS() > 1.6; }));
+  live().look();
+  EXPECT_FALSE(find<QWidget>("AlarmStrip")->isVisible());
+}
+
 TEST_F(LiveWindowTest, TheDemoGraspsByItself) {
   window().openDemo();
   auto* table = window().findChild<MatrixTableModel*>();

@@ -53,6 +53,11 @@ LiveSource::~LiveSource() {
   emulated.reset();
 }
 
+bool LiveSource::finished() const {
+  const auto* replay = dynamic_cast<const Replay*>(&session->device());
+  return replay && replay->finished();
+}
+
 std::unique_ptr<LiveSource> openSource(const Connection& connection,
                                        const std::filesystem::path& dataFolder,
                                        const Progress& progress) {

@@ -23,6 +23,9 @@ struct LiveSource {
   // A motion that runs is stopped first, then a running recording is finished. Up to a few seconds.
   ~LiveSource();
 
+  // A replay that has come to its end: nothing is wrong, and nothing comes any more.
+  bool finished() const;
+
   Connection connection;
   std::unique_ptr<EmulatedHand> emulated;  // of an emulated hand
   std::unique_ptr<CaptureSession> session;

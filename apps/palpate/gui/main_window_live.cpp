@@ -269,6 +269,8 @@ void MainWindow::showStale() {
   QString notice;
   if (held_) {
     // What is held is meant to be old.
+  } else if (live_.source() && live_.source()->finished()) {
+    notice = "the replay has ended";
   } else if (live_.stale()) {
     const PortStatus& port = live_.health().device.tactile;
     notice = !live_.framesCameYet() ? QString("waiting for the first frame")
@@ -288,12 +290,14 @@ void MainWindow::showLook() {
     return;
   }
   const LinkHealth& health = live_.health();
-  bell_.hear(health.alarms, systemClock().monotonicUs());
+  const bool finished = source->finished();
+  bell_.hear(finished ? std::vector<Alarm>() : health.alarms, systemClock().monotonicUs());
   link_->showHealth(health, live_.beforeRun());
-  menus_->showLink(
-      describe(source->connection) +
-          (live_.stale() ? " · no data" : " · " + figure(health.frames.rateHz, 1) + " fps"),
-      !live_.stale());
+  menus_->showLink(describe(source->connection) +
+                       (finished        ? " · ended"
+                        : live_.stale() ? " · no data"
+                                        : " · " + figure(health.frames.rateHz, 1) + " fps"),
+                   !live_.stale());
   showRecordingState();
   if (!liveShown_) return;
   const HandDescription hand = source->session->device().hand();
@@ -303,7 +307,7 @@ void MainWindow::showLook() {
   if (matrices_->hand() && !(*matrices_->hand()->layout == *hand.layout)) matrices_->setHand(hand);
   if (live_.stale() && !held_) {
     showStale();
-    if (live_.framesCameYet()) liveChart_->refresh(live_.silentS());
+    if (live_.framesCameYet() && !finished) liveChart_->refresh(live_.silentS());
   }
   updateStatus();
 }
@@ -313,7 +317,9 @@ void MainWindow::updateLiveStatus() {
   const LinkHealth& health = live_.health();
   now.lamp = live_.stale() ? Status::Lamp::kWarning : Status::Lamp::kGood;
   const RecorderStatus& recorder = health.recorder;
-  if (live_.stale())
+  if (live_.source() && live_.source()->finished())
+    now.state = "the replay has ended";
+  else if (live_.stale())
     now.state = live_.framesCameYet() ? "no data" : "waiting for data";
   else if (recorder.state != RecorderStatus::State::kIdle)
     now.state = recorder.framesOnDisk >= recorder.frames
