@@ -20,7 +20,7 @@ std::string hoursText(double hours) {
 
 std::string portFault(const PortStatus& port, const std::string& name) {
   const std::string where = name + (port.port.empty() ? "" : " " + port.port);
-  const std::string why = port.message.empty() ? "" : ": " + port.message;
+  const std::string why = port.message.empty() ? "" : ": " + withoutPort(port);
   switch (port.state) {
     case PortState::kStreaming:
       return {};
@@ -160,6 +160,11 @@ LinkMeter::Reading LinkMeter::readLocked(std::int64_t monoUs) const {
     reading.expectedRateHz = reading.meanRateHz;
   if (lowSinceUs_) reading.lowRateS = std::max(0.0, seconds(monoUs - *lowSinceUs_));
   return reading;
+}
+
+std::string withoutPort(const PortStatus& port) {
+  const std::string prefix = port.port + ": ";
+  return port.message.starts_with(prefix) ? port.message.substr(prefix.size()) : port.message;
 }
 
 LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options) {

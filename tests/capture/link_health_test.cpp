@@ -154,6 +154,19 @@ TEST(LinkHealth, aDeviceThatNeverCameIsAnAlarmOnlyOnceItIsSilentOrLost) {
   EXPECT_EQ(health.alarms[0].text, "the tactile port /dev/ttyUSB0 is gone: plug it in again");
 }
 
+TEST(LinkHealth, saysTheNameOfAPortOnce) {
+  LinkInputs inputs = streaming();
+  inputs.device.tactile.state = PortState::kSilent;
+  inputs.device.tactile.port = "/dev/ttyUSB0";
+  inputs.device.tactile.message = "/dev/ttyUSB0: no frames for 0.5 s; check power and cable";
+  inputs.frames.ageMs = 2'000.0;
+  const LinkHealth health = assessHealth(inputs);
+  ASSERT_EQ(health.alarms.size(), 1u);
+  EXPECT_EQ(health.alarms[0].text,
+            "the tactile port /dev/ttyUSB0 is silent: no frames for 0.5 s; check power and cable");
+  EXPECT_EQ(withoutPort(PortStatus{}), "");
+}
+
 TEST(LinkHealth, aHandThatIsTooHotIsAnAlarm) {
   LinkInputs inputs = streaming();
   inputs.temperatures = Temperatures{0, {30.0, 65.0}};

@@ -73,16 +73,20 @@ std::vector<KeyEntry> keysOf(const QList<QAction*>& actions) {
 
 KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialog(parent) {
   setWindowTitle("Keys");
-  std::vector<KeyEntry> left, right;
+  // Three columns, about equally long.
+  std::vector<KeyEntry> left, middle, right;
   for (const KeyEntry& entry : keysOf(actions))
-    (entry.section == "View" ? right : left).push_back(entry);
+    (entry.section == "File" || entry.section == "Hand" ? left
+     : entry.section == "View"                          ? middle
+                                                        : right)
+        .push_back(entry);
   right.insert(right.end(), mouseEntries().begin(), mouseEntries().end());
   auto* content = new QWidget(this);
   auto* columns = new QHBoxLayout(content);
   columns->setContentsMargins(18, 16, 18, 8);
-  columns->setSpacing(44);
-  columns->addWidget(columnOf(left, content), 1);
-  columns->addWidget(columnOf(right, content), 1);
+  columns->setSpacing(32);
+  for (const std::vector<KeyEntry>& entries : {left, middle, right})
+    columns->addWidget(columnOf(entries, content), 1);
   auto* scroll = new QScrollArea(this);
   scroll->setWidgetResizable(true);
   scroll->setWidget(content);
@@ -93,7 +97,7 @@ KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialo
   page->addWidget(scroll, 1);
   page->addWidget(buttons);
   const QSize wanted = content->sizeHint() + QSize(40, 80);
-  resize(wanted.boundedTo(QSize(1100, 860)));
+  resize(wanted.boundedTo(QSize(1380, 860)));
 }
 
 }  // namespace palpate::gui

@@ -78,7 +78,8 @@ void LiveChart::setPlotted(const std::vector<bool>& plotted) {
 void LiveChart::setTheme(Theme theme) {
   theme_ = theme;
   styleChart(*this, theme);
-  for (const Shown& event : events_) event.name->setColor(colorsOf(theme).text);
+  for (const Shown& event : events_)
+    event.name->setColor(event.isGap ? colorsOf(theme).warning : colorsOf(theme).text);
   rebuild();
 }
 
@@ -121,8 +122,7 @@ void LiveChart::append(const std::vector<SignalSample>& samples, bool areNew) {
       if (rows_[g] < sample.rows.size())
         series.add(QCPGraphData(atS, valueOf(sample.rows[rows_[g]], signal_)));
     }
-    if (sample.afterGap && areNew && newestUs_ != 0)
-      shade(secondsOf(newestUs_), atS, "gap", colorsOf(theme_).warning);
+    if (sample.afterGap && areNew && newestUs_ != 0) shadeGap(secondsOf(newestUs_), atS);
     newestUs_ = sample.hostUs;
   }
 }
@@ -190,18 +190,21 @@ void LiveChart::line(double atS, const QString& name, const QColor& color) {
   shape->end->setCoords(atS, 1.0);
   shape->setPen(QPen(color, 1.0));
   auto* text = wordAt(*this, atS, name, Qt::AlignLeft, colorsOf(theme_).text);
-  text->setPadding(QMargins(4, 0, 0, 0));
-  events_.push_back({atS, atS, shape, text});
+  // Names of neighbours stand one below the other.
+  constexpr std::size_t kLines = 4;
+  const auto lineHeight = static_cast<int>(fontMetrics().lineSpacing());
+  text->setPadding(QMargins(4, static_cast<int>(lines_++ % kLines) * lineHeight, 0, 0));
+  events_.push_back({atS, atS, false, shape, text});
 }
 
-void LiveChart::shade(double beginS, double endS, const QString& name, const QColor& color) {
+void LiveChart::shadeGap(double beginS, double endS) {
   auto* shape = shadeSpan(*this, beginS, endS, theme_);
   auto* text = wordAt(*this,
                       (beginS + endS) / 2,
-                      name + " " + QString::number(endS - beginS, 'f', 1) + " s",
+                      "gap " + QString::number(endS - beginS, 'f', 1) + " s",
                       Qt::AlignHCenter,
-                      color);
-  events_.push_back({beginS, endS, shape, text});
+                      colorsOf(theme_).warning);
+  events_.push_back({beginS, endS, true, shape, text});
 }
 
 void LiveChart::nameAxis() { yAxis->setLabel(signalAxisName(signal_, *this)); }

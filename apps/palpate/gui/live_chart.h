@@ -60,6 +60,7 @@ class LiveChart : public QCustomPlot {
   struct Shown {
     double beginS = 0.0;
     double endS = 0.0;
+    bool isGap = false;
     QCPAbstractItem* shape = nullptr;
     QCPItemText* name = nullptr;
   };
@@ -69,7 +70,7 @@ class LiveChart : public QCustomPlot {
   void roll(double nowS);
   void fitHeight(double fromS);
   void nameAxis();
-  void shade(double beginS, double endS, const QString& name, const QColor& color);
+  void shadeGap(double beginS, double endS);
   void line(double atS, const QString& name, const QColor& color);
   void forget(double beforeS);
 
@@ -86,6 +87,7 @@ class LiveChart : public QCustomPlot {
   double nowS_ = 0.0;
   double largest_ = 0.0;  // end of the vertical axis
   std::deque<Shown> events_;
+  std::size_t lines_ = 0;  // ever drawn
 };
 
 }  // namespace palpate::gui

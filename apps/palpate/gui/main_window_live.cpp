@@ -4,6 +4,7 @@
 #include <QMessageBox>
 #include <algorithm>
 
+#include <palpate/capture/link_health.h>
 #include <palpate/emulator/scene.h>
 
 #include "gui/captions.h"
@@ -275,8 +276,9 @@ void MainWindow::showStale() {
     const PortStatus& port = live_.health().device.tactile;
     notice = !live_.framesCameYet() ? QString("waiting for the first frame")
                                     : "no frame for " + figure(live_.silentS(), 1) + " s";
-    if (!port.message.empty()) notice += ": " + QString::fromStdString(port.message);
+    if (!port.message.empty()) notice += ": " + QString::fromStdString(withoutPort(port));
   }
+  inspect_->table().setOld(!notice.isEmpty());
   matrices_->view().setNotice(notice);
 }
 

@@ -57,6 +57,7 @@ class TickDelegate : public QItemDelegate {
 
 void MatrixTableModel::setRecording(const OpenedRecordingPtr& recording) {
   beginResetModel();
+  old_ = false;
   recording_ = recording;
   shown_.clear();
   plotted_.clear();
@@ -97,6 +98,13 @@ void MatrixTableModel::showFrame(std::size_t frame) {
 void MatrixTableModel::showSignals(const std::vector<CharacteristicSignals>& rows) {
   if (rows.size() != shown_.size()) return;
   for (std::size_t row = 0; row < shown_.size(); ++row) showRow(row, rows[row]);
+}
+
+void MatrixTableModel::setOld(bool old) {
+  if (old == old_) return;
+  old_ = old;
+  if (rowCount() > 0)
+    emit dataChanged(index(0, kActive), index(rowCount() - 1, kArea), {Qt::ForegroundRole});
 }
 
 void MatrixTableModel::setTheme(Theme theme) {
@@ -163,8 +171,8 @@ QVariant MatrixTableModel::data(const QModelIndex& index, int role) const {
       if (index.column() == kName) return whole ? wholeColor(theme_) : matrixColor(row, theme_);
       return {};
     case Qt::ForegroundRole:
-      return shown_[row].active > 0 || index.column() == kName ? colorsOf(theme_).text
-                                                               : colorsOf(theme_).muted;
+      return (shown_[row].active > 0 && !old_) || index.column() == kName ? colorsOf(theme_).text
+                                                                          : colorsOf(theme_).muted;
     case Qt::ToolTipRole:
       if (index.column() == kName) return "Ticked rows are plotted in the timeline";
       return {};

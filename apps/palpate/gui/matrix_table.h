@@ -27,6 +27,8 @@ class MatrixTableModel : public QAbstractTableModel {
   void showFrame(std::size_t frame);
   // One per matrix, the whole last; another number is ignored.
   void showSignals(const std::vector<CharacteristicSignals>& rows);
+  // What is shown is of before: greyed.
+  void setOld(bool old);
   std::size_t numMatrices() const noexcept { return shown_.empty() ? 0 : shown_.size() - 1; }
   const HandDescription& hand() const noexcept { return hand_; }
   void setTheme(Theme theme);
@@ -53,6 +55,7 @@ class MatrixTableModel : public QAbstractTableModel {
   HandDescription hand_;
   std::vector<CharacteristicSignals> shown_;  // of the current frame, the whole last
   std::vector<bool> plotted_;
+  bool old_ = false;
   Theme theme_ = Theme::kDark;
 };
 

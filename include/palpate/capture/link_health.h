@@ -107,6 +107,9 @@ struct LinkHealth {
 };
 LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options = {});
 
+// What a port says is wrong, without its name in front: where the name is said already.
+std::string withoutPort(const PortStatus& port);
+
 // One line before a run, green (ready) or red.
 struct BeforeRun {
   bool ready = false;
