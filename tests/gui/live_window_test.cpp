@@ -221,6 +221,49 @@ TEST_F(LiveWindowTest, ClosingWhileTheHandMovesStopsIt) {
   EXPECT_EQ(askedToEnd_, 0) << "no recording, no question";
 }
 
+TEST_F(LiveWindowTest, AskedToEndByASignalItStopsAndFinishesWithoutAsking) {
+  connectBench();
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 5; }));
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  mayEnd_ = false;
+  window().endNow();
+  ASSERT_TRUE(await([&] { return !window().isVisible(); }));
+  EXPECT_EQ(askedToEnd_, 0);
+  EXPECT_FALSE(bench_->handMoves());
+  EXPECT_EQ(verifyRecording(folder_ / "runs" / "ball_001.palpate").state,
+            VerifyReport::State::kSound);
+}
+
+TEST_F(LiveWindowTest, AMotionPortThatGoesAwayInAGraspIsSaidAndStoppedOnReturn) {
+  connectBench();
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  bench_->hand->unplug(false, true);
+  ASSERT_TRUE(await([&] { return find<QLabel>("handState")->text().contains("can't move"); }));
+  EXPECT_FALSE(find<QPushButton>("graspHand")->isEnabled());
+  EXPECT_TRUE(find<QPushButton>("stopHand")->isEnabled()) << "Stop is always there";
+  EXPECT_TRUE(view().notice().isEmpty()) << "the tactile stream goes on";
+  bench_->log.restart();
+  bench_->hand->replug();
+  ASSERT_TRUE(await([&] { return !bench_->log.named("stop").empty(); }));
+  ASSERT_TRUE(await([&] { return find<QPushButton>("graspHand")->isEnabled(); }));
+  EXPECT_FALSE(bench_->handMoves());
+}
+
+TEST_F(LiveWindowTest, ATactileStreamThatDiesInAReactiveGraspStopsTheHand) {
+  connectBench();
+  click("reactiveGrasp");
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  bench_->hand->mute(true);
+  ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
+  ASSERT_TRUE(await([&] { return !view().notice().isEmpty(); }))
+      << "and the picture says it is old";
+  bench_->hand->mute(false);
+  ASSERT_TRUE(await([&] { return view().notice().isEmpty(); }));
+}
+
 TEST_F(LiveWindowTest, APulledPlugIsSaidAndTheHandIsFoundAgain) {
   connectBench();
   bench_->hand->unplug();
