@@ -190,8 +190,18 @@ TEST_F(LiveWindowTest, ARecordingGoesOnWhileAnotherIsLookedAt) {
   press(Qt::Key_F6);
   EXPECT_TRUE(window().liveShown());
   EXPECT_TRUE(actions().mark->isEnabled());
+  press(Qt::Key_Space);
+  ASSERT_TRUE(await([&] { return chart().numEvents() == 1; }));
+  open({"good2.dsa"});
+  press(Qt::Key_F6);
+  EXPECT_EQ(chart().numEvents(), 1u) << "marks stay in the chart";
   press(Qt::Key_W, Qt::ControlModifier);
-  EXPECT_TRUE(window().liveShown()) << "the recording is closed, the hand stays";
+  EXPECT_EQ(window().recordings().size(), 2u) << "none of them is shown: none is closed";
+  press(Qt::Key_Tab, Qt::ControlModifier);
+  EXPECT_FALSE(window().liveShown());
+  for (int i = 0; i < 2; ++i) press(Qt::Key_W, Qt::ControlModifier);
+  EXPECT_TRUE(window().recordings().empty());
+  EXPECT_TRUE(window().liveShown()) << "recordings are closed, the hand stays";
 }
 
 TEST_F(LiveWindowTest, ClosingAsksOnceAndFinishesTheRecording) {

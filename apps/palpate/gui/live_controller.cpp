@@ -25,6 +25,7 @@ std::filesystem::path existingPartOf(std::filesystem::path folder) {
 LiveController::LiveController(std::filesystem::path dataFolder, QObject* parent)
     : QObject(parent), dataFolder_(std::move(dataFolder)) {
   worker_.setMaxThreadCount(1);
+  checker_.setMaxThreadCount(1);
   refreshTimer_.setInterval(kRefreshMs);
   refreshTimer_.setTimerType(Qt::PreciseTimer);
   lookTimer_.setInterval(kLookMs);
@@ -190,10 +191,9 @@ void LiveController::look() {
 void LiveController::check() {
   if (checking_) return;
   checking_ = true;
-  inWorker([this, folder = folder_, source = std::weak_ptr(source_), generation = generation_] {
-    std::optional<BeforeRun> result;
-    if (const auto alive = source.lock())
-      result = alive->session->checkBeforeRun(existingPartOf(folder));
+  checker_.start([this, folder = folder_, source = source_, generation = generation_]() mutable {
+    const BeforeRun result = source->session->checkBeforeRun(existingPartOf(folder));
+    source.reset();
     QMetaObject::invokeMethod(
         this,
         [this, result, generation] {

@@ -100,8 +100,9 @@ class LiveController : public QObject {
   std::optional<BeforeRun> beforeRun_;
   bool checking_ = false;
   int looks_ = 0;
-  int pending_ = 0;     // work in the worker that ends or opens a source
-  QThreadPool worker_;  // one thread: one thing after the other
+  int pending_ = 0;      // work in the worker that ends or opens a source
+  QThreadPool checker_;  // a folder that hangs holds up nothing but its own check
+  QThreadPool worker_;   // one thread: one thing after the other
 };
 
 }  // namespace palpate::gui

@@ -150,6 +150,7 @@ class MainWindow : public QMainWindow {
   // main_window_taxels.cpp
   void connectScanActions();
   void scan(MaskChoice choice);
+  void heedScanAnswers();
   QString selectionText() const;
   // main_window_recording.cpp
   void connectRecording();
@@ -209,6 +210,7 @@ class MainWindow : public QMainWindow {
   bool liveShown_ = false;
   bool held_ = false;  // the live picture
   bool alarmIsNew_ = false;
+  std::vector<std::shared_future<CommandAnswer>> scanAnswers_;
   RecordingSettings recordingSettings_;
   std::vector<std::filesystem::path> lastRecorded_;  // parts
   UnfinishedFinder unfinished_;

@@ -221,6 +221,7 @@ void MainWindow::liveLeaving() {
   bell_.hear({}, 0);
   link_->log("disconnected: " + describe(live_.connection()));
   shownHistory_ = nullptr;
+  scanAnswers_.clear();
   if (liveShown_) matrices_->view().setNotice("not connected any more");
 }
 
@@ -244,7 +245,8 @@ void MainWindow::liveEnded() {
 void MainWindow::showLive() {
   LiveSource* source = live_.source();
   if (!source) return;
-  const bool newly = !liveShown_ || source->history.get() != shownHistory_;
+  const bool another = source->history.get() != shownHistory_;
+  const bool newly = !liveShown_ || another;
   liveShown_ = true;
   playback_.pause();
   setPlace(Place::kLive);
@@ -253,9 +255,10 @@ void MainWindow::showLive() {
     shownHistory_ = source->history.get();
     matrices_->setRecording(nullptr);
     matrices_->setHand(hand);
-    liveChart_->setHistory(source->history.get(), hand.layout->numMatrices());
+    if (another) liveChart_->setHistory(source->history.get(), hand.layout->numMatrices());
     inspect_->setHand(hand);
     held_ = false;
+    liveChart_->setHeld(false);
     actions_.hold->setChecked(false);
   }
   setWindowTitle(describe(source->connection) + " – Palpate");
@@ -301,6 +304,7 @@ void MainWindow::showLook() {
                                         : " · " + figure(health.frames.rateHz, 1) + " fps"),
                    !live_.stale());
   showRecordingState();
+  heedScanAnswers();
   if (!liveShown_) return;
   const HandDescription hand = source->session->device().hand();
   inspect_->setLiveFacts(factsOf(

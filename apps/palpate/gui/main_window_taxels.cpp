@@ -1,6 +1,7 @@
 // The taxels that are chosen in the main window: what they say, and which ones the hand scans.
 #include <QMenu>
 #include <algorithm>
+#include <chrono>
 
 #include "gui/captions.h"
 #include "gui/main_window.h"
@@ -41,12 +42,29 @@ void MainWindow::scan(MaskChoice choice) {
   try {
     const auto commands = maskCommands(
         *source->session->device().hand().layout, matrices_->view().selection(), choice);
-    for (const DeviceCommand& command : commands) source->control->change(command);
+    for (const DeviceCommand& command : commands)
+      scanAnswers_.push_back(source->control->change(command));
     flash(commands.empty() ? "these taxels are scanned already"
                            : "which taxels are scanned is being changed: the stream pauses");
   } catch (const std::exception& error) {
     banner_->showMessage(error.what());
   }
+}
+
+// What the hand made of it.
+void MainWindow::heedScanAnswers() {
+  const auto isReady = [](const auto& answer) {
+    return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  };
+  for (const auto& answer : scanAnswers_) {
+    if (!isReady(answer)) continue;
+    try {
+      answer.get();
+    } catch (const std::exception& error) {
+      banner_->showMessage("Which taxels are scanned was not changed: " + QString(error.what()));
+    }
+  }
+  std::erase_if(scanAnswers_, isReady);
 }
 
 QString MainWindow::selectionText() const {

@@ -262,7 +262,7 @@ void MainWindow::enableActions() {
   // The space bar and the digits: marks while live is shown, playback else.
   actions_.mark->setEnabled(liveShown_);
   for (QAction* label : actions_.labels) label->setEnabled(liveShown_);
-  actions_.closeRecording->setEnabled(current_ != nullptr);
+  actions_.closeRecording->setEnabled(current_ && !liveShown_);
   for (QAction* action : {actions_.nextRecording, actions_.previousRecording})
     action->setEnabled(recordings_.size() > 1);
 }
