@@ -9,6 +9,7 @@
 #include "gui/keys_dialog.h"
 #include "gui/matrices_view.h"
 #include "gui/status_strip.h"
+#include "gui/take_away.h"
 #include "gui/timeline_chart.h"
 #include "window_fixture.h"
 
@@ -233,15 +234,18 @@ TEST_F(MainWindowTest, CopyPutsTheFrameOnTheClipboard) {
   for (int y = 0; y < copied.height(); ++y)
     for (int x = 0; x < copied.width(); ++x) found += copied.pixel(x, y) == highest ? 1 : 0;
   EXPECT_GT(found, 500);
-  EXPECT_EQ(status().notice, "picture copied");
+  EXPECT_EQ(status().notice, "copied: Matrices as picture");
 }
 
 TEST_F(MainWindowTest, ExportWritesThePictureThatWasAskedFor) {
   QString suggested;
-  const QString path = QString::fromStdString((folder_ / "frame.svg").string());
-  window().askForPicture = [&](const QString& suggestion) {
-    suggested = suggestion;
-    return path;
+  window().takeAway().ask = [&](const ExportRequest& suggestion) {
+    suggested = suggestion.name + endingOf(suggestion.form);
+    ExportRequest request = suggestion;
+    request.form = ExportForm::kSvg;
+    request.folder = QString::fromStdString(folder_.path().string());
+    request.name = "frame";
+    return request;
   };
   playback().seekFrame(7);
   QSignalSpy written(&window(), &MainWindow::pictureWritten);
@@ -255,16 +259,18 @@ TEST_F(MainWindowTest, ExportWritesThePictureThatWasAskedFor) {
 }
 
 TEST_F(MainWindowTest, ExportThatFailsSaysWhy) {
-  window().askForPicture = [&](const QString&) {
-    return QString::fromStdString((folder_ / "no" / "such" / "a.png").string());
+  window().takeAway().ask = [&](const ExportRequest& suggestion) {
+    ExportRequest request = suggestion;
+    request.folder = QString::fromStdString((folder_ / "no" / "such").string());
+    return request;
   };
   press(Qt::Key_E, Qt::ControlModifier);
   ASSERT_TRUE(QTest::qWaitFor([&] { return !bannerText().isEmpty(); }, 10'000));
-  EXPECT_TRUE(bannerText().contains("a.png"));
+  EXPECT_TRUE(bannerText().contains("no/such"));
 }
 
 TEST_F(MainWindowTest, ExportCancelledDoesNothing) {
-  window().askForPicture = [](const QString&) { return QString(); };
+  window().takeAway().ask = [](const ExportRequest&) { return std::nullopt; };
   press(Qt::Key_E, Qt::ControlModifier);
   window().waitForExports();
   EXPECT_EQ(bannerText(), "");

@@ -63,8 +63,11 @@ Actions::Actions(QWidget* window) : window_(window) {
   nextRecording = make("File", "&Next open recording", {key("Ctrl+Tab")});
   previousRecording = make("File", "&Previous open recording", {key("Ctrl+Shift+Tab")});
   closeRecording = make("File", "&Close recording", {key("Ctrl+W")});
-  exportPicture = make("File", "&Export picture…", {key("Ctrl+E")});
-  copyPicture = make("File", "Cop&y picture", {key("Ctrl+C")});
+  exportPicture = make("File", "&Export…", {key("Ctrl+E")});
+  exportAgain = make("File", "Export as &last time", {key("Ctrl+Shift+E")});
+  copyPicture = make("File", "Cop&y", {key("Ctrl+C")});
+  copyPicture->setToolTip("Copy the view that was clicked into last (Ctrl+C)");
+  copyTable = make("File", "Copy &table", {key("Ctrl+Alt+C")});
   quit = make("File", "&Quit", {key("Ctrl+Q")});
 
   interpolated = make("View", "&Smooth", {key("I")}, true);

@@ -22,7 +22,9 @@ struct Actions {
   QAction* previousRecording;
   QAction* closeRecording;
   QAction* exportPicture;
+  QAction* exportAgain;
   QAction* copyPicture;
+  QAction* copyTable;
   QAction* quit;
 
   QAction* interpolated;

@@ -22,6 +22,7 @@
 #include "gui/playback_bar.h"
 #include "gui/start_page.h"
 #include "gui/status_strip.h"
+#include "gui/take_away.h"
 #include "gui/timeline_chart.h"
 #include "gui/timeline_header.h"
 
@@ -61,18 +62,13 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   connectChoices();
   connectLive();
   connectRecording();
+  connectTakeAway();
 
   askForRecordings = [this] {
     return QFileDialog::getOpenFileNames(this,
                                          "Open recordings",
                                          settings_.value(kLastFolder).toString(),
                                          "Recordings (*.dsa *.palpate *.xml);;All files (*)");
-  };
-  askForPicture = [this](const QString& suggestion) {
-    return QFileDialog::getSaveFileName(this,
-                                        "Export picture",
-                                        suggestion,
-                                        "PNG picture (*.png);;SVG drawing (*.svg);;PDF (*.pdf)");
   };
   resize(kUsualWindow);
   restoreGeometry(settings_.value("window/geometry").toByteArray());
@@ -92,7 +88,6 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
 MainWindow::~MainWindow() {
   hand_->setHand(nullptr, nullptr);
   liveChart_->setHistory(nullptr, 0);
-  workers_.waitForDone();
 }
 
 void MainWindow::buildParts(const std::filesystem::path& dataFolder) {
@@ -107,6 +102,7 @@ void MainWindow::buildParts(const std::filesystem::path& dataFolder) {
   banner_ = new MessageBanner(page);
   offer_ = new OfferStrip(page);
   opening_ = new OpeningStrip(page);
+  exporting_ = new OpeningStrip(page, "Writing", "exporting");
   startPage_ = new StartPage(recent_, withDemo, page);
   matrices_ = new MatricesPanel(actions_.interpolated, actions_.values, page);
   playbackBar_ = new PlaybackBar(playback_, page);
@@ -126,6 +122,7 @@ void MainWindow::buildParts(const std::filesystem::path& dataFolder) {
   layout->addWidget(banner_);
   layout->addWidget(offer_);
   layout->addWidget(opening_);
+  layout->addWidget(exporting_);
   layout->addWidget(stack_, 1);
   setCentralWidget(page);
 
@@ -198,8 +195,6 @@ void MainWindow::connectFileActions() {
   connect(actions_.nextRecording, &QAction::triggered, this, [this] { showNeighbour(1); });
   connect(actions_.previousRecording, &QAction::triggered, this, [this] { showNeighbour(-1); });
   connect(actions_.closeRecording, &QAction::triggered, this, &MainWindow::closeCurrent);
-  connect(actions_.exportPicture, &QAction::triggered, this, &MainWindow::exportPicture);
-  connect(actions_.copyPicture, &QAction::triggered, this, &MainWindow::copyPicture);
   connect(actions_.quit, &QAction::triggered, this, &QWidget::close);
   connect(menus_->recent, &QMenu::aboutToShow, this, &MainWindow::fillRecentMenu);
   connect(menus_->recordings, &QComboBox::activated, this, [this](int index) {

@@ -5,7 +5,6 @@
 #include <QMainWindow>
 #include <QSettings>
 #include <QStackedWidget>
-#include <QThreadPool>
 #include <QTimer>
 #include <filesystem>
 #include <functional>
@@ -19,6 +18,7 @@
 
 #include "gui/actions.h"
 #include "gui/alarm_bell.h"
+#include "gui/exported_view.h"
 #include "gui/live_controller.h"
 #include "gui/matrices_painter.h"
 #include "gui/playback_controller.h"
@@ -44,6 +44,7 @@ class OpeningStrip;
 class PlaybackBar;
 class StartPage;
 class StatusStrip;
+class TakeAway;
 class TimelineChart;
 class TimelineHeader;
 
@@ -90,7 +91,6 @@ class MainWindow : public QMainWindow {
 
   // How files are asked for; an empty answer means cancelled. Tests answer themselves.
   std::function<QStringList()> askForRecordings;
-  std::function<QString(const QString& suggestion)> askForPicture;
   // Nothing: cancelled.
   std::function<std::optional<Connection>(const Connection& last)> askForConnection;
   // What a recording shall be called, before it begins or in between; nothing: cancelled.
@@ -101,8 +101,10 @@ class MainWindow : public QMainWindow {
   // Looks for recordings that were never finished, and offers to recover them.
   void offerUnfinished();
   UnfinishedFinder& unfinished() noexcept { return unfinished_; }
-  // Waits until pictures being written are on disk.
-  void waitForExports() { workers_.waitForDone(); }
+  // What can be taken away, and how it is asked for.
+  TakeAway& takeAway() noexcept { return *takeAway_; }
+  // Waits until what is being written is on disk.
+  void waitForExports();
 
  signals:
   void recordingShown();
@@ -133,8 +135,12 @@ class MainWindow : public QMainWindow {
   void listRecordings();
   QString pictureName() const;
   bool somethingIsShown() const;
-  void exportPicture();
-  void copyPicture();
+  // main_window_takeaway.cpp: views as pictures and tables
+  void connectTakeAway();
+  ExportedView matricesExport();
+  ExportedView timelineExport();
+  ExportedView inspectExport();
+  QString recordingStem() const;
   // main_window_live.cpp: what is connected
   void connectLive();
   void askAndConnect();
@@ -191,7 +197,7 @@ class MainWindow : public QMainWindow {
   RecordingOpener opener_;
   AlarmBell bell_;
   LiveController live_;
-  QThreadPool workers_;
+  std::unique_ptr<TakeAway> takeAway_;
 
   std::filesystem::path demoPath_;
   bool demoAsked_ = false;
@@ -222,6 +228,7 @@ class MainWindow : public QMainWindow {
   QStackedWidget* stack_ = nullptr;
   MessageBanner* banner_ = nullptr;
   OpeningStrip* opening_ = nullptr;
+  OpeningStrip* exporting_ = nullptr;
   StartPage* startPage_ = nullptr;
   MatricesPanel* matrices_ = nullptr;
   PlaybackBar* playbackBar_ = nullptr;

@@ -1,6 +1,4 @@
-// The main window's files: opening, the recordings that are open, pictures, drag and drop.
-#include <QApplication>
-#include <QClipboard>
+// The main window's files: opening, the recordings that are open, drag and drop.
 #include <QComboBox>
 #include <QDragEnterEvent>
 #include <QFileInfo>
@@ -15,7 +13,6 @@
 #include "gui/main_window.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
-#include "gui/picture_export.h"
 #include "gui/start_page.h"
 #include "gui/timeline_chart.h"
 
@@ -23,7 +20,6 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kLastFolder = "recent/folder";
-constexpr const char* kLastPictureFolder = "recent/picture_folder";
 
 std::vector<std::filesystem::path> localFiles(const QMimeData& data) {
   std::vector<std::filesystem::path> files;
@@ -178,8 +174,8 @@ void MainWindow::closeCurrent() {
 }
 
 QString MainWindow::pictureName() const {
-  if (liveShown_) return "live_" + QTime::currentTime().toString("HHmmss") + ".png";
-  return QString("%1_frame_%2.png")
+  if (liveShown_) return "live_" + QTime::currentTime().toString("HHmmss");
+  return QString("%1_frame_%2")
       .arg(QFileInfo(nameOf(*current_)).completeBaseName())
       .arg(playback_.frame(), 5, 10, QChar('0'));
 }
@@ -187,45 +183,6 @@ QString MainWindow::pictureName() const {
 bool MainWindow::somethingIsShown() const {
   return matrices_->hand() && !matrices_->frame().values.empty() &&
          (liveShown_ || playback_.hasFrames());
-}
-
-void MainWindow::exportPicture() {
-  if (!somethingIsShown()) return;
-  const QString name = pictureName();
-  const QString folder = settings_.value(kLastPictureFolder).toString();
-  QString path = askForPicture(folder.isEmpty() ? name : folder + "/" + name);
-  if (path.isEmpty()) return;
-  if (QFileInfo(path).suffix().isEmpty()) path += ".png";
-  settings_.setValue(kLastPictureFolder, QFileInfo(path).path());
-  // Drawn and written beside the window, which goes on playing.
-  workers_.start([this,
-                  path,
-                  frame = matrices_->frame(),
-                  hand = *matrices_->hand(),
-                  options = exportOptions()] {
-    QString failure;
-    try {
-      // The dialog has asked whether an existing file may be replaced.
-      writeMatricesPicture(path.toStdString(), frame, hand, options, Overwrite::kReplace);
-    } catch (const std::exception& error) {
-      failure = QString::fromUtf8(error.what());
-    }
-    QMetaObject::invokeMethod(
-        this,
-        [this, path, failure] {
-          if (!failure.isEmpty()) return banner_->showMessage(failure);
-          flash("written: " + path);
-          emit pictureWritten(path);
-        },
-        Qt::QueuedConnection);
-  });
-}
-
-void MainWindow::copyPicture() {
-  if (!somethingIsShown()) return;
-  QApplication::clipboard()->setImage(
-      matricesImage(matrices_->frame(), *matrices_->hand(), exportOptions()));
-  flash("picture copied");
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

@@ -22,6 +22,7 @@
 #include "gui/playback_bar.h"
 #include "gui/start_page.h"
 #include "gui/status_strip.h"
+#include "gui/take_away.h"
 #include "gui/timeline_chart.h"
 #include "gui/timeline_header.h"
 
@@ -251,7 +252,8 @@ void MainWindow::enableActions() {
     action->setEnabled(frames);
   for (QAction* action : {actions_.zoomIn, actions_.zoomOut, actions_.fit})
     action->setEnabled(frames || liveShown_);
-  for (QAction* action : {actions_.exportPicture, actions_.copyPicture})
+  for (QAction* action :
+       {actions_.exportPicture, actions_.exportAgain, actions_.copyPicture, actions_.copyTable})
     action->setEnabled(somethingIsShown());
   const bool connected = live_.source() != nullptr;
   actions_.disconnectHand->setEnabled(live_.state() != LiveController::State::kNone);
@@ -273,6 +275,7 @@ void MainWindow::dismiss() {
   if (!alarmStrip_->isHidden()) return alarmStrip_->hide();
   if (!banner_->isHidden()) return banner_->dismiss();
   if (opener_.busy()) return opener_.cancel();
+  if (takeAway_->busy()) return takeAway_->cancel();
   if (live_.state() == LiveController::State::kConnecting) return live_.end();
   if (!matrices_->view().selection().empty()) return matrices_->view().clearSelection();
   if (isFullScreen()) toggleFullScreen(false);

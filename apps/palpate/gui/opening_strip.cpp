@@ -14,20 +14,21 @@ constexpr int kSteps = 1000;
 
 }  // namespace
 
-OpeningStrip::OpeningStrip(QWidget* parent) : QWidget(parent) {
+OpeningStrip::OpeningStrip(QWidget* parent, const QString& verb, const QString& part)
+    : QWidget(parent), verb_(verb) {
   setObjectName("OpeningStrip");
   setAttribute(Qt::WA_StyledBackground);
   name_ = new QLabel(this);
   name_->setTextFormat(Qt::PlainText);
   bar_ = new QProgressBar(this);
-  bar_->setObjectName("openingProgress");
+  bar_->setObjectName(part + "Progress");
   bar_->setRange(0, kSteps);
   bar_->setTextVisible(false);
   bar_->setFixedHeight(8);
   auto* cancel = new QPushButton("Cancel", this);
-  cancel->setObjectName("cancelOpening");
+  cancel->setObjectName("cancel" + part.left(1).toUpper() + part.mid(1));
   cancel->setFocusPolicy(Qt::NoFocus);
-  cancel->setToolTip("Give up opening (Esc)");
+  cancel->setToolTip("Give up " + verb.toLower() + " (Esc)");
   connect(cancel, &QPushButton::clicked, this, &OpeningStrip::cancelRequested);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(14, 5, 10, 5);
@@ -42,7 +43,7 @@ OpeningStrip::OpeningStrip(QWidget* parent) : QWidget(parent) {
 }
 
 void OpeningStrip::begin(const QString& path) {
-  name_->setText("Opening " + QFileInfo(path).fileName());
+  name_->setText(verb_ + " " + QFileInfo(path).fileName());
   bar_->setValue(0);
   if (isHidden()) appear_.start();
 }

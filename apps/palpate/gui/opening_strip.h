@@ -1,5 +1,5 @@
-// Progress of opening a recording, with a way to cancel it. It appears only when opening takes long
-// enough to be noticed.
+// Progress of opening a recording (or writing one, or pictures), with a way to cancel it. It appears only when
+// that takes long enough to be noticed.
 #pragma once
 
 #include <QTimer>
@@ -13,7 +13,10 @@ namespace palpate::gui {
 class OpeningStrip : public QWidget {
   Q_OBJECT
  public:
-  explicit OpeningStrip(QWidget* parent = nullptr);
+  // `verb` stands before the name; `part` begins the names of its parts.
+  explicit OpeningStrip(QWidget* parent = nullptr,
+                        const QString& verb = "Opening",
+                        const QString& part = "opening");
   void begin(const QString& path);
   void setProgress(double fraction);
   void end();
@@ -22,6 +25,7 @@ class OpeningStrip : public QWidget {
   void cancelRequested();
 
  private:
+  QString verb_;
   QLabel* name_;
   QProgressBar* bar_;
   QTimer appear_;

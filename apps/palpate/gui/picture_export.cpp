@@ -4,65 +4,49 @@
 #include <QPageSize>
 #include <QPainter>
 #include <QPdfWriter>
-#include <QSvgGenerator>
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include <palpate/core/error.h>
+
+#include "gui/svg_device.h"
 
 namespace palpate::gui {
 namespace {
 
-constexpr int kPxPerInch = 96;
-constexpr int kPdfDpi = 1200;          // resolution that positions in a PDF are rounded to
-constexpr double kPointsPerPx = 0.75;  // 96 px = 72 pt = 1 inch
+constexpr int kPdfDpi = 1200;  // resolution that positions in a PDF are rounded to
+constexpr double kMmPerInch = 25.4;
+constexpr double kMPerInch = 0.0254;
+constexpr double kPointsPerInch = 72.0;
+constexpr double kPxPerInch = 96.0;
 
-void paintOn(QPaintDevice& device,
-             const QRectF& area,
-             double scale,
-             const TactileFrame& frame,
-             const HandDescription& hand,
-             const MatricesPictureOptions& options) {
+QByteArray svgBytes(const PaintPicture& paint, const PicturePaper& paper) {
+  SvgDevice device(paper.size, paper.unitsPerInch);
+  device.setTitle(paper.title, paper.description);
   QPainter painter(&device);
-  painter.scale(scale, scale);
-  paintMatricesPicture(painter, area, frame, hand, options);
+  paint(painter);
+  painter.end();
+  return device.bytes();
 }
 
-QByteArray svgBytes(const TactileFrame& frame,
-                    const HandDescription& hand,
-                    const MatricesPictureOptions& options) {
-  QByteArray bytes;
-  QBuffer buffer(&bytes);
-  buffer.open(QIODevice::WriteOnly);
-  QSvgGenerator generator;
-  generator.setOutputDevice(&buffer);
-  generator.setSize(options.size.toSize());
-  generator.setViewBox(QRectF(QPointF(), options.size));
-  generator.setResolution(kPxPerInch);
-  generator.setTitle(options.title);
-  generator.setDescription(options.caption);
-  paintOn(generator, QRectF(QPointF(), options.size), 1.0, frame, hand, options);
-  return bytes;
-}
-
-QByteArray pdfBytes(const TactileFrame& frame,
-                    const HandDescription& hand,
-                    const MatricesPictureOptions& options) {
+QByteArray pdfBytes(const PaintPicture& paint, const PicturePaper& paper) {
   QByteArray bytes;
   QBuffer buffer(&bytes);
   buffer.open(QIODevice::WriteOnly);
   QPdfWriter writer(&buffer);
   writer.setResolution(kPdfDpi);
-  writer.setPageSize(QPageSize(options.size * kPointsPerPx, QPageSize::Point));
+  writer.setPageSize(QPageSize(paper.size / paper.unitsPerInch * kPointsPerInch,
+                               QPageSize::Point,
+                               {},
+                               QPageSize::ExactMatch));
   writer.setPageMargins(QMarginsF());
-  writer.setTitle(options.title);
+  writer.setTitle(paper.title);
   writer.setCreator("Palpate");
-  paintOn(writer,
-          QRectF(QPointF(), options.size),
-          static_cast<double>(kPdfDpi) / kPxPerInch,
-          frame,
-          hand,
-          options);
+  QPainter painter(&writer);
+  painter.scale(kPdfDpi / paper.unitsPerInch, kPdfDpi / paper.unitsPerInch);
+  paint(painter);
+  painter.end();
   return bytes;
 }
 
@@ -70,7 +54,8 @@ QByteArray pngBytes(const std::filesystem::path& path, const QImage& image) {
   QByteArray bytes;
   QBuffer buffer(&bytes);
   buffer.open(QIODevice::WriteOnly);
-  if (!image.save(&buffer, "PNG")) throw FileError(path, "the picture can't be made into a PNG");
+  if (image.isNull() || !image.save(&buffer, "PNG"))
+    throw FileError(path, "the picture can't be made into a PNG; it may be too large");
   return bytes;
 }
 
@@ -80,7 +65,28 @@ void writeBytes(const std::filesystem::path& path, const QByteArray& bytes, Over
   file.commit();
 }
 
+PicturePaper paperOf(const MatricesPictureOptions& options, double scale) {
+  return {.size = options.size,
+          .unitsPerInch = kPxPerInch,
+          .dpi = kPxPerInch * scale,
+          .background = colorsOf(options.theme).window,
+          .title = options.title,
+          .description = options.caption};
+}
+
+PaintPicture paintOf(const TactileFrame& frame,
+                     const HandDescription& hand,
+                     const MatricesPictureOptions& options) {
+  return [&](QPainter& painter) {
+    paintMatricesPicture(painter, QRectF(QPointF(), options.size), frame, hand, options);
+  };
+}
+
 }  // namespace
+
+QSize PicturePaper::pixels() const { return (size * scale()).toSize().expandedTo(QSize(1, 1)); }
+
+QSizeF PicturePaper::sizeMm() const { return size / unitsPerInch * kMmPerInch; }
 
 std::optional<PictureForm> pictureFormOf(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
@@ -93,15 +99,56 @@ std::optional<PictureForm> pictureFormOf(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
+QImage pictureImage(const PaintPicture& paint, const PicturePaper& paper) {
+  QImage image(paper.pixels(), QImage::Format_RGB32);
+  if (image.isNull()) return image;  // no memory for it
+  image.fill(paper.background);
+  QPainter painter(&image);
+  painter.setRenderHint(QPainter::Antialiasing, true);
+  painter.scale(paper.scale(), paper.scale());
+  paint(painter);
+  painter.end();
+  // Only now: a painter would scale fonts by it.
+  const int dotsPerM = static_cast<int>(std::lround(paper.dpi / kMPerInch));
+  image.setDotsPerMeterX(dotsPerM);
+  image.setDotsPerMeterY(dotsPerM);
+  if (!paper.title.isEmpty()) image.setText("Title", paper.title);
+  if (!paper.description.isEmpty()) image.setText("Description", paper.description);
+  image.setText("Software", "Palpate");
+  return image;
+}
+
+QByteArray pictureBytes(PictureForm form,
+                        const PaintPicture& paint,
+                        const PicturePaper& paper,
+                        const std::filesystem::path& path) {
+  switch (form) {
+    case PictureForm::kSvg:
+      return svgBytes(paint, paper);
+    case PictureForm::kPdf:
+      return pdfBytes(paint, paper);
+    case PictureForm::kPng:
+      break;
+  }
+  return pngBytes(path, pictureImage(paint, paper));
+}
+
+void writePicture(const std::filesystem::path& path,
+                  const PaintPicture& paint,
+                  const PicturePaper& paper,
+                  Overwrite overwrite) {
+  const auto form = pictureFormOf(path);
+  if (!form) throw FileError(path, "a picture's name must end in .png, .svg or .pdf");
+  requireWritable(path, overwrite);  // before the work, not after it
+  writeBytes(path, pictureBytes(*form, paint, paper, path), overwrite);
+}
+
 QImage matricesImage(const TactileFrame& frame,
                      const HandDescription& hand,
                      MatricesPictureOptions options,
                      double scale) {
-  QImage image((options.size * scale).toSize(), QImage::Format_RGB32);
-  image.fill(colorsOf(options.theme).window);
   options.pixelRatio = scale;
-  paintOn(image, QRectF(QPointF(), options.size), scale, frame, hand, options);
-  return image;
+  return pictureImage(paintOf(frame, hand, options), paperOf(options, scale));
 }
 
 void writeMatricesPicture(const std::filesystem::path& path,
@@ -109,21 +156,10 @@ void writeMatricesPicture(const std::filesystem::path& path,
                           const HandDescription& hand,
                           const MatricesPictureOptions& options,
                           Overwrite overwrite) {
-  const auto form = pictureFormOf(path);
-  if (!form) throw FileError(path, "a picture's name must end in .png, .svg or .pdf");
-  QByteArray bytes;
-  switch (*form) {
-    case PictureForm::kPng:
-      bytes = pngBytes(path, matricesImage(frame, hand, options));
-      break;
-    case PictureForm::kSvg:
-      bytes = svgBytes(frame, hand, options);
-      break;
-    case PictureForm::kPdf:
-      bytes = pdfBytes(frame, hand, options);
-      break;
-  }
-  writeBytes(path, bytes, overwrite);
+  constexpr double kScale = 2.0;
+  MatricesPictureOptions fitting = options;
+  fitting.pixelRatio = pictureFormOf(path) == PictureForm::kPng ? kScale : 0.0;
+  writePicture(path, paintOf(frame, hand, fitting), paperOf(options, kScale), overwrite);
 }
 
 void writePng(const std::filesystem::path& path, const QImage& image, Overwrite overwrite) {

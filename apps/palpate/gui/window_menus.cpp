@@ -42,7 +42,8 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   file->addSeparator();
   file->addActions({actions.nextRecording, actions.previousRecording, actions.closeRecording});
   file->addSeparator();
-  file->addActions({actions.exportPicture, actions.copyPicture});
+  file->addActions(
+      {actions.exportPicture, actions.exportAgain, actions.copyPicture, actions.copyTable});
   file->addSeparator();
   file->addAction(actions.quit);
 

@@ -1,0 +1,90 @@
+// Asks what shall be taken away, in which form and size, and where to; shows what it will look like.
+#pragma once
+
+#include <QDialog>
+#include <functional>
+#include <vector>
+
+#include "gui/export_request.h"
+#include "gui/exported_view.h"
+
+class QButtonGroup;
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+
+namespace palpate::gui {
+
+class ExportPreview;
+
+class ExportDialog : public QDialog {
+  Q_OBJECT
+ public:
+  // views: at least one; they must outlive the dialog.
+  ExportDialog(std::vector<const ExportedView*> views,
+               const ExportRequest& suggestion,
+               QWidget* parent = nullptr);
+
+  ExportRequest request() const;
+  // What stands in the way of it; empty: nothing.
+  QString problem() const;
+
+  // Asks for a folder, an empty answer changes nothing; tests answer for themselves.
+  std::function<QString(const QString& begin)> askForFolder;
+
+ public slots:
+  // Only when it can be written.
+  void accept() override;
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  QWidget* makeForm();
+  QWidget* makeForms();
+  QWidget* makeSize();
+  QWidget* makePlace();
+  QWidget* makeFoot();
+  void connectFields();
+  const ExportedView& view() const;
+  void fill(const ExportRequest& suggestion);
+  void useView();
+  void usePreset();
+  void suggestName();
+  void refresh();
+  void showProblem();
+  void browse();
+
+  std::vector<const ExportedView*> views_;
+  ExportRequest first_;     // what was suggested
+  bool nameIsOwn_ = false;  // typed by the user
+  bool filling_ = false;    // fields change by us
+  QFormLayout* fields_ = nullptr;
+  QComboBox* view_ = nullptr;
+  QButtonGroup* form_ = nullptr;
+  QComboBox* frames_ = nullptr;
+  QComboBox* table_ = nullptr;
+  QComboBox* preset_ = nullptr;
+  QWidget* size_ = nullptr;
+  QDoubleSpinBox* width_ = nullptr;
+  QDoubleSpinBox* height_ = nullptr;
+  QDoubleSpinBox* text_ = nullptr;
+  QComboBox* dpi_ = nullptr;
+  QComboBox* colors_ = nullptr;
+  QCheckBox* titled_ = nullptr;
+  QLineEdit* name_ = nullptr;
+  QLabel* ending_ = nullptr;
+  QLineEdit* folder_ = nullptr;
+  ExportPreview* preview_ = nullptr;
+  QLabel* summary_ = nullptr;
+  QLabel* target_ = nullptr;
+  QLabel* problem_ = nullptr;
+  QCheckBox* replace_ = nullptr;
+  QPushButton* ok_ = nullptr;
+};
+
+}  // namespace palpate::gui

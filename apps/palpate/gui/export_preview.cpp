@@ -1,0 +1,183 @@
+#include "gui/export_preview.h"
+
+#include <QFontDatabase>
+#include <QFontMetricsF>
+#include <QPainter>
+#include <algorithm>
+
+#include "gui/captions.h"
+#include "gui/export_work.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kAround = 16.0;      // [px] around the paper
+constexpr int kMeasureAfterMs = 200;  // not at each step of a spin box
+constexpr std::size_t kPreviewRows = 40;
+constexpr std::size_t kMeasuredRows = 400;  // whose mean length stands for all
+
+}  // namespace
+
+QString bytesText(double bytes) {
+  constexpr double kKilo = 1000.0;
+  const char* const units[] = {"B", "kB", "MB", "GB", "TB"};
+  std::size_t unit = 0;
+  while (bytes >= kKilo && unit + 1 < std::size(units)) {
+    bytes /= kKilo;
+    ++unit;
+  }
+  return figure(bytes, unit > 0 && bytes < 10.0 ? 1 : 0) + " " + units[unit];
+}
+
+ExportPreview::ExportPreview(QWidget* parent) : QWidget(parent) {
+  worker_.setMaxThreadCount(1);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+  soon_.setSingleShot(true);
+  soon_.setInterval(kMeasureAfterMs);
+  connect(&soon_, &QTimer::timeout, this, &ExportPreview::measure);
+}
+
+ExportPreview::~ExportPreview() { worker_.waitForDone(); }
+
+void ExportPreview::show(const ExportedView& view, const ExportRequest& request) {
+  request_ = request;
+  isTable_ = request.form == ExportForm::kCsv;
+  bytes_ = 0.0;
+  numFiles_ = 1;
+  ++generation_;
+  soon_.stop();
+  if (isTable_) {
+    showTable(view, request);
+  } else if (view.paint) {
+    paper_ = paperOf(request, view.sizeOnScreen());
+    picture_ = pictureOf(view, lookOf(request, view.sizeOnScreen()));
+    if (request.isSeries())
+      if (const auto pictures = view.framePicturesNow())
+        if (const auto span = spanOf(request, *pictures)) numFiles_ = span->count();
+    soon_.start();
+  }
+  update();
+  emit summaryChanged();
+}
+
+void ExportPreview::showTable(const ExportedView& view, const ExportRequest& request) {
+  rows_.clear();
+  numRows_ = 0;
+  const auto tables = view.tablesNow();
+  const ExportedTable* chosen = nullptr;
+  for (const ExportedTable& table : tables)
+    if (!chosen || table.name == request.table) chosen = &table;
+  if (!chosen) return;
+  const TextTable table = chosen->make();
+  numRows_ = table.numRows;
+  rows_ = QString::fromStdString(csvText(table, kPreviewRows)).split('\n', Qt::SkipEmptyParts);
+  const std::size_t measured = std::min(table.numRows, kMeasuredRows);
+  double length = 0.0;
+  // From the whole table: later rows have longer numbers.
+  for (std::size_t i = 0; i < measured; ++i)
+    length += static_cast<double>(csvLine(table.row(i * table.numRows / measured)).size());
+  bytes_ = static_cast<double>(csvLine(table.header).size());
+  if (measured > 0)
+    bytes_ += length / static_cast<double>(measured) * static_cast<double>(table.numRows);
+}
+
+// Makes the file in memory, beside the window.
+void ExportPreview::measure() {
+  worker_.clear();
+  worker_.start(
+      [this, picture = picture_, paper = paper_, form = request_.form, now = generation_] {
+        const PictureForm pictureForm = form == ExportForm::kSvg   ? PictureForm::kSvg
+                                        : form == ExportForm::kPdf ? PictureForm::kPdf
+                                                                   : PictureForm::kPng;
+        double bytes = 0.0;
+        try {
+          bytes = static_cast<double>(
+              pictureBytes(
+                  pictureForm,
+                  [&](QPainter& painter) { painter.drawPicture(QPointF(), picture); },
+                  paper,
+                  "preview")
+                  .size());
+        } catch (const std::exception&) {
+          return;  // too large for the memory: its size in pixels says so
+        }
+        QMetaObject::invokeMethod(
+            this,
+            [this, bytes, now] {
+              if (now != generation_) return;
+              bytes_ = bytes;
+              emit summaryChanged();
+            },
+            Qt::QueuedConnection);
+      });
+}
+
+QString ExportPreview::summary() const {
+  QStringList parts;
+  if (isTable_) {
+    parts << (numRows_ == 1 ? QString("1 row") : QString("%1 rows").arg(numRows_));
+  } else {
+    const QSizeF mm = paper_.sizeMm();
+    if (request_.form == ExportForm::kPng)
+      parts << QString("%1 × %2 px").arg(paper_.pixels().width()).arg(paper_.pixels().height());
+    parts << figure(mm.width(), 1) + " × " + figure(mm.height(), 1) + " mm";
+  }
+  if (numFiles_ > 1) parts << QString("%1 pictures").arg(numFiles_);
+  if (bytes_ > 0.0)
+    parts << "about " + bytesText(bytes_ * static_cast<double>(numFiles_)) +
+                 (numFiles_ > 1 ? " in all" : "");
+  return parts.join(" · ");
+}
+
+QRectF ExportPreview::paperRect() const {
+  const QRectF room = QRectF(rect()).adjusted(kAround, kAround, -kAround, -kAround);
+  const QSizeF size = paper_.size.scaled(room.size(), Qt::KeepAspectRatio);
+  return {room.center() - QPointF(size.width() / 2, size.height() / 2), size};
+}
+
+void ExportPreview::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  if (isTable_) return paintRows(painter);
+  const QRectF paper = paperRect();
+  constexpr int kShadow = 4;
+  for (int i = kShadow; i > 0; --i)
+    painter.fillRect(paper.adjusted(-i + 1, -i + 2, i - 1, i + 1), QColor(0, 0, 0, 14));
+  // As an image, as a PNG will be: heat maps look the same at every size.
+  const double ratio = devicePixelRatioF();
+  PicturePaper onScreen = paper_;
+  onScreen.dpi = paper.width() * ratio / paper_.size.width() * paper_.unitsPerInch;
+  const QImage image =
+      pictureImage([this](QPainter& to) { to.drawPicture(QPointF(), picture_); }, onScreen);
+  painter.setRenderHint(QPainter::SmoothPixmapTransform);
+  painter.drawImage(paper, image);
+  painter.setPen(palette().color(QPalette::Mid));
+  painter.drawRect(paper);
+}
+
+void ExportPreview::paintRows(QPainter& painter) const {
+  const QRectF room = QRectF(rect()).adjusted(kAround, kAround, -kAround, -kAround);
+  painter.fillRect(room, palette().color(QPalette::Base));
+  painter.setPen(palette().color(QPalette::Mid));
+  painter.drawRect(room);
+  painter.setClipRect(room.adjusted(8, 6, -8, -6));
+  QFont font = QFontDatabase::systemFont(QFontDatabase::FixedFont);
+  font.setPixelSize(11);
+  painter.setFont(font);
+  const QFontMetricsF metrics(font);
+  double y = room.top() + 8.0;
+  bool isHeader = true;
+  for (const QString& row : rows_) {
+    if (y > room.bottom()) break;
+    painter.setPen(palette().color(isHeader ? QPalette::PlaceholderText : QPalette::Text));
+    painter.drawText(QRectF(room.left() + 10, y, room.width() - 20, metrics.height()),
+                     Qt::AlignLeft | Qt::AlignVCenter,
+                     metrics.elidedText(row, Qt::ElideRight, room.width() - 20));
+    y += metrics.height() * 1.25;
+    isHeader = false;
+  }
+  if (numRows_ > 0) return;
+  painter.setPen(palette().color(QPalette::PlaceholderText));
+  painter.drawText(room, Qt::AlignCenter, "no row");
+}
+
+}  // namespace palpate::gui

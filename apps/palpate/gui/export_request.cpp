@@ -1,0 +1,174 @@
+#include "gui/export_request.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <QStandardPaths>
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kMmPerInch = 25.4;
+constexpr double kScreenPerInch = 96.0;
+// Half a point each: sizes of text, in whole units, are exact in halves of a point, and lines that are one
+// pixel on screen are half a point on paper.
+constexpr double kPaperPerInch = 144.0;
+constexpr double kUnitsPerPt = 2.0;
+constexpr double kLeastMm = 20.0, kMostMm = 1200.0;
+constexpr double kLeastPt = 4.0, kMostPt = 40.0;
+constexpr int kMostPixels = 16384;  // on a side
+
+const QString kGroup = "export/";
+
+}  // namespace
+
+QString nameOf(ExportForm form) {
+  switch (form) {
+    case ExportForm::kSvg:
+      return "SVG";
+    case ExportForm::kPdf:
+      return "PDF";
+    case ExportForm::kCsv:
+      return "CSV";
+    case ExportForm::kPng:
+      break;
+  }
+  return "PNG";
+}
+
+QString endingOf(ExportForm form) { return "." + nameOf(form).toLower(); }
+
+ExportRequest loadExportRequest(const QSettings& settings) {
+  ExportRequest request;
+  const auto value = [&](const char* key, const QVariant& usual) {
+    return settings.value(kGroup + key, usual);
+  };
+  const auto number = [&](const char* key, double usual, double least, double most) {
+    bool good = false;
+    const double read = value(key, usual).toDouble(&good);
+    return good && read >= least && read <= most ? read : usual;
+  };
+  request.view = value("view", "").toString();
+  const QString form = value("form", "").toString();
+  for (const ExportForm each : kAllExportForms)
+    if (nameOf(each) == form) request.form = each;
+  const QString preset = value("size", "").toString();
+  for (std::size_t i = 0; i < kPaperPresets.size(); ++i)
+    if (kPaperPresets[i].name == preset) request.preset = static_cast<int>(i);
+  request.sizeMm = {number("width_mm", request.sizeMm.width(), kLeastMm, kMostMm),
+                    number("height_mm", request.sizeMm.height(), kLeastMm, kMostMm)};
+  request.textPt = number("text_pt", request.textPt, kLeastPt, kMostPt);
+  const int dpi = value("dpi", request.dpi).toInt();
+  if (std::find(kExportDpi.begin(), kExportDpi.end(), dpi) != kExportDpi.end()) request.dpi = dpi;
+  request.forPrint = value("for_print", request.forPrint).toBool();
+  request.titled = value("titled", request.titled).toBool();
+  const int frames = value("frames", 0).toInt();
+  if (frames == 1) request.frames = ExportFrames::kSelected;
+  if (frames == 2) request.frames = ExportFrames::kAll;
+  request.table = value("table", "").toString();
+  request.folder = value("folder", "").toString();
+  if (!QDir::isAbsolutePath(request.folder)) {
+    request.folder = QStandardPaths::writableLocation(QStandardPaths::PicturesLocation);
+    if (request.folder.isEmpty() || !QFileInfo::exists(request.folder))
+      request.folder = QDir::homePath();
+  }
+  request.nameIsOwn = value("name_is_own", false).toBool();
+  if (request.nameIsOwn) request.name = value("name", "").toString();
+  if (request.name.isEmpty()) request.nameIsOwn = false;
+  return request;
+}
+
+void saveExportRequest(const ExportRequest& request, QSettings& settings) {
+  const auto set = [&](const char* key, const QVariant& value) {
+    settings.setValue(kGroup + key, value);
+  };
+  set("view", request.view);
+  set("form", nameOf(request.form));
+  set("size", kPaperPresets[static_cast<std::size_t>(request.preset)].name);
+  set("width_mm", request.sizeMm.width());
+  set("height_mm", request.sizeMm.height());
+  set("text_pt", request.textPt);
+  set("dpi", request.dpi);
+  set("for_print", request.forPrint);
+  set("titled", request.titled);
+  set("frames", static_cast<int>(request.frames));
+  set("table", request.table);
+  set("folder", request.folder);
+  set("name", request.name);
+  set("name_is_own", request.nameIsOwn);
+}
+
+PicturePaper paperOf(const ExportRequest& request, const QSizeF& sizeOnScreen) {
+  PicturePaper paper;
+  const bool asOnScreen = request.preset == kScreenPreset;
+  paper.unitsPerInch = asOnScreen ? kScreenPerInch : kPaperPerInch;
+  paper.size = asOnScreen ? sizeOnScreen : request.sizeMm / kMmPerInch * kPaperPerInch;
+  paper.dpi = request.dpi;
+  return paper;
+}
+
+PictureLook lookOf(const ExportRequest& request, const QSizeF& sizeOnScreen) {
+  const PicturePaper paper = paperOf(request, sizeOnScreen);
+  PictureLook look;
+  look.size = paper.size;
+  look.forPrint = request.forPrint;
+  if (request.preset != kScreenPreset)
+    look.textUnits = static_cast<int>(std::lround(request.textPt * kUnitsPerPt));
+  look.titled = request.titled;
+  look.pixelRatio = request.form == ExportForm::kPng ? paper.scale() : 0.0;
+  return look;
+}
+
+std::filesystem::path pathOf(const ExportRequest& request) {
+  const std::filesystem::path folder = request.folder.toStdString();
+  if (request.isSeries()) return folder / request.name.toStdString();
+  return folder / (request.name + endingOf(request.form)).toStdString();
+}
+
+FileSeries seriesOf(const ExportRequest& request, const FrameSpan& span) {
+  return {.folder = pathOf(request),
+          .stem = request.name.toStdString(),
+          .ending = endingOf(request.form).toStdString(),
+          .first = span.first,
+          .last = span.last};
+}
+
+std::optional<FrameSpan> spanOf(const ExportRequest& request, const FramePictures& pictures) {
+  if (pictures.numFrames == 0) return std::nullopt;
+  if (request.frames == ExportFrames::kSelected) return pictures.selected;
+  return FrameSpan{0, pictures.numFrames - 1};
+}
+
+QString problemOf(const ExportRequest& request, const ExportedView& view) {
+  if (request.name.trimmed().isEmpty()) return "Give it a name.";
+  if (request.name.contains('/')) return "A name has no “/” in it; choose the folder below.";
+  if (!QDir::isAbsolutePath(request.folder)) return "Choose a folder.";
+  const QFileInfo folder(request.folder);
+  if (!folder.exists()) return "There is no folder " + request.folder + ".";
+  if (!folder.isDir()) return request.folder + " is no folder.";
+  if (!folder.isWritable()) return "Nothing may be written into " + request.folder + ".";
+  if (request.form == ExportForm::kPng) {
+    const QSize pixels = paperOf(request, view.sizeOnScreen()).pixels();
+    if (std::max(pixels.width(), pixels.height()) > kMostPixels)
+      return QString("%1 × %2 pixels are too many for a PNG: choose fewer dpi.")
+          .arg(pixels.width())
+          .arg(pixels.height());
+  }
+  if (request.isSeries()) {
+    const auto pictures = view.framePicturesNow();
+    const auto span = pictures ? spanOf(request, *pictures) : std::nullopt;
+    if (!span) return "Nothing is selected in the timeline.";
+    const std::size_t there = numExisting(seriesOf(request, *span));
+    if (there > 0 && !request.replace)
+      return QString("%1 of these pictures are there already.").arg(there);
+    return {};
+  }
+  const QFileInfo file(QString::fromStdString(pathOf(request).string()));
+  if (file.isDir()) return file.fileName() + " is a folder.";
+  if ((file.exists() || file.isSymLink()) && !request.replace)
+    return file.fileName() + " exists already.";
+  return {};
+}
+
+}  // namespace palpate::gui
