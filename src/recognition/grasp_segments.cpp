@@ -65,6 +65,8 @@ class Finder {
   Finder(const Profile& profile, const GraspSegmentOptions& options)
       : profile_(profile), options_(options), fingers_(profile.hand()) {
     options_.validate();
+    frames_.reserve(profile.numFrames());
+    touches_.reserve(profile.numFrames() * fingers_.numbers.size());
   }
 
   // The next frame; of each matrix.
