@@ -104,10 +104,7 @@ ExportWork prepareExport(const ExportedView& view, const ExportRequest& request)
       return guarded({.path = pathText(path)}, [&](ExportReport& report) {
         if (progress && !progress(0.0)) throw Cancelled();
         writePicture(
-            path,
-            [&](QPainter& painter) { painter.drawPicture(QPointF(), picture); },
-            paper,
-            overwrite);
+            path, [&](QPainter& painter) { replay(painter, picture); }, paper, overwrite);
         report.written = 1;
       });
     };
