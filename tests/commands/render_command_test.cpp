@@ -3,6 +3,9 @@
 #include <set>
 #include <thread>
 
+#include "palpate/core/number_text.h"
+#include "palpate/recording/recording.h"
+
 #include "commands/palpate_program.h"
 #include "testing/background_program.h"
 

@@ -2,10 +2,12 @@
 
 #include <QDir>
 #include <QFileDialog>
-#include <QGridLayout>
+#include <QFileInfo>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QVBoxLayout>
 
 #include "gui/recording_settings.h"
 
@@ -32,17 +34,21 @@ ExportPlace::ExportPlace(int labelWidth, QWidget* parent) : QWidget(parent) {
   nameLabel->setBuddy(name_);
   auto* folderLabel = new QLabel("F&older", this);
   folderLabel->setBuddy(folder_);
-  auto* grid = new QGridLayout(this);
-  grid->setContentsMargins(0, 10, 0, 0);
-  grid->setHorizontalSpacing(12);
-  grid->setVerticalSpacing(8);
-  grid->setColumnMinimumWidth(0, labelWidth);
-  grid->addWidget(nameLabel, 0, 0);
-  grid->addWidget(name_, 0, 1);
-  grid->addWidget(ending_, 0, 2);
-  grid->addWidget(folderLabel, 1, 0);
-  grid->addWidget(folder_, 1, 1);
-  grid->addWidget(browseButton, 1, 2);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 10, 0, 0);
+  column->setSpacing(8);
+  const auto add = [&](QLabel* label, QLineEdit* field, QWidget* beside) {
+    label->setFixedWidth(labelWidth);
+    auto* row = new QHBoxLayout;
+    row->setSpacing(8);
+    row->addWidget(label);
+    row->addSpacing(4);  // as wide as in a form
+    row->addWidget(field, 1);
+    row->addWidget(beside);
+    column->addLayout(row);
+  };
+  add(nameLabel, name_, ending_);
+  add(folderLabel, folder_, browseButton);
   connect(name_, &QLineEdit::textEdited, this, [this] { nameIsOwn_ = !name_->text().isEmpty(); });
   for (QLineEdit* field : {name_, folder_})
     connect(field, &QLineEdit::textChanged, this, &ExportPlace::changed);
@@ -69,9 +75,8 @@ void ExportPlace::browse() {
   // From where the folder is, or was.
   QDir begin(folder());
   while (!begin.exists() && begin.isAbsolute() && !begin.isRoot())
-    begin.setPath(begin.filePath(".."));
-  const QString chosen =
-      askForFolder(begin.isAbsolute() ? QDir::cleanPath(begin.path()) : QDir::homePath());
+    begin.setPath(QFileInfo(begin.path()).path());
+  const QString chosen = askForFolder(begin.isAbsolute() ? begin.path() : QDir::homePath());
   if (!chosen.isEmpty()) folder_->setText(chosen);
 }
 
