@@ -29,6 +29,13 @@ struct ActiveTaxels {
       }
     }
   }
+  void add(const ActiveTaxels& other) {
+    if (other.count == 0) return;
+    minimum = count == 0 ? other.minimum : std::min(minimum, other.minimum);
+    maximum = std::max(maximum, other.maximum);
+    sum += other.sum;
+    count += other.count;
+  }
   double mean() const { return count == 0 ? 0.0 : sum / count; }
 };
 
@@ -78,6 +85,45 @@ CharacteristicSignals wholeFrameSignals(const TactileFrame& frame) {
     areaMm2 += active * layout.taxelAreaMm2();
   }
   return signalsFrom(raw, filtered, areaMm2);
+}
+
+void allSignals(const TactileFrame& frame, std::vector<CharacteristicSignals>& rows) {
+  rows.clear();
+  ActiveTaxels wholeRaw;
+  ActiveTaxels wholeFiltered;
+  double wholeAreaMm2 = 0.0;
+  for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) {
+    const MatrixLayout& layout = frame.layout->matrix(m);
+    ActiveTaxels raw;
+    ActiveTaxels filtered;
+    raw.add(frame.matrix(m));
+    addFiltered(filtered, frame.matrix(m), layout, raw.count);
+    rows.push_back(signalsFrom(raw, filtered, raw.count * layout.taxelAreaMm2()));
+    wholeRaw.add(raw);
+    wholeFiltered.add(filtered);
+    wholeAreaMm2 += rows.back().areaMm2;
+  }
+  rows.push_back(signalsFrom(wholeRaw, wholeFiltered, wholeAreaMm2));
+}
+
+double valueOf(const CharacteristicSignals& values, SignalKind which) {
+  switch (which) {
+    case SignalKind::kFilteredMean:
+      return values.filteredMean;
+    case SignalKind::kMaximum:
+      return values.maximum;
+    case SignalKind::kMinimum:
+      return values.minimum;
+    case SignalKind::kSum:
+      return values.sum;
+    case SignalKind::kActive:
+      return values.active;
+    case SignalKind::kArea:
+      return values.areaMm2;
+    case SignalKind::kMean:
+      break;
+  }
+  return values.mean;
 }
 
 SignalTable SignalTable::of(const Profile& profile, const Progress& progress) {

@@ -1,6 +1,7 @@
 #include "palpate/model/taxel_selection.h"
 
 #include <algorithm>
+#include <charconv>
 #include <stdexcept>
 #include <string>
 
@@ -52,5 +53,48 @@ void TaxelSelection::toggle(std::size_t matrix, int y, int x) {
 }
 
 void TaxelSelection::addAll(std::size_t matrix) { masks_.at(matrix) = exists_.at(matrix); }
+
+std::string TaxelSelection::text() const {
+  std::string out;
+  for (std::size_t m = 0; m < masks_.size(); ++m) {
+    char before = ':';
+    for (std::size_t i = 0; i < masks_[m].size(); ++i) {
+      if (masks_[m][i] == 0) continue;
+      if (before == ':') out += (out.empty() ? "" : ";") + std::to_string(m);
+      out += before + std::to_string(i);
+      before = ',';
+    }
+  }
+  return out;
+}
+
+std::optional<TaxelSelection> TaxelSelection::fromText(std::string_view text,
+                                                       const SensorLayout& layout) {
+  TaxelSelection selection(layout);
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  const auto number = [&](std::size_t& value) {
+    const auto [next, failure] = std::from_chars(at, end, value);
+    if (failure != std::errc()) return false;
+    at = next;
+    return true;
+  };
+  while (at != end) {
+    std::size_t matrix = 0;
+    if (!number(matrix) || matrix >= selection.masks_.size() || at == end || *at != ':')
+      return std::nullopt;
+    Mask& mask = selection.masks_[matrix];
+    do {
+      ++at;  // ':' or ','
+      std::size_t place = 0;
+      if (!number(place) || place >= mask.size() || selection.exists_[matrix][place] == 0)
+        return std::nullopt;
+      mask[place] = 1;
+    } while (at != end && *at == ',');
+    if (at == end) break;
+    if (*at != ';' || ++at == end) return std::nullopt;
+  }
+  return selection;
+}
 
 }  // namespace palpate

@@ -20,22 +20,21 @@ double median(std::vector<std::int64_t>& values) {
 }  // namespace
 
 TimingReport timingOf(const Profile& profile) {
+  std::vector<std::int64_t> stampsUs(profile.numFrames());
+  for (std::size_t i = 0; i < stampsUs.size(); ++i) stampsUs[i] = profile.frameTimeUs(i);
+  return timingOf(stampsUs);
+}
+
+TimingReport timingOf(std::span<const std::int64_t> stampsUs) {
   TimingReport report;
-  const std::size_t frames = profile.numFrames();
-  if (frames < 2) return report;
-  std::vector<std::int64_t> intervals;
-  intervals.reserve(frames - 1);
-  std::int64_t previous = profile.frameTimeUs(0);
-  for (std::size_t i = 1; i < frames; ++i) {
-    const std::int64_t now = profile.frameTimeUs(i);
-    intervals.push_back(now - previous);
-    previous = now;
-  }
+  if (stampsUs.size() < 2) return report;
+  std::vector<std::int64_t> intervals(stampsUs.size() - 1);
+  for (std::size_t i = 0; i < intervals.size(); ++i) intervals[i] = stampsUs[i + 1] - stampsUs[i];
   std::vector<std::int64_t> sorted = intervals;
   const double medianUs = median(sorted);
-  report.durationS = static_cast<double>(profile.durationUs()) / 1e6;
+  report.durationS = static_cast<double>(stampsUs.back() - stampsUs.front()) / 1e6;
   report.rateHz = 1e6 / medianUs;
-  report.meanRateHz = static_cast<double>(frames - 1) / report.durationS;
+  report.meanRateHz = static_cast<double>(intervals.size()) / report.durationS;
   const double gapUs = std::max(kShortestGapUs, kGapIntervals * medianUs);
   for (std::size_t i = 0; i < intervals.size(); ++i)
     if (static_cast<double>(intervals[i]) > gapUs)

@@ -89,5 +89,20 @@ TEST(SignalTable, CanBeCancelled) {
   EXPECT_THROW(SignalTable::of(threeFrames(), [](double) { return false; }), Cancelled);
 }
 
+TEST(CharacteristicSignals, AllInOneAreTheSameNumbers) {
+  TactileFrame frame(sdh2().layout);
+  frame.matrix(0)(3, 3) = 100.0F;
+  frame.matrix(1)(8, 2) = 200.0F;
+  frame.matrix(1)(8, 3) = 300.0F;
+  std::vector<CharacteristicSignals> rows(3);
+  allSignals(frame, rows);
+  auto expected = characteristicSignals(frame);
+  expected.push_back(wholeFrameSignals(frame));
+  ASSERT_EQ(rows.size(), expected.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const SignalKind kind : kAllSignalKinds)
+      EXPECT_EQ(valueOf(rows[i], kind), valueOf(expected[i], kind)) << "row " << i;
+}
+
 }  // namespace
 }  // namespace palpate

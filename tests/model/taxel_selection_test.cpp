@@ -58,5 +58,25 @@ TEST(TaxelSelection, RefusesPlacesThatAreNotThere) {
   EXPECT_THROW(selection.addAll(2), std::out_of_range);
 }
 
+TEST(TaxelSelection, AsTextAndBack) {
+  const SensorLayout sensor = smallSensor();
+  TaxelSelection selection(sensor);
+  EXPECT_EQ(selection.text(), "");
+  selection.add(0, 0, 1, 0, 2);
+  selection.toggle(1, 1, 1);
+  EXPECT_EQ(selection.text(), "0:1,2;1:3");
+  EXPECT_EQ(TaxelSelection::fromText("0:1,2;1:3", sensor), selection);
+  EXPECT_EQ(TaxelSelection::fromText("", sensor), TaxelSelection(sensor));
+  for (const char* bad :
+       {"0", "0:", "0:0", "0:12", "2:1", "0:1,", "0:1;", "0:1 ", "x", "0:1;;1:3", "-1:2"})
+    EXPECT_FALSE(TaxelSelection::fromText(bad, sensor)) << bad;
+}
+
+TEST(TaxelSelection, KnowsItsSensor) {
+  const TaxelSelection selection(smallSensor());
+  EXPECT_TRUE(selection.sameSensor(TaxelSelection(smallSensor())));
+  EXPECT_FALSE(selection.sameSensor(TaxelSelection()));
+}
+
 }  // namespace
 }  // namespace palpate

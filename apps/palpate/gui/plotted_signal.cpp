@@ -34,24 +34,4 @@ PlottedSignal plottedSignalFrom(const QString& name) {
   return PlottedSignal::kMean;
 }
 
-double valueOf(const CharacteristicSignals& values, PlottedSignal which) {
-  switch (which) {
-    case PlottedSignal::kFilteredMean:
-      return values.filteredMean;
-    case PlottedSignal::kMaximum:
-      return values.maximum;
-    case PlottedSignal::kMinimum:
-      return values.minimum;
-    case PlottedSignal::kSum:
-      return values.sum;
-    case PlottedSignal::kActive:
-      return values.active;
-    case PlottedSignal::kArea:
-      return values.areaMm2;
-    case PlottedSignal::kMean:
-      break;
-  }
-  return values.mean;
-}
-
 }  // namespace palpate::gui

@@ -2,25 +2,16 @@
 #pragma once
 
 #include <QString>
-#include <array>
 
 #include <palpate/filter/characteristic_signals.h>
 
 namespace palpate::gui {
 
-enum class PlottedSignal { kMean, kFilteredMean, kMaximum, kMinimum, kSum, kActive, kArea };
-
-inline constexpr std::array kAllPlottedSignals = {PlottedSignal::kMean,
-                                                  PlottedSignal::kFilteredMean,
-                                                  PlottedSignal::kMaximum,
-                                                  PlottedSignal::kMinimum,
-                                                  PlottedSignal::kSum,
-                                                  PlottedSignal::kActive,
-                                                  PlottedSignal::kArea};
+using PlottedSignal = SignalKind;
+inline constexpr const auto& kAllPlottedSignals = kAllSignalKinds;
 
 QString nameOf(PlottedSignal signal);  // "mean", "filtered mean", ..; also the key in the settings
 QString unitOf(PlottedSignal signal);  // "counts", "taxels", "mm²"
 PlottedSignal plottedSignalFrom(const QString& name);  // kMean for an unknown name
-double valueOf(const CharacteristicSignals& values, PlottedSignal which);
 
 }  // namespace palpate::gui

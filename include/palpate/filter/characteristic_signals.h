@@ -2,6 +2,7 @@
 // (study, chapter 3; the filtered mean is its eq. 3.2). Active taxel: value > 0.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -24,6 +25,16 @@ struct CharacteristicSignals {
   double areaMm2 = 0.0;       // active * taxel area [mm^2]
 };
 
+enum class SignalKind { kMean, kFilteredMean, kMaximum, kMinimum, kSum, kActive, kArea };
+inline constexpr std::array kAllSignalKinds = {SignalKind::kMean,
+                                               SignalKind::kFilteredMean,
+                                               SignalKind::kMaximum,
+                                               SignalKind::kMinimum,
+                                               SignalKind::kSum,
+                                               SignalKind::kActive,
+                                               SignalKind::kArea};
+double valueOf(const CharacteristicSignals& values, SignalKind which);
+
 CharacteristicSignals characteristicSignals(const Eigen::Ref<const MatrixValues>& values,
                                             const MatrixLayout& layout);
 // Of every matrix of a frame, in wire order.
@@ -31,6 +42,8 @@ std::vector<CharacteristicSignals> characteristicSignals(const TactileFrame& fra
 // Of the whole frame: mean, minimum, maximum over the active taxels of all matrices (the mean of
 // taxels, not of matrices); filteredMean likewise over all filtered matrices.
 CharacteristicSignals wholeFrameSignals(const TactileFrame& frame);
+// Both in one: a row per matrix, the whole last. `rows` is filled anew.
+void allSignals(const TactileFrame& frame, std::vector<CharacteristicSignals>& rows);
 
 // One row per frame of a profile, matrix after matrix: signals(frame, matrix). Throws Cancelled.
 class SignalTable {

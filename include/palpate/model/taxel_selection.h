@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <palpate/model/matrix_layout.h>
@@ -26,6 +29,13 @@ class TaxelSelection {
   void add(std::size_t matrix, int y0, int x0, int y1, int x1);
   void toggle(std::size_t matrix, int y, int x);
   void addAll(std::size_t matrix);
+
+  // Whether it is of matrices of the same sizes.
+  bool sameSensor(const TaxelSelection& other) const noexcept { return sizes_ == other.sizes_; }
+  // "1:14,15;5:3": of each matrix the places (y * columns + x) that are chosen; and back. Nothing: the text
+  // is no such list, or names a place that `layout` hasn't.
+  std::string text() const;
+  static std::optional<TaxelSelection> fromText(std::string_view text, const SensorLayout& layout);
 
   bool operator==(const TaxelSelection&) const = default;
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <palpate/model/profile.h>
@@ -23,5 +24,7 @@ struct TimingReport {
 };
 
 TimingReport timingOf(const Profile& profile);
+// From stamps [us], ascending.
+TimingReport timingOf(std::span<const std::int64_t> stampsUs);
 
 }  // namespace palpate

@@ -1,0 +1,56 @@
+#include "palpate/filter/signal_overview.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kUsPerS = 1e6;
+constexpr std::size_t kFramesPerReport = 512;
+
+}  // namespace
+
+SignalOverview::SignalOverview(const Profile& profile, double bucketS)
+    : profile_(profile), numRows_(profile.layout().numMatrices() + 1) {
+  if (profile.numFrames() == 0)
+    throw std::invalid_argument("SignalOverview: the profile holds no frame");
+  const double durationS = static_cast<double>(profile.durationUs()) / kUsPerS;
+  for (std::size_t i = 0; i < numRows_ * kAllSignalKinds.size(); ++i)
+    series_.push_back(std::make_unique<BucketSeries>(durationS, bucketS));
+}
+
+void SignalOverview::compute(const Progress& progress) {
+  const std::size_t frames = profile_.numFrames();
+  const auto saturation = static_cast<double>(profile_.hand().saturationCounts);
+  std::vector<std::int64_t> stampsUs;
+  stampsUs.reserve(frames);
+  std::vector<CharacteristicSignals> rows;
+  TactileFrame frame;
+  for (std::size_t i = 0; i < frames; ++i) {
+    if (progress && i % kFramesPerReport == 0 &&
+        !progress(static_cast<double>(i) / static_cast<double>(frames)))
+      throw Cancelled();
+    profile_.readFrame(i, frame);
+    stampsUs.push_back(frame.hostUs);
+    const double timeS = static_cast<double>(frame.hostUs - stampsUs.front()) / kUsPerS;
+    allSignals(frame, rows);
+    auto series = series_.begin();
+    for (const CharacteristicSignals& row : rows)
+      for (const SignalKind kind : kAllSignalKinds) (*series++)->add(timeS, valueOf(row, kind));
+    maximum_ = std::max(maximum_, rows.back().maximum);
+    if (rows.back().maximum >= saturation) ++saturatedFrames_;
+  }
+  timing_ = timingOf(stampsUs);
+  // The first one last: it tells that all are complete.
+  for (auto series = series_.rbegin(); series != series_.rend(); ++series) (*series)->finish();
+}
+
+const BucketSeries& SignalOverview::of(std::size_t row, SignalKind kind) const {
+  if (row >= numRows_) throw std::out_of_range("SignalOverview: no row " + std::to_string(row));
+  return *series_[row * kAllSignalKinds.size() + static_cast<std::size_t>(kind)];
+}
+
+}  // namespace palpate

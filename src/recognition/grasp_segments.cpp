@@ -1,0 +1,227 @@
+#include "palpate/recognition/grasp_segments.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kMostFingers = 32;
+constexpr std::size_t kFramesPerReport = 512;
+constexpr double kUsPerS = 1e6;
+constexpr double kFingerShare = 0.5;  // of the frames, to be one of a grasp's fingers
+constexpr double kEndOutside = 0.5;   // factor of the quality, per end
+
+// What counts of one frame.
+struct FrameContact {
+  std::uint32_t fingers = 0;  // bits, in the order of Fingers
+  bool contact = false;
+  bool saturated = false;
+  double sum = 0.0;  // of all taxels [counts]
+};
+
+// The fingers of a hand, and the bit of each matrix.
+struct Fingers {
+  std::vector<int> numbers;  // ascending
+  std::vector<std::uint32_t> bitOfMatrix;
+
+  explicit Fingers(const HandDescription& hand) {
+    std::map<int, std::uint32_t> bits;
+    const std::size_t matrices = hand.layout->numMatrices();
+    const auto fingerOf = [&](std::size_t m) {
+      return m < hand.matrices.size() ? hand.matrices[m].finger : static_cast<int>(m);
+    };
+    for (std::size_t m = 0; m < matrices; ++m) bits.emplace(fingerOf(m), 0);
+    std::size_t bit = 0;
+    for (auto& [number, mask] : bits) {
+      numbers.push_back(number);
+      mask = bit < kMostFingers ? 1U << bit : 0U;
+      ++bit;
+    }
+    for (std::size_t m = 0; m < matrices; ++m) bitOfMatrix.push_back(bits[fingerOf(m)]);
+  }
+};
+
+class Finder {
+ public:
+  Finder(const Profile& profile, const GraspSegmentOptions& options)
+      : profile_(profile), options_(options), fingers_(profile.hand()) {
+    options_.validate();
+  }
+
+  // `matrices`: signals of each matrix.
+  void add(std::span<const CharacteristicSignals> matrices) {
+    FrameContact frame;
+    const auto saturation = static_cast<double>(profile_.hand().saturationCounts);
+    for (std::size_t m = 0; m < matrices.size(); ++m) {
+      if (matrices[m].active == 0) continue;
+      frame.fingers |= fingers_.bitOfMatrix[m];
+      frame.sum += matrices[m].sum;
+      frame.saturated = frame.saturated || matrices[m].maximum >= saturation;
+    }
+    if (options_.rule == GraspRule::kStudy)
+      frame.contact = std::all_of(
+          options_.studyMatrices.begin(), options_.studyMatrices.end(), [&](std::size_t m) {
+            return m < matrices.size() && matrices[m].active > 0;
+          });
+    else
+      frame.contact =
+          static_cast<std::size_t>(std::popcount(frame.fingers)) >= options_.fewestFingers;
+    frames_.push_back(frame);
+  }
+
+  std::vector<GraspSegment> finish(const TimingReport& timing) const {
+    std::vector<GraspSegment> segments;
+    std::size_t from = 0;  // of a part without gaps
+    for (std::size_t g = 0; g <= timing.gaps.size(); ++g) {
+      const std::size_t to = g < timing.gaps.size() ? timing.gaps[g].frame + 1 : frames_.size();
+      findIn(from, std::min(to, frames_.size()), segments);
+      from = to;
+    }
+    return segments;
+  }
+
+ private:
+  // In frames from..to-1, between two gaps.
+  void findIn(std::size_t from, std::size_t to, std::vector<GraspSegment>& segments) const {
+    const std::size_t bridged = options_.rule == GraspRule::kStudy ? 0 : options_.bridgedFrames;
+    for (std::size_t i = from; i < to;) {
+      if (!frames_[i].contact) {
+        ++i;
+        continue;
+      }
+      const std::size_t begin = i;
+      std::size_t end = i;
+      for (++i; i < to && i - end <= bridged + 1; ++i)
+        if (frames_[i].contact) end = i;
+      i = end + 1;
+      if (longEnough(begin, end)) segments.push_back(segment(begin, end, from, to));
+    }
+  }
+
+  bool longEnough(std::size_t begin, std::size_t end) const {
+    if (end - begin + 1 <= options_.moreThanFrames) return false;
+    if (options_.rule == GraspRule::kStudy) return true;
+    const auto lastsUs =
+        static_cast<double>(profile_.frameTimeUs(end) - profile_.frameTimeUs(begin));
+    return lastsUs > options_.moreThanS * kUsPerS;
+  }
+
+  GraspSegment segment(std::size_t begin, std::size_t end, std::size_t from, std::size_t to) const {
+    GraspSegment found{.begin = begin, .end = end, .fingers = {}};
+    const auto count = static_cast<double>(end - begin + 1);
+    std::size_t touching = 0;
+    std::size_t saturated = 0;
+    std::vector<std::pair<std::size_t, int>> times;  // of each finger
+    for (const int number : fingers_.numbers) times.emplace_back(0, number);
+    for (std::size_t i = begin; i <= end; ++i) {
+      touching += frames_[i].contact ? 1 : 0;
+      saturated += frames_[i].saturated ? 1 : 0;
+      for (std::size_t f = 0; f < std::min(times.size(), kMostFingers); ++f)
+        times[f].first += frames_[i].fingers >> f & 1U;
+    }
+    std::stable_sort(
+        times.begin(), times.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    const std::size_t least = options_.rule == GraspRule::kStudy ? 0 : options_.fewestFingers;
+    for (const auto& [framesTouched, number] : times)
+      if (static_cast<double>(framesTouched) >= kFingerShare * count ||
+          found.fingers.size() < least)
+        found.fingers.push_back(number);
+    std::sort(found.fingers.begin(), found.fingers.end());
+    found.quality = static_cast<double>(touching) / count *
+                    (1.0 - static_cast<double>(saturated) / count) * steadiness(begin, end);
+    if (begin == from) found.quality *= kEndOutside;
+    if (end + 1 == to) found.quality *= kEndOutside;
+    return found;
+  }
+
+  double steadiness(std::size_t begin, std::size_t end) const {
+    const std::size_t quarter = (end - begin + 1) / 4;
+    double sum = 0.0;
+    double squares = 0.0;
+    double count = 0.0;
+    for (std::size_t i = begin + quarter; i <= end - quarter; ++i) {
+      sum += frames_[i].sum;
+      squares += frames_[i].sum * frames_[i].sum;
+      count += 1.0;
+    }
+    const double mean = sum / count;
+    if (!(mean > 0.0)) return 0.0;
+    const double sd = std::sqrt(std::max(0.0, squares / count - mean * mean));
+    return 1.0 - std::min(1.0, sd / mean);
+  }
+
+  const Profile& profile_;
+  GraspSegmentOptions options_;
+  Fingers fingers_;
+  std::vector<FrameContact> frames_;
+};
+
+}  // namespace
+
+void GraspSegmentOptions::validate() const {
+  if (fewestFingers < 1 || fewestFingers > 8)
+    throw std::invalid_argument("GraspSegmentOptions: fewestFingers must be 1..8, is " +
+                                std::to_string(fewestFingers));
+  if (!(moreThanS >= 0.0))
+    throw std::invalid_argument("GraspSegmentOptions: moreThanS must be 0 or more, is " +
+                                std::to_string(moreThanS));
+  if (rule == GraspRule::kStudy && studyMatrices.empty())
+    throw std::invalid_argument("GraspSegmentOptions: studyMatrices names no matrix");
+}
+
+std::vector<GraspSegment> findGrasps(const Profile& profile,
+                                     const GraspSegmentOptions& options,
+                                     const Progress& progress) {
+  Finder finder(profile, options);
+  const std::size_t frames = profile.numFrames();
+  std::vector<std::int64_t> stampsUs;
+  stampsUs.reserve(frames);
+  std::vector<CharacteristicSignals> matrices(profile.layout().numMatrices());
+  TactileFrame frame;
+  for (std::size_t i = 0; i < frames; ++i) {
+    if (progress && i % kFramesPerReport == 0 &&
+        !progress(static_cast<double>(i) / static_cast<double>(frames)))
+      throw Cancelled();
+    profile.readFrame(i, frame);
+    stampsUs.push_back(frame.hostUs);
+    for (std::size_t m = 0; m < matrices.size(); ++m) {
+      // What the rule asks for; no filtered mean.
+      CharacteristicSignals& now = matrices[m] = {};
+      const auto values = frame.matrix(m);
+      for (Eigen::Index k = 0; k < values.size(); ++k) {
+        const auto value = static_cast<double>(values.data()[k]);
+        if (!(value > 0.0)) continue;
+        ++now.active;
+        now.sum += value;
+        now.maximum = std::max(now.maximum, value);
+      }
+    }
+    finder.add(matrices);
+  }
+  return finder.finish(timingOf(stampsUs));
+}
+
+std::vector<GraspSegment> findGrasps(const Profile& profile,
+                                     const SignalTable& table,
+                                     const TimingReport& timing,
+                                     const GraspSegmentOptions& options) {
+  if (table.numFrames() != profile.numFrames())
+    throw std::invalid_argument("findGrasps: a table of " + std::to_string(table.numFrames()) +
+                                " frames for a profile of " + std::to_string(profile.numFrames()));
+  Finder finder(profile, options);
+  std::vector<CharacteristicSignals> matrices(table.numMatrices());
+  for (std::size_t i = 0; i < table.numFrames(); ++i) {
+    for (std::size_t m = 0; m < matrices.size(); ++m) matrices[m] = table.at(i, m);
+    finder.add(matrices);
+  }
+  return finder.finish(timing);
+}
+
+}  // namespace palpate
