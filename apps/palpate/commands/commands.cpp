@@ -125,6 +125,7 @@ const std::vector<Command>& allCommands() {
       {"demo", "a headless tour: reads, reports and draws a recording", &demoCommand},
       {"emulate", "the emulated hand on two ports, until it is interrupted", &emulateCommand},
       {"grasp", "moves a connected hand: plain and reactive grasps", &graspCommand},
+      {"grasps", "where the grasps in recordings are, as CSV", &graspsCommand},
       {"info", "what is in a recording, or in each of a folder", &infoCommand},
       {"kinematics", "where the taxels are at a set of joint angles", &kinematicsCommand},
       {"ports", "which ports there are, and what answers behind each", &portsCommand},

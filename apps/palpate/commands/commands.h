@@ -26,6 +26,7 @@ int convertCommand(const Words& words);
 int demoCommand(const Words& words);
 int emulateCommand(const Words& words);
 int graspCommand(const Words& words);
+int graspsCommand(const Words& words);
 int infoCommand(const Words& words);
 int kinematicsCommand(const Words& words);
 int portsCommand(const Words& words);

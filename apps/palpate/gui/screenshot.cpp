@@ -9,6 +9,7 @@
 #include "gui/application.h"
 #include "gui/main_window.h"
 #include "gui/picture_export.h"
+#include "gui/timeline_panel.h"
 #include "gui/workbench.h"
 
 namespace palpate::gui {
@@ -113,6 +114,7 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
     runDemo(window, options);
   }
   showDocks(window, options);
+  window.timelinePanel().chart().store().waitForFirstLook();
   // Layout requests and queued replots come one after the other.
   constexpr int kRounds = 5;
   for (int i = 0; i < kRounds; ++i) QCoreApplication::processEvents();
