@@ -60,6 +60,7 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   plots->addActions(actions.plots);
   view->addActions({actions.zoomIn, actions.zoomOut, actions.fit});
   view->addSeparator();
+  view->addAction(actions.compare);
   view->addActions(toggles);
   view->addAction(actions.resetLayout);
   view->addSeparator();
