@@ -214,7 +214,7 @@ ExportedView MainWindow::matricesExport() {
   ExportedView view;
   view.name = "Matrices";
   view.widget = matrices_;
-  view.isThere = [this] { return somethingIsShown(); };
+  view.isThere = [this] { return somethingIsShown() && !compareShown(); };
   view.fileName = [this] { return pictureName(); };
   view.size = [this] { return QSizeF(matricesView().size()); };
   view.paint = [this](QPainter& painter, const PictureLook& look) {
