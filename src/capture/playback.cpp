@@ -5,13 +5,18 @@
 #include <stdexcept>
 #include <string>
 
-#include "palpate/model/timing.h"
-
 namespace palpate {
 
-Playback::Playback(Profile profile) : profile_(std::move(profile)) {
+Playback::Playback(Profile profile) : Playback(profile, timingOf(profile).gaps) {}
+
+Playback::Playback(Profile profile, std::span<const Gap> gaps) : profile_(std::move(profile)) {
   positionUs_ = firstUs();
-  for (const Gap& gap : timingOf(profile_).gaps)
+  setGaps(gaps);
+}
+
+void Playback::setGaps(std::span<const Gap> gaps) {
+  gapsUs_.clear();
+  for (const Gap& gap : gaps)
     gapsUs_.emplace_back(profile_.frameTimeUs(gap.frame), profile_.frameTimeUs(gap.frame + 1));
 }
 

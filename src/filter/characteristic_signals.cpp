@@ -126,6 +126,14 @@ double valueOf(const CharacteristicSignals& values, SignalKind which) {
   return values.mean;
 }
 
+SignalTable::SignalTable(std::size_t numMatrices, std::vector<CharacteristicSignals> rows)
+    : numMatrices_(numMatrices), rows_(std::move(rows)) {
+  if (numMatrices_ == 0 ? !rows_.empty() : rows_.size() % numMatrices_ != 0)
+    throw std::invalid_argument("SignalTable: " + std::to_string(rows_.size()) + " rows of " +
+                                std::to_string(numMatrices_) + " matrices");
+  numFrames_ = numMatrices_ == 0 ? 0 : rows_.size() / numMatrices_;
+}
+
 SignalTable SignalTable::of(const Profile& profile, const Progress& progress) {
   constexpr std::size_t kFramesPerReport = 256;
   SignalTable table;

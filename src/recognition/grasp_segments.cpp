@@ -1,9 +1,7 @@
 #include "palpate/recognition/grasp_segments.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -12,7 +10,6 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kMostFingers = 32;
 constexpr std::size_t kFramesPerReport = 512;
 constexpr double kUsPerS = 1e6;
 constexpr double kFingerShare = 0.5;  // of the frames, to be one of a grasp's fingers
@@ -20,59 +17,80 @@ constexpr double kEndOutside = 0.5;   // factor of the quality, per end
 
 // What counts of one frame.
 struct FrameContact {
-  std::uint32_t fingers = 0;  // bits, in the order of Fingers
-  bool contact = false;
+  bool contact = false;  // as the rule asks for
   bool saturated = false;
   double sum = 0.0;  // of all taxels [counts]
 };
 
-// The fingers of a hand, and the bit of each matrix.
+// The fingers of a hand, and on which of them each matrix sits.
 struct Fingers {
-  std::vector<int> numbers;  // ascending
-  std::vector<std::uint32_t> bitOfMatrix;
+  std::vector<int> numbers;           // ascending
+  std::vector<std::size_t> ofMatrix;  // places in `numbers`
 
   explicit Fingers(const HandDescription& hand) {
-    std::map<int, std::uint32_t> bits;
     const std::size_t matrices = hand.layout->numMatrices();
-    const auto fingerOf = [&](std::size_t m) {
+    const auto numberOf = [&](std::size_t m) {
       return m < hand.matrices.size() ? hand.matrices[m].finger : static_cast<int>(m);
     };
-    for (std::size_t m = 0; m < matrices; ++m) bits.emplace(fingerOf(m), 0);
-    std::size_t bit = 0;
-    for (auto& [number, mask] : bits) {
-      numbers.push_back(number);
-      mask = bit < kMostFingers ? 1U << bit : 0U;
-      ++bit;
-    }
-    for (std::size_t m = 0; m < matrices; ++m) bitOfMatrix.push_back(bits[fingerOf(m)]);
+    for (std::size_t m = 0; m < matrices; ++m) numbers.push_back(numberOf(m));
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    for (std::size_t m = 0; m < matrices; ++m)
+      ofMatrix.push_back(static_cast<std::size_t>(
+          std::lower_bound(numbers.begin(), numbers.end(), numberOf(m)) - numbers.begin()));
   }
 };
+
+// Of one matrix in one frame, what the rules ask for.
+struct MatrixContact {
+  bool active = false;
+  double maximum = 0.0;  // [counts]
+  double sum = 0.0;      // [counts]
+};
+
+MatrixContact contactOf(const ConstMatrixMap& values) {
+  MatrixContact contact;
+  const float* const end = values.data() + values.size();
+  for (const float* value = values.data(); value != end; ++value) {
+    if (!(*value > 0.0F)) continue;
+    contact.active = true;
+    contact.sum += static_cast<double>(*value);
+    contact.maximum = std::max(contact.maximum, static_cast<double>(*value));
+  }
+  return contact;
+}
 
 class Finder {
  public:
   Finder(const Profile& profile, const GraspSegmentOptions& options)
       : profile_(profile), options_(options), fingers_(profile.hand()) {
     options_.validate();
+    frames_.reserve(profile.numFrames());
+    touches_.reserve(profile.numFrames() * fingers_.numbers.size());
   }
 
-  // `matrices`: signals of each matrix.
-  void add(std::span<const CharacteristicSignals> matrices) {
+  // The next frame; of each matrix.
+  void add(const std::vector<MatrixContact>& matrices) {
     FrameContact frame;
+    const std::size_t first = touches_.size();  // of this frame's fingers
+    touches_.resize(first + fingers_.numbers.size());
     const auto saturation = static_cast<double>(profile_.hand().saturationCounts);
+    std::size_t touching = 0;
     for (std::size_t m = 0; m < matrices.size(); ++m) {
-      if (matrices[m].active == 0) continue;
-      frame.fingers |= fingers_.bitOfMatrix[m];
+      if (!matrices[m].active) continue;
+      auto touches = touches_[first + fingers_.ofMatrix[m]];
+      if (!touches) ++touching;
+      touches = true;
       frame.sum += matrices[m].sum;
       frame.saturated = frame.saturated || matrices[m].maximum >= saturation;
     }
     if (options_.rule == GraspRule::kStudy)
       frame.contact = std::all_of(
           options_.studyMatrices.begin(), options_.studyMatrices.end(), [&](std::size_t m) {
-            return m < matrices.size() && matrices[m].active > 0;
+            return m < matrices.size() && matrices[m].active;
           });
     else
-      frame.contact =
-          static_cast<std::size_t>(std::popcount(frame.fingers)) >= options_.fewestFingers;
+      frame.contact = touching >= options_.fewestFingers;
     frames_.push_back(frame);
   }
 
@@ -123,8 +141,8 @@ class Finder {
     for (std::size_t i = begin; i <= end; ++i) {
       touching += frames_[i].contact ? 1 : 0;
       saturated += frames_[i].saturated ? 1 : 0;
-      for (std::size_t f = 0; f < std::min(times.size(), kMostFingers); ++f)
-        times[f].first += frames_[i].fingers >> f & 1U;
+      for (std::size_t f = 0; f < times.size(); ++f)
+        times[f].first += touches_[i * times.size() + f] ? 1 : 0;
     }
     std::stable_sort(
         times.begin(), times.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -161,6 +179,7 @@ class Finder {
   GraspSegmentOptions options_;
   Fingers fingers_;
   std::vector<FrameContact> frames_;
+  std::vector<bool> touches_;  // finger after finger, frame after frame
 };
 
 }  // namespace
@@ -183,7 +202,7 @@ std::vector<GraspSegment> findGrasps(const Profile& profile,
   const std::size_t frames = profile.numFrames();
   std::vector<std::int64_t> stampsUs;
   stampsUs.reserve(frames);
-  std::vector<CharacteristicSignals> matrices(profile.layout().numMatrices());
+  std::vector<MatrixContact> matrices(profile.layout().numMatrices());
   TactileFrame frame;
   for (std::size_t i = 0; i < frames; ++i) {
     if (progress && i % kFramesPerReport == 0 &&
@@ -191,18 +210,8 @@ std::vector<GraspSegment> findGrasps(const Profile& profile,
       throw Cancelled();
     profile.readFrame(i, frame);
     stampsUs.push_back(frame.hostUs);
-    for (std::size_t m = 0; m < matrices.size(); ++m) {
-      // What the rule asks for; no filtered mean.
-      CharacteristicSignals& now = matrices[m] = {};
-      const auto values = frame.matrix(m);
-      for (Eigen::Index k = 0; k < values.size(); ++k) {
-        const auto value = static_cast<double>(values.data()[k]);
-        if (!(value > 0.0)) continue;
-        ++now.active;
-        now.sum += value;
-        now.maximum = std::max(now.maximum, value);
-      }
-    }
+    const TactileFrame& values = frame;
+    for (std::size_t m = 0; m < matrices.size(); ++m) matrices[m] = contactOf(values.matrix(m));
     finder.add(matrices);
   }
   return finder.finish(timingOf(stampsUs));
@@ -212,13 +221,20 @@ std::vector<GraspSegment> findGrasps(const Profile& profile,
                                      const SignalTable& table,
                                      const TimingReport& timing,
                                      const GraspSegmentOptions& options) {
-  if (table.numFrames() != profile.numFrames())
+  if (table.numFrames() != profile.numFrames() ||
+      (table.numFrames() > 0 && table.numMatrices() != profile.layout().numMatrices()))
     throw std::invalid_argument("findGrasps: a table of " + std::to_string(table.numFrames()) +
-                                " frames for a profile of " + std::to_string(profile.numFrames()));
+                                " frames of " + std::to_string(table.numMatrices()) +
+                                " matrices for a profile of " +
+                                std::to_string(profile.numFrames()) + " of " +
+                                std::to_string(profile.layout().numMatrices()));
   Finder finder(profile, options);
-  std::vector<CharacteristicSignals> matrices(table.numMatrices());
+  std::vector<MatrixContact> matrices(table.numMatrices());
   for (std::size_t i = 0; i < table.numFrames(); ++i) {
-    for (std::size_t m = 0; m < matrices.size(); ++m) matrices[m] = table.at(i, m);
+    for (std::size_t m = 0; m < matrices.size(); ++m) {
+      const CharacteristicSignals& known = table.at(i, m);
+      matrices[m] = {known.active > 0, known.maximum, known.sum};
+    }
     finder.add(matrices);
   }
   return finder.finish(timing);

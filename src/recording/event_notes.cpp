@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <utility>
 
 #include "palpate/core/error.h"
 
@@ -47,6 +49,46 @@ void appendEscape(std::string& out, std::uint32_t unit) {
   for (int shift = 12; shift >= 0; shift -= 4) out += kDigits[unit >> shift & 0xF];
 }
 
+// Calls back with each item of the list of events in the sidecar of a recording, if it has one.
+void forEachNote(const fs::path& recording, const std::function<void(const Json&)>& take) {
+  const fs::path path = notesPathOf(recording);
+  std::error_code failure;
+  if (!fs::exists(path, failure)) return;
+  const std::uintmax_t size = fs::file_size(path, failure);
+  if (failure || size > kLargestSidecar) throw FileError(path, "is no file of notes");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FileError(path, "can't be opened for reading");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  try {
+    const Json json = Json::parse(text);
+    if (!json.isObject() || json.at("format").asString() != kFormat)
+      throw Error("is no file of notes");
+    if (json.at("version").asInteger() != kVersion)
+      throw Error("has version " + std::to_string(json.at("version").asInteger()) +
+                  " of the format; this program reads version " + std::to_string(kVersion));
+    const Json events = json.at("events");
+    if (!events.isArray()) throw Error("has no list of events");
+    for (std::size_t i = 0; i < events.size(); ++i) take(events.at(i));
+  } catch (const Error& error) {
+    throw FormatError(path, error.what());
+  }
+}
+
+std::string sidecarText(Json events) {
+  return Json::object()
+             .set("format", kFormat)
+             .set("version", kVersion)
+             .set("events", std::move(events))
+             .text() +
+         "\n";
+}
+
+void removeSidecar(const fs::path& path) {
+  std::error_code failure;
+  fs::remove(path, failure);
+  if (failure) throw FileError(path, "can't be removed: " + failure.message());
+}
+
 }  // namespace
 
 fs::path notesPathOf(const fs::path& recording) {
@@ -87,38 +129,34 @@ std::string asciiJson(const std::string& json) {
 }
 
 EventsReport readEventNotes(const fs::path& recording) {
-  const fs::path path = notesPathOf(recording);
-  std::error_code failure;
   EventsReport report;
-  if (!fs::exists(path, failure)) return report;
-  const std::uintmax_t size = fs::file_size(path, failure);
-  if (failure || size > kLargestSidecar) throw FileError(path, "is no file of notes");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path, "can't be opened for reading");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  try {
-    const Json json = Json::parse(text);
-    if (!json.isObject() || json.at("format").asString() != kFormat)
-      throw Error("is no file of notes");
-    if (json.at("version").asInteger() != kVersion)
-      throw Error("has version " + std::to_string(json.at("version").asInteger()) +
-                  " of the format; this program reads version " + std::to_string(kVersion));
-    const Json events = json.at("events");
-    if (!events.isArray()) throw Error("has no list of events");
-    for (std::size_t i = 0; i < events.size(); ++i) {
-      try {
-        report.events.push_back(eventFrom(events.at(i)));
-      } catch (const Error&) {
-        ++report.damaged;
-      }
+  forEachNote(recording, [&report](const Json& json) {
+    try {
+      report.events.push_back(eventFrom(json));
+    } catch (const Error&) {
+      ++report.damaged;
     }
-  } catch (const Error& error) {
-    throw FormatError(path, error.what());
-  }
+  });
   std::stable_sort(report.events.begin(), report.events.end(), [](const auto& a, const auto& b) {
     return a.tUs < b.tUs;
   });
   return report;
+}
+
+void replaceEventNotes(const fs::path& recording, std::span<const RecordingEvent> events) {
+  Json list = eventsToJson(events);
+  forEachNote(recording, [&list](const Json& json) {
+    try {
+      eventFrom(json);
+    } catch (const Error&) {
+      list.push(json);
+    }
+  });
+  const fs::path path = notesPathOf(recording);
+  if (list.size() == 0) return removeSidecar(path);
+  OutputFile file(path, Overwrite::kReplace);
+  file.write(sidecarText(std::move(list)));
+  file.commit();
 }
 
 EventNotes::EventNotes(const fs::path& recording,
@@ -129,19 +167,12 @@ EventNotes::EventNotes(const fs::path& recording,
   requireWritable(path_, overwrite);
   if (events.empty()) return;
   file_ = std::make_unique<OutputFile>(path_, overwrite);
-  file_->write(Json::object()
-                   .set("format", kFormat)
-                   .set("version", kVersion)
-                   .set("events", eventsToJson(events))
-                   .text());
-  file_->write("\n");
+  file_->write(sidecarText(eventsToJson(events)));
 }
 
 void EventNotes::commit() const {
   if (file_) return file_->commit();
-  std::error_code failure;
-  fs::remove(path_, failure);
-  if (failure) throw FileError(path_, "can't be removed: " + failure.message());
+  removeSidecar(path_);
 }
 
 }  // namespace palpate

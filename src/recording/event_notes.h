@@ -23,6 +23,11 @@ std::string asciiJson(const std::string& json);
 // FormatError.
 EventsReport readEventNotes(const std::filesystem::path& recording);
 
+// Replaces the events in the sidecar, whole or not at all; what was damaged in it stays. None left: the
+// sidecar goes. Throws FileError, FormatError.
+void replaceEventNotes(const std::filesystem::path& recording,
+                       std::span<const RecordingEvent> events);
+
 // The sidecar of a recording that is about to be written: prepared before it, published behind it.
 class EventNotes {
  public:

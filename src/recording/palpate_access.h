@@ -1,8 +1,10 @@
 // Opens a native recording for reading, whatever state it is in. Private to the room.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "recording/palpate_rows.h"
 #include "recording/sqlite_database.h"
@@ -24,11 +26,18 @@ class PalpateAccess {
   // Then every statement is a transaction of its own, so that the writer never waits long; rows are
   // only ever added. Otherwise all reading is one transaction: that saves the locking.
   bool beingWritten() const noexcept { return beingWritten_; }
+  // From here on only blocks are read: those of a finished recording never change, so that no lock is
+  // held that would keep others from saving its events. Statements must be prepared anew. Throws
+  // FileError: the file was replaced meanwhile.
+  void readBlocksOnly();
 
  private:
   void open(const std::filesystem::path& path);
+  bool copyHot();
 
+  std::filesystem::path path_;  // no link
   std::filesystem::path copyFolder_;
+  std::pair<std::uint64_t, std::uint64_t> file_;  // device and inode
   std::unique_ptr<SqliteDatabase> database_;
   MetaRows meta_;
   bool unfinished_ = false;

@@ -1,6 +1,7 @@
 #include "palpate/recording/palpate_reader.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "palpate/core/error.h"
 #include "palpate/recording/palpate_schema.h"
@@ -20,13 +21,14 @@ class PalpateStorage final : public BlockStorage {
       : BlockStorage(path, [this](std::int64_t id) { return load(id); }),
         path_(path),
         access_(path),
-        layout_(readLayout(access_.database())),
-        readBlock_(access_.database().prepare(
-            "SELECT stream, first, n, t0_us, t1_us, coding, crc32, data FROM block WHERE id=?")) {
+        layout_(readLayout(access_.database())) {
     if (access_.beingWritten())
       indexGrowing(progress);
     else
       indexBlocks(progress);
+    access_.readBlocksOnly();
+    readBlock_.emplace(access_.database().prepare(
+        "SELECT stream, first, n, t0_us, t1_us, coding, crc32, data FROM block WHERE id=?"));
     setWidth(Stream::kTactile, layout_.numPlaces());
     for (Stream stream : {Stream::kAngles, Stream::kTemperatures}) {
       if (places(stream).empty()) continue;
@@ -86,11 +88,11 @@ class PalpateStorage final : public BlockStorage {
 
   // Reads a block and checks its CRC.
   Block load(std::int64_t id) {
-    readBlock_.bind(1, id);
-    if (!readBlock_.next()) throw FormatError(path_, "block " + std::to_string(id) + " is gone");
-    const std::int64_t crc = readBlock_.integer(6);
-    Block block = blockFrom(readBlock_, 0, 7);
-    readBlock_.reset();
+    readBlock_->bind(1, id);
+    if (!readBlock_->next()) throw FormatError(path_, "block " + std::to_string(id) + " is gone");
+    const std::int64_t crc = readBlock_->integer(6);
+    Block block = blockFrom(*readBlock_, 0, 7);
+    readBlock_->reset();
     if (crc != static_cast<std::int64_t>(blockCrc(block)) || !plausible(block))
       throw FormatError(
           path_,
@@ -102,7 +104,7 @@ class PalpateStorage final : public BlockStorage {
   fs::path path_;
   PalpateAccess access_;
   SensorLayout layout_;
-  SqliteStatement readBlock_;
+  std::optional<SqliteStatement> readBlock_;
 };
 
 // A finished recording says it; of others every block must be looked at.

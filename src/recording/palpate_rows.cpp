@@ -239,8 +239,9 @@ MetaRows readMeta(SqliteDatabase& database) {
   return meta;
 }
 
-EventsReport readEventRows(SqliteDatabase& database) {
-  EventsReport report;
+std::size_t forEachEventRow(SqliteDatabase& database,
+                            const std::function<void(std::int64_t, RecordingEvent&&)>& take) {
+  std::size_t damaged = 0;
   SqliteStatement rows =
       database.prepare("SELECT id, t_us, t1_us, kind, matrix, text, json, crc32 FROM event");
   while (rows.next()) {
@@ -250,10 +251,18 @@ EventsReport readEventRows(SqliteDatabase& database) {
     const bool fits = matrix >= INT32_MIN && matrix <= INT32_MAX;
     if (!rows.isNull(4)) event.matrix = static_cast<int>(fits ? matrix : -1);
     if (fits && rows.integer(7) == static_cast<std::int64_t>(eventCrc(rows.integer(0), event)))
-      report.events.push_back(std::move(event));
+      take(rows.integer(0), std::move(event));
     else
-      ++report.damaged;
+      ++damaged;
   }
+  return damaged;
+}
+
+EventsReport readEventRows(SqliteDatabase& database) {
+  EventsReport report;
+  report.damaged = forEachEventRow(database, [&](std::int64_t, RecordingEvent&& event) {
+    report.events.push_back(std::move(event));
+  });
   // Sorted here: SQLite would sort in memory without a bound.
   std::stable_sort(report.events.begin(), report.events.end(), [](const auto& a, const auto& b) {
     return a.tUs < b.tUs;

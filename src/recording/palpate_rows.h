@@ -1,6 +1,7 @@
 // Rows of a native recording's tables, with their checksums. Private to the room.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -53,6 +54,11 @@ struct MetaRows {
   std::optional<std::int64_t> integer(const std::string& key) const;
 };
 MetaRows readMeta(SqliteDatabase& database);
+// Calls back with number and content of every row of `event` in order of its number; rows with a wrong
+// checksum are counted.
+std::size_t forEachEventRow(
+    SqliteDatabase& database,
+    const std::function<void(std::int64_t id, RecordingEvent&& event)>& take);
 EventsReport readEventRows(SqliteDatabase& database);
 // In order of time, then matrix; `damaged` counts rows with a wrong checksum, which are left out.
 std::vector<SecondSummary> readSecondRows(SqliteDatabase& database, std::size_t& damaged);

@@ -1,8 +1,5 @@
 #include "palpate/recording/recording.h"
 
-#include <algorithm>
-#include <array>
-#include <cctype>
 #include <string>
 #include <string_view>
 
@@ -15,35 +12,12 @@
 #include "palpate/recording/palpate_writer.h"
 #include "palpate/recording/table_export.h"
 
-#include "recording/byte_source.h"
 #include "recording/event_notes.h"
 #include "recording/message_text.h"
-#include "recording/palpate_lock.h"
+#include "recording/recording_form.h"
 
 namespace palpate {
 namespace {
-
-constexpr std::string_view kSqliteStart{"SQLite format 3\0", 16};
-
-std::string lowerEnding(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
-  return ending;
-}
-
-// By the first bytes; where these are neither SQLite's nor a .dsa's (damaged), by the name. Throws
-// FileError.
-bool isNative(const std::filesystem::path& path) {
-  // Closing a file that this very process writes would drop SQLite's locks on it.
-  if (RecordingLock::isHeld(path)) return true;
-  FileSource source(path);
-  std::array<char, kSqliteStart.size()> first{};
-  const std::string_view start(first.data(), source.read(first));
-  if (start == kSqliteStart) return true;
-  return lowerEnding(path) == ".palpate" && !start.starts_with("BZh") && !start.starts_with('<');
-}
 
 std::string countsText(std::size_t frames, std::size_t angles, std::size_t temperatures) {
   return counted(frames, "frame") + ", " + counted(angles, "angle sample") + ", " +
@@ -148,13 +122,13 @@ RecoverReport recoverDsa(const std::filesystem::path& in,
 }  // namespace
 
 Profile openRecording(const std::filesystem::path& path, const Progress& progress) {
-  return isNative(path) ? readPalpate(path, progress) : readDsa(path, progress);
+  return isNativeRecording(path) ? readPalpate(path, progress) : readDsa(path, progress);
 }
 
 VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& progress) {
   VerifyReport report;
   try {
-    if (isNative(path)) return verifyNative(path, progress);
+    if (isNativeRecording(path)) return verifyNative(path, progress);
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {
@@ -179,7 +153,7 @@ VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& 
 }
 
 RecordingForm formOf(const std::filesystem::path& path) {
-  const std::string ending = lowerEnding(path);
+  const std::string ending = lowerEndingOf(path);
   if (ending == ".dsa") return RecordingForm::kDsa;
   if (ending == ".palpate") return RecordingForm::kPalpate;
   if (ending == ".csv") return RecordingForm::kCsv;
@@ -188,7 +162,7 @@ RecordingForm formOf(const std::filesystem::path& path) {
 }
 
 EventsReport readEvents(const std::filesystem::path& path) {
-  return isNative(path) ? readPalpateEvents(path) : readEventNotes(path);
+  return isNativeRecording(path) ? readPalpateEvents(path) : readEventNotes(path);
 }
 
 void requireOther(const std::filesystem::path& in, const std::filesystem::path& out) {
@@ -225,8 +199,8 @@ RecoverReport recoverRecording(const std::filesystem::path& in,
   formOf(out);  // before the work, not after it
   requireOther(in, out);
   requireWritable(out, overwrite);
-  return isNative(in) ? recoverNative(in, out, overwrite, progress)
-                      : recoverDsa(in, out, overwrite, progress);
+  return isNativeRecording(in) ? recoverNative(in, out, overwrite, progress)
+                               : recoverDsa(in, out, overwrite, progress);
 }
 
 }  // namespace palpate

@@ -15,6 +15,21 @@ constexpr int kOpsPerLook = 100'000;
 constexpr std::int64_t kFreeOps = 10'000'000;
 constexpr std::int64_t kOpsPerByte = 50;
 
+// SQLite's own switch for reading without locks, which only a URI can carry.
+std::string unlockedUri(const std::filesystem::path& path) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  std::string uri = "file:";
+  for (const char letter : std::filesystem::absolute(path).string()) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (letter == '/' ||
+        (byte > ' ' && byte < 0x7F && letter != '%' && letter != '?' && letter != '#'))
+      uri += letter;
+    else
+      uri += std::string("%") + kDigits[byte >> 4] + kDigits[byte & 0xF];
+  }
+  return uri + "?immutable=1";
+}
+
 }  // namespace
 
 void throwSqliteError(sqlite3* connection, int code, const std::filesystem::path& path) {
@@ -127,10 +142,13 @@ std::span<const std::byte> SqliteStatement::blob(int column) const {
 SqliteDatabase::SqliteDatabase(std::filesystem::path path, Mode mode, const std::string& vfs)
     : path_(std::move(path)) {
   int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
-  flags |= mode == Mode::kReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
+  const bool reads = mode == Mode::kReadOnly || mode == Mode::kUnlocked;
+  flags |= reads ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
   if (mode == Mode::kCreate) flags |= SQLITE_OPEN_CREATE;
+  if (mode == Mode::kUnlocked) flags |= SQLITE_OPEN_URI;
+  const std::string name = mode == Mode::kUnlocked ? unlockedUri(path_) : path_.string();
   const int code =
-      sqlite3_open_v2(path_.c_str(), &connection_, flags, vfs.empty() ? nullptr : vfs.c_str());
+      sqlite3_open_v2(name.c_str(), &connection_, flags, vfs.empty() ? nullptr : vfs.c_str());
   if (code != SQLITE_OK) {
     sqlite3_close(std::exchange(connection_, nullptr));
     throwSqliteError(nullptr, code, path_);

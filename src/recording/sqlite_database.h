@@ -48,7 +48,8 @@ class SqliteStatement {
 
 class SqliteDatabase {
  public:
-  enum class Mode { kReadOnly, kReadWrite, kCreate };
+  // kUnlocked reads without locks and without looking for changes: only for pages that nobody changes.
+  enum class Mode { kReadOnly, kReadWrite, kCreate, kUnlocked };
   // Throws FileError. `vfs`: a registered SQLite file system, empty for the default.
   SqliteDatabase(std::filesystem::path path, Mode mode, const std::string& vfs = {});
   ~SqliteDatabase();

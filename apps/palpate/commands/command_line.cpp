@@ -10,7 +10,6 @@
 #include <boost/program_options.hpp>
 #include <unistd.h>
 
-#include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
 
@@ -134,8 +133,17 @@ ProgressLine::ProgressLine(std::string label, bool quiet)
       enabled_(!quiet && ::isatty(STDERR_FILENO) == 1),
       startUs_(systemClock().monotonicUs()) {}
 
-ProgressLine::~ProgressLine() {
+ProgressLine::~ProgressLine() { wipe(); }
+
+void ProgressLine::wipe() {
   if (shown_) std::fputs("\r\033[K", stderr);
+  shown_ = false;
+  lastPercent_ = -1;
+}
+
+void ProgressLine::setLabel(std::string label) {
+  label_ = std::move(label);
+  lastPercent_ = -1;
 }
 
 Progress ProgressLine::callback() {
@@ -165,7 +173,8 @@ void StandardOutput::write(const std::string& text) {
 void StandardOutput::finish() {
   const std::size_t written = std::fwrite(buffer_.data(), 1, buffer_.size(), stdout);
   if (written != buffer_.size() || std::fflush(stdout) != 0)
-    throw Error("standard output can't be written: " + std::generic_category().message(errno));
+    throw OutputError("standard output can't be written: " +
+                      std::generic_category().message(errno));
   buffer_.clear();
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <palpate/core/error.h>
 #include <palpate/core/progress.h>
 
 namespace palpate::commands {
@@ -71,6 +72,10 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
   Progress callback();
+  // What comes before the percentage, from now on.
+  void setLabel(std::string label);
+  // Takes the line away until there is a new figure: something else is about to be printed.
+  void wipe();
 
  private:
   void show(double fraction);
@@ -82,7 +87,13 @@ class ProgressLine {
   std::int64_t startUs_;
 };
 
-// Standard output in large pieces. finish() reports a full disk or a closed pipe as an Error.
+// What was to be printed could not be: no fault of the input.
+class OutputError : public Error {
+ public:
+  using Error::Error;
+};
+
+// Standard output in large pieces. Both throw OutputError: a full disk, a closed pipe.
 class StandardOutput {
  public:
   void write(const std::string& text);

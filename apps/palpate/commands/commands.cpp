@@ -119,12 +119,14 @@ int runCaught(const Words& words) {
 
 const std::vector<Command>& allCommands() {
   static const std::vector<Command> commands = {
+      {"compare", "two recordings frame beside frame, as CSV", &compareCommand},
       {"convert",
        "from one form of a recording to another: .dsa, .palpate, .csv, .npz",
        &convertCommand},
       {"demo", "a headless tour: reads, reports and draws a recording", &demoCommand},
       {"emulate", "the emulated hand on two ports, until it is interrupted", &emulateCommand},
       {"grasp", "moves a connected hand: plain and reactive grasps", &graspCommand},
+      {"grasps", "where the grasps in recordings are, as CSV", &graspsCommand},
       {"info", "what is in a recording", &infoCommand},
       {"kinematics", "where the taxels are at a set of joint angles", &kinematicsCommand},
       {"ports", "which ports there are, and what answers behind each", &portsCommand},

@@ -22,10 +22,12 @@ struct Command {
 };
 
 // One function per command, one file per command. They throw; run() turns that into exit codes.
+int compareCommand(const Words& words);
 int convertCommand(const Words& words);
 int demoCommand(const Words& words);
 int emulateCommand(const Words& words);
 int graspCommand(const Words& words);
+int graspsCommand(const Words& words);
 int infoCommand(const Words& words);
 int kinematicsCommand(const Words& words);
 int portsCommand(const Words& words);

@@ -1,30 +1,30 @@
-// palpate convert IN OUT: from one form of a recording to another.
+// palpate convert IN OUT: from one form of a recording to another, also of a whole folder.
+#include <algorithm>
 #include <cstdio>
+#include <set>
 
 #include "palpate/core/error.h"
+#include "palpate/core/one_line.h"
 #include "palpate/recording/crop.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
+namespace fs = std::filesystem;
+namespace {
 
-int convertCommand(const Words& words) {
-  const CommandLine given(
-      {.synopsis = "palpate convert IN OUT [--from N --to M]",
-       .purpose = "Converts a recording; the ending of OUT chooses the form: .dsa, .palpate, .csv "
-                  "(with\nOUT.angles.csv and OUT.temperatures.csv beside it) or .npz (for NumPy).",
-       .options = {{"from", "N", "first frame, default 0"},
-                   {"to", "M", "last frame (inclusive), default the last one"},
-                   {"force", "", "replace OUT"}},
-       .example = "palpate convert foam_ball.dsa grasp3.palpate --from 700 --to 1400",
-       .fewestWords = 2,
-       .mostWords = 2},
-      words);
-  if (given.helpShown()) return kDone;
-  const std::string& in = given.words()[0];
-  const std::string& out = given.words()[1];
+std::string damagedText(const std::string& in, std::size_t damaged) {
+  return in + ": " + std::to_string(damaged) + " damaged events were left out";
+}
+
+std::string doneText(const fs::path& out, const Profile& profile) {
+  return out.string() + ": " + std::to_string(profile.numFrames()) + " frames";
+}
+
+int convertOne(const CommandLine& given, const std::string& in, const std::string& out) {
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
   formOf(out);
   requireOther(in, out);
@@ -50,11 +50,91 @@ int convertCommand(const Words& words) {
     ProgressLine progress("writing " + out, given.quiet());
     saveRecording(profile, events.events, out, overwrite, progress.callback());
   }
-  if (!given.quiet()) std::printf("%s: %zu frames\n", out.c_str(), profile.numFrames());
+  if (!given.quiet()) std::printf("%s\n", doneText(out, profile).c_str());
   if (events.damaged == 0) return kDone;
-  std::fprintf(
-      stderr, "palpate: %s: %zu damaged events were left out\n", in.c_str(), events.damaged);
+  std::fprintf(stderr, "palpate: %s\n", oneLine(damagedText(in, events.damaged)).c_str());
   return kPartlyDone;
+}
+
+// Otherwise what was made would be among what is to be converted the next time.
+void requireOutside(const fs::path& folder, const fs::path& out) {
+  const fs::path inside = fs::weakly_canonical(fs::absolute(folder));
+  const fs::path made = fs::weakly_canonical(fs::absolute(out));
+  if (std::mismatch(inside.begin(), inside.end(), made.begin(), made.end()).first == inside.end())
+    throw FileError(out, "lies in the folder that is to be converted; name one outside");
+  std::error_code ignored;
+  if (fs::exists(out, ignored) && !fs::is_directory(out, ignored))
+    throw FileError(out, "is not a folder");
+}
+
+void makeFolder(const fs::path& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure) throw FileError(folder, "can't be made: " + failure.message());
+}
+
+int convertFolder(const CommandLine& given,
+                  const fs::path& folder,
+                  const fs::path& outFolder,
+                  const std::string& form) {
+  const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
+  requireOutside(folder, outFolder);
+  std::set<fs::path> made;
+  return forEachRecording(
+      recordingsIn({folder.string()}),
+      given.quiet(),
+      [&](const fs::path& file, const Progress& progress) {
+        fs::path out = outFolder / file.lexically_relative(folder);
+        out.replace_extension("." + form);
+        if (made.contains(out))
+          throw FileError(file, "'" + out.string() + "' was made of another form of it already");
+        requireWritable(out, overwrite);
+        const Profile profile =
+            openRecording(file, [&](double fraction) { return progress(0.5 * fraction); });
+        const EventsReport events = readEvents(file);
+        makeFolder(out.parent_path());
+        saveRecording(profile, events.events, out, overwrite, [&](double fraction) {
+          return progress(0.5 + 0.5 * fraction);
+        });
+        made.insert(out);
+        FileOutcome outcome;
+        if (!given.quiet()) outcome.said = oneLine(doneText(out, profile));
+        if (events.damaged > 0) outcome.trouble = damagedText(file.string(), events.damaged);
+        return outcome;
+      });
+}
+
+}  // namespace
+
+int convertCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate convert IN OUT [--from N --to M] | FOLDER OUTFOLDER --to-form FORM",
+       .purpose =
+           "Converts a recording; the ending of OUT chooses the form: .dsa, .palpate, .csv "
+           "(with\nOUT.angles.csv and OUT.temperatures.csv beside it) or .npz (for NumPy). "
+           "Of a FOLDER every recording\nbelow it, into OUTFOLDER under the same names with "
+           "the ending of FORM, a line per file; one that\nfails doesn't stop the others: exit "
+           "code 3.",
+       .options = {{"from", "N", "first frame, default 0"},
+                   {"to", "M", "last frame (inclusive), default the last one"},
+                   {"to-form", "FORM", "of a folder: dsa, palpate, csv or npz"},
+                   {"force", "", "replace OUT, or files in OUTFOLDER"}},
+       .example = "palpate convert foam_ball.dsa grasp3.palpate --from 700 --to 1400",
+       .fewestWords = 2,
+       .mostWords = 2},
+      words);
+  if (given.helpShown()) return kDone;
+  const std::string& in = given.words()[0];
+  const std::string& out = given.words()[1];
+  const auto form = given.choice("to-form", {"dsa", "palpate", "csv", "npz"});
+  std::error_code ignored;
+  const bool isFolder = fs::is_directory(in, ignored);
+  if (isFolder && !form)
+    throw UsageError(in + " is a folder: say with --to-form what its recordings shall become");
+  if (!isFolder && form) throw UsageError("--to-form goes with a folder; " + in + " is none");
+  if (isFolder && (given.has("from") || given.has("to")))
+    throw UsageError("--from and --to go with one recording, not with a folder");
+  return isFolder ? convertFolder(given, in, out, *form) : convertOne(given, in, out);
 }
 
 }  // namespace palpate::commands

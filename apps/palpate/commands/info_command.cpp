@@ -1,17 +1,20 @@
-// palpate info FILE [--json]: what is in a recording.
+// palpate info PATH... [--json]: what is in a recording, or in each of several.
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <string>
 
+#include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/one_line.h"
+#include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
 #include "palpate/model/timing.h"
-#include "palpate/recording/recording.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace {
@@ -21,11 +24,13 @@ struct ValueReport {
   std::size_t saturatedFrames = 0;  // with at least one taxel at or above saturation
 };
 
-ValueReport valuesOf(const Profile& profile) {
+ValueReport valuesOf(const Profile& profile, const Progress& progress) {
   ValueReport report;
   if (profile.numFrames() > 0) report.maximum = std::numeric_limits<double>::lowest();
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    if (!progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
+      throw Cancelled();
     profile.readFrame(i, frame);
     const float largest = *std::max_element(frame.values.begin(), frame.values.end());
     report.maximum = std::max(report.maximum, static_cast<double>(largest));
@@ -56,16 +61,17 @@ Json matricesJson(const SensorLayout& layout) {
   return matrices;
 }
 
-std::string jsonText(const Profile& profile,
-                     const TimingReport& timing,
-                     const ValueReport& values) {
+// `report` has what stands before.
+Json jsonOf(Json report,
+            const Profile& profile,
+            const TimingReport& timing,
+            const ValueReport& values) {
   const ProfileInfo& info = profile.info();
   Json gaps = Json::array();
   for (const Gap& gap : timing.gaps)
     gaps.push(Json::object().set("frame", gap.frame).set("seconds", gap.seconds));
   Json warnings = Json::array();
   for (const std::string& warning : info.warnings) warnings.push(warning);
-  Json report = Json::object();
   report.set("format", info.format)
       .set("value_type", valueTypeText(profile))
       .set("frames", profile.numFrames())
@@ -84,7 +90,7 @@ std::string jsonText(const Profile& profile,
       .set("hand", profile.hand().name)
       .set("start_utc", profile.numFrames() ? Json(utcText(profile.frameTimeUs(0))) : Json())
       .set("warnings", warnings);
-  return report.text() + "\n";
+  return report;
 }
 
 std::string row(const std::string& name, const std::string& value) {
@@ -143,33 +149,96 @@ std::string plainText(const std::string& file,
   return text;
 }
 
+constexpr const char* kTableHeader =
+    "file,format,value_type,frames,duration_s,rate_hz,mean_rate_hz,gaps,temperatures,joint_angles,"
+    "max_value,saturated_frames,serial,warnings\n";
+
+// One row of the table over several recordings; what is not known is empty.
+std::string tableRow(const std::filesystem::path& file,
+                     const Profile& profile,
+                     const TimingReport& timing,
+                     const ValueReport& values) {
+  const ProfileInfo& info = profile.info();
+  const auto rate = [](double hz) { return hz > 0.0 ? numberText(hz) : std::string(); };
+  std::string warnings;
+  for (const std::string& warning : info.warnings)
+    warnings += (warnings.empty() ? "" : "; ") + warning;
+  return csvLine({file.string(),
+                  info.format,
+                  valueTypeText(profile),
+                  std::to_string(profile.numFrames()),
+                  numberText(timing.durationS),
+                  rate(timing.rateHz),
+                  rate(timing.meanRateHz),
+                  std::to_string(timing.gaps.size()),
+                  std::to_string(profile.numTemperatures()),
+                  std::to_string(profile.numAngles()),
+                  profile.numFrames() > 0 ? numberText(values.maximum) : std::string(),
+                  std::to_string(values.saturatedFrames),
+                  info.serial,
+                  warnings});
+}
+
+int infoOfOne(const RecordingList& recordings, bool quiet, bool json) {
+  StandardOutput out;
+  return forEachProfile(
+      recordings,
+      quiet,
+      [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
+        const TimingReport timing = timingOf(profile);
+        const ValueReport values = valuesOf(profile, progress);
+        out.write(json ? jsonOf(Json::object(), profile, timing, values).text() + "\n"
+                       : plainText(file.string(), profile, timing, values));
+        out.finish();
+      });
+}
+
+// A table with a row each, or one object with an item each: written as it goes.
+int infoOfSeveral(const RecordingList& recordings, bool quiet, bool json) {
+  StandardOutput out;
+  if (!recordings.files.empty()) out.write(json ? "{\"recordings\": [" : kTableHeader);
+  const char* between = "\n";
+  const int code = forEachProfile(
+      recordings,
+      quiet,
+      [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
+        const TimingReport timing = timingOf(profile);
+        const ValueReport values = valuesOf(profile, progress);
+        if (json) {
+          const Json report =
+              jsonOf(Json::object().set("file", file.string()), profile, timing, values);
+          out.write(between + report.text(-1));
+          between = ",\n";
+        } else {
+          out.write(tableRow(file, profile, timing, values));
+        }
+        out.finish();
+      });
+  if (json && !recordings.files.empty()) out.write("\n]}\n");
+  out.finish();
+  return code;
+}
+
 }  // namespace
 
 int infoCommand(const Words& words) {
   const CommandLine given(
-      {.synopsis = "palpate info FILE [--json]",
+      {.synopsis = "palpate info FILE|FOLDER... [--json]",
        .purpose =
            "Says what is in a recording: frames, rates, gaps, matrices, angles, temperatures, "
            "largest value.\nThe rate comes from the median interval; a gap is longer than "
-           "max(1 s, 5 median intervals).",
-       .options = {{"json", "", "one JSON object"}},
+           "max(1 s, 5 median intervals).\nOf several FILEs or a FOLDER (every recording below "
+           "it): "
+           "a table as CSV, a row each; a file that\ncan't be read is said, and the others are "
+           "there: exit code 3.",
+       .options = {{"json", "", "one JSON object; of several: with a list, recordings"}},
        .example = "palpate info foam_ball.dsa --json",
-       .fewestWords = 1,
-       .mostWords = 1},
+       .fewestWords = 1},
       words);
   if (given.helpShown()) return kDone;
-  const std::string& file = given.words()[0];
-  const Profile profile = [&] {
-    ProgressLine progress("reading " + file, given.quiet());
-    return openRecording(file, progress.callback());
-  }();
-  const TimingReport timing = timingOf(profile);
-  const ValueReport values = valuesOf(profile);
-  StandardOutput out;
-  out.write(given.has("json") ? jsonText(profile, timing, values)
-                              : plainText(file, profile, timing, values));
-  out.finish();
-  return kDone;
+  const RecordingList recordings = recordingsIn(given.words());
+  return (recordings.several ? infoOfSeveral : infoOfOne)(
+      recordings, given.quiet(), given.has("json"));
 }
 
 }  // namespace palpate::commands

@@ -1,26 +1,20 @@
-// palpate signals FILE... [--matrix M]: characteristic signals as CSV.
+// palpate signals PATH... [--matrix M]: characteristic signals as CSV.
 #include <cstdint>
+#include <filesystem>
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/text_table.h"
 #include "palpate/filter/characteristic_signals.h"
-#include "palpate/recording/recording.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace {
 
 constexpr std::int64_t kUsPerMs = 1000;
-
-// A field of a CSV table, quoted where it must be.
-std::string csvField(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 void appendRow(std::string& line,
                std::size_t frame,
@@ -54,7 +48,8 @@ void writeSignals(StandardOutput& out,
   TactileFrame frame;
   std::string line;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (progress) progress(static_cast<double>(i) / static_cast<double>(profile.numFrames()));
+    if (!progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
+      throw Cancelled();
     profile.readFrame(i, frame);
     for (std::size_t m = first; m < last; ++m) {
       line.clear();
@@ -68,7 +63,7 @@ void writeSignals(StandardOutput& out,
 
 int signalsCommand(const Words& words) {
   const CommandLine given(
-      {.synopsis = "palpate signals FILE... [--matrix M]",
+      {.synopsis = "palpate signals FILE|FOLDER... [--matrix M]",
        .purpose = "Prints the characteristic signals of every matrix in every frame as CSV: mean, "
                   "minimum, maximum,\nsum and number of the active taxels (value > 0), their area, "
                   "and the mean of the 3x3 Gaussian-\nfiltered matrix over its active taxels. An "
@@ -79,28 +74,34 @@ int signalsCommand(const Words& words) {
       words);
   if (given.helpShown()) return kDone;
   const auto matrix = given.integer("matrix", 0, INT64_MAX);
-  const bool several = given.words().size() > 1;
+  const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
   bool headerWritten = false;
-  for (const std::string& file : given.words()) {
-    ProgressLine progress("signals of " + file, given.quiet());
-    const Profile profile = openRecording(file, progress.callback());
-    std::optional<std::size_t> only;
-    if (matrix) {
-      only = static_cast<std::size_t>(*matrix);
-      if (*only >= profile.layout().numMatrices())
-        throw Error(file + ": has no matrix " + std::to_string(*matrix) + ", only 0.." +
-                    std::to_string(profile.layout().numMatrices() - 1));
-    }
-    if (!headerWritten)
-      out.write("frame,time_ms,matrix,mean,filtered_mean,min,max,sum,active,area_mm2" +
-                std::string(several ? ",file\n" : "\n"));
-    headerWritten = true;
-    writeSignals(
-        out, profile, only, several ? "," + csvField(file) + "\n" : "\n", progress.callback());
-  }
-  out.finish();
-  return kDone;
+  return forEachProfile(
+      recordings,
+      given.quiet(),
+      [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
+        std::optional<std::size_t> only;
+        if (matrix) {
+          only = static_cast<std::size_t>(*matrix);
+          if (*only >= profile.layout().numMatrices())
+            throw Error(file.string() + ": has no matrix " + std::to_string(*matrix) +
+                        ", only 0.." + std::to_string(profile.layout().numMatrices() - 1));
+        }
+        if (!headerWritten)
+          out.write("frame,time_ms,matrix,mean,filtered_mean,min,max,sum,active,area_mm2" +
+                    std::string(recordings.several ? ",file\n" : "\n"));
+        headerWritten = true;
+        const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";
+        // What was written of a recording that fails on the way stays: whole rows, and it is said.
+        try {
+          writeSignals(out, profile, only, lineEnd, progress);
+        } catch (const Error&) {
+          out.finish();
+          throw;
+        }
+        out.finish();
+      });
 }
 
 }  // namespace palpate::commands

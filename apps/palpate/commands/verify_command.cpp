@@ -1,11 +1,12 @@
-// palpate verify FILE...: every byte checked, one line per file.
-#include <cstdio>
+// palpate verify PATH...: every byte checked, one line per file.
+#include <filesystem>
 
 #include "palpate/core/one_line.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace {
@@ -44,7 +45,7 @@ int worse(int a, int b) {
 
 int verifyCommand(const Words& words) {
   const CommandLine given(
-      {.synopsis = "palpate verify FILE...",
+      {.synopsis = "palpate verify FILE|FOLDER...",
        .purpose = "Checks every byte of recordings; one line per file says sound, damaged (and how "
                   "much can still\nbe read) or unreadable. Exit code: 0 all sound, 3 damaged but "
                   "partly readable, 1 nothing\nreadable; with several files the worst. With "
@@ -55,18 +56,19 @@ int verifyCommand(const Words& words) {
       words);
   if (given.helpShown()) return kDone;
   int worst = kDone;
-  for (const std::string& file : given.words()) {
-    const VerifyReport report = [&] {
-      ProgressLine progress("checking " + file, given.quiet());
-      return verifyRecording(file, progress.callback());
-    }();
-    worst = worse(worst, exitCode(report.state));
-    if (given.quiet()) continue;
-    std::printf(
-        "%s: %s: %s\n", oneLine(file).c_str(), word(report.state), oneLine(report.message).c_str());
-    std::fflush(stdout);  // a line per file as it comes, also into a pipe
-  }
-  return worst;
+  const int code =
+      forEachRecording(recordingsIn(given.words()),
+                       given.quiet(),
+                       [&](const std::filesystem::path& file, const Progress& progress) {
+                         const VerifyReport report = verifyRecording(file, progress);
+                         worst = worse(worst, exitCode(report.state));
+                         FileOutcome outcome;
+                         if (!given.quiet())
+                           outcome.said = oneLine(file.string()) + ": " + word(report.state) +
+                                          ": " + oneLine(report.message);
+                         return outcome;
+                       });
+  return worse(worst, code);
 }
 
 }  // namespace palpate::commands

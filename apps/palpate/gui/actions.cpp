@@ -63,12 +63,32 @@ Actions::Actions(QWidget* window) : window_(window) {
   nextRecording = make("File", "&Next open recording", {key("Ctrl+Tab")});
   previousRecording = make("File", "&Previous open recording", {key("Ctrl+Shift+Tab")});
   closeRecording = make("File", "&Close recording", {key("Ctrl+W")});
+  saveEvents = make("File", "&Save labels, notes and grasps", {key("Ctrl+S")});
   exportPicture = make("File", "&Export…", {key("Ctrl+E")});
   exportAgain = make("File", "Export as &last time", {key("Ctrl+Shift+E")});
   copyPicture = make("File", "Cop&y", {key("Ctrl+C")});
   copyPicture->setToolTip("Copy the view that was clicked into last (Ctrl+C)");
   copyTable = make("File", "Copy &table", {key("Ctrl+Alt+C")});
   quit = make("File", "&Quit", {key("Ctrl+Q")});
+
+  undo = make("Edit", "&Undo", {key("Ctrl+Z")});
+  redo = make("Edit", "&Redo", {key("Ctrl+Shift+Z"), key("Ctrl+Y")});
+  addLabel = make("Edit", "&Label the selection or the moment…", {key("Ctrl+B")});
+  addNote = make("Edit", "&Note on the selection or the moment…", {key("Ctrl+Shift+B")});
+  addGrasp = make("Edit", "The selection is a &grasp", {key("Ctrl+Shift+P")});
+  renameEvent = make("Edit", "Re&name the event", {key("F2")});
+  removeEvent = make("Edit", "&Delete the event", {key("Del")});
+  nextEvent = make("Edit", "Ne&xt event", {key("N")});
+  nextEvent->setToolTip("Chooses and selects the next grasp, label, .. of the row (N)");
+  previousEvent = make("Edit", "&Previous event", {key("Shift+N")});
+  toEvents = make("Edit", "&Keyboard into the events", {key("F7")});
+  selectFrom = make("Edit", "Selection begins &here", {key("[")});
+  selectTo = make("Edit", "Selection &ends here", {key("]")});
+  selectAll = make("Edit", "Select &all of it", {key("Ctrl+A")});
+  crop = make("Edit", "&Crop to a new recording…", {key("Ctrl+Shift+X")});
+  zoomSelection = make("Edit", "&Zoom to the selection", {key("Z")});
+  dropSelection = make("Edit", "Select n&othing", {key("Ctrl+Shift+Space")});
+  nameTaxels = make("Edit", "Name the chosen &taxels…", {key("Ctrl+Shift+G")});
 
   interpolated = make("View", "&Smooth", {key("I")}, true);
   interpolated->setToolTip("Smooth between taxels (I)");
@@ -77,6 +97,7 @@ Actions::Actions(QWidget* window) : window_(window) {
   nextMap = make("View", "Next &colour map", {key("M")});
   nextRange = make("View", "Next colour &range", {key("R")});
   nextSignal = make("View", "Next &signal in the timeline", {key("S")});
+  chooseCurves = make("View", "C&urves in the timeline…", {key("C")});
   zoomIn = make("View", "Zoom the timeline &in", {key("Ctrl++"), key("Ctrl+=")});
   zoomOut = make("View", "Zoom the timeline &out", {key("Ctrl+-")});
   fit = make("View", "Show the &whole timeline", {key("F")});
@@ -131,6 +152,10 @@ Actions::Actions(QWidget* window) : window_(window) {
     action->setIconText(" " + plainText(*action));
   exportPicture->setIconText(" Export");
   live->setIconText(" Live");
+  crop->setIconText("Crop…");
+  addLabel->setIconText("Label…");
+  zoomSelection->setIconText("Zoom");
+  dropSelection->setIconText("×");
 
   keys = make("Help", "&Keys", {key("F1")});
   about = make("Help", "&About Palpate");

@@ -21,17 +21,37 @@ struct Actions {
   QAction* nextRecording;
   QAction* previousRecording;
   QAction* closeRecording;
+  QAction* saveEvents;
   QAction* exportPicture;
   QAction* exportAgain;
   QAction* copyPicture;
   QAction* copyTable;
   QAction* quit;
 
+  QAction* undo;
+  QAction* redo;
+  QAction* addLabel;
+  QAction* addNote;
+  QAction* addGrasp;
+  QAction* renameEvent;
+  QAction* removeEvent;
+  QAction* nextEvent;
+  QAction* previousEvent;
+  QAction* toEvents;
+  QAction* selectFrom;
+  QAction* selectTo;
+  QAction* selectAll;
+  QAction* crop;
+  QAction* zoomSelection;
+  QAction* dropSelection;
+  QAction* nameTaxels;  // a group of those that are chosen
+
   QAction* interpolated;
   QAction* values;
   QAction* nextMap;
   QAction* nextRange;
   QAction* nextSignal;
+  QAction* chooseCurves;
   QAction* zoomIn;
   QAction* zoomOut;
   QAction* fit;

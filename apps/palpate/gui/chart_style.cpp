@@ -53,12 +53,25 @@ QPen curvePen(std::size_t matrix, bool whole, Theme theme) {
   return pen;
 }
 
+QString fittingName(const QString& name, const QString& shortName, const QWidget& plot) {
+  constexpr int kAroundAxis = 60;  // [px] above and below it
+  const bool fits = plot.fontMetrics().horizontalAdvance(name) < plot.height() - kAroundAxis;
+  return fits ? name : shortName;
+}
+
 QString signalAxisName(PlottedSignal signal, const QWidget& plot) {
   QString whole = nameOf(signal);
   if (!whole.endsWith(unitOf(signal))) whole += " in " + unitOf(signal);
-  constexpr int kAroundAxis = 60;  // [px] above and below it
-  const bool fits = plot.fontMetrics().horizontalAdvance(whole) < plot.height() - kAroundAxis;
-  return fits ? whole : unitOf(signal);
+  return fittingName(whole, unitOf(signal), plot);
+}
+
+void styleExtraAxis(QCPAxis& axis, const QWidget& plot, Theme theme) {
+  styleAxis(axis, colorsOf(theme), plot.font());
+  axis.grid()->setVisible(false);
+  axis.ticker()->setTickCount(4);
+  axis.setNumberFormat("gb");
+  axis.setTickLengthIn(0);
+  axis.setTickLengthOut(4);
 }
 
 QCPItemRect* shadeSpan(QCustomPlot& plot, double beginS, double endS, Theme theme) {

@@ -9,6 +9,7 @@
 #include "gui/plotted_signal.h"
 #include "gui/theme.h"
 
+class QCPAxis;
 class QCPItemRect;
 class QCPItemText;
 class QCustomPlot;
@@ -24,6 +25,10 @@ void styleChart(QCustomPlot& plot, Theme theme);
 QPen curvePen(std::size_t matrix, bool whole, Theme theme);
 // "mean in counts"; a low chart has no room for more than the unit.
 QString signalAxisName(PlottedSignal signal, const QWidget& plot);
+// The long name of an axis, or, where the chart is too low for it, the short one.
+QString fittingName(const QString& name, const QString& shortName, const QWidget& plot);
+// An axis beside the first one.
+void styleExtraAxis(QCPAxis& axis, const QWidget& plot, Theme theme);
 // A shade over a span of time, behind the curves.
 QCPItemRect* shadeSpan(QCustomPlot& plot, double beginS, double endS, Theme theme);
 // A word at the top of the chart.

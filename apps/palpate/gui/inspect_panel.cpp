@@ -34,13 +34,13 @@ std::vector<Fact> factsOf(const OpenedRecording& recording) {
     facts.push_back({"start (UTC)", QString::fromStdString(start).left(19)});
   }
   facts.push_back({"frames", QString::number(profile.numFrames())});
-  facts.push_back({"duration", figure(recording.timing.durationS, 2) + " s"});
-  facts.push_back(
-      {"rate",
-       rate(recording.timing.rateHz) + " Hz (mean " + rate(recording.timing.meanRateHz) + ")"});
+  facts.push_back({"duration", figure(recording.timingNow().durationS, 2) + " s"});
+  facts.push_back({"rate",
+                   rate(recording.timingNow().rateHz) + " Hz (mean " +
+                       rate(recording.timingNow().meanRateHz) + ")"});
   double longest = 0.0;
-  for (const Gap& gap : recording.timing.gaps) longest = std::max(longest, gap.seconds);
-  const auto gaps = recording.timing.gaps.size();
+  for (const Gap& gap : recording.timingNow().gaps) longest = std::max(longest, gap.seconds);
+  const auto gaps = recording.timingNow().gaps.size();
   facts.push_back({"gaps",
                    gaps == 0 ? QString("none")
                              : QString::number(gaps) + ", longest " + figure(longest, 1) + " s",
@@ -53,10 +53,11 @@ std::vector<Fact> factsOf(const OpenedRecording& recording) {
                        ? QString::number(taxels)
                        : QString::number(enabled) + " of " + QString::number(taxels) + " scanned",
                    enabled != taxels});
-  facts.push_back({"largest value", figure(recording.maximum, 0) + " counts"});
+  facts.push_back({"largest value", figure(recording.maximumNow(), 0) + " counts"});
+  const auto saturated = recording.saturatedFramesNow();
   facts.push_back({"saturated frames",
-                   QString::number(recording.saturatedFrames),
-                   recording.saturatedFrames > 0});
+                   saturated ? QString::number(*saturated) : QString("being counted"),
+                   saturated.value_or(0) > 0});
   facts.push_back({"calibration", "none: values are counts"});
   for (const std::string& warning : info.warnings)
     facts.push_back({"warning", QString::fromStdString(warning), true});
@@ -124,6 +125,10 @@ void InspectPanel::setRecording(const OpenedRecordingPtr& recording) {
   listSensors(recording->profile.hand(),
               recording->profile.numAngles() > 0,
               recording->profile.numTemperatures() > 0);
+}
+
+void InspectPanel::renewFacts() {
+  if (recording_) facts_->setFacts(factsOf(*recording_));
 }
 
 void InspectPanel::setHand(const HandDescription& hand) {

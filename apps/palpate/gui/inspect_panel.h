@@ -21,6 +21,8 @@ class InspectPanel : public QScrollArea {
   explicit InspectPanel(QWidget* parent = nullptr);
   void setRecording(const OpenedRecordingPtr& recording);
   void showFrame(std::size_t frame);
+  // More is known of a long recording now.
+  void renewFacts();
   // A live hand instead of a recording.
   void setHand(const HandDescription& hand);
   void setLiveFacts(std::vector<Fact> facts);  // of the link

@@ -26,6 +26,7 @@
 #include "gui/take_away.h"
 #include "gui/timeline_chart.h"
 #include "gui/timeline_header.h"
+#include "gui/timeline_panel.h"
 
 namespace palpate::gui {
 namespace {
@@ -49,6 +50,8 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
                                     return openRecording(path, progress);
                                   })),
       live_(surroundings.dataFolder),
+      groups_(settings_),
+      extras_(loadPlottedExtras(settings_)),
       unfinished_(settings_) {
   setWindowTitle("Palpate");
   setMinimumSize(kSmallestWindow);
@@ -65,6 +68,8 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   connectRecording();
   connectTakeAway();
   connectCompare();
+  connectTimeline();
+  connectEvents();
 
   askForRecordings = [this] {
     return QFileDialog::getOpenFileNames(this,
@@ -105,6 +110,7 @@ void MainWindow::buildParts(const std::filesystem::path& dataFolder) {
   offer_ = new OfferStrip(page);
   opening_ = new OpeningStrip(page);
   exporting_ = new OpeningStrip(page, "Writing", "exporting");
+  working_ = new OpeningStrip(page, "Cropping", "working");
   startPage_ = new StartPage(recent_, withDemo, page);
   matrices_ = new MatricesPanel(actions_.interpolated, actions_.values, page);
   playbackBar_ = new PlaybackBar(playback_, page);
@@ -129,6 +135,7 @@ void MainWindow::buildParts(const std::filesystem::path& dataFolder) {
   layout->addWidget(offer_);
   layout->addWidget(opening_);
   layout->addWidget(exporting_);
+  layout->addWidget(working_);
   layout->addWidget(stack_, 1);
   setCentralWidget(page);
 
@@ -141,11 +148,14 @@ void MainWindow::buildParts(const std::filesystem::path& dataFolder) {
 
 void MainWindow::buildDocks() {
   inspect_ = new InspectPanel(this);
-  timelineHeader_ = new TimelineHeader(this);
+  timelineHeader_ = new TimelineHeader(
+      {actions_.zoomSelection, actions_.addLabel, actions_.crop, actions_.dropSelection}, this);
+  signalTree_ = new SignalTree(groups_, this);
   charts_ = new QStackedWidget(this);
-  timeline_ = new TimelineChart(charts_);
+  timelinePanel_ = new TimelinePanel(charts_);
+  timeline_ = &timelinePanel_->chart();
   liveChart_ = new LiveChart(charts_);
-  charts_->addWidget(timeline_);
+  charts_->addWidget(timelinePanel_);
   charts_->addWidget(liveChart_);
   inspectDock_ = new Dock("Inspect", inspect_, nullptr, this);
   timelineDock_ = new Dock("Timeline", charts_, timelineHeader_, this);

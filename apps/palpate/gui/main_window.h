@@ -15,16 +15,23 @@
 
 #include <palpate/control/tactile_masks.h>
 #include <palpate/core/time.h>
+#include <palpate/recognition/grasp_segments.h>
 
 #include "gui/actions.h"
 #include "gui/alarm_bell.h"
+#include "gui/background_job.h"
+#include "gui/event_editor.h"
 #include "gui/exported_view.h"
 #include "gui/live_controller.h"
 #include "gui/matrices_painter.h"
 #include "gui/playback_controller.h"
+#include "gui/plotted_curve.h"
 #include "gui/recent_files.h"
 #include "gui/recording_opener.h"
 #include "gui/recording_settings.h"
+#include "gui/session.h"
+#include "gui/signal_tree.h"
+#include "gui/taxel_groups.h"
 #include "gui/unfinished_finder.h"
 #include "gui/window_menus.h"
 #include "gui/window_settings.h"
@@ -45,9 +52,11 @@ class OpeningStrip;
 class PlaybackBar;
 class StartPage;
 class StatusStrip;
+class SignalTree;
 class TakeAway;
 class TimelineChart;
 class TimelineHeader;
+class TimelinePanel;
 
 // What the window takes from outside; tests hand in their own.
 struct WindowSurroundings {
@@ -70,6 +79,8 @@ class MainWindow : public QMainWindow {
   void openDemoRecording();
   // What `palpate --demo` shows: the emulated hand, grasping a ball by itself.
   void openDemo();
+  // What was open when the window was closed last, as it was.
+  void restoreSession();
   // Ends what is connected before; never moves a hand.
   void connectTo(const Connection& connection);
   // Closes without asking: a recording is finished, a hand that moves is stopped.
@@ -101,6 +112,21 @@ class MainWindow : public QMainWindow {
       askForRecording;
   // Whether a recording that runs may be ended now.
   std::function<bool()> askToEndRecording;
+  // The text of a label or a note; nothing: cancelled. `title` says which, `text` is what it is now.
+  std::function<std::optional<QString>(const QString& title, const QString& text)> askForText;
+  // Where a part of a recording shall be saved; an empty answer means cancelled.
+  std::function<QString(const QString& suggestion)> askForCropped;
+  // Whether labels that aren't saved shall be.
+  enum class Unsaved { kSave, kDiscard, kCancel };
+  std::function<Unsaved(const QString& names)> askAboutUnsaved;
+  TimelinePanel& timelinePanel() noexcept { return *timelinePanel_; }
+  TaxelGroups& taxelGroups() noexcept { return groups_; }
+  SignalTree& signalTree() noexcept { return *signalTree_; }
+  // Of the recording that is shown; null: none.
+  EventEditor* events();
+  // Waits for what is read and written beside the window.
+  void waitForWork();
+
   // Looks for recordings that were never finished, and offers to recover them.
   void offerUnfinished();
   UnfinishedFinder& unfinished() noexcept { return unfinished_; }
@@ -112,6 +138,7 @@ class MainWindow : public QMainWindow {
  signals:
   void recordingShown();
   void pictureWritten(const QString& path);
+  void cropWritten(const QString& path);
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -144,6 +171,34 @@ class MainWindow : public QMainWindow {
   ExportedView timelineExport();
   ExportedView inspectExport();
   QString recordingStem() const;
+  // main_window_timeline.cpp: curves, selection
+  void connectTimeline();
+  std::vector<PlottedCurve> curvesNow() const;
+  void showCurves();
+  void showSelection();
+  void showReading();
+  void selectEnd(bool begin);
+  void nameChosenTaxels();
+  void cropSelection();
+  // main_window_events.cpp: rows of events
+  void connectEvents();
+  void showEvents();
+  void enableEventActions();
+  void eventChosen(std::size_t mark);
+  void addEvent(const char* kind, const QString& title, const QString& name);
+  void changeEvent(std::size_t mark,
+                   const std::function<void(RecordingEvent&)>& change,
+                   const QString& name);
+  void removeEvent(std::size_t mark);
+  bool saveEventsOf(const OpenedRecordingPtr& recording);
+  // Asks once about labels that aren't saved; false: the user would rather go on.
+  bool settleUnsaved(const std::vector<OpenedRecordingPtr>& recordings);
+  void keepFoundGrasps(EventEditor& editor, std::optional<std::size_t> without);
+  const std::vector<GraspSegment>& graspsOf(const OpenedRecordingPtr& recording);
+  // main_window_session.cpp: where the user was
+  void noteWhereWeAre();
+  void goBackToWhereWeWere();
+  void rememberSession();
   // main_window_live.cpp: what is connected
   void connectLive();
   void askAndConnect();
@@ -207,13 +262,19 @@ class MainWindow : public QMainWindow {
   AlarmBell bell_;
   LiveController live_;
   std::unique_ptr<TakeAway> takeAway_;
+  BackgroundJob job_;     // asked for
+  BackgroundJob finder_;  // of grasps in long recordings
+  TaxelGroups groups_;
+  PlottedExtras extras_;
+  std::map<const OpenedRecording*, std::unique_ptr<EventEditor>> editors_;
+  std::map<const OpenedRecording*, std::vector<GraspSegment>> grasps_;  // that were found
 
   std::filesystem::path demoPath_;
   bool demoAsked_ = false;
   bool loopIsOfDemo_ = false;  // not the user's choice: not remembered
   bool shownOfBatch_ = false;  // the first of several files has been shown
   std::vector<OpenedRecordingPtr> recordings_;
-  std::vector<std::size_t> lastFrames_;  // where each was left
+  std::map<std::filesystem::path, LeftAt> leftAt_;
   OpenedRecordingPtr current_;
   Place place_ = Place::kStart;
   std::map<Place, QByteArray> layouts_;  // of docks
@@ -243,12 +304,15 @@ class MainWindow : public QMainWindow {
   MessageBanner* banner_ = nullptr;
   OpeningStrip* opening_ = nullptr;
   OpeningStrip* exporting_ = nullptr;
+  OpeningStrip* working_ = nullptr;
   StartPage* startPage_ = nullptr;
   MatricesPanel* matrices_ = nullptr;
   PlaybackBar* playbackBar_ = nullptr;
   TimelineHeader* timelineHeader_ = nullptr;
   QStackedWidget* charts_ = nullptr;
-  TimelineChart* timeline_ = nullptr;
+  TimelinePanel* timelinePanel_ = nullptr;
+  TimelineChart* timeline_ = nullptr;  // of the panel
+  SignalTree* signalTree_ = nullptr;
   LiveChart* liveChart_ = nullptr;
   InspectPanel* inspect_ = nullptr;
   HandDock* hand_ = nullptr;

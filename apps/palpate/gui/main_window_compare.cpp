@@ -74,8 +74,7 @@ void MainWindow::showCompare(bool on) {
   if (on == compareShown()) return;
   if (on) {
     layoutBeforeCompare_ = saveState();
-    inspectDock_->hide();
-    timelineDock_->hide();
+    for (Dock* dock : docks_) dock->hide();
     centre_->setCurrentWidget(compare_);
     compare_->setTime(playback_.positionS());
   } else {

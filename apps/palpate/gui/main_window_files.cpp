@@ -94,9 +94,10 @@ void MainWindow::addRecording(const OpenedRecordingPtr& recording) {
   });
   if (same == recordings_.end()) {
     recordings_.push_back(recording);
-    lastFrames_.push_back(0);
   } else {
-    lastFrames_[static_cast<std::size_t>(same - recordings_.begin())] = 0;
+    editors_.erase(same->get());
+    grasps_.erase(same->get());
+    leftAt_.erase((*same)->path);
     if (current_ == *same) current_.reset();
     *same = recording;
   }
@@ -127,9 +128,7 @@ void MainWindow::listRecordings() {
 
 void MainWindow::showRecording(const OpenedRecordingPtr& recording) {
   if (recording == current_ && current_ && !liveShown_) return;
-  const auto before = std::find(recordings_.begin(), recordings_.end(), current_);
-  if (before != recordings_.end())
-    lastFrames_[static_cast<std::size_t>(before - recordings_.begin())] = playback_.frame();
+  if (!liveShown_) noteWhereWeAre();
   current_ = recording;
   // What is connected goes on, and comes back when no recording is left.
   const bool live = !recording && live_.source();
@@ -137,20 +136,28 @@ void MainWindow::showRecording(const OpenedRecordingPtr& recording) {
   if (!recording) showCompare(false);
   setPlace(recording ? Place::kRecording : live ? Place::kLive : Place::kStart);
   timeline_->setRecording(recording);
+  if (recording)
+    signalTree_->setSource(recording->profile.hand(),
+                           recording->profile.numAngles() > 0,
+                           recording->profile.numTemperatures() > 0);
   if (!live) {
     matrices_->setRecording(recording);
     inspect_->setRecording(recording);
   }
-  playback_.setProfile(recording ? std::optional(recording->profile) : std::nullopt);
+  if (recording)
+    playback_.setProfile(recording->profile, recording->timingNow().gaps);
+  else
+    playback_.setProfile(std::nullopt);
   setWindowTitle(recording ? nameOf(*recording) + " – Palpate" : QString("Palpate"));
   listRecordings();
   if (recording) {
-    const auto at = std::find(recordings_.begin(), recordings_.end(), recording);
-    playback_.seekFrame(lastFrames_[static_cast<std::size_t>(at - recordings_.begin())]);
+    goBackToWhereWeWere();
     if (recording->profile.numFrames() == 0)
       banner_->showMessage(nameOf(*recording) + ": holds no frame; there is nothing to show");
   }
   if (live) showLive();
+  showCurves();
+  showEvents();
   enableActions();
   updateStatus();
   if (recording) emit recordingShown();
@@ -166,11 +173,13 @@ void MainWindow::showNeighbour(int step) {
 
 void MainWindow::closeCurrent() {
   const auto at = std::find(recordings_.begin(), recordings_.end(), current_);
-  if (at == recordings_.end()) return;
+  if (at == recordings_.end() || !settleUnsaved({current_})) return;
+  editors_.erase(current_.get());
+  grasps_.erase(current_.get());
   const auto index = at - recordings_.begin();
+  leftAt_.erase(current_->path);
   current_.reset();
   recordings_.erase(at);
-  lastFrames_.erase(lastFrames_.begin() + index);
   const auto next = std::min(index, static_cast<std::ptrdiff_t>(recordings_.size()) - 1);
   showRecording(next < 0 ? nullptr : recordings_[static_cast<std::size_t>(next)]);
 }

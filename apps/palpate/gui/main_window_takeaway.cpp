@@ -116,32 +116,50 @@ TextTable signalTable(const TactileFrame& frame, const HandDescription& hand) {
           }};
 }
 
-std::string rowName(const HandDescription& hand, std::size_t row) {
-  return row < hand.matrices.size() ? hand.matrixName(row) : "all";
+// The value of a curve at a frame; joint angles and temperatures are the last ones before it.
+std::string cellOf(const OpenedRecording& recording,
+                   const SeriesChoice& choice,
+                   std::size_t frame) {
+  const auto of = [](const std::vector<double>& values, std::size_t index) {
+    return index < values.size() ? numberText(values[index]) : std::string();
+  };
+  switch (choice.kind) {
+    case SeriesChoice::Kind::kMatrix:
+      return numberText(valueOf(recording.at(frame, choice.index), choice.signal));
+    case SeriesChoice::Kind::kTaxels:
+      return numberText(meanOf(recording.profile.frame(frame), choice.taxels));
+    case SeriesChoice::Kind::kAngle: {
+      const auto angles = recording.profile.anglesAtFrame(frame);
+      return angles ? of(angles->deg, choice.index) : std::string();
+    }
+    case SeriesChoice::Kind::kTemperature: {
+      const auto temperatures = recording.profile.temperaturesAtFrame(frame);
+      return temperatures ? of(temperatures->degC, choice.index) : std::string();
+    }
+  }
+  return {};
 }
 
-// The plotted signal of the plotted matrices, a row per frame.
+// What is plotted, a row per frame.
 TextTable curveTable(const OpenedRecordingPtr& recording,
-                     const std::vector<bool>& plotted,
-                     PlottedSignal signal,
+                     const std::vector<PlottedCurve>& curves,
                      const FrameSpan& span) {
   TextTable table{.header = {"frame", "time_ms", "time_s"}, .numRows = span.count()};
-  std::vector<std::size_t> rows;
-  for (std::size_t row = 0; row < plotted.size(); ++row) {
-    if (!plotted[row]) continue;
-    rows.push_back(row);
-    table.header.push_back(rowName(recording->profile.hand(), row) + " " +
-                           nameOf(signal).toStdString() + " [" + unitOf(signal).toStdString() +
-                           "]");
+  std::vector<SeriesChoice> choices;
+  for (const PlottedCurve& curve : curves) {
+    choices.push_back(curve.choice);
+    const bool ofMatrix = curve.choice.kind == SeriesChoice::Kind::kMatrix;
+    table.header.push_back(
+        (curve.name + (ofMatrix ? " " + nameOf(curve.choice.signal) : "") + " [" + curve.unit + "]")
+            .toStdString());
   }
-  table.row = [recording, rows, signal, first = span.first](std::size_t row) {
+  table.row = [recording, choices, first = span.first](std::size_t row) {
     const std::size_t frame = first + row;
     std::vector<std::string> cells = {
         std::to_string(frame),
         std::to_string(recording->profile.frameTimeUs(frame) / kUsPerMs),
-        numberText(recording->timeS[frame])};
-    for (const std::size_t which : rows)
-      cells.push_back(numberText(valueOf(recording->at(frame, which), signal)));
+        numberText(recording->timeAt(frame))};
+    for (const SeriesChoice& choice : choices) cells.push_back(cellOf(*recording, choice, frame));
     return cells;
   };
   return table;
@@ -149,12 +167,9 @@ TextTable curveTable(const OpenedRecordingPtr& recording,
 
 // Frames within a span of seconds; none may be in it.
 std::optional<FrameSpan> framesWithin(const OpenedRecording& recording, double from, double to) {
-  const auto& times = recording.timeS;
-  const auto first = std::lower_bound(times.begin(), times.end(), from);
-  const auto end = std::upper_bound(first, times.end(), to);
-  if (first == end) return std::nullopt;
-  return FrameSpan{static_cast<std::size_t>(first - times.begin()),
-                   static_cast<std::size_t>(end - times.begin()) - 1};
+  const auto frames = recording.framesWithin(from, to);
+  if (!frames) return std::nullopt;
+  return FrameSpan{frames->first, frames->second};
 }
 
 TablePicture shownTable(const MatrixTableModel& model, const MatricesPictureOptions& named) {
@@ -238,12 +253,7 @@ ExportedView MainWindow::timelineExport() {
   view.paint = [this](QPainter& painter, const PictureLook& look) {
     ChartPictureOptions options;
     options.title = exportOptions().title;
-    const MatrixTableModel& table = inspect_->table();
-    for (std::size_t row = 0; row < table.plotted().size(); ++row)
-      if (table.plotted()[row])
-        options.legend.push_back(
-            {QString::fromStdString(rowName(table.hand(), row)),
-             curvePen(row, row + 1 == table.plotted().size(), resolved(view_.theme))});
+    for (const PlottedCurve& curve : curvesNow()) options.legend.push_back({curve.name, curve.pen});
     QCustomPlot* plot = liveShown_ ? static_cast<QCustomPlot*>(liveChart_) : timeline_;
     paintChart(painter, look, *plot, options);
   };
@@ -252,11 +262,9 @@ ExportedView MainWindow::timelineExport() {
     if (liveShown_ || !current_) return tables;
     const auto add = [&](const QString& name, const std::optional<FrameSpan>& span) {
       if (!span) return;
-      tables.push_back({name,
-                        [recording = current_,
-                         plotted = inspect_->table().plotted(),
-                         signal = view_.signal,
-                         span = *span] { return curveTable(recording, plotted, signal, span); }});
+      tables.push_back({name, [recording = current_, curves = curvesNow(), span = *span] {
+                          return curveTable(recording, curves, span);
+                        }});
     };
     const QCPRange seen = timeline_->xAxis->range();
     if (takeAway_->selectedFrames) add("the selected range", takeAway_->selectedFrames());

@@ -26,6 +26,7 @@
 #include "gui/take_away.h"
 #include "gui/timeline_chart.h"
 #include "gui/timeline_header.h"
+#include "gui/timeline_panel.h"
 
 namespace palpate::gui {
 namespace {
@@ -57,8 +58,8 @@ void MainWindow::changeView(const std::function<void(ViewSettings&)>& change) {
 void MainWindow::applyView() {
   matrices_->setSettings(view_, resolved(view_.theme));
   timelineHeader_->setSignal(view_.signal);
-  timeline_->setSignal(view_.signal);
   liveChart_->setSignal(view_.signal);
+  showCurves();
   actions_.interpolated->setChecked(view_.interpolated);
   actions_.values->setChecked(view_.values);
   check(actions_.maps, kAllColorMaps, view_.map);
@@ -80,7 +81,7 @@ void MainWindow::applyTheme() {
   actions_.setTheme(theme);
   startPage_->setTheme(theme);
   playbackBar_->setTheme(theme);
-  timeline_->setTheme(theme);
+  timelinePanel_->setTheme(theme);
   liveChart_->setTheme(theme);
   link_->setTheme(theme);
   for (MessageBanner* banner : {alarmStrip_, banner_}) banner->setTheme(theme);
@@ -121,8 +122,8 @@ void MainWindow::showPlaybackState() {
 void MainWindow::showPlotted() {
   const MatrixTableModel& table = inspect_->table();
   const auto& plotted = table.plotted();
-  (liveShown_ ? liveChart_->setPlotted(plotted) : timeline_->setPlotted(plotted));
-  timelineHeader_->setPlotted(table.hand(), plotted, resolved(view_.theme));
+  if (liveShown_) liveChart_->setPlotted(plotted);
+  showCurves();
   const auto last = actions_.plots.size() - 1;
   for (qsizetype i = 0; i < last; ++i) {
     const auto row = static_cast<std::size_t>(i);
@@ -144,7 +145,7 @@ QString MainWindow::noticeNow() const {
   if (!current_ || liveShown_) return {};
   if (const Gap* gap = current_->gapAt(playback_.positionS()))
     return "gap of " + QString::number(gap->seconds, 'f', 1) + " s: nothing was recorded";
-  const auto gaps = current_->timing.gaps.size();
+  const auto gaps = current_->timingNow().gaps.size();
   if (gaps == 1) return "1 gap";
   return gaps == 0 ? QString() : QString::number(gaps) + " gaps";
 }
@@ -169,7 +170,7 @@ void MainWindow::updateStatus() {
                 QString::number(playback_.speed()) + "×" + opening;
     if (playback_.hasFrames()) {
       const std::size_t frame = playback_.frame();
-      const CharacteristicSignals& all = current_->whole.at(frame);
+      const CharacteristicSignals all = current_->at(frame, current_->numMatrices());
       const float saturation = current_->profile.hand().saturationCounts;
       const auto& values = matrices_->frame().values;
       const auto saturated = std::count_if(
@@ -267,6 +268,7 @@ void MainWindow::enableActions() {
   actions_.mark->setEnabled(liveShown_);
   for (QAction* label : actions_.labels) label->setEnabled(liveShown_);
   actions_.closeRecording->setEnabled(current_ && !liveShown_);
+  enableEventActions();
   for (QAction* action : {actions_.nextRecording, actions_.previousRecording})
     action->setEnabled(recordings_.size() > 1);
 }
@@ -278,8 +280,10 @@ void MainWindow::dismiss() {
   if (!banner_->isHidden()) return banner_->dismiss();
   if (opener_.busy()) return opener_.cancel();
   if (takeAway_->busy()) return takeAway_->cancel();
+  if (job_.busy()) return job_.cancel();
   if (live_.state() == LiveController::State::kConnecting) return live_.end();
   if (!matrices_->view().selection().empty()) return matrices_->view().clearSelection();
+  if (timeline_->selection() && !liveShown_) return timeline_->setSelection(std::nullopt);
   if (isFullScreen()) toggleFullScreen(false);
 }
 
@@ -298,7 +302,7 @@ MatricesPictureOptions MainWindow::exportOptions() const {
   }
   options.title = QString::fromStdString(current_->path.filename().string());
   options.caption = "frame " + QString::number(playback_.frame()) + " · " +
-                    seconds(current_->timeS.at(playback_.frame()));
+                    seconds(current_->timeAt(playback_.frame()));
   return options;
 }
 
@@ -322,6 +326,8 @@ void MainWindow::remember() {
   if (!loopIsOfDemo_) view_.loop = playback_.loop();
   view_.skipGaps = playback_.skipGaps();
   saveViewSettings(view_, settings_);
+  savePlottedExtras(extras_, settings_);
+  rememberSession();
   settings_.setValue("window/geometry", saveGeometry());
   if (place_ != Place::kStart) layouts_[place_] = saveState();
   settings_.setValue("window/layout", layouts_[Place::kRecording]);
@@ -331,6 +337,7 @@ void MainWindow::remember() {
 
 // What is connected is ended first, beside the window: a hand that moves is stopped, a recording finished.
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!closing_ && !settleUnsaved(recordings_)) return event->ignore();
   if (live_.state() == LiveController::State::kNone) {
     remember();
     opener_.cancel();
@@ -346,6 +353,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 
 void MainWindow::endNow() {
   askToEndRecording = [] { return true; };
+  askAboutUnsaved = [](const QString&) { return Unsaved::kSave; };
   if (QWidget* dialog = QApplication::activeModalWidget()) dialog->close();
   close();
 }

@@ -188,7 +188,7 @@ ValueRange MatricesPanel::rangeNow() const {
         maximum = std::max(maximum, static_cast<double>(value));
       break;
     case RangeMode::kRecording:
-      maximum = std::max(maximum, recording_ ? recording_->maximum : largestLive_);
+      maximum = std::max(maximum, recording_ ? recording_->maximumNow() : largestLive_);
       break;
   }
   return {0.0, maximum};

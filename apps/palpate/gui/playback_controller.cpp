@@ -20,17 +20,28 @@ PlaybackController::PlaybackController(const Clock& clock, QObject* parent)
 }
 
 void PlaybackController::setProfile(const std::optional<Profile>& profile) {
+  take(profile ? std::optional(Playback(*profile)) : std::nullopt);
+}
+
+void PlaybackController::setProfile(const Profile& profile, std::span<const Gap> gaps) {
+  take(Playback(profile, gaps));
+}
+
+void PlaybackController::take(std::optional<Playback> playback) {
   timer_.stop();
-  playback_.reset();
+  playback_ = std::move(playback);
   shownFrame_.reset();
-  if (profile) {
-    playback_.emplace(*profile);
+  if (playback_) {
     playback_->setSpeed(speed_);
     playback_->setLoop(loop_);
     playback_->setSkipGaps(skipGaps_);
     moved();
   }
   emit stateChanged();
+}
+
+void PlaybackController::setGaps(std::span<const Gap> gaps) {
+  if (playback_) playback_->setGaps(gaps);
 }
 
 bool PlaybackController::hasFrames() const { return numFrames() > 0; }

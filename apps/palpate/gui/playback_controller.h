@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include <palpate/capture/playback.h>
 #include <palpate/core/time.h>
@@ -23,6 +24,9 @@ class PlaybackController : public QObject {
 
   // Takes another recording (or none); stands at its first frame. Speed, loop and skipping stay.
   void setProfile(const std::optional<Profile>& profile);
+  void setProfile(const Profile& profile, std::span<const Gap> gaps);
+  // Better known than when it was given.
+  void setGaps(std::span<const Gap> gaps);
   bool hasFrames() const;
   std::size_t numFrames() const;
   std::size_t frame() const;
@@ -55,6 +59,7 @@ class PlaybackController : public QObject {
   void stateChanged();
 
  private:
+  void take(std::optional<Playback> playback);
   void startClock();
   void moved();
 

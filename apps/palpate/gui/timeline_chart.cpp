@@ -1,13 +1,7 @@
 #include "gui/timeline_chart.h"
 
-#include <QHelpEvent>
-#include <QMouseEvent>
-#include <QToolTip>
-#include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
-
-#include <palpate/filter/min_max_decimation.h>
 
 #include "gui/chart_style.h"
 
@@ -16,12 +10,22 @@ namespace {
 
 constexpr double kEmptyDurationS = 1.0;  // axis of a recording without extent
 constexpr double kShortestSeenS = 0.05;
-constexpr double kHeadroom = 1.06;   // the highest curve stays below the frame
-constexpr double kWheelStep = 1.25;  // zoom per notch
-constexpr double kNotch = 120.0;     // angleDelta of one notch
-constexpr int kCursorWidth = 2;      // [px]
-constexpr double kPageRest = 0.1;    // part of the old page that a new page starts with
+constexpr double kHeadroom = 1.06;  // the highest curve stays below the frame
+constexpr double kAir = 0.08;       // beside a span that is shown, part of it
+constexpr int kCursorWidth = 2;     // [px]
+constexpr double kPageRest = 0.1;   // part of the old page that a new page starts with
 constexpr std::size_t kMostGapMarks = 2000;
+constexpr int kHandleWidth = 3;         // [px]
+constexpr double kLongestInS = 1200.0;  // [s] a longer view tells time as h:min:s
+constexpr double kFewSecondsS = 8.0;    // [s] seen, where its ticks need parts of a second
+
+QWidget* overlay(QWidget* parent, const char* name) {
+  auto* widget = new QWidget(parent);
+  widget->setObjectName(name);
+  widget->setAttribute(Qt::WA_TransparentForMouseEvents);
+  widget->hide();
+  return widget;
+}
 
 }  // namespace
 
@@ -29,37 +33,49 @@ TimelineChart::TimelineChart(QWidget* parent) : QCustomPlot(parent) {
   arrangeChart(*this);
   setAccessibleName("Timeline");
   setMouseTracking(true);
-  xAxis->setLabel("time from the first frame in s");
-  cursor_ = new QWidget(this);
-  cursor_->setAttribute(Qt::WA_TransparentForMouseEvents);
-  cursor_->setAutoFillBackground(true);
-  cursor_->hide();
+  secondsTicker_ = xAxis->ticker();
+  clockTicker_.reset(new QCPAxisTickerTime);
+  clockTicker_->setTickCount(secondsTicker_->tickCount());
+  nameTime();
+  shade_ = overlay(this, "selectionShade");
+  for (QWidget*& handle : handles_) handle = overlay(this, "selectionHandle");
+  cursor_ = overlay(this, "cursor");
   // Margins are known only once the axes have been laid out.
-  connect(this, &QCustomPlot::afterReplot, this, &TimelineChart::placeCursor);
+  connect(this, &QCustomPlot::afterReplot, this, [this] {
+    placeCursor();
+    placeSelection();
+    emit seenChanged();
+  });
+  connect(&store_, &SeriesStore::changed, this, [this] {
+    if (recording_ && recording_->timingNow().gaps.size() != gaps_.size()) return rebuildGraphs();
+    scaleAxes();
+    refill();
+  });
 }
 
 double TimelineChart::durationS() const {
-  if (!recording_ || recording_->timeS.empty()) return kEmptyDurationS;
-  return std::max(recording_->timeS.back(), kShortestSeenS);
+  if (!recording_ || recording_->profile.numFrames() == 0) return kEmptyDurationS;
+  return std::max(recording_->durationS(), kShortestSeenS);
 }
 
 void TimelineChart::setRecording(const OpenedRecordingPtr& recording) {
+  if (recording == recording_ && recording_) return;
   recording_ = recording;
   positionS_ = 0.0;
-  plotted_.clear();
+  drag_ = Drag::kNone;
+  curves_.clear();
+  store_.setRecording(recording);
   cursor_->setVisible(recording_ != nullptr);
+  setSelection(std::nullopt);
   rebuildGraphs();
   fit();
 }
 
-void TimelineChart::setSignal(PlottedSignal signal) {
-  signal_ = signal;
-  rebuildGraphs();
-}
-
-void TimelineChart::setPlotted(const std::vector<bool>& plotted) {
-  if (plotted == plotted_) return;
-  plotted_ = plotted;
+void TimelineChart::setCurves(const std::vector<PlottedCurve>& curves) {
+  curves_ = curves;
+  std::vector<SeriesChoice> wanted;
+  for (const PlottedCurve& curve : curves_) wanted.push_back(curve.choice);
+  store_.setWanted(wanted);
   rebuildGraphs();
 }
 
@@ -67,67 +83,104 @@ void TimelineChart::setTheme(Theme theme) {
   theme_ = theme;
   const ThemeColors& colors = colorsOf(theme);
   styleChart(*this, theme);
-  QPalette palette;
-  palette.setColor(QPalette::Window, colors.accent);
-  cursor_->setPalette(palette);
+  QColor soft = colors.accent;
+  soft.setAlphaF(0.16F);
+  shade_->setStyleSheet("background: " + soft.name(QColor::HexArgb));
+  for (QWidget* handle : handles_) handle->setStyleSheet("background: " + colors.accent.name());
   cursor_->setStyleSheet("background: " + colors.accent.name());
   rebuildGraphs();
+}
+
+// The first unit stands on the left, every other one on the right.
+QCPAxis* TimelineChart::axisFor(const PlottedCurve& curve) {
+  QCPAxis*& axis = axes_[curve.unit];
+  if (!axis) {
+    if (axes_.size() == 1)
+      axis = yAxis;
+    else if (axes_.size() == 2)
+      axis = yAxis2;
+    else
+      axis = axisRect()->addAxis(QCPAxis::atRight);
+    axis->setVisible(true);
+    axis->setTickLabels(true);
+    if (axis != yAxis) styleExtraAxis(*axis, *this, theme_);
+    axisNames_[curve.unit] = curve.axis;
+  } else if (axisNames_[curve.unit] != curve.axis) {
+    axisNames_[curve.unit] = curve.unit;  // several things in one unit
+  }
+  return axis;
 }
 
 void TimelineChart::rebuildGraphs() {
   clearGraphs();
   clearItems();
-  graphRows_.clear();
-  graphValues_.clear();
   gapLabels_.clear();
-  nameAxis();
-  double largest = 0.0;
-  const std::size_t frames = recording_ ? recording_->profile.numFrames() : 0;
-  for (std::size_t row = 0; row < plotted_.size() && frames > 0; ++row) {
-    if (!plotted_[row]) continue;
-    std::vector<double> values(frames);
-    for (std::size_t i = 0; i < frames; ++i) values[i] = valueOf(recording_->at(i, row), signal_);
-    largest = std::max(largest, *std::max_element(values.begin(), values.end()));
-    const bool whole = row + 1 == plotted_.size();
-    QCPGraph* graph = addGraph();
-    graph->setPen(curvePen(row, whole, theme_));
-    graph->setAdaptiveSampling(false);  // thinned already
-    graphRows_.push_back(row);
-    graphValues_.push_back(std::move(values));
+  while (axisRect()->axisCount(QCPAxis::atRight) > 1)
+    axisRect()->removeAxis(axisRect()->axis(QCPAxis::atRight, 1));
+  yAxis2->setVisible(false);
+  axes_.clear();
+  axisNames_.clear();
+  for (const PlottedCurve& curve : curves_) {
+    QCPGraph* added = addGraph(xAxis, axisFor(curve));
+    added->setPen(curve.pen);
+    added->setAdaptiveSampling(false);  // thinned already
   }
-  yAxis->setRange(0.0, largest > 0.0 ? largest * kHeadroom : 1.0);
-  if (recording_) {
-    const auto& gaps = recording_->timing.gaps;
-    for (std::size_t i = 0; i < std::min(gaps.size(), kMostGapMarks); ++i) {
-      const double begin = recording_->timeS[gaps[i].frame];
-      shadeSpan(*this, begin, begin + gaps[i].seconds, theme_);
-      auto* label = wordAt(*this,
-                           begin + gaps[i].seconds / 2,
-                           "gap " + QString::number(gaps[i].seconds, 'f', 1) + " s",
-                           Qt::AlignHCenter,
-                           colorsOf(theme_).warning);
-      gapLabels_.push_back(label);
-    }
+  gaps_.clear();
+  if (recording_) gaps_ = recording_->timingNow().gaps;
+  for (std::size_t i = 0; i < std::min(gaps_.size(), kMostGapMarks); ++i) {
+    const double begin = recording_->timeAt(gaps_[i].frame);
+    shadeSpan(*this, begin, begin + gaps_[i].seconds, theme_);
+    gapLabels_.push_back(wordAt(*this,
+                                begin + gaps_[i].seconds / 2,
+                                "gap " + QString::number(gaps_[i].seconds, 'f', 1) + " s",
+                                Qt::AlignHCenter,
+                                colorsOf(theme_).warning));
   }
+  nameAxes();
+  scaleAxes();
   refill();
 }
 
-void TimelineChart::nameAxis() { yAxis->setLabel(signalAxisName(signal_, *this)); }
+void TimelineChart::nameAxes() {
+  yAxis->setLabel({});
+  for (const auto& [unit, axis] : axes_) axis->setLabel(fittingName(axisNames_[unit], unit, *this));
+}
+
+// From zero, where nothing is below; angles and temperatures from their lowest.
+void TimelineChart::scaleAxes() {
+  for (const auto& [unit, axis] : axes_) {
+    std::optional<std::pair<double, double>> extent;
+    bool fromZero = true;
+    for (const PlottedCurve& curve : curves_) {
+      if (curve.unit != unit) continue;
+      const auto its = store_.extremes(curve.choice);
+      if (!its) continue;
+      fromZero = curve.choice.kind == SeriesChoice::Kind::kMatrix ||
+                 curve.choice.kind == SeriesChoice::Kind::kTaxels;
+      if (!extent) extent = its;
+      extent->first = std::min(extent->first, its->first);
+      extent->second = std::max(extent->second, its->second);
+    }
+    auto [low, high] = extent.value_or(std::pair(0.0, 0.0));
+    if (fromZero) low = std::min(low, 0.0);
+    if (!(high > low)) high = low + 1.0;
+    const double air = (high - low) * (kHeadroom - 1.0);
+    axis->setRange(fromZero && low == 0.0 ? 0.0 : low - air, high + air);
+  }
+  if (axes_.empty()) yAxis->setRange(0.0, 1.0);
+}
 
 void TimelineChart::refill() {
   const QCPRange range = xAxis->range();
-  const DecimationOptions options{
-      .from = range.lower,
-      .to = range.upper,
-      .columns = static_cast<std::size_t>(std::max(1, width())),
-      .breaks = recording_ ? std::span<const std::size_t>(recording_->gapFrames)
-                           : std::span<const std::size_t>()};
-  for (std::size_t g = 0; g < graphRows_.size(); ++g) {
-    const auto points = minMaxDecimated(recording_->timeS, graphValues_[g], options);
+  const DecimationOptions options{.from = range.lower,
+                                  .to = range.upper,
+                                  .columns = static_cast<std::size_t>(std::max(1, width()))};
+  for (std::size_t i = 0; i < curves_.size(); ++i) {
+    const auto points = store_.points(curves_[i].choice, options);
     QVector<QCPGraphData> samples;
     samples.reserve(static_cast<qsizetype>(points.size()));
     for (const SeriesPoint& point : points) samples.append({point.x, point.y});
-    graph(static_cast<int>(g))->data()->set(samples, true);
+    graph(static_cast<int>(i))->data()->set(samples, true);
   }
   showGapLabels();
   replot(QCustomPlot::rpQueuedReplot);
@@ -136,9 +189,8 @@ void TimelineChart::refill() {
 // A label stands only in a gap that is wide enough for it.
 void TimelineChart::showGapLabels() {
   for (std::size_t i = 0; i < gapLabels_.size(); ++i) {
-    const Gap& gap = recording_->timing.gaps[i];
-    const double begin = recording_->timeS[gap.frame];
-    const double widthPx = pixelOf(begin + gap.seconds) - pixelOf(begin);
+    const double begin = recording_->timeAt(gaps_[i].frame);
+    const double widthPx = pixelOf(begin + gaps_[i].seconds) - pixelOf(begin);
     gapLabels_[i]->setVisible(widthPx > fontMetrics().horizontalAdvance(gapLabels_[i]->text()) + 6);
   }
 }
@@ -146,7 +198,8 @@ void TimelineChart::showGapLabels() {
 void TimelineChart::setPosition(double seconds) {
   positionS_ = seconds;
   const QCPRange range = xAxis->range();
-  if (recording_ && !panning_ && (seconds < range.lower || seconds > range.upper)) {
+  const bool out = seconds < range.lower || seconds > range.upper;
+  if (recording_ && drag_ == Drag::kNone && out) {
     const double span = range.size();
     const double from =
         seconds > range.upper ? seconds - kPageRest * span : seconds - (1.0 - kPageRest) * span;
@@ -164,17 +217,70 @@ void TimelineChart::placeCursor() {
   if (cursor_->isHidden() == inside) cursor_->setVisible(inside);
 }
 
+void TimelineChart::setSelection(std::optional<TimeSpan> span) {
+  if (span && !recording_) span.reset();
+  if (span) {
+    const auto [low, high] = std::minmax(span->fromS, span->toS);
+    span = TimeSpan{std::clamp(low, 0.0, durationS()), std::clamp(high, 0.0, durationS())};
+  }
+  if (span == selection_) return;
+  selection_ = span;
+  placeSelection();
+  emit selectionChanged();
+}
+
+// Laid over the curves: moving it draws none of them anew.
+void TimelineChart::placeSelection() {
+  const QRect plot = axisRect()->rect();
+  const auto pixel = [&](double seconds) {
+    return static_cast<int>(std::lround(std::clamp(pixelOf(seconds), -1e6, 1e6)));
+  };
+  const int from = selection_ ? pixel(selection_->fromS) : 0;
+  const int to = selection_ ? pixel(selection_->toS) : 0;
+  const bool seen = selection_ && to >= plot.left() && from <= plot.right();
+  shade_->setVisible(seen);
+  const int left = std::max(from, plot.left());
+  shade_->setGeometry(
+      left, plot.top(), std::max(1, std::min(to, plot.right()) - left), plot.height());
+  for (const auto& [handle, x] : {std::pair(handles_[0], from), {handles_[1], to}}) {
+    handle->setVisible(seen && x >= plot.left() - 1 && x <= plot.right() + 1);
+    handle->setGeometry(x - kHandleWidth / 2, plot.top(), kHandleWidth, plot.height());
+  }
+}
+
 void TimelineChart::setSeen(double from, double to) {
   const double duration = durationS();
   const double span = std::clamp(to - from, std::min(kShortestSeenS, duration), duration);
   const double start = std::clamp(from, 0.0, duration - span);
   xAxis->setRange(start, start + span);
+  nameTime();
+  store_.setSeen(start, start + span);
   refill();
+}
+
+// Hours aren't read in seconds.
+void TimelineChart::nameTime() {
+  const bool seconds = seen().upper <= kLongestInS;
+  if (seconds)
+    xAxis->setTicker(secondsTicker_);
+  else
+    xAxis->setTicker(clockTicker_);
+  if (!seconds)
+    clockTicker_->setTimeFormat(seen().size() < kFewSecondsS ? "%h:%m:%s.%z" : "%h:%m:%s");
+  xAxis->setLabel(seconds ? "time from the first frame in s"
+                          : "time from the first frame in h:min:s");
 }
 
 void TimelineChart::fit() { setSeen(0.0, durationS()); }
 
-void TimelineChart::zoom(double factor) { zoomAbout(xAxis->range().center(), factor); }
+void TimelineChart::zoom(double factor) {
+  zoomAbout(seen().contains(positionS_) && factor > 1.0 ? positionS_ : seen().center(), factor);
+}
+
+void TimelineChart::showSpan(const TimeSpan& span) {
+  const double air = std::max((span.toS - span.fromS) * kAir, kShortestSeenS / 2);
+  setSeen(span.fromS - air, span.toS + air);
+}
 
 void TimelineChart::zoomAbout(double seconds, double factor) {
   const QCPRange range = xAxis->range();
@@ -182,88 +288,6 @@ void TimelineChart::zoomAbout(double seconds, double factor) {
       std::clamp(range.size() / factor, std::min(kShortestSeenS, durationS()), durationS());
   const double share = (seconds - range.lower) / range.size();
   setSeen(seconds - share * span, seconds + (1.0 - share) * span);
-}
-
-void TimelineChart::mousePressEvent(QMouseEvent* event) {
-  if (!recording_) return;
-  const bool shifted = event->button() == Qt::LeftButton && event->modifiers() & Qt::ShiftModifier;
-  panning_ = shifted || event->button() == Qt::MiddleButton;
-  if (panning_) {
-    panFromPixel_ = event->position().x();
-    panFrom_ = xAxis->range();
-    setCursor(Qt::ClosedHandCursor);
-  } else if (event->button() == Qt::LeftButton) {
-    emit sought(secondsAt(event->position().x()));
-  }
-}
-
-void TimelineChart::mouseMoveEvent(QMouseEvent* event) {
-  if (panning_) {
-    const double perPixel = panFrom_.size() / std::max(1, axisRect()->width());
-    const double moved = (panFromPixel_ - event->position().x()) * perPixel;
-    setSeen(panFrom_.lower + moved, panFrom_.upper + moved);
-  } else if (event->buttons() & Qt::LeftButton) {
-    emit sought(secondsAt(event->position().x()));
-  }
-}
-
-void TimelineChart::mouseReleaseEvent(QMouseEvent*) {
-  panning_ = false;
-  unsetCursor();
-}
-
-void TimelineChart::mouseDoubleClickEvent(QMouseEvent* event) {
-  if (event->button() == Qt::LeftButton) fit();
-}
-
-void TimelineChart::wheelEvent(QWheelEvent* event) {
-  if (!recording_) return;
-  const double notches = event->angleDelta().y() / kNotch;
-  const double sideways = event->angleDelta().x() / kNotch;
-  if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier) {
-    const QCPRange range = xAxis->range();
-    const double moved = -(sideways != 0.0 ? sideways : notches) * kPageRest * range.size();
-    setSeen(range.lower + moved, range.upper + moved);
-  } else {
-    zoomAbout(secondsAt(event->position().x()), std::pow(kWheelStep, notches));
-  }
-  event->accept();
-}
-
-void TimelineChart::resizeEvent(QResizeEvent* event) {
-  QCustomPlot::resizeEvent(event);
-  nameAxis();
-  refill();
-}
-
-QString TimelineChart::valuesAt(double seconds) const {
-  if (!recording_ || recording_->timeS.empty() || seconds < 0.0 || seconds > durationS()) return {};
-  const auto& times = recording_->timeS;
-  const auto after = std::upper_bound(times.begin(), times.end(), seconds);
-  const auto frame =
-      static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, after - times.begin() - 1));
-  QString text = QString::number(times[frame], 'f', 2) + " s · frame " + QString::number(frame);
-  if (const Gap* gap = recording_->gapAt(seconds))
-    return text + "\ngap of " + QString::number(gap->seconds, 'f', 1) + " s: nothing was recorded";
-  for (std::size_t g = 0; g < graphRows_.size(); ++g) {
-    const std::size_t row = graphRows_[g];
-    const QString name = row == recording_->numMatrices()
-                             ? QString("all")
-                             : QString::fromStdString(recording_->profile.hand().matrixName(row));
-    text += "\n" + name + "  " + QString::number(graphValues_[g][frame], 'f', 0) + " " +
-            unitOf(signal_);
-  }
-  return text;
-}
-
-bool TimelineChart::event(QEvent* event) {
-  if (event->type() == QEvent::ToolTip) {
-    const auto* help = static_cast<QHelpEvent*>(event);
-    QToolTip::showText(help->globalPos(), valuesAt(secondsAt(help->pos().x())), this);
-    return true;
-  }
-  if (event->type() == QEvent::FontChange) setTheme(theme_);
-  return QCustomPlot::event(event);
 }
 
 }  // namespace palpate::gui

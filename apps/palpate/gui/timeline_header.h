@@ -1,24 +1,28 @@
-// The header of the timeline: which signal is plotted, and a legend in the colours of the matrices.
+// The header of the timeline: which signal of the matrices is plotted, what else is, a legend in the colours and strokes
+// of the curves, and what can be done with the part that is selected.
 #pragma once
 
+#include <QPen>
 #include <QWidget>
 #include <vector>
 
-#include <palpate/model/hand_description.h>
-
+#include "gui/plotted_curve.h"
 #include "gui/plotted_signal.h"
 #include "gui/theme.h"
 
 class QComboBox;
+class QHBoxLayout;
+class QLabel;
+class QToolButton;
 
 namespace palpate::gui {
 
-// Squares of colour with names, as many as there is room for.
+// Strokes with names, as many as there is room for.
 class Legend : public QWidget {
   Q_OBJECT
  public:
   struct Entry {
-    QColor color;
+    QPen pen;
     QString name;
   };
   explicit Legend(QWidget* parent = nullptr);
@@ -38,17 +42,29 @@ class Legend : public QWidget {
 class TimelineHeader : public QWidget {
   Q_OBJECT
  public:
-  explicit TimelineHeader(QWidget* parent = nullptr);
+  // The actions become buttons beside the words of setSelection().
+  explicit TimelineHeader(const QList<QAction*>& ofSelection = {}, QWidget* parent = nullptr);
   void setSignal(PlottedSignal signal);
-  // plotted: one per matrix of the hand, the whole last; empty: nothing is open.
-  void setPlotted(const HandDescription& hand, const std::vector<bool>& plotted, Theme theme);
+  void setCurves(const std::vector<PlottedCurve>& curves, Theme theme);
+  // "3.20 – 5.10 s · 61 frames"; empty: nothing is selected.
+  void setSelection(const QString& words);
+  // "reading 34 %"; empty: all there.
+  void setReading(const QString& words);
+  // Only the signal of the matrices, as live.
+  void setPlain(bool plain);
+  QToolButton* curvesButton() const noexcept { return curves_; }
 
  signals:
   void signalChosen(palpate::gui::PlottedSignal signal);
+  void curvesAsked();
 
  private:
   QComboBox* signal_;
+  QToolButton* curves_;
   Legend* legend_;
+  QLabel* reading_;
+  QWidget* selection_;
+  QLabel* selectionWords_;
 };
 
 }  // namespace palpate::gui

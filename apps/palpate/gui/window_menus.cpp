@@ -42,10 +42,26 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   file->addSeparator();
   file->addActions({actions.nextRecording, actions.previousRecording, actions.closeRecording});
   file->addSeparator();
+  file->addAction(actions.saveEvents);
+  file->addSeparator();
   file->addActions(
       {actions.exportPicture, actions.exportAgain, actions.copyPicture, actions.copyTable});
   file->addSeparator();
   file->addAction(actions.quit);
+
+  edit = window.menuBar()->addMenu("&Edit");
+  edit->addActions({actions.undo, actions.redo});
+  edit->addSeparator();
+  edit->addActions({actions.addLabel, actions.addNote, actions.addGrasp});
+  edit->addActions({actions.renameEvent, actions.removeEvent});
+  edit->addSeparator();
+  edit->addActions({actions.nextEvent, actions.previousEvent, actions.toEvents});
+  edit->addSeparator();
+  edit->addActions(
+      {actions.selectFrom, actions.selectTo, actions.selectAll, actions.dropSelection});
+  edit->addActions({actions.zoomSelection, actions.crop});
+  edit->addSeparator();
+  edit->addAction(actions.nameTaxels);
 
   QMenu* view = window.menuBar()->addMenu("&View");
   view->addActions({actions.interpolated, actions.values});
@@ -58,6 +74,7 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   view->addAction(actions.nextSignal);
   QMenu* plots = view->addMenu("&Plotted matrices");
   plots->addActions(actions.plots);
+  view->addAction(actions.chooseCurves);
   view->addActions({actions.zoomIn, actions.zoomOut, actions.fit});
   view->addSeparator();
   view->addAction(actions.compare);

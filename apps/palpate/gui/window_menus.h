@@ -28,6 +28,7 @@ struct WindowMenus {
   void showLink(const QString& text, bool good);
   void showRecording(bool on);  // the button turns red
 
+  QMenu* edit;                // also shown over the timeline
   QMenu* connections;         // of the button Connect; filled by its owner when it is about to show
   QMenu* scanned;             // which taxels are scanned; also shown over the matrices
   QLabel* link;               // beside Connect: what is connected, in a word

@@ -23,6 +23,8 @@ int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options) {
   // The window is on screen before the first file is read.
   if (options.demo)
     window.openDemo();
+  else if (options.files.empty())
+    window.restoreSession();
   else
     window.openFiles(options.files);
   return QGuiApplication::exec();

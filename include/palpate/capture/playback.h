@@ -5,10 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <palpate/model/profile.h>
+#include <palpate/model/timing.h>
 
 namespace palpate {
 
@@ -19,6 +21,10 @@ class Playback {
 
   // Stands at frame 0, paused, speed 1, no loop. An empty profile can't be played; it stands still.
   explicit Playback(Profile profile);
+  // Its gaps are known already (timingOf() reads every stamp).
+  Playback(Profile profile, std::span<const Gap> gaps);
+
+  void setGaps(std::span<const Gap> gaps);
 
   const Profile& profile() const noexcept { return profile_; }
   bool playing() const noexcept { return playing_; }

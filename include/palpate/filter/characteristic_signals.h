@@ -49,6 +49,9 @@ void allSignals(const TactileFrame& frame, std::vector<CharacteristicSignals>& r
 class SignalTable {
  public:
   SignalTable() = default;
+  // From rows computed before, frame after frame, matrix after matrix. Throws std::invalid_argument where
+  // they are no whole frames.
+  SignalTable(std::size_t numMatrices, std::vector<CharacteristicSignals> rows);
   static SignalTable of(const Profile& profile, const Progress& progress = {});
   std::size_t numFrames() const noexcept { return numFrames_; }
   std::size_t numMatrices() const noexcept { return numMatrices_; }

@@ -1,0 +1,101 @@
+// palpate grasps PATH...: where the grasps of recordings are, as CSV.
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/text_table.h"
+#include "palpate/recognition/grasp_segments.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+#include "commands/recording_list.h"
+
+namespace palpate::commands {
+namespace {
+
+constexpr std::int64_t kUsPerMs = 1000;
+
+// The rule of the study names matrices; of a sensor without them "no grasp" would be the wrong answer.
+void requireMatrices(const std::filesystem::path& file,
+                     const Profile& profile,
+                     const GraspSegmentOptions& options) {
+  if (options.rule != GraspRule::kStudy) return;
+  const std::size_t matrices = profile.layout().numMatrices();
+  for (const std::size_t needed : options.studyMatrices)
+    if (needed >= matrices)
+      throw FileError(file,
+                      "rule study looks at matrix " + std::to_string(needed) +
+                          "; this sensor has only 0.." + std::to_string(matrices - 1) +
+                          ": use --rule general");
+}
+
+std::vector<std::string> cellsOf(const Profile& profile, const GraspSegment& grasp) {
+  std::string fingers;
+  for (const int finger : grasp.fingers)
+    fingers += (fingers.empty() ? "" : " ") + std::to_string(finger);
+  return {std::to_string(grasp.begin),
+          std::to_string(grasp.end),
+          std::to_string(profile.frameTimeUs(grasp.begin) / kUsPerMs),
+          std::to_string(profile.frameTimeUs(grasp.end) / kUsPerMs),
+          fingers,
+          numberText(grasp.quality)};
+}
+
+}  // namespace
+
+int graspsCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate grasps PATH... [--rule general|study]",
+       .purpose =
+           "Finds the grasps in recordings and prints one per row as CSV: first and last frame "
+           "(both\ninclusive), their host times [ms since 1970], the fingers, and a quality. PATH "
+           "is a recording, or a\nfolder: every recording below it. With several, a last column "
+           "names the file.\n\n"
+           "Rule general: at least two different fingers with an active taxel (value > 0) for more "
+           "than 20 frames\nand more than 0.6 s; up to 3 frames without are bridged. Rule study: "
+           "matrices 1 and 5 both active for\nmore than 20 frames, nothing bridged. A gap of the "
+           "recording (longer than max(1 s, 5 median intervals))\nends a grasp. fingers: those "
+           "that "
+           "touch in at least half of its frames, with blanks between.\n\n"
+           "quality, 0 to 1, is the product of four numbers:\n"
+           "  the part of its frames in contact as the rule asks (the others were bridged)\n"
+           "  the part of its frames without a saturated taxel\n"
+           "  1 - min(1, sd / mean) of the sum of all taxels over the middle half of its frames "
+           "(1: "
+           "held steadily)\n"
+           "  1, 1/2 or 1/4 for both, one or none of its ends inside the recording (not at its "
+           "first "
+           "or last frame,\n  nor beside a gap): what is cut off was not seen to begin or to end",
+       .options = {{"rule", "RULE", "general (default) or study"}},
+       .example = "palpate grasps recordings --rule general > grasps.csv",
+       .fewestWords = 1},
+      words);
+  if (given.helpShown()) return kDone;
+  GraspSegmentOptions options;
+  if (given.choice("rule", {"general", "study"}) == "study") options.rule = GraspRule::kStudy;
+  const RecordingList list = recordingsIn(given.words());
+  StandardOutput out;
+  bool headerWritten = false;
+  const auto work = [&](const std::filesystem::path& file,
+                        const Profile& profile,
+                        const Progress& progress) {
+    requireMatrices(file, profile, options);
+    const std::vector<GraspSegment> grasps = findGrasps(profile, options, progress);
+    std::vector<std::string> header = {"begin", "end", "begin_ms", "end_ms", "fingers", "quality"};
+    if (list.several) header.emplace_back("file");
+    if (!headerWritten) out.write(csvLine(header));
+    headerWritten = true;
+    for (const GraspSegment& grasp : grasps) {
+      std::vector<std::string> cells = cellsOf(profile, grasp);
+      if (list.several) cells.push_back(file.string());
+      out.write(csvLine(cells));
+    }
+  };
+  const int code = forEachProfile(list, given.quiet(), work);
+  out.finish();
+  return code;
+}
+
+}  // namespace palpate::commands

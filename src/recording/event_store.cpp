@@ -1,0 +1,217 @@
+#include "palpate/recording/event_store.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <tuple>
+#include <vector>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "palpate/core/error.h"
+
+#include "recording/event_notes.h"
+#include "recording/palpate_access.h"
+#include "recording/palpate_lock.h"
+#include "recording/palpate_rows.h"
+#include "recording/recording_form.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+using EventKey = std::
+    tuple<std::int64_t, std::int64_t, std::string, std::optional<int>, std::string, std::string>;
+// How often each event stands in a list.
+using EventCounts = std::map<EventKey, int>;
+
+EventKey keyOf(const RecordingEvent& event) {
+  return {event.tUs, event.t1Us, event.kind, event.matrix, event.text, event.json};
+}
+
+EventCounts countsOf(std::span<const RecordingEvent> events) {
+  EventCounts counts;
+  for (const RecordingEvent& event : events) ++counts[keyOf(event)];
+  return counts;
+}
+
+EventCounts happened(std::span<const RecordingEvent> events) {
+  EventCounts counts;
+  for (const RecordingEvent& event : events)
+    if (!isNoted(event)) ++counts[keyOf(event)];
+  return counts;
+}
+
+void requireStorable(const EventsReport& asRead, std::span<const RecordingEvent> events) {
+  for (const RecordingEvent& event : events) {
+    if (event.kind.empty()) throw std::invalid_argument("event: has no kind");
+    if (event.t1Us < event.tUs) throw std::invalid_argument("event: ends before it begins");
+    if (event.kind.size() + event.text.size() + event.json.size() > kMaxEventBytes)
+      throw std::invalid_argument("event: longer than " + std::to_string(kMaxEventBytes) +
+                                  " bytes");
+  }
+  if (happened(asRead.events) != happened(events))
+    throw std::invalid_argument("events: what happened while recording can't be changed");
+}
+
+// What stands there now, against what was read. False: it is the new list already (a commit that
+// reported a failure may have reached the disk all the same). Throws FileError.
+bool needsSaving(const fs::path& path,
+                 std::span<const RecordingEvent> now,
+                 const EventsReport& asRead,
+                 std::span<const RecordingEvent> events) {
+  const EventCounts there = countsOf(now);
+  if (there == countsOf(events)) return false;
+  if (there != countsOf(asRead.events))
+    throw FileError(path,
+                    "its notes were changed by somebody else meanwhile; open it again and repeat "
+                    "the change, so that theirs aren't lost");
+  return true;
+}
+
+void requireThere(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored))
+    throw FileError(path, "was deleted or moved meanwhile; its notes can't be saved there");
+}
+
+// Throws FileError where a file, or the folder that must take its journal or sidecar, is read-only.
+void requireWritableBy(const fs::path& recording, const fs::path& file) {
+  constexpr const char* kAdvice = "; save a copy elsewhere and note it there";
+  if (::access(file.c_str(), F_OK) == 0 && ::access(file.c_str(), W_OK) != 0)
+    throw FileError(recording,
+                    "is read-only (" + std::generic_category().message(errno) + ")" + kAdvice);
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw FileError(recording,
+                    "lies in a folder that can't be written (" +
+                        std::generic_category().message(errno) + ")" + kAdvice);
+}
+
+std::unique_ptr<RecordingLock> locked(const fs::path& recording, const fs::path& file) {
+  try {
+    return std::make_unique<RecordingLock>(file);
+  } catch (const FileError&) {
+    if (!RecordingLock::isHeld(file)) throw;
+    throw FileError(
+        recording,
+        "is being recorded, or its notes are being saved by another program; save again "
+        "when that is done");
+  }
+}
+
+std::pair<std::uint64_t, std::uint64_t> identityOf(const fs::path& path) {
+  struct stat facts {};
+  if (::stat(path.c_str(), &facts) != 0) return {};
+  return {facts.st_dev, facts.st_ino};
+}
+
+// Rows that are in the new list stay as they are; the others go, and what is new gets numbers behind
+// all that ever were.
+void replaceRows(SqliteDatabase& database, std::span<const RecordingEvent> events) {
+  EventCounts wanted = countsOf(events);
+  std::vector<std::int64_t> obsolete;
+  forEachEventRow(database, [&](std::int64_t id, RecordingEvent&& event) {
+    const auto found = wanted.find(keyOf(event));
+    if (found == wanted.end() || found->second == 0)
+      obsolete.push_back(id);
+    else
+      --found->second;
+  });
+  std::int64_t id = database.integerOf("SELECT max(id) FROM event");
+  if (id > INT64_MAX - static_cast<std::int64_t>(events.size()))
+    throw FormatError(database.path(), "has an event of an absurd number");
+  SqliteStatement remove = database.prepare("DELETE FROM event WHERE id=?");
+  for (const std::int64_t row : obsolete) remove.bind(1, row).run();
+  RowWriter rows(database);
+  for (const RecordingEvent& event : events) {
+    int& missing = wanted.at(keyOf(event));
+    if (missing == 0) continue;
+    --missing;
+    rows.event(++id, event);
+  }
+}
+
+// Throws FileError unless it is a finished native recording. Reads only: a journal of an unfinished
+// one is not played back.
+void requireFinished(const fs::path& path) {
+  const PalpateAccess access(path);
+  if (access.beingWritten())
+    throw FileError(path, "is being recorded; save its notes when it is finished");
+  if (access.unfinished())
+    throw FileError(path,
+                    "was never finished; save it with 'palpate recover' first, then note what "
+                    "that gives");
+}
+
+void saveRows(const fs::path& given,
+              const EventsReport& asRead,
+              std::span<const RecordingEvent> events,
+              const SaveEventsOptions& options) {
+  std::error_code ignored;
+  // Journal and lock lie beside the file itself, not beside a link to it.
+  const fs::path path = fs::is_symlink(given, ignored) ? fs::canonical(given, ignored) : given;
+  requireWritableBy(path, path);
+  requireFinished(path);
+  const auto lock = locked(path, path);
+  const auto file = identityOf(path);
+  SqliteDatabase database(path, SqliteDatabase::Mode::kReadWrite, options.vfs);
+  const std::uintmax_t size = fs::file_size(path, ignored);
+  database.limitWork(ignored ? 0 : size);
+  // EXTRA: what was said to be saved stays so when the power goes.
+  database.execute("PRAGMA cell_size_check=ON; PRAGMA synchronous=EXTRA");
+  try {
+    database.execute("BEGIN IMMEDIATE");
+    checkTables(database);
+    // It may be another file by now.
+    if (readMeta(database)["finished"] != "1") throw FileError(path, "was replaced meanwhile");
+    const EventsReport now = readEventRows(database);
+    if (needsSaving(path, now.events, asRead, events)) {
+      replaceRows(database, events);
+      database.execute("COMMIT");
+    } else {
+      database.rollBack();
+    }
+  } catch (...) {
+    database.rollBack();
+    throw;
+  }
+  if (identityOf(path) != file)
+    throw FileError(path, "was deleted or replaced while its notes were being saved");
+}
+
+void saveSidecar(const fs::path& path,
+                 const EventsReport& asRead,
+                 std::span<const RecordingEvent> events) {
+  const fs::path sidecar = notesPathOf(path);
+  requireWritableBy(path, sidecar);
+  const auto lock = locked(path, sidecar);
+  const EventsReport now = readEventNotes(path);
+  if (needsSaving(path, now.events, asRead, events)) replaceEventNotes(path, events);
+}
+
+}  // namespace
+
+bool isNoted(const RecordingEvent& event) {
+  constexpr std::array<std::string_view, 4> kNoted{"label", "mark", "note", "segment"};
+  return std::find(kNoted.begin(), kNoted.end(), event.kind) != kNoted.end();
+}
+
+void saveEvents(const fs::path& path,
+                const EventsReport& asRead,
+                std::span<const RecordingEvent> events,
+                const SaveEventsOptions& options) {
+  requireStorable(asRead, events);
+  requireThere(path);
+  if (isNativeRecording(path))
+    saveRows(path, asRead, events, options);
+  else
+    saveSidecar(path, asRead, events);
+}
+
+}  // namespace palpate
