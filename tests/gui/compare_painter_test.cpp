@@ -99,7 +99,7 @@ class ComparePainterTest : public ::testing::Test {
   // Beside the middle, where a value's digits may stand.
   QColor color(const QImage& image, CompareGroup group, std::size_t matrix, int y, int x) {
     return image.pixelColor(
-        (geometry_.group(group).taxelRect(matrix, y, x).topLeft() + QPointF(2, 2)).toPoint());
+        (geometry_.group(group).taxelRect(matrix, y, x).topLeft() + QPointF(1, 1)).toPoint());
   }
 
   ComparedHands hands_{sdh2(), sdh2(), sdh2()};

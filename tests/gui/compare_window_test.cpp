@@ -258,9 +258,10 @@ TEST_F(CompareWindowTest, AnOffsetByHandIsSwappedToo) {
 TEST_F(CompareWindowTest, AAndBAreChosenAmongWhatIsOpen) {
   open({"early.dsa", "late.dsa", "third.dsa"});
   compareNow();
-  EXPECT_EQ(name(compare().b()), "third") << "the one that was opened last";
+  EXPECT_EQ(name(compare().b()), "late") << "the next one";
+  choose("compareB", "third.dsa");
+  EXPECT_EQ(name(compare().b()), "third");
   choose("compareB", "late.dsa");
-  EXPECT_EQ(name(compare().b()), "late");
   choose("compareA", "third.dsa");
   EXPECT_EQ(name(window().current()), "third") << "A is what is shown and played";
   EXPECT_EQ(name(compare().b()), "late");
@@ -300,6 +301,17 @@ TEST_F(CompareWindowTest, OneRecordingOffersToOpenAnotherOrItself) {
   choose("compareB", "open another…");
   EXPECT_EQ(asked, "yes");
   waitUntilOpened();
+  settle();
+  EXPECT_EQ(name(compare().a()), "early") << "A stays";
+  EXPECT_EQ(name(compare().b()), "late");
+}
+
+TEST_F(CompareWindowTest, EscapeGoesBack) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  press(Qt::Key_Escape);
+  EXPECT_FALSE(window().compareShown());
+  EXPECT_FALSE(actions().compare->isChecked());
 }
 
 TEST_F(CompareWindowTest, WithNothingOpenItAsksAndComparesWhatComes) {
@@ -335,9 +347,13 @@ TEST_F(CompareWindowTest, CurvesFollowSignalAndMatrix) {
   EXPECT_NEAR(curves.curveB->values[40], 310.0, 1e-9);
   EXPECT_EQ(compare().chart().graph(0)->pen().style(), Qt::SolidLine);
   EXPECT_EQ(compare().chart().graph(1)->pen().style(), Qt::DashLine);
-  // B rises as A does, 200 counts below.
-  EXPECT_TRUE(compare().figures().startsWith("correlation 1.000 · A − B: mean +"))
-      << compare().figures().toStdString();
+  // From 0 to 2.95 s 60 moments; B is 200 counts below A in the last 50 of them.
+  const QString figures = compare().figures();
+  EXPECT_TRUE(figures.contains("mean +166.7, rms 182.6, largest +200.0 counts at 0.50 s"))
+      << figures.toStdString();
+  EXPECT_TRUE(figures.endsWith("over 2.95 s in common")) << figures.toStdString();
+  // 60 pairs (0, 0) x 10, (500 + k, 300 + k), k = 0..49: computed by hand from the sums.
+  EXPECT_TRUE(figures.startsWith("correlation 0.999")) << figures.toStdString();
   choose("compareSignal", "active taxels");
   EXPECT_EQ(window().viewSettings().signal, PlottedSignal::kActive);
   EXPECT_NEAR(compare().chart().curves().curveA->values[20], 12.0, 1e-9);
@@ -402,7 +418,7 @@ TEST_F(CompareWindowTest, AnotherHandIsSaid) {
 TEST_F(CompareWindowTest, OneFrameAndNoneAreRecordingsToo) {
   open({"early.dsa", "one.dsa", "empty.dsa"});
   compareNow();
-  EXPECT_EQ(name(compare().b()), "empty");
+  choose("compareB", "empty.dsa");
   EXPECT_EQ(compare().view().frames()[1].notice, "B holds no frame");
   choose("compareB", "one.dsa");
   choose("compareAlignment", "start of both");

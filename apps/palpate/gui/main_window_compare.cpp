@@ -36,7 +36,10 @@ void MainWindow::connectCompare() {
             seekCompared(seconds);
             if (playing) playback_.play();
           });
-  connect(compare_, &ComparePanel::openAsked, this, &MainWindow::askAndOpen);
+  connect(compare_, &ComparePanel::openAsked, this, [this] {
+    askAndOpen();
+    shownOfBatch_ = current_ != nullptr;  // A stays: what is opened here is to be B
+  });
   connect(compare_, &ComparePanel::signalChosen, this, [this](PlottedSignal signal) {
     changeView([&](ViewSettings& view) { view.signal = signal; });
   });

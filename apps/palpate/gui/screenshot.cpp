@@ -40,13 +40,17 @@ void runFor(double seconds) {
   loop.exec();
 }
 
-void showCompare(MainWindow& window) {
+void showCompare(MainWindow& window, const ScreenshotOptions& options) {
   constexpr double kLookS = 0.01;
   constexpr double kPatienceS = 60.0;
   if (!window.compareShown()) window.actionList().compare->trigger();
   for (double waitedS = 0.0; !window.compare().complete() && waitedS < kPatienceS;
        waitedS += kLookS)
     runFor(kLookS);
+  // Where the frame wasn't chosen: one that both have.
+  const auto common = window.compare().common();
+  if (!options.frame && common && window.playback().positionS() > common->toS)
+    window.playback().seekSeconds(common->toS);
 }
 
 // Connects, waits for the first frame, and lets it run.
@@ -125,7 +129,7 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   } else if (options.demo) {
     runDemo(window, options);
   }
-  if (options.comparedWith) showCompare(window);
+  if (options.comparedWith) showCompare(window, options);
   showDocks(window, options);
   window.timelinePanel().chart().store().waitForFirstLook();
   // Layout requests and queued replots come one after the other.
