@@ -108,6 +108,7 @@ Actions::Actions(QWidget* window) : window_(window) {
                       true));
   plots.append(make("View", "Plot all matrices together", {key("Ctrl+0")}, true));
   nextTheme = make("View", "Dark or light", {key("Ctrl+T")});
+  compare = make("View", "Com&pare two recordings…", {key("Ctrl+Shift+C")}, true);
   fullScreen = make("View", "&Full screen", {key("F11")}, true);
   resetLayout = make("View", "&Reset layout", {key("Ctrl+Shift+R")});
 

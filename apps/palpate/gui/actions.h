@@ -56,6 +56,7 @@ struct Actions {
   QAction* zoomOut;
   QAction* fit;
   QAction* nextTheme;
+  QAction* compare;  // checked: two recordings are compared
   QAction* fullScreen;
   QAction* resetLayout;
 

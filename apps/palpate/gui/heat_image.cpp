@@ -14,7 +14,8 @@ struct Blend {
 };
 
 // At (x, y) in taxels, the centre of the first taxel being (0, 0).
-Blend blendAt(const ConstMatrixMap& values, const MatrixLayout& layout, double y, double x) {
+Blend blendAt(
+    const ConstMatrixMap& values, const MatrixLayout& layout, double y, double x, bool isSigned) {
   const int y0 = static_cast<int>(std::floor(y));
   const int x0 = static_cast<int>(std::floor(x));
   double weights = 0.0;
@@ -31,7 +32,7 @@ Blend blendAt(const ConstMatrixMap& values, const MatrixLayout& layout, double y
       const auto value = static_cast<double>(values(row, column));
       weights += weight;
       sum += weight * value;
-      if (value > 0.0) active += weight;
+      if (value > 0.0 || isSigned) active += weight;
     }
   }
   if (weights <= 0.0) return {};
@@ -46,14 +47,15 @@ QImage smoothHeatImage(const ConstMatrixMap& values,
   const int scale = options.pixelsPerTaxel;
   QImage image(layout.columns * scale, layout.rows * scale, QImage::Format_ARGB32);
   image.fill(Qt::transparent);
-  if (!(values.maxCoeff() > 0.0F)) return image;
-  const ColorTable& colors = colorTable(options.map);
+  const bool isSigned = options.difference != nullptr;
+  if (isSigned ? values.isZero(0.0F) : !(values.maxCoeff() > 0.0F)) return image;
+  const ColorTable& colors = isSigned ? *options.difference : colorTable(options.map);
   for (int py = 0; py < image.height(); ++py) {
     auto* line = reinterpret_cast<QRgb*>(image.scanLine(py));
     for (int px = 0; px < image.width(); ++px) {
       if (!layout.enabled(py / scale, px / scale)) continue;
       const Blend blend =
-          blendAt(values, layout, (py + 0.5) / scale - 0.5, (px + 0.5) / scale - 0.5);
+          blendAt(values, layout, (py + 0.5) / scale - 0.5, (px + 0.5) / scale - 0.5, isSigned);
       if (blend.activity <= 0.0) continue;
       const int index = colorIndex(blend.value, options.rangeMin, options.rangeMax);
       const QRgb color = colors[static_cast<std::size_t>(index)];
@@ -69,12 +71,13 @@ QImage plainHeatImage(const ConstMatrixMap& values,
                       const HeatImageOptions& options) {
   QImage image(layout.columns, layout.rows, QImage::Format_ARGB32);
   image.fill(Qt::transparent);
-  const ColorTable& colors = colorTable(options.map);
+  const bool isSigned = options.difference != nullptr;
+  const ColorTable& colors = isSigned ? *options.difference : colorTable(options.map);
   for (int y = 0; y < layout.rows; ++y) {
     auto* line = reinterpret_cast<QRgb*>(image.scanLine(y));
     for (int x = 0; x < layout.columns; ++x) {
       const auto value = static_cast<double>(values(y, x));
-      if (!(value > 0.0) || !layout.enabled(y, x)) continue;
+      if ((isSigned ? value == 0.0 : !(value > 0.0)) || !layout.enabled(y, x)) continue;
       line[x] =
           colors[static_cast<std::size_t>(colorIndex(value, options.rangeMin, options.rangeMax))];
     }

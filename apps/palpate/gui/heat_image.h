@@ -15,6 +15,8 @@ struct HeatImageOptions {
   double rangeMin = 0.0;  // [counts]
   double rangeMax = 1.0;
   int pixelsPerTaxel = 8;  // of a smooth image
+  // Of signed values, instead of `map`: every enabled taxel counts, whatever its sign.
+  const ColorTable* difference = nullptr;
 };
 
 // Values are interpolated bilinearly between the centres of enabled taxels (not colours, and not

@@ -10,6 +10,7 @@
 #include <palpate/core/time.h>
 #include <palpate/recording/recording.h>
 
+#include "gui/compare_panel.h"
 #include "gui/dock.h"
 #include "gui/hand_dock.h"
 #include "gui/inspect_panel.h"
@@ -68,6 +69,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   connectTakeAway();
   connectTimeline();
   connectEvents();
+  connectCompare();
 
   askForRecordings = [this] {
     return QFileDialog::getOpenFileNames(this,
@@ -107,8 +109,8 @@ void MainWindow::buildParts(const std::filesystem::path& dataFolder) {
   banner_ = new MessageBanner(page);
   offer_ = new OfferStrip(page);
   opening_ = new OpeningStrip(page);
-  exporting_ = new OpeningStrip(page, "Writing", "exporting");
   working_ = new OpeningStrip(page, "Cropping", "working");
+  exporting_ = new OpeningStrip(page, "Exporting", "exporting");
   startPage_ = new StartPage(recent_, withDemo, page);
   matrices_ = new MatricesPanel(actions_.interpolated, actions_.values, page);
   playbackBar_ = new PlaybackBar(playback_, page);
@@ -116,7 +118,11 @@ void MainWindow::buildParts(const std::filesystem::path& dataFolder) {
   auto* column = new QVBoxLayout(work);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  column->addWidget(matrices_, 1);
+  compare_ = new ComparePanel(actions_.compare, actions_.interpolated, actions_.values, work);
+  centre_ = new QStackedWidget(work);
+  centre_->addWidget(matrices_);
+  centre_->addWidget(compare_);
+  column->addWidget(centre_, 1);
   column->addWidget(playbackBar_);
   stack_ = new QStackedWidget(page);
   stack_->addWidget(startPage_);

@@ -38,6 +38,7 @@
 
 namespace palpate::gui {
 
+class ComparePanel;
 class Dock;
 class HandDock;
 class InspectPanel;
@@ -93,6 +94,8 @@ class MainWindow : public QMainWindow {
   // What is connected is shown, not a recording.
   bool liveShown() const noexcept { return liveShown_; }
   MatricesView& matricesView();
+  ComparePanel& compare() noexcept { return *compare_; }
+  bool compareShown() const;
   PlaybackController& playback() noexcept { return playback_; }
   RecordingOpener& opener() noexcept { return opener_; }
   const Actions& actionList() const noexcept { return actions_; }
@@ -213,6 +216,12 @@ class MainWindow : public QMainWindow {
   void scan(MaskChoice choice);
   void heedScanAnswers();
   QString selectionText() const;
+  // main_window_compare.cpp
+  void connectCompare();
+  void showCompare(bool on);
+  void seekCompared(double seconds);
+  void listCompared();
+  ExportedView compareExport();
   // main_window_recording.cpp
   void connectRecording();
   void useRecordingSettings();
@@ -286,7 +295,12 @@ class MainWindow : public QMainWindow {
   Theme recordingTheme_ = Theme::kDark;
   const SignalHistory* shownHistory_ = nullptr;  // of the source that is shown; never looked into
 
+  bool compareWanted_ = false;      // as soon as two recordings are open
+  bool compareSeeks_ = false;       // the playback follows, and isn't followed
+  QByteArray layoutBeforeCompare_;  // of docks
   QStackedWidget* stack_ = nullptr;
+  QStackedWidget* centre_ = nullptr;  // matrices, or the comparison
+  ComparePanel* compare_ = nullptr;
   MessageBanner* banner_ = nullptr;
   OpeningStrip* opening_ = nullptr;
   OpeningStrip* exporting_ = nullptr;

@@ -123,6 +123,7 @@ void MainWindow::listRecordings() {
   const auto at = std::find(recordings_.begin(), recordings_.end(), current_);
   if (at != recordings_.end()) box->setCurrentIndex(static_cast<int>(at - recordings_.begin()));
   menus_->recordingsAction->setVisible(!recordings_.empty());
+  listCompared();
 }
 
 void MainWindow::showRecording(const OpenedRecordingPtr& recording) {
@@ -132,6 +133,7 @@ void MainWindow::showRecording(const OpenedRecordingPtr& recording) {
   // What is connected goes on, and comes back when no recording is left.
   const bool live = !recording && live_.source();
   liveShown_ = false;
+  if (!recording) showCompare(false);
   setPlace(recording ? Place::kRecording : live ? Place::kLive : Place::kStart);
   timeline_->setRecording(recording);
   if (recording)

@@ -249,6 +249,7 @@ void MainWindow::showLive() {
   const bool newly = !liveShown_ || another;
   liveShown_ = true;
   playback_.pause();
+  showCompare(false);
   setPlace(Place::kLive);
   if (newly) {
     const HandDescription hand = source->session->device().hand();

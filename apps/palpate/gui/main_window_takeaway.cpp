@@ -214,7 +214,7 @@ ExportedView MainWindow::matricesExport() {
   ExportedView view;
   view.name = "Matrices";
   view.widget = matrices_;
-  view.isThere = [this] { return somethingIsShown(); };
+  view.isThere = [this] { return somethingIsShown() && !compareShown(); };
   view.fileName = [this] { return pictureName(); };
   view.size = [this] { return QSizeF(matricesView().size()); };
   view.paint = [this](QPainter& painter, const PictureLook& look) {
@@ -236,7 +236,9 @@ ExportedView MainWindow::matricesExport() {
     pictures.fileName = recordingStem();
     pictures.numFrames = current_->profile.numFrames();
     if (takeAway_->selectedFrames) pictures.selected = takeAway_->selectedFrames();
-    pictures.painter = [recording = current_, options = exportOptions()](const PictureLook& look) {
+    MatricesPictureOptions options = exportOptions();
+    if (view_.range == RangeMode::kFrame) options.rangeMax = options.rangeMin = 0.0;  // of each
+    pictures.painter = [recording = current_, options](const PictureLook& look) {
       return framePainter(recording, fitted(options, look));
     };
     return pictures;

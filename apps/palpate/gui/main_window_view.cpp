@@ -9,6 +9,7 @@
 
 #include <palpate/core/number_text.h>
 
+#include "gui/compare_panel.h"
 #include "gui/dock.h"
 #include "gui/hand_dock.h"
 #include "gui/icons.h"
@@ -65,6 +66,7 @@ void MainWindow::applyView() {
   check(actions_.ranges, kAllRangeModes, view_.range);
   check(actions_.signalsPlotted, kAllPlottedSignals, view_.signal);
   check(actions_.themes, kAllThemeChoices, view_.theme);
+  compare_->setSettings(view_, resolved(view_.theme));
 }
 
 void MainWindow::setTheme(ThemeChoice choice) {
@@ -319,6 +321,7 @@ void MainWindow::showDock(const QString& name) {
 }
 
 void MainWindow::remember() {
+  showCompare(false);  // its layout is not to be remembered
   view_.speed = playback_.speed();
   if (!loopIsOfDemo_) view_.loop = playback_.loop();
   view_.skipGaps = playback_.skipGaps();

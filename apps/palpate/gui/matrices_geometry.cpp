@@ -73,7 +73,7 @@ MatricesGeometry::MatricesGeometry(const QRectF& area,
   if (grid.columnMm.empty() || inside.width() <= 0 || inside.height() <= 0) return;
   const auto columns = static_cast<double>(grid.columnMm.size());
   const auto rows = static_cast<double>(grid.rowMm.size());
-  const double barSpace = kBarGap + kBarWidth + kBarLabels;
+  const double barSpace = options.colorBar ? kBarGap + kBarWidth + kBarLabels : 0.0;
 
   const double freeWidth = inside.width() - barSpace - (columns - 1) * kNarrowGap;
   const double freeHeight = inside.height() - rows * nameHeight - (rows - 1) * kRowGap;

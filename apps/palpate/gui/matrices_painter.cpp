@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "gui/difference_map.h"
 #include "gui/heat_image.h"
 
 namespace palpate::gui {
@@ -33,6 +34,10 @@ double niceStep(double span, double parts) {
 }
 
 QString tickText(double value) { return QString::number(value, 'g', 6); }
+
+const ColorTable& tableOf(const MatricesPictureOptions& options) {
+  return options.difference ? differenceTable(options.theme) : colorTable(options.map);
+}
 
 void paintTicks(QPainter& painter,
                 const QRectF& bar,
@@ -62,7 +67,7 @@ void paintColorBar(QPainter& painter,
                    const ValueRange& range,
                    const MatricesPictureOptions& options) {
   if (bar.height() < 1.0) return;
-  const ColorTable& table = colorTable(options.map);
+  const ColorTable& table = tableOf(options);
   QImage ramp(1, static_cast<int>(table.size()), QImage::Format_RGB32);
   for (int i = 0; i < ramp.height(); ++i)
     ramp.setPixel(0, i, table[table.size() - 1 - static_cast<std::size_t>(i)]);
@@ -100,7 +105,7 @@ void paintNames(QPainter& painter,
     if (metrics.horizontalAdvance(name) > rect.width())
       name = QString::fromStdString(hand.matrices[m].shortName);
     painter.drawText(rect.adjusted(0, 0, 0, -3),
-                     Qt::AlignHCenter | Qt::AlignBottom,
+                     Qt::AlignHCenter | Qt::AlignBottom | Qt::TextDontClip,
                      metrics.elidedText(name, Qt::ElideRight, rect.width()));
   }
 }
@@ -146,8 +151,9 @@ QColor contrasting(const QColor& background) {
 // Large enough to read, small enough for "4095" in a square.
 QFont valueFont(const MatricesPictureOptions& options, double side) {
   QFont font = options.font;
-  constexpr double kWidthPerPx = 2.62;  // "4095" is about 2.6 times as wide as its font is large
-  const double px = std::clamp((side - 2.0) / kWidthPerPx, kSmallestFontPx, kLargestFontPx);
+  // "4095" is about 2.6 times as wide as its font is large.
+  const double widthPerPx = options.difference ? 3.3 : 2.62;
+  const double px = std::clamp((side - 2.0) / widthPerPx, kSmallestFontPx, kLargestFontPx);
   font.setPixelSize(std::max(1, static_cast<int>(std::lround(px))));
   return font;
 }
@@ -186,7 +192,8 @@ void paintMatricesBackground(QPainter& painter,
       }
     }
   }
-  if (geometry.numMatrices() > 0) paintColorBar(painter, geometry.colorBarRect(), range, options);
+  if (geometry.numMatrices() > 0 && options.colorBar)
+    paintColorBar(painter, geometry.colorBarRect(), range, options);
   painter.restore();
 }
 
@@ -199,10 +206,11 @@ void paintMatrixValues(QPainter& painter,
                        const MatricesPictureOptions& options) {
   const MatrixLayout& layout = hand.layout->matrix(matrix);
   const ConstMatrixMap values = frame.matrix(matrix);
-  const ColorTable& table = colorTable(options.map);
+  const ColorTable& table = tableOf(options);
   const double side = geometry.taxelSide(matrix);
   const auto saturation = hand.saturationCounts;
-  const HeatImageOptions image{options.map, range.minimum, range.maximum};
+  HeatImageOptions image{options.map, range.minimum, range.maximum};
+  if (options.difference) image.difference = &table;
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing, false);
   const bool asImage = options.interpolated || side < kGridFrom;
@@ -217,16 +225,19 @@ void paintMatrixValues(QPainter& painter,
   for (int y = 0; y < layout.rows; ++y) {
     for (int x = 0; x < layout.columns; ++x) {
       const float value = values(y, x);
-      if (!(value > 0.0F) || !layout.enabled(y, x)) continue;
+      const bool seen = options.difference ? value != 0.0F : value > 0.0F;
+      if (!seen || !layout.enabled(y, x)) continue;
       const int index = colorIndex(static_cast<double>(value), range.minimum, range.maximum);
       const QColor color = QColor::fromRgb(table[static_cast<std::size_t>(index)]);
       const QRectF square = squareOf(geometry.taxelRect(matrix, y, x));
       if (!asImage) painter.fillRect(square, color);
-      if (value >= saturation) paintSaturated(painter, square);
+      if (value >= saturation && !options.difference) paintSaturated(painter, square);
       if (!withText) continue;
       painter.setPen(contrasting(color));
-      painter.drawText(
-          square, Qt::AlignCenter | Qt::TextDontClip, QString::number(std::lround(value)));
+      painter.drawText(square,
+                       Qt::AlignCenter | Qt::TextDontClip,
+                       options.difference ? signedText(static_cast<double>(value), 0)
+                                          : QString::number(std::lround(value)));
     }
   }
   painter.restore();

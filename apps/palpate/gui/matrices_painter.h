@@ -32,6 +32,8 @@ struct MatricesPictureOptions {
   QString title;            // top left; empty together with caption: no line for them
   QString caption;          // top right
   QString unit = "counts";  // of the values
+  bool colorBar = true;
+  bool difference = false;  // values are signed: the map of differences, 0 in its middle
   double pixelRatio = 0.0;  // device pixels per pixel: taxels get whole ones; 0: exact (vector)
   QFont font;
 };

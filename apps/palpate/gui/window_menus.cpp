@@ -77,6 +77,7 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   view->addAction(actions.chooseCurves);
   view->addActions({actions.zoomIn, actions.zoomOut, actions.fit});
   view->addSeparator();
+  view->addAction(actions.compare);
   view->addActions(toggles);
   view->addAction(actions.resetLayout);
   view->addSeparator();
