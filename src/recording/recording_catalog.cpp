@@ -12,6 +12,7 @@
 #include <utility>
 
 #include <sys/stat.h>
+#include <sys/vfs.h>
 
 #include "palpate/core/error.h"
 #include "palpate/core/hash.h"
@@ -149,6 +150,22 @@ void writeCache(const fs::path& path, const Entries& entries) {
   file.commit();
 }
 
+// Network and user-space file systems don't tell what others change in them, and may hang.
+bool isLocal(const fs::path& folder) {
+  constexpr std::array<std::uint32_t, 6> kRemote{
+      0x6969,      // NFS
+      0x517B,      // SMB
+      0xFE534D42,  // SMB 2
+      0xFF534D42,  // CIFS
+      0x01021997,  // 9P
+      0x65735546,  // FUSE
+  };
+  struct statfs facts {};
+  return ::statfs(folder.c_str(), &facts) == 0 &&
+         std::find(kRemote.begin(), kRemote.end(), static_cast<std::uint32_t>(facts.f_type)) ==
+             kRemote.end();
+}
+
 // What may change without a change of the file is asked again each time.
 bool isKept(const RecordingDetails& details) {
   return details.state == RecordingDetails::State::kFinished ||
@@ -169,6 +186,7 @@ class CatalogRun {
     report_.numFiles = listing.files.size();
     report_.troubles = std::move(listing.troubles);
     report_.folders = std::move(listing.folders);
+    report_.local = isLocal(folder_);
     if (sink_.listed) sink_.listed(report_.numFiles);
     std::vector<std::pair<fs::path, Stamp>> unread;
     double bytesToRead = 0.0;
