@@ -24,11 +24,7 @@ struct RecordingList {
   bool several = false;
 };
 
-// Below a folder count: files whose name ends in .dsa or .palpate (in any case), and files without an ending that
-// begin as a native recording does. Left out: hidden files and folders, sidecars, locks, journals, and links
-// that lead back to where they stand or to what is in the list already (a link to anything else is followed). A
-// file that is damaged, unfinished or no recording at all is in the list: whoever reads it says so. Never throws for
-// what it meets on the disk.
+// Of folders what recordingsBelow() finds. Never throws for what it meets on the disk.
 RecordingList recordingsIn(const Words& words);
 
 // What came of one file.

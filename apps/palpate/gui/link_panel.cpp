@@ -219,6 +219,7 @@ void LinkPanel::addEvent(const RecordingEvent& event) {
 
 void LinkPanel::log(const QString& line) {
   log_->appendPlainText(QTime::currentTime().toString("HH:mm:ss") + "  " + line.simplified());
+  emit logged(line);
 }
 
 void LinkPanel::setMuted(bool muted) { sound_->setChecked(!muted); }

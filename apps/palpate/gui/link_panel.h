@@ -38,6 +38,7 @@ class LinkPanel : public QWidget {
   QSize sizeHint() const override { return {455, 420}; }
 
  signals:
+  void logged(const QString& line);
   void mutedChanged(bool muted);
 
  private:

@@ -14,6 +14,7 @@
 #include "gui/dock.h"
 #include "gui/hand_dock.h"
 #include "gui/inspect_panel.h"
+#include "gui/library_panel.h"
 #include "gui/link_panel.h"
 #include "gui/live_chart.h"
 #include "gui/matrices_panel.h"
@@ -50,6 +51,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
                                     return openRecording(path, progress);
                                   })),
       live_(surroundings.dataFolder),
+      activity_(surroundings.clock ? *surroundings.clock : systemClock()),
       groups_(settings_),
       extras_(loadPlottedExtras(settings_)),
       unfinished_(settings_) {
@@ -66,6 +68,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   connectChoices();
   connectLive();
   connectRecording();
+  connectLibrary();
   connectTakeAway();
   connectTimeline();
   connectEvents();
@@ -87,6 +90,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   applyTheme();
   applyView();
   setPlace(Place::kStart);
+  showLibraryAgain();
   listRecordings();
   // The window comes first.
   if (surroundings.offerUnfinished) QTimer::singleShot(0, this, &MainWindow::offerUnfinished);
@@ -95,6 +99,8 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
 MainWindow::~MainWindow() {
   hand_->setHand(nullptr, nullptr);
   liveChart_->setHistory(nullptr, 0);
+  delete libraryDock_;  // they hold on to settings and log, which go before other children
+  delete logDock_;
 }
 
 void MainWindow::buildParts(const std::filesystem::path& dataFolder) {
@@ -164,6 +170,7 @@ void MainWindow::buildDocks() {
   link_ = new LinkPanel(this);
   linkDock_ = new Dock("Link", link_, nullptr, this);
   docks_ = {inspectDock_, timelineDock_, handDock_, linkDock_};
+  buildLibrary();
   setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
   setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);

@@ -18,6 +18,7 @@
 #include <palpate/recognition/grasp_segments.h>
 
 #include "gui/actions.h"
+#include "gui/activity_log.h"
 #include "gui/alarm_bell.h"
 #include "gui/background_job.h"
 #include "gui/event_editor.h"
@@ -42,8 +43,10 @@ class ComparePanel;
 class Dock;
 class HandDock;
 class InspectPanel;
+class LibraryPanel;
 class LinkPanel;
 class LiveChart;
+class LogPanel;
 class MatricesPanel;
 class MatricesView;
 class MessageBanner;
@@ -132,6 +135,8 @@ class MainWindow : public QMainWindow {
   UnfinishedFinder& unfinished() noexcept { return unfinished_; }
   // What can be taken away, and how it is asked for.
   TakeAway& takeAway() noexcept { return *takeAway_; }
+  LibraryPanel& library() noexcept { return *library_; }
+  const ActivityLog& activity() const noexcept { return activity_; }
   // Waits until what is being written is on disk.
   void waitForExports();
 
@@ -139,6 +144,8 @@ class MainWindow : public QMainWindow {
   void recordingShown();
   void pictureWritten(const QString& path);
   void cropWritten(const QString& path);
+  // With what is shown; asked for in the library.
+  void compareAsked(const QString& path);
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -199,6 +206,14 @@ class MainWindow : public QMainWindow {
   void noteWhereWeAre();
   void goBackToWhereWeWere();
   void rememberSession();
+  // main_window_library.cpp: Library and Log
+  void buildLibrary();
+  void placeLibrary();
+  void connectLibrary();
+  bool staysEverywhere(const Dock* dock) const;
+  void showLibraryAgain();
+  void rememberLibrary();
+  void enableCompare();
   // main_window_live.cpp: what is connected
   void connectLive();
   void askAndConnect();
@@ -261,6 +276,7 @@ class MainWindow : public QMainWindow {
   RecordingOpener opener_;
   AlarmBell bell_;
   LiveController live_;
+  ActivityLog activity_;
   std::unique_ptr<TakeAway> takeAway_;
   BackgroundJob job_;     // asked for
   BackgroundJob finder_;  // of grasps in long recordings
@@ -323,6 +339,10 @@ class MainWindow : public QMainWindow {
   Dock* handDock_ = nullptr;
   Dock* linkDock_ = nullptr;
   LinkPanel* link_ = nullptr;
+  LibraryPanel* library_ = nullptr;
+  Dock* libraryDock_ = nullptr;
+  LogPanel* log_ = nullptr;
+  Dock* logDock_ = nullptr;
   MessageBanner* alarmStrip_ = nullptr;
   OfferStrip* offer_ = nullptr;
   std::unique_ptr<WindowMenus> menus_;

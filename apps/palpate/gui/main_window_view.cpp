@@ -14,8 +14,10 @@
 #include "gui/hand_dock.h"
 #include "gui/icons.h"
 #include "gui/inspect_panel.h"
+#include "gui/library_panel.h"
 #include "gui/link_panel.h"
 #include "gui/live_chart.h"
+#include "gui/log_panel.h"
 #include "gui/main_window.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
@@ -90,6 +92,8 @@ void MainWindow::applyTheme() {
   hand_->setTheme(theme);
   status_->setTheme(theme);
   for (Dock* dock : docks_) dock->setTheme(theme);
+  library_->setTheme(theme);
+  log_->setTheme(theme);
   showPlotted();
   showPlaybackState();
   showRecordingState();
@@ -188,6 +192,7 @@ void MainWindow::updateStatus() {
 
 void MainWindow::flash(const QString& notice) {
   flash_ = notice;
+  activity_.add(LogLine::Severity::kInfo, notice);
   flashTimer_.start();
   updateStatus();
 }
@@ -197,6 +202,8 @@ void MainWindow::flash(const QString& notice) {
 void MainWindow::setPlace(Place place) {
   if (placed_ && place == place_) return;
   if (placed_ && place_ != Place::kStart) layouts_[place_] = saveState();
+  const bool library = !libraryDock_->isHidden();
+  const bool log = !logDock_->isHidden();
   placed_ = true;
   place_ = place;
   const bool there = place != Place::kStart;
@@ -209,7 +216,9 @@ void MainWindow::setPlace(Place place) {
   } else {
     for (Dock* dock : docks_) dock->hide();
   }
-  for (Dock* dock : docks_) dock->toggleViewAction()->setEnabled(there);
+  for (Dock* dock : docks_) dock->toggleViewAction()->setEnabled(there || staysEverywhere(dock));
+  libraryDock_->setVisible(library);
+  logDock_->setVisible(log);
 }
 
 // An operator has the hand at his left hand; an analyst asks for it.
@@ -221,7 +230,9 @@ void MainWindow::placeDocks(Place place) {
   addDockWidget(Qt::BottomDockWidgetArea, timelineDock_);
   tabifyDockWidget(inspectDock_, linkDock_);
   if (!live) tabifyDockWidget(inspectDock_, handDock_);
+  placeLibrary();
   for (Dock* dock : docks_) {
+    if (staysEverywhere(dock)) continue;
     dock->setFloating(false);
     dock->setVisible(live || (dock != handDock_ && dock != linkDock_));
   }
@@ -258,6 +269,7 @@ void MainWindow::enableActions() {
   for (QAction* action :
        {actions_.exportPicture, actions_.exportAgain, actions_.copyPicture, actions_.copyTable})
     action->setEnabled(somethingIsShown());
+  enableCompare();
   const bool connected = live_.source() != nullptr;
   actions_.disconnectHand->setEnabled(live_.state() != LiveController::State::kNone);
   actions_.live->setEnabled(connected);
@@ -327,6 +339,7 @@ void MainWindow::remember() {
   if (!loopIsOfDemo_) view_.loop = playback_.loop();
   view_.skipGaps = playback_.skipGaps();
   saveViewSettings(view_, settings_);
+  rememberLibrary();
   savePlottedExtras(extras_, settings_);
   rememberSession();
   settings_.setValue("window/geometry", saveGeometry());

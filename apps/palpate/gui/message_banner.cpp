@@ -42,6 +42,7 @@ void MessageBanner::showMessage(const QString& message) {
   lines.append(message);
   text_->setText(lines.mid(std::max<qsizetype>(0, lines.size() - kMostLines)).join('\n'));
   show();
+  emit said(message);
 }
 
 void MessageBanner::showAll(const QStringList& messages) {

@@ -19,11 +19,14 @@ class MessageBanner : public QWidget {
                          const QString& part = "banner");
   // Failures of several files are shown together.
   void showMessage(const QString& message);
-  // Exactly these, instead of what was shown; none: hides.
+  // Exactly these, instead of what was shown; none: hides. Of these nothing is said().
   void showAll(const QStringList& messages);
   void dismiss();
   QString message() const;
   void setTheme(Theme theme);
+
+ signals:
+  void said(const QString& message);  // a message, each time it comes
 
  private:
   QLabel* text_;

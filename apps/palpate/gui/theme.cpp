@@ -89,6 +89,8 @@ QLabel[role="muted"] { color: @muted; }
 #LinkPill[good="true"] { background: @accentSoft; border-color: @accentSoft; color: @accent; }
 QToolButton[recording="true"] { background: @dangerSoft; border: 1px solid @danger; color: @danger; font-weight: bold; }
 #linkLog { background: @window; border: 1px solid @border; border-radius: 4px; color: @muted; }
+#libraryTable::item, #logTable::item { padding: 0 6px; border: 0; }
+#libraryTable::item:selected, #logTable::item:selected { background: @accentSoft; color: @text; }
 #OpeningStrip { background: @panel; border-bottom: 1px solid @border; }
 #ViewHeader, #PlaybackBar { background: @panel; }
 #PlaybackBar { border-top: 1px solid @border; }

@@ -1,0 +1,52 @@
+// What a list of recordings says of each: when, how long, of what, by whom. Of a native recording that is
+// read without its frames, whatever its length; a .dsa says nothing before it has been read through.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <palpate/core/progress.h>
+
+namespace palpate {
+
+struct RecordingDetails {
+  enum class State {
+    kFinished,
+    kRecording,   // somebody is writing it: as far as it is now
+    kUnfinished,  // its writer died; it can be recovered
+    kDamaged,     // message says how
+    kUnreadable,  // no permission, an input/output error, ..: message
+  };
+
+  std::filesystem::path path;
+  std::string form;                // "palpate", "dsa"; empty: unreadable
+  State state = State::kFinished;  // as far as it can be told without reading the frames
+  std::string message;             // one line; empty: nothing is wrong
+  std::uintmax_t sizeBytes = 0;
+  std::int64_t changedUs = 0;           // last change of the file [us since 1970]
+  std::optional<std::int64_t> startUs;  // first frame [us since 1970]; none: no frame, or not known
+  std::optional<std::int64_t> durationUs;  // first to last frame [us]
+  std::optional<std::int64_t> numFrames;
+  // As given when it was recorded; a .dsa has none of them.
+  std::string operatorName;
+  std::string object;
+  std::string run;
+  std::string notes;  // those, and every event "note", a line each
+  std::vector<std::string>
+      labels;  // of events "label" and "segment": each text once, in order of time
+  bool operator==(const RecordingDetails&) const = default;
+};
+
+// "finished", "recording", "unfinished", "damaged", "unreadable".
+const char* nameOf(RecordingDetails::State state);
+// The same back; anything else is nothing.
+std::optional<RecordingDetails::State> detailsStateFrom(const std::string& name);
+
+// Never throws for a bad file; throws Cancelled.
+RecordingDetails readDetails(const std::filesystem::path& path, const Progress& progress = {});
+
+}  // namespace palpate

@@ -1,0 +1,45 @@
+// Search in a list of recordings: "foam object:ball date:2014-11". Words, all of which must be found somewhere
+// in what the list says of a recording, whatever the case of their letters; "several words" in quotes are one;
+// KEY:WORD looks in one place only. Keys: name, path, operator, object, run, notes, label, date, form, state.
+// A word with any other key is searched for as it stands.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <palpate/recording/recording_details.h>
+
+namespace palpate {
+
+inline constexpr std::array<std::string_view, 10> kSearchKeys{
+    "name", "path", "operator", "object", "run", "notes", "label", "date", "form", "state"};
+
+// What is searched in, one text per key, made once per recording.
+using SearchableText = std::array<std::string, kSearchKeys.size()>;
+// `path` counts from `folder` on; `date` is "2014-11-27 10:31" of the start, in the time of this place.
+SearchableText searchableText(const RecordingDetails& details, const std::filesystem::path& folder);
+
+class RecordingSearch {
+ public:
+  RecordingSearch() = default;  // matches everything
+  explicit RecordingSearch(std::string_view text);
+  bool empty() const noexcept { return words_.empty(); }
+  bool matches(const SearchableText& text) const;
+
+ private:
+  struct Word {
+    std::string text;  // small letters
+    std::optional<std::size_t> key;
+  };
+  std::vector<Word> words_;
+};
+
+// Small letters of ASCII, Latin, Greek and Cyrillic in UTF-8; everything else as it is.
+std::string smallLetters(std::string_view text);
+
+}  // namespace palpate

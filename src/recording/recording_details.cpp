@@ -1,0 +1,171 @@
+#include "palpate/recording/recording_details.h"
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <string_view>
+#include <utility>
+
+#include <sys/stat.h>
+
+#include "palpate/core/error.h"
+#include "palpate/core/one_line.h"
+#include "palpate/recording/dsa_reader.h"
+
+#include "recording/event_notes.h"
+#include "recording/palpate_access.h"
+#include "recording/recording_form.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+using State = RecordingDetails::State;
+
+constexpr std::array<std::pair<State, const char*>, 5> kStateNames{{
+    {State::kFinished, "finished"},
+    {State::kRecording, "recording"},
+    {State::kUnfinished, "unfinished"},
+    {State::kDamaged, "damaged"},
+    {State::kUnreadable, "unreadable"},
+}};
+
+// Bounds of what a list keeps of one recording.
+constexpr std::size_t kMostText = 2000;  // [bytes]
+constexpr std::size_t kMostLabels = 200;
+
+std::string bounded(std::string_view text) { return std::string(beginningOf(text, kMostText)); }
+
+void addNote(std::string& notes, std::string_view text) {
+  if (text.empty() || notes.size() >= kMostText) return;
+  if (!notes.empty()) notes += '\n';
+  notes += beginningOf(text, kMostText - std::min(kMostText, notes.size()));
+}
+
+void addEvents(RecordingDetails& details, const EventsReport& report) {
+  for (const RecordingEvent& event : report.events) {
+    if (event.kind == "note") addNote(details.notes, event.text);
+    if ((event.kind != "label" && event.kind != "segment") || event.text.empty()) continue;
+    const std::string label = bounded(event.text);
+    if (details.labels.size() < kMostLabels &&
+        std::find(details.labels.begin(), details.labels.end(), label) == details.labels.end())
+      details.labels.push_back(label);
+  }
+}
+
+// The first and the last block of frames are found without a look at the others: by the index over the
+// blocks, or, where an unfinished recording has none, because blocks lie in the order of their writing.
+void readSpan(RecordingDetails& details, PalpateAccess& access) {
+  SqliteDatabase& database = access.database();
+  const bool indexed = !access.unfinished() && !access.beingWritten();
+  SqliteStatement first = database.prepare(
+      indexed ? "SELECT t0_us FROM block WHERE stream=0 ORDER BY first LIMIT 1"
+              : "SELECT t0_us FROM block NOT INDEXED WHERE stream=0 ORDER BY id LIMIT 1");
+  if (!first.next()) {
+    details.numFrames = 0;
+    return;
+  }
+  details.startUs = first.integer(0);
+  SqliteStatement last = database.prepare(
+      indexed ? "SELECT first, n, t1_us FROM block WHERE stream=0 ORDER BY first DESC LIMIT 1"
+              : "SELECT first, n, t1_us FROM block NOT INDEXED WHERE stream=0 ORDER BY id DESC "
+                "LIMIT 1");
+  if (!last.next()) return;
+  constexpr std::int64_t kMost = std::int64_t{1} << 60;
+  const auto sensible = [](std::int64_t value) { return value >= 0 && value < kMost; };
+  const std::int64_t end = last.integer(2);
+  if (!sensible(last.integer(0)) || !sensible(last.integer(1)) || *details.startUs < -kMost ||
+      end > kMost || end < *details.startUs)
+    throw FormatError(details.path, "its blocks make no sense; try 'palpate recover'");
+  details.numFrames = last.integer(0) + last.integer(1);
+  details.durationUs = end - *details.startUs;
+}
+
+void readNative(RecordingDetails& details) {
+  details.form = "palpate";
+  PalpateAccess access(details.path);
+  const MetaRows& meta = access.meta();
+  details.operatorName = bounded(meta["operator"]);
+  details.object = bounded(meta["object"]);
+  details.run = bounded(meta["run"]);
+  addNote(details.notes, meta["notes"]);
+  if (access.beingWritten()) details.state = State::kRecording;
+  if (access.unfinished()) {
+    details.state = State::kUnfinished;
+    details.message = "its writer stopped before the end; it can be recovered";
+  }
+  addEvents(details, readEventRows(access.database()));
+  readSpan(details, access);
+}
+
+void readDsaThrough(RecordingDetails& details, const Progress& progress) {
+  details.form = "dsa";
+  const Profile profile = readDsa(details.path, progress);
+  details.numFrames = static_cast<std::int64_t>(profile.numFrames());
+  if (profile.numFrames() == 0) return;
+  details.startUs = profile.frameTimeUs(0);
+  details.durationUs = profile.frameTimeUs(profile.numFrames() - 1) - *details.startUs;
+}
+
+void fail(RecordingDetails& details, State state, std::string message) {
+  details.state = state;
+  details.message = std::move(message);
+}
+
+// Runs a piece of reading; what goes wrong is said in the details.
+template <typename Work>
+void attempt(RecordingDetails& details, Work work) {
+  try {
+    work();
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const FormatError& error) {
+    fail(details, State::kDamaged, error.what());
+  } catch (const Error& error) {
+    fail(details, State::kUnreadable, error.what());
+  } catch (const std::bad_alloc&) {
+    fail(details,
+         State::kUnreadable,
+         details.path.string() + ": too large for this computer's memory");
+  }
+}
+
+}  // namespace
+
+const char* nameOf(State state) {
+  for (const auto& [known, name] : kStateNames)
+    if (known == state) return name;
+  return "";
+}
+
+std::optional<State> detailsStateFrom(const std::string& name) {
+  for (const auto& [state, known] : kStateNames)
+    if (name == known) return state;
+  return std::nullopt;
+}
+
+RecordingDetails readDetails(const fs::path& path, const Progress& progress) {
+  RecordingDetails details;
+  details.path = path;
+  struct stat facts {};
+  if (::stat(path.c_str(), &facts) == 0) {
+    details.sizeBytes = static_cast<std::uintmax_t>(facts.st_size);
+    details.changedUs =
+        std::int64_t{facts.st_mtim.tv_sec} * 1'000'000 + facts.st_mtim.tv_nsec / 1000;
+  }
+  attempt(details, [&] {
+    if (isNativeRecording(path)) return readNative(details);
+    readDsaThrough(details, progress);
+  });
+  if (details.form == "dsa") {
+    const State state = details.state;
+    attempt(details, [&] { addEvents(details, readEventNotes(path)); });
+    if (state == State::kFinished && details.state != state) {
+      // The recording itself is sound: its notes are not.
+      details.state = State::kFinished;
+    }
+  }
+  return details;
+}
+
+}  // namespace palpate

@@ -1,0 +1,97 @@
+// The Library in the window: from the key to the recording that is shown.
+#include <QLineEdit>
+
+#include "gui/library_panel.h"
+#include "window_fixture.h"
+
+namespace palpate::gui {
+namespace {
+
+class LibraryWindowTest : public WindowTest {
+ protected:
+  LibraryPanel& library() { return window().library(); }
+  LibraryTable* table() { return find<LibraryTable>("libraryTable"); }
+  void toggle() { press(Qt::Key_L, Qt::ControlModifier | Qt::ShiftModifier); }
+  // The folder of the test, with as many files as there are names.
+  void look(const std::vector<std::string>& names) {
+    for (const std::string& name : names) file(name);
+    library().setFolder(QString::fromStdString(folder_.path().string()));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] {
+          return !library().scanning() &&
+                 table()->model()->rowCount() == static_cast<int>(names.size());
+        },
+        10000));
+  }
+};
+
+TEST_F(LibraryWindowTest, IsThereWithNothingOpenAndOpensByKeyboard) {
+  EXPECT_FALSE(library().isVisible());
+  toggle();
+  ASSERT_TRUE(library().isVisible());
+  look({"good1.dsa", "good2.dsa"});
+  library().startSearch();
+  auto* field = find<QLineEdit>("librarySearch");
+  QTest::keyClicks(field, "good2");
+  QTest::keyClick(field, Qt::Key_Return);
+  QTest::keyClick(table(), Qt::Key_Return);
+  waitUntilOpened();
+  ASSERT_TRUE(window().current());
+  EXPECT_EQ(window().current()->path.filename(), "good2.dsa");
+  EXPECT_TRUE(library().isVisible()) << "it stays when a recording is shown";
+  toggle();
+  EXPECT_FALSE(library().isVisible());
+}
+
+TEST_F(LibraryWindowTest, ItsArrowsMoveInItAndNothingElse) {
+  toggle();
+  look({"good1.dsa", "good2.dsa", "good3.dsa"});
+  open({"good1.dsa"});
+  table()->setFocus();
+  table()->selectRow(0);
+  const double speed = playback().speed();
+  const std::size_t frame = playback().frame();
+  for (const Qt::Key key : {Qt::Key_Down, Qt::Key_End, Qt::Key_Home, Qt::Key_Right, Qt::Key_Up})
+    press(key);
+  EXPECT_EQ(playback().speed(), speed);
+  EXPECT_EQ(playback().frame(), frame);
+  press(Qt::Key_Down);
+  EXPECT_EQ(table()->currentIndex().row(), 1);
+}
+
+TEST_F(LibraryWindowTest, ComparingIsOfferedWhereSomebodyCompares) {
+  toggle();
+  look({"good1.dsa", "good2.dsa"});
+  open({"good1.dsa"});
+  table()->setFocus();
+  table()->selectRow(1);
+  QStringList asked;
+  QObject::connect(
+      &window(), &MainWindow::compareAsked, [&](const QString& path) { asked.append(path); });
+  open({"good2.dsa"});  // what can be done is found out anew
+  table()->setFocus();
+  table()->selectRow(0);
+  press(Qt::Key_Return, Qt::ControlModifier);
+  EXPECT_EQ(asked.size(), 1);
+}
+
+TEST_F(LibraryWindowTest, StaysOpenOverARestart) {
+  toggle();
+  look({"good1.dsa"});
+  window().close();
+  start();
+  EXPECT_TRUE(library().isVisible());
+  EXPECT_EQ(library().folder(), QString::fromStdString(folder_.path().string()));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return table()->model()->rowCount() == 1; }, 10000));
+}
+
+TEST_F(LibraryWindowTest, ResettingTheLayoutHidesIt) {
+  open({"good.dsa"});
+  toggle();
+  EXPECT_TRUE(library().isVisible());
+  press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_FALSE(library().isVisible());
+}
+
+}  // namespace
+}  // namespace palpate::gui
