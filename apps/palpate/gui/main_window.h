@@ -213,7 +213,6 @@ class MainWindow : public QMainWindow {
   bool staysEverywhere(const Dock* dock) const;
   void showLibraryAgain();
   void rememberLibrary();
-  void enableCompare();
   // main_window_live.cpp: what is connected
   void connectLive();
   void askAndConnect();

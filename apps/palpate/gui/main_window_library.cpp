@@ -63,6 +63,10 @@ void MainWindow::connectLibrary() {
     openFiles(files);
   });
   connect(library_, &LibraryPanel::compareAsked, this, &MainWindow::compareAsked);
+  library_->comparable = [this] {
+    static const QMetaMethod asked = QMetaMethod::fromSignal(&MainWindow::compareAsked);
+    return current_ && !liveShown_ && isSignalConnected(asked);
+  };
   connect(library_, &LibraryPanel::said, this, [this](const QString& message) {
     activity_.add(LogLine::Severity::kWarning, message);
   });
@@ -103,11 +107,6 @@ void MainWindow::showLibraryAgain() {
 void MainWindow::rememberLibrary() {
   settings_.setValue(kLibraryShown, !libraryDock_->isHidden());
   settings_.setValue(kLogShown, !logDock_->isHidden());
-}
-
-void MainWindow::enableCompare() {
-  static const QMetaMethod asked = QMetaMethod::fromSignal(&MainWindow::compareAsked);
-  library_->setComparable(current_ && !liveShown_ && isSignalConnected(asked));
 }
 
 }  // namespace palpate::gui
