@@ -24,6 +24,7 @@ class EventsWindowTest : public WindowTest {
     reopen();
   }
   void reopen() {
+    if (window_) window_->close();
     window_.reset();
     window_ = std::make_unique<MainWindow>(WindowSurroundings{.dataFolder = folder_.path(),
                                                               .settingsPath = settingsFile(),

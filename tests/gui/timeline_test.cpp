@@ -81,7 +81,7 @@ TEST_F(TimelineTest, ADragAlongTheAxisScrubsAndStopsAtTheEnds) {
   EXPECT_NEAR(playback().positionS(), 0.2, pixel());
   for (const double seconds : {0.3, 0.62}) drag(onAxis(seconds));
   EXPECT_NEAR(playback().positionS(), 0.62, pixel());
-  drag({5000, below});
+  drag(QPoint(5000, below));
   EXPECT_EQ(playback().frame(), 19u);
   QTest::mouseRelease(&chart(), Qt::LeftButton, {}, onAxis(0.9));
   EXPECT_FALSE(chart().selection());

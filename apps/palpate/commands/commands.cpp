@@ -119,6 +119,7 @@ int runCaught(const Words& words) {
 
 const std::vector<Command>& allCommands() {
   static const std::vector<Command> commands = {
+      {"compare", "two recordings frame beside frame, as CSV", &compareCommand},
       {"convert",
        "from one form of a recording to another: .dsa, .palpate, .csv, .npz",
        &convertCommand},

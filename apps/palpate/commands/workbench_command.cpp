@@ -30,8 +30,10 @@ int screenshot(const CommandLine& given) {
   if (options.out.extension() != ".png")
     throw UsageError("--screenshot: the picture's name must end in .png, not '" +
                      options.out.string() + "'");
-  if (given.words().size() > 1) throw UsageError("--screenshot takes one FILE");
+  if (given.words().size() > 2)
+    throw UsageError("--screenshot takes one FILE, or two that are compared");
   if (!given.words().empty()) options.file = given.words()[0];
+  if (given.words().size() > 1) options.comparedWith = given.words()[1];
   if (options.demo && options.file) throw UsageError("give FILE or --demo, not both");
   if (options.demo && options.frame)
     throw UsageError("--frame needs a FILE: a demo has no frames yet");

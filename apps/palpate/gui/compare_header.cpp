@@ -97,9 +97,13 @@ CompareHeader::CompareHeader(QAction* leave,
     return made;
   };
   withText_ = {button(interpolated), button(values)};
-  auto* back = button(leave);
+  auto* back = new QToolButton(this);
   back->setObjectName("compareBack");
-  back->setToolButtonStyle(Qt::ToolButtonTextOnly);
+  back->setText("Back to the matrices");
+  back->setToolTip("Back to the matrices (" + leave->shortcut().toString(QKeySequence::NativeText) +
+                   ", Esc)");
+  back->setFocusPolicy(Qt::TabFocus);
+  connect(back, &QToolButton::clicked, leave, &QAction::trigger);
 
   auto* first = new QHBoxLayout;
   first->setSpacing(6);

@@ -20,7 +20,7 @@ namespace palpate::gui {
 class CompareHeader : public QWidget {
   Q_OBJECT
  public:
-  // The actions stand as buttons: `leave` goes back to the matrices.
+  // The actions are behind buttons: `leave` goes back to the matrices.
   CompareHeader(QAction* leave, QAction* interpolated, QAction* values, QWidget* parent = nullptr);
 
   // -1: none. Behind the recordings both boxes offer to open another one.

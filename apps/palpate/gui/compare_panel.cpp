@@ -138,8 +138,8 @@ QWidget* ComparePanel::makeEmpty() {
 }
 
 void ComparePanel::connectParts() {
-  connect(header_, &CompareHeader::openAsked, this, &ComparePanel::openAsked);
-  connect(emptyOpen_, &QPushButton::clicked, this, &ComparePanel::openAsked);
+  connect(header_, &CompareHeader::openAsked, this, &ComparePanel::askForAnother);
+  connect(emptyOpen_, &QPushButton::clicked, this, &ComparePanel::askForAnother);
   connect(emptyItself_, &QPushButton::clicked, this, [this] { setB(a_); });
   connect(header_, &CompareHeader::aChosen, this, [this](int index) {
     const OpenedRecordingPtr chosen = recordings_.at(static_cast<std::size_t>(index));
@@ -184,6 +184,12 @@ bool ComparePanel::hasPair() const { return a_ && b_; }
 void ComparePanel::setRecordings(const std::vector<OpenedRecordingPtr>& recordings,
                                  const OpenedRecordingPtr& a) {
   const OpenedRecordingPtr beforeA = a_, beforeB = b_;
+  for (const auto& each : recordings) {
+    if (!wantsNew_ || contains(recordings_, each)) continue;
+    b_ = each;
+    wantsNew_ = false;
+    withItself_ = false;
+  }
   recordings_ = recordings;
   a_ = contains(recordings_, a) ? a : nullptr;
   if (a_ != beforeA) withItself_ = false;
@@ -192,7 +198,7 @@ void ComparePanel::setRecordings(const std::vector<OpenedRecordingPtr>& recordin
   if (!contains(recordings_, b_) || (b_ == a_ && !withItself_)) {
     b_ = nullptr;
     for (const auto& each : recordings_)
-      if (a_ && each != a_) b_ = each;
+      if (a_ && each != a_ && !b_) b_ = each;
   }
   QStringList names;
   for (const auto& each : recordings_) names.append(nameOf(each));
@@ -204,12 +210,23 @@ void ComparePanel::setRecordings(const std::vector<OpenedRecordingPtr>& recordin
 void ComparePanel::setB(const OpenedRecordingPtr& b) {
   if (!contains(recordings_, b) || b == b_) return;
   b_ = b;
+  wantsNew_ = false;
   withItself_ = b_ == a_;
   QStringList names;
   for (const auto& each : recordings_) names.append(nameOf(each));
   header_->setRecordings(names, indexOf(recordings_, a_), indexOf(recordings_, b_));
   pairChanged();
   showEmpty();
+}
+
+void ComparePanel::askForAnother() {
+  wantsNew_ = a_ != nullptr;
+  emit openAsked();
+}
+
+std::optional<TimeSpan> ComparePanel::common() const {
+  if (!answer_.a || !answer_.b) return std::nullopt;
+  return commonSpan(*answer_.a, *answer_.b, answer_.offsetS);
 }
 
 void ComparePanel::pairChanged() {

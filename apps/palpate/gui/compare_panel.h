@@ -35,8 +35,8 @@ class ComparePanel : public QWidget {
   ComparePanel(QAction* leave, QAction* interpolated, QAction* values, QWidget* parent = nullptr);
   ~ComparePanel() override;
 
-  // What is open, and which of it is A; null: none. B stays while it is open; else it is another recording than A,
-  // the last one that was opened.
+  // What is open, and which of it is A; null: none. B stays while it is open; else it is the first other one, or what
+  // was opened because the panel asked for it.
   void setRecordings(const std::vector<OpenedRecordingPtr>& recordings,
                      const OpenedRecordingPtr& a);
   void setB(const OpenedRecordingPtr& b);  // may be A, too
@@ -56,6 +56,7 @@ class ComparePanel : public QWidget {
 
   const OpenedRecordingPtr& a() const noexcept { return a_; }
   const OpenedRecordingPtr& b() const noexcept { return b_; }
+  std::optional<TimeSpan> common() const;  // nothing: not known, or there is none
   bool hasPair() const;
   // What has to be said of these two; empty: nothing.
   QString notice() const;
@@ -95,6 +96,7 @@ class ComparePanel : public QWidget {
   void moveTo(double offsetS, bool keepSeen);
   void swap();
   void showEmpty();
+  void askForAnother();
   // compare_panel_view.cpp: what is seen of it
   void showCurves();
   void showFrames();
@@ -114,6 +116,7 @@ class ComparePanel : public QWidget {
   double timeS_ = 0.0;
   bool active_ = false;
   bool asked_ = false;       // the worker has the newest question
+  bool wantsNew_ = false;    // B is to be what is opened next
   bool withItself_ = false;  // B is A because somebody wants it so
   ViewSettings settings_;
   Theme theme_ = Theme::kDark;

@@ -150,7 +150,7 @@ ComparePictureOptions ComparePanel::pictureOptions() const {
       // Of a long recording the largest value isn't known before all of it has been read.
       maximum = std::max({answer_.largestValue, largestOf(inA.frame), largestOf(inB.frame)});
       for (const OpenedRecordingPtr& side : {a_, b_})
-        if (side) maximum = std::max(maximum, side->maximum);
+        if (side) maximum = std::max(maximum, side->maximumNow());
       options.largestDifference = answer_.largestDifference.value_or(maximum);
       break;
   }

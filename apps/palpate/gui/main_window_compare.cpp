@@ -36,7 +36,10 @@ void MainWindow::connectCompare() {
             seekCompared(seconds);
             if (playing) playback_.play();
           });
-  connect(compare_, &ComparePanel::openAsked, this, &MainWindow::askAndOpen);
+  connect(compare_, &ComparePanel::openAsked, this, [this] {
+    askAndOpen();
+    shownOfBatch_ = current_ != nullptr;  // A stays: what is opened here is to be B
+  });
   connect(compare_, &ComparePanel::signalChosen, this, [this](PlottedSignal signal) {
     changeView([&](ViewSettings& view) { view.signal = signal; });
   });
@@ -74,8 +77,7 @@ void MainWindow::showCompare(bool on) {
   if (on == compareShown()) return;
   if (on) {
     layoutBeforeCompare_ = saveState();
-    inspectDock_->hide();
-    timelineDock_->hide();
+    for (Dock* dock : docks_) dock->hide();
     centre_->setCurrentWidget(compare_);
     compare_->setTime(playback_.positionS());
   } else {

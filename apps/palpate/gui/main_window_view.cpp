@@ -295,6 +295,7 @@ void MainWindow::dismiss() {
   if (live_.state() == LiveController::State::kConnecting) return live_.end();
   if (!matrices_->view().selection().empty()) return matrices_->view().clearSelection();
   if (timeline_->selection() && !liveShown_) return timeline_->setSelection(std::nullopt);
+  if (compareShown()) return showCompare(false);
   if (isFullScreen()) toggleFullScreen(false);
 }
 

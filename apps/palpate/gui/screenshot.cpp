@@ -7,6 +7,7 @@
 #include <palpate/core/output_file.h>
 
 #include "gui/application.h"
+#include "gui/compare_panel.h"
 #include "gui/main_window.h"
 #include "gui/picture_export.h"
 #include "gui/timeline_panel.h"
@@ -26,7 +27,9 @@ void openAndWait(MainWindow& window, const ScreenshotOptions& options) {
                    &loop,
                    [&](const QString&, const QString& message) { failure = message; });
   QObject::connect(&window.opener(), &RecordingOpener::finished, &loop, &QEventLoop::quit);
-  window.openFiles({*options.file});
+  std::vector<std::filesystem::path> files = {*options.file};
+  if (options.comparedWith) files.push_back(*options.comparedWith);
+  window.openFiles(files);
   loop.exec();
   if (!failure.isEmpty()) throw Error(failure.toStdString());
 }
@@ -35,6 +38,19 @@ void runFor(double seconds) {
   QEventLoop loop;
   QTimer::singleShot(static_cast<int>(seconds * kMsPerS), &loop, &QEventLoop::quit);
   loop.exec();
+}
+
+void showCompare(MainWindow& window, const ScreenshotOptions& options) {
+  constexpr double kLookS = 0.01;
+  constexpr double kPatienceS = 60.0;
+  if (!window.compareShown()) window.actionList().compare->trigger();
+  for (double waitedS = 0.0; !window.compare().complete() && waitedS < kPatienceS;
+       waitedS += kLookS)
+    runFor(kLookS);
+  // Where the frame wasn't chosen: one that both have.
+  const auto common = window.compare().common();
+  if (!options.frame && common && window.playback().positionS() > common->toS)
+    window.playback().seekSeconds(common->toS);
 }
 
 // Connects, waits for the first frame, and lets it run.
@@ -113,6 +129,7 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   } else if (options.demo) {
     runDemo(window, options);
   }
+  if (options.comparedWith) showCompare(window, options);
   showDocks(window, options);
   window.timelinePanel().chart().store().waitForFirstLook();
   // Layout requests and queued replots come one after the other.

@@ -28,6 +28,7 @@ struct ScreenshotOptions {
   std::vector<std::string> docks;    // to show, by name; empty: the usual ones
   std::string theme = "dark";        // "dark" or "light"
   std::optional<std::filesystem::path> file;
+  std::optional<std::filesystem::path> comparedWith;  // show Compare, `file` as A and this as B
   bool demo = false;
   std::filesystem::path dataFolder;
   bool force = false;  // replace `out` when it exists

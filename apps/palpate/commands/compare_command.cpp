@@ -1,0 +1,115 @@
+// palpate compare A B [--align HOW]: two recordings, frame beside frame, as CSV.
+#include <cstdint>
+#include <cstdio>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/filter/characteristic_signals.h"
+#include "palpate/filter/frame_difference.h"
+#include "palpate/recording/recording.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+
+namespace palpate::commands {
+namespace {
+
+constexpr double kFurthestS = 1e9;
+constexpr int kMicroseconds = 6;  // decimals: all that stamps have
+
+TimedProfile opened(const std::string& file, bool quiet) {
+  ProgressLine progress("reading " + file, quiet);
+  return timedProfile(openRecording(file, progress.callback()), {}, progress.callback());
+}
+
+double offsetFor(const CommandLine& given, const TimedProfile& a, const TimedProfile& b) {
+  if (const auto offsetS = given.number("offset", -kFurthestS, kFurthestS)) {
+    if (given.has("align")) throw UsageError("give --align or --offset, not both");
+    return *offsetS;
+  }
+  const std::string word = given.choice("align", {"contact", "start", "clock"}).value_or("contact");
+  if (const auto offsetS = offsetBetween(a, b, *alignmentFrom(word))) return *offsetS;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const TimedProfile& side = i == 0 ? a : b;
+    if (side.profile.numFrames() == 0) throw Error(given.words()[i] + ": holds no frame");
+    if (!side.contact)
+      throw Error(given.words()[i] +
+                  ": no lasting contact (3 taxels in 3 frames in a row); take --align start");
+  }
+  throw Error("these two can't be aligned");
+}
+
+void appendRow(std::string& line,
+               const FramePair& pair,
+               std::size_t matrix,
+               double meanA,
+               double meanB,
+               const DifferenceStatistics& difference) {
+  line += fixedText(pair.timeS, kMicroseconds);
+  for (const std::size_t whole : {pair.frameA, pair.frameB, matrix}) {
+    line += ',';
+    appendNumber(line, static_cast<std::int64_t>(whole));
+  }
+  for (const double value : {meanA, meanB, difference.mean, difference.rms}) {
+    line += ',';
+    appendNumber(line, value);
+  }
+  line += '\n';
+}
+
+}  // namespace
+
+int compareCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate compare A B [--align contact|start|clock] [--offset S]",
+       .purpose =
+           "Lays two recordings on one axis of time and prints, for every frame of A that has "
+           "a frame of B\nbeside it (the last one at or before), what each matrix has in both: "
+           "the means of the active\ntaxels, and mean and root mean square of A - B over the "
+           "taxels that are active in either. First\ncontact: at least 3 active taxels in "
+           "each of 3 frames in a row. Matrices with other rows or\ncolumns in B are left "
+           "out.",
+       .options = {{"align",
+                    "HOW",
+                    "contact (default): first contacts; start; clock: by host time"},
+                   {"offset", "S", "instead: when B begins, in seconds from A's first frame"}},
+       .example = "palpate compare run_1.dsa run_2.dsa > differences.csv",
+       .fewestWords = 2,
+       .mostWords = 2},
+      words);
+  if (given.helpShown()) return kDone;
+  const TimedProfile a = opened(given.words()[0], given.quiet());
+  const TimedProfile b = opened(given.words()[1], given.quiet());
+  const double offsetS = offsetFor(given, a, b);
+  const FrameComparison comparison(a.profile.hand().layout, b.profile.hand().layout);
+  StandardOutput out;
+  out.write("time_s,frame_a,frame_b,matrix,mean_a,mean_b,difference_mean,difference_rms\n");
+  ProgressLine progress("comparing", given.quiet());
+  std::string line;
+  std::size_t pairs = 0;
+  visitFramePairs(
+      a,
+      b,
+      offsetS,
+      1,
+      [&](const FramePair& pair, const TactileFrame& inA, const TactileFrame& inB) {
+        ++pairs;
+        line.clear();
+        const auto differences = comparison.statistics(inA, inB);
+        for (std::size_t m = 0; m + 1 < differences.size(); ++m) {
+          if (!comparison.compared(m)) continue;
+          const auto mean = [m](const TactileFrame& frame) {
+            return characteristicSignals(frame.matrix(m), frame.layout->matrix(m)).mean;
+          };
+          appendRow(line, pair, m, mean(inA), mean(inB), differences[m]);
+        }
+        out.write(line);
+      },
+      progress.callback());
+  out.finish();
+  if (pairs == 0 && !given.quiet())
+    std::fprintf(stderr, "palpate: the two have no moment in common at this alignment\n");
+  return kDone;
+}
+
+}  // namespace palpate::commands
