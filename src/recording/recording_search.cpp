@@ -7,17 +7,6 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kName = 0;
-constexpr std::size_t kPath = 1;
-constexpr std::size_t kOperator = 2;
-constexpr std::size_t kObject = 3;
-constexpr std::size_t kRun = 4;
-constexpr std::size_t kNotes = 5;
-constexpr std::size_t kLabel = 6;
-constexpr std::size_t kDate = 7;
-constexpr std::size_t kForm = 8;
-constexpr std::size_t kState = 9;
-
 // Small letter of a code point below 0x800 (Unicode's simple case folding of these blocks).
 std::uint32_t smallLetter(std::uint32_t point) {
   const auto within = [point](std::uint32_t first, std::uint32_t last) {
@@ -78,17 +67,20 @@ std::string smallLetters(std::string_view text) {
 SearchableText searchableText(const RecordingDetails& details,
                               const std::filesystem::path& folder) {
   SearchableText text;
-  text[kName] = details.path.filename().string();
-  text[kPath] = pathWithin(details.path, folder);
-  text[kOperator] = details.operatorName;
-  text[kObject] = details.object;
-  text[kRun] = details.run;
-  text[kNotes] = details.notes;
-  for (const std::string& label : details.labels) text[kLabel] += label + '\n';
-  if (details.startUs) text[kDate] = localDate(*details.startUs);
-  text[kForm] = details.form;
-  text[kState] = nameOf(details.state);
-  for (std::string& field : text) field = smallLetters(field);
+  const auto field = [&text](SearchKey key) -> std::string& {
+    return text[static_cast<std::size_t>(key)];
+  };
+  field(SearchKey::kName) = details.path.filename().string();
+  field(SearchKey::kPath) = pathWithin(details.path, folder);
+  field(SearchKey::kOperator) = details.operatorName;
+  field(SearchKey::kObject) = details.object;
+  field(SearchKey::kRun) = details.run;
+  field(SearchKey::kNotes) = details.notes;
+  for (const std::string& label : details.labels) field(SearchKey::kLabel) += label + '\n';
+  if (details.startUs) field(SearchKey::kDate) = localDate(*details.startUs);
+  field(SearchKey::kForm) = details.form;
+  field(SearchKey::kState) = nameOf(details.state);
+  for (std::string& part : text) part = smallLetters(part);
   return text;
 }
 

@@ -1,6 +1,7 @@
 // The Library in the window: from the key to the recording that is shown.
 #include <QLineEdit>
 
+#include "gui/compare_panel.h"
 #include "gui/library_panel.h"
 #include "window_fixture.h"
 
@@ -52,27 +53,35 @@ TEST_F(LibraryWindowTest, ItsArrowsMoveInItAndNothingElse) {
   const double speed = playback().speed();
   const std::size_t frame = playback().frame();
   for (const Qt::Key key : {Qt::Key_Down, Qt::Key_End, Qt::Key_Home, Qt::Key_Right, Qt::Key_Up})
-    press(key);
+    QTest::keyClick(table(), key);
   EXPECT_EQ(playback().speed(), speed);
   EXPECT_EQ(playback().frame(), frame);
-  press(Qt::Key_Down);
+  QTest::keyClick(table(), Qt::Key_Down);
   EXPECT_EQ(table()->currentIndex().row(), 1);
 }
 
-TEST_F(LibraryWindowTest, ComparingIsOfferedWhereSomebodyCompares) {
+TEST_F(LibraryWindowTest, ComparesWithWhatIsShown) {
   toggle();
   look({"good1.dsa", "good2.dsa"});
+  const int row = table()->model()->index(0, 0).data().toString() == "good2.dsa" ? 0 : 1;
+  table()->selectRow(row);
+  QTest::keyClick(table(), Qt::Key_Return, Qt::ControlModifier);
+  EXPECT_FALSE(window().opener().busy()) << "nothing is shown";
   open({"good1.dsa"});
-  table()->setFocus();
-  table()->selectRow(1);
-  QStringList asked;
-  QObject::connect(
-      &window(), &MainWindow::compareAsked, [&](const QString& path) { asked.append(path); });
-  open({"good2.dsa"});  // what can be done is found out anew
-  table()->setFocus();
-  table()->selectRow(0);
-  press(Qt::Key_Return, Qt::ControlModifier);
-  EXPECT_EQ(asked.size(), 1);
+  QTest::keyClick(table(), Qt::Key_Return, Qt::ControlModifier);
+  waitUntilOpened();
+  EXPECT_TRUE(window().compareShown());
+  ASSERT_TRUE(window().current());
+  EXPECT_EQ(window().current()->path.filename(), "good1.dsa");
+  ASSERT_TRUE(window().compare().b());
+  EXPECT_EQ(window().compare().b()->path.filename(), "good2.dsa");
+  // Open already, it is only shown.
+  press(Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_FALSE(window().compareShown());
+  const int reads = reads_;
+  QTest::keyClick(table(), Qt::Key_Return, Qt::ControlModifier);
+  EXPECT_TRUE(window().compareShown());
+  EXPECT_EQ(reads_, reads);
 }
 
 TEST_F(LibraryWindowTest, StaysOpenOverARestart) {

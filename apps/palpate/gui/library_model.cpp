@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <palpate/core/natural_order.h>
+
 namespace palpate::gui {
 namespace {
 
@@ -24,6 +26,26 @@ QString joined(const std::vector<std::string>& labels) {
   QStringList texts;
   for (const std::string& label : labels) texts.append(wide(label));
   return texts.join(", ");
+}
+
+// By what a column of texts is sorted.
+SearchKey searchKeyOf(int column) {
+  switch (column) {
+    case LibraryModel::kObject:
+      return SearchKey::kObject;
+    case LibraryModel::kOperator:
+      return SearchKey::kOperator;
+    case LibraryModel::kRun:
+      return SearchKey::kRun;
+    case LibraryModel::kLabels:
+      return SearchKey::kLabel;
+    case LibraryModel::kNotes:
+      return SearchKey::kNotes;
+    case LibraryModel::kFolder:
+      return SearchKey::kPath;
+    default:
+      return SearchKey::kName;
+  }
 }
 
 bool isBad(const RecordingDetails& details) {
@@ -216,8 +238,6 @@ QMimeData* LibraryModel::mimeData(const QModelIndexList& indexes) const {
 
 LibraryFilter::LibraryFilter(LibraryModel& model, QObject* parent)
     : QSortFilterProxyModel(parent), model_(model) {
-  collator_.setNumericMode(true);
-  collator_.setCaseSensitivity(Qt::CaseInsensitive);
   setSourceModel(&model);
 }
 
@@ -231,8 +251,10 @@ bool LibraryFilter::filterAcceptsRow(int row, const QModelIndex& parent) const {
 }
 
 bool LibraryFilter::lessThan(const QModelIndex& left, const QModelIndex& right) const {
-  const RecordingDetails& a = model_.entry(left.row()).details;
-  const RecordingDetails& b = model_.entry(right.row()).details;
+  const LibraryEntry& x = model_.entry(left.row());
+  const LibraryEntry& y = model_.entry(right.row());
+  const RecordingDetails& a = x.details;
+  const RecordingDetails& b = y.details;
   switch (left.column()) {
     case LibraryModel::kLength:
       if (a.durationUs != b.durationUs) return a.durationUs < b.durationUs;
@@ -241,8 +263,8 @@ bool LibraryFilter::lessThan(const QModelIndex& left, const QModelIndex& right) 
       if (a.startUs != b.startUs) return a.startUs < b.startUs;
       break;
     default: {
-      const int order = collator_.compare(model_.data(left, Qt::DisplayRole).toString(),
-                                          model_.data(right, Qt::DisplayRole).toString());
+      const auto key = static_cast<std::size_t>(searchKeyOf(left.column()));
+      const auto order = naturalOrder(x.text[key], y.text[key]);
       if (order != 0) return order < 0;
     }
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <QAbstractTableModel>
-#include <QCollator>
 #include <QSortFilterProxyModel>
 #include <filesystem>
 #include <map>
@@ -81,7 +80,6 @@ class LibraryFilter : public QSortFilterProxyModel {
  private:
   LibraryModel& model_;
   RecordingSearch search_;
-  QCollator collator_;  // run_2 before run_10
 };
 
 // "4.2 s", "3 min 05 s", "2 h 07 min"

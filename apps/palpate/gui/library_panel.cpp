@@ -40,6 +40,7 @@ LibraryPanel::LibraryPanel(QSettings& settings,
                            LibraryScanner::Catalog catalog,
                            QWidget* parent)
     : QWidget(parent),
+      comparable([] { return false; }),
       reveal(revealInFileManager),
       settings_(settings),
       scanner_(cacheFolder, std::move(catalog)),
@@ -117,7 +118,7 @@ void LibraryPanel::buildTable() {
   connect(table_, &LibraryTable::searchAsked, this, &LibraryPanel::startSearch);
   connect(table_, &LibraryTable::compareAsked, this, [this] {
     const QStringList paths = chosen();
-    if (comparable_ && paths.size() == 1) emit compareAsked(paths.first());
+    if (paths.size() == 1 && comparable()) emit compareAsked(paths.first());
   });
   connect(table_, &QWidget::customContextMenuRequested, this, &LibraryPanel::showMenu);
   connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
@@ -302,8 +303,6 @@ void LibraryPanel::chooseFolder() {
   if (!folder.isEmpty()) setFolder(QFileInfo(folder).absoluteFilePath());
 }
 
-void LibraryPanel::setComparable(bool comparable) { comparable_ = comparable; }
-
 void LibraryPanel::setTheme(Theme theme) {
   model_->setTheme(theme);
   folderButton_->setIcon(makeIcon(IconShape::kOpen, theme));
@@ -338,7 +337,7 @@ void LibraryPanel::showMenu(const QPoint& at) {
   };
   const bool one = paths.size() == 1;
   add("&Open", "Return", !paths.isEmpty(), [this] { openChosen(); });
-  add("&Compare with the one shown", "Ctrl+Return", one && comparable_, [&] {
+  add("&Compare with the one shown", "Ctrl+Return", one && comparable(), [&] {
     emit compareAsked(paths.first());
   });
   menu.addSeparator();

@@ -35,8 +35,6 @@ class LibraryPanel : public QWidget {
   // Looks into it as soon as the panel is seen.
   void setFolder(const QString& folder);
   const QString& folder() const noexcept { return folder_; }
-  // What "Compare with the one shown" needs; false: it can't be chosen.
-  void setComparable(bool comparable);
   void setTheme(Theme theme);
   void refresh();  // looks again
   void startSearch();
@@ -44,6 +42,8 @@ class LibraryPanel : public QWidget {
 
   // An empty answer means cancelled.
   std::function<QString(const QString& start)> askForFolder;
+  // Whether there is something to compare with.
+  std::function<bool()> comparable;
   // Shows a file in the file manager.
   std::function<void(const QString& path)> reveal;
   QSize sizeHint() const override { return {460, 500}; }
@@ -88,7 +88,6 @@ class LibraryPanel : public QWidget {
   int numFound_ = 0;     // in the scan that runs
   bool stale_ = true;    // has to be looked into
   bool looked_ = false;  // a scan of this folder has ended
-  bool comparable_ = false;
 
   QToolButton* folderButton_ = nullptr;
   QToolButton* refreshButton_ = nullptr;

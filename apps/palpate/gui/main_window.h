@@ -144,8 +144,6 @@ class MainWindow : public QMainWindow {
   void recordingShown();
   void pictureWritten(const QString& path);
   void cropWritten(const QString& path);
-  // With what is shown; asked for in the library.
-  void compareAsked(const QString& path);
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -213,7 +211,7 @@ class MainWindow : public QMainWindow {
   bool staysEverywhere(const Dock* dock) const;
   void showLibraryAgain();
   void rememberLibrary();
-  void enableCompare();
+  void compareWith(const std::filesystem::path& path);
   // main_window_live.cpp: what is connected
   void connectLive();
   void askAndConnect();
@@ -311,9 +309,10 @@ class MainWindow : public QMainWindow {
   Theme recordingTheme_ = Theme::kDark;
   const SignalHistory* shownHistory_ = nullptr;  // of the source that is shown; never looked into
 
-  bool compareWanted_ = false;      // as soon as two recordings are open
-  bool compareSeeks_ = false;       // the playback follows, and isn't followed
-  QByteArray layoutBeforeCompare_;  // of docks
+  bool compareWanted_ = false;          // as soon as two recordings are open
+  std::filesystem::path comparedPath_;  // being opened to be B
+  bool compareSeeks_ = false;           // the playback follows, and isn't followed
+  QByteArray layoutBeforeCompare_;      // of docks
   QStackedWidget* stack_ = nullptr;
   QStackedWidget* centre_ = nullptr;  // matrices, or the comparison
   ComparePanel* compare_ = nullptr;

@@ -1,8 +1,9 @@
 // The main window's Library and Log: they stay as they are, whatever else is shown.
 #include <QFileInfo>
-#include <QMetaMethod>
 #include <QStandardPaths>
+#include <algorithm>
 
+#include "gui/compare_panel.h"
 #include "gui/dock.h"
 #include "gui/library_panel.h"
 #include "gui/link_panel.h"
@@ -62,7 +63,10 @@ void MainWindow::connectLibrary() {
     for (const QString& path : paths) files.emplace_back(path.toStdString());
     openFiles(files);
   });
-  connect(library_, &LibraryPanel::compareAsked, this, &MainWindow::compareAsked);
+  connect(library_, &LibraryPanel::compareAsked, this, [this](const QString& path) {
+    compareWith(path.toStdString());
+  });
+  library_->comparable = [this] { return current_ && !liveShown_; };
   connect(library_, &LibraryPanel::said, this, [this](const QString& message) {
     activity_.add(LogLine::Severity::kWarning, message);
   });
@@ -86,13 +90,32 @@ void MainWindow::connectLibrary() {
                   line);
   });
   connect(&opener_, &RecordingOpener::opened, this, [this](const OpenedRecordingPtr& recording) {
+    if (recording->path == comparedPath_) {
+      comparedPath_.clear();
+      compareWith(recording->path);
+    }
     activity_.add(LogLine::Severity::kInfo, openedText(*recording));
     for (const std::string& warning : recording->profile.info().warnings)
       activity_.add(LogLine::Severity::kWarning,
                     QString::fromStdString(recording->path.filename().string() + ": " + warning));
   });
+  connect(&opener_, &RecordingOpener::finished, this, [this] { comparedPath_.clear(); });
   connect(log_, &LogPanel::saved, this, [this](const QString& path) { flash("written: " + path); });
   connect(log_, &LogPanel::failed, banner_, &MessageBanner::showMessage);
+}
+
+// What is shown stays A.
+void MainWindow::compareWith(const std::filesystem::path& path) {
+  const auto known = std::find_if(
+      recordings_.begin(), recordings_.end(), [&](const auto& each) { return each->path == path; });
+  if (known == recordings_.end()) {
+    comparedPath_ = path;
+    openFiles({path});
+    shownOfBatch_ = true;
+    return;
+  }
+  compare_->setB(*known);
+  showCompare(true);
 }
 
 void MainWindow::showLibraryAgain() {
@@ -103,11 +126,6 @@ void MainWindow::showLibraryAgain() {
 void MainWindow::rememberLibrary() {
   settings_.setValue(kLibraryShown, !libraryDock_->isHidden());
   settings_.setValue(kLogShown, !logDock_->isHidden());
-}
-
-void MainWindow::enableCompare() {
-  static const QMetaMethod asked = QMetaMethod::fromSignal(&MainWindow::compareAsked);
-  library_->setComparable(current_ && !liveShown_ && isSignalConnected(asked));
 }
 
 }  // namespace palpate::gui

@@ -269,7 +269,6 @@ void MainWindow::enableActions() {
   for (QAction* action :
        {actions_.exportPicture, actions_.exportAgain, actions_.copyPicture, actions_.copyTable})
     action->setEnabled(somethingIsShown());
-  enableCompare();
   const bool connected = live_.source() != nullptr;
   actions_.disconnectHand->setEnabled(live_.state() != LiveController::State::kNone);
   actions_.live->setEnabled(connected);

@@ -19,7 +19,21 @@ namespace palpate {
 inline constexpr std::array<std::string_view, 10> kSearchKeys{
     "name", "path", "operator", "object", "run", "notes", "label", "date", "form", "state"};
 
-// What is searched in, one text per key, made once per recording.
+// The positions of the keys.
+enum class SearchKey : std::size_t {
+  kName,
+  kPath,
+  kOperator,
+  kObject,
+  kRun,
+  kNotes,
+  kLabel,
+  kDate,
+  kForm,
+  kState
+};
+
+// What is searched in, one text in small letters per key, made once per recording.
 using SearchableText = std::array<std::string, kSearchKeys.size()>;
 // `path` counts from `folder` on; `date` is "2014-11-27 10:31" of the start, in the time of this place.
 SearchableText searchableText(const RecordingDetails& details, const std::filesystem::path& folder);
