@@ -72,7 +72,7 @@ TEST(Program, ListsItsCommandsAndItsVersion) {
 TEST(Program, WrongUsageIsExitCodeTwoInOneLine) {
   expectOneLineError(palpate({"inof", "x"}), 2, {"inof", "did you mean 'info'"});
   expectOneLineError(palpate({"xyzzyxyzzy"}), 2, {"xyzzyxyzzy", "--help"});
-  expectOneLineError(palpate({"info"}), 2, {"usage: palpate info FILE"});
+  expectOneLineError(palpate({"info"}), 2, {"usage: palpate info PATH"});
   expectOneLineError(palpate({"info", "a", "--jsom"}), 2, {"--jsom"});
   expectOneLineError(palpate({"signals", "a", "--matrix", "-1"}), 2, {"--matrix", "'-1'"});
   expectOneLineError(palpate({"--unknown"}), 2, {"--unknown"});

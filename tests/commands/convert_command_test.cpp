@@ -71,6 +71,74 @@ TEST_F(ConvertCommand, nothingIsReplacedWithoutForceAndNeverTheInput) {
   expectOneLineError(palpate({"convert", in("a.dsa"), in("a.txt")}), 1, {".dsa, .palpate, .csv"});
 }
 
+TEST_F(ConvertCommand, aTreeIsConvertedAndTheInputUntouched) {
+  namespace fs = std::filesystem;
+  const testing::TemporaryFolder made;
+  const fs::path tree = folder_ / "tree";
+  fs::create_directories(tree / "deep/er");
+  fs::copy_file(in("a.dsa"), tree / "a.dsa");
+  fs::copy_file(in("a.dsa"), tree / "deep/er/b.dsa");
+  const RecordingEvent label{1'400'000'000'000'000, 1'400'000'000'000'000, "label", 2, "edge", ""};
+  saveRecording(openRecording(in("a.dsa")), std::vector{label}, tree / "deep/c.palpate");
+  const fs::path out = made / "new/folder";
+  const auto result = palpate({"convert", tree.string(), out.string(), "--to-form", "palpate"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.out,
+            (out / "a.palpate").string() + ": 64 frames\n" + (out / "deep/c.palpate").string() +
+                ": 64 frames\n" + (out / "deep/er/b.palpate").string() + ": 64 frames\n");
+  const Profile whole = openRecording(in("a.dsa"));
+  const Profile converted = openRecording(out / "deep/er/b.palpate");
+  EXPECT_EQ(converted.frame(40).values, whole.frame(40).values);
+  EXPECT_EQ(readEvents(out / "deep/c.palpate").events, std::vector{label});
+  EXPECT_TRUE(testing::readFile(tree / "a.dsa") == testing::readFile(in("a.dsa")));
+  // A second time nothing is replaced, unless asked.
+  const auto again = palpate({"convert", tree.string(), out.string(), "--to-form", "palpate"});
+  EXPECT_EQ(again.exitCode, 1);
+  EXPECT_NE(again.err.find("exists already"), std::string::npos) << again.err;
+  EXPECT_EQ(
+      palpate({"convert", tree.string(), out.string(), "--to-form", "palpate", "--force"}).exitCode,
+      0);
+}
+
+TEST_F(ConvertCommand, whatFailsInATreeDoesNotStopTheOthers) {
+  namespace fs = std::filesystem;
+  const testing::TemporaryFolder made;
+  // Two that would get the same name, and one that is no recording.
+  ASSERT_EQ(palpate({"convert", in("a.dsa"), in("a.palpate")}).exitCode, 0);
+  testing::writeFile(in("bad.dsa"), "hello");
+  testing::writeFile(in("z.dsa"), testing::readFile(in("a.dsa")));
+  const auto result = palpate({"convert", in(""), made / "out", "--to-form", "csv", "--force"});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_NE(result.err.find("a.palpate: "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("bad.dsa: "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("2 of 4 recordings failed"), std::string::npos) << result.err;
+  EXPECT_TRUE(fs::exists(made / "out/a.csv"));
+  EXPECT_TRUE(fs::exists(made / "out/z.csv.angles.csv"));
+  EXPECT_FALSE(fs::exists(made / "out/bad.csv"));
+}
+
+TEST_F(ConvertCommand, aFolderAndAFileAreNotMistakenForEachOther) {
+  const std::string folder = folder_.path().string();
+  const testing::TemporaryFolder made;
+  expectOneLineError(palpate({"convert", folder, made / "out"}), 2, {"is a folder", "--to-form"});
+  expectOneLineError(palpate({"convert", in("a.dsa"), made / "out.npz", "--to-form", "npz"}),
+                     2,
+                     {"a.dsa is none"});
+  expectOneLineError(
+      palpate({"convert", folder, made / "out", "--to-form", "npz", "--from", "3"}), 2, {"--from"});
+  expectOneLineError(palpate({"convert", folder, made / "out", "--to-form", "mp3"}),
+                     2,
+                     {"dsa, palpate, csv, npz"});
+  expectOneLineError(palpate({"convert", folder, folder_ / "sub/out", "--to-form", "npz"}),
+                     1,
+                     {"lies in the folder"});
+  expectOneLineError(palpate({"convert", folder, folder, "--to-form", "npz"}), 1, {"lies in"});
+  testing::writeFile(made / "file", "mine");
+  expectOneLineError(
+      palpate({"convert", folder, made / "file", "--to-form", "npz"}), 1, {"is not a folder"});
+  EXPECT_EQ(testing::readFile(made / "file"), "mine");
+}
+
 TEST_F(ConvertCommand, labelsComeAlong) {
   const RecordingEvent label{1'400'000'000'000'000, 1'400'000'000'000'000, "label", 2, "edge", ""};
   const std::vector<RecordingEvent> events{label};

@@ -1,4 +1,5 @@
-#include <regex>
+#include <algorithm>
+#include <sstream>
 
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
@@ -144,7 +145,93 @@ TEST(InfoCommand, SaysWhatIsWrongWithAFile) {
   expectOneLineError(palpate({"info", folder / "missing.dsa"}), 1, {"missing.dsa", "No such file"});
   expectOneLineError(palpate({"info", folder / "empty.dsa"}), 1, {"empty"});
   expectOneLineError(palpate({"info", folder / "text.dsa"}), 1, {"text.dsa"});
-  expectOneLineError(palpate({"info", folder.path()}), 1, {"folder"});
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(InfoCommand, OfSeveralItPrintsOneTable) {
+  const testing::TemporaryFolder folder;
+  // One frame has no rate; its value 100 and the mask are written out here.
+  testing::writeFile(folder / "one, frame.dsa",
+                     "<?xml version=\"1.0\" encoding=\"utf-8\"?><root><sensor name=\"\">"
+                     "<serial_nr>00000001</serial_nr><num_matrices>1</num_matrices>"
+                     "<matrix index=\"0\"><cells_x>3</cells_x><cells_y>1</cells_y>"
+                     "<texel_width>3.4</texel_width><texel_height>3.4</texel_height>"
+                     "<static_mask>111</static_mask><dynamic_mask>111</dynamic_mask>"
+                     "</matrix></sensor><data><frame_count>7</frame_count>"
+                     "<frame index=\"0\"><time_stamp>1400000000000</time_stamp>"
+                     "<frame_data>42C80000 C0000000</frame_data></frame></data></root>");
+  ASSERT_EQ(
+      palpate({"synthesize", "-o", folder / "z.dsa", "--duration", "2", "--rate", "10"}).exitCode,
+      0);
+  const auto result = palpate({"info", folder.path()});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  const auto lines = linesOf(result.out);
+  ASSERT_EQ(lines.size(), 3u) << result.out;
+  EXPECT_EQ(lines[0],
+            "file,format,value_type,frames,duration_s,rate_hz,mean_rate_hz,gaps,temperatures,"
+            "joint_angles,max_value,saturated_frames,serial,warnings");
+  const std::string quoted = "\"" + (folder / "one, frame.dsa").string() + "\"";
+  EXPECT_EQ(lines[1].rfind(quoted + ",dsa,counts,1,0,,,0,0,0,100,0,00000001,", 0), 0u) << lines[1];
+  EXPECT_NE(lines[1].find("says \"\"7\"\", found 1", quoted.size()), std::string::npos) << lines[1];
+  EXPECT_EQ(lines[2].rfind((folder / "z.dsa").string() + ",dsa,counts,21,2,10,10,0,", 0), 0u)
+      << lines[2];
+  // The same with the files named one by one.
+  EXPECT_EQ(palpate({"info", folder / "one, frame.dsa", folder / "z.dsa"}).out, result.out);
+  const Json json = Json::parse(palpate({"info", folder.path(), "--json"}).out);
+  ASSERT_EQ(json.at("recordings").size(), 2u);
+  const Json last = json.at("recordings").at(1);
+  EXPECT_EQ(last.at("file").asString(), (folder / "z.dsa").string());
+  EXPECT_EQ(last.at("frames").asInteger(), 21);
+  EXPECT_EQ(last.at("matrices").size(), 6u);
+}
+
+TEST(InfoCommand, OneBadFileOfSeveralDoesNotStopTheOthers) {
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "bad.dsa", "hello");
+  ASSERT_EQ(palpate({"synthesize", "-o", folder / "good.dsa", "--duration", "1"}).exitCode, 0);
+  const auto table = palpate({"info", folder.path()});
+  expectOneLineError(table, 3, {"bad.dsa"});
+  EXPECT_EQ(linesOf(table.out).size(), 2u);
+  const auto json = palpate({"info", folder / "missing.dsa", folder.path(), "--json"});
+  EXPECT_EQ(json.exitCode, 3);
+  EXPECT_NE(json.err.find("2 of 3 recordings failed"), std::string::npos) << json.err;
+  EXPECT_EQ(Json::parse(json.out).at("recordings").size(), 1u);
+  const auto none = palpate({"info", folder / "bad.dsa", folder / "missing.dsa", "--json"});
+  EXPECT_EQ(none.exitCode, 1);
+  EXPECT_EQ(Json::parse(none.out).at("recordings").size(), 0u);
+}
+
+// Each row of the table over all shared recordings is what `info FILE --json` says of that file.
+TEST(InfoCommand, TheTableOverAllSharedRecordingsHasEveryOne) {
+  const auto folder = testing::recordingsFolder();
+  PALPATE_NEED(folder);
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(*folder))
+    if (entry.path().extension() == ".dsa") files.push_back(entry.path());
+  EXPECT_EQ(files.size(), 609u);  // data/README.md
+  const auto result = palpate({"info", folder->string()});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  auto lines = linesOf(result.out);
+  ASSERT_EQ(lines.size(), files.size() + 1);
+  lines.erase(lines.begin());
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) { return a < b; });
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    ASSERT_EQ(lines[i].substr(0, lines[i].find(',')), files[i]);
+    if (i % 50 != 0) continue;
+    const Json info = infoOf(files[i]);
+    const std::string row = files[i] + ",dsa,counts," +
+                            std::to_string(info.at("frames").asInteger()) + "," +
+                            numberText(info.at("duration_s").asDouble()) + "," +
+                            numberText(info.at("rate_hz").asDouble()) + ",";
+    EXPECT_EQ(lines[i].rfind(row, 0), 0u) << lines[i];
+  }
 }
 
 }  // namespace

@@ -73,6 +73,41 @@ TEST(SignalsCommand, ChoosesOneMatrixAndNamesSeveralFiles) {
   EXPECT_NE(both.out.find("\"" + (folder / "b,c.dsa").string() + "\"\n"), std::string::npos);
 }
 
+TEST(SignalsCommand, OfAFolderIsOneTableThatNamesTheFiles) {
+  const testing::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "sub");
+  const std::string a = folder / "a.dsa", b = folder / "sub/b.dsa";
+  ASSERT_EQ(palpate({"synthesize", "-o", a, "--duration", "1", "--rate", "10"}).exitCode, 0);
+  ASSERT_EQ(palpate({"synthesize", "-o", b, "--duration", "2", "--rate", "10"}).exitCode, 0);
+  const auto whole = palpate({"signals", folder.path(), "--matrix", "1"});
+  EXPECT_EQ(whole.exitCode, 0) << whole.err;
+  // The tables of the files one behind the other, with their names behind each row.
+  std::string expected =
+      "frame,time_ms,matrix,mean,filtered_mean,min,max,sum,active,area_mm2,file\n";
+  for (const std::string& file : {a, b}) {
+    const std::string one = palpate({"signals", file, "--matrix", "1"}).out;
+    std::istringstream lines(one.substr(one.find('\n') + 1));
+    for (std::string line; std::getline(lines, line);) expected += line + "," + file + "\n";
+  }
+  EXPECT_EQ(whole.out, expected);
+  EXPECT_EQ(csvRows(whole.out).size(), 1u + 11u + 21u);
+  // A folder with one recording names it, too: scripts see the same columns whatever lies in it.
+  const auto one = palpate({"signals", folder / "sub", "--matrix", "1"});
+  EXPECT_EQ(csvRows(one.out).at(1).at(10), b);
+}
+
+TEST(SignalsCommand, CoversEveryFrameOfAllSharedRecordings) {
+  const auto folder = testing::recordingsFolder();
+  PALPATE_NEED(folder);
+  std::int64_t frames = 0;
+  for (const auto& row : csvRows(palpate({"info", folder->string()}).out))
+    frames += parseInteger(row.at(3)).value_or(0);
+  EXPECT_GT(frames, 50'000);
+  const auto result = palpate({"signals", folder->string(), "--matrix", "5"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), frames + 1);
+}
+
 TEST(SignalsCommand, RefusesAMatrixThatIsNotThere) {
   const testing::TemporaryFolder folder;
   ASSERT_EQ(palpate({"synthesize", "-o", folder / "a.dsa", "--duration", "1"}).exitCode, 0);

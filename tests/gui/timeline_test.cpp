@@ -1,3 +1,4 @@
+#include <QLabel>
 #include <QMouseEvent>
 #include <QWheelEvent>
 #include <cmath>
@@ -33,6 +34,21 @@ class TimelineTest : public WindowTest {
                       false);
     QApplication::sendEvent(&chart(), &event);
   }
+  void drag(const QPointF& at) {
+    QMouseEvent move(QEvent::MouseMove,
+                     at,
+                     chart().mapToGlobal(at),
+                     Qt::NoButton,
+                     Qt::LeftButton,
+                     Qt::NoModifier);
+    QApplication::sendEvent(&chart(), &move);
+  }
+  void select(double from, double to) {
+    QTest::mousePress(&chart(), Qt::LeftButton, {}, pointAt(from));
+    drag(pointAt((from + to) / 2));
+    drag(pointAt(to));
+    QTest::mouseRelease(&chart(), Qt::LeftButton, {}, pointAt(to));
+  }
   // Seconds per pixel: the accuracy of a click.
   double pixel() { return chart().seen().size() / chart().axisRect()->width(); }
 };
@@ -58,29 +74,70 @@ TEST_F(TimelineTest, AClickSeeks) {
   EXPECT_EQ(playback().frame(), 8u);
 }
 
-TEST_F(TimelineTest, ADragScrubsAndStopsAtTheEnds) {
-  QTest::mousePress(&chart(), Qt::LeftButton, {}, pointAt(0.2));
-  for (const double seconds : {0.3, 0.62}) {
-    const QPointF at = pointAt(seconds);
-    QMouseEvent move(QEvent::MouseMove,
-                     at,
-                     chart().mapToGlobal(at),
-                     Qt::NoButton,
-                     Qt::LeftButton,
-                     Qt::NoModifier);
-    QApplication::sendEvent(&chart(), &move);
-  }
+TEST_F(TimelineTest, ADragAlongTheAxisScrubsAndStopsAtTheEnds) {
+  const int below = chart().axisRect()->rect().bottom() + 6;
+  const auto onAxis = [&](double seconds) { return QPoint(pointAt(seconds).x(), below); };
+  QTest::mousePress(&chart(), Qt::LeftButton, {}, onAxis(0.2));
+  EXPECT_NEAR(playback().positionS(), 0.2, pixel());
+  for (const double seconds : {0.3, 0.62}) drag(onAxis(seconds));
   EXPECT_NEAR(playback().positionS(), 0.62, pixel());
-  const QPointF far(5000, 20);
-  QMouseEvent beyond(QEvent::MouseMove,
-                     far,
-                     chart().mapToGlobal(far),
-                     Qt::NoButton,
-                     Qt::LeftButton,
-                     Qt::NoModifier);
-  QApplication::sendEvent(&chart(), &beyond);
+  drag(QPoint(5000, below));
   EXPECT_EQ(playback().frame(), 19u);
-  QTest::mouseRelease(&chart(), Qt::LeftButton, {}, pointAt(0.9));
+  QTest::mouseRelease(&chart(), Qt::LeftButton, {}, onAxis(0.9));
+  EXPECT_FALSE(chart().selection());
+}
+
+TEST_F(TimelineTest, ADragSelectsWithoutSeeking) {
+  playback().seekSeconds(0.1);
+  select(0.3, 0.6);
+  ASSERT_TRUE(chart().selection());
+  EXPECT_NEAR(chart().selection()->fromS, 0.3, pixel());
+  EXPECT_NEAR(chart().selection()->toS, 0.6, pixel());
+  EXPECT_NEAR(playback().positionS(), 0.1, 1e-9);
+  auto* words = find<QLabel>("selectionWords");
+  EXPECT_TRUE(words->isVisible());
+  EXPECT_TRUE(words->text().contains("frames")) << words->text().toStdString();
+  select(0.7, 0.5);  // from right to left
+  EXPECT_NEAR(chart().selection()->fromS, 0.5, pixel());
+  EXPECT_NEAR(chart().selection()->toS, 0.7, pixel());
+}
+
+TEST_F(TimelineTest, TheHandlesOfTheSelectionCanBeDragged) {
+  select(0.3, 0.6);
+  select(0.6, 0.8);
+  EXPECT_NEAR(chart().selection()->fromS, 0.3, 1.5 * pixel());
+  EXPECT_NEAR(chart().selection()->toS, 0.8, 1.5 * pixel());
+  select(0.3, 0.9);  // over the other handle
+  EXPECT_NEAR(chart().selection()->fromS, 0.8, 1.5 * pixel());
+  EXPECT_NEAR(chart().selection()->toS, 0.9, 1.5 * pixel());
+  select(0.9, 30.0);
+  EXPECT_NEAR(chart().selection()->toS, 0.95, 1e-9) << "clamped to the recording";
+}
+
+TEST_F(TimelineTest, AClickBesideTheSelectionLetsGoOfItAndEscapeDoes) {
+  select(0.3, 0.6);
+  QTest::mouseClick(&chart(), Qt::LeftButton, {}, pointAt(0.45));
+  EXPECT_TRUE(chart().selection()) << "within it: it stays";
+  QTest::mouseClick(&chart(), Qt::LeftButton, {}, pointAt(0.1));
+  EXPECT_FALSE(chart().selection());
+  select(0.3, 0.6);
+  press(Qt::Key_Escape);
+  EXPECT_FALSE(chart().selection());
+}
+
+TEST_F(TimelineTest, TheSelectionByKeys) {
+  playback().seekSeconds(0.2);
+  press(Qt::Key_BracketLeft);
+  EXPECT_EQ(chart().selection(), (TimeSpan{0.2, 0.95}));
+  playback().seekSeconds(0.5);
+  press(Qt::Key_BracketRight);
+  EXPECT_EQ(chart().selection(), (TimeSpan{0.2, 0.5}));
+  press(Qt::Key_Z);
+  EXPECT_NEAR(chart().seen().size(), 0.35, 0.03);
+  press(Qt::Key_A, Qt::ControlModifier);
+  EXPECT_EQ(chart().selection(), (TimeSpan{0.0, 0.95}));
+  press(Qt::Key_Space, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_FALSE(chart().selection());
 }
 
 TEST_F(TimelineTest, TheCursorStandsAtThePosition) {
@@ -173,7 +230,7 @@ TEST_F(TimelineTest, TheLegendNamesWhatIsPlotted) {
   auto* legend = window().findChild<Legend*>();
   ASSERT_EQ(legend->entries().size(), 1u);
   EXPECT_EQ(legend->entries()[0].name, "finger 0 distal");
-  EXPECT_EQ(legend->entries()[0].color, chart().graph(0)->pen().color());
+  EXPECT_EQ(legend->entries()[0].pen, chart().graph(0)->pen());
   press(Qt::Key_0, Qt::ControlModifier);
   ASSERT_EQ(legend->entries().size(), 2u);
   EXPECT_EQ(legend->entries()[1].name, "all");

@@ -8,9 +8,11 @@
 #include <system_error>
 
 #include <boost/program_options.hpp>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "palpate/core/number_text.h"
+#include "palpate/core/one_line.h"
 #include "palpate/core/time.h"
 
 namespace palpate::commands {
@@ -40,6 +42,16 @@ void showHelp(const CommandSpec& spec, const po::options_description& options) {
   text << "Usage: " << spec.synopsis << "\n\n" << spec.purpose << "\n\n" << options;
   text << "\nExample:\n  " << spec.example << "\n";
   std::cout << text.str() << std::flush;
+}
+
+constexpr std::size_t kPercentWidth = 8;  // ": 100 %", and the last column stays free
+
+// Of the terminal behind stderr; 80 where it doesn't know.
+std::size_t terminalWidth() {
+  winsize size{};
+  const bool known =
+      ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 2 * kPercentWidth;
+  return known ? size.ws_col : 80;
 }
 
 constexpr std::int64_t kShowProgressAfterUs = 1'000'000;
@@ -160,7 +172,9 @@ void ProgressLine::show(double fraction) {
   if (percent == lastPercent_) return;
   lastPercent_ = percent;
   shown_ = true;
-  std::fprintf(stderr, "\r%s: %d %%\033[K", label_.c_str(), percent);
+  // A line that wraps could not be wiped.
+  const std::string label(beginningOf(label_, terminalWidth() - kPercentWidth));
+  std::fprintf(stderr, "\r%s: %d %%\033[K", label.c_str(), percent);
   std::fflush(stderr);
 }
 

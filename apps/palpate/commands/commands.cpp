@@ -36,7 +36,7 @@ void showHelp() {
   std::puts(
       "\n'palpate COMMAND --help' explains a command. Exit codes: 0 done, 1 failed, 2 wrong "
       "usage,\n"
-      "3 done in part (damaged input).");
+      "3 done in part (damaged input, some of several files).");
 }
 
 // Number of letters to insert, delete or change to make one word the other.
@@ -127,7 +127,7 @@ const std::vector<Command>& allCommands() {
       {"emulate", "the emulated hand on two ports, until it is interrupted", &emulateCommand},
       {"grasp", "moves a connected hand: plain and reactive grasps", &graspCommand},
       {"grasps", "where the grasps in recordings are, as CSV", &graspsCommand},
-      {"info", "what is in a recording", &infoCommand},
+      {"info", "what is in a recording, or in each of a folder", &infoCommand},
       {"kinematics", "where the taxels are at a set of joint angles", &kinematicsCommand},
       {"ports", "which ports there are, and what answers behind each", &portsCommand},
       {"record", "records a connected hand", &recordCommand},

@@ -11,7 +11,7 @@ namespace palpate::commands {
 constexpr int kDone = 0;
 constexpr int kFailed = 1;      // one line on stderr: what, where, what to do
 constexpr int kWrongUsage = 2;  // one line on stderr
-constexpr int kPartlyDone = 3;  // damaged input: says what and how much
+constexpr int kPartlyDone = 3;  // damaged input, some of several files: says what and how much
 
 using Words = std::vector<std::string>;
 

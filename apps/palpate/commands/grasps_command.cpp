@@ -92,6 +92,7 @@ int graspsCommand(const Words& words) {
       if (list.several) cells.push_back(file.string());
       out.write(csvLine(cells));
     }
+    out.finish();  // each recording's rows as they come
   };
   const int code = forEachProfile(list, given.quiet(), work);
   out.finish();

@@ -223,11 +223,11 @@ int infoOfSeveral(const RecordingList& recordings, bool quiet, bool json) {
 
 int infoCommand(const Words& words) {
   const CommandLine given(
-      {.synopsis = "palpate info FILE|FOLDER... [--json]",
+      {.synopsis = "palpate info PATH... [--json]",
        .purpose =
            "Says what is in a recording: frames, rates, gaps, matrices, angles, temperatures, "
            "largest value.\nThe rate comes from the median interval; a gap is longer than "
-           "max(1 s, 5 median intervals).\nOf several FILEs or a FOLDER (every recording below "
+           "max(1 s, 5 median intervals).\nOf several PATHs or a folder (every recording below "
            "it): "
            "a table as CSV, a row each; a file that\ncan't be read is said, and the others are "
            "there: exit code 3.",

@@ -161,9 +161,10 @@ class ListRun {
     for (const std::string& trouble : list_.troubles) say(trouble);
     for (index_ = 0; index_ < list_.files.size(); ++index_) {
       if (interrupted()) return endInterrupted();
-      const std::string file = oneLine(list_.files[index_].string());
-      line_.setLabel(list_.several ? countText(index_ + 1, list_.files.size()) + ": " + file
-                                   : file);
+      const fs::path& file = list_.files[index_];
+      line_.setLabel(list_.several ? countText(index_ + 1, list_.files.size()) + ": " +
+                                         oneLine(file.filename().string())
+                                   : oneLine(file.string()));
       const std::optional<FileOutcome> outcome = tried(work);
       if (interrupted_) return endInterrupted();
       line_.wipe();

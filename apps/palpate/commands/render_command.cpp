@@ -1,5 +1,7 @@
-// palpate render FILE --frame N -o OUT.{png,svg,pdf}: a picture of one frame.
+// palpate render FILE --frame N -o OUT.{png,svg,pdf}: a picture of one frame; --from N --to M -o FOLDER: of each.
 #include <QGuiApplication>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "palpate/core/error.h"
@@ -11,7 +13,9 @@
 #include "commands/commands.h"
 #include "commands/display.h"
 #include "commands/picture_size.h"
+#include "gui/interruption.h"
 #include "gui/picture_export.h"
+#include "gui/picture_series.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
@@ -39,6 +43,70 @@ void parseRange(const std::string& text, gui::MatricesPictureOptions& options) {
 }
 
 constexpr QSize kSmallestPicture{320, 320};
+constexpr double kMmPerInch = 25.4;
+constexpr int kUnitsPerPt = 2;  // on paper half a point is a unit: text sizes are exact in halves
+constexpr double kUnitsPerInch = 144.0;
+constexpr double kUsualWidthMm = 174.0;  // two columns of a journal
+constexpr double kUsualHeight = 0.8;     // of the width
+constexpr double kUsualTextPt = 8.0;
+constexpr double kLeastMm = 20.0, kMostMm = 1200.0;
+constexpr double kMostPixels = 16384.0;  // on a side
+
+const std::vector<const char*> kPaperOptions = {"width-mm", "height-mm", "text-pt", "print"};
+
+// What it is drawn on, and how large its text is.
+struct Sheet {
+  gui::PicturePaper paper;
+  int textUnits = 0;  // 0: the usual font
+};
+
+// Size on screen or on paper; options.size becomes it.
+Sheet chosenSheet(const CommandLine& given, gui::MatricesPictureOptions& options) {
+  Sheet sheet;
+  gui::PicturePaper& paper = sheet.paper;
+  const bool onPaper = std::any_of(kPaperOptions.begin(),
+                                   kPaperOptions.end(),
+                                   [&](const char* name) { return given.has(name); });
+  if (onPaper) {
+    const double widthMm = given.number("width-mm", kLeastMm, kMostMm).value_or(kUsualWidthMm);
+    const double heightMm =
+        given.number("height-mm", kLeastMm, kMostMm).value_or(widthMm * kUsualHeight);
+    const double textPt = given.number("text-pt", 4.0, 40.0).value_or(kUsualTextPt);
+    options.size = QSizeF(widthMm, heightMm) / kMmPerInch * kUnitsPerInch;
+    sheet.textUnits = static_cast<int>(std::lround(textPt * kUnitsPerPt));
+    paper.unitsPerInch = kUnitsPerInch;
+    paper.dpi = 300.0;
+  }
+  paper.size = options.size;
+  paper.dpi = given.number("dpi", 36.0, 2400.0).value_or(paper.dpi);
+  const double longest = std::max(paper.size.width(), paper.size.height()) * paper.scale();
+  if (longest > kMostPixels)
+    throw UsageError("a PNG of " + fixedText(longest, 0) +
+                     " pixels is too large; choose fewer dpi or a smaller size");
+  paper.background = gui::colorsOf(options.theme).window;
+  return sheet;
+}
+
+// Of one frame, with its words.
+class FramePainter {
+ public:
+  FramePainter(Profile profile, gui::MatricesPictureOptions options)
+      : profile_(std::move(profile)), options_(std::move(options)) {}
+  void operator()(QPainter& painter, std::size_t frame) const {
+    const double seconds =
+        static_cast<double>(profile_.frameTimeUs(frame) - profile_.frameTimeUs(0)) * 1e-6;
+    gui::MatricesPictureOptions options = options_;
+    options.caption = QString::fromStdString("frame " + std::to_string(frame) + " of " +
+                                             std::to_string(profile_.numFrames()) + ", " +
+                                             fixedText(seconds, 2) + " s");
+    gui::paintMatricesPicture(
+        painter, QRectF(QPointF(), options.size), profile_.frame(frame), profile_.hand(), options);
+  }
+
+ private:
+  Profile profile_;
+  gui::MatricesPictureOptions options_;
+};
 
 // The frame asked for, else that of largest sum.
 std::size_t chosenFrame(std::optional<std::int64_t> frame,
@@ -52,20 +120,134 @@ std::size_t chosenFrame(std::optional<std::int64_t> frame,
   return static_cast<std::size_t>(*frame);
 }
 
+gui::FrameSpan chosenSpan(const CommandLine& given,
+                          const std::string& file,
+                          const Profile& profile) {
+  if (profile.numFrames() == 0) throw Error(file + ": has no frame to draw");
+  const auto from = given.integer("from", 0, INT64_MAX).value_or(0);
+  const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
+  const auto to = given.integer("to", 0, INT64_MAX).value_or(last);
+  if (from > to || to > last)
+    throw Error(file + ": has no frames " + std::to_string(from) + ".." + std::to_string(to) +
+                ", only 0.." + std::to_string(last));
+  return {static_cast<std::size_t>(from), static_cast<std::size_t>(to)};
+}
+
+// The same colours in all pictures: up to the largest value of all of them.
+void useOneRange(const Profile& profile,
+                 const gui::FrameSpan& span,
+                 gui::MatricesPictureOptions& options) {
+  if (options.rangeMax > options.rangeMin) return;
+  float largest = 0.0F;
+  TactileFrame frame;
+  for (std::size_t i = span.first; i <= span.last; ++i) {
+    profile.readFrame(i, frame);
+    for (const float value : frame.values) largest = std::max(largest, value);
+  }
+  options.rangeMax = largest > 0.0F ? static_cast<double>(largest) : 1.0;
+}
+
+int drawSeries(const CommandLine& given,
+               const Profile& profile,
+               const gui::PicturePaper& paper,
+               gui::MatricesPictureOptions options,
+               Overwrite overwrite) {
+  const std::string& file = given.words()[0];
+  const gui::FrameSpan span = chosenSpan(given, file, profile);
+  const FileSeries series{.folder = fs::path(*given.text("output")),
+                          .stem = fs::path(file).stem().string(),
+                          .ending = ".png",
+                          .first = span.first,
+                          .last = span.last};
+  options.pixelRatio = paper.scale();
+  useOneRange(profile, span, options);
+  gui::Interruption interruption;
+  gui::SeriesReport report;
+  {
+    ProgressLine progress("drawing", given.quiet());
+    const Progress show = progress.callback();
+    report = gui::writePictureSeries(
+        series, FramePainter(profile, options), paper, overwrite, [&](double fraction) {
+          return !interruption.came(0) && (!show || show(fraction));
+        });
+  }
+  const std::string count = std::to_string(report.written) + " of " +
+                            std::to_string(series.count()) + " pictures are in " +
+                            series.folder.string();
+  if (!report.failure.empty())
+    throw Error(report.failure + (report.written > 0 ? "; " + count : std::string()));
+  if (report.cancelled) {
+    std::fprintf(stderr, "palpate: interrupted: %s\n", count.c_str());
+    return kPartlyDone;
+  }
+  if (!given.quiet())
+    std::printf("%s: %zu pictures, frames %zu..%zu\n",
+                series.folder.c_str(),
+                report.written,
+                span.first,
+                span.last);
+  return kDone;
+}
+
+int drawOne(const CommandLine& given,
+            const Profile& profile,
+            const gui::PicturePaper& paper,
+            gui::MatricesPictureOptions options,
+            Overwrite overwrite) {
+  const std::string out = *given.text("output");
+  const std::size_t frame =
+      chosenFrame(given.integer("frame", 0, INT64_MAX), given.words()[0], profile);
+  if (gui::pictureFormOf(out) == gui::PictureForm::kPng) options.pixelRatio = paper.scale();
+  const FramePainter paint(profile, options);
+  gui::writePicture(
+      out, [&](QPainter& painter) { paint(painter, frame); }, paper, overwrite);
+  if (!given.quiet()) std::printf("%s: frame %zu\n", out.c_str(), frame);
+  return kDone;
+}
+
+// What can be said without looking at any file.
+void checkUsage(const CommandLine& given, bool isSeries) {
+  const auto out = given.text("output");
+  if (!out) throw UsageError("render needs -o OUT.png, OUT.svg or OUT.pdf, or a folder for --from");
+  const bool isPicture = gui::pictureFormOf(*out).has_value();
+  if (isSeries && given.has("frame"))
+    throw UsageError("--frame is one frame, --from and --to are many");
+  if (isSeries && isPicture)
+    throw UsageError("with --from or --to the pictures go into a folder: -o FOLDER, not '" + *out +
+                     "'");
+  if (!isSeries && !isPicture)
+    throw UsageError("the picture's name must end in .png, .svg or .pdf, not '" + *out + "'");
+  given.choice("view", {"matrices"});
+  if (!given.has("size")) return;
+  for (const char* name : kPaperOptions)
+    if (given.has(name))
+      throw UsageError("--size is in pixels, --" + std::string(name) +
+                       " is of paper: give one of them");
+}
+
 }  // namespace
 
 int renderCommand(const Words& words) {
   const CommandLine given(
-      {.synopsis = "palpate render FILE [--frame N] -o OUT.{png,svg,pdf}",
+      {.synopsis = "palpate render FILE [--frame N | --from N --to M] -o OUT.{png,svg,pdf}|FOLDER",
        .purpose =
            "Draws the heat maps of one frame. The ending of OUT chooses the form; SVG and PDF "
-           "are vector\ngraphics with text as text.",
+           "are vector\ngraphics with text as text. With --from or --to, a PNG of each frame from "
+           "N "
+           "to M, both inclusive:\nFOLDER/NAME_00042.png.",
        .options = {{"frame", "N", "default: the frame of largest sum"},
-                   {"output,o", "OUT", "where to write the picture"},
+                   {"from", "N", "first frame of a series; default 0"},
+                   {"to", "M", "last frame, inclusive; default the recording's last"},
+                   {"output,o", "OUT", "where to write the picture, or the folder of a series"},
                    {"view", "matrices", "what to draw; default matrices"},
                    {"size",
                     "WxH",
                     "in pixels (96 per inch), default 900x720; PNG has twice as many"},
+                   {"print", "", "for paper: white ground, 174 mm wide, text of 8 pt, 300 dpi"},
+                   {"width-mm", "W", "width on paper; journals take 85, 114, 174"},
+                   {"height-mm", "H", "height on paper; default 0.8 of the width"},
+                   {"text-pt", "P", "size of text on paper, default 8"},
+                   {"dpi", "D", "pixels of a PNG per inch, default 192, on paper 300"},
                    {"map",
                     "NAME",
                     "colour map: inferno (default), viridis, magma, plasma, cividis, "
@@ -73,7 +255,7 @@ int renderCommand(const Words& words) {
                    {"range",
                     "MIN,MAX",
                     "counts of the lowest and the highest colour; default 0 to "
-                    "the frame's maximum"},
+                    "the maximum of the frame, or of all frames of a series"},
                    {"interpolated", "", "smooth between the taxels"},
                    {"values", "", "print the value of every active taxel"},
                    {"theme", "dark|light", "default light"},
@@ -83,36 +265,28 @@ int renderCommand(const Words& words) {
        .mostWords = 1},
       words);
   if (given.helpShown()) return kDone;
-  const auto out = given.text("output");
-  if (!out) throw UsageError("render needs -o OUT.png, OUT.svg or OUT.pdf");
-  if (!gui::pictureFormOf(*out))
-    throw UsageError("the picture's name must end in .png, .svg or .pdf, not '" + *out + "'");
-  given.choice("view", {"matrices"});
+  const bool isSeries = given.has("from") || given.has("to");
+  checkUsage(given, isSeries);
   gui::MatricesPictureOptions options;
   if (const auto size = given.text("size")) options.size = parsedSize(*size, kSmallestPicture);
   if (const auto map = given.choice("map", colorMapNames())) options.map = *gui::colorMapFrom(*map);
   if (const auto range = given.text("range")) parseRange(*range, options);
   options.interpolated = given.has("interpolated");
   options.values = given.has("values");
-  options.theme = given.choice("theme", {"dark", "light"}).value_or("light") == "dark"
-                      ? gui::Theme::kDark
-                      : gui::Theme::kLight;
+  const std::string theme = given.choice("theme", {"dark", "light"}).value_or("light");
+  if (theme == "dark" && given.has("print"))
+    throw UsageError("--print has a white ground, not a dark one");
+  options.theme = theme == "dark" ? gui::Theme::kDark : gui::Theme::kLight;
+  Sheet sheet = chosenSheet(given, options);
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
-
-  const auto asked = given.integer("frame", 0, INT64_MAX);
 
   const std::string& file = given.words()[0];
   const Profile profile = [&] {
     ProgressLine progress("reading " + file, given.quiet());
     return openRecording(file, progress.callback());
   }();
-  const std::size_t frame = chosenFrame(asked, file, profile);
-  const double seconds =
-      static_cast<double>(profile.frameTimeUs(frame) - profile.frameTimeUs(0)) * 1e-6;
   options.title = QString::fromStdString(fs::path(file).filename().string());
-  options.caption = QString::fromStdString("frame " + std::to_string(frame) + " of " +
-                                           std::to_string(profile.numFrames()) + ", " +
-                                           fixedText(seconds, 2) + " s");
+  sheet.paper.title = options.title;
 
   drawWithoutDisplay();
   std::string name = "palpate";
@@ -121,9 +295,9 @@ int renderCommand(const Words& words) {
   const RuntimeFolder runtime;
   const QGuiApplication application(count, arguments);
   options.font = QGuiApplication::font();
-  gui::writeMatricesPicture(*out, profile.frame(frame), profile.hand(), options, overwrite);
-  if (!given.quiet()) std::printf("%s: frame %zu\n", out->c_str(), frame);
-  return kDone;
+  if (sheet.textUnits > 0) options.font.setPixelSize(sheet.textUnits);
+  return isSeries ? drawSeries(given, profile, sheet.paper, options, overwrite)
+                  : drawOne(given, profile, sheet.paper, options, overwrite);
 }
 
 }  // namespace palpate::commands

@@ -63,11 +63,13 @@ void writeSignals(StandardOutput& out,
 
 int signalsCommand(const Words& words) {
   const CommandLine given(
-      {.synopsis = "palpate signals FILE|FOLDER... [--matrix M]",
+      {.synopsis = "palpate signals PATH... [--matrix M]",
        .purpose = "Prints the characteristic signals of every matrix in every frame as CSV: mean, "
                   "minimum, maximum,\nsum and number of the active taxels (value > 0), their area, "
                   "and the mean of the 3x3 Gaussian-\nfiltered matrix over its active taxels. An "
-                  "empty matrix has zeros. With several FILEs a last\ncolumn names the file.",
+                  "empty matrix has zeros. PATH is a recording, or a\nfolder: every recording "
+                  "below it. With several a last column names the file; one that can't be\nread is "
+                  "said, and the rows of the others are there: exit code 3.",
        .options = {{"matrix", "M", "only this matrix (0, 1, ..)"}},
        .example = "palpate signals foam_ball.dsa --matrix 1 > curve.csv",
        .fewestWords = 1},

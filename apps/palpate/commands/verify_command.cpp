@@ -45,11 +45,12 @@ int worse(int a, int b) {
 
 int verifyCommand(const Words& words) {
   const CommandLine given(
-      {.synopsis = "palpate verify FILE|FOLDER...",
+      {.synopsis = "palpate verify PATH...",
        .purpose = "Checks every byte of recordings; one line per file says sound, damaged (and how "
                   "much can still\nbe read) or unreadable. Exit code: 0 all sound, 3 damaged but "
-                  "partly readable, 1 nothing\nreadable; with several files the worst. With "
-                  "--quiet the exit code is all.",
+                  "partly readable, 1 nothing\nreadable; with several files the worst. PATH "
+                  "is a recording, or a folder: every recording\nbelow it. With --quiet the exit "
+                  "code is all.",
        .options = {},
        .example = "palpate verify foam_ball.dsa hockey_ball.dsa",
        .fewestWords = 1},

@@ -9,6 +9,7 @@
 
 #include <qcustomplot.h>
 
+#include "gui/picture_export.h"
 #include "gui/theme.h"
 
 namespace palpate::gui {
@@ -230,7 +231,8 @@ void paintChart(QPainter& painter,
                    std::max(1, static_cast<int>(look.size.width())),
                    std::max(1, static_cast<int>(look.size.height() - top)));
   }
-  painter.drawPicture(QPointF(0.0, top), picture);
+  painter.translate(0.0, top);
+  replay(painter, picture);
   painter.restore();
   plot.replot(QCustomPlot::rpQueuedReplot);  // its layout was that of the picture
 }

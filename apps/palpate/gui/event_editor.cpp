@@ -29,6 +29,9 @@ EventEditor::EventEditor(EventsReport asRead, Save save, QObject* parent)
   connect(&undo_, &QUndoStack::indexChanged, this, &EventEditor::changed);
 }
 
+// What goes with it isn't a change any more.
+EventEditor::~EventEditor() { undo_.disconnect(this); }
+
 void EventEditor::apply(const std::optional<RecordingEvent>& out,
                         const std::optional<RecordingEvent>& in) {
   if (out) {

@@ -20,6 +20,8 @@ class EventEditor : public QObject {
 
   EventEditor(EventsReport asRead, Save save, QObject* parent = nullptr);
 
+  ~EventEditor() override;
+
   const std::vector<RecordingEvent>& events() const noexcept { return events_; }  // by time
   // `name` is what the undo menu calls it. Throw std::out_of_range for an event that isn't there.
   void add(const RecordingEvent& event, const QString& name);

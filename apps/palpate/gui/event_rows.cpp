@@ -190,6 +190,7 @@ void EventRows::choose(std::optional<std::size_t> mark) {
   if (mark == chosen_) return;
   chosen_ = mark;
   update();
+  emit chosenChanged();
 }
 
 void EventRows::chooseNext(int step) {

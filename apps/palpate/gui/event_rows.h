@@ -37,7 +37,8 @@ class EventRows : public QWidget {
   QSize minimumSizeHint() const override { return sizeHint(); }
 
  signals:
-  void markChosen(std::size_t mark);
+  void markChosen(std::size_t mark);  // by mouse or key
+  void chosenChanged();
   void spanChanged(std::size_t mark, double fromS, double toS);  // at the end of a drag
   void textChanged(std::size_t mark, const QString& text);
   void removeAsked(std::size_t mark);

@@ -3,23 +3,19 @@
 #include <QButtonGroup>
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDir>
 #include <QDoubleSpinBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QFrame>
 #include <QLabel>
-#include <QLineEdit>
 #include <QPushButton>
 #include <QSignalBlocker>
-#include <QStorageInfo>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "gui/export_place.h"
 #include "gui/export_preview.h"
-#include "gui/recording_settings.h"
 
 namespace palpate::gui {
 namespace {
@@ -44,6 +40,7 @@ QDoubleSpinBox* spinBox(const char* name, double least, double most, int decimal
   box->setDecimals(decimals);
   box->setMinimumHeight(kFieldHeight);
   box->setKeyboardTracking(false);
+  box->setButtonSymbols(QAbstractSpinBox::NoButtons);
   return box;
 }
 
@@ -54,8 +51,8 @@ QComboBox* comboBox(const char* name) {
   return box;
 }
 
-void showElided(QLabel* label, const QString& text) {
-  label->setText(label->fontMetrics().elidedText(text, Qt::ElideMiddle, label->width()));
+void showElided(QLabel* label, const QString& text, int width) {
+  label->setText(label->fontMetrics().elidedText(text, Qt::ElideMiddle, width));
   label->setToolTip(label->text() == text ? QString() : text);
   label->setAccessibleName(text);
 }
@@ -68,9 +65,6 @@ ExportDialog::ExportDialog(std::vector<const ExportedView*> views,
     : QDialog(parent), views_(std::move(views)), first_(suggestion) {
   setWindowTitle("Export");
   setStyleSheet(kStyle);
-  askForFolder = [this](const QString& begin) {
-    return QFileDialog::getExistingDirectory(this, "Folder to export to", begin);
-  };
   auto* side = new QFrame(this);
   side->setObjectName("exportSide");
   preview_ = new ExportPreview(side);
@@ -143,7 +137,16 @@ QWidget* ExportDialog::makeForm() {
   titled_->setObjectName("exportTitled");
   titled_->setToolTip("Name of the recording, frame and time above the picture");
   fields_->addRow("", titled_);
-  fields_->addRow(makePlace());
+  // Which rows are shown changes; where they begin doesn't.
+  int labelWidth = 0;
+  for (int row = 0; row < fields_->rowCount(); ++row)
+    if (const auto* label = fields_->itemAt(row, QFormLayout::LabelRole))
+      labelWidth = std::max(labelWidth, label->widget()->sizeHint().width());
+  for (int row = 0; row < fields_->rowCount(); ++row)
+    if (const auto* label = fields_->itemAt(row, QFormLayout::LabelRole))
+      label->widget()->setMinimumWidth(labelWidth);
+  place_ = new ExportPlace(labelWidth, form);
+  fields_->addRow(place_);
   return form;
 }
 
@@ -157,6 +160,7 @@ QWidget* ExportDialog::makeForms() {
     auto* button = new QToolButton(row);
     button->setObjectName("exportForm" + nameOf(each));
     button->setText(nameOf(each));
+    button->setToolTip(descriptionOf(each));
     button->setCheckable(true);
     button->setMinimumHeight(kFieldHeight);
     button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
@@ -164,10 +168,6 @@ QWidget* ExportDialog::makeForms() {
     form_->addButton(button, static_cast<int>(each));
     layout->addWidget(button);
   }
-  form_->button(static_cast<int>(ExportForm::kPng))->setToolTip("A picture made of pixels");
-  form_->button(static_cast<int>(ExportForm::kSvg))->setToolTip("A drawing that can be edited");
-  form_->button(static_cast<int>(ExportForm::kPdf))->setToolTip("A drawing with its fonts");
-  form_->button(static_cast<int>(ExportForm::kCsv))->setToolTip("The numbers that are shown");
   return row;
 }
 
@@ -185,36 +185,6 @@ QWidget* ExportDialog::makeSize() {
   layout->addWidget(height_, 1);
   layout->addWidget(new QLabel("mm", row));
   return row;
-}
-
-QWidget* ExportDialog::makePlace() {
-  auto* place = new QWidget;
-  auto* grid = new QGridLayout(place);
-  grid->setContentsMargins(0, 10, 0, 0);
-  grid->setHorizontalSpacing(8);
-  grid->setVerticalSpacing(8);
-  name_ = new QLineEdit(place);
-  name_->setObjectName("exportName");
-  name_->setMaxLength(200);
-  ending_ = new QLabel(place);
-  folder_ = new QLineEdit(place);
-  folder_->setObjectName("exportFolder");
-  auto* browse = new QPushButton("&Browse…", place);
-  browse->setObjectName("exportBrowse");
-  browse->setAutoDefault(false);
-  connect(browse, &QPushButton::clicked, this, &ExportDialog::browse);
-  auto* nameLabel = new QLabel("&Name", place);
-  nameLabel->setBuddy(name_);
-  auto* folderLabel = new QLabel("F&older", place);
-  folderLabel->setBuddy(folder_);
-  grid->addWidget(nameLabel, 0, 0);
-  grid->addWidget(name_, 0, 1);
-  grid->addWidget(ending_, 0, 2);
-  grid->addWidget(folderLabel, 1, 0);
-  grid->addWidget(folder_, 1, 1);
-  grid->addWidget(browse, 1, 2);
-  grid->setColumnMinimumWidth(0, fields_->labelForField(dpi_)->sizeHint().width() + 4);
-  return place;
 }
 
 QWidget* ExportDialog::makeFoot() {
@@ -258,9 +228,8 @@ void ExportDialog::fill(const ExportRequest& suggestion) {
   dpi_->setCurrentIndex(std::max(0, dpi_->findData(suggestion.dpi)));
   colors_->setCurrentIndex(suggestion.forPrint ? 0 : 1);
   titled_->setChecked(suggestion.titled);
-  nameIsOwn_ = suggestion.nameIsOwn;
-  name_->setText(suggestion.name);
-  folder_->setText(suggestion.folder);
+  place_->setName(suggestion.name, suggestion.nameIsOwn);
+  place_->setFolder(suggestion.folder);
   filling_ = false;
   useView();
   frames_->setCurrentIndex(std::max(0, frames_->findData(static_cast<int>(suggestion.frames))));
@@ -295,9 +264,7 @@ void ExportDialog::connectFields() {
     connect(box, &QComboBox::currentIndexChanged, this, &ExportDialog::refresh);
   connect(titled_, &QCheckBox::toggled, this, &ExportDialog::refresh);
   connect(replace_, &QCheckBox::toggled, this, &ExportDialog::showProblem);
-  connect(name_, &QLineEdit::textEdited, this, [this] { nameIsOwn_ = !name_->text().isEmpty(); });
-  for (QLineEdit* field : {name_, folder_})
-    connect(field, &QLineEdit::textChanged, this, &ExportDialog::showProblem);
+  connect(place_, &ExportPlace::changed, this, &ExportDialog::showProblem);
   connect(preview_, &ExportPreview::summaryChanged, this, &ExportDialog::showProblem);
 }
 
@@ -348,9 +315,8 @@ void ExportDialog::usePreset() {
 }
 
 void ExportDialog::suggestName() {
-  if (nameIsOwn_) return;
   const auto pictures = view().framePicturesNow();
-  name_->setText(request().isSeries() && pictures ? pictures->fileName : view().fileName());
+  place_->suggestName(request().isSeries() && pictures ? pictures->fileName : view().fileName());
 }
 
 ExportRequest ExportDialog::request() const {
@@ -365,9 +331,9 @@ ExportRequest ExportDialog::request() const {
   request.titled = titled_->isChecked();
   request.frames = static_cast<ExportFrames>(frames_->currentData().toInt());
   request.table = table_->currentText();
-  request.folder = folderFromText(folder_->text());
-  request.name = name_->text().trimmed();
-  request.nameIsOwn = nameIsOwn_;
+  request.folder = place_->folder();
+  request.name = place_->name();
+  request.nameIsOwn = place_->nameIsOwn();
   request.replace = replace_->isChecked();
   return request;
 }
@@ -383,12 +349,13 @@ void ExportDialog::refresh() {
   };
   show(frames_, now.form == ExportForm::kPng && frames_->count() > 1);
   show(table_, !isPicture);
-  for (QWidget* field : {static_cast<QWidget*>(preset_), size_, static_cast<QWidget*>(text_)})
-    show(field, isPicture && (field == preset_ || !asOnScreen));
+  show(preset_, isPicture);
+  show(size_, isPicture && !asOnScreen);
+  show(text_, isPicture && !asOnScreen);
   show(dpi_, now.form == ExportForm::kPng);
   show(colors_, isPicture);
   show(titled_, isPicture);
-  ending_->setText(now.isSeries() ? "_00000.png" : endingOf(now.form));
+  place_->setEnding(now.isSeries() ? "_00000.png" : endingOf(now.form));
   preview_->show(view(), now);
   showProblem();
 }
@@ -404,25 +371,17 @@ void ExportDialog::showProblem() {
   const QString inTheWay = problemOf(now, view());
   // Offered only where there is something to replace.
   replace_->setVisible(problemOf(keeping, view()) != problemOf(replacing, view()));
-  QString text = inTheWay;
-  const QStorageInfo disk(now.folder);
   const double needed = preview_->bytes() * static_cast<double>(preview_->numFiles());
-  if (text.isEmpty() && disk.isValid() && needed > static_cast<double>(disk.bytesAvailable()))
-    text = "Only " + bytesText(static_cast<double>(disk.bytesAvailable())) + " are free there.";
+  const QString text = inTheWay.isEmpty() ? spaceProblemOf(now, needed) : inTheWay;
   problem_->setText(text);
   problem_->setToolTip(text);
   ok_->setEnabled(inTheWay.isEmpty());
-  showElided(summary_, preview_->summary());
+  summary_->setText(preview_->summary());
   const QString path = QString::fromStdString(pathOf(now).string());
   const bool makes = now.isSeries() && !QFileInfo::exists(path);
   showElided(target_,
-             "in " + (now.isSeries() ? path : now.folder) + (makes ? ", a new folder" : ""));
-}
-
-void ExportDialog::browse() {
-  const QString begin = folderFromText(folder_->text());
-  const QString chosen = askForFolder(QDir(begin).exists() ? begin : QDir::homePath());
-  if (!chosen.isEmpty()) folder_->setText(chosen);
+             "in " + (now.isSeries() ? path : now.folder) + (makes ? ", a new folder" : ""),
+             preview_->width());
 }
 
 void ExportDialog::accept() {

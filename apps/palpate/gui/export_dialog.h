@@ -2,7 +2,6 @@
 #pragma once
 
 #include <QDialog>
-#include <functional>
 #include <vector>
 
 #include "gui/export_request.h"
@@ -14,11 +13,11 @@ class QComboBox;
 class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
-class QLineEdit;
 class QPushButton;
 
 namespace palpate::gui {
 
+class ExportPlace;
 class ExportPreview;
 
 class ExportDialog : public QDialog {
@@ -33,8 +32,7 @@ class ExportDialog : public QDialog {
   // What stands in the way of it; empty: nothing.
   QString problem() const;
 
-  // Asks for a folder, an empty answer changes nothing; tests answer for themselves.
-  std::function<QString(const QString& begin)> askForFolder;
+  ExportPlace& place() noexcept { return *place_; }
 
  public slots:
   // Only when it can be written.
@@ -47,7 +45,6 @@ class ExportDialog : public QDialog {
   QWidget* makeForm();
   QWidget* makeForms();
   QWidget* makeSize();
-  QWidget* makePlace();
   QWidget* makeFoot();
   void connectFields();
   const ExportedView& view() const;
@@ -57,12 +54,10 @@ class ExportDialog : public QDialog {
   void suggestName();
   void refresh();
   void showProblem();
-  void browse();
 
   std::vector<const ExportedView*> views_;
-  ExportRequest first_;     // what was suggested
-  bool nameIsOwn_ = false;  // typed by the user
-  bool filling_ = false;    // fields change by us
+  ExportRequest first_;   // what was suggested
+  bool filling_ = false;  // fields change by us
   QFormLayout* fields_ = nullptr;
   QComboBox* view_ = nullptr;
   QButtonGroup* form_ = nullptr;
@@ -76,9 +71,7 @@ class ExportDialog : public QDialog {
   QComboBox* dpi_ = nullptr;
   QComboBox* colors_ = nullptr;
   QCheckBox* titled_ = nullptr;
-  QLineEdit* name_ = nullptr;
-  QLabel* ending_ = nullptr;
-  QLineEdit* folder_ = nullptr;
+  ExportPlace* place_ = nullptr;
   ExportPreview* preview_ = nullptr;
   QLabel* summary_ = nullptr;
   QLabel* target_ = nullptr;

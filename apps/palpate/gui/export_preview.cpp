@@ -18,17 +18,6 @@ constexpr std::size_t kMeasuredRows = 400;  // whose mean length stands for all
 
 }  // namespace
 
-QString bytesText(double bytes) {
-  constexpr double kKilo = 1000.0;
-  const char* const units[] = {"B", "kB", "MB", "GB", "TB"};
-  std::size_t unit = 0;
-  while (bytes >= kKilo && unit + 1 < std::size(units)) {
-    bytes /= kKilo;
-    ++unit;
-  }
-  return figure(bytes, unit > 0 && bytes < 10.0 ? 1 : 0) + " " + units[unit];
-}
-
 ExportPreview::ExportPreview(QWidget* parent) : QWidget(parent) {
   worker_.setMaxThreadCount(1);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
@@ -54,6 +43,7 @@ void ExportPreview::show(const ExportedView& view, const ExportRequest& request)
     if (request.isSeries())
       if (const auto pictures = view.framePicturesNow())
         if (const auto span = spanOf(request, *pictures)) numFiles_ = span->count();
+    drawPreview();
     soon_.start();
   }
   update();
@@ -91,13 +81,12 @@ void ExportPreview::measure() {
                                                                    : PictureForm::kPng;
         double bytes = 0.0;
         try {
-          bytes = static_cast<double>(
-              pictureBytes(
-                  pictureForm,
-                  [&](QPainter& painter) { painter.drawPicture(QPointF(), picture); },
-                  paper,
-                  "preview")
-                  .size());
+          bytes = static_cast<double>(pictureBytes(
+                                          pictureForm,
+                                          [&](QPainter& painter) { replay(painter, picture); },
+                                          paper,
+                                          "preview")
+                                          .size());
         } catch (const std::exception&) {
           return;  // too large for the memory: its size in pixels says so
         }
@@ -135,6 +124,19 @@ QRectF ExportPreview::paperRect() const {
   return {room.center() - QPointF(size.width() / 2, size.height() / 2), size};
 }
 
+// Larger than it is shown, then made smaller: what is finer than a pixel of the screen is seen as it will look.
+void ExportPreview::drawPreview() {
+  constexpr double kFiner = 3.0;
+  const QSizeF place = paperRect().size() * devicePixelRatioF();
+  if (isTable_ || place.width() < 1.0 || place.height() < 1.0) return;
+  PicturePaper larger = paper_;
+  larger.dpi = kFiner * place.width() / paper_.size.width() * paper_.unitsPerInch;
+  preview_ = pictureImage([this](QPainter& to) { replay(to, picture_); }, larger)
+                 .scaled(place.toSize(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+}
+
+void ExportPreview::resizeEvent(QResizeEvent*) { drawPreview(); }
+
 void ExportPreview::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   if (isTable_) return paintRows(painter);
@@ -142,14 +144,7 @@ void ExportPreview::paintEvent(QPaintEvent*) {
   constexpr int kShadow = 4;
   for (int i = kShadow; i > 0; --i)
     painter.fillRect(paper.adjusted(-i + 1, -i + 2, i - 1, i + 1), QColor(0, 0, 0, 14));
-  // As an image, as a PNG will be: heat maps look the same at every size.
-  const double ratio = devicePixelRatioF();
-  PicturePaper onScreen = paper_;
-  onScreen.dpi = paper.width() * ratio / paper_.size.width() * paper_.unitsPerInch;
-  const QImage image =
-      pictureImage([this](QPainter& to) { to.drawPicture(QPointF(), picture_); }, onScreen);
-  painter.setRenderHint(QPainter::SmoothPixmapTransform);
-  painter.drawImage(paper, image);
+  painter.drawImage(paper, preview_);
   painter.setPen(palette().color(QPalette::Mid));
   painter.drawRect(paper);
 }

@@ -37,8 +37,10 @@ class ExportPreview : public QWidget {
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
+  void drawPreview();
   void showTable(const ExportedView& view, const ExportRequest& request);
   void measure();
   QRectF paperRect() const;
@@ -47,6 +49,7 @@ class ExportPreview : public QWidget {
   ExportRequest request_;
   PicturePaper paper_;
   QPicture picture_;
+  QImage preview_;  // as large as its place on screen
   bool isTable_ = false;
   QStringList rows_;  // first lines of a table
   std::size_t numRows_ = 0;
@@ -56,8 +59,5 @@ class ExportPreview : public QWidget {
   QTimer soon_;
   QThreadPool worker_;
 };
-
-// "142 kB", "1.3 MB"
-QString bytesText(double bytes);
 
 }  // namespace palpate::gui

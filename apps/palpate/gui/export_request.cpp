@@ -3,8 +3,12 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QStandardPaths>
+#include <QStorageInfo>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "gui/captions.h"
 
 namespace palpate::gui {
 namespace {
@@ -38,6 +42,20 @@ QString nameOf(ExportForm form) {
 }
 
 QString endingOf(ExportForm form) { return "." + nameOf(form).toLower(); }
+
+QString descriptionOf(ExportForm form) {
+  switch (form) {
+    case ExportForm::kSvg:
+      return "A drawing that can be edited";
+    case ExportForm::kPdf:
+      return "A drawing with its fonts";
+    case ExportForm::kCsv:
+      return "The numbers that are shown";
+    case ExportForm::kPng:
+      break;
+  }
+  return "A picture made of pixels";
+}
 
 ExportRequest loadExportRequest(const QSettings& settings) {
   ExportRequest request;
@@ -169,6 +187,23 @@ QString problemOf(const ExportRequest& request, const ExportedView& view) {
   if ((file.exists() || file.isSymLink()) && !request.replace)
     return file.fileName() + " exists already.";
   return {};
+}
+
+QString spaceProblemOf(const ExportRequest& request, double bytes) {
+  const QStorageInfo disk(request.folder);
+  if (!disk.isValid() || bytes <= static_cast<double>(disk.bytesAvailable())) return {};
+  return "Only " + bytesText(static_cast<double>(disk.bytesAvailable())) + " are free there.";
+}
+
+QString bytesText(double bytes) {
+  constexpr double kKilo = 1000.0;
+  const char* const units[] = {"B", "kB", "MB", "GB", "TB"};
+  std::size_t unit = 0;
+  while (bytes >= kKilo && unit + 1 < std::size(units)) {
+    bytes /= kKilo;
+    ++unit;
+  }
+  return figure(bytes, unit > 0 && bytes < 10.0 ? 1 : 0) + " " + units[unit];
 }
 
 }  // namespace palpate::gui

@@ -17,8 +17,9 @@ namespace palpate::gui {
 enum class ExportForm { kPng, kSvg, kPdf, kCsv };
 inline constexpr std::array kAllExportForms = {
     ExportForm::kPng, ExportForm::kSvg, ExportForm::kPdf, ExportForm::kCsv};
-QString nameOf(ExportForm form);    // "PNG"; also the key in the settings
-QString endingOf(ExportForm form);  // ".png"
+QString nameOf(ExportForm form);         // "PNG"; also the key in the settings
+QString endingOf(ExportForm form);       // ".png"
+QString descriptionOf(ExportForm form);  // "A drawing that can be edited"
 
 enum class ExportFrames { kShown, kSelected, kAll };
 
@@ -77,5 +78,10 @@ std::optional<FrameSpan> spanOf(const ExportRequest& request, const FramePicture
 
 // What stands in the way, in one line that says what to do; empty: nothing. Looks at the disk.
 QString problemOf(const ExportRequest& request, const ExportedView& view);
+// Whether so many bytes don't fit on its disk; empty: they do.
+QString spaceProblemOf(const ExportRequest& request, double bytes);
+
+// "142 kB", "1.3 MB"
+QString bytesText(double bytes);
 
 }  // namespace palpate::gui

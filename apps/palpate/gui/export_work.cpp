@@ -52,7 +52,15 @@ ExportWork seriesWork(const ExportedView& view, const ExportRequest& request, Ov
              const Progress& progress) {
     ExportReport start{.path = pathText(series.folder), .wanted = series.count()};
     return guarded(start, [&](ExportReport& report) {
-      const SeriesReport done = writePictureSeries(series, paint, paper, overwrite, progress);
+      // By way of a QPicture, as a single one: the same frame makes the same picture.
+      const auto recorded = [&](QPainter& painter, std::size_t frame) {
+        QPicture picture;
+        QPainter recorder(&picture);
+        paint(recorder, frame);
+        recorder.end();
+        replay(painter, picture);
+      };
+      const SeriesReport done = writePictureSeries(series, recorded, paper, overwrite, progress);
       report.written = done.written;
       report.cancelled = done.cancelled;
       report.failure = QString::fromStdString(done.failure);
@@ -104,10 +112,7 @@ ExportWork prepareExport(const ExportedView& view, const ExportRequest& request)
       return guarded({.path = pathText(path)}, [&](ExportReport& report) {
         if (progress && !progress(0.0)) throw Cancelled();
         writePicture(
-            path,
-            [&](QPainter& painter) { painter.drawPicture(QPointF(), picture); },
-            paper,
-            overwrite);
+            path, [&](QPainter& painter) { replay(painter, picture); }, paper, overwrite);
         report.written = 1;
       });
     };

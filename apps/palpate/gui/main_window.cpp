@@ -67,9 +67,9 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   connectLive();
   connectRecording();
   connectTakeAway();
-  connectCompare();
   connectTimeline();
   connectEvents();
+  connectCompare();
 
   askForRecordings = [this] {
     return QFileDialog::getOpenFileNames(this,
@@ -109,8 +109,8 @@ void MainWindow::buildParts(const std::filesystem::path& dataFolder) {
   banner_ = new MessageBanner(page);
   offer_ = new OfferStrip(page);
   opening_ = new OpeningStrip(page);
-  exporting_ = new OpeningStrip(page, "Writing", "exporting");
   working_ = new OpeningStrip(page, "Cropping", "working");
+  exporting_ = new OpeningStrip(page, "Exporting", "exporting");
   startPage_ = new StartPage(recent_, withDemo, page);
   matrices_ = new MatricesPanel(actions_.interpolated, actions_.values, page);
   playbackBar_ = new PlaybackBar(playback_, page);

@@ -57,6 +57,7 @@ void MainWindow::connectEvents() {
     if (current_ && saveEventsOf(current_)) flash("labels, notes and grasps saved");
   });
   connect(&rows, &EventRows::markChosen, this, &MainWindow::eventChosen);
+  connect(&rows, &EventRows::chosenChanged, this, &MainWindow::enableEventActions);
   connect(&rows, &EventRows::removeAsked, this, &MainWindow::removeEvent);
   connect(&rows, &EventRows::textChanged, this, [this](std::size_t mark, const QString& text) {
     changeEvent(

@@ -105,7 +105,7 @@ void paintNames(QPainter& painter,
     if (metrics.horizontalAdvance(name) > rect.width())
       name = QString::fromStdString(hand.matrices[m].shortName);
     painter.drawText(rect.adjusted(0, 0, 0, -3),
-                     Qt::AlignHCenter | Qt::AlignBottom,
+                     Qt::AlignHCenter | Qt::AlignBottom | Qt::TextDontClip,
                      metrics.elidedText(name, Qt::ElideRight, rect.width()));
   }
 }

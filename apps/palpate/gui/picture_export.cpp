@@ -4,6 +4,7 @@
 #include <QPageSize>
 #include <QPainter>
 #include <QPdfWriter>
+#include <QPicture>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -97,6 +98,14 @@ std::optional<PictureForm> pictureFormOf(const std::filesystem::path& path) {
   if (ending == ".svg") return PictureForm::kSvg;
   if (ending == ".pdf") return PictureForm::kPdf;
   return std::nullopt;
+}
+
+void replay(QPainter& painter, const QPicture& picture) {
+  painter.save();
+  painter.scale(static_cast<double>(picture.logicalDpiX()) / painter.device()->logicalDpiX(),
+                static_cast<double>(picture.logicalDpiY()) / painter.device()->logicalDpiY());
+  painter.drawPicture(QPointF(), picture);
+  painter.restore();
 }
 
 QImage pictureImage(const PaintPicture& paint, const PicturePaper& paper) {

@@ -14,6 +14,7 @@
 #include "gui/matrices_painter.h"
 
 class QPainter;
+class QPicture;
 
 namespace palpate::gui {
 
@@ -37,6 +38,10 @@ struct PicturePaper {
 };
 // Paints a picture; the painter is scaled to units and stands at the top left.
 using PaintPicture = std::function<void(QPainter&)>;
+
+// Draws what was recorded in the painter's own units. QPicture::play() would scale it by the resolution of the
+// device.
+void replay(QPainter& painter, const QPicture& picture);
 
 // Needs a QGuiApplication (fonts); may run in any thread when `paint` may.
 QImage pictureImage(const PaintPicture& paint, const PicturePaper& paper);

@@ -6,6 +6,7 @@
 #include <QPainter>
 #include <QPainterPath>
 #include <QPixmap>
+#include <climits>
 #include <cmath>
 #include <string>
 
@@ -14,6 +15,7 @@
 namespace palpate::gui {
 namespace {
 
+constexpr int kDepth = 24;  // [bits] of a colour
 constexpr double kMmPerInch = 25.4;
 constexpr double kPointsPerInch = 72.0;
 
@@ -272,9 +274,16 @@ int SvgDevice::metric(PaintDeviceMetric metric) const {
     case PdmPhysicalDpiX:
     case PdmPhysicalDpiY:
       return whole(unitsPerInch_);
-    default:
-      return QPaintDevice::metric(metric);
+    case PdmDevicePixelRatio:
+      return 1;
+    case PdmDevicePixelRatioScaled:
+      return static_cast<int>(devicePixelRatioFScale());
+    case PdmNumColors:
+      return INT_MAX;
+    case PdmDepth:
+      return kDepth;
   }
+  return 0;
 }
 
 QByteArray SvgDevice::bytes() const {
