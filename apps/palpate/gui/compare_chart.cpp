@@ -242,6 +242,8 @@ void CompareChart::wheelEvent(QWheelEvent* event) {
 void CompareChart::resizeEvent(QResizeEvent* event) {
   QCustomPlot::resizeEvent(event);
   yAxis->setLabel(signalAxisName(curves_.signal, *this));
+  constexpr int kLow = 130;  // [px]
+  yAxis->ticker()->setTickCount(event->size().height() < kLow ? 2 : 4);
   refill();
 }
 

@@ -389,14 +389,4 @@ void ComparePanel::setSettings(const ViewSettings& settings, Theme theme) {
   showFrames();
 }
 
-void ComparePanel::showEmpty() {
-  stack_->setCurrentIndex(hasPair() ? 1 : 0);
-  if (hasPair()) return;
-  emptyItself_->setVisible(a_ != nullptr);
-  emptyOpen_->setText(a_ ? "Open another…" : "Open recordings…");
-  emptyText_->setText(a_ ? "Only " + nameOf(a_) +
-                               " is open. Open a second recording to compare it with."
-                         : QString("Open two recordings to compare them."));
-}
-
 }  // namespace palpate::gui

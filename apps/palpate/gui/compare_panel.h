@@ -95,9 +95,9 @@ class ComparePanel : public QWidget {
   void take(const CompareAnswer& answer);
   void moveTo(double offsetS, bool keepSeen);
   void swap();
-  void showEmpty();
   void askForAnother();
   // compare_panel_view.cpp: what is seen of it
+  void showEmpty();
   void showCurves();
   void showFrames();
   void showLook();

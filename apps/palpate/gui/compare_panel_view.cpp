@@ -1,6 +1,8 @@
 // What is seen of a comparison: frames, curves, figures; and how it is taken away.
 #include <QLabel>
 #include <QPainter>
+#include <QPushButton>
+#include <QStackedWidget>
 #include <algorithm>
 #include <cmath>
 
@@ -46,6 +48,16 @@ const TimedProfile& sideOf(const CompareAnswer& answer, bool ofB) {
 }
 
 }  // namespace
+
+void ComparePanel::showEmpty() {
+  stack_->setCurrentIndex(hasPair() ? 1 : 0);
+  if (hasPair()) return;
+  emptyItself_->setVisible(a_ != nullptr);
+  emptyOpen_->setText(a_ ? "Open another…" : "Open recordings…");
+  emptyText_->setText(a_ ? "Only " + nameOf(a_) +
+                               " is open. Open a second recording to compare it with."
+                         : QString("Open two recordings to compare them."));
+}
 
 void ComparePanel::showCurves() {
   chart_->setCurves({.a = answer_.a,
