@@ -68,6 +68,7 @@ TEST_F(LibraryWindowTest, ComparesWithWhatIsShown) {
   QTest::keyClick(table(), Qt::Key_Return, Qt::ControlModifier);
   EXPECT_FALSE(window().opener().busy()) << "nothing is shown";
   open({"good1.dsa"});
+  table()->selectRow(row);
   QTest::keyClick(table(), Qt::Key_Return, Qt::ControlModifier);
   waitUntilOpened();
   EXPECT_TRUE(window().compareShown());
@@ -79,6 +80,7 @@ TEST_F(LibraryWindowTest, ComparesWithWhatIsShown) {
   press(Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
   EXPECT_FALSE(window().compareShown());
   const int reads = reads_;
+  table()->selectRow(row);
   QTest::keyClick(table(), Qt::Key_Return, Qt::ControlModifier);
   EXPECT_TRUE(window().compareShown());
   EXPECT_EQ(reads_, reads);

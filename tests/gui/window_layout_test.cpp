@@ -119,7 +119,8 @@ TEST_F(WindowLayoutTest, DocksCloseByTheirButton) {
   EXPECT_FALSE(dock("Inspect")->isVisible());
   window().showDock("Inspect");
   EXPECT_TRUE(dock("Inspect")->isVisible());
-  EXPECT_EQ(window().dockNames(), (QStringList{"Inspect", "Timeline", "Hand", "Link"}));
+  EXPECT_EQ(window().dockNames(),
+            (QStringList{"Inspect", "Timeline", "Hand", "Link", "Library", "Log"}));
 }
 
 }  // namespace

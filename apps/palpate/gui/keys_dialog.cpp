@@ -18,7 +18,8 @@ const std::vector<KeyEntry>& mouseEntries() {
       {"Mouse", "Click or drag", "In the timeline or the seek bar: move through time"},
       {"Mouse", "Wheel", "In the timeline: zoom; with Shift: pan"},
       {"Mouse", "Middle button or Shift+drag", "In the timeline: pan"},
-      {"Mouse", "Double click", "In the timeline: show all of it"},
+      {"Mouse", "Double click", "In the timeline: show all of it; on an event: name it"},
+      {"Mouse", "Drag", "In the timeline: select; along its axis: scrub; ends can be moved"},
       {"Mouse", "Click or drag", "Over taxels: choose them; with Ctrl: choose more"},
       {"Mouse", "Right button", "Over the matrices: which taxels are scanned"},
       {"Mouse", "Hover", "Over a taxel or the timeline: the values there"},
@@ -59,7 +60,7 @@ QWidget* columnOf(const std::vector<KeyEntry>& entries, QWidget* parent) {
 
 std::vector<KeyEntry> keysOf(const QList<QAction*>& actions) {
   std::vector<KeyEntry> entries;
-  for (const char* section : {"File", "Hand", "Playback", "View", "Help"}) {
+  for (const char* section : {"File", "Edit", "Hand", "Playback", "View", "Help"}) {
     for (const QAction* action : actions) {
       if (sectionOf(*action) != section || !action->isVisible()) continue;
       QStringList keys;

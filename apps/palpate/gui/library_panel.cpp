@@ -17,8 +17,8 @@
 #include <algorithm>
 
 #include "gui/empty_page.h"
-#include "gui/file_manager.h"
 #include "gui/icons.h"
+#include "gui/reveal_file.h"
 
 namespace palpate::gui {
 namespace {

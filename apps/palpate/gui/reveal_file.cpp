@@ -1,4 +1,4 @@
-#include "gui/file_manager.h"
+#include "gui/reveal_file.h"
 
 #include <QDesktopServices>
 #include <QFileInfo>
