@@ -151,8 +151,8 @@ void LogPanel::buildTable() {
   const auto widthOf = [this](const QString& text) {
     return fontMetrics().horizontalAdvance(text) + kPadding;
   };
-  table_->horizontalHeader()->resizeSection(ActivityLog::kTime, widthOf("00:00:00"));
-  table_->horizontalHeader()->resizeSection(ActivityLog::kSeverity, widthOf("warning"));
+  table_->horizontalHeader()->resizeSection(ActivityLog::kTime, widthOf("00:00:00.000"));
+  table_->horizontalHeader()->resizeSection(ActivityLog::kSeverity, widthOf("warning__"));
   empty_ = new EmptyPage("log", pages_);
   pages_->addWidget(table_);
   pages_->addWidget(empty_);

@@ -34,7 +34,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr std::int64_t kUsPerMs = 1000;
-constexpr int kCompactBelow = 1240;      // [px] of width: buttons lose their text
+constexpr int kCompactBelow = 1340;      // [px] of width: buttons lose their text
 constexpr int kNarrowestInspect = 455;   // [px] its table is read without eliding
 constexpr double kInspectShare = 0.345;  // of the window's width
 constexpr double kLiveInspectShare = 0.24;
