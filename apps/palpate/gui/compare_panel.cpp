@@ -276,6 +276,11 @@ void ComparePanel::setActive(bool on) {
 void ComparePanel::ask() {
   asked_ = active_ && hasPair();
   if (!asked_) return;
+  // Figures of another curve are not to be taken for those of this one.
+  answer_.complete = false;
+  answer_.figures.reset();
+  answer_.done = 0.0;
+  showNotice();
   worker_.ask({.a = a_,
                .b = b_,
                .alignment = alignment_,

@@ -1,6 +1,7 @@
 #include "gui/compare_worker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <palpate/core/error.h>
@@ -16,6 +17,18 @@ constexpr double kEverS = std::numeric_limits<double>::max();
 // How much of the whole work each part is.
 constexpr double kTimedShare = 0.2;
 constexpr double kCurveShare = 0.3;
+
+// Of A.
+std::size_t framesInCommon(const TimedProfile& a, const TimedProfile& b, double offsetS) {
+  const auto span = commonSpan(a, b, offsetS);
+  if (!span) return 0;
+  const auto at = [&](double seconds) {
+    constexpr double kUsPerS = 1e6;
+    return a.profile.frameAt(a.profile.frameTimeUs(0) + std::llround(seconds * kUsPerS))
+        .value_or(0);
+  };
+  return at(span->toS) - at(span->fromS) + 1;
+}
 
 }  // namespace
 
@@ -147,7 +160,7 @@ void CompareWorker::work(const CompareQuestion& question, int generation) {
     double largest = 0.0;
     float largestValue = 0.0F;
     const std::size_t stride =
-        std::max<std::size_t>(1, question.a->profile.numFrames() / kPairsLookedAt);
+        std::max<std::size_t>(1, framesInCommon(*answer.a, *answer.b, offsetS) / kPairsLookedAt);
     visitFramePairs(
         *answer.a,
         *answer.b,
