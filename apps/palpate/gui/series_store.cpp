@@ -85,8 +85,10 @@ void SeriesStore::setRecording(const OpenedRecordingPtr& recording) {
   fromS_ = 0.0;
   toS_ = recording ? recording->durationS() : 0.0;
   if (!recording_ || !recording_->isLong() || recording_->overview->complete()) return;
+  // The first look comes first: they would only hold each other up.
   ++numJobs_;
-  passes_.start([this, stop = stop_, overview = recording_->overview] {
+  passes_.start([this, stop = stop_, overview = recording_->overview, looked = lookAtFrames()] {
+    looked.wait();
     try {
       overview->compute([&](double) { return !*stop; });
     } catch (const std::exception&) {
@@ -97,13 +99,15 @@ void SeriesStore::setRecording(const OpenedRecordingPtr& recording) {
   });
   toldProgress_ = 0.0;
   news_.start();
-  lookAtFrames();
 }
 
 // All signals of frames spread over the recording, read once for all curves.
-void SeriesStore::lookAtFrames() {
+std::shared_future<void> SeriesStore::lookAtFrames() {
+  // A job that never runs breaks its promise, which ends the waiting, too.
+  auto done = std::make_shared<std::promise<void>>();
+  std::shared_future<void> looked = done->get_future().share();
   ++numJobs_;
-  reads_.start([this, stop = stop_, profile = recording_->profile] {
+  reads_.start([this, stop = stop_, profile = recording_->profile, done] {
     auto look = std::make_shared<FirstLook>();
     try {
       const std::size_t frames = profile.numFrames();
@@ -127,7 +131,9 @@ void SeriesStore::lookAtFrames() {
         },
         Qt::QueuedConnection);
     --numJobs_;
+    done->set_value();
   });
+  return looked;
 }
 
 void SeriesStore::takeFirstLook(Entry& entry) const {

@@ -8,6 +8,7 @@
 #include <QThreadPool>
 #include <QTimer>
 #include <atomic>
+#include <future>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -70,7 +71,8 @@ class SeriesStore : public QObject {
   const Entry* find(const SeriesChoice& choice) const;
   void begin(Entry& entry);
   void beginLong(Entry& entry);
-  void lookAtFrames();
+  // Ready when it is done, or given up.
+  std::shared_future<void> lookAtFrames();
   void takeFirstLook(Entry& entry) const;
   void askForExact();
   void deliver(const SeriesChoice& choice, const Stop& stop, std::function<void(Entry&)> put);
