@@ -178,4 +178,24 @@ void visitSeries(const Profile& profile,
   readAll(profile, choice, 0, countOf(profile, choice.kind), progress, sink);
 }
 
+Series readSpread(const Profile& profile,
+                  const SeriesChoice& choice,
+                  std::size_t numSteps,
+                  const Progress& progress) {
+  requireSeries(profile, choice);
+  if (numSteps == 0) throw std::invalid_argument("readSpread: no step");
+  Series series;
+  const double durationS = static_cast<double>(profile.durationUs()) / kUsPerS;
+  for (std::size_t i = 0; i <= numSteps; ++i) {
+    const double done = static_cast<double>(i) / static_cast<double>(numSteps);
+    if (progress && !progress(done)) throw Cancelled();
+    const Series one = readSeries(profile, choice, durationS * done, durationS * done);
+    if (one.values.empty()) continue;
+    if (!series.timeS.empty() && one.timeS.front() <= series.timeS.back()) continue;
+    series.timeS.push_back(one.timeS.front());
+    series.values.push_back(one.values.front());
+  }
+  return series;
+}
+
 }  // namespace palpate

@@ -22,7 +22,8 @@ struct TruthRow {
   Eigen::Vector3d centreMm = Eigen::Vector3d::Zero();
 };
 
-// By host time [ms], one row per matrix.
+// Scans by host time [ms], a row per matrix. Of scans in one millisecond (a busy machine's hand catches
+// up) the last counts.
 std::map<std::int64_t, std::vector<TruthRow>> readTruth(const std::string& path) {
   std::map<std::int64_t, std::vector<TruthRow>> truth;
   std::istringstream in(testing::readFile(path));
@@ -44,7 +45,10 @@ std::map<std::int64_t, std::vector<TruthRow>> readTruth(const std::string& path)
       for (int i = 0; i < 3; ++i)
         row.centreMm[i] = parseDouble(fields[4 + static_cast<std::size_t>(i)]).value();
     }
-    truth[parseInteger(fields[0]).value()].push_back(row);
+    std::vector<TruthRow>& scan = truth[parseInteger(fields[0]).value()];
+    const auto matrix = static_cast<std::size_t>(parseInteger(fields[1]).value());
+    if (scan.size() <= matrix) scan.resize(matrix + 1);
+    scan[matrix] = row;
   }
   return truth;
 }

@@ -97,6 +97,17 @@ TEST(ProfileSeries, VisitsWhatItReads) {
   EXPECT_EQ(visited.values, read.values);
 }
 
+TEST(ProfileSeries, ASpreadTakesSamplesEvenlyAndNoneTwice) {
+  const Profile profile = small();
+  const SeriesChoice choice{.kind = Kind::kMatrix, .index = 1, .signal = SignalKind::kMaximum};
+  const Series three = readSpread(profile, choice, 3);
+  EXPECT_EQ(three.timeS, (std::vector<double>{0.0, 0.3, 0.6, 0.9}));
+  EXPECT_EQ(three.values, (std::vector<double>{10.0, 40.0, 70.0, 100.0}));
+  EXPECT_EQ(readSpread(profile, choice, 1000).timeS.size(), profile.numFrames());
+  EXPECT_THROW(readSpread(profile, choice, 0), std::invalid_argument);
+  EXPECT_THROW(readSpread(profile, choice, 3, [](double) { return false; }), Cancelled);
+}
+
 TEST(ProfileSeries, WhatIsNotThereIsSaid) {
   const Profile profile = small();
   const Profile bare =

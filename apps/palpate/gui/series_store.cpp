@@ -37,22 +37,6 @@ Series fromTable(const OpenedRecording& recording, const SeriesChoice& choice) {
   return series;
 }
 
-// Single samples spread evenly over the recording.
-Series spread(const Profile& profile, const SeriesChoice& choice, const Progress& progress) {
-  Series series;
-  const double durationS = static_cast<double>(profile.durationUs()) / kUsPerS;
-  for (std::size_t i = 0; i <= kSpread; ++i) {
-    if (!progress(0.0)) throw Cancelled();
-    const double at = durationS * static_cast<double>(i) / static_cast<double>(kSpread);
-    const Series one = readSeries(profile, choice, at, at);
-    if (one.values.empty()) continue;
-    if (!series.timeS.empty() && one.timeS.front() <= series.timeS.back()) continue;
-    series.timeS.push_back(one.timeS.front());
-    series.values.push_back(one.values.front());
-  }
-  return series;
-}
-
 }  // namespace
 
 SeriesStore::SeriesStore(QObject* parent) : QObject(parent) {
@@ -220,7 +204,7 @@ void SeriesStore::beginLong(Entry& entry) {
     ++numJobs_;
     reads_.start([this, stop = stop_, choice, goOn, profile = recording_->profile] {
       try {
-        auto series = std::make_shared<const Series>(spread(profile, choice, goOn));
+        auto series = std::make_shared<const Series>(readSpread(profile, choice, kSpread, goOn));
         deliver(choice, stop, [series](Entry& to) {
           to.sample = series;
           to.extremes = extremesOf(series->values);

@@ -55,6 +55,13 @@ void visitSeries(const Profile& profile,
                  const std::function<void(double timeS, double value)>& sink,
                  const Progress& progress = {});
 
+// About numSteps + 1 samples spread evenly over the time of the frames, none twice: a first look at a long
+// recording. Throws as above.
+Series readSpread(const Profile& profile,
+                  const SeriesChoice& choice,
+                  std::size_t numSteps,
+                  const Progress& progress = {});
+
 // Mean of the chosen taxels [counts]; 0 where none is chosen.
 double meanOf(const TactileFrame& frame, const TaxelSelection& taxels);
 
