@@ -200,6 +200,7 @@ void MatricesPanel::applyLook() {
                   .values = settings_.values,
                   .range = rangeNow(),
                   .theme = theme_});
+  emit lookChanged(view_->look());
 }
 
 MatricesPictureOptions MatricesPanel::pictureOptions() const {
