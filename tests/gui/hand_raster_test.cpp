@@ -158,6 +158,24 @@ TEST(HandRaster, NeighboursLeaveNoGapAndDontOverlap) {
   }
 }
 
+// Strips whose edges go through samples exactly (sixteenths of a pixel, both ways and aslant).
+TEST(HandRaster, ASampleOnALineBelongsToOneSide) {
+  for (const bool upright : {true, false}) {
+    Maker make;
+    for (int i = -240; i < 240; ++i) {
+      const float from = 0.1875F * static_cast<float>(i), to = from + 0.1875F;
+      if (upright)
+        make.rectangle(0, from, to, -45, 45, qRgba(200, 200, 200, 128));
+      else
+        make.rectangle(0, -45, 45, from, to, qRgba(200, 200, 200, 128));
+    }
+    make.moveToClear();
+    const QImage image = drawn(make.scene);
+    for (int y = 32; y < 118; ++y)
+      for (int x = 57; x < 143; ++x) ASSERT_NEAR(qRed(image.pixel(x, y)), 100, 1) << x << ", " << y;
+  }
+}
+
 TEST(HandRaster, TheNearerHidesTheFurtherInAnyOrder) {
   for (const bool nearFirst : {false, true}) {
     Maker make;
