@@ -13,7 +13,7 @@ namespace {
 constexpr double kMostNearer = 0.05;
 
 int litChannel(int value, float light) {
-  return std::clamp(static_cast<int>(std::lround(static_cast<float>(value) * light)), 0, 255);
+  return std::clamp(static_cast<int>(static_cast<float>(value) * light + 0.5F), 0, 255);
 }
 
 // From the base to the eye's frame, and from there to pixels and clip space.
