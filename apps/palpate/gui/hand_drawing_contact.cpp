@@ -117,8 +117,9 @@ void HandDrawing::addContacts(HandScene& scene, const HandLook& look) const {
     if (touch.numActive == 0 || (look.only && *look.only != m)) continue;
     const QRgb color = colors.text.rgb();
     const Vector3f at = (touch.centroidMm + 0.9 * touch.meanNormal).cast<float>();
-    for (std::size_t i = 0; i < touch.principalAxes.size(); ++i) {
-      const Vector3f half = (touch.principalAxes[i] * touch.principalSdMm[i]).cast<float>();
+    for (const auto& [axis, sdMm] : {std::pair(touch.majorAxis, touch.majorSdMm),
+                                     std::pair(touch.minorAxis, touch.minorSdMm)}) {
+      const Vector3f half = (axis * sdMm).cast<float>();
       scene.lines.push_back({at - half, at + half, 2.0F, color});
     }
     scene.lines.push_back(

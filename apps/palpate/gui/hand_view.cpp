@@ -218,7 +218,7 @@ void HandView::paintEvent(QPaintEvent*) {
   if (canvas_) return;
   QPainter painter(this);
   renew();
-  painter.drawImage(rect(), rasterize(scene_, camera_, size(), devicePixelRatioF()));
+  painter.drawImage(QRectF(rect()), raster_.draw(scene_, camera_, size(), devicePixelRatioF()));
   paintOver(painter);
 }
 

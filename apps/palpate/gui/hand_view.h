@@ -9,6 +9,7 @@
 
 #include "gui/hand_drawing.h"
 #include "gui/hand_picture.h"
+#include "gui/hand_raster.h"
 
 namespace palpate::gui {
 
@@ -84,6 +85,7 @@ class HandView : public QWidget {
   HandGlCanvas* canvas_ = nullptr;
   HandDrawing drawing_;
   HandScene scene_;
+  HandRaster raster_;
   bool sceneIsOld_ = true;
   HandLook look_;
   HandCamera camera_;

@@ -1,5 +1,7 @@
 // The hand in space within the main window: what is shown beside it, shared with the heat maps, taken away.
 #include <QMenu>
+#include <algorithm>
+#include <utility>
 
 #include "gui/frame_painters.h"
 #include "gui/hand_panel.h"
@@ -38,15 +40,15 @@ void MainWindow::connectHandView() {
   on(actions_.nextSphere, [this] {
     changeHand([](HandLook& look) { look.sphere = after(kAllSphereLooks, look.sphere); });
   });
-  on(actions_.sphereOfCentroids, [this](bool on) {
+  on(actions_.sphereOfCentroids, [this](bool yes) {
     changeHand(
-        [=](HandLook& look) { look.sphereOf = on ? SphereOf::kCentroids : SphereOf::kTaxels; });
+        [=](HandLook& look) { look.sphereOf = yes ? SphereOf::kCentroids : SphereOf::kTaxels; });
   });
-  on(actions_.normals, [this](bool on) { changeHand([=](HandLook& look) { look.normals = on; }); });
+  on(actions_.normals, [this](bool yes) { changeHand([=](HandLook& look) { look.normals = yes; }); });
   on(actions_.contacts,
-     [this](bool on) { changeHand([=](HandLook& look) { look.contacts = on; }); });
-  on(actions_.wire, [this](bool on) { changeHand([=](HandLook& look) { look.wire = on; }); });
-  on(actions_.axes, [this](bool on) { changeHand([=](HandLook& look) { look.axes = on; }); });
+     [this](bool yes) { changeHand([=](HandLook& look) { look.contacts = yes; }); });
+  on(actions_.wire, [this](bool yes) { changeHand([=](HandLook& look) { look.wire = yes; }); });
+  on(actions_.axes, [this](bool yes) { changeHand([=](HandLook& look) { look.axes = yes; }); });
   on(actions_.fitHand, [&view] { view.fit(); });
   on(actions_.resetHand, [&view] { view.resetCamera(); });
   on(actions_.nearer, [&view] { view.zoomBy(kNearer); });

@@ -8,6 +8,7 @@
 
 #include "gui/application.h"
 #include "gui/compare_panel.h"
+#include "gui/gl_probe.h"
 #include "gui/main_window.h"
 #include "gui/picture_export.h"
 #include "gui/timeline_panel.h"
@@ -119,7 +120,9 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   MainWindow window({.dataFolder = options.dataFolder,
                      .settingsPath = settings.filePath("palpate.ini"),
                      .clock = nullptr,
-                     .read = {}});
+                     .read = {},
+                     .openGl = options.openGl && whyNoOpenGl().isEmpty(),
+                     .assumedAnglesDeg = options.assumedAnglesDeg});
   window.setTheme(theme);
   window.setFixedSize(options.size);
   window.show();

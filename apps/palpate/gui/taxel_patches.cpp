@@ -19,19 +19,14 @@ void eachPlace(const MatrixLayout& layout, Visit visit) {
 void patchesOnHand(const HandPose& pose, const SensorLayout& layout, TaxelPatches& out) {
   out.resize(layout.numPlaces());
   std::size_t place = 0;
-  std::vector<Eigen::Vector3f> grid;  // corners, shared by neighbours
+  std::vector<Eigen::Vector3d> grid;
   for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
     const MatrixLayout& matrix = layout.matrix(m);
-    const auto pitch = matrix.pitchMm;
-    grid.clear();
-    for (int y = 0; y <= matrix.rows; ++y) {
-      const Eigen::Vector3d left = pose.pointMm(m, -0.5 * pitch, (y - 0.5) * pitch);
-      const Eigen::Vector3d across = pose.rotation(m).col(2) * pitch;
-      for (int x = 0; x <= matrix.columns; ++x) grid.push_back((left + across * x).cast<float>());
-    }
+    pose.cornersMm(m, grid);
     eachPlace(matrix, [&](int y, int x) {
       const auto corner = [&](int dy, int dx) {
-        return grid[static_cast<std::size_t>((y + dy) * (matrix.columns + 1) + x + dx)];
+        const int index = (y + dy) * (matrix.columns + 1) + x + dx;
+        return Eigen::Vector3f(grid[static_cast<std::size_t>(index)].cast<float>());
       };
       TaxelPatch& patch = out[place++];
       patch.centreMm = pose.positionMm(m, y, x).cast<float>();

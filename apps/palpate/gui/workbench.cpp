@@ -4,6 +4,7 @@
 
 #include "gui/application.h"
 #include "gui/first_paint.h"
+#include "gui/gl_probe.h"
 #include "gui/main_window.h"
 #include "gui/termination.h"
 
@@ -15,6 +16,8 @@ int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options) {
                      .settingsPath = settingsPath(),
                      .clock = nullptr,
                      .read = {},
+                     .openGl = options.openGl && whyNoOpenGl().isEmpty(),
+                     .assumedAnglesDeg = options.assumedAnglesDeg,
                      .offerUnfinished = true});
   const FirstPaint firstPaint(window);
   const Termination termination;
