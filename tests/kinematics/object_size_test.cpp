@@ -1,0 +1,3 @@
+#include "palpate/kinematics/object_size.h"
+
+#include <gtest/gtest.h>
