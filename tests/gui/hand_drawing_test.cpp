@@ -31,6 +31,7 @@ class HandDrawingTest : public ::testing::Test {
         }));
   }
 
+  HandGeometry geometry_;
   HandDrawing drawing_;
   TactileFrame frame_ = emptyFrame();
   HandLook look_;
@@ -49,7 +50,7 @@ TEST_F(HandDrawingTest, TaxelsHaveTheColoursOfTheHeatMaps) {
 
 TEST_F(HandDrawingTest, SphereAndContactsAreThoseOfTheContactGeometry) {
   drawing_.setMoment(frame_, kPose);
-  const HandContact expected = contactOf(frame_, HandGeometry().pose(kPose));
+  const HandContact expected = contactOf(frame_, geometry_.pose(kPose));
   look_.sphere = SphereLook::kOpaque;
   const std::size_t without = [&] {
     look_.sphere = SphereLook::kNone;
@@ -168,7 +169,7 @@ TEST_F(HandDrawingTest, ASensorOfUnknownGeometryIsLaidFlat) {
 
 TEST_F(HandDrawingTest, FindsTheTaxelUnderARay) {
   drawing_.setMoment(frame_, kPose);
-  const HandPose pose = HandGeometry().pose(kPose);
+  const HandPose pose = geometry_.pose(kPose);
   for (const auto& [m, y, x] : {TaxelPlace{1, 4, 2}, TaxelPlace{3, 0, 2}, TaxelPlace{0, 10, 5}}) {
     const Eigen::Vector3d at = pose.positionMm(m, y, x), out = pose.normal(m, y, x);
     EXPECT_EQ(drawing_.taxelUnder(at + 8.0 * out, -out, look_), (TaxelPlace{m, y, x}));

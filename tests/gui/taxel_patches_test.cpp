@@ -56,7 +56,8 @@ TEST(TaxelPatches, LaidFlatTheyLieLikeTheHeatMaps) {
     EXPECT_GT(facing(patch).z(), 0.0F);
     EXPECT_EQ(patch.normal, Eigen::Vector3f::UnitZ());
   }
-  EXPECT_NEAR(least.x(), -most.x(), 2.0F * 3.4F);  // around the origin
+  EXPECT_NEAR(least.x(), -most.x(), 1e-4F);  // around the origin
+  EXPECT_NEAR(least.y(), -most.y(), 1e-4F);
 }
 
 }  // namespace

@@ -25,8 +25,7 @@ int indexOf(const All& all, Value value) {
 
 }  // namespace
 
-HandPanel::HandPanel(bool withOpenGl, const QList<QAction*>& shown, QWidget* parent)
-    : QWidget(parent) {
+HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(parent) {
   auto* header = new QWidget(this);
   header->setObjectName("ViewHeader");
   header->setAttribute(Qt::WA_StyledBackground);
@@ -69,7 +68,7 @@ HandPanel::HandPanel(bool withOpenGl, const QList<QAction*>& shown, QWidget* par
   row->addWidget(matrix_);
   row->addWidget(more);
 
-  view_ = new HandView(withOpenGl, this);
+  view_ = new HandView(this);
   view_->setObjectName("handView");
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);

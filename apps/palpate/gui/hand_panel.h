@@ -21,7 +21,7 @@ class HandPanel : public QWidget {
   Q_OBJECT
  public:
   // `shown`: what can be ticked to be seen, offered by a button of the header.
-  HandPanel(bool withOpenGl, const QList<QAction*>& shown, QWidget* parent = nullptr);
+  explicit HandPanel(const QList<QAction*>& shown, QWidget* parent = nullptr);
 
   void setRecording(const OpenedRecordingPtr& recording);  // null: none
   void showFrame(std::size_t frame);

@@ -23,14 +23,16 @@ constexpr double kOnlyMatrixAside = 25.0;  // degrees beside its normal: depth i
 
 }  // namespace
 
-HandView::HandView(bool withOpenGl, QWidget* parent) : QWidget(parent) {
+HandView::HandView(QWidget* parent) : QWidget(parent) {
   setMouseTracking(true);
   setFocusPolicy(Qt::ClickFocus);
   setAccessibleName("Hand in space");
-  if (!withOpenGl) {
-    setAttribute(Qt::WA_OpaquePaintEvent);
-    return;
-  }
+  setAttribute(Qt::WA_OpaquePaintEvent);
+}
+
+void HandView::useOpenGl() {
+  if (canvas_) return;
+  setAttribute(Qt::WA_OpaquePaintEvent, false);
   canvas_ = new HandGlCanvas(this);
   canvas_->setAttribute(Qt::WA_TransparentForMouseEvents);
   canvas_->scene = [this]() -> const HandScene& {
@@ -40,6 +42,8 @@ HandView::HandView(bool withOpenGl, QWidget* parent) : QWidget(parent) {
   canvas_->camera = [this]() -> const HandCamera& { return camera_; };
   canvas_->paintOver = [this](QPainter& painter) { paintOver(painter); };
   connect(canvas_, &HandGlCanvas::failed, this, &HandView::fallBack);
+  canvas_->setGeometry(rect());
+  canvas_->show();
 }
 
 // Not from within its own painting.
@@ -101,6 +105,12 @@ void HandView::setLook(const HandLook& look) {
   if (isFlat(before.taxels) != isFlat(after.taxels) || before.only != after.only ||
       (isFlat(after.taxels) && before.taxels != after.taxels))
     resetCamera();
+  setCamera(camera_);
+}
+
+void HandView::setColorBar(bool shown) {
+  if (shown == colorBar_) return;
+  colorBar_ = shown;
   setCamera(camera_);
 }
 
@@ -186,6 +196,7 @@ HandPictureOptions HandView::options() const {
   options.page.rangeMax = look_.range.maximum;
   options.page.theme = look_.theme;
   options.page.font = font();
+  options.page.colorBar = colorBar_;
   options.look = look_;
   options.camera = camera_;
   options.notice = poseNotice(drawing_, assumed_);

@@ -18,8 +18,10 @@ class HandGlCanvas;
 class HandView : public QWidget {
   Q_OBJECT
  public:
-  // `withOpenGl`: false where there is none, or none is wanted.
-  explicit HandView(bool withOpenGl, QWidget* parent = nullptr);
+  explicit HandView(QWidget* parent = nullptr);
+
+  // From now on with OpenGL; for those who know that it can be had (gl_probe.h). Back to painting if it fails.
+  void useOpenGl();
 
   // Another hand; the camera goes back to where it shows all of it.
   void setHand(const HandDescription& hand);
@@ -31,6 +33,8 @@ class HandView : public QWidget {
   const std::vector<double>& assumedAngles() const noexcept { return assumedDeg_; }
   void setLook(const HandLook& look);
   const HandLook& look() const noexcept { return look_; }
+  // Where no heat maps stand beside it.
+  void setColorBar(bool shown);
   void select(const TaxelSelection& selection);
   const TaxelSelection& selection() const noexcept { return selection_; }
 
@@ -90,6 +94,7 @@ class HandView : public QWidget {
   HandLook look_;
   HandCamera camera_;
   bool moved_ = false;  // by the user: a resize leaves the camera alone
+  bool colorBar_ = false;
   std::vector<double> assumedDeg_;
   bool assumed_ = false;
   TaxelSelection selection_;

@@ -134,6 +134,7 @@ void MainWindow::buildParts(const WindowSurroundings& surroundings) {
   views_->setChildrenCollapsible(false);
   views_->addWidget(matrices_);
   views_->addWidget(handPanel_);
+  for (int i = 0; i < views_->count(); ++i) views_->setStretchFactor(i, 1);
   playbackBar_ = new PlaybackBar(playback_, page);
   auto* work = new QWidget(page);
   auto* column = new QVBoxLayout(work);

@@ -44,7 +44,8 @@ void MainWindow::connectHandView() {
     changeHand(
         [=](HandLook& look) { look.sphereOf = yes ? SphereOf::kCentroids : SphereOf::kTaxels; });
   });
-  on(actions_.normals, [this](bool yes) { changeHand([=](HandLook& look) { look.normals = yes; }); });
+  on(actions_.normals,
+     [this](bool yes) { changeHand([=](HandLook& look) { look.normals = yes; }); });
   on(actions_.contacts,
      [this](bool yes) { changeHand([=](HandLook& look) { look.contacts = yes; }); });
   on(actions_.wire, [this](bool yes) { changeHand([=](HandLook& look) { look.wire = yes; }); });
@@ -92,7 +93,7 @@ void MainWindow::connectHandView() {
   handPanel_->setLook(loadHandLook(settings_));
   handPanel_->setColors(matrices_->view().look());
   if (!views_->restoreState(settings_.value("window/views").toByteArray()))
-    views_->setSizes({1, 1});
+    views_->setSizes({1000, 1000});
   showViews(settings_.value("window/matrices_shown", true).toBool(),
             settings_.value("window/hand_shown", true).toBool());
   showHandLook();
@@ -130,6 +131,7 @@ void MainWindow::showViews(bool matrices, bool hand) {
   matrices_->setVisible(matrices);
   const bool late = hand && handPanel_->isHidden();
   handPanel_->setVisible(hand);
+  handPanel_->view().setColorBar(!matrices);
   actions_.matricesShown->setChecked(matrices);
   actions_.handShown->setChecked(hand);
   settings_.setValue("window/matrices_shown", matrices);

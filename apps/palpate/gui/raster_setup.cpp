@@ -16,9 +16,9 @@ Float4 splat(float value) { return Float4{value, value, value, value}; }
 
 Float4 channels(QRgb color) {
   return Float4{static_cast<float>(qRed(color)),
-          static_cast<float>(qGreen(color)),
-          static_cast<float>(qBlue(color)),
-          static_cast<float>(qAlpha(color))};
+                static_cast<float>(qGreen(color)),
+                static_cast<float>(qBlue(color)),
+                static_cast<float>(qAlpha(color))};
 }
 
 Float4 smaller(Float4 a, Float4 b) {

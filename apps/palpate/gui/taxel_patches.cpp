@@ -60,8 +60,10 @@ void patchesLaidFlat(const HandDescription& hand, TaxelPatches& out) {
       if (at < index) sum += size + kApart * pitch;
     return sum;
   };
-  const float wholeX = before(widths, widths.empty() ? 0 : widths.rbegin()->first + 1);
-  const float wholeY = before(heights, heights.empty() ? 0 : heights.rbegin()->first + 1);
+  const auto whole = [&](const std::map<int, float>& sizes) {
+    return sizes.empty() ? 0.0F : before(sizes, sizes.rbegin()->first) + sizes.rbegin()->second;
+  };
+  const float wholeX = whole(widths), wholeY = whole(heights);
   std::size_t place = 0;
   for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
     const MatrixLayout& matrix = layout.matrix(m);
