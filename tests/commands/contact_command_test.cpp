@@ -221,7 +221,7 @@ TEST(ContactCommand, ASensorOfAnotherHandIsRefused) {
         palpate({"contact", folder / "pad.palpate", option}), 1, {"pad.palpate", "SDH-2"});
 }
 
-// Six grasps of a hockey ball on another day: every grasp that `grasps` finds has a size.
+// A hockey ball on another day: every grasp that `grasps` finds has a size.
 TEST(ContactCommand, SizesOfTheGraspsOfARealRecording) {
   const auto shared = testing::recordingsFolder();
   PALPATE_NEED(shared);
