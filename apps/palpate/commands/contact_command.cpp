@@ -107,9 +107,8 @@ std::pair<std::size_t, std::size_t> rangeOf(const std::filesystem::path& file,
   const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
   const std::int64_t from = request.from.value_or(0), to = request.to.value_or(last);
   if (last < 0 && !request.from && !request.to) return {1, 0};
-  if (from > to || to > last)
-    throw Error(file.string() + ": has no frames " + std::to_string(from) + ".." +
-                std::to_string(to) +
+  if (from > last || to > last)
+    throw Error(file.string() + ": has no frame " + std::to_string(from > last ? from : to) +
                 (last < 0 ? ", it is empty" : ", only 0.." + std::to_string(last)));
   return {static_cast<std::size_t>(from), static_cast<std::size_t>(to)};
 }
@@ -220,9 +219,8 @@ int contactCommand(const Words& words) {
            "matrix instead: its contact centroid, mean normal, principal axes and\nthe standard "
            "deviations along them; with --size a row per grasp: diameter and compression of what "
            "is "
-           "held. PATH is a recording, or a folder: every recording below it. "
-           "With\nseveral a last column names the file. A recording without joint angles needs "
-           "--angles.",
+           "held. PATH is a\nrecording, or a folder: every recording below it. With several a last "
+           "column names the file. A recording\nwithout joint angles needs --angles.",
        .options =
            {{"angles", "A0,..,A6", "assume these joint angles [deg] for all frames"},
             {"matrices", "", "a row per matrix"},

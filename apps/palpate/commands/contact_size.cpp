@@ -82,6 +82,8 @@ int contactSizes(const CommandLine& given) {
         if (profile.numAngles() == 0)
           throw Error(file.string() +
                       ": holds no joint angles; a size can't be told from one assumed pose");
+        if (profile.hand().axes.size() != geometry.description().numAxes)
+          throw Error(file.string() + ": its joint angles are those of another hand");
         const std::vector<GraspSegment> grasps = findGrasps(profile, {}, progress);
         std::vector<std::string> names = header();
         if (recordings.several) names.emplace_back("file");
