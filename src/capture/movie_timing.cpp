@@ -36,7 +36,7 @@ MovieTiming movieTiming(std::span<const std::int64_t> stampsUs, const MovieOptio
   const double picturesPerRecordedS = options.picturesPerS / options.speed;
   // The first picture whose middle isn't before that moment.
   const auto pictureAt = [&](double seconds) {
-    constexpr double kMiddle = 0.5;
+    constexpr double kMiddle = 0.5 + 1e-9;  // less than a microsecond: rates that meet stay in step
     return static_cast<std::size_t>(
         std::max(0.0, std::ceil(seconds * picturesPerRecordedS - kMiddle)));
   };
