@@ -207,6 +207,9 @@ ExportedView MainWindow::matricesExport() {
     pictures.fileName = recordingStem();
     pictures.numFrames = current_->profile.numFrames();
     if (takeAway_->selectedFrames) pictures.selected = takeAway_->selectedFrames();
+    pictures.timeUs = [recording = current_](std::size_t frame) {
+      return recording->profile.frameTimeUs(frame);
+    };
     MatricesPictureOptions options = exportOptions();
     if (view_.range == RangeMode::kFrame) options.rangeMax = options.rangeMin = 0.0;  // of each
     pictures.painter = [recording = current_, options](const PictureLook& look) {
