@@ -15,7 +15,7 @@ const std::vector<double> kPose = {0.0, -10.0, 20.0, -10.0, 20.0, -10.0, 20.0};
 
 class HandViewTest : public ::testing::Test {
  protected:
-  HandViewTest() : view_(false) {
+  HandViewTest() {
     view_.resize(800, 600);
     look_.range = {0.0, 200.0};
     view_.setLook(look_);
@@ -102,7 +102,7 @@ TEST_F(HandViewTest, DragsTurnMoveAndComeNearer) {
 
 TEST_F(HandViewTest, ResizingKeepsTheHandInThePictureUnlessItWasMoved) {
   const double before = view_.camera().distanceMm;
-  view_.resize(300, 600);
+  view_.resize(240, 600);
   QCoreApplication::processEvents();
   EXPECT_GT(view_.camera().distanceMm, before);
   view_.zoomBy(2.0);

@@ -264,6 +264,10 @@ std::vector<Vector3d> HandDrawing::extent(const HandLook& wanted) const {
     points.push_back(places[place].centreMm.cast<double>());
   });
   if (isFlat(look.taxels)) return points;
+  if (const Sphere* sphere = sphereOf(look); sphere && look.sphere != SphereLook::kNone)
+    for (int i = 0; i < 3; ++i)
+      for (const double side : {-1.0, 1.0})
+        points.push_back(sphere->centreMm + side * sphere->radiusMm * Vector3d::Unit(i));
   for (const HandBody& body : bodies_) {
     if (!isShown(body, look)) continue;
     const Eigen::Isometry3d to =

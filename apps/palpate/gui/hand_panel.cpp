@@ -15,7 +15,6 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kControlHeight = 26;  // [px] of boxes beside buttons
-constexpr int kWordsAbove = 560;    // [px] of width: room for the sphere's size in the header
 constexpr int kBoxesAbove = 400;    // [px] of width: room for the sphere's box
 
 template <class All, class Value>
@@ -29,16 +28,13 @@ HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(pa
   auto* header = new QWidget(this);
   header->setObjectName("ViewHeader");
   header->setAttribute(Qt::WA_StyledBackground);
-  title_ = new QLabel("<b>Hand</b>", header);
-  sphere_ = new QLabel(header);
-  sphere_->setObjectName("sphereText");
-  sphere_->setProperty("role", "muted");
   const auto box = [header](const char* name, const char* tip) {
     auto* made = new QComboBox(header);
     made->setObjectName(name);
     made->setFocusPolicy(Qt::NoFocus);  // it has a key
     made->setToolTip(tip);
     made->setMinimumHeight(kControlHeight);
+    made->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     return made;
   };
   taxels_ = box("taxelShapeBox", "How taxels are drawn (T)");
@@ -59,9 +55,7 @@ HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(pa
   auto* row = new QHBoxLayout(header);
   row->setContentsMargins(12, 4, 10, 4);
   row->setSpacing(6);
-  row->addWidget(title_);
-  row->addSpacing(4);
-  row->addWidget(sphere_);
+  row->addWidget(new QLabel("<b>Hand</b>", header));
   row->addStretch(1);
   row->addWidget(taxels_);
   row->addWidget(spheres_);
@@ -95,7 +89,6 @@ HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(pa
       if (index > 0) look.only = static_cast<std::size_t>(index - 1);
     });
   });
-  connect(view_, &HandView::momentShown, this, &HandPanel::say);
   setMinimumWidth(240);
 }
 
@@ -117,7 +110,6 @@ void HandPanel::setRecording(const OpenedRecordingPtr& recording) {
   recording_ = recording;
   if (!recording) {
     view_->clear();
-    say();
     return;
   }
   setHand(recording->profile.hand());
@@ -128,7 +120,6 @@ void HandPanel::setHand(const HandDescription& hand) {
   recording_.reset();
   view_->setHand(hand);
   listMatrices(hand);
-  say();
 }
 
 void HandPanel::showFrame(std::size_t frame) {
@@ -159,17 +150,10 @@ void HandPanel::setLook(const HandLook& wanted) {
   taxels_->setCurrentIndex(indexOf(kAllTaxelShapes, look.taxels));
   spheres_->setCurrentIndex(indexOf(kAllSphereLooks, look.sphere));
   matrix_->setCurrentIndex(look.only ? static_cast<int>(*look.only) + 1 : 0);
-  say();
-}
-
-void HandPanel::say() {
-  const QString text = sphereText(view_->drawing(), view_->look().sphereOf);
-  if (text != sphere_->text()) sphere_->setText(text);
 }
 
 void HandPanel::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
-  sphere_->setVisible(event->size().width() >= kWordsAbove);
   spheres_->setVisible(event->size().width() >= kBoxesAbove);
 }
 

@@ -9,11 +9,7 @@
 #include "gui/opened_recording.h"
 
 class QAction;
-class QActionGroup;
 class QComboBox;
-class QLabel;
-class QMenu;
-class QToolButton;
 
 namespace palpate::gui {
 
@@ -43,11 +39,8 @@ class HandPanel : public QWidget {
 
  private:
   void listMatrices(const HandDescription& hand);
-  void say();
 
   HandView* view_;
-  QLabel* title_;
-  QLabel* sphere_;
   QComboBox* taxels_;
   QComboBox* spheres_;
   QComboBox* matrix_;

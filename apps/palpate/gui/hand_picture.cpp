@@ -42,6 +42,23 @@ void paintScale(QPainter& painter, const QRectF& area, const HandPictureOptions&
   painter.drawText(left + QPointF(length + 8.0, 2.0), text);
 }
 
+// How large the sphere is, where it is seen.
+double paintSphereText(QPainter& painter,
+                       const QRectF& area,
+                       double top,
+                       const HandDrawing& drawing,
+                       const HandPictureOptions& options) {
+  const HandLook& look = options.look;
+  if (look.sphere == SphereLook::kNone || isFlat(drawing.effective(look).taxels)) return top;
+  const QString text = sphereText(drawing, look.sphereOf);
+  if (text.isEmpty()) return top;
+  const QFontMetricsF metrics(painter.font());
+  painter.setPen(colorsOf(options.page.theme).muted);
+  const QRectF line(area.left() + kMargin, top, area.width() - 2.0 * kMargin, metrics.height());
+  painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter, text);
+  return line.bottom() + 6.0;
+}
+
 void paintNotice(QPainter& painter,
                  const QRectF& area,
                  double top,
@@ -90,6 +107,7 @@ void paintHandOverlay(QPainter& painter,
     top = title.bottom() + 8.0;
   }
   painter.setFont(pictureFont(options.page));
+  top = paintSphereText(painter, area, top, drawing, options);
   paintNotice(painter, area, top, options);
   if (drawing.hasHand()) {
     painter.setFont(pictureFont(options.page));

@@ -87,7 +87,6 @@ void HandView::setMoment(const TactileFrame& frame, const std::vector<double>& a
   drawing_.setMoment(frame, angles);
   if (first && !moved_) fit();
   setCamera(camera_);
-  emit momentShown();
   if (hover_) emit hovered(hoverText());
 }
 

@@ -61,7 +61,6 @@ class HandView : public QWidget {
  signals:
   void selectionChanged();
   void hovered(const QString& text);
-  void momentShown();  // another frame or pose
   void openGlFailed(const QString& why);
 
  protected:

@@ -121,8 +121,7 @@ void MainWindow::buildParts(const WindowSurroundings& surroundings) {
   exporting_ = new OpeningStrip(page, "Exporting", "exporting");
   startPage_ = new StartPage(recent_, withDemo, page);
   matrices_ = new MatricesPanel(actions_.interpolated, actions_.values, page);
-  handPanel_ = new HandPanel(surroundings.openGl,
-                             {actions_.normals,
+  handPanel_ = new HandPanel({actions_.normals,
                               actions_.contacts,
                               actions_.sphereOfCentroids,
                               actions_.wire,

@@ -70,7 +70,6 @@ struct WindowSurroundings {
   QString settingsPath;                       // INI file
   const Clock* clock = nullptr;               // null: the system's
   RecordingOpener::Read read = {};            // empty: openRecording
-  bool openGl = false;                        // there is one, and it is wanted
   std::vector<double> assumedAnglesDeg = {};  // of recordings without joint angles; empty: none
   bool offerUnfinished = false;  // recordings that an earlier day left, when the window opens
 };
