@@ -42,16 +42,16 @@ FramePictures::Paint matricesFramePainter(const OpenedRecordingPtr& recording,
   };
 }
 
-FramePictures::Paint handFramePainter(const OpenedRecordingPtr& recording,
+FramePictures::Paint handFramePainter(const Profile& profile,
                                       const HandPictureOptions& options,
                                       const std::vector<double>& assumedDeg) {
   const auto drawing = std::make_shared<HandDrawing>();
-  drawing->setHand(recording->profile.hand());
-  return [recording, options, assumedDeg, drawing](QPainter& painter, std::size_t frame) {
+  drawing->setHand(profile.hand());
+  return [profile, options, assumedDeg, drawing](QPainter& painter, std::size_t frame) {
     HandPictureOptions now = options;
-    if (!now.page.title.isEmpty()) now.page.caption = captionOf(recording->profile, frame);
-    const auto angles = recording->profile.anglesAtFrame(frame);
-    drawing->setMoment(recording->profile.frame(frame), angles ? angles->deg : assumedDeg);
+    if (!now.page.title.isEmpty()) now.page.caption = captionOf(profile, frame);
+    const auto angles = profile.anglesAtFrame(frame);
+    drawing->setMoment(profile.frame(frame), angles ? angles->deg : assumedDeg);
     now.notice = poseNotice(*drawing, !angles && !assumedDeg.empty());
     paintHandPicture(painter, QRectF(QPointF(), now.page.size), *drawing, now);
   };

@@ -17,7 +17,7 @@ QString captionOf(const Profile& profile, std::size_t frame);
 FramePictures::Paint matricesFramePainter(const OpenedRecordingPtr& recording,
                                           const MatricesPictureOptions& options);
 // `assumedDeg`: for a recording without joint angles; empty: at rest.
-FramePictures::Paint handFramePainter(const OpenedRecordingPtr& recording,
+FramePictures::Paint handFramePainter(const Profile& profile,
                                       const HandPictureOptions& options,
                                       const std::vector<double>& assumedDeg);
 

@@ -46,6 +46,8 @@ class HandDrawing {
   // What is drawn: taxels laid flat where the geometry isn't known, whatever the look says.
   HandLook effective(HandLook look) const;
   void fill(HandScene& scene, const HandLook& look, const HandCamera& camera) const;
+  // From where it is looked at first; not yet fitted.
+  HandCamera usualCamera(const HandLook& look) const;
   // What a camera has to have in its picture [mm].
   std::vector<Eigen::Vector3d> extent(const HandLook& look) const;
   // The place whose taxel is under a ray, in front of everything else.

@@ -52,6 +52,32 @@ void addCircle(HandScene& scene,
 
 }  // namespace
 
+HandCamera HandDrawing::usualCamera(const HandLook& wanted) const {
+  constexpr double kFlatElevationDeg = 89.0, kBarsElevationDeg = 48.0;
+  constexpr double kAsideDeg = 25.0, kAboveDeg = 10.0;  // of a matrix alone: depth is seen
+  constexpr double kSteepestDeg = 80.0;
+  HandCamera camera;
+  const HandLook look = effective(wanted);
+  if (isFlat(look.taxels)) {
+    camera.azimuthDeg = -90.0;
+    camera.elevationDeg =
+        look.taxels == TaxelShape::kFlatBars ? kBarsElevationDeg : kFlatElevationDeg;
+  } else if (look.only && hand_) {
+    // From where its taxels face.
+    const SensorLayout& layout = *hand_->layout;
+    Vector3f facing = Vector3f::Zero();
+    for (std::size_t i = 0; i < layout.matrix(*look.only).numPlaces(); ++i)
+      facing += patches(look)[layout.offset(*look.only) + i].normal;
+    const auto degrees = [](float y, float x) {
+      return static_cast<double>(std::atan2(y, x)) * 180.0 / std::numbers::pi;
+    };
+    camera.azimuthDeg = degrees(facing.y(), facing.x()) + kAsideDeg;
+    camera.elevationDeg = std::clamp(
+        degrees(facing.z(), facing.head<2>().norm()) + kAboveDeg, -kSteepestDeg, kSteepestDeg);
+  }
+  return camera;
+}
+
 const Sphere* HandDrawing::sphereOf(const HandLook& look) const {
   const auto& sphere = look.sphereOf == SphereOf::kTaxels ? moment_.contact.taxelSphere
                                                           : moment_.contact.centroidSphere;

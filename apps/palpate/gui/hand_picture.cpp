@@ -80,10 +80,11 @@ void paintNotice(QPainter& painter,
 
 }  // namespace
 
-HandLook lookOf(const HandPictureOptions& options) {
+HandLook lookOf(const HandPictureOptions& options, const HandDrawing& drawing) {
   HandLook look = options.look;
   look.map = options.page.map;
   look.range = {options.page.rangeMin, options.page.rangeMax};
+  if (const auto& frame = drawing.moment().frame) look.range = rangeOf(options.page, *frame);
   look.theme = options.page.theme;
   return look;
 }
@@ -117,7 +118,7 @@ void paintHandOverlay(QPainter& painter,
       const double height = std::min(kHighestBar, area.bottom() - above - 3.0 * kMargin);
       const QRectF bar(area.right() - kMargin - kBarLabels - kBarWidth, above, kBarWidth, height);
       painter.setRenderHint(QPainter::Antialiasing, false);
-      paintColorBar(painter, bar, {options.page.rangeMin, options.page.rangeMax}, options.page);
+      paintColorBar(painter, bar, lookOf(options, drawing).range, options.page);
     }
   }
   painter.restore();
@@ -128,7 +129,7 @@ void paintHandPicture(QPainter& painter,
                       const HandDrawing& drawing,
                       const HandPictureOptions& options) {
   HandScene scene;
-  drawing.fill(scene, lookOf(options), options.camera);
+  drawing.fill(scene, lookOf(options, drawing), options.camera);
   const double ratio = options.page.pixelRatio > 0.0 ? options.page.pixelRatio : kVectorRatio;
   painter.drawImage(area, rasterize(scene, options.camera, area.size(), ratio));
   paintHandOverlay(painter, area, drawing, scene, options);

@@ -21,8 +21,8 @@ struct HandPictureOptions {
   QString notice;  // "no joint angles: the hand at rest"; empty: nothing to say
 };
 
-// The look with the colours of the page.
-HandLook lookOf(const HandPictureOptions& options);
+// The look with the colours of the page; a range that is empty there is that of the frame.
+HandLook lookOf(const HandPictureOptions& options, const HandDrawing& drawing);
 // What lies over the scene; `area` is the picture's.
 void paintHandOverlay(QPainter& painter,
                       const QRectF& area,

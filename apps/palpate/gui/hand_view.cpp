@@ -17,9 +17,6 @@ namespace {
 constexpr double kClickPx = 4.0;       // less is no drag
 constexpr double kWheelStep = 1.0015;  // per eighth of a degree
 constexpr double kDragZoom = 1.006;    // per px
-constexpr double kFlatElevationDeg = 89.0;
-constexpr double kBarsElevationDeg = 48.0;
-constexpr double kOnlyMatrixAside = 25.0;  // degrees beside its normal: depth is seen
 
 }  // namespace
 
@@ -128,32 +125,8 @@ void HandView::setCamera(const HandCamera& camera) {
   if (canvas_) canvas_->update();
 }
 
-HandCamera HandView::usualCamera() const {
-  HandCamera camera;
-  const HandLook look = drawing_.effective(look_);
-  if (isFlat(look.taxels)) {
-    camera.azimuthDeg = -90.0;
-    camera.elevationDeg =
-        look.taxels == TaxelShape::kFlatBars ? kBarsElevationDeg : kFlatElevationDeg;
-  } else if (look.only && drawing_.hasHand()) {
-    // From where its taxels face.
-    const SensorLayout& layout = *drawing_.hand().layout;
-    Eigen::Vector3f facing = Eigen::Vector3f::Zero();
-    for (std::size_t i = 0; i < layout.matrix(*look.only).numPlaces(); ++i)
-      facing += drawing_.patches(look)[layout.offset(*look.only) + i].normal;
-    constexpr double kDegPerRad = 57.29577951308232;
-    camera.azimuthDeg =
-        static_cast<double>(std::atan2(facing.y(), facing.x())) * kDegPerRad + kOnlyMatrixAside;
-    camera.elevationDeg = std::clamp(
-        static_cast<double>(std::atan2(facing.z(), facing.head<2>().norm())) * kDegPerRad + 10.0,
-        -80.0,
-        80.0);
-  }
-  return camera;
-}
-
 void HandView::resetCamera() {
-  camera_ = usualCamera();
+  camera_ = drawing_.usualCamera(look_);
   moved_ = false;
   fit();
 }

@@ -82,7 +82,6 @@ class HandView : public QWidget {
   std::optional<TaxelPlace> placeAt(const QPointF& at) const;
   void choose(const TaxelPlace& place, bool clicked);
   void setHover(std::optional<TaxelPlace> place);
-  HandCamera usualCamera() const;
   HandPictureOptions options() const;
 
   HandGlCanvas* canvas_ = nullptr;
