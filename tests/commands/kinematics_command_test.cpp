@@ -1,3 +1,4 @@
+#include <map>
 #include <sstream>
 
 #include "palpate/core/number_text.h"
@@ -66,6 +67,47 @@ TEST(KinematicsCommand, TheEffectiveFingertipBendsMore) {
   EXPECT_EQ(linesOf(study.out)[78], linesOf(effective.out)[78]);
 }
 
+// Every point of the golden file through the real program, whose joints stand where recordings have them: a hair beyond their
+// range.
+TEST(KinematicsCommand, AgreesWithTheGoldenNumbers) {
+  const auto golden = goldenFolder();
+  PALPATE_NEED(golden);
+  std::map<std::string, std::map<std::string, std::vector<double>>> expected;  // by angles, place
+  for (const std::string& line : linesOf(readFile(*golden / "forward_kinematics.csv"))) {
+    if (line.rfind("taxel,", 0) != 0) continue;
+    std::istringstream in(line);
+    std::vector<std::string> fields;
+    for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+    ASSERT_EQ(fields.size(), 15u);
+    std::string angles = fields[2];
+    for (std::size_t i = 3; i < 9; ++i) angles += "," + fields[i];
+    for (std::size_t i = 12; i < 15; ++i)
+      expected[angles][fields[9] + "," + fields[10] + "," + fields[11]].push_back(
+          parseDouble(fields[i]).value());
+  }
+  ASSERT_EQ(expected.size(), 8u);
+  for (const auto& [angles, places] : expected) {
+    const auto result = run({"--angles", angles});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    std::size_t found = 0;
+    for (const std::string& line : linesOf(result.out)) {
+      std::istringstream in(line);
+      std::vector<std::string> fields;
+      for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+      const auto place = places.find(fields[0] + "," + fields[1] + "," + fields[2]);
+      if (place == places.end()) continue;
+      ++found;
+      double length = 0.0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(parseDouble(fields[3 + i]).value(), place->second[i], 1e-9) << line;
+        length += parseDouble(fields[6 + i]).value() * parseDouble(fields[6 + i]).value();
+      }
+      EXPECT_NEAR(length, 1.0, 1e-12) << line;
+    }
+    EXPECT_EQ(found, 486u);
+  }
+}
+
 TEST(KinematicsCommand, WrongUsageIsSaidInOneLine) {
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
            {},
@@ -74,6 +116,9 @@ TEST(KinematicsCommand, WrongUsageIsSaidInOneLine) {
            {"--angles", "0,0,zero,0,0,0,0"},
            {"--angles", "0,0,nan,0,0,0,0"},
            {"--angles", "0,0,,0,0,0,0"},
+           {"--angles", "0,0,0,0,0,0,inf"},
+           {"--angles", "0,0,0,0,0,0,92"},
+           {"--angles", "-2,0,0,0,0,0,0"},
            {"--angles", "0,0,0,0,0,0,0", "--matrix", "6"},
            {"--angles", "0,0,0,0,0,0,0", "--matrix", "-1"},
            {"--angles", "0,0,0,0,0,0,0", "--point", "1,2"},
@@ -81,6 +126,8 @@ TEST(KinematicsCommand, WrongUsageIsSaidInOneLine) {
            {"--angles", "0,0,0,0,0,0,0", "--point", "7,2,3"},
            {"--angles", "0,0,0,0,0,0,0", "--point", "-1,2,3"},
            {"--angles", "0,0,0,0,0,0,0", "--point", "0,2,inf"},
+           {"--angles", "0,0,0,0,0,0,0", "--point", "1e30,2,3"},
+           {"--angles", "0,0,0,0,0,0,0", "--point", "0,1e300,3"},
            {"--angles", "0,0,0,0,0,0,0", "--fingertip", "round"},
            {"--angles", "0,0,0,0,0,0,0", "--matrix", "1", "--point", "1,2,3"}}) {
     const auto result = run(words);

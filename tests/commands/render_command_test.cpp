@@ -167,7 +167,9 @@ TEST(RenderCommand, RefusesSeriesThatMakeNoSense) {
   };
   expectOneLineError(with({"--from", "700", "--to", "761", "-o", out}), 1, {"700..761", "0..760"});
   expectOneLineError(with({"--from", "9", "--to", "8", "-o", out}), 1, {"9..8"});
-  expectOneLineError(with({"--from", "9", "-o", folder / "a.png"}), 2, {"folder"});
+  expectOneLineError(with({"--from", "9", "-o", folder / "a.png"}), 2, {"folder", ".mp4"});
+  for (const char* option : {"--speed", "--fps"})
+    expectOneLineError(with({option, "2", "-o", folder / "a.png"}), 2, {option, ".mp4"});
   expectOneLineError(with({"--from", "9", "--frame", "9", "-o", out}), 2, {"--frame"});
   expectOneLineError(with({"--print", "--size", "400x400", "-o", folder / "a.png"}), 2, {"--size"});
   expectOneLineError(with({"--print", "--theme", "dark", "-o", folder / "a.png"}), 2, {"--print"});

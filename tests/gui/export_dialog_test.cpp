@@ -11,6 +11,7 @@
 
 #include "gui/export_place.h"
 #include "gui/export_preview.h"
+#include "testing/fake_ffmpeg.h"
 #include "window_fixture.h"
 
 namespace palpate::gui {
@@ -34,6 +35,7 @@ class ExportDialogTest : public ::testing::Test {
       frames.fileName = "ball";
       frames.numFrames = 200;
       frames.selected = selected_;
+      frames.timeUs = [](std::size_t frame) { return static_cast<std::int64_t>(frame) * 50'000; };
       frames.painter = [](const PictureLook&) { return [](QPainter&, std::size_t) {}; };
       return std::optional(frames);
     };
@@ -166,6 +168,82 @@ TEST_F(ExportDialogTest, WithoutASelectionNoneIsOffered) {
   selected_.reset();
   open();
   EXPECT_EQ(find<QComboBox>("exportFrames")->count(), 2);
+}
+
+TEST_F(ExportDialogTest, AMovieIsOfManyFrames) {
+  const testing::FakeFfmpeg fake;
+  open();
+  click("exportFormMP4");
+  auto* frames = find<QComboBox>("exportFrames");
+  ASSERT_EQ(frames->count(), 2) << "not of the one that is shown";
+  EXPECT_EQ(frames->itemText(0), "the selected 20, 10 to 29");
+  EXPECT_EQ(find<QLineEdit>("exportName")->text(), "ball");
+  EXPECT_EQ(find<QLabel>("exportEnding")->text(), ".mp4");
+  EXPECT_FALSE(find<QComboBox>("exportDpi")->isVisible());
+  EXPECT_TRUE(summary().startsWith("2160 × 1080 px")) << summary().toStdString();
+  // 20 frames of 50 ms.
+  ASSERT_TRUE(QTest::qWaitFor([&] { return summary().endsWith("1.0 s · 30 pictures"); }, 10'000))
+      << summary().toStdString();
+  auto* speed = find<QComboBox>("exportSpeed");
+  speed->setCurrentIndex(speed->findText("0.5×"));
+  auto* rate = find<QComboBox>("exportRate");
+  rate->setCurrentIndex(rate->findText("50 pictures/s"));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return summary().endsWith("2.0 s · 100 pictures"); }, 10'000))
+      << summary().toStdString();
+  auto* height = find<QComboBox>("exportMovieHeight");
+  height->setCurrentIndex(height->findText("720 px high"));
+  EXPECT_TRUE(summary().startsWith("1440 × 720 px")) << summary().toStdString();
+  const ExportRequest asked = dialog_->request();
+  EXPECT_EQ(asked.form, ExportForm::kMovie);
+  EXPECT_EQ(asked.frames, ExportFrames::kSelected);
+  EXPECT_EQ(asked.movieSpeed, 0.5);
+  EXPECT_EQ(asked.moviePicturesPerS, 50);
+  EXPECT_EQ(asked.movieHeightPx, 720);
+  EXPECT_TRUE(canExport());
+  click("exportFormPNG");
+  EXPECT_EQ(dialog_->request().frames, ExportFrames::kShown) << "as before";
+  EXPECT_FALSE(speed->isVisible());
+  dialog_.reset();
+  request_ = asked;
+  EXPECT_EQ(open().request(), asked);
+}
+
+TEST_F(ExportDialogTest, ShortenedGapsOfAMovieAreSaid) {
+  const testing::FakeFfmpeg fake;
+  request_.form = ExportForm::kMovie;
+  const auto pictures = pictures_.framePictures;
+  pictures_.framePictures = [pictures] {
+    auto frames = pictures();
+    frames->timeUs = [](std::size_t frame) {
+      return static_cast<std::int64_t>(frame) * 50'000 + (frame < 20 ? 0 : 60'000'000);
+    };
+    return frames;
+  };
+  open();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return summary().endsWith("1 gap shortened"); }, 10'000))
+      << summary().toStdString();
+}
+
+TEST_F(ExportDialogTest, WithoutFfmpegAMovieIsGreyAndSaysWhy) {
+  const testing::FakeFfmpeg fake;
+  qputenv("PALPATE_FFMPEG", "/no/such/ffmpeg");
+  request_.form = ExportForm::kMovie;
+  open();
+  EXPECT_FALSE(find<QToolButton>("exportFormMP4")->isEnabled());
+  EXPECT_TRUE(find<QToolButton>("exportFormMP4")->toolTip().contains("/no/such/ffmpeg"));
+  EXPECT_EQ(dialog_->request().form, ExportForm::kPng);
+  EXPECT_TRUE(canExport());
+}
+
+TEST_F(ExportDialogTest, AViewWithoutFramesHasNoMovie) {
+  const testing::FakeFfmpeg fake;
+  pictures_.framePictures = nullptr;
+  open();
+  EXPECT_FALSE(find<QToolButton>("exportFormMP4")->isEnabled());
+  pictures_.framePictures = [] { return std::nullopt; };
+  open();
+  EXPECT_FALSE(find<QToolButton>("exportFormMP4")->isEnabled()) << "live";
+  EXPECT_TRUE(find<QToolButton>("exportFormMP4")->toolTip().contains("recording"));
 }
 
 TEST_F(ExportDialogTest, ATableIsShownByItsFirstRows) {

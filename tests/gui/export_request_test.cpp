@@ -24,6 +24,9 @@ TEST_F(ExportRequestTest, IsRememberedButNotThatFilesMayBeReplaced) {
   request.forPrint = false;
   request.titled = false;
   request.frames = ExportFrames::kAll;
+  request.movieSpeed = 0.25;
+  request.moviePicturesPerS = 60;
+  request.movieHeightPx = 720;
   request.table = "what is seen";
   request.folder = QString::fromStdString(folder_.path().string());
   request.name = "figure 3";
@@ -40,7 +43,8 @@ TEST_F(ExportRequestTest, IsRememberedButNotThatFilesMayBeReplaced) {
 TEST_F(ExportRequestTest, NonsenseInTheSettingsIsReplacedByTheUsual) {
   testing::writeFile(folder_ / "a.ini",
                      "[export]\nform=GIF\nsize=poster\nwidth_mm=nan\nheight_mm=-3\ntext_pt=1e9\n"
-                     "dpi=7\nframes=9\nfolder=relative/path\nname_is_own=true\n");
+                     "dpi=7\nmovie_speed=3\nmovie_pictures_per_s=nan\nmovie_height_px=-1\nframes="
+                     "9\nfolder=relative/path\nname_is_own=true\n");
   const ExportRequest read = loadExportRequest(settings());
   ExportRequest usual;
   usual.folder = read.folder;
@@ -93,6 +97,40 @@ TEST_F(ExportRequestTest, WhereItGoes) {
   EXPECT_EQ(spanOf(request, pictures), (FrameSpan{4, 4}));
   pictures.numFrames = 0;
   EXPECT_EQ(spanOf(request, pictures), std::nullopt);
+}
+
+TEST_F(ExportRequestTest, AMovieIsSoHighWhateverThePaper) {
+  ExportRequest request;
+  request.form = ExportForm::kMovie;
+  request.movieHeightPx = 720;
+  request.dpi = 600;
+  EXPECT_EQ(paperOf(request, {900, 600}).pixels(), QSize(1080, 720));
+  EXPECT_NEAR(lookOf(request, {900, 600}).pixelRatio, 1.2, 1e-12);
+  request.preset = kOwnPreset;
+  request.sizeMm = {160.0, 90.0};
+  EXPECT_EQ(paperOf(request, {900, 600}).pixels(), QSize(1280, 720));
+}
+
+TEST_F(ExportRequestTest, AMovieIsOneFileOfTheSelectedFramesElseOfAll) {
+  ExportRequest request;
+  request.form = ExportForm::kMovie;
+  request.folder = "/f";
+  request.name = "ball";
+  FramePictures pictures;
+  pictures.numFrames = 10;
+  for (const ExportFrames frames : {ExportFrames::kShown, ExportFrames::kAll}) {
+    request.frames = frames;
+    EXPECT_EQ(pathOf(request), "/f/ball.mp4");
+    EXPECT_EQ(spanOf(request, pictures), (FrameSpan{0, 9}));
+  }
+  pictures.selected = FrameSpan{4, 6};
+  EXPECT_EQ(spanOf(request, pictures), (FrameSpan{0, 9})) << "all were asked for";
+  request.frames = ExportFrames::kShown;
+  EXPECT_EQ(spanOf(request, pictures), (FrameSpan{4, 6}));
+  request.movieSpeed = 0.5;
+  request.moviePicturesPerS = 25;
+  EXPECT_EQ(movieOptionsOf(request).speed, 0.5);
+  EXPECT_EQ(movieOptionsOf(request).picturesPerS, 25.0);
 }
 
 TEST_F(ExportRequestTest, BytesReadWell) {

@@ -120,6 +120,7 @@ int runCaught(const Words& words) {
 const std::vector<Command>& allCommands() {
   static const std::vector<Command> commands = {
       {"compare", "two recordings frame beside frame, as CSV", &compareCommand},
+      {"contact", "where a hand touches, and how large what it holds is", &contactCommand},
       {"convert",
        "from one form of a recording to another: .dsa, .palpate, .csv, .npz",
        &convertCommand},

@@ -23,6 +23,7 @@ struct Command {
 
 // One function per command, one file per command. They throw; run() turns that into exit codes.
 int compareCommand(const Words& words);
+int contactCommand(const Words& words);
 int convertCommand(const Words& words);
 int demoCommand(const Words& words);
 int emulateCommand(const Words& words);

@@ -1,4 +1,5 @@
 // palpate kinematics: where the taxels are at a set of joint angles.
+#include <cmath>
 #include <optional>
 
 #include "palpate/core/number_text.h"
@@ -6,30 +7,12 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/hand_options.h"
 
 namespace palpate::commands {
 namespace {
 
-// "10,-20,.." as numbers; throws UsageError naming the option and the piece that is none.
-std::vector<double> numbersOf(const std::string& text,
-                              const std::string& option,
-                              std::size_t count) {
-  std::vector<double> numbers;
-  std::size_t at = 0;
-  while (true) {
-    const std::size_t comma = text.find(',', at);
-    const std::string piece = text.substr(at, comma == std::string::npos ? comma : comma - at);
-    const auto number = parseDouble(piece);
-    if (!number) throw UsageError("--" + option + ": '" + piece + "' is not a number");
-    numbers.push_back(*number);
-    if (comma == std::string::npos) break;
-    at = comma + 1;
-  }
-  if (numbers.size() != count)
-    throw UsageError("--" + option + " takes " + std::to_string(count) + " numbers, not " +
-                     std::to_string(numbers.size()));
-  return numbers;
-}
+constexpr double kFarthestMm = 1000.0;
 
 void appendRow(std::string& out,
                std::size_t matrix,
@@ -57,40 +40,38 @@ int kinematicsCommand(const Words& words) {
            "CSV:\nmatrix,x,y,x_mm,y_mm,z_mm,nx,ny,nz,exists. With --point, of one point of a "
            "sensor surface,\nin mm from the centre of taxel (0, 0); its x and y are then "
            "fractions of taxels.",
-       .options = {{"angles", "A0,..,A6", "joint angles [deg]"},
+       .options = {anglesOption(),
                    {"matrix", "M", "this matrix only, 0..5"},
                    {"point", "M,X_MM,Y_MM", "one point"},
-                   {"fingertip",
-                    "study|effective",
-                    "radius of the bent fingertips: 58 mm (default) or 48.4 mm"}},
+                   fingertipOption()},
        .example = "palpate kinematics --angles 60,-20,40,-20,40,-20,40 --matrix 1",
        .mostWords = 0},
       words);
   if (given.helpShown()) return kDone;
-  const auto angles = given.text("angles");
+  const auto angles = anglesOf(given);
   if (!angles) throw UsageError("kinematics needs --angles A0,..,A6 [deg]");
   if (given.has("matrix") && given.has("point"))
     throw UsageError("--matrix and --point exclude each other");
-  const bool effective =
-      given.choice("fingertip", {"study", "effective"}).value_or("study") == "effective";
-  const HandGeometry geometry(
-      sdh2Geometry(effective ? kEffectiveFingertipRadiusMm : kStudyFingertipRadiusMm));
+  const HandGeometry geometry(geometryOf(given));
   const SensorLayout& layout = geometry.description().layout;
   const auto lastMatrix = static_cast<std::int64_t>(layout.numMatrices()) - 1;
   const std::optional<std::int64_t> only = given.integer("matrix", 0, lastMatrix);
-  const HandPose pose = geometry.pose(numbersOf(*angles, "angles", geometry.description().numAxes));
+  const HandPose pose = geometry.pose(*angles);
 
   std::string out = "matrix,x,y,x_mm,y_mm,z_mm,nx,ny,nz,exists\n";
   if (const auto text = given.text("point")) {
     const std::vector<double> point = numbersOf(*text, "point", 3);
-    const auto matrix = static_cast<std::size_t>(std::max(point[0], 0.0));
-    if (point[0] != static_cast<double>(matrix) || matrix >= layout.numMatrices())
+    if (!(point[0] >= 0.0 && point[0] <= static_cast<double>(lastMatrix) &&
+          point[0] == std::floor(point[0])))
       throw UsageError("--point: there is no matrix " + numberText(point[0]));
+    if (!(std::abs(point[1]) <= kFarthestMm && std::abs(point[2]) <= kFarthestMm))
+      throw UsageError("--point takes mm on the sensor surface, at most " +
+                       numberText(kFarthestMm) + " from its first taxel");
+    const auto matrix = static_cast<std::size_t>(point[0]);
     const double pitchMm = layout.matrix(matrix).pitchMm;
     const double x = point[1] / pitchMm, y = point[2] / pitchMm;
     // The taxel that the point lies in.
-    const bool exists = std::abs(x) < 1e6 && std::abs(y) < 1e6 &&
-                        layout.matrix(matrix).exists(static_cast<int>(std::floor(y + 0.5)),
+    const bool exists = layout.matrix(matrix).exists(static_cast<int>(std::floor(y + 0.5)),
                                                      static_cast<int>(std::floor(x + 0.5)));
     appendRow(out,
               matrix,

@@ -1,4 +1,5 @@
-// palpate render FILE --frame N -o OUT.{png,svg,pdf}: a picture of one frame; --from N --to M -o FOLDER: of each.
+// palpate render FILE --frame N -o OUT.{png,svg,pdf}: a picture of one frame; --from N --to M -o FOLDER: of each;
+// -o OUT.mp4: a movie of them.
 #include <QGuiApplication>
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,8 @@
 #include "commands/commands.h"
 #include "commands/display.h"
 #include "commands/picture_size.h"
+#include "commands/render_hand.h"
+#include "commands/render_movie.h"
 #include "gui/interruption.h"
 #include "gui/picture_export.h"
 #include "gui/picture_series.h"
@@ -46,6 +49,7 @@ constexpr QSize kSmallestPicture{320, 320};
 constexpr double kMmPerInch = 25.4;
 constexpr int kUnitsPerPt = 2;  // on paper half a point is a unit: text sizes are exact in halves
 constexpr double kUnitsPerInch = 144.0;
+constexpr double kMovieDpi = 96.0;       // a pixel for each of --size
 constexpr double kUsualWidthMm = 174.0;  // two columns of a journal
 constexpr double kUsualHeight = 0.8;     // of the width
 constexpr double kUsualTextPt = 8.0;
@@ -108,6 +112,15 @@ class FramePainter {
   gui::MatricesPictureOptions options_;
 };
 
+// What draws the frames of a span.
+gui::FramePictures::Paint painterOf(const CommandLine& given,
+                                    const Profile& profile,
+                                    const gui::FrameSpan& span,
+                                    const gui::MatricesPictureOptions& options) {
+  if (given.text("view") == "hand") return handPainter(given, profile, span, options);
+  return FramePainter(profile, options);
+}
+
 // The frame asked for, else that of largest sum.
 std::size_t chosenFrame(std::optional<std::int64_t> frame,
                         const std::string& file,
@@ -167,7 +180,7 @@ int drawSeries(const CommandLine& given,
     ProgressLine progress("drawing", given.quiet());
     const Progress show = progress.callback();
     report = gui::writePictureSeries(
-        series, FramePainter(profile, options), paper, overwrite, [&](double fraction) {
+        series, painterOf(given, profile, span, options), paper, overwrite, [&](double fraction) {
           return !interruption.came(0) && (!show || show(fraction));
         });
   }
@@ -198,7 +211,7 @@ int drawOne(const CommandLine& given,
   const std::size_t frame =
       chosenFrame(given.integer("frame", 0, INT64_MAX), given.words()[0], profile);
   if (gui::pictureFormOf(out) == gui::PictureForm::kPng) options.pixelRatio = paper.scale();
-  const FramePainter paint(profile, options);
+  const auto paint = painterOf(given, profile, {frame, frame}, options);
   gui::writePicture(
       out, [&](QPainter& painter) { paint(painter, frame); }, paper, overwrite);
   if (!given.quiet()) std::printf("%s: frame %zu\n", out.c_str(), frame);
@@ -208,16 +221,22 @@ int drawOne(const CommandLine& given,
 // What can be said without looking at any file.
 void checkUsage(const CommandLine& given, bool isSeries) {
   const auto out = given.text("output");
-  if (!out) throw UsageError("render needs -o OUT.png, OUT.svg or OUT.pdf, or a folder for --from");
+  if (!out)
+    throw UsageError(
+        "render needs -o OUT.png, OUT.svg, OUT.pdf or OUT.mp4, or a folder for --from");
+  const bool isMovie = isMovieName(*out);
+  checkMovieUsage(given);
   const bool isPicture = gui::pictureFormOf(*out).has_value();
   if (isSeries && given.has("frame"))
     throw UsageError("--frame is one frame, --from and --to are many");
   if (isSeries && isPicture)
-    throw UsageError("with --from or --to the pictures go into a folder: -o FOLDER, not '" + *out +
-                     "'");
-  if (!isSeries && !isPicture)
-    throw UsageError("the picture's name must end in .png, .svg or .pdf, not '" + *out + "'");
-  given.choice("view", {"matrices"});
+    throw UsageError(
+        "with --from or --to the pictures go into a folder, or OUT.mp4: -o FOLDER, not '" + *out +
+        "'");
+  if (!isSeries && !isMovie && !isPicture)
+    throw UsageError("the picture's name must end in .png, .svg or .pdf, a movie's in .mp4, not '" +
+                     *out + "'");
+  checkHandUsage(given);
   if (!given.has("size")) return;
   for (const char* name : kPaperOptions)
     if (given.has(name))
@@ -228,42 +247,47 @@ void checkUsage(const CommandLine& given, bool isSeries) {
 }  // namespace
 
 int renderCommand(const Words& words) {
-  const CommandLine given(
-      {.synopsis = "palpate render FILE [--frame N | --from N --to M] -o OUT.{png,svg,pdf}|FOLDER",
-       .purpose =
-           "Draws the heat maps of one frame. The ending of OUT chooses the form; SVG and PDF "
-           "are vector\ngraphics with text as text. With --from or --to, a PNG of each frame from "
-           "N "
-           "to M, both inclusive:\nFOLDER/NAME_00042.png.",
-       .options = {{"frame", "N", "default: the frame of largest sum"},
-                   {"from", "N", "first frame of a series; default 0"},
-                   {"to", "M", "last frame, inclusive; default the recording's last"},
-                   {"output,o", "OUT", "where to write the picture, or the folder of a series"},
-                   {"view", "matrices", "what to draw; default matrices"},
-                   {"size",
-                    "WxH",
-                    "in pixels (96 per inch), default 900x720; PNG has twice as many"},
-                   {"print", "", "for paper: white ground, 174 mm wide, text of 8 pt, 300 dpi"},
-                   {"width-mm", "W", "width on paper; journals take 85, 114, 174"},
-                   {"height-mm", "H", "height on paper; default 0.8 of the width"},
-                   {"text-pt", "P", "size of text on paper, default 8"},
-                   {"dpi", "D", "pixels of a PNG per inch, default 192, on paper 300"},
-                   {"map",
-                    "NAME",
-                    "colour map: inferno (default), viridis, magma, plasma, cividis, "
-                    "turbo, grey"},
-                   {"range",
-                    "MIN,MAX",
-                    "counts of the lowest and the highest colour; default 0 to "
-                    "the maximum of the frame, or of all frames of a series"},
-                   {"interpolated", "", "smooth between the taxels"},
-                   {"values", "", "print the value of every active taxel"},
-                   {"theme", "dark|light", "default light"},
-                   {"force", "", "replace OUT"}},
-       .example = "palpate render foam_ball.dsa --frame 2411 -o frame.svg --values",
-       .fewestWords = 1,
-       .mostWords = 1},
-      words);
+  CommandSpec spec = {
+      .synopsis =
+          "palpate render FILE [--frame N | --from N --to M] -o OUT.{png,svg,pdf}|FOLDER|OUT.mp4",
+      .purpose =
+          "Draws the heat maps of one frame, or the hand in space. The ending of OUT chooses the "
+          "form; SVG and PDF "
+          "are vector\ngraphics with text as text. With --from or --to, a PNG of each frame from "
+          "N "
+          "to M, both inclusive:\nFOLDER/NAME_00042.png. To OUT.mp4, a movie of these frames as "
+          "they came; it takes the program\nffmpeg ($PALPATE_FFMPEG, else in $PATH).",
+      .options = {{"frame", "N", "default: the frame of largest sum"},
+                  {"from", "N", "first frame of a series; default 0"},
+                  {"to", "M", "last frame, inclusive; default the recording's last"},
+                  {"output,o", "OUT", "the picture or movie, or the folder of a series"},
+                  {"speed", "X", "of a movie, 0.1..16; default 1: as long as it took"},
+                  {"fps", "N", "pictures per second of a movie, 1..120; default 30"},
+                  {"view", "matrices|hand", "what to draw; default matrices"},
+                  {"size", "WxH", "px (96 per inch), default 900x720; PNG has twice as many"},
+                  {"print", "", "for paper: white ground, 174 mm wide, text of 8 pt, 300 dpi"},
+                  {"width-mm", "W", "width on paper; journals take 85, 114, 174"},
+                  {"height-mm", "H", "height on paper; default 0.8 of the width"},
+                  {"text-pt", "P", "size of text on paper, default 8"},
+                  {"dpi", "D", "pixels of a PNG per inch, default 192, on paper 300"},
+                  {"map",
+                   "NAME",
+                   "colour map: inferno (default), viridis, magma, plasma, cividis, "
+                   "turbo, grey"},
+                  {"range",
+                   "MIN,MAX",
+                   "counts of the lowest and the highest colour; default 0 to "
+                   "the maximum of the frame, or of all frames of a series"},
+                  {"interpolated", "", "smooth between the taxels"},
+                  {"values", "", "print the value of every active taxel"},
+                  {"theme", "dark|light", "default light"},
+                  {"force", "", "replace OUT"}},
+      .example = "palpate render foam_ball.dsa --frame 2411 -o frame.svg --values",
+      .fewestWords = 1,
+      .mostWords = 1};
+  const auto ofHand = handViewOptions();
+  spec.options.insert(spec.options.end(), ofHand.begin(), ofHand.end());
+  const CommandLine given(spec, words);
   if (given.helpShown()) return kDone;
   const bool isSeries = given.has("from") || given.has("to");
   checkUsage(given, isSeries);
@@ -278,7 +302,11 @@ int renderCommand(const Words& words) {
     throw UsageError("--print has a white ground, not a dark one");
   options.theme = theme == "dark" ? gui::Theme::kDark : gui::Theme::kLight;
   Sheet sheet = chosenSheet(given, options);
+  const bool isMovie = isMovieName(*given.text("output"));
+  if (isMovie && !given.has("dpi") && sheet.textUnits == 0) sheet.paper.dpi = kMovieDpi;
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
+
+  if (isMovie) requireMovie(*given.text("output"), overwrite);  // before the work, not after it
 
   const std::string& file = given.words()[0];
   const Profile profile = [&] {
@@ -296,6 +324,13 @@ int renderCommand(const Words& words) {
   const QGuiApplication application(count, arguments);
   options.font = QGuiApplication::font();
   if (sheet.textUnits > 0) options.font.setPixelSize(sheet.textUnits);
+  if (isMovie) {
+    const gui::FrameSpan span = chosenSpan(given, file, profile);
+    options.pixelRatio = sheet.paper.scale();
+    useOneRange(profile, span, options);
+    return drawMovie(
+        given, profile, span, painterOf(given, profile, span, options), sheet.paper, overwrite);
+  }
   return isSeries ? drawSeries(given, profile, sheet.paper, options, overwrite)
                   : drawOne(given, profile, sheet.paper, options, overwrite);
 }

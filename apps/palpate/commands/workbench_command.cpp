@@ -8,6 +8,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/display.h"
+#include "commands/hand_options.h"
 #include "commands/picture_size.h"
 #include "gui/gl_probe.h"
 #include "gui/workbench.h"
@@ -29,6 +30,8 @@ int screenshot(const CommandLine& given) {
   options.demo = given.has("demo");
   options.dataFolder = dataFolder();
   options.force = given.has("force");
+  options.openGl = !given.has("no-gl");
+  options.assumedAnglesDeg = anglesOf(given).value_or(std::vector<double>());
   if (options.out.extension() != ".png")
     throw UsageError("--screenshot: the picture's name must end in .png, not '" +
                      options.out.string() + "'");
@@ -76,6 +79,10 @@ int workbenchCommand(const Words& words) {
                    {"after", "S", "with --screenshot: let the source play for S seconds first"},
                    {"dock", "NAME", "with --screenshot: show this dock; may be repeated"},
                    {"theme", "dark|light", "with --screenshot: default dark"},
+                   {"no-gl", "", "draw the hand in space without OpenGL"},
+                   {"angles",
+                    "A0,..,A6",
+                    "joint angles [deg] assumed for recordings that have none"},
                    {"force", "", "with --screenshot: replace OUT.png"}},
        .example = "palpate foam_ball.dsa"},
       words);
@@ -92,6 +99,8 @@ int workbenchCommand(const Words& words) {
   options.files.assign(given.words().begin(), given.words().end());
   options.demo = given.has("demo");
   options.dataFolder = dataFolder();
+  options.openGl = !given.has("no-gl");
+  options.assumedAnglesDeg = anglesOf(given).value_or(std::vector<double>());
   std::string name = "palpate";
   char* arguments[] = {name.data(), nullptr};
   int count = 1;

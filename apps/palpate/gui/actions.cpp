@@ -108,6 +108,31 @@ Actions::Actions(QWidget* window) : window_(window) {
                       true));
   plots.append(make("View", "Plot all matrices together", {key("Ctrl+0")}, true));
   nextTheme = make("View", "Dark or light", {key("Ctrl+T")});
+  const char* space = "Hand in space";
+  matricesShown = make("View", "Show the &matrices", {key("Shift+H")}, true);
+  handShown = make("View", "Show the &hand in space", {key("H")}, true);
+  nextTaxelShape = make(space, "Taxels as the next: cells, bars, points, flat", {key("T")});
+  nextSphere = make(space, "Next look of the enclosing &sphere", {key("B")});
+  sphereOfCentroids = make(space, "Sphere around the &centroids", {key("Shift+B")}, true);
+  normals = make(space, "&Normals of the taxels", {key("U")}, true);
+  contacts = make(space, "&Contacts: centroids, axes, directions", {key("K")}, true);
+  wire = make(space, "&Wire frame", {key("W")}, true);
+  axes = make(space, "&Axes of the hand's base", {key("X")}, true);
+  fitHand = make(space, "All of it in the &picture", {key("E")});
+  resetHand = make(space, "&Back to the first view", {key("Shift+E")});
+  nearer = make(space, "&Nearer", {key("PgUp")});
+  further = make(space, "&Further", {key("PgDown")});
+  for (const char* way : {"Left", "Right", "Up", "Down"}) {
+    const QString word = QString(way).toLower();
+    orbits.append(make(space, "Turn " + word, {QKeySequence("Ctrl+" + QString(way))}));
+    pans.append(make(space, "Move " + word, {QKeySequence("Ctrl+Shift+" + QString(way))}));
+  }
+  onlys.append(make(space, "The whole hand", {key("Alt+0")}, true));
+  for (int i = 0; i < kMatricesWithKeys; ++i)
+    onlys.append(make(space,
+                      "Matrix " + QString::number(i) + " alone",
+                      {QKeySequence("Alt+" + QString::number(i + 1))},
+                      true));
   compare = make("View", "Com&pare two recordings…", {key("Ctrl+Shift+C")}, true);
   fullScreen = make("View", "&Full screen", {key("F11")}, true);
   resetLayout = make("View", "&Reset layout", {key("Ctrl+Shift+R")});

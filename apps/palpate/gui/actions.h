@@ -56,7 +56,24 @@ struct Actions {
   QAction* zoomOut;
   QAction* fit;
   QAction* nextTheme;
-  QAction* compare;  // checked: two recordings are compared
+  // The hand in space
+  QAction* matricesShown;  // checked: the heat maps are seen; one of both always is
+  QAction* handShown;
+  QAction* nextTaxelShape;
+  QAction* nextSphere;
+  QAction* sphereOfCentroids;
+  QAction* normals;
+  QAction* contacts;
+  QAction* wire;
+  QAction* axes;
+  QAction* fitHand;
+  QAction* resetHand;
+  QAction* nearer;
+  QAction* further;
+  QList<QAction*> orbits;  // left, right, up, down
+  QList<QAction*> pans;    // the same
+  QList<QAction*> onlys;   // the whole hand, then one matrix alone
+  QAction* compare;        // checked: two recordings are compared
   QAction* fullScreen;
   QAction* resetLayout;
 

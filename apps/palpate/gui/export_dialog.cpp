@@ -1,6 +1,5 @@
 #include "gui/export_dialog.h"
 
-#include <QButtonGroup>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -10,10 +9,11 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
-#include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "gui/export_forms.h"
+#include "gui/export_movie_fields.h"
 #include "gui/export_place.h"
 #include "gui/export_preview.h"
 
@@ -113,7 +113,8 @@ QWidget* ExportDialog::makeForm() {
   view_ = comboBox("exportView");
   for (const ExportedView* each : views_) view_->addItem(each->name);
   fields_->addRow("&View", view_);
-  fields_->addRow("Form", makeForms());
+  form_ = new ExportForms(form);
+  fields_->addRow("Form", form_);
   frames_ = comboBox("exportFrames");
   fields_->addRow("F&rames", frames_);
   table_ = comboBox("exportTable");
@@ -130,6 +131,7 @@ QWidget* ExportDialog::makeForm() {
   dpi_ = comboBox("exportDpi");
   for (const int dpi : kExportDpi) dpi_->addItem(QString::number(dpi) + " dpi", dpi);
   fields_->addRow("Reso&lution", dpi_);
+  movie_ = new ExportMovieFields(*fields_);
   colors_ = comboBox("exportColors");
   colors_->addItems({"for print: white ground, dark ink", "as on screen"});
   fields_->addRow("&Colours", colors_);
@@ -148,27 +150,6 @@ QWidget* ExportDialog::makeForm() {
   place_ = new ExportPlace(labelWidth, form);
   fields_->addRow(place_);
   return form;
-}
-
-QWidget* ExportDialog::makeForms() {
-  auto* row = new QWidget;
-  auto* layout = new QHBoxLayout(row);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(4);
-  form_ = new QButtonGroup(this);
-  for (const ExportForm each : kAllExportForms) {
-    auto* button = new QToolButton(row);
-    button->setObjectName("exportForm" + nameOf(each));
-    button->setText(nameOf(each));
-    button->setToolTip(descriptionOf(each));
-    button->setCheckable(true);
-    button->setMinimumHeight(kFieldHeight);
-    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    button->setFocusPolicy(Qt::StrongFocus);
-    form_->addButton(button, static_cast<int>(each));
-    layout->addWidget(button);
-  }
-  return row;
 }
 
 QWidget* ExportDialog::makeSize() {
@@ -220,7 +201,9 @@ QWidget* ExportDialog::makeFoot() {
 void ExportDialog::fill(const ExportRequest& suggestion) {
   filling_ = true;
   view_->setCurrentIndex(std::max(0, view_->findText(suggestion.view)));
-  form_->button(static_cast<int>(suggestion.form))->setChecked(true);
+  form_->choose(suggestion.form);
+  movie_->fill(suggestion);
+  wanted_ = suggestion.frames;
   width_->setValue(suggestion.sizeMm.width());
   height_->setValue(suggestion.sizeMm.height());
   text_->setValue(suggestion.textPt);
@@ -232,7 +215,6 @@ void ExportDialog::fill(const ExportRequest& suggestion) {
   place_->setFolder(suggestion.folder);
   filling_ = false;
   useView();
-  frames_->setCurrentIndex(std::max(0, frames_->findData(static_cast<int>(suggestion.frames))));
   table_->setCurrentIndex(std::max(0, table_->findText(suggestion.table)));
   suggestName();
 }
@@ -242,12 +224,14 @@ void ExportDialog::connectFields() {
     useView();
     usePreset();
   });
-  connect(form_, &QButtonGroup::idToggled, this, [this](int, bool on) {
-    if (!on) return;
+  connect(form_, &ExportForms::changed, this, [this] {
+    fillFrames();
     suggestName();
     refresh();
   });
+  connect(movie_, &ExportMovieFields::changed, this, &ExportDialog::refresh);
   connect(frames_, &QComboBox::currentIndexChanged, this, [this] {
+    wanted_ = static_cast<ExportFrames>(frames_->currentData().toInt());
     suggestName();
     refresh();
   });
@@ -276,10 +260,21 @@ const ExportedView& ExportDialog::view() const {
 void ExportDialog::useView() {
   const ExportedView& now = view();
   const auto tables = now.tablesNow();
-  const auto pictures = now.framePicturesNow();
-  const QSignalBlocker blockedFrames(frames_), blockedTable(table_);
+  const QSignalBlocker blocked(table_);
+  table_->clear();
+  for (const ExportedTable& table : tables) table_->addItem(table.name);
+  form_->use(now);
+  fillFrames();
+  suggestName();
+}
+
+// Which frames can be chosen depends on the form, too.
+void ExportDialog::fillFrames() {
+  const auto pictures = view().framePicturesNow();
+  const QSignalBlocker blocked(frames_);
   frames_->clear();
-  frames_->addItem("the one shown", static_cast<int>(ExportFrames::kShown));
+  if (form_->chosen() != ExportForm::kMovie)
+    frames_->addItem("the one shown", static_cast<int>(ExportFrames::kShown));
   if (pictures && pictures->selected) {
     const FrameSpan span = *pictures->selected;
     frames_->addItem(
@@ -289,15 +284,7 @@ void ExportDialog::useView() {
   if (pictures && pictures->numFrames > 0)
     frames_->addItem(QString("all %1").arg(pictures->numFrames),
                      static_cast<int>(ExportFrames::kAll));
-  table_->clear();
-  for (const ExportedTable& table : tables) table_->addItem(table.name);
-  form_->button(static_cast<int>(ExportForm::kCsv))->setEnabled(!tables.empty());
-  for (const ExportForm form : {ExportForm::kPng, ExportForm::kSvg, ExportForm::kPdf})
-    form_->button(static_cast<int>(form))->setEnabled(static_cast<bool>(now.paint));
-  if (!form_->checkedButton()->isEnabled())
-    form_->button(static_cast<int>(now.paint ? ExportForm::kPng : ExportForm::kCsv))
-        ->setChecked(true);
-  suggestName();
+  frames_->setCurrentIndex(std::max(0, frames_->findData(static_cast<int>(wanted_))));
 }
 
 void ExportDialog::usePreset() {
@@ -314,15 +301,13 @@ void ExportDialog::usePreset() {
   refresh();
 }
 
-void ExportDialog::suggestName() {
-  const auto pictures = view().framePicturesNow();
-  place_->suggestName(request().isSeries() && pictures ? pictures->fileName : view().fileName());
-}
+void ExportDialog::suggestName() { place_->suggestName(suggestedName(request(), view())); }
 
 ExportRequest ExportDialog::request() const {
   ExportRequest request = first_;
   request.view = view().name;
-  request.form = static_cast<ExportForm>(form_->checkedId());
+  request.form = form_->chosen();
+  movie_->read(request);
   request.preset = preset_->currentIndex();
   request.sizeMm = {width_->value(), height_->value()};
   request.textPt = text_->value();
@@ -347,12 +332,13 @@ void ExportDialog::refresh() {
     field->setVisible(on);
     if (QWidget* label = fields_->labelForField(field)) label->setVisible(on);
   };
-  show(frames_, now.form == ExportForm::kPng && frames_->count() > 1);
+  show(frames_, now.isMovie() || (now.form == ExportForm::kPng && frames_->count() > 1));
   show(table_, !isPicture);
   show(preset_, isPicture);
   show(size_, isPicture && !asOnScreen);
   show(text_, isPicture && !asOnScreen);
   show(dpi_, now.form == ExportForm::kPng);
+  movie_->setVisible(now.isMovie());
   show(colors_, isPicture);
   show(titled_, isPicture);
   place_->setEnding(now.isSeries() ? "_00000.png" : endingOf(now.form));

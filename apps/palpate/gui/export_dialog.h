@@ -7,7 +7,6 @@
 #include "gui/export_request.h"
 #include "gui/exported_view.h"
 
-class QButtonGroup;
 class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
@@ -17,6 +16,8 @@ class QPushButton;
 
 namespace palpate::gui {
 
+class ExportForms;
+class ExportMovieFields;
 class ExportPlace;
 class ExportPreview;
 
@@ -43,24 +44,25 @@ class ExportDialog : public QDialog {
 
  private:
   QWidget* makeForm();
-  QWidget* makeForms();
   QWidget* makeSize();
   QWidget* makeFoot();
   void connectFields();
   const ExportedView& view() const;
   void fill(const ExportRequest& suggestion);
   void useView();
+  void fillFrames();
   void usePreset();
   void suggestName();
   void refresh();
   void showProblem();
 
   std::vector<const ExportedView*> views_;
-  ExportRequest first_;   // what was suggested
-  bool filling_ = false;  // fields change by us
+  ExportRequest first_;                         // what was suggested
+  ExportFrames wanted_ = ExportFrames::kShown;  // where the form has them
+  bool filling_ = false;                        // fields change by us
   QFormLayout* fields_ = nullptr;
   QComboBox* view_ = nullptr;
-  QButtonGroup* form_ = nullptr;
+  ExportForms* form_ = nullptr;
   QComboBox* frames_ = nullptr;
   QComboBox* table_ = nullptr;
   QComboBox* preset_ = nullptr;
@@ -70,6 +72,7 @@ class ExportDialog : public QDialog {
   QDoubleSpinBox* text_ = nullptr;
   QComboBox* dpi_ = nullptr;
   QComboBox* colors_ = nullptr;
+  ExportMovieFields* movie_ = nullptr;
   QCheckBox* titled_ = nullptr;
   ExportPlace* place_ = nullptr;
   ExportPreview* preview_ = nullptr;

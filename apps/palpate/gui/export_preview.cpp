@@ -7,6 +7,7 @@
 
 #include "gui/captions.h"
 #include "gui/export_work.h"
+#include "gui/movie_writer.h"
 
 namespace palpate::gui {
 namespace {
@@ -26,13 +27,17 @@ ExportPreview::ExportPreview(QWidget* parent) : QWidget(parent) {
   connect(&soon_, &QTimer::timeout, this, &ExportPreview::measure);
 }
 
-ExportPreview::~ExportPreview() { worker_.waitForDone(); }
+ExportPreview::~ExportPreview() {
+  ++generation_;  // nobody wants it any more
+  worker_.waitForDone();
+}
 
 void ExportPreview::show(const ExportedView& view, const ExportRequest& request) {
   request_ = request;
   isTable_ = request.form == ExportForm::kCsv;
   bytes_ = 0.0;
   numFiles_ = 1;
+  movie_ = {};
   ++generation_;
   soon_.stop();
   if (isTable_) {
@@ -40,9 +45,11 @@ void ExportPreview::show(const ExportedView& view, const ExportRequest& request)
   } else if (view.paint) {
     paper_ = paperOf(request, view.sizeOnScreen());
     picture_ = pictureOf(view, lookOf(request, view.sizeOnScreen()));
-    if (request.isSeries())
-      if (const auto pictures = view.framePicturesNow())
-        if (const auto span = spanOf(request, *pictures)) numFiles_ = span->count();
+    const auto pictures = request.ofFrames() ? view.framePicturesNow() : std::nullopt;
+    const auto span = pictures ? spanOf(request, *pictures) : std::nullopt;
+    if (request.isSeries() && span) numFiles_ = span->count();
+    timeUs_ = span ? pictures->timeUs : nullptr;
+    if (span) frames_ = *span;
     drawPreview();
     soon_.start();
   }
@@ -74,8 +81,9 @@ void ExportPreview::showTable(const ExportedView& view, const ExportRequest& req
 // Makes the file in memory, beside the window.
 void ExportPreview::measure() {
   worker_.clear();
+  if (request_.isMovie()) return measureMovie();
   worker_.start(
-      [this, picture = picture_, paper = paper_, form = request_.form, now = generation_] {
+      [this, picture = picture_, paper = paper_, form = request_.form, now = generation_.load()] {
         const PictureForm pictureForm = form == ExportForm::kSvg   ? PictureForm::kSvg
                                         : form == ExportForm::kPdf ? PictureForm::kPdf
                                                                    : PictureForm::kPng;
@@ -101,8 +109,47 @@ void ExportPreview::measure() {
       });
 }
 
+// A recording of a day has millions of stamps.
+void ExportPreview::measureMovie() {
+  if (!timeUs_) return;
+  worker_.start([this,
+                 timeUs = timeUs_,
+                 frames = frames_,
+                 options = movieOptionsOf(request_),
+                 now = generation_.load()] {
+    MovieTiming timing;
+    try {
+      timing =
+          plannedMovie(frames, timeUs, options, [&](double) { return now == generation_; }).timing;
+    } catch (const std::exception&) {
+      return;  // cancelled; or its file is gone, which is said when it is written
+    }
+    timing.shots.clear();
+    QMetaObject::invokeMethod(
+        this,
+        [this, timing, now] {
+          if (now != generation_) return;
+          movie_ = timing;
+          emit summaryChanged();
+        },
+        Qt::QueuedConnection);
+  });
+}
+
 QString ExportPreview::summary() const {
   QStringList parts;
+  if (request_.isMovie()) {
+    const QSize pixels = moviePixels(paper_);
+    parts << QString("%1 × %2 px").arg(pixels.width()).arg(pixels.height());
+    if (movie_.numPictures > 0)
+      parts << figure(movie_.seconds, 1) + " s"
+            << (movie_.numPictures == 1 ? QString("1 picture")
+                                        : QString("%1 pictures").arg(movie_.numPictures));
+    if (movie_.numGaps > 0)
+      parts << (movie_.numGaps == 1 ? QString("1 gap shortened")
+                                    : QString("%1 gaps shortened").arg(movie_.numGaps));
+    return parts.join(" · ");
+  }
   if (isTable_) {
     parts << (numRows_ == 1 ? QString("1 row") : QString("%1 rows").arg(numRows_));
   } else {

@@ -8,6 +8,7 @@
 #include <QThreadPool>
 #include <QTimer>
 #include <QWidget>
+#include <atomic>
 
 #include "gui/export_request.h"
 #include "gui/exported_view.h"
@@ -22,7 +23,8 @@ class ExportPreview : public QWidget {
 
   // `view` must outlive this or be replaced before.
   void show(const ExportedView& view, const ExportRequest& request);
-  // "1004 × 803 px · 85.0 × 68.0 mm · about 142 kB"; the bytes come a moment later.
+  // "1004 × 803 px · 85.0 × 68.0 mm · about 142 kB", "1350 × 1080 px · 12.4 s · 372 pictures"; bytes and seconds come a
+  // moment later.
   QString summary() const;
   // Bytes of one file; 0 while they aren't known.
   double bytes() const noexcept { return bytes_; }
@@ -43,6 +45,7 @@ class ExportPreview : public QWidget {
   void drawPreview();
   void showTable(const ExportedView& view, const ExportRequest& request);
   void measure();
+  void measureMovie();
   QRectF paperRect() const;
   void paintRows(QPainter& painter) const;
 
@@ -55,7 +58,10 @@ class ExportPreview : public QWidget {
   std::size_t numRows_ = 0;
   std::size_t numFiles_ = 1;
   double bytes_ = 0.0;
-  int generation_ = 0;  // of what is measured
+  FramePictures::TimeUs timeUs_;  // of a movie
+  FrameSpan frames_;
+  MovieTiming movie_;                // once it is known; its shots are not kept
+  std::atomic<int> generation_ = 0;  // of what is measured
   QTimer soon_;
   QThreadPool worker_;
 };

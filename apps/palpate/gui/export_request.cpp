@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "gui/captions.h"
+#include "gui/ffmpeg.h"
 
 namespace palpate::gui {
 namespace {
@@ -25,6 +26,15 @@ constexpr int kMostPixels = 16384;  // on a side
 
 const QString kGroup = "export/";
 
+// Of one that has a name already.
+QString fileProblemOf(const ExportRequest& request) {
+  const QFileInfo file(QString::fromStdString(pathOf(request).string()));
+  if (file.isDir()) return file.fileName() + " is a folder.";
+  if ((file.exists() || file.isSymLink()) && !request.replace)
+    return file.fileName() + " exists already.";
+  return {};
+}
+
 }  // namespace
 
 QString nameOf(ExportForm form) {
@@ -35,6 +45,8 @@ QString nameOf(ExportForm form) {
       return "PDF";
     case ExportForm::kCsv:
       return "CSV";
+    case ExportForm::kMovie:
+      return "MP4";
     case ExportForm::kPng:
       break;
   }
@@ -51,6 +63,8 @@ QString descriptionOf(ExportForm form) {
       return "A drawing with its fonts";
     case ExportForm::kCsv:
       return "The numbers that are shown";
+    case ExportForm::kMovie:
+      return "A movie of the frames, as they came";
     case ExportForm::kPng:
       break;
   }
@@ -84,6 +98,14 @@ ExportRequest loadExportRequest(const QSettings& settings) {
   const int frames = value("frames", 0).toInt();
   if (frames == 1) request.frames = ExportFrames::kSelected;
   if (frames == 2) request.frames = ExportFrames::kAll;
+  const auto oneOf = [&](const char* key, auto& usual, const auto& known) {
+    const double read = value(key, usual).toDouble();
+    for (const auto each : known)
+      if (static_cast<double>(each) == read) usual = each;
+  };
+  oneOf("movie_speed", request.movieSpeed, kMovieSpeeds);
+  oneOf("movie_pictures_per_s", request.moviePicturesPerS, kMovieRates);
+  oneOf("movie_height_px", request.movieHeightPx, kMovieHeights);
   request.table = value("table", "").toString();
   request.folder = value("folder", "").toString();
   if (!QDir::isAbsolutePath(request.folder)) {
@@ -111,6 +133,9 @@ void saveExportRequest(const ExportRequest& request, QSettings& settings) {
   set("for_print", request.forPrint);
   set("titled", request.titled);
   set("frames", static_cast<int>(request.frames));
+  set("movie_speed", request.movieSpeed);
+  set("movie_pictures_per_s", request.moviePicturesPerS);
+  set("movie_height_px", request.movieHeightPx);
   set("table", request.table);
   set("folder", request.folder);
   set("name", request.name);
@@ -123,6 +148,8 @@ PicturePaper paperOf(const ExportRequest& request, const QSizeF& sizeOnScreen) {
   paper.unitsPerInch = asOnScreen ? kScreenPerInch : kPaperPerInch;
   paper.size = asOnScreen ? sizeOnScreen : request.sizeMm / kMmPerInch * kPaperPerInch;
   paper.dpi = request.dpi;
+  if (request.isMovie())
+    paper.dpi = request.movieHeightPx / paper.size.height() * paper.unitsPerInch;
   return paper;
 }
 
@@ -134,7 +161,8 @@ PictureLook lookOf(const ExportRequest& request, const QSizeF& sizeOnScreen) {
   if (request.preset != kScreenPreset)
     look.textUnits = static_cast<int>(std::lround(request.textPt * kUnitsPerPt));
   look.titled = request.titled;
-  look.pixelRatio = request.form == ExportForm::kPng ? paper.scale() : 0.0;
+  const bool ofPixels = request.form == ExportForm::kPng || request.isMovie();
+  look.pixelRatio = ofPixels ? paper.scale() : 0.0;
   return look;
 }
 
@@ -154,8 +182,28 @@ FileSeries seriesOf(const ExportRequest& request, const FrameSpan& span) {
 
 std::optional<FrameSpan> spanOf(const ExportRequest& request, const FramePictures& pictures) {
   if (pictures.numFrames == 0) return std::nullopt;
-  if (request.frames == ExportFrames::kSelected) return pictures.selected;
+  const bool selectedAnyhow =
+      request.isMovie() && request.frames == ExportFrames::kShown && pictures.selected;
+  if (request.frames == ExportFrames::kSelected || selectedAnyhow) return pictures.selected;
   return FrameSpan{0, pictures.numFrames - 1};
+}
+
+MovieOptions movieOptionsOf(const ExportRequest& request) {
+  return {.picturesPerS = static_cast<double>(request.moviePicturesPerS),
+          .speed = request.movieSpeed};
+}
+
+QString suggestedName(const ExportRequest& request, const ExportedView& view) {
+  const auto pictures = request.ofFrames() ? view.framePicturesNow() : std::nullopt;
+  return pictures ? pictures->fileName : view.fileName();
+}
+
+QString whyNoMovie(const ExportedView& view) {
+  const auto pictures = view.framePicturesNow();
+  if (!pictures || !pictures->timeUs || pictures->numFrames == 0)
+    return view.framePictures ? "A movie is of the frames of a recording"
+                              : "There is no movie of this view";
+  return findFfmpeg() ? QString() : QString::fromStdString(ffmpegMissing());
 }
 
 QString problemOf(const ExportRequest& request, const ExportedView& view) {
@@ -166,27 +214,27 @@ QString problemOf(const ExportRequest& request, const ExportedView& view) {
   if (!folder.exists()) return "There is no folder " + request.folder + ".";
   if (!folder.isDir()) return request.folder + " is no folder.";
   if (!folder.isWritable()) return "Nothing may be written into " + request.folder + ".";
-  if (request.form == ExportForm::kPng) {
+  if (request.isMovie())
+    if (const QString reason = whyNoMovie(view); !reason.isEmpty()) return reason;
+  if (request.form == ExportForm::kPng || request.isMovie()) {
     const QSize pixels = paperOf(request, view.sizeOnScreen()).pixels();
     if (std::max(pixels.width(), pixels.height()) > kMostPixels)
-      return QString("%1 × %2 pixels are too many for a PNG: choose fewer dpi.")
+      return QString("%1 × %2 pixels are too many: choose %3.")
           .arg(pixels.width())
-          .arg(pixels.height());
+          .arg(pixels.height())
+          .arg(request.isMovie() ? "a lower resolution" : "fewer dpi");
   }
-  if (request.isSeries()) {
+  if (request.ofFrames()) {
     const auto pictures = view.framePicturesNow();
     const auto span = pictures ? spanOf(request, *pictures) : std::nullopt;
     if (!span) return "Nothing is selected in the timeline.";
+    if (request.isMovie()) return fileProblemOf(request);
     const std::size_t there = numExisting(seriesOf(request, *span));
     if (there > 0 && !request.replace)
       return QString("%1 of these pictures are there already.").arg(there);
     return {};
   }
-  const QFileInfo file(QString::fromStdString(pathOf(request).string()));
-  if (file.isDir()) return file.fileName() + " is a folder.";
-  if ((file.exists() || file.isSymLink()) && !request.replace)
-    return file.fileName() + " exists already.";
-  return {};
+  return fileProblemOf(request);
 }
 
 QString spaceProblemOf(const ExportRequest& request, double bytes) {

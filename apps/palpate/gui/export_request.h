@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 
+#include <palpate/capture/movie_timing.h>
 #include <palpate/core/file_series.h>
 
 #include "gui/exported_view.h"
@@ -14,10 +15,10 @@
 
 namespace palpate::gui {
 
-enum class ExportForm { kPng, kSvg, kPdf, kCsv };
+enum class ExportForm { kPng, kSvg, kPdf, kCsv, kMovie };
 inline constexpr std::array kAllExportForms = {
-    ExportForm::kPng, ExportForm::kSvg, ExportForm::kPdf, ExportForm::kCsv};
-QString nameOf(ExportForm form);         // "PNG"; also the key in the settings
+    ExportForm::kPng, ExportForm::kSvg, ExportForm::kPdf, ExportForm::kMovie, ExportForm::kCsv};
+QString nameOf(ExportForm form);         // "PNG", "MP4"; also the key in the settings
 QString endingOf(ExportForm form);       // ".png"
 QString descriptionOf(ExportForm form);  // "A drawing that can be edited"
 
@@ -39,6 +40,9 @@ inline constexpr std::array kPaperPresets = {PaperPreset{"as on screen", 0.0, 0.
 inline constexpr int kScreenPreset = 0;
 inline constexpr int kOwnPreset = static_cast<int>(kPaperPresets.size()) - 1;
 inline constexpr std::array kExportDpi = {150, 300, 600};
+inline constexpr std::array kMovieSpeeds = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0};
+inline constexpr std::array kMovieRates = {24, 25, 30, 50, 60};            // pictures per second
+inline constexpr std::array kMovieHeights = {480, 720, 1080, 1440, 2160};  // [px]
 
 struct ExportRequest {
   QString view;  // ExportedView::name
@@ -50,15 +54,21 @@ struct ExportRequest {
   bool forPrint = true;        // white ground and dark ink
   bool titled = true;          // a line that says what of
   ExportFrames frames = ExportFrames::kShown;
-  QString table = {};      // ExportedTable::name; unknown: the first
-  QString folder = {};     // whole path
-  QString name = {};       // without folder and ending
-  bool nameIsOwn = false;  // chosen by hand: kept when the frame changes
-  bool replace = false;    // files that are there already; never remembered
+  double movieSpeed = 1.0;     // of kMovieSpeeds; 1: as long as it took
+  int moviePicturesPerS = 30;  // of kMovieRates
+  int movieHeightPx = 1080;    // of kMovieHeights; its width is in proportion
+  QString table = {};          // ExportedTable::name; unknown: the first
+  QString folder = {};         // whole path
+  QString name = {};           // without folder and ending
+  bool nameIsOwn = false;      // chosen by hand: kept when the frame changes
+  bool replace = false;        // files that are there already; never remembered
 
   bool isSeries() const noexcept {
     return form == ExportForm::kPng && frames != ExportFrames::kShown;
   }
+  bool isMovie() const noexcept { return form == ExportForm::kMovie; }
+  // Of frames: selected or all ones.
+  bool ofFrames() const noexcept { return isSeries() || isMovie(); }
   bool operator==(const ExportRequest&) const = default;
 };
 
@@ -73,9 +83,17 @@ PictureLook lookOf(const ExportRequest& request, const QSizeF& sizeOnScreen);
 // Where one file goes; for a series its folder, which lies in request.folder and has the request's name.
 std::filesystem::path pathOf(const ExportRequest& request);
 FileSeries seriesOf(const ExportRequest& request, const FrameSpan& span);
-// Which frames are asked for; nothing when they aren't there (no selection, no frame).
+// Which frames are asked for; nothing when they aren't there (no selection, no frame). A movie of the one that is
+// shown would be none: it is of the selected ones, else of all.
 std::optional<FrameSpan> spanOf(const ExportRequest& request, const FramePictures& pictures);
 
+// How the movie's pictures lie in time.
+MovieOptions movieOptionsOf(const ExportRequest& request);
+// What a file of this view is called, when the user doesn't say.
+QString suggestedName(const ExportRequest& request, const ExportedView& view);
+
+// Why there can't be a movie of the view now; empty: there can.
+QString whyNoMovie(const ExportedView& view);
 // What stands in the way, in one line that says what to do; empty: nothing. Looks at the disk.
 QString problemOf(const ExportRequest& request, const ExportedView& view);
 // Whether so many bytes don't fit on its disk; empty: they do.

@@ -6,6 +6,7 @@
 
 #include <palpate/core/error.h>
 
+#include "gui/movie_writer.h"
 #include "gui/picture_series.h"
 
 namespace palpate::gui {
@@ -41,6 +42,17 @@ ExportWork tableWork(const ExportedView& view, const ExportRequest& request, Ove
   };
 }
 
+// By way of a QPicture, as a single one: the same frame makes the same picture.
+FramePictures::Paint recorded(FramePictures::Paint paint) {
+  return [paint = std::move(paint)](QPainter& painter, std::size_t frame) {
+    QPicture picture;
+    QPainter recorder(&picture);
+    paint(recorder, frame);
+    recorder.end();
+    replay(painter, picture);
+  };
+}
+
 ExportWork seriesWork(const ExportedView& view, const ExportRequest& request, Overwrite overwrite) {
   const auto pictures = view.framePicturesNow();
   const auto span = pictures ? spanOf(request, *pictures) : std::nullopt;
@@ -48,22 +60,38 @@ ExportWork seriesWork(const ExportedView& view, const ExportRequest& request, Ov
   PicturePaper paper = paperOf(request, view.sizeOnScreen());
   paper.title = pictures->fileName;
   const PictureLook look = lookOf(request, view.sizeOnScreen());
-  return [paint = pictures->painter(look), paper, series = seriesOf(request, *span), overwrite](
-             const Progress& progress) {
+  return [paint = recorded(pictures->painter(look)),
+          paper,
+          series = seriesOf(request, *span),
+          overwrite](const Progress& progress) {
     ExportReport start{.path = pathText(series.folder), .wanted = series.count()};
     return guarded(start, [&](ExportReport& report) {
-      // By way of a QPicture, as a single one: the same frame makes the same picture.
-      const auto recorded = [&](QPainter& painter, std::size_t frame) {
-        QPicture picture;
-        QPainter recorder(&picture);
-        paint(recorder, frame);
-        recorder.end();
-        replay(painter, picture);
-      };
-      const SeriesReport done = writePictureSeries(series, recorded, paper, overwrite, progress);
+      const SeriesReport done = writePictureSeries(series, paint, paper, overwrite, progress);
       report.written = done.written;
       report.cancelled = done.cancelled;
       report.failure = QString::fromStdString(done.failure);
+    });
+  };
+}
+
+ExportWork movieWork(const ExportedView& view, const ExportRequest& request, Overwrite overwrite) {
+  const auto pictures = view.framePicturesNow();
+  const auto span = pictures ? spanOf(request, *pictures) : std::nullopt;
+  if (!span) return {};
+  PicturePaper paper = paperOf(request, view.sizeOnScreen());
+  paper.title = pictures->fileName;
+  const PictureLook look = lookOf(request, view.sizeOnScreen());
+  return [paint = recorded(pictures->painter(look)),
+          timeUs = pictures->timeUs,
+          span = *span,
+          options = movieOptionsOf(request),
+          paper,
+          path = pathOf(request),
+          overwrite](const Progress& progress) {
+    return guarded({.path = pathText(path)}, [&](ExportReport& report) {
+      const Movie movie = plannedMovie(span, timeUs, options, progress);
+      writeMovie(path, movie, paint, paper, overwrite, progress);
+      report.written = 1;
     });
   };
 }
@@ -99,6 +127,8 @@ ExportWork prepareExport(const ExportedView& view, const ExportRequest& request)
   ExportWork work;
   if (request.form == ExportForm::kCsv) {
     work = tableWork(view, request, overwrite);
+  } else if (request.isMovie()) {
+    work = movieWork(view, request, overwrite);
   } else if (request.isSeries()) {
     work = seriesWork(view, request, overwrite);
   } else if (view.paint) {

@@ -7,6 +7,7 @@
 #include <QString>
 #include <QWidget>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -43,6 +44,9 @@ struct FramePictures {
   std::size_t numFrames = 0;
   std::optional<FrameSpan> selected = {};
   std::function<Paint(const PictureLook&)> painter;
+  // Stamp of a frame [us], ascending; called as Paint is. Empty: there is no movie of it.
+  using TimeUs = std::function<std::int64_t(std::size_t frame)>;
+  TimeUs timeUs = {};
 };
 
 // Rows of what is shown.

@@ -13,8 +13,8 @@ namespace palpate::gui {
 
 struct HandCamera {
   Eigen::Vector3d targetMm{0.0, 0.0, 90.0};  // in the middle of the picture
-  double azimuthDeg = -60.0;                 // where the eye stands: about z, from x towards y
-  double elevationDeg = 18.0;                // above the plane of the palm, -89..89
+  double azimuthDeg = -22.0;                 // where the eye stands: about z, from x towards y
+  double elevationDeg = 14.0;                // above the plane of the palm, -89..89
   double distanceMm = 620.0;                 // from the target, kNearestMm..kFurthestMm
   double fieldDeg = 28.0;                    // angle of view from bottom to top
 

@@ -21,6 +21,9 @@ const std::vector<KeyEntry>& mouseEntries() {
       {"Mouse", "Double click", "In the timeline: show all of it; on an event: name it"},
       {"Mouse", "Drag", "In the timeline: select; along its axis: scrub; ends can be moved"},
       {"Mouse", "Click or drag", "Over taxels: choose them; with Ctrl: choose more"},
+      {"Mouse", "Drag", "Hand in space: turn; with Shift or the middle button: move"},
+      {"Mouse", "Wheel or right drag", "Hand in space: nearer and further"},
+      {"Mouse", "Click, Ctrl+drag", "Hand in space: choose taxels; double click: all of it"},
       {"Mouse", "Right button", "Over the matrices: which taxels are scanned"},
       {"Mouse", "Hover", "Over a taxel or the timeline: the values there"},
       {"Mouse", "Drop a file", "Anywhere: open it"}};
@@ -60,7 +63,8 @@ QWidget* columnOf(const std::vector<KeyEntry>& entries, QWidget* parent) {
 
 std::vector<KeyEntry> keysOf(const QList<QAction*>& actions) {
   std::vector<KeyEntry> entries;
-  for (const char* section : {"File", "Edit", "Hand", "Playback", "View", "Help"}) {
+  for (const char* section :
+       {"File", "Edit", "Hand", "Playback", "View", "Hand in space", "Help"}) {
     for (const QAction* action : actions) {
       if (sectionOf(*action) != section || !action->isVisible()) continue;
       QStringList keys;
@@ -74,19 +78,20 @@ std::vector<KeyEntry> keysOf(const QList<QAction*>& actions) {
 
 KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialog(parent) {
   setWindowTitle("Keys");
-  // Three columns, about equally long.
-  std::vector<KeyEntry> left, middle, right;
+  // Columns about equally long.
+  std::vector<KeyEntry> left, middle, right, space;
   for (const KeyEntry& entry : keysOf(actions))
     (entry.section == "File" || entry.section == "Hand" ? left
      : entry.section == "View"                          ? middle
+     : entry.section == "Hand in space"                 ? space
                                                         : right)
         .push_back(entry);
-  right.insert(right.end(), mouseEntries().begin(), mouseEntries().end());
+  space.insert(space.end(), mouseEntries().begin(), mouseEntries().end());
   auto* content = new QWidget(this);
   auto* columns = new QHBoxLayout(content);
   columns->setContentsMargins(18, 16, 18, 8);
   columns->setSpacing(32);
-  for (const std::vector<KeyEntry>& entries : {left, middle, right})
+  for (const std::vector<KeyEntry>& entries : {left, middle, right, space})
     columns->addWidget(columnOf(entries, content), 1);
   auto* scroll = new QScrollArea(this);
   scroll->setWidgetResizable(true);

@@ -13,6 +13,7 @@
 #include "gui/compare_panel.h"
 #include "gui/dock.h"
 #include "gui/hand_dock.h"
+#include "gui/hand_panel.h"
 #include "gui/inspect_panel.h"
 #include "gui/library_panel.h"
 #include "gui/link_panel.h"
@@ -59,7 +60,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   setMinimumSize(kSmallestWindow);
   setAcceptDrops(true);
   setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
-  buildParts(surroundings.dataFolder);
+  buildParts(surroundings);
   buildDocks();
   connectOpening();
   connectFileActions();
@@ -73,6 +74,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   connectTimeline();
   connectEvents();
   connectCompare();
+  connectHandView();
 
   askForRecordings = [this] {
     return QFileDialog::getOpenFileNames(this,
@@ -103,9 +105,9 @@ MainWindow::~MainWindow() {
   delete logDock_;
 }
 
-void MainWindow::buildParts(const std::filesystem::path& dataFolder) {
+void MainWindow::buildParts(const WindowSurroundings& surroundings) {
   std::error_code ignored;
-  demoPath_ = dataFolder / kDemoFile;
+  demoPath_ = surroundings.dataFolder / kDemoFile;
   const bool withDemo = std::filesystem::exists(demoPath_, ignored);
   actions_.openDemo->setVisible(withDemo);
   actions_.openDemo->setEnabled(withDemo);
@@ -119,6 +121,19 @@ void MainWindow::buildParts(const std::filesystem::path& dataFolder) {
   exporting_ = new OpeningStrip(page, "Exporting", "exporting");
   startPage_ = new StartPage(recent_, withDemo, page);
   matrices_ = new MatricesPanel(actions_.interpolated, actions_.values, page);
+  handPanel_ = new HandPanel({actions_.normals,
+                              actions_.contacts,
+                              actions_.sphereOfCentroids,
+                              actions_.wire,
+                              actions_.axes},
+                             page);
+  handPanel_->view().setAssumedAngles(surroundings.assumedAnglesDeg);
+  views_ = new QSplitter(Qt::Horizontal, page);
+  views_->setObjectName("views");
+  views_->setChildrenCollapsible(false);
+  views_->addWidget(matrices_);
+  views_->addWidget(handPanel_);
+  for (int i = 0; i < views_->count(); ++i) views_->setStretchFactor(i, 1);
   playbackBar_ = new PlaybackBar(playback_, page);
   auto* work = new QWidget(page);
   auto* column = new QVBoxLayout(work);
@@ -126,7 +141,7 @@ void MainWindow::buildParts(const std::filesystem::path& dataFolder) {
   column->setSpacing(0);
   compare_ = new ComparePanel(actions_.compare, actions_.interpolated, actions_.values, work);
   centre_ = new QStackedWidget(work);
-  centre_->addWidget(matrices_);
+  centre_->addWidget(views_);
   centre_->addWidget(compare_);
   column->addWidget(centre_, 1);
   column->addWidget(playbackBar_);

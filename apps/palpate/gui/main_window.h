@@ -4,6 +4,7 @@
 
 #include <QMainWindow>
 #include <QSettings>
+#include <QSplitter>
 #include <QStackedWidget>
 #include <QTimer>
 #include <filesystem>
@@ -23,6 +24,7 @@
 #include "gui/background_job.h"
 #include "gui/event_editor.h"
 #include "gui/exported_view.h"
+#include "gui/hand_look.h"
 #include "gui/live_controller.h"
 #include "gui/matrices_painter.h"
 #include "gui/playback_controller.h"
@@ -42,6 +44,7 @@ namespace palpate::gui {
 class ComparePanel;
 class Dock;
 class HandDock;
+class HandPanel;
 class InspectPanel;
 class LibraryPanel;
 class LinkPanel;
@@ -63,11 +66,12 @@ class TimelinePanel;
 
 // What the window takes from outside; tests hand in their own.
 struct WindowSurroundings {
-  std::filesystem::path dataFolder;  // with the demo recording
-  QString settingsPath;              // INI file
-  const Clock* clock = nullptr;      // null: the system's
-  RecordingOpener::Read read = {};   // empty: openRecording
-  bool offerUnfinished = false;      // recordings that an earlier day left, when the window opens
+  std::filesystem::path dataFolder;           // with the demo recording
+  QString settingsPath;                       // INI file
+  const Clock* clock = nullptr;               // null: the system's
+  RecordingOpener::Read read = {};            // empty: openRecording
+  std::vector<double> assumedAnglesDeg = {};  // of recordings without joint angles; empty: none
+  bool offerUnfinished = false;  // recordings that an earlier day left, when the window opens
 };
 
 class MainWindow : public QMainWindow {
@@ -97,6 +101,7 @@ class MainWindow : public QMainWindow {
   // What is connected is shown, not a recording.
   bool liveShown() const noexcept { return liveShown_; }
   MatricesView& matricesView();
+  HandPanel& handPanel() noexcept { return *handPanel_; }
   ComparePanel& compare() noexcept { return *compare_; }
   bool compareShown() const;
   PlaybackController& playback() noexcept { return playback_; }
@@ -157,7 +162,7 @@ class MainWindow : public QMainWindow {
   // main_window.cpp: parts, opening, recordings
   // Where the window is: with each place its own layout of docks.
   enum class Place { kStart, kRecording, kLive };
-  void buildParts(const std::filesystem::path& dataFolder);
+  void buildParts(const WindowSurroundings& surroundings);
   void buildDocks();
   void connectOpening();
   void connectFileActions();
@@ -229,6 +234,12 @@ class MainWindow : public QMainWindow {
   void scan(MaskChoice choice);
   void heedScanAnswers();
   QString selectionText() const;
+  // main_window_hand.cpp: the hand in space
+  void connectHandView();
+  void changeHand(const std::function<void(HandLook&)>& change);
+  void showHandLook();
+  void showViews(bool matrices, bool hand);
+  ExportedView handExport();
   // main_window_compare.cpp
   void connectCompare();
   void showCompare(bool on);
@@ -322,6 +333,8 @@ class MainWindow : public QMainWindow {
   OpeningStrip* working_ = nullptr;
   StartPage* startPage_ = nullptr;
   MatricesPanel* matrices_ = nullptr;
+  HandPanel* handPanel_ = nullptr;
+  QSplitter* views_ = nullptr;  // matrices and hand, side by side
   PlaybackBar* playbackBar_ = nullptr;
   TimelineHeader* timelineHeader_ = nullptr;
   QStackedWidget* charts_ = nullptr;

@@ -9,6 +9,7 @@
 
 #include <palpate/core/time.h>
 
+#include "gui/hand_panel.h"
 #include "gui/inspect_panel.h"
 #include "gui/main_window.h"
 #include "gui/matrices_panel.h"
@@ -142,6 +143,7 @@ void MainWindow::showRecording(const OpenedRecordingPtr& recording) {
                            recording->profile.numTemperatures() > 0);
   if (!live) {
     matrices_->setRecording(recording);
+    handPanel_->setRecording(recording);
     inspect_->setRecording(recording);
   }
   if (recording)

@@ -10,6 +10,7 @@
 #include "gui/captions.h"
 #include "gui/connect_dialog.h"
 #include "gui/hand_dock.h"
+#include "gui/hand_panel.h"
 #include "gui/inspect_panel.h"
 #include "gui/link_panel.h"
 #include "gui/live_chart.h"
@@ -84,6 +85,9 @@ void MainWindow::connectLive() {
   connect(&live_, &LiveController::resultsCame, this, [this](const LiveResults& results) {
     if (!liveShown_ || held_) return;
     inspect_->showLive(results);
+    if (!handPanel_->isHidden())
+      handPanel_->showLive(*results.frame,
+                           results.angles ? results.angles->deg : std::vector<double>());
     liveChart_->refresh(0.0);
   });
   connect(&live_, &LiveController::staleChanged, this, &MainWindow::showStale);
@@ -256,6 +260,7 @@ void MainWindow::showLive() {
     shownHistory_ = source->history.get();
     matrices_->setRecording(nullptr);
     matrices_->setHand(hand);
+    handPanel_->setHand(hand);
     if (another) liveChart_->setHistory(source->history.get(), hand.layout->numMatrices());
     inspect_->setHand(hand);
     held_ = false;
@@ -311,7 +316,10 @@ void MainWindow::showLook() {
   inspect_->setLiveFacts(factsOf(
       source->connection, source->session->device().facts(), QString::fromStdString(hand.name)));
   // Other taxels are scanned now, or another hand was found.
-  if (matrices_->hand() && !(*matrices_->hand()->layout == *hand.layout)) matrices_->setHand(hand);
+  if (matrices_->hand() && !(*matrices_->hand()->layout == *hand.layout)) {
+    matrices_->setHand(hand);
+    handPanel_->setHand(hand);
+  }
   if (live_.stale() && !held_) {
     showStale();
     if (live_.framesCameYet() && !finished) liveChart_->refresh(live_.silentS());

@@ -7,6 +7,7 @@
 
 #include "gui/chart_picture.h"
 #include "gui/chart_style.h"
+#include "gui/frame_painters.h"
 #include "gui/inspect_panel.h"
 #include "gui/live_chart.h"
 #include "gui/main_window.h"
@@ -22,37 +23,6 @@ namespace {
 
 constexpr std::int64_t kUsPerMs = 1000;
 constexpr double kUsPerS = 1e6;
-
-MatricesPictureOptions fitted(MatricesPictureOptions options, const PictureLook& look) {
-  options.size = look.size;
-  options.pixelRatio = look.pixelRatio;
-  if (look.textUnits > 0) options.font.setPixelSize(look.textUnits);
-  if (look.forPrint) options.theme = Theme::kLight;
-  if (!look.titled) {
-    options.title.clear();
-    options.caption.clear();
-  }
-  return options;
-}
-
-QString captionOf(const Profile& profile, std::size_t frame) {
-  const auto us = profile.frameTimeUs(frame) - profile.frameTimeUs(0);
-  return "frame " + QString::number(frame) + " · " +
-         QString::fromStdString(fixedText(static_cast<double>(us) / kUsPerS, 2)) + " s";
-}
-
-FramePictures::Paint framePainter(const OpenedRecordingPtr& recording,
-                                  const MatricesPictureOptions& options) {
-  return [recording, options](QPainter& painter, std::size_t frame) {
-    MatricesPictureOptions now = options;
-    if (!now.title.isEmpty()) now.caption = captionOf(recording->profile, frame);
-    paintMatricesPicture(painter,
-                         QRectF(QPointF(), now.size),
-                         recording->profile.frame(frame),
-                         recording->profile.hand(),
-                         now);
-  };
-}
 
 // Every taxel that is scanned, at rest or not.
 TextTable taxelTable(const TactileFrame& frame, const std::string& index) {
@@ -191,6 +161,7 @@ TablePicture shownTable(const MatrixTableModel& model, const MatricesPictureOpti
 void MainWindow::connectTakeAway() {
   takeAway_ = std::make_unique<TakeAway>(settings_, this);
   takeAway_->add(matricesExport());
+  takeAway_->add(handExport());
   takeAway_->add(timelineExport());
   takeAway_->add(inspectExport());
   connect(actions_.exportPicture, &QAction::triggered, takeAway_.get(), &TakeAway::exportNow);
@@ -236,10 +207,13 @@ ExportedView MainWindow::matricesExport() {
     pictures.fileName = recordingStem();
     pictures.numFrames = current_->profile.numFrames();
     if (takeAway_->selectedFrames) pictures.selected = takeAway_->selectedFrames();
+    pictures.timeUs = [recording = current_](std::size_t frame) {
+      return recording->profile.frameTimeUs(frame);
+    };
     MatricesPictureOptions options = exportOptions();
     if (view_.range == RangeMode::kFrame) options.rangeMax = options.rangeMin = 0.0;  // of each
     pictures.painter = [recording = current_, options](const PictureLook& look) {
-      return framePainter(recording, fitted(options, look));
+      return matricesFramePainter(recording, fitted(options, look));
     };
     return pictures;
   };

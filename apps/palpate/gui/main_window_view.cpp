@@ -12,6 +12,7 @@
 #include "gui/compare_panel.h"
 #include "gui/dock.h"
 #include "gui/hand_dock.h"
+#include "gui/hand_panel.h"
 #include "gui/icons.h"
 #include "gui/inspect_panel.h"
 #include "gui/library_panel.h"
@@ -101,6 +102,7 @@ void MainWindow::applyTheme() {
 
 void MainWindow::showFrame(std::size_t frame) {
   matrices_->showFrame(frame);
+  if (!handPanel_->isHidden()) handPanel_->showFrame(frame);
   inspect_->showFrame(frame);
 }
 
@@ -341,6 +343,8 @@ void MainWindow::remember() {
   rememberLibrary();
   savePlottedExtras(extras_, settings_);
   rememberSession();
+  saveHandLook(handPanel_->look(), settings_);
+  settings_.setValue("window/views", views_->saveState());
   settings_.setValue("window/geometry", saveGeometry());
   if (place_ != Place::kStart) layouts_[place_] = saveState();
   settings_.setValue("window/layout", layouts_[Place::kRecording]);

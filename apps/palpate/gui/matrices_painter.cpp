@@ -62,27 +62,6 @@ void paintTicks(QPainter& painter,
     if (value - range.minimum > clearance && range.maximum - value > clearance) tick(value);
 }
 
-void paintColorBar(QPainter& painter,
-                   const QRectF& bar,
-                   const ValueRange& range,
-                   const MatricesPictureOptions& options) {
-  if (bar.height() < 1.0) return;
-  const ColorTable& table = tableOf(options);
-  QImage ramp(1, static_cast<int>(table.size()), QImage::Format_RGB32);
-  for (int i = 0; i < ramp.height(); ++i)
-    ramp.setPixel(0, i, table[table.size() - 1 - static_cast<std::size_t>(i)]);
-  painter.drawImage(bar, ramp);
-  painter.setPen(colorsOf(options.theme).border);
-  painter.setBrush(Qt::NoBrush);
-  painter.drawRect(bar);
-  paintTicks(painter, bar, range, options);
-  const QFontMetricsF metrics(pictureFont(options));
-  painter.setPen(colorsOf(options.theme).muted);
-  // Above the number of the highest value.
-  const QRectF unit(bar.left(), bar.top() - 1.5 * metrics.height() - 2, 100, metrics.height());
-  painter.drawText(unit, Qt::AlignLeft | Qt::AlignVCenter, options.unit);
-}
-
 // A taxel that exists but isn't scanned: crossed out, so that it can't be taken for one at rest.
 void paintMasked(QPainter& painter, const QRectF& square, const ThemeColors& colors) {
   painter.setPen(QPen(colors.maskedLine, 1.0));
@@ -108,23 +87,6 @@ void paintNames(QPainter& painter,
                      Qt::AlignHCenter | Qt::AlignBottom | Qt::TextDontClip,
                      metrics.elidedText(name, Qt::ElideRight, rect.width()));
   }
-}
-
-void paintTitle(QPainter& painter, const QRectF& rect, const MatricesPictureOptions& options) {
-  if (rect.isEmpty()) return;
-  QFont bold = pictureFont(options);
-  bold.setBold(true);
-  const QFontMetricsF captionMetrics(pictureFont(options));
-  const double captionWidth = captionMetrics.horizontalAdvance(options.caption);
-  painter.setFont(bold);
-  painter.setPen(colorsOf(options.theme).text);
-  const double titleWidth = std::max(0.0, rect.width() - captionWidth - 16.0);
-  painter.drawText(rect,
-                   Qt::AlignLeft | Qt::AlignVCenter,
-                   QFontMetricsF(bold).elidedText(options.title, Qt::ElideMiddle, titleWidth));
-  painter.setFont(pictureFont(options));
-  painter.setPen(colorsOf(options.theme).muted);
-  painter.drawText(rect, Qt::AlignRight | Qt::AlignVCenter, options.caption);
 }
 
 // Two frames, one black and one white: seen on every colour of every map.
@@ -159,6 +121,44 @@ QFont valueFont(const MatricesPictureOptions& options, double side) {
 }
 
 }  // namespace
+
+void paintColorBar(QPainter& painter,
+                   const QRectF& bar,
+                   const ValueRange& range,
+                   const MatricesPictureOptions& options) {
+  if (bar.height() < 1.0) return;
+  const ColorTable& table = tableOf(options);
+  QImage ramp(1, static_cast<int>(table.size()), QImage::Format_RGB32);
+  for (int i = 0; i < ramp.height(); ++i)
+    ramp.setPixel(0, i, table[table.size() - 1 - static_cast<std::size_t>(i)]);
+  painter.drawImage(bar, ramp);
+  painter.setPen(colorsOf(options.theme).border);
+  painter.setBrush(Qt::NoBrush);
+  painter.drawRect(bar);
+  paintTicks(painter, bar, range, options);
+  const QFontMetricsF metrics(pictureFont(options));
+  painter.setPen(colorsOf(options.theme).muted);
+  // Above the number of the highest value.
+  const QRectF unit(bar.left(), bar.top() - 1.5 * metrics.height() - 2, 100, metrics.height());
+  painter.drawText(unit, Qt::AlignLeft | Qt::AlignVCenter, options.unit);
+}
+
+void paintTitle(QPainter& painter, const QRectF& rect, const MatricesPictureOptions& options) {
+  if (rect.isEmpty()) return;
+  QFont bold = pictureFont(options);
+  bold.setBold(true);
+  const QFontMetricsF captionMetrics(pictureFont(options));
+  const double captionWidth = captionMetrics.horizontalAdvance(options.caption);
+  painter.setFont(bold);
+  painter.setPen(colorsOf(options.theme).text);
+  const double titleWidth = std::max(0.0, rect.width() - captionWidth - 16.0);
+  painter.drawText(rect,
+                   Qt::AlignLeft | Qt::AlignVCenter,
+                   QFontMetricsF(bold).elidedText(options.title, Qt::ElideMiddle, titleWidth));
+  painter.setFont(pictureFont(options));
+  painter.setPen(colorsOf(options.theme).muted);
+  painter.drawText(rect, Qt::AlignRight | Qt::AlignVCenter, options.caption);
+}
 
 ValueRange rangeOf(const MatricesPictureOptions& options, const TactileFrame& frame) {
   if (options.rangeMax > options.rangeMin) return {options.rangeMin, options.rangeMax};

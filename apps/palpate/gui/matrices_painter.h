@@ -100,6 +100,13 @@ void paintMatrixValues(QPainter& painter,
                        const ValueRange& range,
                        const MatricesPictureOptions& options);
 
+// The colours with their values and unit, which stands above the bar; title and caption in one line.
+void paintColorBar(QPainter& painter,
+                   const QRectF& bar,
+                   const ValueRange& range,
+                   const MatricesPictureOptions& options);
+void paintTitle(QPainter& painter, const QRectF& rect, const MatricesPictureOptions& options);
+
 // The whole picture. Throws std::invalid_argument when the frame isn't one of this hand.
 void paintMatricesPicture(QPainter& painter,
                           const QRectF& area,

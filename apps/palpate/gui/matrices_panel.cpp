@@ -16,6 +16,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kControlHeight = 26;         // [px] of boxes beside buttons
+constexpr int kNarrowest = 360;            // [px]
 constexpr int kCompactBelow = 700;         // [px] of width: buttons lose their text
 constexpr double kLeastLiveRange = 500.0;  // [counts] a first light touch isn't glaring
 constexpr double kLiveRangeStep = 250.0;   // [counts]
@@ -80,6 +81,7 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   row->addWidget(to_);
   row->addWidget(maximum_);
 
+  setMinimumWidth(kNarrowest);
   view_ = new MatricesView(this);
   view_->setObjectName("matricesView");
   auto* column = new QVBoxLayout(this);
@@ -200,6 +202,7 @@ void MatricesPanel::applyLook() {
                   .values = settings_.values,
                   .range = rangeNow(),
                   .theme = theme_});
+  emit lookChanged(view_->look());
 }
 
 MatricesPictureOptions MatricesPanel::pictureOptions() const {

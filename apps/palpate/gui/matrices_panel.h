@@ -38,6 +38,8 @@ class MatricesPanel : public QWidget {
   MatricesPictureOptions pictureOptions() const;
 
  signals:
+  // Map, range or theme; the views beside follow.
+  void lookChanged(const palpate::gui::MatricesLook& look);
   void mapChosen(palpate::gui::ColorMapName map);
   void rangeChosen(palpate::gui::RangeMode mode);
   void manualRangeChosen(double minimum, double maximum);

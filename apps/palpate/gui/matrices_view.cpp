@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/taxel_text.h"
+
 namespace palpate::gui {
 
 MatricesView::MatricesView(QWidget* parent) : QWidget(parent) {
@@ -235,19 +237,7 @@ void MatricesView::mouseMoveEvent(QMouseEvent* event) {
 void MatricesView::leaveEvent(QEvent*) { setHover(std::nullopt); }
 
 QString MatricesView::hoverText() const {
-  if (!hover_ || !hand_) return {};
-  const auto [m, y, x] = *hover_;
-  const MatrixLayout& layout = hand_->layout->matrix(m);
-  const QString place = QString::fromStdString(hand_->matrixName(m)) + " · x " +
-                        QString::number(x) + ", y " + QString::number(y) + " · ";
-  if (!layout.enabled(y, x)) return place + "masked: not scanned";
-  if (!frame_) return place + "no frame yet";
-  const float value = static_cast<const TactileFrame&>(*frame_).matrix(m)(y, x);
-  if (!(value > 0.0F)) return place + "0 counts, at rest";
-  const QString number = value == std::round(value)
-                             ? QString::number(std::lround(value))
-                             : QString::number(static_cast<double>(value), 'f', 2);
-  return place + number + " counts" + (value >= hand_->saturationCounts ? ", saturated" : "");
+  return hover_ && hand_ ? taxelText(*hand_, *hover_, frame_) : QString();
 }
 
 }  // namespace palpate::gui

@@ -8,6 +8,8 @@
 
 #include "gui/application.h"
 #include "gui/compare_panel.h"
+#include "gui/gl_probe.h"
+#include "gui/hand_panel.h"
 #include "gui/main_window.h"
 #include "gui/picture_export.h"
 #include "gui/timeline_panel.h"
@@ -119,7 +121,9 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   MainWindow window({.dataFolder = options.dataFolder,
                      .settingsPath = settings.filePath("palpate.ini"),
                      .clock = nullptr,
-                     .read = {}});
+                     .read = {},
+                     .assumedAnglesDeg = options.assumedAnglesDeg});
+  if (options.openGl && whyNoOpenGl().isEmpty()) window.handPanel().view().useOpenGl();
   window.setTheme(theme);
   window.setFixedSize(options.size);
   window.show();

@@ -94,7 +94,8 @@ ExportRequest TakeAway::suggestion() const {
   if (asTable && view->tablesNow().empty()) request.form = ExportForm::kPng;
   const auto pictures = view->framePicturesNow();
   if (!pictures || !spanOf(request, *pictures)) request.frames = ExportFrames::kShown;
-  if (!request.nameIsOwn) request.name = request.isSeries() ? pictures->fileName : view->fileName();
+  if (request.isMovie() && !whyNoMovie(*view).isEmpty()) request.form = ExportForm::kPng;
+  if (!request.nameIsOwn) request.name = suggestedName(request, *view);
   return request;
 }
 
@@ -112,10 +113,7 @@ void TakeAway::repeatLast() {
   ExportRequest request = loadExportRequest(settings_);
   const ExportedView* view = viewNamed(request.view);
   if (!settings_.value(kHasExported, false).toBool() || !view) return exportNow();
-  if (!request.nameIsOwn) {
-    const auto pictures = view->framePicturesNow();
-    request.name = request.isSeries() && pictures ? pictures->fileName : view->fileName();
-  }
+  if (!request.nameIsOwn) request.name = suggestedName(request, *view);
   const std::filesystem::path free = freePath(pathOf(request));
   request.name =
       QString::fromStdString((request.isSeries() ? free.filename() : free.stem()).string());

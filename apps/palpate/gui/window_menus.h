@@ -30,6 +30,7 @@ struct WindowMenus {
 
   QMenu* edit;                // also shown over the timeline
   QMenu* connections;         // of the button Connect; filled by its owner when it is about to show
+  QMenu* only = nullptr;      // one matrix of the hand in space alone
   QMenu* scanned;             // which taxels are scanned; also shown over the matrices
   QLabel* link;               // beside Connect: what is connected, in a word
   QToolButton* record;        // red while it records

@@ -4,6 +4,8 @@
 
 #include "gui/application.h"
 #include "gui/first_paint.h"
+#include "gui/gl_probe.h"
+#include "gui/hand_panel.h"
 #include "gui/main_window.h"
 #include "gui/termination.h"
 
@@ -15,11 +17,19 @@ int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options) {
                      .settingsPath = settingsPath(),
                      .clock = nullptr,
                      .read = {},
+                     .assumedAnglesDeg = options.assumedAnglesDeg,
                      .offerUnfinished = true});
   const FirstPaint firstPaint(window);
   const Termination termination;
   QObject::connect(&termination, &Termination::asked, &window, &MainWindow::endNow);
   window.show();
+  // A driver that crashes does so in another process; until it has answered the hand is painted.
+  if (options.openGl)
+    askForOpenGl(QCoreApplication::applicationFilePath().toStdString(),
+                 &window,
+                 [&window](const QString& why) {
+                   if (why.isEmpty()) window.handPanel().view().useOpenGl();
+                 });
   // The window is on screen before the first file is read.
   if (options.demo)
     window.openDemo();

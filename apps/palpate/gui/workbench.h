@@ -11,9 +11,11 @@
 namespace palpate::gui {
 
 struct WorkbenchOptions {
-  std::vector<std::filesystem::path> files;  // to open; the first one is shown
-  bool demo = false;                         // play the demo recording of dataFolder, looping
-  std::filesystem::path dataFolder;          // the program's own data
+  std::vector<std::filesystem::path> files;   // to open; the first one is shown
+  bool demo = false;                          // play the demo recording of dataFolder, looping
+  std::filesystem::path dataFolder;           // the program's own data
+  bool openGl = true;                         // for the hand in space, where it can be had
+  std::vector<double> assumedAnglesDeg = {};  // of recordings without joint angles; empty: none
 };
 
 // Shows the window and runs the event loop until it is closed. Returns the exit code. A QApplication
@@ -31,7 +33,9 @@ struct ScreenshotOptions {
   std::optional<std::filesystem::path> comparedWith;  // show Compare, `file` as A and this as B
   bool demo = false;
   std::filesystem::path dataFolder;
-  bool force = false;  // replace `out` when it exists
+  bool force = false;                         // replace `out` when it exists
+  bool openGl = true;                         // as WorkbenchOptions
+  std::vector<double> assumedAnglesDeg = {};  // as WorkbenchOptions
 };
 
 // Shows the real window, saves its picture and closes it; the user's settings are neither used nor

@@ -32,6 +32,8 @@ class OutputFile {
   // Syncs file and folder and gives the file its name. Throws FileError; then nothing was left.
   void commit();
   const std::filesystem::path& path() const noexcept { return path_; }
+  // For another program that writes it: /proc/self/fd/N there, opened anew; see write() for our own bytes.
+  int descriptor() const noexcept { return descriptor_; }
 
  private:
   void nameTemporarily();

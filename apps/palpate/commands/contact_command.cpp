@@ -1,0 +1,279 @@
+// palpate contact PATH...: where a hand touches in space, frame by frame, as CSV.
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/one_line.h"
+#include "palpate/core/text_table.h"
+#include "palpate/kinematics/contact_geometry.h"
+#include "palpate/kinematics/hand_geometry.h"
+#include "palpate/kinematics/joint_range.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+#include "commands/contact_size.h"
+#include "commands/hand_options.h"
+#include "commands/recording_list.h"
+
+namespace palpate::commands {
+namespace {
+
+constexpr std::int64_t kUsPerMs = 1000;
+constexpr const char* kFrameColumns =
+    "frame,time_ms,active,sphere_x_mm,sphere_y_mm,sphere_z_mm,sphere_radius_mm,force_n";
+constexpr const char* kMatrixColumns =
+    "frame,time_ms,matrix,active,sum,area_mm2,centroid_x_mm,centroid_y_mm,centroid_z_mm,nx,ny,nz,"
+    "major_x,major_y,major_z,major_sd_mm,minor_x,minor_y,minor_z,minor_sd_mm,surface_x_mm,"
+    "surface_y_mm";
+
+struct Request {
+  std::optional<std::vector<double>> anglesDeg;  // assumed, whatever the recording says
+  bool matrices = false;
+  ContactOptions options = {};
+  std::optional<std::int64_t> from = std::nullopt, to = std::nullopt;
+};
+
+// What was odd about the joint angles of a recording.
+struct AngleTroubles {
+  std::size_t frames = 0;
+  std::size_t outOfRange = 0;
+  std::size_t unusable = 0;
+  std::string firstOutOfRange = {}, firstUnusable = {};
+  std::size_t notFinite = 0;  // frames with values that are no numbers
+};
+
+void appendVector(std::string& line, const Eigen::Vector3d& vector) {
+  for (const double value : {vector.x(), vector.y(), vector.z()}) {
+    line += ',';
+    appendNumber(line, value + 0.0);  // no -0
+  }
+}
+
+void appendStart(std::string& line, std::size_t frame, std::int64_t hostUs) {
+  line.clear();
+  appendNumber(line, static_cast<std::int64_t>(frame));
+  line += ',';
+  appendNumber(line, hostUs / kUsPerMs);
+  line += ',';
+}
+
+void appendFrame(std::string& line, const HandContact& contact, bool posed) {
+  appendNumber(line, static_cast<std::int64_t>(contact.numActive));
+  if (posed && contact.taxelSphere) {
+    appendVector(line, contact.taxelSphere->centreMm);
+    line += ',';
+    appendNumber(line, contact.taxelSphere->radiusMm);
+  } else {
+    line += ",,,,";
+  }
+  line += ',';  // the force is known when the sensor is calibrated
+}
+
+void appendMatrix(std::string& line, std::size_t m, const MatrixContact& contact, bool posed) {
+  appendNumber(line, static_cast<std::int64_t>(m));
+  line += ',';
+  appendNumber(line, static_cast<std::int64_t>(contact.numActive));
+  for (const double value : {contact.sum, contact.areaMm2}) {
+    line += ',';
+    appendNumber(line, value);
+  }
+  const bool touches = contact.numActive > 0;
+  if (posed && touches) {
+    appendVector(line, contact.centroidMm);
+    appendVector(line, contact.meanNormal);
+    appendVector(line, contact.majorAxis);
+    line += ',';
+    appendNumber(line, contact.majorSdMm);
+    appendVector(line, contact.minorAxis);
+    line += ',';
+    appendNumber(line, contact.minorSdMm);
+  } else {
+    line += std::string(14, ',');
+  }
+  for (const double value : {contact.xMm, contact.yMm}) {
+    line += ',';
+    if (touches) appendNumber(line, value);
+  }
+}
+
+// First and last frame that were asked for.
+std::pair<std::size_t, std::size_t> rangeOf(const std::filesystem::path& file,
+                                            const Profile& profile,
+                                            const Request& request) {
+  const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
+  const std::int64_t from = request.from.value_or(0), to = request.to.value_or(last);
+  if (last < 0 && !request.from && !request.to) return {1, 0};
+  if (from > last || to > last)
+    throw Error(file.string() + ": has no frame " + std::to_string(from > last ? from : to) +
+                (last < 0 ? ", it is empty" : ", only 0.." + std::to_string(last)));
+  return {static_cast<std::size_t>(from), static_cast<std::size_t>(to)};
+}
+
+// Keeps the pose that belongs to a frame; joint angles change less often than frames.
+class PoseOfFrames {
+ public:
+  PoseOfFrames(const Profile& profile, const HandGeometry& geometry, const Request& request)
+      : profile_(profile), geometry_(geometry), request_(request) {
+    if (request.anglesDeg) geometry.pose(*request.anglesDeg, pose_);
+  }
+
+  // False: the recorded angles are no pose; then pose() is another one.
+  bool posed(std::int64_t hostUs, AngleTroubles& troubles) {
+    if (request_.anglesDeg) return true;
+    const std::size_t sample = profile_.angleSampleAt(hostUs).value();
+    if (sample_ != sample) {
+      sample_ = sample;
+      const std::vector<double> anglesDeg = profile_.angles(sample).deg;
+      check_ = checkAngles(anglesDeg, sdh2().axes);
+      if (check_.state != AnglesState::kUnusable)
+        geometry_.pose(anglesDeg, pose_);
+      else if (pose_.empty())
+        geometry_.pose(std::vector<double>(geometry_.description().numAxes, 0.0), pose_);
+    }
+    if (check_.state == AnglesState::kOutOfRange && troubles.outOfRange++ == 0)
+      troubles.firstOutOfRange = check_.trouble;
+    if (check_.state == AnglesState::kUnusable && troubles.unusable++ == 0)
+      troubles.firstUnusable = check_.trouble;
+    return check_.state != AnglesState::kUnusable;
+  }
+  const HandPose& pose() const { return pose_; }
+
+ private:
+  const Profile& profile_;
+  const HandGeometry& geometry_;
+  const Request& request_;
+  HandPose pose_;
+  std::optional<std::size_t> sample_;
+  AnglesCheck check_;
+};
+
+AngleTroubles writeContact(StandardOutput& out,
+                           const Profile& profile,
+                           const HandGeometry& geometry,
+                           const Request& request,
+                           const std::pair<std::size_t, std::size_t>& range,
+                           const std::string& lineEnd,
+                           const Progress& progress) {
+  const auto [first, last] = range;
+  PoseOfFrames poses(profile, geometry, request);
+  AngleTroubles troubles;
+  TactileFrame frame;
+  HandContact contact;
+  std::string line;
+  for (std::size_t i = first; i <= last && last < profile.numFrames(); ++i) {
+    if (!progress(static_cast<double>(i - first) / static_cast<double>(last - first + 1)))
+      throw Cancelled();
+    profile.readFrame(i, frame);
+    const bool posed = poses.posed(frame.hostUs, troubles);
+    contactOf(frame, poses.pose(), request.options, contact);
+    ++troubles.frames;
+    if (contact.numNotFinite > 0) ++troubles.notFinite;
+    const std::size_t rows = request.matrices ? contact.matrices.size() : 1;
+    for (std::size_t m = 0; m < rows; ++m) {
+      appendStart(line, i, frame.hostUs);
+      if (request.matrices)
+        appendMatrix(line, m, contact.matrices[m], posed);
+      else
+        appendFrame(line, contact, posed);
+      out.write(line += lineEnd);
+    }
+  }
+  return troubles;
+}
+
+// False when rows lack something for it.
+bool sayTroubles(const std::filesystem::path& file, const AngleTroubles& troubles, bool quiet) {
+  const auto say = [&](std::size_t frames, const std::string& what) {
+    std::fprintf(stderr,
+                 "palpate: %s: %zu of %zu frames %s\n",
+                 oneLine(file.string()).c_str(),
+                 frames,
+                 troubles.frames,
+                 what.c_str());
+  };
+  if (troubles.outOfRange > 0 && !quiet)
+    say(troubles.outOfRange,
+        "have joint angles that the hand can't take: " + troubles.firstOutOfRange);
+  if (troubles.notFinite > 0)
+    say(troubles.notFinite, "have values that are not numbers; these were left out");
+  if (troubles.unusable > 0)
+    say(troubles.unusable,
+        "have no usable joint angles, and no sphere: " + troubles.firstUnusable +
+            "; --angles assumes some");
+  return troubles.unusable + troubles.notFinite == 0;
+}
+
+}  // namespace
+
+int contactCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate contact PATH... [--angles A0,..,A6] [--matrices | --size]",
+       .purpose =
+           "Prints, for every frame, how many taxels are active (value > 0) and the smallest "
+           "sphere around them in the\nhand's base frame [mm], as CSV; empty where nothing "
+           "touches. force_n is empty until the sensor is\ncalibrated. With --matrices a row per "
+           "matrix instead: its contact centroid, mean normal, principal axes and\nthe standard "
+           "deviations along them; with --size a row per grasp: diameter and compression of what "
+           "is "
+           "held. PATH is a\nrecording, or a folder: every recording below it. With several a last "
+           "column names the file. A recording\nwithout joint angles needs --angles.",
+       .options =
+           {{"angles", "A0,..,A6", "assume these joint angles [deg] for all frames"},
+            {"matrices", "", "a row per matrix"},
+            {"size", "", "a row per grasp: how large the object is, how much it gave way"},
+            {"threshold", "N", "active is above N [counts], default 0"},
+            {"fingertip",
+             "study|effective",
+             "radius of the bent fingertips: 58 mm (default) or 48.4 mm (default of --size)"},
+            {"from", "N", "first frame, default 0"},
+            {"to", "M", "last frame (inclusive), default the last one"}},
+       .example = "palpate contact foam_ball.dsa > contact.csv",
+       .fewestWords = 1},
+      words);
+  if (given.helpShown()) return kDone;
+  if (given.has("size")) return contactSizes(given);
+  Request request{.anglesDeg = anglesOf(given)};
+  request.matrices = given.has("matrices");
+  request.options.threshold = given.number("threshold", 0.0, 4095.0).value_or(0.0);
+  request.options.spheres = !request.matrices;
+  request.from = given.integer("from", 0, INT64_MAX);
+  request.to = given.integer("to", 0, INT64_MAX);
+  if (request.from && request.to && *request.from > *request.to)
+    throw UsageError("--from is behind --to");
+  const HandGeometry geometry(geometryOf(given));
+  const RecordingList recordings = recordingsIn(given.words());
+  StandardOutput out;
+  bool headerWritten = false, whole = true;
+  const int code = forEachProfile(
+      recordings,
+      given.quiet(),
+      [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
+        requireHand(file, profile, geometry.description());
+        if (profile.numAngles() == 0 && !request.anglesDeg)
+          throw Error(file.string() +
+                      ": holds no joint angles; assume some with --angles A0,..,A6 [deg]");
+        const auto range = rangeOf(file, profile, request);
+        if (!headerWritten)
+          out.write(std::string(request.matrices ? kMatrixColumns : kFrameColumns) +
+                    (recordings.several ? ",file\n" : "\n"));
+        headerWritten = true;
+        const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";
+        // What was written of a recording that fails on the way stays: whole rows, and it is said.
+        AngleTroubles troubles;
+        try {
+          troubles = writeContact(out, profile, geometry, request, range, lineEnd, progress);
+        } catch (const Error&) {
+          out.finish();
+          throw;
+        }
+        out.finish();
+        whole = sayTroubles(file, troubles, given.quiet()) && whole;
+      });
+  return code == kDone && !whole ? kPartlyDone : code;
+}
+
+}  // namespace palpate::commands

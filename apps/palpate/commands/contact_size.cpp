@@ -1,0 +1,111 @@
+#include "commands/contact_size.h"
+
+#include <cstdio>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/one_line.h"
+#include "palpate/core/text_table.h"
+#include "palpate/kinematics/object_size.h"
+#include "palpate/recognition/grasp_segments.h"
+
+#include "commands/commands.h"
+#include "commands/hand_options.h"
+#include "commands/recording_list.h"
+
+namespace palpate::commands {
+namespace {
+
+std::vector<std::string> header() {
+  return {"begin",
+          "end",
+          "matrix_a",
+          "matrix_b",
+          "start_frame",
+          "plateau_frame",
+          "start_mm",
+          "plateau_mm",
+          "shrink_mm",
+          "foam_mm",
+          "compression_mm",
+          "compression_sd_mm",
+          "diameter_mm",
+          "diameter_sd_mm",
+          "sphere_mm"};
+}
+
+std::vector<std::string> cellsOf(const GraspSegment& grasp, const ObjectSizeReport& report) {
+  std::vector<std::string> cells = {std::to_string(grasp.begin), std::to_string(grasp.end)};
+  if (!report.valid) {
+    cells.resize(header().size());
+    return cells;
+  }
+  for (const std::size_t number :
+       {report.pads.first, report.pads.second, report.startFrame, report.plateauFrame})
+    cells.push_back(std::to_string(number));
+  for (const double value : {report.startMm,
+                             report.plateauMm,
+                             report.shrinkMm,
+                             report.foamMm,
+                             report.compressionMm,
+                             report.compressionSdMm,
+                             report.diameterMm,
+                             report.diameterSdMm,
+                             report.spherePlateauMm})
+    cells.push_back(numberText(value));
+  return cells;
+}
+
+void say(const std::filesystem::path& file, const GraspSegment& grasp, const std::string& what) {
+  std::fprintf(stderr,
+               "palpate: %s: grasp %zu..%zu: %s\n",
+               oneLine(file.string()).c_str(),
+               grasp.begin,
+               grasp.end,
+               what.c_str());
+}
+
+}  // namespace
+
+int contactSizes(const CommandLine& given) {
+  for (const char* option : {"angles", "matrices", "threshold", "from", "to"})
+    if (given.has(option)) throw UsageError(std::string("--size doesn't go with --") + option);
+  const HandGeometry geometry(geometryOf(given, "effective"));
+  const RecordingList recordings = recordingsIn(given.words());
+  StandardOutput out;
+  bool headerWritten = false, whole = true;
+  const int code = forEachProfile(
+      recordings,
+      given.quiet(),
+      [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
+        requireHand(file, profile, geometry.description());
+        if (profile.numAngles() == 0)
+          throw Error(file.string() +
+                      ": holds no joint angles; a size can't be told from one assumed pose");
+        if (profile.hand().axes.size() != geometry.description().numAxes)
+          throw Error(file.string() + ": its joint angles are those of another hand");
+        const std::vector<GraspSegment> grasps = findGrasps(profile, {}, progress);
+        std::vector<std::string> names = header();
+        if (recordings.several) names.emplace_back("file");
+        if (!headerWritten) out.write(csvLine(names));
+        headerWritten = true;
+        for (const GraspSegment& grasp : grasps) {
+          const ObjectSizeReport report =
+              objectSize(profile, geometry, grasp.begin, grasp.end, {}, progress);
+          std::vector<std::string> cells = cellsOf(grasp, report);
+          if (recordings.several) cells.push_back(file.string());
+          out.write(csvLine(cells));
+          if (report.unusableFrames > 0)
+            say(file,
+                grasp,
+                std::to_string(report.unusableFrames) +
+                    " frames without usable joint angles are left out");
+          if (!report.valid) say(file, grasp, "no size: " + report.trouble);
+          whole = whole && report.valid && report.unusableFrames == 0;
+        }
+        out.finish();  // each recording's rows as they come
+      });
+  return code == kDone && !whole ? kPartlyDone : code;
+}
+
+}  // namespace palpate::commands

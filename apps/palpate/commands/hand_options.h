@@ -1,0 +1,34 @@
+// What the commands that place taxels in space are told of the hand: joint angles, the fingertips' radius.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <palpate/kinematics/geometry_description.h>
+#include <palpate/model/profile.h>
+
+#include "commands/command_line.h"
+
+namespace palpate::commands {
+
+// "10,-20,.." as `count` numbers; throws UsageError naming the option and the piece that is none.
+std::vector<double> numbersOf(const std::string& text,
+                              const std::string& option,
+                              std::size_t count);
+
+// --angles A0,..,A6 of an SDH-2 [deg]: seven numbers within the axes' range; throws UsageError.
+OptionSpec anglesOption();
+std::optional<std::vector<double>> anglesOf(const CommandLine& given);
+
+// --fingertip study|effective.
+OptionSpec fingertipOption(const std::string& defaultName = "study");
+GeometryDescription geometryOf(const CommandLine& given, const std::string& defaultName = "study");
+
+// Throws Error naming the file when its sensor has other matrices than the hand.
+void requireHand(const std::filesystem::path& file,
+                 const Profile& profile,
+                 const GeometryDescription& hand);
+
+}  // namespace palpate::commands

@@ -1,0 +1,119 @@
+#include "commands/render_hand.h"
+
+#include <algorithm>
+#include <string>
+
+#include "palpate/core/error.h"
+
+#include "commands/hand_options.h"
+#include "gui/frame_painters.h"
+#include "gui/hand_drawing.h"
+#include "gui/hand_picture.h"
+
+namespace palpate::commands {
+namespace {
+
+constexpr std::size_t kLooks = 12;  // frames that the camera has to have in its picture
+
+const std::vector<std::string> kSpheresOf = {"taxels", "centroids"};
+
+// "flat cells" as one word of the command line.
+template <class All>
+std::vector<std::string> wordsOf(const All& all) {
+  std::vector<std::string> words;
+  for (const auto each : all) words.push_back(nameOf(each).replace(' ', '-').toStdString());
+  return words;
+}
+
+template <class All>
+auto chosenOf(const CommandLine& given, const char* option, const All& all) {
+  const auto words = wordsOf(all);
+  const auto word = given.choice(option, words);
+  if (!word) return all.front();
+  return all[static_cast<std::size_t>(std::find(words.begin(), words.end(), *word) -
+                                      words.begin())];
+}
+
+gui::HandLook lookOf(const CommandLine& given, const Profile& profile) {
+  gui::HandLook look;
+  look.taxels = chosenOf(given, "taxels", gui::kAllTaxelShapes);
+  look.sphere = chosenOf(given, "sphere", gui::kAllSphereLooks);
+  if (given.choice("sphere-of", kSpheresOf) == "centroids")
+    look.sphereOf = gui::SphereOf::kCentroids;
+  look.normals = given.has("normals");
+  look.wire = given.has("wire");
+  look.axes = given.has("axes");
+  look.contacts = !given.has("no-contacts");
+  if (const auto matrix = given.integer("matrix", 0, INT64_MAX)) {
+    const std::size_t count = profile.layout().numMatrices();
+    if (static_cast<std::uint64_t>(*matrix) >= count)
+      throw Error("there is no matrix " + std::to_string(*matrix) + ", only 0.." +
+                  std::to_string(count - 1));
+    look.only = static_cast<std::size_t>(*matrix);
+  }
+  return look;
+}
+
+}  // namespace
+
+std::vector<OptionSpec> handViewOptions() {
+  return {{"angles", "A0,..,A6", "hand: joint angles [deg] assumed where none are recorded"},
+          {"taxels", "NAME", "hand: cells (default), bars, points, flat-cells, flat-bars"},
+          {"sphere", "NAME", "hand: glass (default), opaque, wire, no-sphere"},
+          {"sphere-of", "NAME", "hand: taxels (default) or centroids"},
+          {"matrix", "M", "hand: this one alone"},
+          {"camera", "AZ,EL", "hand: where the eye stands, about z and above the palm [deg]"},
+          {"normals", "", "hand: the taxels' normals"},
+          {"no-contacts", "", "hand: without centroids and axes of the contacts"},
+          {"wire", "", "hand: a wire frame"},
+          {"axes", "", "hand: axes of its base"}};
+}
+
+void checkHandUsage(const CommandLine& given) {
+  const bool hand = given.choice("view", {"matrices", "hand"}) == "hand";
+  for (const OptionSpec& option : handViewOptions())
+    if (!hand && given.has(option.name))
+      throw UsageError("--" + std::string(option.name) + " goes with --view hand");
+  for (const char* name : {"interpolated", "values"})
+    if (hand && given.has(name))
+      throw UsageError("--" + std::string(name) + " is of the heat maps, not of --view hand");
+  given.choice("taxels", wordsOf(gui::kAllTaxelShapes));
+  given.choice("sphere", wordsOf(gui::kAllSphereLooks));
+  given.choice("sphere-of", kSpheresOf);
+  anglesOf(given);
+  if (const auto camera = given.text("camera")) {
+    const auto numbers = numbersOf(*camera, "camera", 2);
+    if (numbers[1] < -89.0 || numbers[1] > 89.0)
+      throw UsageError("--camera: the eye stands -89 to 89 degrees above the palm");
+  }
+}
+
+gui::FramePictures::Paint handPainter(const CommandLine& given,
+                                      const Profile& profile,
+                                      const gui::FrameSpan& span,
+                                      const gui::MatricesPictureOptions& page) {
+  gui::HandPictureOptions options;
+  options.page = page;
+  options.look = lookOf(given, profile);
+  const std::vector<double> assumed = anglesOf(given).value_or(std::vector<double>());
+  gui::HandDrawing drawing;
+  drawing.setHand(profile.hand());
+  options.camera = drawing.usualCamera(options.look);
+  if (const auto camera = given.text("camera")) {
+    const auto numbers = numbersOf(*camera, "camera", 2);
+    options.camera.azimuthDeg = numbers[0];
+    options.camera.elevationDeg = numbers[1];
+  }
+  std::vector<Eigen::Vector3d> seen;
+  for (std::size_t i = 0; i <= std::min(kLooks, span.count() - 1); ++i) {
+    const std::size_t frame = span.first + (span.count() - 1) * i / kLooks;
+    const auto angles = profile.anglesAtFrame(frame);
+    drawing.setMoment(profile.frame(frame), angles ? angles->deg : assumed);
+    const auto extent = drawing.extent(options.look);
+    seen.insert(seen.end(), extent.begin(), extent.end());
+  }
+  options.camera.fit(seen, page.size.width() / page.size.height());
+  return gui::handFramePainter(profile, options, assumed);
+}
+
+}  // namespace palpate::commands

@@ -1,0 +1,94 @@
+#include "commands/render_movie.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+
+#include "commands/commands.h"
+#include "gui/ffmpeg.h"
+#include "gui/interruption.h"
+#include "gui/movie_writer.h"
+
+namespace palpate::commands {
+namespace {
+
+MovieOptions chosenOptions(const CommandLine& given) {
+  MovieOptions options;
+  options.picturesPerS =
+      given.number("fps", MovieOptions::kLeastPicturesPerS, MovieOptions::kMostPicturesPerS)
+          .value_or(options.picturesPerS);
+  options.speed = given.number("speed", Playback::kMinimumSpeed, Playback::kMaximumSpeed)
+                      .value_or(options.speed);
+  return options;
+}
+
+void printMovie(const std::string& out, const gui::Movie& movie) {
+  std::printf("%s: %s s, %zu pictures, frames %zu..%zu",
+              out.c_str(),
+              fixedText(movie.timing.seconds, 1).c_str(),
+              movie.timing.numPictures,
+              movie.frames.first,
+              movie.frames.last);
+  if (movie.timing.numGaps > 0)
+    std::printf("; gaps shortened: %zu, by %s s",
+                movie.timing.numGaps,
+                fixedText(movie.timing.leftOutS, 1).c_str());
+  std::printf("\n");
+}
+
+}  // namespace
+
+bool isMovieName(const std::string& out) {
+  std::string ending = std::filesystem::path(out).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::tolower(letter));
+  });
+  return ending == ".mp4";
+}
+
+void checkMovieUsage(const CommandLine& given) {
+  const bool isMovie = isMovieName(given.text("output").value_or(""));
+  if (isMovie && given.has("frame"))
+    throw UsageError("a movie is of many frames: --from and --to, not --frame");
+  for (const char* name : {"speed", "fps"})
+    if (given.has(name) && !isMovie)
+      throw UsageError("--" + std::string(name) + " is of a movie: -o OUT.mp4");
+  chosenOptions(given);
+}
+
+void requireMovie(const std::string& out, Overwrite overwrite) {
+  if (!gui::findFfmpeg()) throw Error(gui::ffmpegMissing());
+  requireWritable(out, overwrite);
+}
+
+int drawMovie(const CommandLine& given,
+              const Profile& profile,
+              const gui::FrameSpan& span,
+              const gui::FramePictures::Paint& paint,
+              const gui::PicturePaper& paper,
+              Overwrite overwrite) {
+  const std::string out = *given.text("output");
+  const auto timeUs = [&](std::size_t frame) { return profile.frameTimeUs(frame); };
+  gui::Interruption interruption;
+  gui::Movie movie;
+  try {
+    ProgressLine progress("drawing", given.quiet());
+    const Progress show = progress.callback();
+    const auto goOn = [&](double fraction) {
+      return !interruption.came(0) && (!show || show(fraction));
+    };
+    movie = gui::plannedMovie(span, timeUs, chosenOptions(given), goOn);
+    gui::writeMovie(out, movie, paint, paper, overwrite, goOn);
+  } catch (const Cancelled&) {
+    std::fprintf(stderr, "palpate: interrupted: %s was not written\n", out.c_str());
+    return kPartlyDone;
+  }
+  if (!given.quiet()) printMovie(out, movie);
+  return kDone;
+}
+
+}  // namespace palpate::commands

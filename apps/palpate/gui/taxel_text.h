@@ -1,0 +1,19 @@
+// What a taxel says under the mouse: where it is and what it feels.
+#pragma once
+
+#include <QString>
+#include <optional>
+
+#include <palpate/model/hand_description.h>
+#include <palpate/model/tactile_frame.h>
+
+#include "gui/matrices_painter.h"
+
+namespace palpate::gui {
+
+// "finger 0 distal · x 3, y 5 · 812 counts"
+QString taxelText(const HandDescription& hand,
+                  const TaxelPlace& place,
+                  const std::optional<TactileFrame>& frame);
+
+}  // namespace palpate::gui

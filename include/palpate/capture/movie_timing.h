@@ -1,0 +1,44 @@
+// Which frame each picture of a movie shows. A movie has so many pictures a second, all alike long; frames come as
+// they came. So a frame is shown by none, one or several pictures: those whose middle lies between its stamp and
+// the next one's. The first and the last frame are always seen.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <palpate/capture/playback.h>
+
+namespace palpate {
+
+struct MovieOptions {
+  static constexpr double kLeastPicturesPerS = 1.0;
+  static constexpr double kMostPicturesPerS = 120.0;
+
+  double picturesPerS = 30.0;  // 1..120
+  double speed = 1.0;          // 1: as long as it took; Playback::kMinimumSpeed..kMaximumSpeed
+};
+
+// One frame, and how many pictures in a row show it.
+struct MovieShot {
+  std::size_t frame = 0;  // index into the stamps
+  std::size_t numPictures = 1;
+  bool operator==(const MovieShot&) const = default;
+};
+
+struct MovieTiming {
+  std::vector<MovieShot> shots;  // ascending; frames that no picture shows are left out
+  std::size_t numPictures = 0;
+  double seconds = 0.0;     // how long the movie is [s]
+  std::size_t numGaps = 0;  // that were shortened
+  double leftOutS = 0.0;    // by how much, in the recording's time [s]
+};
+
+// The last frame is shown as long as the usual (median) interval. Gaps, longer than max(1 s, 5 median intervals)
+// (model/timing.h), are shown as that long: nobody watches a still picture for minutes.
+// stampsUs: of the frames to be shown [us], ascending; none: no picture. Throws std::invalid_argument for options out
+// of range.
+MovieTiming movieTiming(std::span<const std::int64_t> stampsUs, const MovieOptions& options = {});
+
+}  // namespace palpate

@@ -1,0 +1,76 @@
+// A hand's geometry as data: chains of joints (standard, distal Denavit-Hartenberg) and sensor surfaces on
+// their links. Another hand is another table.
+//
+// Frames: the hand's base frame (the palm's) has z up from the palm. A link's frame has X along the link towards the
+// tip, Y out of the sensor surface, Z across. Lengths in mm, angles in degrees at every door.
+// Source of the SDH-2's: the study, chapter 4 (tables 4.1 to 4.3), with the constants of its program where the printed
+// ones are slips (d2 = 14.8, t_y = 12 w).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <palpate/model/matrix_layout.h>
+
+namespace palpate {
+
+// T = Rz(theta) Tz(d) Tx(r) Rx(alpha), theta = sign * angle of the axis + offset.
+struct DhLink {
+  std::optional<std::size_t> axis;  // of the hand that turns it; nothing: theta is the offset
+  double sign = 1.0;
+  double offsetDeg = 0.0;
+  double dMm = 0.0;
+  double rMm = 0.0;
+  double alphaDeg = 0.0;
+};
+
+struct Finger {
+  Eigen::Vector3d baseMm = Eigen::Vector3d::Zero();  // in the base frame
+  Eigen::Matrix3d baseRotation = Eigen::Matrix3d::Identity();
+  std::vector<DhLink> links;
+};
+
+// The surface of one matrix in the frame behind link `link` of a finger. Column x, row y (cell centres at
+// whole numbers) lie at
+//   X = row0Mm - pitch y, Y = heightMm, Z = column0Mm + pitch x,
+// and, towards the tip from row `bendRow` on, on a cylinder about Z that continues it:
+//   a = (bendRow - y) pitch / radius,  X = row0Mm - pitch bendRow + radius sin a,
+//   Y = heightMm - radius (1 - cos a).
+struct SensorSurface {
+  std::size_t finger = 0;
+  std::size_t link = 0;
+  double row0Mm = 0.0;
+  double heightMm = 0.0;
+  double column0Mm = 0.0;
+  std::optional<double> bendRow;  // nothing: flat
+  double radiusMm = 0.0;          // of the bend
+};
+
+struct GeometryDescription {
+  std::size_t numAxes = 0;
+  std::vector<Finger> fingers;
+  std::vector<SensorSurface> surfaces;  // one per matrix
+  SensorLayout layout;
+
+  // Throws std::invalid_argument naming what doesn't fit (an axis or link that isn't there, not finite, ..).
+  void validate() const;
+};
+
+// A row of a sensor surface in its link's frame: where its line of taxels crosses Z = 0, and the normal there.
+struct SurfaceRow {
+  double xMm = 0.0, yMm = 0.0;
+  double normalX = 0.0, normalY = 1.0;
+};
+// At any row, between taxels and beyond the edge, too.
+SurfaceRow surfaceRow(const SensorSurface& surface, double pitchMm, double row);
+
+// Radius of the SDH-2's bent fingertips [mm].
+constexpr double kStudyFingertipRadiusMm = 58.0;      // of the study's program
+constexpr double kEffectiveFingertipRadiusMm = 48.4;  // that makes a rigid object measure the same
+
+GeometryDescription sdh2Geometry(double fingertipRadiusMm = kStudyFingertipRadiusMm);
+
+}  // namespace palpate

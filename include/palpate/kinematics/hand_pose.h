@@ -1,0 +1,78 @@
+// A hand at one set of joint angles: where its taxels, their corners, its links and joints are. A value, made by
+// HandGeometry::pose(); it refers to the geometry that made it, which must outlive it.
+//
+// Everything is in the hand's base frame (the palm's: z up from the palm), in mm. A transform `bFromA` takes
+// coordinates in frame A to coordinates in frame B. Points of a sensor surface are given in mm from the
+// centre of taxel (0, 0): x across (rising column), y towards the palm (rising row), along the surface; beyond
+// its edge the surface goes on.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <palpate/kinematics/geometry_description.h>
+
+namespace palpate {
+
+// A joint as a line in space: turning the axis by +1 degree turns all links of the finger from `link` on
+// by +1 degree about `direction`.
+struct JointLine {
+  std::size_t axis = 0;
+  std::size_t finger = 0;
+  std::size_t link = 0;
+  Eigen::Vector3d originMm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit vector
+};
+
+// A default-made pose has no taxels; what asks for one of them throws std::out_of_range.
+class HandPose {
+ public:
+  bool empty() const noexcept { return description_ == nullptr; }
+  // Of the hand. Throws std::out_of_range when empty.
+  const GeometryDescription& description() const;
+
+  // One per place, matrix after matrix, row by row (places without a taxel, too) [mm].
+  const std::vector<Eigen::Vector3d>& positionsMm() const noexcept { return positionsMm_; }
+  // Unit vectors out of the sensor surface, in the same order.
+  const std::vector<Eigen::Vector3d>& normals() const noexcept { return normals_; }
+  // Of one taxel. Throw std::out_of_range.
+  const Eigen::Vector3d& positionMm(std::size_t matrix, int y, int x) const;
+  const Eigen::Vector3d& normal(std::size_t matrix, int y, int x) const;
+
+  // Of any point of a sensor surface. std::out_of_range: matrix; std::invalid_argument: not finite.
+  Eigen::Vector3d pointMm(std::size_t matrix, double xMm, double yMm) const;
+  Eigen::Vector3d normalAt(std::size_t matrix, double xMm, double yMm) const;
+  // The frame that touches the surface there: X across (rising column), Y towards the fingertip (falling row), Z = normal.
+  Eigen::Isometry3d baseFromSurface(std::size_t matrix, double xMm, double yMm) const;
+
+  // Corner (y, x) of a matrix, y 0..rows, x 0..columns: where taxels (y-1, x-1), (y-1, x), (y, x-1) and (y, x) meet; the corners
+  // of taxel (y, x) are (y, x), (y, x+1), (y+1, x+1), (y+1, x). On the curved surface, as the taxels. std::out_of_range.
+  Eigen::Vector3d cornerMm(std::size_t matrix, int y, int x) const;
+  // All of a matrix, (rows + 1) x (columns + 1) row by row, into `out` (memory is reused).
+  void cornersMm(std::size_t matrix, std::vector<Eigen::Vector3d>& out) const;
+
+  // The link's own frame: X along it towards the tip, Y out of its sensor surface, Z across; its origin is its far
+  // end (the next joint, or the tip of the finger). std::out_of_range.
+  const Eigen::Isometry3d& baseFromLink(std::size_t finger, std::size_t link) const;
+  // Where a finger stands on the palm, whatever the angles. std::out_of_range.
+  Eigen::Isometry3d baseFromFinger(std::size_t finger) const;
+  // Of the link that carries a matrix: columns X, Y, Z in the base frame, and its origin [mm].
+  Eigen::Matrix3d rotation(std::size_t matrix) const { return linkOf(matrix).linear(); }
+  Eigen::Vector3d originMm(std::size_t matrix) const { return linkOf(matrix).translation(); }
+  // All joints of all fingers (an axis that turns two fingers stands here twice).
+  const std::vector<JointLine>& jointLines() const noexcept { return jointLines_; }
+
+ private:
+  friend class HandGeometry;
+  const Eigen::Isometry3d& linkOf(std::size_t matrix) const;
+  std::size_t placeOf(std::size_t matrix, int y, int x) const;
+
+  const GeometryDescription* description_ = nullptr;
+  std::vector<std::vector<Eigen::Isometry3d>> links_;  // base from link, per finger
+  std::vector<Eigen::Vector3d> positionsMm_, normals_;
+  std::vector<JointLine> jointLines_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,65 @@
+#include "palpate/capture/movie_timing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "palpate/model/timing.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kUsPerS = 1e6;
+constexpr double kShortestGapS = 1.0;
+constexpr double kGapIntervals = 5.0;
+
+void check(const MovieOptions& options) {
+  // Written so that NaN fails, too.
+  if (!(options.picturesPerS >= MovieOptions::kLeastPicturesPerS &&
+        options.picturesPerS <= MovieOptions::kMostPicturesPerS))
+    throw std::invalid_argument("pictures per second must be 1..120, not " +
+                                std::to_string(options.picturesPerS));
+  if (!(options.speed >= Playback::kMinimumSpeed && options.speed <= Playback::kMaximumSpeed))
+    throw std::invalid_argument("speed must be 0.1..16, not " + std::to_string(options.speed));
+}
+
+}  // namespace
+
+MovieTiming movieTiming(std::span<const std::int64_t> stampsUs, const MovieOptions& options) {
+  check(options);
+  MovieTiming movie;
+  if (stampsUs.empty()) return movie;
+  const TimingReport timing = timingOf(stampsUs);
+  const double usualS = timing.rateHz > 0.0 ? 1.0 / timing.rateHz : 0.0;
+  const double longestS = std::max(kShortestGapS, kGapIntervals * usualS);
+  const double picturesPerRecordedS = options.picturesPerS / options.speed;
+  // The first picture whose middle isn't before that moment.
+  const auto pictureAt = [&](double seconds) {
+    constexpr double kMiddle = 0.5 + 1e-9;  // less than a microsecond: rates that meet stay in step
+    return static_cast<std::size_t>(
+        std::max(0.0, std::ceil(seconds * picturesPerRecordedS - kMiddle)));
+  };
+  const std::size_t last = stampsUs.size() - 1;
+  auto gap = timing.gaps.begin();
+  std::size_t shown = 0;  // pictures so far
+  for (std::size_t i = 0; i <= last; ++i) {
+    if (gap != timing.gaps.end() && gap->frame == i) {
+      movie.leftOutS += gap->seconds - longestS;
+      ++movie.numGaps;
+      ++gap;
+    }
+    const std::int64_t endUs = stampsUs[std::min(i + 1, last)] - stampsUs.front();
+    const double endS = static_cast<double>(endUs) / kUsPerS - movie.leftOutS;
+    std::size_t end = pictureAt(i == last ? endS + usualS : endS);
+    if (i == 0 || i == last) end = std::max(end, shown + 1);
+    if (end <= shown) continue;
+    movie.shots.push_back({i, end - shown});
+    shown = end;
+  }
+  movie.numPictures = shown;
+  movie.seconds = static_cast<double>(shown) / options.picturesPerS;
+  return movie;
+}
+
+}  // namespace palpate

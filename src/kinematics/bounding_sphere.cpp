@@ -1,0 +1,102 @@
+// The one source that knows CGAL: header-only use of its bounding volumes, with own traits, so that neither its
+// kernels nor its flags come along.
+#include "palpate/kinematics/bounding_sphere.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <utility>
+
+#include <CGAL/Min_sphere_of_spheres_d.h>
+#include <Eigen/QR>
+
+namespace palpate {
+namespace {
+
+using Eigen::Vector3d;
+
+struct PointTraits {
+  using FT = double;
+  using Sphere = Vector3d;
+  using Use_square_roots = CGAL::Tag_false;
+  using Algorithm = CGAL::Farthest_first_heuristic;
+  using Cartesian_const_iterator = const double*;
+  static const int D = 3;
+  static double radius(const Sphere&) { return 0.0; }
+  static const double* center_cartesian_begin(const Sphere& point) { return point.data(); }
+};
+using CgalSphere = CGAL::Min_sphere_of_spheres_d<PointTraits>;
+
+constexpr double kLargestExcess = 1e-10;
+constexpr int kMostOrders = 24;
+
+struct Candidate {
+  Vector3d centre = Vector3d::Zero();
+  double radius = 0.0;  // encloses all points
+  double excess = 0.0;  // of the radius over a lower bound, as a part of the radius
+};
+
+// For weights w >= 0 that sum up to 1, every enclosing sphere has
+//   radius^2 >= sum w |p|^2 - |sum w p|^2
+// (the weighted variance). Equal for the smallest one, with its centre as the weighted mean of points on it.
+double lowerBound(CgalSphere& found, const Vector3d& centre, double radius) {
+  Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 4> system(4, 0);
+  for (auto point = found.support_begin(); point != found.support_end(); ++point) {
+    if (system.cols() == 4) return 0.0;
+    system.conservativeResize(4, system.cols() + 1);
+    system.rightCols<1>() << (*point - centre) / radius, 1.0;
+  }
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1> weights =
+      system.colPivHouseholderQr().solve(Eigen::Vector4d::UnitW()).cwiseMax(0.0);
+  const double total = weights.sum();
+  if (!(total > 0.0)) return 0.0;
+  weights /= total;
+  const auto points = system.topRows<3>();
+  const double squares = points.colwise().squaredNorm().dot(weights.transpose());
+  return radius * std::sqrt(std::max(0.0, squares - (points * weights).squaredNorm()));
+}
+
+Candidate tryOrder(const std::vector<Vector3d>& points) {
+  CgalSphere found(points.begin(), points.end());
+  found.radius();
+  Candidate candidate;
+  candidate.centre = Eigen::Map<const Vector3d>(found.center_cartesian_begin());
+  double squared = 0.0;
+  for (const Vector3d& point : points)
+    squared = std::max(squared, (point - candidate.centre).squaredNorm());
+  candidate.radius = std::sqrt(squared);
+  if (candidate.radius > 0.0)
+    candidate.excess =
+        1.0 - lowerBound(found, candidate.centre, candidate.radius) / candidate.radius;
+  return candidate;
+}
+
+}  // namespace
+
+std::optional<Sphere> boundingSphere(const std::vector<Vector3d>& pointsMm) {
+  if (pointsMm.empty()) return std::nullopt;
+  Vector3d low = pointsMm.front(), high = low;
+  for (const Vector3d& point : pointsMm) {
+    if (!point.allFinite())
+      throw std::invalid_argument("boundingSphere: a point that is not a number");
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  const Vector3d middle = low + (high - low) / 2.0;
+  std::vector<Vector3d> points(pointsMm);
+  for (Vector3d& point : points) point -= middle;
+
+  // Many points on one sphere (taxels of a flat matrix) make CGAL's pivoting end early once in a hundred times, far
+  // from the smallest. It depends on the order of the points: with another one it arrives.
+  Candidate best = tryOrder(points);
+  std::minstd_rand order;
+  for (int i = 1; i < kMostOrders && !(best.excess <= kLargestExcess); ++i) {
+    std::shuffle(points.begin(), points.end(), order);
+    const Candidate next = tryOrder(points);
+    if (next.excess < best.excess || !(best.excess < 1.0)) best = next;
+  }
+  return Sphere{best.centre + middle, best.radius};
+}
+
+}  // namespace palpate

@@ -1,0 +1,80 @@
+// A program that is called as ffmpeg is, and does what a test wants.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "testing/testing.h"
+
+namespace palpate::testing {
+
+// While it lives, it is what findFfmpeg() finds.
+class FakeFfmpeg {
+ public:
+  // Takes all pictures, and makes a movie "whole" of them.
+  static constexpr const char* kGood = "cat > \"$here/pixels\"; printf whole > /proc/self/fd/3";
+
+  // body: of a shell script, where $here is a folder of its own. It knows the given encoders.
+  explicit FakeFfmpeg(const std::string& body = kGood,
+                      const std::string& encoders = " V....D libx264 x\\n V.S... mpeg4 y\\n") {
+    if (const char* before = std::getenv(kVariable)) before_ = before;
+    const auto program = folder_ / "a fake 'ffmpeg'";
+    writeFile(program,
+              "#!/bin/sh\nhere='" + folder_.path().string() +
+                  "'\n"
+                  "case \"$*\" in *-encoders*) printf '" +
+                  encoders +
+                  "'; exit 0;; esac\n"
+                  "printf '%s\\0' \"$@\" > \"$here/words\"; echo $$ > \"$here/pid\"\n" +
+                  body + "\n");
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    ::setenv(kVariable, program.c_str(), 1);
+  }
+  ~FakeFfmpeg() {
+    if (before_)
+      ::setenv(kVariable, before_->c_str(), 1);
+    else
+      ::unsetenv(kVariable);
+  }
+  FakeFfmpeg(const FakeFfmpeg&) = delete;
+  FakeFfmpeg& operator=(const FakeFfmpeg&) = delete;
+
+  std::filesystem::path file(std::string_view name) const { return folder_ / name; }
+  bool wasCalled() const { return std::filesystem::exists(file("pid")); }
+  // What it was called with.
+  std::vector<std::string> words() const {
+    std::vector<std::string> all;
+    std::istringstream text(readFile(file("words")));
+    for (std::string word; std::getline(text, word, '\0');) all.push_back(word);
+    return all;
+  }
+  // The word behind one.
+  std::string wordAfter(const std::string& option) const {
+    const auto all = words();
+    for (std::size_t i = 0; i + 1 < all.size(); ++i)
+      if (all[i] == option) return all[i + 1];
+    return {};
+  }
+  // Whether the process whose number the script wrote into `name` still runs (a zombie doesn't).
+  bool runs(std::string_view name) const {
+    std::string pid = readFile(file(name));
+    pid.erase(pid.find_last_not_of(" \n") + 1);
+    std::ifstream status("/proc/" + pid + "/stat");
+    std::string text;
+    if (!std::getline(status, text)) return false;
+    const auto behindName = text.rfind(')');  // "1234 (sh) S 1 .."
+    return text.substr(behindName + 2, 1) != "Z";
+  }
+
+ private:
+  static constexpr const char* kVariable = "PALPATE_FFMPEG";
+  TemporaryFolder folder_;
+  std::optional<std::string> before_;
+};
+
+}  // namespace palpate::testing
