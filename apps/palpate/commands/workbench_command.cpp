@@ -1,4 +1,5 @@
 // palpate [FILE...], --demo, --screenshot: the window.
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "commands/display.h"
 #include "commands/hand_options.h"
 #include "commands/picture_size.h"
+#include "gui/gl_probe.h"
 #include "gui/workbench.h"
 
 namespace palpate::commands {
@@ -50,9 +52,23 @@ int screenshot(const CommandLine& given) {
   return gui::takeScreenshot(count, arguments, options);
 }
 
+// What the window asks of another process of this program, because drivers crash: not for people, in no help.
+int probeOpenGl() {
+  const RuntimeFolder runtime;
+  if (!hasDisplay()) {
+    std::puts("there is no display");
+    return kFailed;
+  }
+  std::string name = "palpate";
+  char* arguments[] = {name.data(), nullptr};
+  int count = 1;
+  return gui::answerOpenGlProbe(count, arguments);
+}
+
 }  // namespace
 
 int workbenchCommand(const Words& words) {
+  if (words == Words{"--probe-opengl"}) return probeOpenGl();
   const CommandLine given(
       {.synopsis = "palpate [FILE...] | palpate --demo | palpate --screenshot OUT.png ..",
        .purpose = "Opens the window: on recordings, on a demonstration, or on its start page.",

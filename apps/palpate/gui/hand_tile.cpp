@@ -124,7 +124,8 @@ void HandTile::fill(const RasterTriangle& triangle,
     }
     if (outside || !(from <= to)) continue;
     const auto begin = static_cast<int>(from), end = static_cast<int>(to);
-    const Float4 rowNearness = splat(nearness + fy * triangle.nearnessY) + nearnessBySample;
+    const float middleNearness = nearness + fy * triangle.nearnessY;
+    const Float4 rowNearness = splat(middleNearness) + nearnessBySample;
     Float4 rowShade{};
     if constexpr (kShaded)
       rowShade = shade->atMiddle +
@@ -145,6 +146,7 @@ void HandTile::fill(const RasterTriangle& triangle,
       QRgb color = triangle.color;
       if constexpr (kShaded) {
         Float4 rgba = rowShade + splat(fx) * shade->byX;
+        if (shade->overDepth) rgba /= splat(middleNearness + fx * triangle.nearnessX);
         rgba = choose(rgba > shade->least, rgba, shade->least);
         rgba = choose(rgba < shade->most, rgba, shade->most);
         color = packed(rgba);

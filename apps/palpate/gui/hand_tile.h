@@ -47,6 +47,9 @@ struct RasterShade {
   Float4 least{},
       most{};  // of the three vertices: a pixel's middle may lie outside of the triangle
   float middleX = 0.0F, middleY = 0.0F;
+  // The colour is linear in space, so what is linear in the picture is colour / w: the three above are of that. False:
+  // they are of the colour itself, where w hardly changes.
+  bool overDepth = false;
 };
 
 // Where in a pixel its four samples are, from its middle, -0.5..0.5.

@@ -11,6 +11,8 @@ namespace {
 // So many times as far from the middle as the edge of the picture, a triangle is cut: further out its edges would be
 // computed too coarsely.
 constexpr float kGuard = 8.0F;
+// Up to this ratio of depths the colour is taken as linear in the picture: at most one level of 255 off.
+constexpr double kSameDepth = 1.015;
 
 Float4 splat(float value) { return Float4{value, value, value, value}; }
 
@@ -239,14 +241,20 @@ void RasterSetup::addOnScreen(
   triangle.color = qRgba(channel(0), channel(1), channel(2), channel(3));
   if (!flat) {
     triangle.shade = static_cast<std::int32_t>(list_->shades.size());
-    const Float4 c1 = p[1].rgba - p[0].rgba, c2 = p[2].rgba - p[0].rgba;
-    list_->shades.push_back({.atMiddle = p[0].rgba,
+    const auto [least, most] = std::minmax({p[0].nearness, p[1].nearness, p[2].nearness});
+    const bool overDepth = most > kSameDepth * least;
+    std::array<Float4, 3> rgba = {p[0].rgba, p[1].rgba, p[2].rgba};
+    if (overDepth)
+      for (std::size_t i = 0; i < 3; ++i) rgba[i] *= splat(static_cast<float>(p[i].nearness));
+    const Float4 c1 = rgba[1] - rgba[0], c2 = rgba[2] - rgba[0];
+    list_->shades.push_back({.atMiddle = rgba[0],
                              .byX = c1 * static_cast<float>(ax) + c2 * static_cast<float>(bx),
                              .byY = c1 * static_cast<float>(ay) + c2 * static_cast<float>(by),
                              .least = smaller(p[0].rgba, smaller(p[1].rgba, p[2].rgba)),
                              .most = larger(p[0].rgba, larger(p[1].rgba, p[2].rgba)),
                              .middleX = static_cast<float>(p[0].x),
-                             .middleY = static_cast<float>(p[0].y)});
+                             .middleY = static_cast<float>(p[0].y),
+                             .overDepth = overDepth});
   }
   list_->triangles.push_back(triangle);
 }
