@@ -7,6 +7,7 @@
 #include <palpate/recording/recording.h>
 
 #include "gui/event_rows.h"
+#include "gui/hand_panel.h"
 #include "gui/matrices_view.h"
 #include "gui/timeline_panel.h"
 #include "window_fixture.h"
@@ -74,12 +75,28 @@ class GoldenPicturesTest : public WindowTest {
 
 TEST_F(GoldenPicturesTest, HeatMapsDark) {
   show({1440, 900}, ThemeChoice::kDark);
+  press(Qt::Key_H);  // the hand in space stands beside them
+  QCoreApplication::processEvents();
   compare(window().matricesView().grab().toImage(), "matrices_dark.png");
 }
 
 TEST_F(GoldenPicturesTest, TimelineLight) {
   show({1440, 900}, ThemeChoice::kLight);
   compare(window().timelinePanel().grab().toImage(), "timeline_light.png");
+}
+
+TEST_F(GoldenPicturesTest, HandDark) {
+  show({1440, 900}, ThemeChoice::kDark);
+  window().handPanel().view().setFixedSize(600, 600);
+  compare(window().handPanel().view().grab().toImage(), "hand_dark.png");
+}
+
+TEST_F(GoldenPicturesTest, HandAsBarsLight) {
+  show({1440, 900}, ThemeChoice::kLight);
+  press(Qt::Key_T);
+  press(Qt::Key_X);
+  window().handPanel().view().setFixedSize(600, 600);
+  compare(window().handPanel().view().grab().toImage(), "hand_bars_light.png");
 }
 
 TEST_F(GoldenPicturesTest, AnotherPictureIsTold) {

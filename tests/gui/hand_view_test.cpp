@@ -137,7 +137,7 @@ TEST_F(HandViewTest, DrawsOnlyWhenSomethingChanged) {
 TEST_F(HandViewTest, SaysWhenThereAreNoAnglesOrOnesOutOfRange) {
   EXPECT_EQ(poseNotice(view_.drawing(), false), "");
   view_.setMoment(frame_, {});
-  EXPECT_TRUE(poseNotice(view_.drawing(), false).contains("No joint angles"));
+  EXPECT_TRUE(poseNotice(view_.drawing(), false).contains("No usable joint angles"));
   EXPECT_EQ(sphereText(view_.drawing(), SphereOf::kTaxels), "");
   view_.setAssumedAngles(kPose);
   EXPECT_TRUE(view_.drawing().posed());
@@ -242,7 +242,7 @@ TEST_F(HandWindowTest, OneOfTheViewsIsAlwaysThereAndTheLookIsRemembered) {
 TEST_F(HandWindowTest, ARecordingWithoutAnglesIsShownAtRest) {
   open({"good.dsa"});
   EXPECT_FALSE(panel().view().drawing().posed());
-  EXPECT_TRUE(panel().view().pictureOptions({}).notice.contains("No joint angles"));
+  EXPECT_TRUE(panel().view().pictureOptions({}).notice.contains("No usable joint angles"));
   open({"empty.dsa"});
   panel().view().grab();
 }

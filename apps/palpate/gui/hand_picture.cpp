@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <palpate/core/number_text.h>
+#include <palpate/kinematics/joint_range.h>
 
 #include "gui/hand_raster.h"
 
@@ -148,19 +149,10 @@ QString poseNotice(const HandDrawing& drawing, bool assumed) {
   if (!drawing.hasGeometry())
     return "The geometry of this sensor isn't known: its matrices laid flat.";
   if (!drawing.moment().frame) return {};
-  if (!drawing.posed()) return "No joint angles: the hand is shown at rest, without sizes.";
+  if (!drawing.posed()) return "No usable joint angles: the hand is shown at rest, without sizes.";
   if (assumed) return "Joint angles as assumed, not recorded.";
-  const auto& axes = drawing.hand().axes;
-  constexpr double kBeyondDeg = 1.0;  // a joint at its end reads a little more
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const double angle = drawing.moment().anglesDeg[i];
-    if (angle >= axes[i].minimumDeg - kBeyondDeg && angle <= axes[i].maximumDeg + kBeyondDeg)
-      continue;
-    return QString::fromStdString(axes[i].name) + " at " + QString::number(angle, 'f', 1) +
-           "°: out of its range " + QString::number(axes[i].minimumDeg) + "…" +
-           QString::number(axes[i].maximumDeg) + "°.";
-  }
-  return {};
+  const AnglesCheck check = checkAngles(drawing.moment().anglesDeg, drawing.hand().axes);
+  return QString::fromStdString(check.trouble);
 }
 
 }  // namespace palpate::gui
