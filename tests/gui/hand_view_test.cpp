@@ -146,7 +146,7 @@ TEST_F(HandViewTest, SaysWhenThereAreNoAnglesOrOnesOutOfRange) {
   std::vector<double> wide = kPose;
   wide[1] = 200.0;
   view_.setMoment(frame_, wide);
-  EXPECT_TRUE(poseNotice(view_.drawing(), false).contains("out of its range"));
+  EXPECT_TRUE(poseNotice(view_.drawing(), false).contains("its range is"));
 }
 
 TEST_F(HandViewTest, FlatMatricesAreLookedAtFromTheFront) {

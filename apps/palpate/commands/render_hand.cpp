@@ -98,12 +98,6 @@ gui::FramePictures::Paint handPainter(const CommandLine& given,
   const std::vector<double> assumed = anglesOf(given).value_or(std::vector<double>());
   gui::HandDrawing drawing;
   drawing.setHand(profile.hand());
-  options.camera = drawing.usualCamera(options.look);
-  if (const auto camera = given.text("camera")) {
-    const auto numbers = numbersOf(*camera, "camera", 2);
-    options.camera.azimuthDeg = numbers[0];
-    options.camera.elevationDeg = numbers[1];
-  }
   std::vector<Eigen::Vector3d> seen;
   for (std::size_t i = 0; i <= std::min(kLooks, span.count() - 1); ++i) {
     const std::size_t frame = span.first + (span.count() - 1) * i / kLooks;
@@ -111,6 +105,12 @@ gui::FramePictures::Paint handPainter(const CommandLine& given,
     drawing.setMoment(profile.frame(frame), angles ? angles->deg : assumed);
     const auto extent = drawing.extent(options.look);
     seen.insert(seen.end(), extent.begin(), extent.end());
+  }
+  options.camera = drawing.usualCamera(options.look);
+  if (const auto camera = given.text("camera")) {
+    const auto numbers = numbersOf(*camera, "camera", 2);
+    options.camera.azimuthDeg = numbers[0];
+    options.camera.elevationDeg = numbers[1];
   }
   options.camera.fit(seen, page.size.width() / page.size.height());
   return gui::handFramePainter(profile, options, assumed);

@@ -260,11 +260,16 @@ std::vector<Vector3d> HandDrawing::extent(const HandLook& wanted) const {
   if (!hand_) return points;
   const HandLook look = effective(wanted);
   const TaxelPatches& places = patches(look);
+  const bool bars = look.taxels == TaxelShape::kBars || look.taxels == TaxelShape::kFlatBars;
   eachTaxel(*hand_->layout, look, [&](std::size_t place, std::size_t, int, int) {
     points.push_back(places[place].centreMm.cast<double>());
+    if (bars)
+      points.push_back(
+          (places[place].centreMm + kTallestBarMm * places[place].normal).cast<double>());
   });
   if (isFlat(look.taxels)) return points;
-  if (const Sphere* sphere = sphereOf(look); sphere && look.sphere != SphereLook::kNone)
+  if (const Sphere* sphere = sphereOf(look);
+      sphere && look.sphere != SphereLook::kNone && !look.only)
     for (int i = 0; i < 3; ++i)
       for (const double side : {-1.0, 1.0})
         points.push_back(sphere->centreMm + side * sphere->radiusMm * Vector3d::Unit(i));

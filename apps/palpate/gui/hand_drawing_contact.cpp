@@ -88,7 +88,7 @@ void HandDrawing::addSphere(HandScene& scene,
                             const HandLook& look,
                             const HandCamera& camera) const {
   const Sphere* sphere = sphereOf(look);
-  if (!sphere || look.sphere == SphereLook::kNone) return;
+  if (!sphere || look.sphere == SphereLook::kNone || look.only) return;
   const QColor accent = colorsOf(look.theme).accent;
   const Vector3f centre = sphere->centreMm.cast<float>();
   const auto radius = static_cast<float>(sphere->radiusMm);

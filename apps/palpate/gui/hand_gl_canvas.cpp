@@ -1,6 +1,7 @@
 #include "gui/hand_gl_canvas.h"
 
 #include <QOpenGLContext>
+#include <QOpenGLPaintDevice>
 #include <QPainter>
 #include <QSurfaceFormat>
 
@@ -49,7 +50,10 @@ void HandGlCanvas::fail(const QString& why) {
 void HandGlCanvas::paintGL() {
   if (failed_) return;
   gl_.draw(scene(), camera(), size(), devicePixelRatioF());
-  QPainter painter(this);
+  // Not on this widget: while somebody takes a picture of the window, its painters lead elsewhere.
+  QOpenGLPaintDevice device(size() * devicePixelRatioF());
+  device.setDevicePixelRatio(devicePixelRatioF());
+  QPainter painter(&device);
   paintOver(painter);
 }
 

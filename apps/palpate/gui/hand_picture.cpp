@@ -50,7 +50,8 @@ double paintSphereText(QPainter& painter,
                        const HandDrawing& drawing,
                        const HandPictureOptions& options) {
   const HandLook& look = options.look;
-  if (look.sphere == SphereLook::kNone || isFlat(drawing.effective(look).taxels)) return top;
+  if (look.sphere == SphereLook::kNone || look.only || isFlat(drawing.effective(look).taxels))
+    return top;
   const QString text = sphereText(drawing, look.sphereOf);
   if (text.isEmpty()) return top;
   const QFontMetricsF metrics(painter.font());

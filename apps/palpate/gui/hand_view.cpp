@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kClickPx = 4.0;       // less is no drag
 constexpr double kWheelStep = 1.0015;  // per eighth of a degree
+constexpr double kRoom = 1.1;          // around what is fitted: fingers move, spheres come
 constexpr double kDragZoom = 1.006;    // per px
 
 }  // namespace
@@ -135,6 +136,7 @@ void HandView::fit() {
   HandCamera camera = camera_;
   camera.fit(drawing_.extent(look_),
              static_cast<double>(std::max(1, width())) / std::max(1, height()));
+  camera.distanceMm *= kRoom;
   setCamera(camera);
 }
 
