@@ -160,7 +160,7 @@ TEST_F(MovieWriterTest, CancelledItLeavesNoFileAndNoProcess) {
         writeMovie(path_, movie({{0, 5000}}), paint(), paper_, Overwrite::kRefuse, untilCalled),
         Cancelled);
     EXPECT_FALSE(fake.runs("pid")) << body;
-    EXPECT_FALSE(fake.runs("child")) << body;
+    EXPECT_TRUE(fake.ends("child")) << body;
     EXPECT_EQ(numFiles(), 0u) << body;
   }
 }

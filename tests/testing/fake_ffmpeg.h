@@ -1,12 +1,14 @@
 // A program that is called as ffmpeg is, and does what a test wants.
 #pragma once
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "testing/testing.h"
@@ -69,6 +71,12 @@ class FakeFfmpeg {
     if (!std::getline(status, text)) return false;
     const auto behindName = text.rfind(')');  // "1234 (sh) S 1 .."
     return text.substr(behindName + 2, 1) != "Z";
+  }
+  // For one that nobody waits for: killed, it needs a moment to be gone.
+  bool ends(std::string_view name) const {
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (runs(name) && std::chrono::steady_clock::now() < limit) std::this_thread::yield();
+    return !runs(name);
   }
 
  private:
