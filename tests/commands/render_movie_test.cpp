@@ -50,7 +50,7 @@ TEST_F(RenderMovieTest, TakesAsLongAsTheFramesDid) {
 TEST_F(RenderMovieTest, SpeedAndPicturesPerSecond) {
   const FakeFfmpeg fake;
   ASSERT_EQ(render({"--from", "40", "--to", "99", "--speed", "4", "--fps", "25"}).exitCode, 0);
-  EXPECT_NEAR(numPictures(fake), 1.89 * 25 / 4, 1.0);
+  EXPECT_NEAR(numPictures(fake), 1.89 * 25 / 4, 1.5);  // one more for the last frame
   EXPECT_EQ(fake.wordAfter("-r"), "25");
   fs::remove(out_);
   ASSERT_EQ(render({"--to", "9", "--speed", "0.25", "--fps", "10", "--dpi", "192"}).exitCode, 0);

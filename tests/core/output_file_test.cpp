@@ -33,6 +33,15 @@ TEST(OutputFile, AppearsWholeOnCommit) {
   EXPECT_EQ(numFiles(folder.path()), 1u);
 }
 
+TEST(OutputFile, CanBeWrittenByWhoeverOpensItsDescriptorAnew) {
+  const TemporaryFolder folder;
+  OutputFile out(folder / "a.txt");
+  writeFile("/proc/self/fd/" + std::to_string(out.descriptor()), "by another");
+  EXPECT_FALSE(fs::exists(folder / "a.txt"));
+  out.commit();
+  EXPECT_EQ(readFile(folder / "a.txt"), "by another");
+}
+
 TEST(OutputFile, LeavesNothingWithoutCommit) {
   const TemporaryFolder folder;
   { OutputFile(folder / "a.txt").write("lost"); }

@@ -25,6 +25,7 @@ double farthest(const Points& points, const Vector3d& centre) {
 
 // The sphere with its centre in the plane (line) of 2..4 points that has them all on its surface.
 std::optional<Vector3d> circumcentre(const Points& on) {
+  if (on.size() == 1) return on[0];
   const auto edges = static_cast<Eigen::Index>(on.size() - 1);
   Eigen::MatrixXd span(3, edges);
   for (Eigen::Index i = 0; i < edges; ++i)

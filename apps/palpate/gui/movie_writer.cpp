@@ -17,8 +17,8 @@ namespace {
 
 std::string endOf(int exitCode) {
   constexpr int kKilled = 128;
-  return exitCode > kKilled ? "was ended by signal " + std::to_string(exitCode - kKilled)
-                            : "ended with code " + std::to_string(exitCode);
+  return exitCode > kKilled ? "it was ended by signal " + std::to_string(exitCode - kKilled)
+                            : "it ended with code " + std::to_string(exitCode);
 }
 
 [[noreturn]] void throwFailed(const fs::path& path, int exitCode, const std::string& said) {
