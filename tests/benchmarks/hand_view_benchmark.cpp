@@ -1,7 +1,15 @@
 // Drawing a hand in space at 800 x 600, about 5,000 triangles and 1,000 lines: target 16.7 ms (60 Hz) on one core.
+// OpenGL where a display is (`xvfb-run -a`); what Mesa draws on the processor it draws on all cores.
+#include <QOffscreenSurface>
+#include <QOpenGLContext>
+#include <QOpenGLFramebufferObject>
+#include <QOpenGLFunctions>
+
 #include <benchmark/benchmark.h>
 
 #include "gui/hand_drawing.h"
+#include "gui/gl_probe.h"
+#include "gui/hand_gl.h"
 #include "gui/hand_raster.h"
 #include "gui/sample_scene.h"
 #include "window_bench.h"
@@ -51,6 +59,40 @@ void handRepaint(benchmark::State& state) {
   }
   state.counters["triangles"] = static_cast<double>((scene.solid.size() + scene.clear.size()) / 3);
   state.counters["lines"] = static_cast<double>(scene.lines.size());
+// With OpenGL, into a picture with fourfold multisampling; read back as well, or only finished.
+void handGl(benchmark::State& state, double distanceMm, bool readBack) {
+  palpate::testing::windowApplication();
+  if (const QString why = whyNoOpenGl(); !why.isEmpty())
+    return state.SkipWithError(qUtf8Printable(why));
+  QSurfaceFormat format;
+  format.setVersion(3, 3);
+  format.setProfile(QSurfaceFormat::CoreProfile);
+  QOffscreenSurface surface;
+  surface.setFormat(format);
+  surface.create();
+  QOpenGLContext context;
+  context.setFormat(format);
+  HandGl gl;
+  if (!context.create() || !context.makeCurrent(&surface) || !gl.initialize().isEmpty())
+    return state.SkipWithError("no context");
+  QOpenGLFramebufferObjectFormat pixels;
+  pixels.setAttachment(QOpenGLFramebufferObject::Depth);
+  pixels.setSamples(4);
+  QOpenGLFramebufferObject target(kSize.toSize(), pixels);
+  QOpenGLFramebufferObject resolved(kSize.toSize());
+  const HandScene scene = palpate::gui::testing::sampleScene();
+  HandCamera camera = palpate::gui::testing::sampleCamera();
+  camera.distanceMm = distanceMm;
+  for (auto _ : state) {
+    camera.orbit({5.0, 0.0}, kSize.height());
+    target.bind();
+    gl.draw(scene, camera, kSize);
+    QOpenGLFramebufferObject::blitFramebuffer(&resolved, &target);
+    if (readBack) benchmark::DoNotOptimize(resolved.toImage().constBits());
+    context.functions()->glFinish();
+  }
+  gl.release();
+  state.SetLabel(reinterpret_cast<const char*>(context.functions()->glGetString(GL_RENDERER)));
 }
 
 // The reference: a picture of that size filled with one colour.
@@ -67,6 +109,9 @@ BENCHMARK_CAPTURE(handRaster, near, RasterQuality::kScreen, 300.0)->Unit(benchma
 BENCHMARK_CAPTURE(handRaster, picture, RasterQuality::kPicture, 640.0)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(handRepaint)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(handGl, whole, 640.0, false)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(handGl, near, 300.0, false)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(handGl, whole_read, 640.0, true)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(handFilled)->Unit(benchmark::kMillisecond);
 
 }  // namespace

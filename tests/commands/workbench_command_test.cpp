@@ -53,6 +53,20 @@ TEST(WorkbenchCommand, PlatformsThatDoNotAnswerAreNoDisplayEither) {
   }
 }
 
+// What the window asks another process, because drivers crash.
+TEST(WorkbenchCommand, TheOpenGlProbeSaysWhyThereIsNone) {
+  const auto headless = palpate({"--probe-opengl"}, kHeadless);
+  EXPECT_EQ(headless.exitCode, 1);
+  EXPECT_EQ(headless.out, "there is no display\n");
+  auto memory = kHeadless;
+  memory["QT_QPA_PLATFORM"] = "offscreen";
+  const auto offscreen = palpate({"--probe-opengl"}, memory);
+  EXPECT_EQ(offscreen.exitCode, 1);
+  EXPECT_EQ(offscreen.out, "the platform \"offscreen\" has no OpenGL\n");
+  const auto here = palpate({"--probe-opengl"});  // whatever there is
+  EXPECT_EQ(here.exitCode == 0, here.out.empty()) << here.exitCode << ": " << here.out;
+}
+
 TEST(WorkbenchCommand, ScreenshotShowsTheWindowWithoutADisplay) {
   const testing::TemporaryFolder folder;
   const auto result = palpate({"--screenshot",

@@ -56,6 +56,23 @@ TEST_F(GlProbeTest, PlatformsWithoutWindowsHaveNone) {
   }
 }
 
+TEST_F(GlProbeTest, KnowsDriversThatAreProgramsOnly) {
+  for (const char* name : {"llvmpipe (LLVM 15.0.6, 256 bits)",
+                           "softpipe",
+                           "Software Rasterizer",
+                           "Google SwiftShader"})
+    EXPECT_TRUE(drawnByTheProcessor(name)) << name;
+  for (const char* name : {"Mesa Intel(R) UHD Graphics 620 (KBL GT2)",
+                           "AMD Radeon RX 6600 (navi23, LLVM 15.0.6, DRM 3.49)",
+                           "NVIDIA GeForce RTX 3060/PCIe/SSE2",
+                           "virgl",
+                           ""})
+    EXPECT_FALSE(drawnByTheProcessor(name)) << name;
+  if (whyNoOpenGl().isEmpty() && !whyNoOpenGl(SoftwareGl::kRefuse).isEmpty()) {
+    EXPECT_TRUE(whyNoOpenGl(SoftwareGl::kRefuse).startsWith("the processor would draw it ("));
+  }
+}
+
 TEST_F(GlProbeTest, TheOtherProcessIsAskedOnThisPlatform) {
   const fs::path told = folder_ / "told";
   EXPECT_EQ(answerOf(program("echo $1 $QT_QPA_PLATFORM > '" + told.string() + "'")), "");

@@ -4,6 +4,7 @@
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QOpenGLFramebufferObject>
+#include <QOpenGLFunctions>
 #include <QPointer>
 #include <QProcess>
 #include <QTimer>
@@ -46,7 +47,13 @@ QString tryToDraw() {
 
 }  // namespace
 
-QString whyNoOpenGl() {
+bool drawnByTheProcessor(const QString& renderer) {
+  for (const char* name : {"llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader"})
+    if (renderer.contains(QLatin1String(name), Qt::CaseInsensitive)) return true;
+  return false;
+}
+
+QString whyNoOpenGl(SoftwareGl software) {
   if (!qobject_cast<QGuiApplication*>(QCoreApplication::instance()))
     return QStringLiteral("there is no window system");
   const QString platform = QGuiApplication::platformName();
@@ -65,7 +72,13 @@ QString whyNoOpenGl() {
   if (!context.create()) return QStringLiteral("the window system gives no OpenGL context");
   if (!surface.isValid() || !context.makeCurrent(&surface))
     return QStringLiteral("the OpenGL context can't be used");
-  const QString why = tryToDraw();
+  const QString renderer = QString::fromUtf8(
+      reinterpret_cast<const char*>(context.functions()->glGetString(GL_RENDERER)));
+  const bool refused = software == SoftwareGl::kRefuse && drawnByTheProcessor(renderer);
+  const QString why =
+      refused ? QStringLiteral("the processor would draw it (%1), which is slower than without")
+                    .arg(renderer.section(' ', 0, 0))
+              : tryToDraw();
   context.doneCurrent();
   return why;
 }
@@ -114,7 +127,7 @@ void askForOpenGl(const std::filesystem::path& program,
 
 int answerOpenGlProbe(int& argc, char** argv) {
   const auto application = makeApplication(argc, argv);
-  const QString why = whyNoOpenGl();
+  const QString why = whyNoOpenGl(SoftwareGl::kRefuse);
   if (why.isEmpty()) return 0;
   std::puts(qUtf8Printable(why));
   return 1;

@@ -1,17 +1,20 @@
 #include "gui/hand_tile.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace palpate::gui {
 
 namespace {
 
+using Byte4 = std::uint8_t __attribute__((vector_size(4)));
 using Long2 = std::int64_t __attribute__((vector_size(16)));
 
 Float4 splat(float value) { return Float4{value, value, value, value}; }
 Uint4 splat(std::uint32_t value) { return Uint4{value, value, value, value}; }
 
+// True where any of its bits is.
 bool any(Int4 mask) {
   const auto halves = reinterpret_cast<Long2>(mask);
   return (halves[0] | halves[1]) != 0;
@@ -29,9 +32,11 @@ Uint4 choose(Int4 mask, Uint4 yes, Uint4 no) {
 
 float largest(Float4 v) { return std::max(std::max(v[0], v[1]), std::max(v[2], v[3])); }
 
-QRgb packed(Float4 rgba) {
-  const Int4 whole = __builtin_convertvector(rgba + splat(0.5F), Int4);
-  return qRgba(whole[0], whole[1], whole[2], whole[3]);
+// Blue first: in memory as in the number.
+QRgb packed(Float4 bgra) {
+  static_assert(std::endian::native == std::endian::little);
+  const Int4 whole = __builtin_convertvector(bgra + splat(0.5F), Int4);
+  return std::bit_cast<QRgb>(__builtin_convertvector(whole, Byte4));
 }
 
 // source * alpha + old * (1 - alpha), of 256ths; red and blue together in one word.
@@ -103,6 +108,17 @@ void HandTile::fill(const RasterTriangle& triangle,
       static_cast<float>(triangle.nearness + (static_cast<double>(triangle.nearnessX) * cornerX +
                                               static_cast<double>(triangle.nearnessY) * cornerY));
   const Float4 nearnessBySample = triangle.nearnessX * samples.x + triangle.nearnessY * samples.y;
+  // In registers, where the compiler can't know that drawing doesn't change them.
+  const std::array<Float4, 3> step = {
+      splat(triangle.edges[0].a), splat(triangle.edges[1].a), splat(triangle.edges[2].a)};
+  const std::array<Float4, 3> least = {splat(triangle.edges[0].least),
+                                       splat(triangle.edges[1].least),
+                                       splat(triangle.edges[2].least)};
+  const Float4 nearnessStep = splat(triangle.nearnessX);
+  RasterShade own;
+  if constexpr (kShaded) own = *shade;
+  const bool overDepth = kShaded && own.overDepth;
+  const QRgb color = triangle.color;
 
   for (int y = firstY; y <= lastY; ++y) {
     const auto fy = static_cast<float>(y);
@@ -128,34 +144,32 @@ void HandTile::fill(const RasterTriangle& triangle,
     const Float4 rowNearness = splat(middleNearness) + nearnessBySample;
     Float4 rowShade{};
     if constexpr (kShaded)
-      rowShade = shade->atMiddle +
-                 splat(static_cast<float>(top_ + y) + 0.5F - shade->middleY) * shade->byY +
-                 splat(static_cast<float>(left_) + 0.5F - shade->middleX) * shade->byX;
+      rowShade = own.atMiddle + splat(static_cast<float>(top_ + y) + 0.5F - own.middleY) * own.byY +
+                 splat(static_cast<float>(left_) + 0.5F - own.middleX) * own.byX;
 
     const std::size_t rowStart = static_cast<std::size_t>(y) * kSide;
-    for (int x = begin; x <= end; ++x) {
-      const auto fx = static_cast<float>(x);
-      Int4 covered = (row[0] + splat(fx * triangle.edges[0].a) > triangle.edges[0].least) &
-                     (row[1] + splat(fx * triangle.edges[1].a) > triangle.edges[1].least) &
-                     (row[2] + splat(fx * triangle.edges[2].a) > triangle.edges[2].least);
+    Float4 fx = splat(static_cast<float>(begin));
+    for (int x = begin; x <= end; ++x, fx += splat(1.0F)) {
+      Int4 covered = (row[0] + fx * step[0] > least[0]) & (row[1] + fx * step[1] > least[1]) &
+                     (row[2] + fx * step[2] > least[2]);
       const std::size_t at = rowStart + static_cast<std::size_t>(x);
-      const Float4 depth = rowNearness + splat(fx * triangle.nearnessX);
+      const Float4 depth = rowNearness + fx * nearnessStep;
       const Float4 before = nearness_[at];
       covered &= depth > before;
       if (!any(covered)) continue;
-      QRgb color = triangle.color;
+      QRgb here = color;
       if constexpr (kShaded) {
-        Float4 rgba = rowShade + splat(fx) * shade->byX;
-        if (shade->overDepth) rgba /= splat(middleNearness + fx * triangle.nearnessX);
-        rgba = choose(rgba > shade->least, rgba, shade->least);
-        rgba = choose(rgba < shade->most, rgba, shade->most);
-        color = packed(rgba);
+        Float4 bgra = rowShade + fx * own.byX;
+        if (overDepth) bgra /= splat(middleNearness) + fx * nearnessStep;
+        bgra = choose(bgra > own.least, bgra, own.least);
+        bgra = choose(bgra < own.most, bgra, own.most);
+        here = packed(bgra);
       }
       const Uint4 old = color_[at];
       if constexpr (paint == Paint::kOpaque)
-        color_[at] = choose(covered, splat(color | 0xFF000000U), old);
+        color_[at] = choose(covered, splat(here | 0xFF000000U), old);
       else
-        color_[at] = choose(covered, blended(color, old), old);
+        color_[at] = choose(covered, blended(here, old), old);
       if constexpr (paint != Paint::kClear) nearness_[at] = choose(covered, depth, before);
     }
   }

@@ -41,7 +41,7 @@ struct RasterTriangle {
   Paint paint = Paint::kOpaque;
 };
 
-// A colour that changes from vertex to vertex: red, green, blue, alpha, 0..255.
+// A colour that changes from vertex to vertex: blue, green, red, alpha, 0..255.
 struct RasterShade {
   Float4 atMiddle{}, byX{}, byY{};  // around (middleX, middleY)
   Float4 least{},

@@ -17,9 +17,9 @@ constexpr double kSameDepth = 1.015;
 Float4 splat(float value) { return Float4{value, value, value, value}; }
 
 Float4 channels(QRgb color) {
-  return Float4{static_cast<float>(qRed(color)),
+  return Float4{static_cast<float>(qBlue(color)),
                 static_cast<float>(qGreen(color)),
-                static_cast<float>(qBlue(color)),
+                static_cast<float>(qRed(color)),
                 static_cast<float>(qAlpha(color))};
 }
 
@@ -75,7 +75,7 @@ bool isFinite(const Float4& v) { return std::isfinite(v[0] + v[1]) && std::isfin
 struct RasterSetup::OnScreen {
   double x = 0.0, y = 0.0;  // [pixels], y down
   double nearness = 0.0;    // 1 / w
-  Float4 rgba{};
+  Float4 bgra{};
 
   bool before(const OnScreen& other) const { return x < other.x || (x == other.x && y < other.y); }
   // Exactly opposite for the same edge seen from the other side.
@@ -129,7 +129,7 @@ void RasterSetup::addTriangles(const std::vector<SceneVertex>& vertices, Side si
       const SceneVertex& vertex = vertices[i + k];
       const Eigen::Map<const Eigen::Vector3f> normal(vertex.normal.data());
       colors[k] = litColor(vertex.color, normal, eyeFromBase_);
-      corners[k].rgba = channels(colors[k]);
+      corners[k].bgra = channels(colors[k]);
     }
     addWhole(corners, colors[0] == colors[1] && colors[1] == colors[2], side, paint);
   }
@@ -141,7 +141,7 @@ void RasterSetup::addLinesAndPoints() {
     for (std::size_t k = 0; k < 3; ++k) {
       const ClipVertex& vertex = flatTriangles_[i + k];
       corners[k] = {.clip = Float4{vertex.clip[0], vertex.clip[1], vertex.clip[2], vertex.clip[3]},
-                    .rgba = channels(vertex.color)};
+                    .bgra = channels(vertex.color)};
     }
     addWhole(corners, true, Side::kBoth, Paint::kLine);
   }
@@ -185,7 +185,7 @@ void RasterSetup::cutAndAdd(const std::array<Corner, 3>& corners,
       const float inBy = std::max(hereInside, nextInside), outBy = std::min(hereInside, nextInside);
       const float part = inBy / (inBy - outBy);
       cut_.push_back({.clip = in.clip + splat(part) * (out.clip - in.clip),
-                      .rgba = in.rgba + splat(part) * (out.rgba - in.rgba)});
+                      .bgra = in.bgra + splat(part) * (out.bgra - in.bgra)});
     }
     polygon_.swap(cut_);
     if (polygon_.size() < 3) return;
@@ -201,7 +201,7 @@ RasterSetup::OnScreen RasterSetup::onScreen(const Corner& corner) const {
   return {.x = static_cast<double>((0.5F + 0.5F * corner.clip[0] * nearness) * width_),
           .y = static_cast<double>((0.5F - 0.5F * corner.clip[1] * nearness) * height_),
           .nearness = static_cast<double>(nearness),
-          .rgba = corner.rgba};
+          .bgra = corner.bgra};
 }
 
 void RasterSetup::addOnScreen(
@@ -237,21 +237,21 @@ void RasterSetup::addOnScreen(
                       static_cast<double>(triangle.nearnessY) * p[0].y;
   if (!std::isfinite(triangle.nearnessX) || !std::isfinite(triangle.nearnessY)) return;
   triangle.paint = paint;
-  const auto channel = [&](int i) { return static_cast<int>(p[0].rgba[i] + 0.5F); };
-  triangle.color = qRgba(channel(0), channel(1), channel(2), channel(3));
+  const auto channel = [&](int i) { return static_cast<int>(p[0].bgra[i] + 0.5F); };
+  triangle.color = qRgba(channel(2), channel(1), channel(0), channel(3));
   if (!flat) {
     triangle.shade = static_cast<std::int32_t>(list_->shades.size());
     const auto [least, most] = std::minmax({p[0].nearness, p[1].nearness, p[2].nearness});
     const bool overDepth = most > kSameDepth * least;
-    std::array<Float4, 3> rgba = {p[0].rgba, p[1].rgba, p[2].rgba};
+    std::array<Float4, 3> bgra = {p[0].bgra, p[1].bgra, p[2].bgra};
     if (overDepth)
-      for (std::size_t i = 0; i < 3; ++i) rgba[i] *= splat(static_cast<float>(p[i].nearness));
-    const Float4 c1 = rgba[1] - rgba[0], c2 = rgba[2] - rgba[0];
-    list_->shades.push_back({.atMiddle = rgba[0],
+      for (std::size_t i = 0; i < 3; ++i) bgra[i] *= splat(static_cast<float>(p[i].nearness));
+    const Float4 c1 = bgra[1] - bgra[0], c2 = bgra[2] - bgra[0];
+    list_->shades.push_back({.atMiddle = bgra[0],
                              .byX = c1 * static_cast<float>(ax) + c2 * static_cast<float>(bx),
                              .byY = c1 * static_cast<float>(ay) + c2 * static_cast<float>(by),
-                             .least = smaller(p[0].rgba, smaller(p[1].rgba, p[2].rgba)),
-                             .most = larger(p[0].rgba, larger(p[1].rgba, p[2].rgba)),
+                             .least = smaller(p[0].bgra, smaller(p[1].bgra, p[2].bgra)),
+                             .most = larger(p[0].bgra, larger(p[1].bgra, p[2].bgra)),
                              .middleX = static_cast<float>(p[0].x),
                              .middleY = static_cast<float>(p[0].y),
                              .overDepth = overDepth});

@@ -30,7 +30,7 @@ class RasterSetup {
  private:
   struct Corner {
     Float4 clip{};
-    Float4 rgba{};
+    Float4 bgra{};
   };
   struct OnScreen;
   enum class Side { kFront, kBack, kBoth };
