@@ -7,8 +7,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "gui/hand_drawing.h"
 #include "gui/gl_probe.h"
+#include "gui/hand_drawing.h"
 #include "gui/hand_gl.h"
 #include "gui/hand_raster.h"
 #include "gui/sample_scene.h"
@@ -59,6 +59,8 @@ void handRepaint(benchmark::State& state) {
   }
   state.counters["triangles"] = static_cast<double>((scene.solid.size() + scene.clear.size()) / 3);
   state.counters["lines"] = static_cast<double>(scene.lines.size());
+}
+
 // With OpenGL, into a picture with fourfold multisampling; read back as well, or only finished.
 void handGl(benchmark::State& state, double distanceMm, bool readBack) {
   palpate::testing::windowApplication();

@@ -79,6 +79,7 @@ int workbenchCommand(const Words& words) {
                    {"after", "S", "with --screenshot: let the source play for S seconds first"},
                    {"dock", "NAME", "with --screenshot: show this dock; may be repeated"},
                    {"theme", "dark|light", "with --screenshot: default dark"},
+                   {"gl", "", "draw the hand in space with OpenGL, even by the processor"},
                    {"no-gl", "", "draw the hand in space without OpenGL"},
                    {"angles",
                     "A0,..,A6",
@@ -92,6 +93,7 @@ int workbenchCommand(const Words& words) {
     if (given.has(option)) throw UsageError("--" + std::string(option) + " goes with --screenshot");
   if (given.has("demo") && !given.words().empty())
     throw UsageError("give FILE or --demo, not both");
+  if (given.has("gl") && given.has("no-gl")) throw UsageError("give --gl or --no-gl, not both");
   if (!hasDisplay())
     throw Error("no display: run it on a desktop, or use a command ('palpate --help' lists them)");
   const RuntimeFolder runtime;
@@ -99,7 +101,9 @@ int workbenchCommand(const Words& words) {
   options.files.assign(given.words().begin(), given.words().end());
   options.demo = given.has("demo");
   options.dataFolder = dataFolder();
-  options.openGl = !given.has("no-gl");
+  options.openGl = given.has("no-gl") ? gui::OpenGlChoice::kNever
+                   : given.has("gl")  ? gui::OpenGlChoice::kAlways
+                                      : gui::OpenGlChoice::kFast;
   options.assumedAnglesDeg = anglesOf(given).value_or(std::vector<double>());
   std::string name = "palpate";
   char* arguments[] = {name.data(), nullptr};

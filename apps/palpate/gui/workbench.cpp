@@ -24,7 +24,9 @@ int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options) {
   QObject::connect(&termination, &Termination::asked, &window, &MainWindow::endNow);
   window.show();
   // A driver that crashes does so in another process; until it has answered the hand is painted.
-  if (options.openGl)
+  if (options.openGl == OpenGlChoice::kAlways && whyNoOpenGl().isEmpty())
+    window.handPanel().view().useOpenGl();
+  else if (options.openGl == OpenGlChoice::kFast)
     askForOpenGl(QCoreApplication::applicationFilePath().toStdString(),
                  &window,
                  [&window](const QString& why) {

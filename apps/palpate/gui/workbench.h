@@ -10,11 +10,14 @@
 
 namespace palpate::gui {
 
+// kFast: where a graphics card has it; kAlways: where the processor draws it, too, without asking first.
+enum class OpenGlChoice { kFast, kAlways, kNever };
+
 struct WorkbenchOptions {
   std::vector<std::filesystem::path> files;   // to open; the first one is shown
   bool demo = false;                          // play the demo recording of dataFolder, looping
   std::filesystem::path dataFolder;           // the program's own data
-  bool openGl = true;                         // for the hand in space, where it can be had
+  OpenGlChoice openGl = OpenGlChoice::kFast;  // for the hand in space
   std::vector<double> assumedAnglesDeg = {};  // of recordings without joint angles; empty: none
 };
 
