@@ -13,11 +13,11 @@ function(palpate_room name)
   set_property(GLOBAL APPEND PROPERTY PALPATE_ROOMS palpate::${name})
 endfunction()
 
-# palpate_test(ROOM FILE [SLOW] [LIBS lib...] [SOURCES extra...] [MAIN main.cpp])
+# palpate_test(ROOM FILE [SLOW] [GUI [DISPLAY]] [LIBS lib...] [SOURCES extra...])
 # Builds tests/ROOM/FILE.cpp; each TEST becomes a ctest entry "ROOM/FILE.Suite.Name" that counts as
 # skipped by itself when it calls GTEST_SKIP.
 function(palpate_test room file)
-  cmake_parse_arguments(test "SLOW;GUI" "" "LIBS;SOURCES" ${ARGN})
+  cmake_parse_arguments(test "SLOW;GUI;DISPLAY" "" "LIBS;SOURCES" ${ARGN})
   set(target ${room}_${file})
   add_executable(${target} ${CMAKE_CURRENT_SOURCE_DIR}/${file}.cpp ${test_SOURCES})
   target_link_libraries(${target} PRIVATE palpate::palpate palpate_warnings palpate_testing
@@ -29,10 +29,14 @@ function(palpate_test room file)
   set(properties TIMEOUT 300)
   if(test_GUI)
     # One label, "fast_gui": `ctest -L` takes expressions, so that it is both fast and gui (a list of
-    # labels doesn't pass gtest_discover_tests, which reads its second word as a property). The lock:
-    # windows share one display, its focus and its clipboard.
+    # labels doesn't pass gtest_discover_tests, which reads its second word as a property).
     set(label ${label}_gui)
-    list(APPEND properties RESOURCE_LOCK display)
+    if(test_DISPLAY)
+      # Windows share one display, its focus and its clipboard.
+      list(APPEND properties RESOURCE_LOCK display)
+    else()
+      list(APPEND properties ENVIRONMENT QT_QPA_PLATFORM=offscreen)
+    endif()
   else()
     target_link_libraries(${target} PRIVATE GTest::gtest_main)
   endif()
