@@ -196,6 +196,18 @@ TEST_F(HandWindowTest, FollowsTheCursorTheSelectionAndTheColours) {
   EXPECT_EQ(look().range, window().matricesView().look().range);
 }
 
+TEST_F(HandWindowTest, TheFirstViewHasRoomForTheLargestGrasp) {
+  open({"rich.dsa"});
+  playback().seekFrame(window().current()->table.frameOfLargestSum());
+  const HandView& view = panel().view();
+  ASSERT_TRUE(view.drawing().moment().contact.taxelSphere);
+  for (const Eigen::Vector3d& point : view.drawing().extent(look())) {
+    const auto at = view.camera().project(point, view.size());
+    ASSERT_TRUE(at);
+    EXPECT_TRUE(QRectF(view.rect()).contains(at->at));
+  }
+}
+
 TEST_F(HandWindowTest, EverythingByKeyboard) {
   open({"rich.dsa"});
   press(Qt::Key_T);

@@ -22,6 +22,23 @@ int indexOf(const All& all, Value value) {
   return static_cast<int>(std::find(all.begin(), all.end(), value) - all.begin());
 }
 
+// Of the hand at the ends of a recording and where it holds most.
+std::vector<Eigen::Vector3d> extentOf(const OpenedRecording& recording, const HandLook& look) {
+  std::vector<Eigen::Vector3d> points;
+  const Profile& profile = recording.profile;
+  if (profile.numFrames() == 0) return points;
+  HandDrawing drawing;
+  drawing.setHand(profile.hand());
+  for (const std::size_t frame :
+       {std::size_t{0}, recording.table.frameOfLargestSum(), profile.numFrames() - 1}) {
+    const auto angles = profile.anglesAtFrame(frame);
+    drawing.setMoment(profile.frame(frame), angles ? angles->deg : std::vector<double>());
+    const auto now = drawing.extent(look);
+    points.insert(points.end(), now.begin(), now.end());
+  }
+  return points;
+}
+
 }  // namespace
 
 HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(parent) {
@@ -114,6 +131,7 @@ void HandPanel::setRecording(const OpenedRecordingPtr& recording) {
   }
   setHand(recording->profile.hand());
   recording_ = recording;
+  if (!recording->isLong()) view_->setExtent(extentOf(*recording, view_->look()));
 }
 
 void HandPanel::setHand(const HandDescription& hand) {

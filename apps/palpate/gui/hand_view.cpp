@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kClickPx = 4.0;       // less is no drag
 constexpr double kWheelStep = 1.0015;  // per eighth of a degree
-constexpr double kRoom = 1.1;          // around what is fitted: fingers move, spheres come
+constexpr double kRoom = 1.06;         // around what is fitted: fingers move, spheres come
 constexpr double kDragZoom = 1.006;    // per px
 
 }  // namespace
@@ -58,6 +58,7 @@ void HandView::fallBack(const QString& why) {
 void HandView::setHand(const HandDescription& hand) {
   const bool same = drawing_.hasHand() && *drawing_.hand().layout == *hand.layout;
   drawing_.setHand(hand);
+  extent_.clear();
   if (!selection_.sameSensor(TaxelSelection(*hand.layout)))
     selection_ = TaxelSelection(*hand.layout);
   drawing_.setSelection(selection_);
@@ -83,7 +84,7 @@ void HandView::setMoment(const TactileFrame& frame, const std::vector<double>& a
   if (shown.frame && shown.frame->values == frame.values && shown.anglesDeg == angles) return;
   const bool first = !shown.frame;
   drawing_.setMoment(frame, angles);
-  if (first && !moved_) fit();
+  if (first && !moved_) fitFirstView();
   setCamera(camera_);
   if (hover_) emit hovered(hoverText());
 }
@@ -129,16 +130,28 @@ void HandView::setCamera(const HandCamera& camera) {
 void HandView::resetCamera() {
   camera_ = drawing_.usualCamera(look_);
   moved_ = false;
-  fit();
+  fitFirstView();
 }
 
-void HandView::fit() {
+void HandView::setExtent(std::vector<Eigen::Vector3d> pointsMm) {
+  extent_ = std::move(pointsMm);
+  if (!moved_) fitFirstView();
+}
+
+void HandView::fitTo(const std::vector<Eigen::Vector3d>& pointsMm) {
   HandCamera camera = camera_;
-  camera.fit(drawing_.extent(look_),
-             static_cast<double>(std::max(1, width())) / std::max(1, height()));
+  camera.fit(pointsMm, static_cast<double>(std::max(1, width())) / std::max(1, height()));
   camera.distanceMm *= kRoom;
   setCamera(camera);
 }
+
+void HandView::fitFirstView() {
+  const HandLook look = drawing_.effective(look_);
+  const bool ofAll = !extent_.empty() && !isFlat(look.taxels) && !look.only;
+  fitTo(ofAll ? extent_ : drawing_.extent(look));
+}
+
+void HandView::fit() { fitTo(drawing_.extent(look_)); }
 
 void HandView::orbitBy(double rightDeg, double upDeg) {
   HandCamera camera = camera_;
@@ -214,7 +227,7 @@ void HandView::paintOver(QPainter& painter) {
 
 void HandView::resizeEvent(QResizeEvent*) {
   if (canvas_) canvas_->setGeometry(rect());
-  if (!moved_) fit();
+  if (!moved_) fitFirstView();
 }
 
 void HandView::changeEvent(QEvent* event) {
@@ -298,10 +311,7 @@ void HandView::mouseReleaseEvent(QMouseEvent* event) {
   drag_ = Drag::kNone;
 }
 
-void HandView::mouseDoubleClickEvent(QMouseEvent*) {
-  moved_ = false;
-  fit();
-}
+void HandView::mouseDoubleClickEvent(QMouseEvent*) { fit(); }
 
 void HandView::wheelEvent(QWheelEvent* event) {
   HandCamera camera = camera_;

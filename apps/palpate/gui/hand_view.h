@@ -41,6 +41,8 @@ class HandView : public QWidget {
   const HandDrawing& drawing() const noexcept { return drawing_; }
   const HandCamera& camera() const noexcept { return camera_; }
   void setCamera(const HandCamera& camera);
+  // What the first view shows all of [mm]; forgotten with the next hand. Empty: the first frame.
+  void setExtent(std::vector<Eigen::Vector3d> pointsMm);
   // Everything that is drawn, from where the eye is; from where it stood at first.
   void fit();
   void resetCamera();
@@ -77,6 +79,8 @@ class HandView : public QWidget {
  private:
   enum class Drag { kNone, kClick, kOrbit, kPan, kZoom, kChoose };
   void renew();
+  void fitTo(const std::vector<Eigen::Vector3d>& pointsMm);
+  void fitFirstView();
   void paintOver(QPainter& painter);
   void fallBack(const QString& why);
   std::optional<TaxelPlace> placeAt(const QPointF& at) const;
@@ -91,6 +95,7 @@ class HandView : public QWidget {
   bool sceneIsOld_ = true;
   HandLook look_;
   HandCamera camera_;
+  std::vector<Eigen::Vector3d> extent_;
   bool moved_ = false;  // by the user: a resize leaves the camera alone
   bool colorBar_ = false;
   std::vector<double> assumedDeg_;
