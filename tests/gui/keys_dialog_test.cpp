@@ -3,6 +3,7 @@
 #include <QLabel>
 #include <QMenu>
 #include <algorithm>
+#include <set>
 
 #include "window_fixture.h"
 
@@ -17,8 +18,17 @@ class KeysDialogTest : public WindowTest {
 TEST_F(KeysDialogTest, ListsEveryKeyOfEveryAction) {
   const auto entries = keysOf(window().actions());
   int withKeys = 0;
+  std::set<QString> kinds;
   for (const QAction* action : window().actions()) {
     if (action->shortcuts().isEmpty() || !action->isVisible()) continue;
+    if (const auto kind = kindOf(*action)) {
+      const auto line = std::count_if(entries.begin(), entries.end(), [&](const KeyEntry& each) {
+        return each.what == kind->what && each.keys == kind->keys;
+      });
+      EXPECT_EQ(line, 1) << action->text().toStdString();
+      kinds.insert(kind->what);
+      continue;
+    }
     ++withKeys;
     const auto entry = std::find_if(entries.begin(), entries.end(), [&](const KeyEntry& each) {
       return each.what == plainText(*action);
@@ -28,7 +38,8 @@ TEST_F(KeysDialogTest, ListsEveryKeyOfEveryAction) {
       EXPECT_TRUE(entry->keys.split(" or ").contains(key.toString(QKeySequence::NativeText)))
           << action->text().toStdString();
   }
-  EXPECT_EQ(entries.size(), static_cast<std::size_t>(withKeys));
+  EXPECT_EQ(entries.size(), static_cast<std::size_t>(withKeys) + kinds.size());
+  EXPECT_EQ(kinds.size(), 3u);
   EXPECT_GT(withKeys, 35);
 }
 

@@ -12,6 +12,8 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kSectionProperty = "section";
+constexpr const char* kKindProperty = "kind";
+constexpr const char* kKindKeysProperty = "kindKeys";
 constexpr int kMatricesWithKeys = 9;
 constexpr int kDigits = 10;
 
@@ -23,6 +25,19 @@ QString sectionOf(const QAction& action) { return action.property(kSectionProper
 
 void setSection(QAction& action, const QString& section) {
   action.setProperty(kSectionProperty, section);
+}
+
+void setKind(const QList<QAction*>& actions, const QString& keys, const QString& what) {
+  for (QAction* action : actions) {
+    action->setProperty(kKindProperty, what);
+    action->setProperty(kKindKeysProperty, keys);
+  }
+}
+
+std::optional<ActionKind> kindOf(const QAction& action) {
+  const QString what = action.property(kKindProperty).toString();
+  if (what.isEmpty()) return std::nullopt;
+  return ActionKind{action.property(kKindKeysProperty).toString(), what};
 }
 
 QString plainText(const QAction& action) {
@@ -122,17 +137,21 @@ Actions::Actions(QWidget* window) : window_(window) {
   resetHand = make(space, "&Back to the first view", {key("Shift+E")});
   nearer = make(space, "&Nearer", {key("PgUp")});
   further = make(space, "&Further", {key("PgDown")});
-  for (const char* way : {"Left", "Right", "Up", "Down"}) {
-    const QString word = QString(way).toLower();
-    orbits.append(make(space, "Turn " + word, {QKeySequence("Ctrl+" + QString(way))}));
-    pans.append(make(space, "Move " + word, {QKeySequence("Ctrl+Shift+" + QString(way))}));
-  }
+  for (const char* way : {"Left", "Right", "Up", "Down"})
+    orbits.append(
+        make(space, "Turn " + QString(way).toLower(), {QKeySequence("Ctrl+" + QString(way))}));
+  for (const char* way : {"Left", "Right", "Up", "Down"})
+    pans.append(make(
+        space, "Move " + QString(way).toLower(), {QKeySequence("Ctrl+Shift+" + QString(way))}));
   onlys.append(make(space, "The whole hand", {key("Alt+0")}, true));
   for (int i = 0; i < kMatricesWithKeys; ++i)
     onlys.append(make(space,
                       "Matrix " + QString::number(i) + " alone",
                       {QKeySequence("Alt+" + QString::number(i + 1))},
                       true));
+  setKind(orbits, "Ctrl+arrows", "Turn it");
+  setKind(pans, "Ctrl+Shift+arrows", "Move it");
+  setKind(onlys.mid(1), "Alt+1 .. Alt+9", "One matrix alone");
   compare = make("View", "Com&pare two recordings…", {key("Ctrl+Shift+C")}, true);
   fullScreen = make("View", "&Full screen", {key("F11")}, true);
   resetLayout = make("View", "&Reset layout", {key("Ctrl+Shift+R")});

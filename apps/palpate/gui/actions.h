@@ -6,6 +6,7 @@
 #include <QActionGroup>
 #include <QList>
 #include <QString>
+#include <optional>
 
 #include "gui/theme.h"
 
@@ -133,6 +134,13 @@ struct Actions {
 // The section of the list of keys that an action belongs to ("File", ..); empty: not listed.
 QString sectionOf(const QAction& action);
 void setSection(QAction& action, const QString& section);
+// Actions that are alike, listed by one line for all of them.
+struct ActionKind {
+  QString keys;  // "Ctrl+arrows"
+  QString what;
+};
+void setKind(const QList<QAction*>& actions, const QString& keys, const QString& what);
+std::optional<ActionKind> kindOf(const QAction& action);
 // Its text without mnemonic and dots.
 QString plainText(const QAction& action);
 

@@ -19,6 +19,7 @@ constexpr double kBarLabels = 44.0;
 constexpr double kHighestBar = 220.0;
 constexpr double kLowestPicture = 220.0;  // [px] below, there is no room for a bar
 constexpr double kScaleShare = 0.16;      // of the width, at most
+constexpr double kFine = 2.0;             // device pixels per unit
 constexpr double kVectorRatio = 2.5;      // dots per unit on paper
 
 // 1, 2, 5, 10, 20, .. mm, the longest that fits.
@@ -133,7 +134,9 @@ void paintHandPicture(QPainter& painter,
   HandScene scene;
   drawing.fill(scene, lookOf(options, drawing), options.camera);
   const double ratio = options.page.pixelRatio > 0.0 ? options.page.pixelRatio : kVectorRatio;
-  painter.drawImage(area, rasterize(scene, options.camera, area.size(), ratio));
+  // Small pixels need fewer samples.
+  const RasterQuality quality = ratio >= kFine ? RasterQuality::kScreen : RasterQuality::kPicture;
+  painter.drawImage(area, rasterize(scene, options.camera, area.size(), ratio, quality));
   paintHandOverlay(painter, area, drawing, scene, options);
 }
 

@@ -6,18 +6,21 @@
 #include <QLabel>
 #include <QScrollArea>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "gui/actions.h"
 
 namespace palpate::gui {
 namespace {
 
+constexpr int kWidestWords = 190;  // [px]
+
 // What the mouse does has no action to be read from.
 const std::vector<KeyEntry>& mouseEntries() {
   static const std::vector<KeyEntry> entries = {
       {"Mouse", "Click or drag", "In the timeline or the seek bar: move through time"},
       {"Mouse", "Wheel", "In the timeline: zoom; with Shift: pan"},
-      {"Mouse", "Middle button or Shift+drag", "In the timeline: pan"},
+      {"Mouse", "Middle or Shift+drag", "In the timeline: pan"},
       {"Mouse", "Double click", "In the timeline: show all of it; on an event: name it"},
       {"Mouse", "Drag", "In the timeline: select; along its axis: scrub; ends can be moved"},
       {"Mouse", "Click or drag", "Over taxels: choose them; with Ctrl: choose more"},
@@ -53,6 +56,9 @@ QWidget* columnOf(const std::vector<KeyEntry>& entries, QWidget* parent) {
     auto* what = new QLabel(entry.what, column);
     what->setTextFormat(Qt::PlainText);
     what->setProperty("role", "muted");
+    what->setWordWrap(true);
+    what->setFixedWidth(
+        std::min(kWidestWords, what->fontMetrics().horizontalAdvance(entry.what) + 4));
     grid->addWidget(what, row++, 1);
   }
   grid->setRowStretch(row, 1);
@@ -67,6 +73,10 @@ std::vector<KeyEntry> keysOf(const QList<QAction*>& actions) {
        {"File", "Edit", "Hand", "Playback", "View", "Hand in space", "Help"}) {
     for (const QAction* action : actions) {
       if (sectionOf(*action) != section || !action->isVisible()) continue;
+      if (const auto kind = kindOf(*action)) {
+        if (entries.back().what != kind->what) entries.push_back({section, kind->keys, kind->what});
+        continue;
+      }
       QStringList keys;
       for (const QKeySequence& sequence : action->shortcuts())
         keys.append(sequence.toString(QKeySequence::NativeText));
@@ -81,16 +91,16 @@ KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialo
   // Columns about equally long.
   std::vector<KeyEntry> left, middle, right, space;
   for (const KeyEntry& entry : keysOf(actions))
-    (entry.section == "File" || entry.section == "Hand" ? left
-     : entry.section == "View"                          ? middle
-     : entry.section == "Hand in space"                 ? space
-                                                        : right)
+    (entry.section == "File" || entry.section == "Hand"   ? left
+     : entry.section == "View" || entry.section == "Help" ? middle
+     : entry.section == "Hand in space"                   ? space
+                                                          : right)
         .push_back(entry);
   space.insert(space.end(), mouseEntries().begin(), mouseEntries().end());
   auto* content = new QWidget(this);
   auto* columns = new QHBoxLayout(content);
   columns->setContentsMargins(18, 16, 18, 8);
-  columns->setSpacing(32);
+  columns->setSpacing(24);
   for (const std::vector<KeyEntry>& entries : {left, middle, right, space})
     columns->addWidget(columnOf(entries, content), 1);
   auto* scroll = new QScrollArea(this);
@@ -103,7 +113,7 @@ KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialo
   page->addWidget(scroll, 1);
   page->addWidget(buttons);
   const QSize wanted = content->sizeHint() + QSize(40, 80);
-  resize(wanted.boundedTo(QSize(1380, 860)));
+  resize(wanted.boundedTo(QSize(1440, 860)));
 }
 
 }  // namespace palpate::gui
