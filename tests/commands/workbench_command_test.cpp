@@ -38,6 +38,12 @@ TEST(WorkbenchCommand, WithoutADisplayItSaysSoInOneLine) {
   expectOneLineError(palpate({}, dead), 1, {"no display"});
 }
 
+TEST(WorkbenchCommand, WhatMakesNoSenseIsSaidBeforeAnyDisplayIsAskedFor) {
+  expectOneLineError(palpate({"--gl", "--no-gl"}), 2, {"--gl", "--no-gl"});
+  expectOneLineError(palpate({"--angles", "1,2", demoFile()}), 2, {"--angles", "7"});
+  expectOneLineError(palpate({"--angles", "0,inf,0,0,0,0,0", demoFile()}), 2, {"--angles"});
+}
+
 TEST(WorkbenchCommand, PlatformsThatDoNotAnswerAreNoDisplayEither) {
   auto wayland = kHeadless;
   wayland["WAYLAND_DISPLAY"] = "no-compositor";

@@ -94,6 +94,7 @@ int workbenchCommand(const Words& words) {
   if (given.has("demo") && !given.words().empty())
     throw UsageError("give FILE or --demo, not both");
   if (given.has("gl") && given.has("no-gl")) throw UsageError("give --gl or --no-gl, not both");
+  const auto assumed = anglesOf(given);
   if (!hasDisplay())
     throw Error("no display: run it on a desktop, or use a command ('palpate --help' lists them)");
   const RuntimeFolder runtime;
@@ -104,7 +105,7 @@ int workbenchCommand(const Words& words) {
   options.openGl = given.has("no-gl") ? gui::OpenGlChoice::kNever
                    : given.has("gl")  ? gui::OpenGlChoice::kAlways
                                       : gui::OpenGlChoice::kFast;
-  options.assumedAnglesDeg = anglesOf(given).value_or(std::vector<double>());
+  options.assumedAnglesDeg = assumed.value_or(std::vector<double>());
   std::string name = "palpate";
   char* arguments[] = {name.data(), nullptr};
   int count = 1;
