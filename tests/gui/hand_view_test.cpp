@@ -112,6 +112,17 @@ TEST_F(HandViewTest, ResizingKeepsTheHandInThePictureUnlessItWasMoved) {
   EXPECT_EQ(view_.camera(), chosen);
 }
 
+TEST_F(HandViewTest, OtherTaxelsScannedAreTheSameHandSeenFromTheSamePlace) {
+  view_.zoomBy(2.0);
+  const HandCamera chosen = view_.camera();
+  std::vector<MatrixLayout> matrices = sdh2().layout->matrices();
+  matrices[1].dynamicMask.assign(matrices[1].numPlaces(), 0);
+  HandDescription masked = sdh2();
+  masked.layout = std::make_shared<const SensorLayout>(matrices);
+  view_.setHand(masked);
+  EXPECT_EQ(view_.camera(), chosen);
+}
+
 TEST_F(HandViewTest, SaysWhatIsUnderTheMouse) {
   lookAt(1);
   QSignalSpy hovered(&view_, &HandView::hovered);

@@ -11,6 +11,8 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include <palpate/core/error.h>
+
 namespace palpate::gui {
 namespace {
 
@@ -31,8 +33,12 @@ std::vector<Eigen::Vector3d> extentOf(const OpenedRecording& recording, const Ha
   drawing.setHand(profile.hand());
   for (const std::size_t frame :
        {std::size_t{0}, recording.table.frameOfLargestSum(), profile.numFrames() - 1}) {
-    const auto angles = profile.anglesAtFrame(frame);
-    drawing.setMoment(profile.frame(frame), angles ? angles->deg : std::vector<double>());
+    try {
+      const auto angles = profile.anglesAtFrame(frame);
+      drawing.setMoment(profile.frame(frame), angles ? angles->deg : std::vector<double>());
+    } catch (const Error&) {
+      continue;  // damaged: whoever shows this frame says so
+    }
     const auto now = drawing.extent(look);
     points.insert(points.end(), now.begin(), now.end());
   }

@@ -56,24 +56,23 @@ void HandView::fallBack(const QString& why) {
 }
 
 void HandView::setHand(const HandDescription& hand) {
-  const bool same = drawing_.hasHand() && *drawing_.hand().layout == *hand.layout;
+  // With other taxels scanned it is the same hand, looked at from where it was.
+  const TaxelSelection fresh(*hand.layout);
+  const bool same = drawing_.hasHand() && TaxelSelection(*drawing_.hand().layout).sameSensor(fresh);
   drawing_.setHand(hand);
   extent_.clear();
-  if (!selection_.sameSensor(TaxelSelection(*hand.layout)))
-    selection_ = TaxelSelection(*hand.layout);
+  if (!selection_.sameSensor(fresh)) selection_ = fresh;
   drawing_.setSelection(selection_);
   setHover(std::nullopt);
   if (!same) resetCamera();
-  sceneIsOld_ = true;
-  update();
-  if (canvas_) canvas_->update();
+  drawAnew();
 }
 
 void HandView::clear() {
   drawing_.clear();
   selection_ = {};
   setHover(std::nullopt);
-  setCamera(camera_);
+  drawAnew();
 }
 
 void HandView::setMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg) {
@@ -85,7 +84,7 @@ void HandView::setMoment(const TactileFrame& frame, const std::vector<double>& a
   const bool first = !shown.frame;
   drawing_.setMoment(frame, angles);
   if (first && !moved_) fitFirstView();
-  setCamera(camera_);
+  drawAnew();
   if (hover_) emit hovered(hoverText());
 }
 
@@ -103,25 +102,29 @@ void HandView::setLook(const HandLook& look) {
   if (isFlat(before.taxels) != isFlat(after.taxels) || before.only != after.only ||
       (isFlat(after.taxels) && before.taxels != after.taxels))
     resetCamera();
-  setCamera(camera_);
+  drawAnew();
 }
 
 void HandView::setColorBar(bool shown) {
   if (shown == colorBar_) return;
   colorBar_ = shown;
-  setCamera(camera_);
+  drawAnew();
 }
 
 void HandView::select(const TaxelSelection& selection) {
   if (selection == selection_) return;
   selection_ = selection;
   drawing_.setSelection(selection_);
-  setCamera(camera_);
+  drawAnew();
   emit selectionChanged();
 }
 
 void HandView::setCamera(const HandCamera& camera) {
   camera_ = camera;
+  drawAnew();
+}
+
+void HandView::drawAnew() {
   sceneIsOld_ = true;
   update();
   if (canvas_) canvas_->update();
@@ -326,7 +329,7 @@ void HandView::leaveEvent(QEvent*) { setHover(std::nullopt); }
 void HandView::setHover(std::optional<TaxelPlace> place) {
   if (place == hover_) return;
   hover_ = place;
-  setCamera(camera_);
+  drawAnew();
   emit hovered(hoverText());
 }
 

@@ -79,6 +79,7 @@ class HandView : public QWidget {
  private:
   enum class Drag { kNone, kClick, kOrbit, kPan, kZoom, kChoose };
   void renew();
+  void drawAnew();
   void fitTo(const std::vector<Eigen::Vector3d>& pointsMm);
   void fitFirstView();
   void paintOver(QPainter& painter);

@@ -8,6 +8,7 @@
 #include "gui/live_chart.h"
 #include "gui/main_window.h"
 #include "gui/matrices_panel.h"
+#include "gui/next_choice.h"
 #include "gui/playback_bar.h"
 #include "gui/timeline_chart.h"
 #include "gui/timeline_header.h"
@@ -18,14 +19,6 @@ namespace {
 constexpr int kFlashMs = 5000;
 constexpr int kTenFrames = 10;
 constexpr double kZoomStep = 1.5;
-
-// The choice after `now`, around.
-template <class Choices, class Choice>
-Choice after(const Choices& all, Choice now) {
-  auto at = std::find(all.begin(), all.end(), now);
-  if (at == all.end() || ++at == all.end()) at = all.begin();
-  return *at;
-}
 
 }  // namespace
 

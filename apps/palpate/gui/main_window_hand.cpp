@@ -1,12 +1,12 @@
 // The hand in space within the main window: what is shown beside it, shared with the heat maps, taken away.
 #include <QMenu>
-#include <algorithm>
 #include <utility>
 
 #include "gui/frame_painters.h"
 #include "gui/hand_panel.h"
 #include "gui/main_window.h"
 #include "gui/matrices_panel.h"
+#include "gui/next_choice.h"
 #include "gui/take_away.h"
 
 namespace palpate::gui {
@@ -15,13 +15,6 @@ namespace {
 constexpr double kTurnDeg = 10.0;    // by a key
 constexpr double kMoveShare = 0.06;  // of the view's height, by a key
 constexpr double kNearer = 1.2;
-
-template <class All, class Value>
-Value after(const All& all, Value now) {
-  auto at = std::find(all.begin(), all.end(), now);
-  if (at == all.end() || ++at == all.end()) at = all.begin();
-  return *at;
-}
 
 }  // namespace
 
@@ -136,8 +129,7 @@ void MainWindow::showViews(bool matrices, bool hand) {
   actions_.handShown->setChecked(hand);
   settings_.setValue("window/matrices_shown", matrices);
   settings_.setValue("window/hand_shown", hand);
-  if (late && current_ && !liveShown_ && playback_.hasFrames())
-    handPanel_->showFrame(playback_.frame());
+  if (late && current_ && !liveShown_ && playback_.hasFrames()) showFrame(playback_.frame());
 }
 
 ExportedView MainWindow::handExport() {

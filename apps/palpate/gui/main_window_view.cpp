@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
 
 #include "gui/compare_panel.h"
@@ -101,9 +102,15 @@ void MainWindow::applyTheme() {
 }
 
 void MainWindow::showFrame(std::size_t frame) {
-  matrices_->showFrame(frame);
-  if (!handPanel_->isHidden()) handPanel_->showFrame(frame);
-  inspect_->showFrame(frame);
+  try {
+    matrices_->showFrame(frame);
+    if (!handPanel_->isHidden()) handPanel_->showFrame(frame);
+    inspect_->showFrame(frame);
+    matrices_->view().setNotice({});
+  } catch (const Error& error) {
+    // A damaged block: what is seen is of another frame, or a part of it is.
+    matrices_->view().setNotice(error.what());
+  }
 }
 
 void MainWindow::showPlaybackState() {
