@@ -4,6 +4,9 @@
 #include <QSignalSpy>
 #include <algorithm>
 
+#include <palpate/emulator/synthetic_profile.h>
+#include <palpate/recording/palpate_writer.h>
+
 #include "gui/hand_panel.h"
 #include "gui/take_away.h"
 #include "window_fixture.h"
@@ -268,6 +271,30 @@ TEST_F(HandWindowTest, ARecordingWithoutAnglesIsShownAtRest) {
   EXPECT_TRUE(panel().view().pictureOptions({}).notice.contains("No usable joint angles"));
   open({"empty.dsa"});
   panel().view().grab();
+}
+
+// Flips bytes in the middle of a recording: the window says what is damaged there, and goes on.
+TEST_F(HandWindowTest, ADamagedBlockIsSaidAndTheWindowGoesOn) {
+  const std::filesystem::path path = folder_ / "damaged.palpate";
+  writePalpate(synthesize({.durationS = 24.0, .grasps = 4}), {}, path);
+  std::string bytes = testing::readFile(path);
+  for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 200; ++i) bytes[i] ^= 0x5a;
+  testing::writeFile(path, bytes);
+  window_ = std::make_unique<MainWindow>(WindowSurroundings{
+      .dataFolder = folder_.path(), .settingsPath = settingsFile(), .clock = &clock_});
+  window_->show();
+  open({"damaged.palpate"});
+  ASSERT_TRUE(window().current());
+  std::size_t numSaid = 0;
+  const std::size_t numFrames = playback().numFrames();
+  for (std::size_t frame = 0; frame < numFrames; frame += 5) {
+    playback().seekFrame(frame);
+    if (window().matricesView().notice().contains("is damaged")) ++numSaid;
+  }
+  EXPECT_GT(numSaid, 0u);
+  EXPECT_LT(numSaid, numFrames / 10);
+  playback().seekFrame(0);
+  EXPECT_EQ(window().matricesView().notice(), "");
 }
 
 TEST_F(HandWindowTest, CanBeTakenAway) {
