@@ -3,6 +3,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "palpate/filter/savitzky_golay.h"
+
 namespace palpate {
 namespace {
 
@@ -199,7 +201,7 @@ std::vector<FilterKind> temporalKinds() {
       {"savitzky-golay",
        "Savitzky-Golay",
        FilterDomain::kTemporal,
-       {window(5),
+       {odd("window", kLongestSavitzkyGolayWindow, 5, "frames", "frames that count"),
         {"order", "", Kind::kInteger, 0, 6, 2, {}, "degree of the polynomial, below the window"},
         {"derivative",
          "",

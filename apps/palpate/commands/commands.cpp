@@ -135,6 +135,7 @@ const std::vector<Command>& allCommands() {
       {"recover", "saves what can be saved of a damaged or unfinished recording", &recoverCommand},
       {"render", "a picture of one frame: PNG, SVG or PDF", &renderCommand},
       {"signals", "characteristic signals of each matrix as CSV", &signalsCommand},
+      {"spectrum", "spectra of a taxel or a signal over time, as CSV", &spectrumCommand},
       {"synthesize", "makes a synthetic recording with known content", &synthesizeCommand},
       {"verify", "checks every byte of recordings", &verifyCommand},
   };

@@ -36,6 +36,7 @@ int recordCommand(const Words& words);
 int recoverCommand(const Words& words);
 int renderCommand(const Words& words);
 int signalsCommand(const Words& words);
+int spectrumCommand(const Words& words);
 int synthesizeCommand(const Words& words);
 int verifyCommand(const Words& words);
 // The window: files to open, --demo, --screenshot.
