@@ -17,7 +17,6 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kFewestValues = 3;
 constexpr double kNoiseFloor = 1e-9;  // of the mean square
 constexpr double kStepLog = 1e-3;     // for differences in the logarithm of a parameter
 constexpr double kLargestStep = 1.0;  // of a Newton step in a logarithm
