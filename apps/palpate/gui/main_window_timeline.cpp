@@ -232,6 +232,7 @@ void MainWindow::cropSelection() {
 }
 
 void MainWindow::waitForWork() {
+  filterWorker_.wait();
   timeline_->store().waitUntilRead();
   while (job_.busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
 }

@@ -122,7 +122,8 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
                      .settingsPath = settings.filePath("palpate.ini"),
                      .clock = nullptr,
                      .read = {},
-                     .assumedAnglesDeg = options.assumedAnglesDeg});
+                     .assumedAnglesDeg = options.assumedAnglesDeg,
+                     .recipe = options.recipe});
   if (options.openGl && whyNoOpenGl().isEmpty()) window.handPanel().view().useOpenGl();
   window.setTheme(theme);
   window.setFixedSize(options.size);
@@ -135,6 +136,7 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   }
   if (options.comparedWith) showCompare(window, options);
   showDocks(window, options);
+  window.waitForFilter();
   window.timelinePanel().chart().store().waitForFirstLook();
   // Layout requests and queued replots come one after the other.
   constexpr int kRounds = 5;
