@@ -59,6 +59,7 @@ class PlaybackBar;
 class StartPage;
 class StatusStrip;
 class SignalTree;
+class SpectrumPanel;
 class TakeAway;
 class TimelineChart;
 class TimelineHeader;
@@ -141,6 +142,7 @@ class MainWindow : public QMainWindow {
   // What can be taken away, and how it is asked for.
   TakeAway& takeAway() noexcept { return *takeAway_; }
   LibraryPanel& library() noexcept { return *library_; }
+  SpectrumPanel& spectrum() noexcept { return *spectrum_; }
   const ActivityLog& activity() const noexcept { return activity_; }
   // Waits until what is being written is on disk.
   void waitForExports();
@@ -190,6 +192,13 @@ class MainWindow : public QMainWindow {
   void selectEnd(bool begin);
   void nameChosenTaxels();
   void cropSelection();
+  // main_window_spectrum.cpp
+  void buildSpectrum();
+  void placeSpectrum();
+  void connectSpectrum();
+  void showSpectrum();
+  void makeRoomForSpectrum();
+  ExportedView spectrumExport();
   // main_window_events.cpp: rows of events
   void connectEvents();
   void showEvents();
@@ -353,6 +362,8 @@ class MainWindow : public QMainWindow {
   LinkPanel* link_ = nullptr;
   LibraryPanel* library_ = nullptr;
   Dock* libraryDock_ = nullptr;
+  SpectrumPanel* spectrum_ = nullptr;
+  Dock* spectrumDock_ = nullptr;
   LogPanel* log_ = nullptr;
   Dock* logDock_ = nullptr;
   MessageBanner* alarmStrip_ = nullptr;

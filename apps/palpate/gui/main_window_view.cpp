@@ -245,6 +245,7 @@ void MainWindow::placeDocks(Place place) {
     dock->setFloating(false);
     dock->setVisible(live || (dock != handDock_ && dock != linkDock_));
   }
+  placeSpectrum();
   inspectDock_->raise();
 }
 
@@ -338,6 +339,7 @@ void MainWindow::showDock(const QString& name) {
     if (dock->objectName() != name) continue;
     dock->show();
     dock->raise();
+    if (dock == spectrumDock_) makeRoomForSpectrum();
   }
 }
 
