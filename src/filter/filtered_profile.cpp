@@ -175,7 +175,6 @@ Profile computedWhole(const Profile& source,
                       const Progress& progress) {
   ProfileBuilder builder(source.hand().layout);
   Cursor cursor(source, recipe, restartsUs, 0);
-  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   const std::size_t numFrames = source.numFrames();
   // Nothing comes before the stretch is whole: reading is the first half of the work.
   for (std::size_t i = 0; i < numFrames; ++i) {
@@ -185,8 +184,6 @@ Profile computedWhole(const Profile& source,
     while (const auto next = cursor.advance(i, i))
       builder.addFrame(next->second.hostUs, next->second.values, next->second.deviceMs);
   }
-  while (const auto next = cursor.advance(numFrames, kNone))
-    builder.addFrame(next->second.hostUs, next->second.values, next->second.deviceMs);
   return builder.finish(source.info());
 }
 

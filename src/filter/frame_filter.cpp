@@ -38,8 +38,8 @@ std::unique_ptr<FrameFilter> makeFrameFilter(const FilterStep& step,
     case FilterDomain::kTemporal:
       break;
   }
-  if (step.name == "rts" || step.name == "kelvin-voigt" ||
-      (step.name == "kalman" && step.flag("centred")))
+  const bool smoother = step.name == "rts" || step.name == "kalman" || step.name == "kelvin-voigt";
+  if (smoother && !step.causal())
     return detail::stretchFilter(step, std::move(layout));
   return detail::temporalFilter(step, std::move(layout));
 }

@@ -9,6 +9,19 @@ bool worksOn(const FilterStep& step, std::size_t matrix) {
          std::binary_search(step.matrices.begin(), step.matrices.end(), matrix);
 }
 
+std::vector<std::size_t> placesOf(const FilterStep& step, const SensorLayout& layout) {
+  std::vector<std::size_t> places;
+  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
+    if (!worksOn(step, m)) continue;
+    const MatrixLayout& matrix = layout.matrix(m);
+    for (int y = 0; y < matrix.rows; ++y)
+      for (int x = 0; x < matrix.columns; ++x)
+        if (matrix.enabled(y, x))
+          places.push_back(layout.offset(m) + static_cast<std::size_t>(y * matrix.columns + x));
+  }
+  return places;
+}
+
 bool allZero(const float* values, std::size_t count) {
   // No early end: a loop of fixed length is made of vector instructions.
   unsigned any = 0;

@@ -47,5 +47,7 @@ std::unique_ptr<MatrixKernel> openingKernel(const MatrixLayout& layout, const Fi
 
 // Whether a step works on a matrix.
 bool worksOn(const FilterStep& step, std::size_t matrix);
+// Where the enabled taxels of those matrices are among the values of a frame.
+std::vector<std::size_t> placesOf(const FilterStep& step, const SensorLayout& layout);
 
 }  // namespace palpate::detail

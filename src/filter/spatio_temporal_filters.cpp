@@ -60,7 +60,9 @@ class MinMedian final : public WindowedFilter {
   MinMedian(const FilterStep& step, std::shared_ptr<const SensorLayout> layout)
       : WindowedFilter(step.integer("window"), step.flag("centred"), Edge::kShrink),
         layout_(std::move(layout)),
-        masked_(step.flag("masked")) {
+        masked_(step.flag("masked")),
+        places_(placesOf(step, *layout_)),
+        lowest_(layout_->numPlaces(), 0.0F) {
     for (std::size_t m = 0; m < layout_->numMatrices(); ++m)
       medians_.push_back(
           worksOn(step, m) ? medianKernel(layout_->matrix(m), step.integer("size")) : nullptr);
@@ -68,22 +70,24 @@ class MinMedian final : public WindowedFilter {
 
  protected:
   void compute(std::span<const float* const> window, std::size_t current, float* values) override {
+    lowest_.assign(window[current], window[current] + lowest_.size());
+    for (const float* frame : window)
+      for (std::size_t i = 0; i < lowest_.size(); ++i) lowest_[i] = std::min(lowest_[i], frame[i]);
     for (std::size_t m = 0; m < medians_.size(); ++m) {
-      if (!medians_[m]) continue;
-      const MatrixLayout& layout = layout_->matrix(m);
-      const std::size_t offset = layout_->offset(m);
-      const std::size_t count = layout.numPlaces();
-      float* to = values + offset;
-      for (const float* frame : window)
-        for (std::size_t i = 0; i < count; ++i) to[i] = std::min(to[i], frame[offset + i]);
-      if (!allZero(to, count)) medians_[m]->apply(to);
-      if (masked_) keepOriginal(window[current] + offset, to, layout);
+      float* of = lowest_.data() + layout_->offset(m);
+      if (medians_[m] && !allZero(of, layout_->matrix(m).numPlaces())) medians_[m]->apply(of);
+    }
+    for (const std::size_t place : places_) {
+      if (!masked_) values[place] = lowest_[place];
+      else if (!(lowest_[place] > 0.0F)) values[place] = 0.0F;
     }
   }
 
  private:
   const std::shared_ptr<const SensorLayout> layout_;
   const bool masked_;
+  const std::vector<std::size_t> places_;
+  std::vector<float> lowest_;
   std::vector<std::unique_ptr<MatrixKernel>> medians_;
 };
 

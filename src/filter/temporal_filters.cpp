@@ -6,24 +6,11 @@
 
 #include "filter/spatial_filter.h"
 #include "filter/windowed_filter.h"
+#include "palpate/filter/kelvin_voigt.h"
 #include "palpate/filter/savitzky_golay.h"
 
 namespace palpate::detail {
 namespace {
-
-// Where the enabled taxels of the matrices are that a step works on: stretches of the values of a frame.
-std::vector<std::size_t> placesOf(const FilterStep& step, const SensorLayout& layout) {
-  std::vector<std::size_t> places;
-  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
-    if (!worksOn(step, m)) continue;
-    const MatrixLayout& matrix = layout.matrix(m);
-    for (int y = 0; y < matrix.rows; ++y)
-      for (int x = 0; x < matrix.columns; ++x)
-        if (matrix.enabled(y, x))
-          places.push_back(layout.offset(m) + static_cast<std::size_t>(y * matrix.columns + x));
-  }
-  return places;
-}
 
 // Weighted sums of the frames of the window.
 class WeightedFilter : public WindowedFilter {
@@ -184,6 +171,42 @@ class KalmanFilter final : public FrameFilter {
   double variance_ = 0.0;
 };
 
+// One filter per taxel, all of one model: an interval is discretised once for all of them.
+class KelvinVoigt final : public FrameFilter {
+ public:
+  KelvinVoigt(const FilterStep& step, const SensorLayout& layout)
+      : places_(placesOf(step, layout)),
+        model_{.mass = std::isnan(step.value("m")) ? 1.0 : step.value("m"),
+               .stiffness = step.value("e"),
+               .viscosity = step.value("eta"),
+               .forceNoise = step.value("q"),
+               .measurementNoise = step.value("r")},
+        filters_(places_.size(), KelvinVoigtFilter(model_)) {}
+
+  void push(TactileFrame& frame, FrameSink& out) override {
+    if (begun_) step_ = kelvinVoigtStep(model_, static_cast<double>(frame.hostUs - lastUs_) / 1e6);
+    begun_ = true;
+    lastUs_ = frame.hostUs;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      float& value = frame.values[places_[i]];
+      value = static_cast<float>(filters_[i].step(static_cast<double>(value), step_));
+    }
+    out.take(frame);
+  }
+  void finish(FrameSink&) override {
+    begun_ = false;
+    for (KelvinVoigtFilter& filter : filters_) filter.restart();
+  }
+
+ private:
+  const std::vector<std::size_t> places_;
+  const KelvinVoigtModel model_;
+  std::vector<KelvinVoigtFilter> filters_;
+  KelvinVoigtStep step_;
+  std::int64_t lastUs_ = 0;
+  bool begun_ = false;
+};
+
 }  // namespace
 
 std::unique_ptr<FrameFilter> temporalFilter(const FilterStep& step,
@@ -192,6 +215,7 @@ std::unique_ptr<FrameFilter> temporalFilter(const FilterStep& step,
   if (step.name == "temporal-gaussian") return std::make_unique<TemporalGaussian>(step, *layout);
   if (step.name == "temporal-min") return std::make_unique<TemporalMinimum>(step, *layout);
   if (step.name == "savitzky-golay") return std::make_unique<SavitzkyGolay>(step, *layout);
+  if (step.name == "kelvin-voigt") return std::make_unique<KelvinVoigt>(step, *layout);
   return std::make_unique<KalmanFilter>(step, *layout);
 }
 

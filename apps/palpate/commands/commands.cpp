@@ -126,6 +126,7 @@ const std::vector<Command>& allCommands() {
        &convertCommand},
       {"demo", "a headless tour: reads, reports and draws a recording", &demoCommand},
       {"emulate", "the emulated hand on two ports, until it is interrupted", &emulateCommand},
+      {"filter", "a recording through a chain of filters, as a recording", &filterCommand},
       {"grasp", "moves a connected hand: plain and reactive grasps", &graspCommand},
       {"grasps", "where the grasps in recordings are, as CSV", &graspsCommand},
       {"info", "what is in a recording, or in each of a folder", &infoCommand},

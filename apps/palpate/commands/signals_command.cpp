@@ -1,4 +1,4 @@
-// palpate signals PATH... [--matrix M]: characteristic signals as CSV.
+// palpate signals PATH... [--matrix M] [--filter SPEC..]: characteristic signals as CSV.
 #include <cstdint>
 #include <filesystem>
 
@@ -9,6 +9,7 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/filter_options.h"
 #include "commands/recording_list.h"
 
 namespace palpate::commands {
@@ -63,26 +64,28 @@ void writeSignals(StandardOutput& out,
 
 int signalsCommand(const Words& words) {
   const CommandLine given(
-      {.synopsis = "palpate signals PATH... [--matrix M]",
+      {.synopsis = "palpate signals PATH... [--matrix M] [--filter SPEC..]",
        .purpose = "Prints the characteristic signals of every matrix in every frame as CSV: mean, "
                   "minimum, maximum,\nsum and number of the active taxels (value > 0), their area, "
                   "and the mean of the 3x3 Gaussian-\nfiltered matrix over its active taxels. An "
                   "empty matrix has zeros. PATH is a recording, or a\nfolder: every recording "
                   "below it. With several a last column names the file; one that can't be\nread is "
                   "said, and the rows of the others are there: exit code 3.",
-       .options = {{"matrix", "M", "only this matrix (0, 1, ..)"}},
+       .options = withFilterOptions({{"matrix", "M", "only this matrix (0, 1, ..)"}}),
        .example = "palpate signals foam_ball.dsa --matrix 1 > curve.csv",
        .fewestWords = 1},
       words);
   if (given.helpShown()) return kDone;
   const auto matrix = given.integer("matrix", 0, INT64_MAX);
+  const Recipe recipe = recipeOf(given);
   const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
   bool headerWritten = false;
   return forEachProfile(
       recordings,
       given.quiet(),
-      [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
+      [&](const std::filesystem::path& file, const Profile& unfiltered, const Progress& progress) {
+        const Profile profile = lookedAtThrough(recipe, unfiltered, file);
         std::optional<std::size_t> only;
         if (matrix) {
           only = static_cast<std::size_t>(*matrix);

@@ -13,6 +13,7 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/filter_options.h"
 
 namespace palpate::commands {
 namespace {
@@ -209,29 +210,32 @@ int spectrumCommand(const Words& words) {
            "power spectral density one-sided in\ncounts^2/Hz, magnitude in counts: a tone of "
            "amplitude A at a bin reads A. time_s is the middle\nof the window, from the "
            "recording's first frame.",
-       .options = {{"matrix", "M", "matrix (0, 1, ..)"},
-                   {"x", "X", "column of the taxel"},
-                   {"y", "Y", "row of the taxel; row 0 is the fingertip"},
-                   {"signal",
-                    "NAME",
-                    "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
-                    "without --matrix of the whole hand"},
-                   {"window", "N", "samples per segment, 2..65536, default 32"},
-                   {"overlap", "N", "samples shared with the next segment, default window - 1"},
-                   {"detrend", "HOW", "what a segment loses first: mean (default), line, none"},
-                   {"rate", "HOW", "of the even grid: mean (default) or median of the intervals"},
-                   {"from", "N", "first frame, default 0"},
-                   {"to", "N", "last frame, inclusive"},
-                   {"json", "", "no spectra: rate, Nyquist, jitter, strongest line as JSON"}},
+       .options = withFilterOptions(
+           {{"matrix", "M", "matrix (0, 1, ..)"},
+            {"x", "X", "column of the taxel"},
+            {"y", "Y", "row of the taxel; row 0 is the fingertip"},
+            {"signal",
+             "NAME",
+             "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
+             "without --matrix of the whole hand"},
+            {"window", "N", "samples per segment, 2..65536, default 32"},
+            {"overlap", "N", "samples shared with the next segment, default window - 1"},
+            {"detrend", "HOW", "what a segment loses first: mean (default), line, none"},
+            {"rate", "HOW", "of the even grid: mean (default) or median of the intervals"},
+            {"from", "N", "first frame, default 0"},
+            {"to", "N", "last frame, inclusive"},
+            {"json", "", "no spectra: rate, Nyquist, jitter, strongest line as JSON"}}),
        .example = "palpate spectrum roughness_test_rough.dsa --matrix 5 --x 2 --y 9 > spectra.csv",
        .fewestWords = 1,
        .mostWords = 1},
       words);
   if (given.helpShown()) return kDone;
   const SpectrumOptions options = optionsOf(given);
+  const Recipe recipe = recipeOf(given);
   const std::string& file = given.words().front();
   ProgressLine line("reading " + file, given.quiet());
-  const Profile profile = openRecording(file, line.callback());
+  const Profile profile =
+      lookedAtThrough(recipe, openRecording(file, line.callback()), file, line.callback());
   const Series series = seriesOf(given, profile, line.callback());
   const SpectrumReport plan = planSpectra(series.timeS, series.values, options);
   if (plan.segments == 0) throw Error(file + ": " + tooShort(plan, options));

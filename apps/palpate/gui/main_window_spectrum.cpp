@@ -9,7 +9,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kSpectrumShare = 0.31;  // of the window's height, when it is asked for
+constexpr double kSpectrumShare = 0.36;  // of the window's height, when it is asked for
 constexpr double kTimelineShare = 0.17;  // below it
 
 constexpr int kLowWindow = 760;  // [px] of height

@@ -15,7 +15,8 @@
 namespace palpate {
 
 // Whether a person may add, change and remove an event: kinds "label" and "mark" (as the recorder writes
-// them), "note", and "segment" (a grasp or another part, as a person sees it).
+// them), "note", "recipe" (filters to look through, JSON: filter/recipe.h), and "segment" (a grasp or another part,
+// as a person sees it).
 bool isNoted(const RecordingEvent& event);
 
 struct SaveEventsOptions {
