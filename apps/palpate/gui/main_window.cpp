@@ -76,6 +76,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   connectCompare();
   connectHandView();
   connectFilter(surroundings.recipe);
+  connectSpectrum();
 
   askForRecordings = [this] {
     return QFileDialog::getOpenFileNames(this,
@@ -187,6 +188,7 @@ void MainWindow::buildDocks() {
   linkDock_ = new Dock("Link", link_, nullptr, this);
   docks_ = {inspectDock_, timelineDock_, handDock_, linkDock_};
   buildFilter();
+  buildSpectrum();
   buildLibrary();
   setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
   setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);

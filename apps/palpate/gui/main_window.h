@@ -61,6 +61,7 @@ class PlaybackBar;
 class StartPage;
 class StatusStrip;
 class SignalTree;
+class SpectrumPanel;
 class TakeAway;
 class TimelineChart;
 class TimelineHeader;
@@ -149,6 +150,7 @@ class MainWindow : public QMainWindow {
   const OpenedRecordingPtr& shown() const noexcept { return shown_; }
   bool filteredShown() const;
   void waitForFilter() { filterWorker_.wait(); }
+  SpectrumPanel& spectrum() noexcept { return *spectrum_; }
   const ActivityLog& activity() const noexcept { return activity_; }
   // Waits until what is being written is on disk.
   void waitForExports();
@@ -198,6 +200,13 @@ class MainWindow : public QMainWindow {
   void selectEnd(bool begin);
   void nameChosenTaxels();
   void cropSelection();
+  // main_window_spectrum.cpp
+  void buildSpectrum();
+  void placeSpectrum();
+  void connectSpectrum();
+  void showSpectrum();
+  void makeRoomForSpectrum();
+  ExportedView spectrumExport();
   // main_window_events.cpp: rows of events
   void connectEvents();
   void showEvents();
@@ -320,14 +329,9 @@ class MainWindow : public QMainWindow {
   std::vector<OpenedRecordingPtr> recordings_;
   std::map<std::filesystem::path, LeftAt> leftAt_;
   OpenedRecordingPtr current_;
-  OpenedRecordingPtr shown_;     // current_, or the same filtered
-  OpenedRecordingPtr filtered_;  // of filteredOf_, by filteredBy_; null: none yet
-  OpenedRecordingPtr filteredOf_;
-  Recipe filteredBy_;
-  OpenedRecordingPtr keptTaken_;  // whose kept recipe was taken
+  OpenedRecordingPtr shown_;  // current_, or the same filtered
+  FilterResults filterResults_;
   FilterWorker filterWorker_;
-  FilterFigures liveFigures_;
-  Recipe liveFiguresOf_;
   Place place_ = Place::kStart;
   std::map<Place, QByteArray> layouts_;  // of docks
   QString hover_;
@@ -382,6 +386,8 @@ class MainWindow : public QMainWindow {
   Dock* filterDock_ = nullptr;
   LibraryPanel* library_ = nullptr;
   Dock* libraryDock_ = nullptr;
+  SpectrumPanel* spectrum_ = nullptr;
+  Dock* spectrumDock_ = nullptr;
   LogPanel* log_ = nullptr;
   Dock* logDock_ = nullptr;
   MessageBanner* alarmStrip_ = nullptr;

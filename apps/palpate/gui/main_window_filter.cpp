@@ -79,9 +79,9 @@ void MainWindow::connectFilter(const std::optional<Recipe>& recipe) {
           this,
           [this](const OpenedRecordingPtr& source, const OpenedRecordingPtr& filtered) {
             filter_->showProgress(std::nullopt);
-            filteredOf_ = source;
-            filtered_ = filtered;
-            filteredBy_ = filter_->editor().recipe();
+            filterResults_.of = source;
+            filterResults_.filtered = filtered;
+            filterResults_.by = filter_->editor().recipe();
             if (source == current_ && filter_->on() && !liveShown_) useShown(filtered);
           });
   connect(&filterWorker_, &FilterWorker::measured, filter_, &FilterPanel::showFigures);
@@ -134,8 +134,8 @@ void MainWindow::showThroughFilter() {
   if (liveShown_ || !current_) return updateStatus();
   if (now.empty()) {
     useShown(current_);
-  } else if (filtered_ && filteredOf_ == current_ && filteredBy_.sameSteps(now)) {
-    useShown(filtered_);
+  } else if (filterResults_.filtered && filterResults_.of == current_ && filterResults_.by.sameSteps(now)) {
+    useShown(filterResults_.filtered);
   } else {
     filterWorker_.start(current_, now);
   }
@@ -153,9 +153,9 @@ void MainWindow::filterNewSource() {
     takeKeptRecipe();
   }
   filter_->setKeepable(current_ && !liveShown_);
-  if (filtered_ && filteredOf_ != current_) {
-    filtered_.reset();
-    filteredOf_.reset();
+  if (filterResults_.filtered && filterResults_.of != current_) {
+    filterResults_.filtered.reset();
+    filterResults_.of.reset();
   }
   showThroughFilter();
 }
@@ -186,8 +186,8 @@ void MainWindow::takeKeptRecipe() {
   const auto kept = std::find_if(all.rbegin(), all.rend(), [](const RecordingEvent& event) {
     return event.kind == kRecipeKind;
   });
-  if (kept == all.rend() || keptTaken_ == current_) return;
-  keptTaken_ = current_;
+  if (kept == all.rend() || filterResults_.keptTaken == current_) return;
+  filterResults_.keptTaken = current_;
   const auto recipe = recipeFrom(kept->json);
   if (!recipe || recipe->sameSteps(filter_->editor().recipe())) return;
   filter_->editor().setRecipe(*recipe);
@@ -208,7 +208,7 @@ void MainWindow::keepRecipe() {
       if (editor->events()[i].kind == kRecipeKind) editor->remove(i, name);
     if (!recipe.steps.empty()) editor->add(event, name);
   });
-  keptTaken_ = current_;
+  filterResults_.keptTaken = current_;
   flash(recipe.steps.empty() ? "no filters are kept with the recording: save with Ctrl+S"
                              : "the filters are kept with the recording: save with Ctrl+S");
 }
@@ -218,16 +218,16 @@ void MainWindow::showLiveFilter() {
   const LiveSource* source = live_.source();
   if (source == nullptr || filterDock_->isHidden()) return;
   const Recipe& recipe = filter_->editor().recipe();
-  if (liveFigures_.costsUs.size() != recipe.steps.size() || liveFiguresOf_ != recipe) {
-    liveFiguresOf_ = recipe;
-    liveFigures_ = {};
-    liveFigures_.latency = latencyFrames(recipe);
+  if (filterResults_.live.costsUs.size() != recipe.steps.size() || filterResults_.liveOf != recipe) {
+    filterResults_.liveOf = recipe;
+    filterResults_.live = {};
+    filterResults_.live.latency = latencyFrames(recipe);
     for (const FilterStep& step : recipe.steps)
-      liveFigures_.latencies.push_back(latencyFrames(step));
+      filterResults_.live.latencies.push_back(latencyFrames(step));
   }
-  liveFigures_.costsUs = source->filters->costsUs();
-  liveFigures_.costsUs.resize(recipe.steps.size(), 0.0);
-  filter_->showFigures(filter_->on() ? std::optional(liveFigures_) : std::nullopt);
+  filterResults_.live.costsUs = source->filters->costsUs();
+  filterResults_.live.costsUs.resize(recipe.steps.size(), 0.0);
+  filter_->showFigures(filter_->on() ? std::optional(filterResults_.live) : std::nullopt);
 }
 
 }  // namespace palpate::gui

@@ -163,6 +163,7 @@ void MainWindow::connectTakeAway() {
   takeAway_->add(matricesExport());
   takeAway_->add(handExport());
   takeAway_->add(timelineExport());
+  takeAway_->add(spectrumExport());
   takeAway_->add(inspectExport());
   connect(actions_.exportPicture, &QAction::triggered, takeAway_.get(), &TakeAway::exportNow);
   connect(actions_.exportAgain, &QAction::triggered, takeAway_.get(), &TakeAway::repeatLast);

@@ -128,6 +128,7 @@ void MainWindow::showCurves() {
   const std::vector<PlottedCurve> curves = curvesNow();
   timelineHeader_->setCurves(curves, resolved(view_.theme));
   timelineHeader_->setPlain(liveShown_);
+  showSpectrum();
   if (liveShown_) return;
   timeline_->setCurves(curves);
   showReading();

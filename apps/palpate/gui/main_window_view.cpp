@@ -244,6 +244,7 @@ void MainWindow::placeDocks(Place place) {
     dock->setFloating(false);
     dock->setVisible(live || (dock != handDock_ && dock != linkDock_ && dock != filterDock_));
   }
+  placeSpectrum();
   inspectDock_->raise();
 }
 
@@ -337,6 +338,7 @@ void MainWindow::showDock(const QString& name) {
     if (dock->objectName() != name) continue;
     dock->show();
     dock->raise();
+    if (dock == spectrumDock_) makeRoomForSpectrum();
   }
 }
 

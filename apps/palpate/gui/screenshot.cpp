@@ -12,6 +12,7 @@
 #include "gui/hand_panel.h"
 #include "gui/main_window.h"
 #include "gui/picture_export.h"
+#include "gui/spectrum_panel.h"
 #include "gui/timeline_panel.h"
 #include "gui/workbench.h"
 
@@ -138,6 +139,7 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   showDocks(window, options);
   window.waitForFilter();
   window.timelinePanel().chart().store().waitForFirstLook();
+  window.spectrum().settle();
   // Layout requests and queued replots come one after the other.
   constexpr int kRounds = 5;
   for (int i = 0; i < kRounds; ++i) QCoreApplication::processEvents();
