@@ -179,7 +179,9 @@ Recipe recipeFromJson(const Json& json) {
 
 std::span<const Recipe> recipePresets() {
   static const std::array kPresets = {
-      preset("High sensitivity", {"min-median:window=3,size=3,masked=1"}),
+      preset("High sensitivity", {"min-median:window=2,size=1,masked=1"}),
+      preset("Thresholds too low, no small contacts",
+             {"min-median:window=2,size=1,masked=1", "opening:shape=cross,masked=1"}),
       preset("Ghosts, the study's choice", {"median3d:size=3,window=3,masked=1"}),
       preset("Lone taxels", {"median:size=3,masked=1"}),
       preset("Smooth in space", {"gaussian:size=3"}),

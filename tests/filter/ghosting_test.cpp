@@ -238,6 +238,26 @@ TEST_F(GhostingTest, CountsTheRealRecordingAsAnIndependentScriptDoes) {
   }
 }
 
+// The chain for high sensitivity: a taxel that flickers is gone, a touch of one taxel comes a frame later, as it was.
+TEST_F(GhostingTest, HighSensitivityKeepsATouchOfOneTaxel) {
+  auto truth = untouched(10);
+  touch(truth, 7, 3, 6);
+  const Profile profile = profileOf(10,
+                                    {{1, 7, 1.0F},
+                                     {3, 7, 1.0F},
+                                     {4, 7, 9.0F},
+                                     {5, 7, 4.0F},
+                                     {6, 7, 9.0F},
+                                     {5, 20 + 9, 2.0F},
+                                     {8, 20 + 9, 2.0F}});
+  const GhostingReport report = measureGhosting(profile, highSensitivityRecipe(), truth);
+  expectCounts(report.total().falseTaxels, 3, 0);
+  expectCounts(report.touched, 4, 3);
+  EXPECT_DOUBLE_EQ(report.touchedSumAfter, 22.0);
+  EXPECT_EQ(report.contacts.at(0).delayFrames(), 1);
+  EXPECT_EQ(report.latencyFrames, 1);
+}
+
 TEST_F(GhostingTest, RefusesWhatMakesNoSense) {
   const Profile profile = profileOf(2, {});
   const auto truth = untouched(2);

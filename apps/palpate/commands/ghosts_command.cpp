@@ -1,9 +1,13 @@
 // palpate ghosts [PATH...]: how many false taxels filters leave, and what they take of true contacts.
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
+#include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/command_line.h"
@@ -16,7 +20,7 @@ namespace palpate::commands {
 namespace {
 
 constexpr double kDefaultDegC[] = {30.0, 45.0};
-constexpr double kDefaultBelow[] = {0.0, 5.0, 10.0};
+constexpr double kDefaultBelow[] = {0.0, 2.0, 3.0, 5.0};
 
 // Rows as they come, or one JSON list at the end.
 class Rows {
@@ -112,26 +116,62 @@ int emulated(const CommandLine& given,
   return kDone;
 }
 
+// What thresholds at the noise floor, or so far below, leave of a recording at threshold 0. The temperature of a
+// matrix is that of the motor beside it.
+Profile lookedAtOver(double belowCounts,
+                     const Profile& profile,
+                     const std::filesystem::path& file) {
+  const std::vector<MatrixCharacteristics>& matrices = sdh2Sensor().matrices;
+  const SensorLayout& layout = profile.layout();
+  if (layout.numMatrices() != matrices.size() || profile.numTemperatures() == 0 ||
+      profile.temperatures(0).degC.size() <= matrices.size())
+    throw FileError(file, "--below needs the six matrices and the temperatures of an SDH-2");
+  ProfileBuilder builder(profile.hand().layout);
+  TactileFrame frame;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    profile.readFrame(i, frame);
+    const Temperatures temperatures = *profile.temperaturesAtFrame(i);
+    for (std::size_t m = 0; m < matrices.size(); ++m) {
+      const auto threshold =
+          static_cast<float>(noiseThresholdCounts(matrices[m],
+                                                  temperatures.degC[m + 1],
+                                                  NoisyContactsOptions{}.noiseMultiple,
+                                                  belowCounts));
+      const std::size_t from = layout.offset(m);
+      for (std::size_t place = from; place < from + layout.matrix(m).numPlaces(); ++place)
+        frame.values[place] = std::max(0.0F, frame.values[place] - threshold);
+    }
+    builder.addFrame(frame.hostUs, frame.values, frame.deviceMs);
+  }
+  return builder.finish(profile.info());
+}
+
 int recorded(const CommandLine& given,
              const std::vector<Recipe>& recipes,
              const GhostingOptions& options) {
-  for (const char* option : {"deg", "below", "seed", "frames"})
+  for (const char* option : {"deg", "seed", "frames"})
     if (given.has(option))
       throw UsageError(std::string("--") + option + " is for the emulated hand: without PATH");
+  std::vector<std::optional<double>> belows;
+  for (const double below : numbersOf(given, "below", -100.0, 100.0, {}))
+    belows.emplace_back(below);
+  if (belows.empty()) belows.emplace_back();
   Rows rows(given.has("json"), false);
   const auto work =
       [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
         GhostingOptions ofFile = options;
         ofFile.restartsUs = settingsTimesUs(readEvents(file).events);
-        const GhostSource source{.file = file.string()};
-        for (std::size_t i = 0; i < recipes.size(); ++i) {
-          try {
-            rows.add(recipes[i],
-                     source,
-                     measureGhosting(
-                         profile, recipes[i], {}, ofFile, partOf(progress, i, recipes.size())));
-          } catch (const std::invalid_argument& error) {
-            throw Error(file.string() + ": " + error.what());
+        std::size_t part = 0;
+        for (const std::optional<double>& below : belows) {
+          const Profile seen = below ? lookedAtOver(*below, profile, file) : profile;
+          const GhostSource source{.file = file.string(), .belowCounts = below};
+          for (const Recipe& recipe : recipes) {
+            const Progress ofThis = partOf(progress, part++, belows.size() * recipes.size());
+            try {
+              rows.add(recipe, source, measureGhosting(seen, recipe, {}, ofFile, ofThis));
+            } catch (const std::invalid_argument& error) {
+              throw Error(file.string() + ": " + error.what());
+            }
           }
         }
       };
@@ -150,7 +190,9 @@ int ghostsCommand(const Words& words) {
            "touches them. A CSV row\nfor each filter that might help and each preset; with "
            "--filter or --recipe for this chain alone.\n\n"
            "Of recordings: nothing touches anything in them; that is for you to know (it holds for "
-           "recordings of\nthe noise floor). Without PATH: an emulated hand with the noise of the "
+           "recordings of\nthe noise floor). With --below, recordings at threshold 0: what "
+           "thresholds at the noise floor (less\nCOUNTS) leave of them. Without PATH: an emulated "
+           "hand with the noise of the "
            "real one at sensitivity 1, thresholds\nat the noise floor (docs/ghosting.md) and below "
            "it; contacts of five sizes come, hold and go, and it is known\nwhich taxels the same "
            "sensor would report without noise.\n\n"
@@ -163,7 +205,9 @@ int ghostsCommand(const Words& words) {
            "mean time of the chain per frame.",
        .options = withFilterOptions(
            {{"deg", "DEGC", "emulated: temperature of the hand, default 30 and 45; several times"},
-            {"below", "COUNTS", "emulated: thresholds so far below the noise floor; several times"},
+            {"below",
+             "COUNTS",
+             "thresholds so far below the noise floor, emulated 0, 2, 3 and 5; several times"},
             {"frames", "N", "emulated: frames, default 3000"},
             {"seed", "N", "emulated: of noise and contacts, default 1"},
             {"above", "COUNTS", "a filtered value above it is active, default 0"},

@@ -37,7 +37,9 @@ constexpr const char* kCandidates[] = {
     "median3d:size=1,window=5,masked=1",
     "temporal-min:window=2 | median:masked=1",
     "median:masked=1 | temporal-min:window=2",
-    "temporal-min:window=2 | opening:shape=cross,masked=1",
+    "min-median:window=2,size=1,masked=1 | opening:shape=cross,masked=1",
+    "min-median:window=3,size=1,masked=1 | opening:shape=cross,masked=1",
+    "min-median:window=2,size=1,masked=1 | median:masked=1",
     "median3d:masked=1 | temporal-min:window=2",
 };
 
@@ -142,12 +144,8 @@ std::vector<Recipe> ghostCandidates() {
 
 std::vector<std::string> ghostHeader(bool emulated) {
   std::vector<std::string> header = {"recipe"};
-  if (emulated) {
-    header.insert(header.end(), {"deg_c", "below_counts"});
-  } else {
-    header.emplace_back("file");
-  }
-  header.emplace_back("frames");
+  header.emplace_back(emulated ? "deg_c" : "file");
+  header.insert(header.end(), {"below_counts", "frames"});
   for (const Figure& figure : figuresOf({}, {}, emulated)) header.push_back(figure.name);
   header.insert(header.end(), {"causal", "latency_frames", "cost_us"});
   return header;
@@ -158,12 +156,8 @@ std::vector<std::string> ghostCells(const Recipe& recipe,
                                     const GhostingReport& report,
                                     bool emulated) {
   std::vector<std::string> cells = {recipeText(recipe)};
-  if (emulated) {
-    cells.push_back(numberText(source.degC));
-    cells.push_back(numberText(source.belowCounts));
-  } else {
-    cells.push_back(source.file);
-  }
+  cells.push_back(emulated ? numberText(source.degC) : source.file);
+  cells.push_back(source.belowCounts ? numberText(*source.belowCounts) : "");
   cells.push_back(std::to_string(report.frames));
   for (const Figure& figure : figuresOf(source, report, emulated))
     cells.push_back(std::isnan(figure.value) ? "" : fixedText(figure.value, figure.decimals));
@@ -178,12 +172,12 @@ Json ghostJson(const Recipe& recipe,
                const GhostingReport& report,
                bool emulated) {
   Json json = Json::object().set("recipe", recipeText(recipe)).set("name", recipe.name);
-  if (emulated) {
-    json.set("deg_c", source.degC).set("below_counts", source.belowCounts);
-  } else {
+  if (emulated)
+    json.set("deg_c", source.degC);
+  else
     json.set("file", source.file);
-  }
-  json.set("frames", report.frames);
+  json.set("below_counts", source.belowCounts ? Json(*source.belowCounts) : Json())
+      .set("frames", report.frames);
   for (const Figure& figure : figuresOf(source, report, emulated))
     json.set(figure.name, figure.value);
   json.set("causal", recipe.causal())

@@ -14,8 +14,9 @@ namespace palpate::commands {
 // Where frames come from: a file, or the emulated hand.
 struct GhostSource {
   std::string file = {};
-  double degC = 0.0;         // emulated
-  double belowCounts = 0.0;  // emulated: counts under the threshold of the methods
+  double degC = 0.0;  // emulated
+  // Counts under the noise floor's thresholds; nothing: a recording as it is.
+  std::optional<double> belowCounts = {};
   std::vector<NoisyContact> contacts = {};
 };
 
