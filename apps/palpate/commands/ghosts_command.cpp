@@ -216,7 +216,8 @@ int ghostsCommand(const Words& words) {
       words);
   if (given.helpShown()) return kDone;
   const Recipe own = recipeOf(given);
-  const std::vector<Recipe> recipes = own.steps.empty() ? ghostCandidates() : std::vector{own};
+  const std::vector<Recipe> recipes =
+      given.has("filter") || given.has("recipe") ? std::vector{own} : ghostCandidates();
   GhostingOptions options;
   options.activeAboveCounts = given.number("above", 0.0, 4095.0).value_or(0.0);
   return given.words().empty() ? emulated(given, recipes, options)
