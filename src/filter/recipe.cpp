@@ -57,7 +57,8 @@ FilterStep stepFromJson(const Json& json) {
   filterKind(text);
   char before = ':';
   for (const std::string& key : json.keys()) {
-    if (std::find(std::begin(kNoOptions), std::end(kNoOptions), key) != std::end(kNoOptions)) continue;
+    if (std::find(std::begin(kNoOptions), std::end(kNoOptions), key) != std::end(kNoOptions))
+      continue;
     const std::string value = valueText(json.at(key));
     if (key.find_first_of(",=") != std::string::npos || value.find(',') != std::string::npos)
       throw std::invalid_argument("\"" + key + "\": a comma or = has no place there");
@@ -94,8 +95,8 @@ std::string stepNumber(std::size_t index) { return "step " + std::to_string(inde
 
 void Recipe::validate() const {
   if (steps.size() > kMostSteps)
-    throw std::invalid_argument("a recipe of " + std::to_string(steps.size()) +
-                                " steps: at most " + std::to_string(kMostSteps));
+    throw std::invalid_argument("a recipe of " + std::to_string(steps.size()) + " steps: at most " +
+                                std::to_string(kMostSteps));
   for (std::size_t i = 0; i < steps.size(); ++i) {
     try {
       steps[i].validate();
@@ -106,7 +107,8 @@ void Recipe::validate() const {
 }
 
 bool Recipe::empty() const noexcept {
-  return std::none_of(steps.begin(), steps.end(), [](const FilterStep& step) { return step.enabled; });
+  return std::none_of(
+      steps.begin(), steps.end(), [](const FilterStep& step) { return step.enabled; });
 }
 
 bool Recipe::causal() const {
@@ -179,7 +181,9 @@ Recipe recipeFromJson(const Json& json) {
 
 std::span<const Recipe> recipePresets() {
   static const std::array kPresets = {
-      preset("High sensitivity", {"min-median:window=3,size=3,masked=1"}),
+      preset("High sensitivity", {"min-median:window=2,size=1,masked=1"}),
+      preset("Thresholds too low",
+             {"min-median:window=2,size=1,masked=1", "opening:shape=cross,masked=1"}),
       preset("Ghosts, the study's choice", {"median3d:size=3,window=3,masked=1"}),
       preset("Lone taxels", {"median:size=3,masked=1"}),
       preset("Smooth in space", {"gaussian:size=3"}),

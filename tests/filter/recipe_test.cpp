@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/filter/filter_chain.h"
 
 #include "testing/testing.h"
 
@@ -100,7 +101,9 @@ TEST(Recipe, PresetsAreSoundAndTheFirstRunsLive) {
     EXPECT_FALSE(preset.name.empty());
     EXPECT_FALSE(preset.empty()) << preset.name;
   }
+  // What docs/ghosting.md says of it: live, a frame late.
   EXPECT_TRUE(highSensitivityRecipe().causal());
+  EXPECT_EQ(latencyFrames(highSensitivityRecipe()), 1);
 }
 
 }  // namespace

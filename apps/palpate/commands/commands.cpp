@@ -127,6 +127,7 @@ const std::vector<Command>& allCommands() {
       {"demo", "a headless tour: reads, reports and draws a recording", &demoCommand},
       {"emulate", "the emulated hand on two ports, until it is interrupted", &emulateCommand},
       {"filter", "a recording through a chain of filters, as a recording", &filterCommand},
+      {"ghosts", "false taxels, and what filters do to them and to contacts", &ghostsCommand},
       {"grasp", "moves a connected hand: plain and reactive grasps", &graspCommand},
       {"grasps", "where the grasps in recordings are, as CSV", &graspsCommand},
       {"info", "what is in a recording, or in each of a folder", &infoCommand},

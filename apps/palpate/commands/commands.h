@@ -28,6 +28,7 @@ int convertCommand(const Words& words);
 int demoCommand(const Words& words);
 int emulateCommand(const Words& words);
 int filterCommand(const Words& words);
+int ghostsCommand(const Words& words);
 int graspCommand(const Words& words);
 int graspsCommand(const Words& words);
 int infoCommand(const Words& words);

@@ -45,7 +45,7 @@ Recipe readRecipe(const std::filesystem::path& path);
 // The file appears whole or not at all. Throws FileError.
 void writeRecipe(const std::filesystem::path& path, const Recipe& recipe, bool overwrite);
 
-// What is offered ready-made, the best against ghosts first.
+// What is offered ready-made; first what is for high sensitivity.
 std::span<const Recipe> recipePresets();
 // What cleans the frames of a hand at high sensitivity: chosen from the table in docs/ghosting.md.
 const Recipe& highSensitivityRecipe();
