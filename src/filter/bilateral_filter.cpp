@@ -40,8 +40,9 @@ class BilateralKernel final : public MatrixKernel {
         for (const Neighbor& neighbor : neighbors_) {
           const Lanes value = load(at + neighbor.step);
           const Lanes difference = value - own;
-          const Lanes weight = load(on + neighbor.step) *
-                               expOf(difference * difference * all(valueFactor_) + all(neighbor.exponent));
+          const Lanes weight =
+              load(on + neighbor.step) *
+              expOf(difference * difference * all(valueFactor_) + all(neighbor.exponent));
           sum = sum + weight * value;
           total = total + weight;
         }
@@ -66,10 +67,8 @@ class BilateralKernel final : public MatrixKernel {
 }  // namespace
 
 std::unique_ptr<MatrixKernel> bilateralKernel(const MatrixLayout& layout, const FilterStep& step) {
-  return std::make_unique<BilateralKernel>(layout,
-                                           step.integer("diameter"),
-                                           step.value("sigma_value"),
-                                           step.value("sigma_space"));
+  return std::make_unique<BilateralKernel>(
+      layout, step.integer("diameter"), step.value("sigma_value"), step.value("sigma_space"));
 }
 
 }  // namespace palpate::detail

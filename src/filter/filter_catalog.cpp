@@ -19,11 +19,8 @@ const char* const kSpatialBorder =
 const char* const kShrinks =
     "the window holds the frames there are: shorter after the first frame and after a gap";
 
-FilterOption odd(const char* key,
-                 double maximum,
-                 double fallback,
-                 const char* unit,
-                 const char* purpose) {
+FilterOption odd(
+    const char* key, double maximum, double fallback, const char* unit, const char* purpose) {
   return {key, unit, Kind::kOdd, 1, maximum, fallback, {}, purpose};
 }
 FilterOption size(double fallback = 3) {
@@ -84,7 +81,8 @@ std::vector<FilterKind> spatialKinds() {
        FilterDomain::kSpatial,
        {size(), masked()},
        "Middle value of the neighbours: removes lone taxels, keeps edges.",
-       "the taxel at the border is repeated; masked taxels are neither read nor written (of an even "
+       "the taxel at the border is repeated; masked taxels are neither read nor written (of an "
+       "even "
        "number the lower middle value)",
        "study 2.3"},
       {"bilateral",
@@ -142,7 +140,8 @@ std::vector<FilterKind> temporalKinds() {
        "Temporal Gaussian",
        FilterDomain::kTemporal,
        {window(5),
-        real("sigma", 0.01, 1000, 1.5, "frames", "width; causal: of the half that lies in the past"),
+        real(
+            "sigma", 0.01, 1000, 1.5, "frames", "width; causal: of the half that lies in the past"),
         centred()},
        "Weighted mean of the last frames, the newest the most.",
        kShrinks,
@@ -175,8 +174,14 @@ std::vector<FilterKind> temporalKinds() {
        FilterDomain::kTemporal,
        {real("m", 1e-9, 1e9, kAutomatic, "force s^2/count", "mass; left out: 1"),
         real("e", 0, 1e9, kAutomatic, "force/count", "spring; left out: found in the recording"),
-        real("eta", 0, 1e9, kAutomatic, "force s/count", "damper; left out: found in the recording"),
-        real("q", 1e-12, 1e18, kAutomatic, "force^2 s", "noise of the force; left out: found in the recording"),
+        real(
+            "eta", 0, 1e9, kAutomatic, "force s/count", "damper; left out: found in the recording"),
+        real("q",
+             1e-12,
+             1e18,
+             kAutomatic,
+             "force^2 s",
+             "noise of the force; left out: found in the recording"),
         real("r", 1e-9, 1e9, kAutomatic, "counts^2", "noise; left out: found in the recording"),
         {"centred",
          "",

@@ -7,8 +7,8 @@
 namespace palpate {
 namespace {
 
-constexpr int kPlaces = 9;          // rows and columns of the matrix that is tried
-constexpr float kLoad = 1000.0F;    // counts
+constexpr int kPlaces = 9;        // rows and columns of the matrix that is tried
+constexpr float kLoad = 1000.0F;  // counts
 constexpr int kMostFrames = 4096;
 constexpr double kForgotten = 1e-9;
 constexpr std::int64_t kIntervalUs = 30'000;

@@ -55,14 +55,16 @@ std::string rangeOf(const FilterOption& option) {
   return "a number " + range;
 }
 
-[[noreturn]] void refuse(const FilterStep& step, const FilterOption& option, const std::string& is) {
+[[noreturn]] void refuse(const FilterStep& step,
+                         const FilterOption& option,
+                         const std::string& is) {
   throw std::invalid_argument(step.name + ": " + option.key + " must be " + rangeOf(option) +
                               ", is " + is);
 }
 
 std::string unknownKey(const FilterKind& kind, std::string_view key) {
-  return kind.name + ": unknown key \"" + std::string(key) +
-         "\"; there are: " + kind.optionKeys() + ", " + kMatrices;
+  return kind.name + ": unknown key \"" + std::string(key) + "\"; there are: " + kind.optionKeys() +
+         ", " + kMatrices;
 }
 
 bool fits(const FilterOption& option, double value) {
@@ -77,7 +79,8 @@ std::vector<std::size_t> parseMatrices(const FilterStep& step, std::string_view 
   for (const std::string_view part : split(text, '+')) {
     const auto index = parseInteger(part);
     if (!index || *index < 0 || *index >= static_cast<std::int64_t>(kMostMatrices))
-      throw std::invalid_argument(step.name + ": matrices must be numbers joined by +, as 1+3, is \"" +
+      throw std::invalid_argument(step.name +
+                                  ": matrices must be numbers joined by +, as 1+3, is \"" +
                                   std::string(text) + "\"");
     matrices.push_back(static_cast<std::size_t>(*index));
   }

@@ -39,7 +39,8 @@ class Cursor final : public FrameSink {
 
   // The next filtered frame up to `last`; nothing where there is none. What can't be read is passed by, but for
   // `wanted`: that throws.
-  std::optional<std::pair<std::size_t, TactileFrame>> advance(std::size_t last, std::size_t wanted) {
+  std::optional<std::pair<std::size_t, TactileFrame>> advance(std::size_t last,
+                                                              std::size_t wanted) {
     while (out_.empty() && next_ <= last) push(wanted);
     if (out_.empty()) return std::nullopt;
     Filtered filtered = std::move(out_.front());
@@ -64,7 +65,8 @@ class Cursor final : public FrameSink {
       return;
     }
     const auto restart = std::upper_bound(restartsUs_.begin(), restartsUs_.end(), frame.hostUs);
-    if (lastUs_ && restart != restartsUs_.begin() && *std::prev(restart) > *lastUs_) chain_.restart();
+    if (lastUs_ && restart != restartsUs_.begin() && *std::prev(restart) > *lastUs_)
+      chain_.restart();
     lastUs_ = frame.hostUs;
     pushed_.push_back(index);
     chain_.push(frame);
@@ -87,7 +89,9 @@ class BesideFrames : public ProfileStorage {
   std::size_t numFrames() const override { return source_.numFrames(); }
   std::int64_t frameTimeUs(std::size_t frame) const override { return source_.frameTimeUs(frame); }
   std::size_t numAngles() const override { return source_.numAngles(); }
-  std::int64_t angleTimeUs(std::size_t sample) const override { return source_.angleTimeUs(sample); }
+  std::int64_t angleTimeUs(std::size_t sample) const override {
+    return source_.angleTimeUs(sample);
+  }
   JointAngles angles(std::size_t sample) const override { return source_.angles(sample); }
   std::size_t numTemperatures() const override { return source_.numTemperatures(); }
   std::int64_t temperatureTimeUs(std::size_t sample) const override {
@@ -151,8 +155,8 @@ class FilteredFrames final : public BesideFrames {
       const std::size_t at = reader.cursor->position();
       if (at <= frame && frame - at <= memory_) return reader;
     }
-    Reader& reader = *std::min_element(
-        readers_.begin(), readers_.end(), [](const Reader& a, const Reader& b) {
+    Reader& reader =
+        *std::min_element(readers_.begin(), readers_.end(), [](const Reader& a, const Reader& b) {
           return a.usedAt < b.usedAt;
         });
     reader.last.reset();
@@ -195,7 +199,8 @@ Profile filteredProfile(const Profile& source,
                         const Progress& progress) {
   recipe.validate();
   for (const FilterStep& step : recipe.steps)
-    if (step.enabled) makeFrameFilter(step, source.hand().layout);  // throws for a matrix that isn't there
+    if (step.enabled)
+      makeFrameFilter(step, source.hand().layout);  // throws for a matrix that isn't there
   if (recipe.empty()) return source;
   ProfileInfo info = source.info();
   info.valueType = ValueType::kFloat;

@@ -39,8 +39,7 @@ std::unique_ptr<FrameFilter> makeFrameFilter(const FilterStep& step,
       break;
   }
   const bool smoother = step.name == "rts" || step.name == "kalman" || step.name == "kelvin-voigt";
-  if (smoother && !step.causal())
-    return detail::stretchFilter(step, std::move(layout));
+  if (smoother && !step.causal()) return detail::stretchFilter(step, std::move(layout));
   return detail::temporalFilter(step, std::move(layout));
 }
 

@@ -48,7 +48,8 @@ class Median3x3 final : public MatrixKernel {
       for (int block = 0; block < widerBlocks(padded_.columns()); ++block) {
         const int i = padded_.at(y, -1 + block * kFour);
         const float* from = padded_.data() + i;
-        const SortedTriple column = sorted(loadFour(from - stride), loadFour(from), loadFour(from + stride));
+        const SortedTriple column =
+            sorted(loadFour(from - stride), loadFour(from), loadFour(from + stride));
         store(low_.data() + i, column.low);
         store(mid_.data() + i, column.mid);
         store(high_.data() + i, column.high);
@@ -174,7 +175,8 @@ class Median3x3x3 final : public FramesMedian {
   }
   Nine column(int i) const {
     Nine lanes;
-    for (std::size_t rank = 0; rank < lanes.size(); ++rank) lanes[rank] = loadFour(ranks_[rank].data() + i);
+    for (std::size_t rank = 0; rank < lanes.size(); ++rank)
+      lanes[rank] = loadFour(ranks_[rank].data() + i);
     return lanes;
   }
   void besideMasked() {

@@ -12,7 +12,9 @@ constexpr int kWindow = 3;
 
 MedianNeighbors::MedianNeighbors(const PaddedMatrix& padded, int depth) {
   const std::vector<float> on = padded.onPlane();
-  const auto isOn = [&](int y, int x) { return on[static_cast<std::size_t>(padded.at(y, x))] > 0.0F; };
+  const auto isOn = [&](int y, int x) {
+    return on[static_cast<std::size_t>(padded.at(y, x))] > 0.0F;
+  };
   struct Place {
     int y;
     int x;

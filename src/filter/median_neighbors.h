@@ -27,8 +27,8 @@ class MedianNeighbors {
 
  private:
   struct Copy {
-    std::size_t to;      // in gathered_
-    std::size_t from;    // in the padded matrix
+    std::size_t to;    // in gathered_
+    std::size_t from;  // in the padded matrix
     std::size_t plane;
   };
   std::vector<std::size_t> taxels_;  // padded index

@@ -41,10 +41,10 @@ inline void exchange(std::array<FourLanes, N>& v, std::index_sequence<kIndex...>
 
 using Pairs25 = std::array<std::array<std::size_t, 2>, 25>;
 // The shortest network known for nine, 7 deep.
-inline constexpr Pairs25 kSortNine = {
-    {{0, 3}, {1, 7}, {2, 5}, {4, 8}, {0, 7}, {2, 4}, {3, 8}, {5, 6}, {0, 2},
-     {1, 3}, {4, 5}, {7, 8}, {1, 4}, {3, 6}, {5, 7}, {0, 1}, {2, 4}, {3, 5},
-     {6, 8}, {2, 3}, {4, 5}, {6, 7}, {1, 2}, {3, 4}, {5, 6}}};
+inline constexpr Pairs25 kSortNine = {{{0, 3}, {1, 7}, {2, 5}, {4, 8}, {0, 7}, {2, 4}, {3, 8},
+                                       {5, 6}, {0, 2}, {1, 3}, {4, 5}, {7, 8}, {1, 4}, {3, 6},
+                                       {5, 7}, {0, 1}, {2, 4}, {3, 5}, {6, 8}, {2, 3}, {4, 5},
+                                       {6, 7}, {1, 2}, {3, 4}, {5, 6}}};
 using Pairs9 = std::array<std::array<std::size_t, 2>, 9>;
 // Two runs of four in order to one of eight (Batcher).
 inline constexpr Pairs9 kMergeFours = {
@@ -56,8 +56,9 @@ inline void sort(Nine& v) { exchange<kSortNine>(v, std::make_index_sequence<25>(
 // order; then 7 of the 27 are surely too small and 7 too large. Of the others the 7th of 13 is wanted: four of the
 // lowest of a rank, five of the middle ones, four of the highest.
 inline FourLanes median27(const Nine& a, const Nine& b, const Nine& c) {
-  std::array<FourLanes, 8> outer;  // two runs of four in order: highest of ranks 0..3, lowest of 5..8
-  std::array<FourLanes, 5> mids;   // of ranks 2..6
+  std::array<FourLanes, 8>
+      outer;  // two runs of four in order: highest of ranks 0..3, lowest of 5..8
+  std::array<FourLanes, 5> mids;  // of ranks 2..6
   for (std::size_t i = 0; i < 4; ++i) outer[i] = most(most(a[i], b[i]), c[i]);
   for (std::size_t i = 0; i < 4; ++i) outer[i + 4] = least(least(a[i + 5], b[i + 5]), c[i + 5]);
   for (std::size_t i = 0; i < 5; ++i) mids[i] = middle(a[i + 2], b[i + 2], c[i + 2]);

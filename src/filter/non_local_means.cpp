@@ -39,9 +39,8 @@ class NonLocalMeansKernel final : public MatrixKernel {
         store(total_.data() + i, load(total_.data() + i) + weight);
       });
     }
-    eachBlock([&](int i) {
-      store(sum_.data() + i, load(sum_.data() + i) / load(total_.data() + i));
-    });
+    eachBlock(
+        [&](int i) { store(sum_.data() + i, load(sum_.data() + i) / load(total_.data() + i)); });
     padded_.writeBack(sum_, values);
   }
 
@@ -104,7 +103,8 @@ class NonLocalMeansKernel final : public MatrixKernel {
 
 }  // namespace
 
-std::unique_ptr<MatrixKernel> nonLocalMeansKernel(const MatrixLayout& layout, const FilterStep& step) {
+std::unique_ptr<MatrixKernel> nonLocalMeansKernel(const MatrixLayout& layout,
+                                                  const FilterStep& step) {
   return std::make_unique<NonLocalMeansKernel>(
       layout, step.integer("patch"), step.integer("search"), step.value("h"));
 }

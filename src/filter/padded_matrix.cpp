@@ -30,8 +30,8 @@ PaddedMatrix::PaddedMatrix(const MatrixLayout& layout, int radius)
   for (int y = 0; y < layout.rows; ++y)
     for (int x = 0; x < layout.columns; ++x)
       if (!layout.enabled(y, x))
-        masked_.push_back({static_cast<std::size_t>(at(y, x)),
-                           static_cast<std::size_t>(y * layout.columns + x)});
+        masked_.push_back(
+            {static_cast<std::size_t>(at(y, x)), static_cast<std::size_t>(y * layout.columns + x)});
 }
 
 void PaddedMatrix::fill(const float* values, float maskedValue) {

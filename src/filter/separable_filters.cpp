@@ -2,10 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palpate/filter/gaussian.h"
+
 #include "filter/lanes.h"
 #include "filter/padded_matrix.h"
 #include "filter/spatial_filter.h"
-#include "palpate/filter/gaussian.h"
 
 namespace palpate::detail {
 namespace {
@@ -52,8 +53,7 @@ class SeparableKernel final : public MatrixKernel {
     for (int y = 0; y < padded_.rows(); ++y) {
       for (int x = 0; x < padded_.columns(); x += kLanes) {
         const int i = padded_.at(y, x);
-        store(out + i,
-              weighted(alongX_.data() + i - radius * padded_.stride(), padded_.stride()));
+        store(out + i, weighted(alongX_.data() + i - radius * padded_.stride(), padded_.stride()));
       }
     }
   }

@@ -42,7 +42,8 @@ std::unique_ptr<MatrixKernel> boxKernel(const MatrixLayout& layout, const Filter
 std::unique_ptr<MatrixKernel> gaussianKernel(const MatrixLayout& layout, const FilterStep& step);
 std::unique_ptr<MatrixKernel> medianKernel(const MatrixLayout& layout, int size);
 std::unique_ptr<MatrixKernel> bilateralKernel(const MatrixLayout& layout, const FilterStep& step);
-std::unique_ptr<MatrixKernel> nonLocalMeansKernel(const MatrixLayout& layout, const FilterStep& step);
+std::unique_ptr<MatrixKernel> nonLocalMeansKernel(const MatrixLayout& layout,
+                                                  const FilterStep& step);
 std::unique_ptr<MatrixKernel> openingKernel(const MatrixLayout& layout, const FilterStep& step);
 
 // Whether a step works on a matrix.

@@ -64,8 +64,8 @@ class MinMedian final : public WindowedFilter {
         places_(placesOf(step, *layout_)),
         lowest_(layout_->numPlaces(), 0.0F) {
     for (std::size_t m = 0; m < layout_->numMatrices(); ++m)
-      medians_.push_back(
-          worksOn(step, m) ? medianKernel(layout_->matrix(m), step.integer("size")) : nullptr);
+      medians_.push_back(worksOn(step, m) ? medianKernel(layout_->matrix(m), step.integer("size"))
+                                          : nullptr);
   }
 
  protected:
@@ -78,8 +78,10 @@ class MinMedian final : public WindowedFilter {
       if (medians_[m] && !allZero(of, layout_->matrix(m).numPlaces())) medians_[m]->apply(of);
     }
     for (const std::size_t place : places_) {
-      if (!masked_) values[place] = lowest_[place];
-      else if (!(lowest_[place] > 0.0F)) values[place] = 0.0F;
+      if (!masked_)
+        values[place] = lowest_[place];
+      else if (!(lowest_[place] > 0.0F))
+        values[place] = 0.0F;
     }
   }
 

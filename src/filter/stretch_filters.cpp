@@ -5,11 +5,12 @@
 #include <span>
 #include <string>
 
-#include "filter/spatial_filter.h"
-#include "filter/temporal_filters.h"
 #include "palpate/core/error.h"
 #include "palpate/filter/kalman.h"
 #include "palpate/filter/kelvin_voigt_estimation.h"
+
+#include "filter/spatial_filter.h"
+#include "filter/temporal_filters.h"
 
 namespace palpate::detail {
 namespace {

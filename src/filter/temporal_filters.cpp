@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "filter/spatial_filter.h"
-#include "filter/windowed_filter.h"
 #include "palpate/filter/kelvin_voigt.h"
 #include "palpate/filter/savitzky_golay.h"
+
+#include "filter/spatial_filter.h"
+#include "filter/windowed_filter.h"
 
 namespace palpate::detail {
 namespace {

@@ -55,8 +55,7 @@ void WindowedFilter::finish(FrameSink& out) {
     const std::size_t last = first_ + frames_.size() - 1;
     while (next_ <= last) {
       std::size_t from = next_ > radius ? next_ - radius : 0;
-      if (edge_ == Edge::kShift)
-        from = std::min(from, last + 1 > window_ ? last + 1 - window_ : 0);
+      if (edge_ == Edge::kShift) from = std::min(from, last + 1 > window_ ? last + 1 - window_ : 0);
       const std::size_t to = edge_ == Edge::kShift ? std::min(last, from + window_ - 1)
                                                    : std::min(last, next_ + radius);
       emitNext(from, to, out);

@@ -21,7 +21,9 @@ class WindowedFilter : public FrameFilter {
   WindowedFilter(int window, bool centred, Edge edge);
   // `window`: the values of the frames, oldest first; `current`: which of them is filtered. `values` has that
   // frame's own and takes the filtered ones.
-  virtual void compute(std::span<const float* const> window, std::size_t current, float* values) = 0;
+  virtual void compute(std::span<const float* const> window,
+                       std::size_t current,
+                       float* values) = 0;
   virtual void forget() {}  // a new stretch begins
 
  private:

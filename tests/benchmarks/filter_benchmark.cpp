@@ -46,8 +46,8 @@ void filterHand(benchmark::State& state, const char* text) {
     frame.hostUs = stampUs += 4348;
     chain.push(frame);
   }
-  state.counters["% of a core at 230/s"] =
-      benchmark::Counter(230.0 * 100.0, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["% of a core at 230/s"] = benchmark::Counter(
+      230.0 * 100.0, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 enum class Reference { kMedian, kGaussian, kBilateral };

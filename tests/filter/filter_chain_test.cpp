@@ -16,7 +16,9 @@ class Collector final : public FrameSink {
   std::vector<TactileFrame> frames;
 };
 
-std::vector<TactileFrame> randomFrames(std::size_t count, unsigned seed, std::int64_t intervalUs = 31'000) {
+std::vector<TactileFrame> randomFrames(std::size_t count,
+                                       unsigned seed,
+                                       std::int64_t intervalUs = 31'000) {
   std::mt19937 random(seed);
   std::vector<TactileFrame> frames(count, TactileFrame(sdh2().layout));
   std::int64_t us = 1'700'000'000'000'000;
@@ -41,7 +43,9 @@ std::vector<TactileFrame> through(const std::string& recipe, std::vector<Tactile
   return out.frames;
 }
 
-void expectSame(const std::vector<TactileFrame>& a, const std::vector<TactileFrame>& b, const std::string& what) {
+void expectSame(const std::vector<TactileFrame>& a,
+                const std::vector<TactileFrame>& b,
+                const std::string& what) {
   ASSERT_EQ(a.size(), b.size()) << what;
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(a[i].hostUs, b[i].hostUs) << what << " " << i;
@@ -49,10 +53,22 @@ void expectSame(const std::vector<TactileFrame>& a, const std::vector<TactileFra
   }
 }
 
-const char* const kCausal[] = {"box", "gaussian", "median", "median:size=5", "bilateral", "nlm",
-                               "opening", "running-mean", "temporal-gaussian", "temporal-min",
-                               "kalman", "kelvin-voigt:m=1,e=400,eta=40,q=1e8,r=1", "median3d",
-                               "min-median", "savitzky-golay", "median | kalman | savitzky-golay:derivative=1"};
+const char* const kCausal[] = {"box",
+                               "gaussian",
+                               "median",
+                               "median:size=5",
+                               "bilateral",
+                               "nlm",
+                               "opening",
+                               "running-mean",
+                               "temporal-gaussian",
+                               "temporal-min",
+                               "kalman",
+                               "kelvin-voigt:m=1,e=400,eta=40,q=1e8,r=1",
+                               "median3d",
+                               "min-median",
+                               "savitzky-golay",
+                               "median | kalman | savitzky-golay:derivative=1"};
 
 TEST(FilterChain, CausalFiltersNeverChangeThePast) {
   const auto frames = randomFrames(40, 1);
@@ -81,13 +97,17 @@ TEST(FilterChain, CausalFiltersNeverChangeThePast) {
 
 TEST(FilterChain, StepsFollowEachOther) {
   const auto frames = randomFrames(20, 3);
-  expectSame(through("median | kalman", frames), through("kalman", through("median", frames)), "two");
-  expectSame(through("median | (kalman) | box", frames), through("box", through("median", frames)), "one is off");
+  expectSame(
+      through("median | kalman", frames), through("kalman", through("median", frames)), "two");
+  expectSame(through("median | (kalman) | box", frames),
+             through("box", through("median", frames)),
+             "one is off");
   expectSame(through("(median)", frames), frames, "none is on");
   const std::string offline = "running-mean:centred=1 | rts | median3d:centred=1";
-  expectSame(through(offline, frames),
-             through("median3d:centred=1", through("rts", through("running-mean:centred=1", frames))),
-             "offline");
+  expectSame(
+      through(offline, frames),
+      through("median3d:centred=1", through("rts", through("running-mean:centred=1", frames))),
+      "offline");
 }
 
 TEST(FilterChain, TimeStartsAnewAfterAGap) {
@@ -96,8 +116,15 @@ TEST(FilterChain, TimeStartsAnewAfterAGap) {
   for (TactileFrame& frame : second) frame.hostUs = frame.hostUs + 147'000'000;  // 147 s later
   auto both = first;
   both.insert(both.end(), second.begin(), second.end());
-  for (const char* text : {"running-mean", "running-mean:centred=1", "temporal-min", "kalman", "rts",
-                           "median3d", "median3d:centred=1", "min-median", "savitzky-golay:centred=1",
+  for (const char* text : {"running-mean",
+                           "running-mean:centred=1",
+                           "temporal-min",
+                           "kalman",
+                           "rts",
+                           "median3d",
+                           "median3d:centred=1",
+                           "min-median",
+                           "savitzky-golay:centred=1",
                            "kelvin-voigt:m=1,e=400,eta=40,q=1e8,r=1"}) {
     auto expected = through(text, first);
     const auto rest = through(text, second);
@@ -168,9 +195,9 @@ TEST(FilterLatency, CountsFramesUntilHalfOfAStepIsThere) {
   const std::pair<const char*, int> cases[] = {
       {"gaussian", 0},
       {"median", 0},
-      {"running-mean", 2},            // three of five
-      {"running-mean:window=9", 4},   // five of nine
-      {"temporal-min", 2},            // all three
+      {"running-mean", 2},           // three of five
+      {"running-mean:window=9", 4},  // five of nine
+      {"temporal-min", 2},           // all three
       {"temporal-min:window=2", 1},
       {"min-median", 2},
       {"median3d", 1},                // two of three

@@ -28,11 +28,20 @@ TEST(FilterStep, TheShortestTextSaysNoDefaults) {
 }
 
 TEST(FilterStep, KnowsWhatIsCausal) {
-  for (const char* text : {"median", "kalman", "running-mean", "median3d", "min-median",
-                           "savitzky-golay", "kelvin-voigt:m=1,e=2,eta=3,q=4,r=5"})
+  for (const char* text : {"median",
+                           "kalman",
+                           "running-mean",
+                           "median3d",
+                           "min-median",
+                           "savitzky-golay",
+                           "kelvin-voigt:m=1,e=2,eta=3,q=4,r=5"})
     EXPECT_TRUE(parseFilterStep(text).causal()) << text;
-  for (const char* text : {"rts", "kalman:centred=1", "running-mean:centred=1", "median3d:centred=1",
-                           "kelvin-voigt", "kelvin-voigt:m=1,e=2,eta=3"})
+  for (const char* text : {"rts",
+                           "kalman:centred=1",
+                           "running-mean:centred=1",
+                           "median3d:centred=1",
+                           "kelvin-voigt",
+                           "kelvin-voigt:m=1,e=2,eta=3"})
     EXPECT_FALSE(parseFilterStep(text).causal()) << text;
 }
 
@@ -56,38 +65,37 @@ TEST_P(BadFilterText, IsRefusedWithWhatWouldBeRight) {
 INSTANTIATE_TEST_SUITE_P(
     Texts,
     BadFilterText,
-    ::testing::Values(
-        Bad{"", "there are: box, gaussian"},
-        Bad{"sharpen", "unknown filter \"sharpen\"; there are: box, gaussian"},
-        Bad{"median3D", "unknown filter"},
-        Bad{"median:radius=1", "unknown key \"radius\"; there are: size, masked"},
-        Bad{"median:size", "is no KEY=VALUE"},
-        Bad{"median:", "is no KEY=VALUE"},
-        Bad{"median:size=3,size=5", "given twice"},
-        Bad{"median:size=4", "size must be an odd number 1..31 taxels, is \"4\""},
-        Bad{"median:size=-3", "odd number"},
-        Bad{"median:size=33", "odd number"},
-        Bad{"median:size=3.5", "odd number"},
-        Bad{"median:size=big", "odd number"},
-        Bad{"median:size=nan", "odd number"},
-        Bad{"median:masked=2", "0 or 1"},
-        Bad{"gaussian:sigma=-1", "sigma must be a number 0.01..100 taxels"},
-        Bad{"gaussian:sigma=0", "sigma must be a number"},
-        Bad{"gaussian:sigma=inf", "sigma must be a number"},
-        Bad{"bilateral:sigma_value=-5", "sigma_value must be"},
-        Bad{"opening:shape=star", "one of cross, rectangle, ellipse"},
-        Bad{"running-mean:window=4", "odd"},
-        Bad{"running-mean:window=0", "odd"},
-        Bad{"temporal-min:window=4,centred=1", "window must be odd with centred=1"},
-        Bad{"savitzky-golay:window=6", "odd"},
-        Bad{"savitzky-golay:window=5,order=5", "order must be below the window of 5"},
-        Bad{"savitzky-golay:window=5,order=1,derivative=2", "derivative 2"},
-        Bad{"savitzky-golay:derivative=3", "0..2"},
-        Bad{"kalman:r=0", "r must be"},
-        Bad{"kalman:q=-1", "q must be"},
-        Bad{"median:matrices=", "joined by +"},
-        Bad{"median:matrices=1-3", "joined by +"},
-        Bad{"median:matrices=-1", "joined by +"}));
+    ::testing::Values(Bad{"", "there are: box, gaussian"},
+                      Bad{"sharpen", "unknown filter \"sharpen\"; there are: box, gaussian"},
+                      Bad{"median3D", "unknown filter"},
+                      Bad{"median:radius=1", "unknown key \"radius\"; there are: size, masked"},
+                      Bad{"median:size", "is no KEY=VALUE"},
+                      Bad{"median:", "is no KEY=VALUE"},
+                      Bad{"median:size=3,size=5", "given twice"},
+                      Bad{"median:size=4", "size must be an odd number 1..31 taxels, is \"4\""},
+                      Bad{"median:size=-3", "odd number"},
+                      Bad{"median:size=33", "odd number"},
+                      Bad{"median:size=3.5", "odd number"},
+                      Bad{"median:size=big", "odd number"},
+                      Bad{"median:size=nan", "odd number"},
+                      Bad{"median:masked=2", "0 or 1"},
+                      Bad{"gaussian:sigma=-1", "sigma must be a number 0.01..100 taxels"},
+                      Bad{"gaussian:sigma=0", "sigma must be a number"},
+                      Bad{"gaussian:sigma=inf", "sigma must be a number"},
+                      Bad{"bilateral:sigma_value=-5", "sigma_value must be"},
+                      Bad{"opening:shape=star", "one of cross, rectangle, ellipse"},
+                      Bad{"running-mean:window=4", "odd"},
+                      Bad{"running-mean:window=0", "odd"},
+                      Bad{"temporal-min:window=4,centred=1", "window must be odd with centred=1"},
+                      Bad{"savitzky-golay:window=6", "odd"},
+                      Bad{"savitzky-golay:window=5,order=5", "order must be below the window of 5"},
+                      Bad{"savitzky-golay:window=5,order=1,derivative=2", "derivative 2"},
+                      Bad{"savitzky-golay:derivative=3", "0..2"},
+                      Bad{"kalman:r=0", "r must be"},
+                      Bad{"kalman:q=-1", "q must be"},
+                      Bad{"median:matrices=", "joined by +"},
+                      Bad{"median:matrices=1-3", "joined by +"},
+                      Bad{"median:matrices=-1", "joined by +"}));
 
 TEST(FilterStep, ValuesSetByHandAreCheckedToo) {
   FilterStep step{.name = "median", .given = {{"size", 4.0}}};

@@ -59,9 +59,13 @@ class Damaged final : public ProfileStorage {
   std::size_t bad_;
 };
 
-const char* const kRecipes[] = {"median", "gaussian | temporal-min", "min-median:masked=1",
-                                "running-mean:window=7,centred=1", "median3d:centred=1",
-                                "savitzky-golay:window=9,centred=1", "median | savitzky-golay:derivative=1"};
+const char* const kRecipes[] = {"median",
+                                "gaussian | temporal-min",
+                                "min-median:masked=1",
+                                "running-mean:window=7,centred=1",
+                                "median3d:centred=1",
+                                "savitzky-golay:window=9,centred=1",
+                                "median | savitzky-golay:derivative=1"};
 
 TEST(FilteredProfile, IsTheStreamBitByBitInWhateverOrder) {
   const Profile source = grasps();
@@ -76,7 +80,8 @@ TEST(FilteredProfile, IsTheStreamBitByBitInWhateverOrder) {
     std::mt19937 random(1);
     for (int n = 0; n < 120; ++n) {
       const std::size_t i = random() % expected.size();
-      ASSERT_EQ(anyhow.frame(i).values, expected[i].values) << text << " frame " << i << " out of order";
+      ASSERT_EQ(anyhow.frame(i).values, expected[i].values)
+          << text << " frame " << i << " out of order";
       ASSERT_EQ(anyhow.frame(i).hostUs, source.frameTimeUs(i));
     }
   }
@@ -89,7 +94,8 @@ TEST(FilteredProfile, RecursiveFiltersAgreeToNineDigitsOutOfOrder) {
   const Profile filtered = filteredProfile(source, recipe);
   for (std::size_t i = expected.size(); i-- > 0;)
     for (std::size_t k = 0; k < expected[i].values.size(); ++k)
-      ASSERT_NEAR(filtered.frame(i).values[k], expected[i].values[k], 1e-5F + 1e-6F * expected[i].values[k])
+      ASSERT_NEAR(
+          filtered.frame(i).values[k], expected[i].values[k], 1e-5F + 1e-6F * expected[i].values[k])
           << "frame " << i;
 }
 
@@ -102,7 +108,8 @@ TEST(FilteredProfile, SmoothersAreComputedWhole) {
       ASSERT_EQ(filtered.frame(i).values, expected[i].values) << text << " " << i;
   }
   int calls = 0;
-  EXPECT_THROW(filteredProfile(source, recipeOf("rts"), {}, [&](double) { return ++calls < 3; }), Cancelled);
+  EXPECT_THROW(filteredProfile(source, recipeOf("rts"), {}, [&](double) { return ++calls < 3; }),
+               Cancelled);
 }
 
 TEST(FilteredProfile, TheRestIsTheSources) {
@@ -124,7 +131,8 @@ TEST(FilteredProfile, StartsAnewWhereCountsChangeTheirMeaning) {
   const Recipe recipe = recipeOf("kalman");
   const std::size_t at = source.numFrames() / 2;
   const Profile filtered = filteredProfile(source, recipe, {{source.frameTimeUs(at) - 1000}});
-  EXPECT_EQ(filtered.frame(at).values, source.frame(at).values);  // the first of a stretch is itself
+  EXPECT_EQ(filtered.frame(at).values,
+            source.frame(at).values);  // the first of a stretch is itself
   EXPECT_NE(filtered.frame(at - 1).values, source.frame(at - 1).values);
 }
 
@@ -158,8 +166,12 @@ TEST(FilteredProfile, OneFrameAndNoneAreRecordingsToo) {
       builder.addFrame(static_cast<std::int64_t>(1000 * i + 1), values);
     }
     const Profile source = builder.finish({});
-    for (const char* text : {"median:masked=1", "running-mean:window=101,centred=1", "rts", "median3d",
-                             "savitzky-golay:window=9,order=4,centred=1", "kelvin-voigt"}) {
+    for (const char* text : {"median:masked=1",
+                             "running-mean:window=101,centred=1",
+                             "rts",
+                             "median3d",
+                             "savitzky-golay:window=9,order=4,centred=1",
+                             "kelvin-voigt"}) {
       const Profile filtered = filteredProfile(source, recipeOf(text));
       ASSERT_EQ(filtered.numFrames(), count) << text;
       for (std::size_t i = 0; i < count; ++i) EXPECT_NO_THROW(filtered.frame(i)) << text;

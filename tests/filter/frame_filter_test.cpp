@@ -49,7 +49,9 @@ std::vector<double> impulse(std::size_t size, std::size_t at) {
   return series;
 }
 
-void expectNear(const std::vector<double>& got, const std::vector<double>& expected, double tolerance,
+void expectNear(const std::vector<double>& got,
+                const std::vector<double>& expected,
+                double tolerance,
                 const std::string& what) {
   ASSERT_EQ(got.size(), expected.size()) << what;
   for (std::size_t i = 0; i < got.size(); ++i)
@@ -58,35 +60,52 @@ void expectNear(const std::vector<double>& got, const std::vector<double>& expec
 
 TEST(TemporalFilters, ImpulsesShowTheWeights) {
   expectNear(filteredSeries("running-mean", impulse(12, 6)),
-             {0, 0, 0, 0, 0, 0, .2, .2, .2, .2, .2, 0}, 1e-7, "causal mean");
+             {0, 0, 0, 0, 0, 0, .2, .2, .2, .2, .2, 0},
+             1e-7,
+             "causal mean");
   expectNear(filteredSeries("running-mean:centred=1", impulse(12, 6)),
-             {0, 0, 0, 0, .2, .2, .2, .2, .2, 0, 0, 0}, 1e-7, "centred mean");
+             {0, 0, 0, 0, .2, .2, .2, .2, .2, 0, 0, 0},
+             1e-7,
+             "centred mean");
   const auto g = [](double t) { return std::exp(-t * t / (2 * 1.5 * 1.5)); };
   const double half = g(0) + g(1) + g(2) + g(3) + g(4);
   expectNear(filteredSeries("temporal-gaussian", impulse(12, 6)),
              {0, 0, 0, 0, 0, 0, g(0) / half, g(1) / half, g(2) / half, g(3) / half, g(4) / half, 0},
-             1e-7, "causal Gaussian");
+             1e-7,
+             "causal Gaussian");
   const double whole = g(0) + 2 * g(1) + 2 * g(2);
-  expectNear(filteredSeries("temporal-gaussian:centred=1", impulse(12, 6)),
-             {0, 0, 0, 0, g(2) / whole, g(1) / whole, g(0) / whole, g(1) / whole, g(2) / whole, 0, 0, 0},
-             1e-7, "centred Gaussian");
+  expectNear(
+      filteredSeries("temporal-gaussian:centred=1", impulse(12, 6)),
+      {0, 0, 0, 0, g(2) / whole, g(1) / whole, g(0) / whole, g(1) / whole, g(2) / whole, 0, 0, 0},
+      1e-7,
+      "centred Gaussian");
   // Savitzky and Golay 1964, window 5.
   expectNear(filteredSeries("savitzky-golay:centred=1", impulse(13, 6)),
-             {0, 0, 0, 0, -3 / 35., 12 / 35., 17 / 35., 12 / 35., -3 / 35., 0, 0, 0, 0}, 1e-7, "smoothing");
+             {0, 0, 0, 0, -3 / 35., 12 / 35., 17 / 35., 12 / 35., -3 / 35., 0, 0, 0, 0},
+             1e-7,
+             "smoothing");
   expectNear(filteredSeries("savitzky-golay:order=3,derivative=1,centred=1", impulse(13, 6)),
-             {0, 0, 0, 0, -1 / 12., 8 / 12., 0, -8 / 12., 1 / 12., 0, 0, 0, 0}, 1e-7, "cubic slope");
+             {0, 0, 0, 0, -1 / 12., 8 / 12., 0, -8 / 12., 1 / 12., 0, 0, 0, 0},
+             1e-7,
+             "cubic slope");
   expectNear(filteredSeries("savitzky-golay:derivative=2,centred=1", impulse(13, 6)),
-             {0, 0, 0, 0, 2 / 7., -1 / 7., -2 / 7., -1 / 7., 2 / 7., 0, 0, 0, 0}, 1e-7, "curvature");
+             {0, 0, 0, 0, 2 / 7., -1 / 7., -2 / 7., -1 / 7., 2 / 7., 0, 0, 0, 0},
+             1e-7,
+             "curvature");
 }
 
 TEST(TemporalFilters, TheWindowIsShorterAtTheEnds) {
   const std::vector<double> series = {6, 0, 3, 9};
   expectNear(filteredSeries("running-mean:window=3", series), {6, 3, 3, 4}, 1e-6, "causal");
-  expectNear(filteredSeries("running-mean:window=3,centred=1", series), {3, 3, 4, 6}, 1e-6, "centred");
+  expectNear(
+      filteredSeries("running-mean:window=3,centred=1", series), {3, 3, 4, 6}, 1e-6, "centred");
   expectNear(filteredSeries("temporal-min", series), {6, 0, 0, 0}, 0, "causal minimum");
   expectNear(filteredSeries("temporal-min:centred=1", series), {0, 0, 0, 3}, 0, "centred minimum");
   // Longer than the recording, and a recording of one frame.
-  expectNear(filteredSeries("running-mean:window=101,centred=1", series), {4.5, 4.5, 4.5, 4.5}, 1e-6, "long");
+  expectNear(filteredSeries("running-mean:window=101,centred=1", series),
+             {4.5, 4.5, 4.5, 4.5},
+             1e-6,
+             "long");
   for (const FilterKind& kind : filterKinds()) {
     expectNear(filteredSeries(kind.name, {7}), {7}, 1e-5, kind.name);
     if (kind.option("centred") != nullptr)
@@ -112,16 +131,20 @@ TEST(TemporalFilters, PolynomialsPassThroughSavitzkyGolayFromTheFirstFrameToTheL
     slope.push_back(30.0 - 2.5 * i);
   }
   for (const char* centred : {"", ",centred=1"}) {
-    expectNear(filteredSeries(std::string("savitzky-golay:window=7") + centred, parabola), parabola,
-               1e-4, "value");
-    const auto got = filteredSeries(std::string("savitzky-golay:window=7,derivative=1") + centred, parabola);
+    expectNear(filteredSeries(std::string("savitzky-golay:window=7") + centred, parabola),
+               parabola,
+               1e-4,
+               "value");
+    const auto got =
+        filteredSeries(std::string("savitzky-golay:window=7,derivative=1") + centred, parabola);
     // Causal: two frames make a line, three a parabola.
     for (std::size_t i = centred[0] == 0 ? 2 : 0; i < got.size(); ++i)
       EXPECT_NEAR(got[i], slope[i], 1e-4) << i;
   }
   // Of fewer frames than the window.
   const std::vector<double> three = {1, 4, 9};
-  expectNear(filteredSeries("savitzky-golay:window=9,centred=1", three), three, 1e-5, "three frames");
+  expectNear(
+      filteredSeries("savitzky-golay:window=9,centred=1", three), three, 1e-5, "three frames");
 }
 
 TEST(TemporalFilters, TheZeroOrderKalmanFilterReachesItsSteadyGain) {
@@ -130,7 +153,9 @@ TEST(TemporalFilters, TheZeroOrderKalmanFilterReachesItsSteadyGain) {
   const auto got = filteredSeries("kalman", step);
   // x_k = 1000 (1 - (1 - K)^k) with K = 0.270156.
   for (std::size_t i = 100; i < 140; ++i)
-    EXPECT_NEAR(got[i], 1000.0 * (1.0 - std::pow(1.0 - 0.270156, static_cast<double>(i) - 99.0)), 2e-3) << i;
+    EXPECT_NEAR(
+        got[i], 1000.0 * (1.0 - std::pow(1.0 - 0.270156, static_cast<double>(i) - 99.0)), 2e-3)
+        << i;
   // And what is left of it long after is nothing.
   std::vector<double> gone(300, 0.0);
   std::fill(gone.begin() + 100, gone.begin() + 110, 1000.0);
@@ -143,7 +168,8 @@ TEST(TemporalFilters, TheSmootherIsSymmetricAndWithoutDelay) {
   // Steady smoother: K / (2 - K) (1 - K)^|n|.
   const double gain = 0.270156;
   for (std::size_t i = 0; i < 30; ++i)
-    EXPECT_NEAR(got[100 + i], gain / (2 - gain) * std::pow(1 - gain, static_cast<double>(i)), 1e-6) << i;
+    EXPECT_NEAR(got[100 + i], gain / (2 - gain) * std::pow(1 - gain, static_cast<double>(i)), 1e-6)
+        << i;
   EXPECT_EQ(filteredSeries("kalman:centred=1", impulse(201, 100)), got);
 }
 
@@ -153,7 +179,8 @@ TEST(SpatioTemporalFilters, AreWhatTheyAreCalled) {
   std::mt19937 random(3);
   std::vector<TactileFrame> input(12, TactileFrame(layout));
   for (TactileFrame& frame : input)
-    for (float& value : frame.values) value = random() % 3 ? static_cast<float>(random() % 4096) : 0.0F;
+    for (float& value : frame.values)
+      value = random() % 3 ? static_cast<float>(random() % 4096) : 0.0F;
   struct Case {
     const char* text;
     int radius;

@@ -34,8 +34,11 @@ TEST(Recipe, IsReadAndWrittenAsText) {
 }
 
 TEST(Recipe, GoesThroughJsonAndBack) {
-  Recipe recipe = recipeOf({"gaussian:size=5,sigma=1.25", "opening:shape=ellipse,masked=1",
-                            "median:matrices=1+5", "kelvin-voigt:m=2", "(rts:q=1e-3)"});
+  Recipe recipe = recipeOf({"gaussian:size=5,sigma=1.25",
+                            "opening:shape=ellipse,masked=1",
+                            "median:matrices=1+5",
+                            "kelvin-voigt:m=2",
+                            "(rts:q=1e-3)"});
   recipe.name = "mine \"and\" yours";
   const std::string text = recipeJson(recipe).text();
   EXPECT_EQ(recipeFromJson(Json::parse(text)), recipe);
@@ -59,10 +62,12 @@ TEST(Recipe, BadJsonSaysWhichStepAndWhat) {
   EXPECT_NE(messageOf(head + R"([{"filter": "median"}, {"filter": "median", "sise": 3}]})")
                 .find("step 2: median: unknown key \"sise\"; there are: size"),
             std::string::npos);
-  EXPECT_NE(messageOf(head + R"([{"filter": "blur"}]})").find("unknown filter \"blur\"; there are:"),
-            std::string::npos);
+  EXPECT_NE(
+      messageOf(head + R"([{"filter": "blur"}]})").find("unknown filter \"blur\"; there are:"),
+      std::string::npos);
   EXPECT_NE(messageOf(head + R"([{"size": 3}]})").find("must have \"filter\""), std::string::npos);
-  EXPECT_NE(messageOf(head + R"([{"filter": "median", "size": 4}]})").find("odd"), std::string::npos);
+  EXPECT_NE(messageOf(head + R"([{"filter": "median", "size": 4}]})").find("odd"),
+            std::string::npos);
   EXPECT_NE(messageOf(head + R"([{"filter": "median", "size": [3]}]})").find("step 1"),
             std::string::npos);
   EXPECT_NE(messageOf(head + R"([{"filter": "median", "size=3,masked": 1}]})").find("step 1"),

@@ -38,10 +38,13 @@ std::shared_ptr<const SensorLayout> fullHand() {
 }
 
 // Speckles and broad contacts, as counts; taxels without sensor are 0 unless `poison`.
-TactileFrame randomFrame(std::shared_ptr<const SensorLayout> layout, unsigned seed, bool poison = false) {
+TactileFrame randomFrame(std::shared_ptr<const SensorLayout> layout,
+                         unsigned seed,
+                         bool poison = false) {
   std::mt19937 random(seed);
   TactileFrame frame(layout);
-  for (float& value : frame.values) value = random() % 3 ? static_cast<float>(random() % 4096) : 0.0F;
+  for (float& value : frame.values)
+    value = random() % 3 ? static_cast<float>(random() % 4096) : 0.0F;
   for (std::size_t m = 0; m < layout->numMatrices(); ++m)
     for (int y = 0; y < layout->matrix(m).rows; ++y)
       for (int x = 0; x < layout->matrix(m).columns; ++x)
@@ -89,13 +92,25 @@ TEST(SpatialFilters, AgreeWithOpenCvWhereNothingIsMasked) {
     };
   };
   const std::vector<Case> cases = {
-      {"box", [=](auto& in, auto& out) { cv::blur(in, out, {3, 3}, {-1, -1}, border); }, 2e-3},
-      {"box:size=7", [=](auto& in, auto& out) { cv::blur(in, out, {7, 7}, {-1, -1}, border); }, 2e-3},
+      {"box",
+       [=](auto& in, auto& out) {
+         cv::blur(in, out, {3, 3}, {-1, -1}, border);
+       },
+       2e-3},
+      {"box:size=7",
+       [=](auto& in, auto& out) {
+         cv::blur(in, out, {7, 7}, {-1, -1}, border);
+       },
+       2e-3},
       {"gaussian",
-       [=](auto& in, auto& out) { cv::GaussianBlur(in, out, {3, 3}, 2 / 2.3548, 0, border); },
+       [=](auto& in, auto& out) {
+         cv::GaussianBlur(in, out, {3, 3}, 2 / 2.3548, 0, border);
+       },
        2e-3},
       {"gaussian:size=9,sigma=1.7",
-       [=](auto& in, auto& out) { cv::GaussianBlur(in, out, {9, 9}, 1.7, 0, border); },
+       [=](auto& in, auto& out) {
+         cv::GaussianBlur(in, out, {9, 9}, 1.7, 0, border);
+       },
        2e-3},
       {"median", [](auto& in, auto& out) { cv::medianBlur(in, out, 3); }, 0},
       {"median:size=5", [](auto& in, auto& out) { cv::medianBlur(in, out, 5); }, 0},
@@ -165,7 +180,9 @@ TEST(SpatialFilters, EqualTheIndependentNumbers) {
 using Around = std::function<float(int dy, int dx, bool& on)>;
 using Textbook = std::function<double(const Around&)>;
 
-double weightedMean(const Around& around, int radius, const std::function<double(int, int, float)>& weigh) {
+double weightedMean(const Around& around,
+                    int radius,
+                    const std::function<double(int, int, float)>& weigh) {
   double sum = 0.0;
   double total = 0.0;
   for (int dy = -radius; dy <= radius; ++dy) {
@@ -221,7 +238,8 @@ TEST(SpatialFilters, MaskedTaxelsAreNeitherReadNorWritten) {
   const auto layout = std::make_shared<const SensorLayout>(matrices);
   const std::vector<std::pair<const char*, Textbook>> cases = {
       {"box", [](auto& a) { return weightedMean(a, 1, [](int, int, float) { return 1.0; }); }},
-      {"box:size=5", [](auto& a) { return weightedMean(a, 2, [](int, int, float) { return 1.0; }); }},
+      {"box:size=5",
+       [](auto& a) { return weightedMean(a, 2, [](int, int, float) { return 1.0; }); }},
       {"gaussian:size=5,sigma=1.2",
        [](auto& a) {
          return weightedMean(a, 2, [](int dy, int dx, float) {
@@ -254,7 +272,8 @@ TEST(SpatialFilters, MaskedTaxelsAreNeitherReadNorWritten) {
           const float own = input.matrix(m)(y, x);
           const float got = result.matrix(m)(y, x);
           if (!matrix.enabled(y, x)) {
-            EXPECT_EQ(got, own) << text << ": written, matrix " << m << " row " << y << " column " << x;
+            EXPECT_EQ(got, own) << text << ": written, matrix " << m << " row " << y << " column "
+                                << x;
             continue;
           }
           const Around around = [&, y = y, x = x](int dy, int dx, bool& on) {
@@ -275,7 +294,8 @@ TEST(SpatialFilters, MaskedTaxelsAreNeitherReadNorWritten) {
 TEST(SpatialFilters, OpeningHonoursMasks) {
   // A bar of three in the last row that the mask leaves: what is masked erodes nothing.
   std::vector<MatrixLayout> one = {MatrixLayout::full(5, 5, 1.0)};
-  for (int x = 0; x < 5; ++x) one[0].staticMask[static_cast<std::size_t>(x)] = 0;  // row 0 isn't there
+  for (int x = 0; x < 5; ++x)
+    one[0].staticMask[static_cast<std::size_t>(x)] = 0;  // row 0 isn't there
   const auto layout = std::make_shared<const SensorLayout>(one);
   TactileFrame frame(layout);
   for (int y = 1; y <= 2; ++y)
@@ -286,18 +306,21 @@ TEST(SpatialFilters, OpeningHonoursMasks) {
   TactileFrame whole(std::make_shared<const SensorLayout>(
       std::vector<MatrixLayout>{MatrixLayout::full(5, 5, 1.0)}));
   whole.values = frame.values;
-  for (const float value : filtered("opening:shape=rectangle", whole).values) EXPECT_EQ(value, 0.0F);
+  for (const float value : filtered("opening:shape=rectangle", whole).values)
+    EXPECT_EQ(value, 0.0F);
 }
 
 TEST(SpatialFilters, MaskedKeepsTheOriginalOrNothing) {
-  for (const char* name : {"box", "gaussian", "median", "median:size=5", "bilateral", "nlm", "opening"}) {
+  for (const char* name :
+       {"box", "gaussian", "median", "median:size=5", "bilateral", "nlm", "opening"}) {
     const std::string text(name);
     const TactileFrame input = randomFrame(sdh2().layout, 11);
     const TactileFrame plain = filtered(name, input);
     const TactileFrame masked = filtered(
         (text + (text.find(':') == std::string::npos ? ":" : ",") + "masked=1").c_str(), input);
     for (std::size_t i = 0; i < input.values.size(); ++i)
-      ASSERT_EQ(masked.values[i], plain.values[i] > 0.0F ? input.values[i] : 0.0F) << name << " " << i;
+      ASSERT_EQ(masked.values[i], plain.values[i] > 0.0F ? input.values[i] : 0.0F)
+          << name << " " << i;
   }
 }
 
@@ -331,23 +354,34 @@ TEST(SpatialFilters, WorkOnTheMatricesAskedFor) {
 }
 
 TEST(SpatialFilters, MatricesOfAnySizeAreFiltered) {
-  for (const auto& [rows, columns] : {std::pair{1, 1}, {1, 9}, {20, 1}, {3, 8}, {7, 17}, {64, 33}}) {
+  for (const auto& [rows, columns] :
+       {std::pair{1, 1}, {1, 9}, {20, 1}, {3, 8}, {7, 17}, {64, 33}}) {
     const auto layout = std::make_shared<const SensorLayout>(
         std::vector<MatrixLayout>{MatrixLayout::full(rows, columns, 2.0)});
     const TactileFrame input = randomFrame(layout, static_cast<unsigned>(rows * columns));
     TactileFrame median = filtered("median", input);
-    expectSame(median, input, [](auto& in, auto& out) {
-      // OpenCV's median wants at least two columns: repeat the border by hand.
-      cv::Mat wide;
-      cv::copyMakeBorder(in, wide, 1, 1, 1, 1, cv::BORDER_REPLICATE);
-      cv::Mat result;
-      cv::medianBlur(wide, result, 3);
-      out = result(cv::Rect(1, 1, in.cols, in.rows)).clone();
-    }, 0, "median");
+    expectSame(
+        median,
+        input,
+        [](auto& in, auto& out) {
+          // OpenCV's median wants at least two columns: repeat the border by hand.
+          cv::Mat wide;
+          cv::copyMakeBorder(in, wide, 1, 1, 1, 1, cv::BORDER_REPLICATE);
+          cv::Mat result;
+          cv::medianBlur(wide, result, 3);
+          out = result(cv::Rect(1, 1, in.cols, in.rows)).clone();
+        },
+        0,
+        "median");
     TactileFrame box = filtered("box:size=5", input);
-    expectSame(box, input, [](auto& in, auto& out) {
-      cv::blur(in, out, {5, 5}, {-1, -1}, cv::BORDER_REPLICATE);
-    }, 2e-3, "box");
+    expectSame(
+        box,
+        input,
+        [](auto& in, auto& out) {
+          cv::blur(in, out, {5, 5}, {-1, -1}, cv::BORDER_REPLICATE);
+        },
+        2e-3,
+        "box");
   }
 }
 

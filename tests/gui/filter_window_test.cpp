@@ -54,11 +54,10 @@ TEST_F(FilterWindowTest, BeforeAndAfterOnOneKey) {
   const std::size_t frame = loudest();
   playback().seekFrame(frame);
   const auto raw = window().current()->profile.frame(frame).values;
-  const auto filtered =
-      filteredProfile(window().current()->profile,
-                      parseRecipe(std::vector<std::string>{"gaussian:size=5"}))
-          .frame(frame)
-          .values;
+  const auto filtered = filteredProfile(window().current()->profile,
+                                        parseRecipe(std::vector<std::string>{"gaussian:size=5"}))
+                            .frame(frame)
+                            .values;
   setRecipe("gaussian:size=5");
   EXPECT_EQ(seen(), raw);  // the switch is off
   press(Qt::Key_A);
@@ -97,10 +96,11 @@ TEST_F(FilterWindowTest, ChangesAreSeenAtOnce) {
   playback().seekFrame(frame);
   for (const char* text : {"box", "box:size=5", "kalman", "median | (box)", "rts"}) {
     setRecipe(text);
-    EXPECT_EQ(seen(),
-              filteredProfile(window().current()->profile, parseRecipe(std::vector<std::string>{text}))
-                  .frame(frame)
-                  .values)
+    EXPECT_EQ(
+        seen(),
+        filteredProfile(window().current()->profile, parseRecipe(std::vector<std::string>{text}))
+            .frame(frame)
+            .values)
         << text;
   }
   setRecipe("(box)");
@@ -165,7 +165,8 @@ TEST_F(FilterWindowTest, ALiveHandIsSeenThroughTheSameChain) {
   connection.kind = Connection::Kind::kReplay;
   connection.recording = QString::fromStdString(path_);
   window().connectTo(connection);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window().liveShown() && !window().live().stale(); }, 20'000));
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return window().liveShown() && !window().live().stale(); }, 20'000));
   const auto alike = [&] {
     const TactileFrame& frame = window().findChild<MatricesPanel*>()->frame();
     if (frame.values.empty()) return false;

@@ -22,7 +22,8 @@ struct Found {
   double wholeSum = 0.0;
 };
 
-std::vector<Found> processed(const Profile& profile, const std::string& recipe,
+std::vector<Found> processed(const Profile& profile,
+                             const std::string& recipe,
                              std::vector<RecordingEvent> events = {}) {
   auto stage = std::make_unique<FilterStage>();
   stage->setRecipe(recipeOf(recipe));
@@ -40,7 +41,8 @@ std::vector<Found> processed(const Profile& profile, const std::string& recipe,
 
 TEST(FilterStage, GivesWhatTheRecordingGivesBitByBit) {
   const Profile profile = grasps();
-  for (const char* text : {"median", "kalman | gaussian", "min-median:masked=1", "savitzky-golay:window=7"}) {
+  for (const char* text :
+       {"median", "kalman | gaussian", "min-median:masked=1", "savitzky-golay:window=7"}) {
     const Profile expected = filteredProfile(profile, recipeOf(text));
     const auto found = processed(profile, text);
     ASSERT_EQ(found.size(), profile.numFrames());
@@ -57,7 +59,8 @@ TEST(FilterStage, GivesWhatTheRecordingGivesBitByBit) {
 TEST(FilterStage, OtherSettingsRestartItLiveAndOffline) {
   const Profile profile = grasps();
   const std::int64_t us = profile.frameTimeUs(70) - 500;
-  const auto found = processed(profile, "kalman", {{us, us, "settings", std::nullopt, "threshold 50", ""}});
+  const auto found =
+      processed(profile, "kalman", {{us, us, "settings", std::nullopt, "threshold 50", ""}});
   const Profile expected = filteredProfile(profile, recipeOf("kalman"), {{us}});
   for (std::size_t i = 0; i < found.size(); ++i)
     ASSERT_EQ(found[i].frame.values, expected.frame(i).values) << i;

@@ -40,7 +40,9 @@ int filterCommand(const Words& words) {
            "are neither read nor written. The same chain\nruns in the window, on recordings and "
            "live.",
        .options = {{"filter", "SPEC", "a filter; may be given several times, or joined by |"},
-                   {"recipe", "R.json", "a recipe, as the Filter dock saves it; before every --filter"},
+                   {"recipe",
+                    "R.json",
+                    "a recipe, as the Filter dock saves it; before every --filter"},
                    {"save-recipe", "R.json", "write the chain as a recipe, too"},
                    {"list", "", "list all filters with options, ranges and sources"},
                    {"force", "", "replace OUT and R.json"}},
@@ -58,8 +60,9 @@ int filterCommand(const Words& words) {
   if (given.words().size() != 2) throw UsageError("filter needs IN and OUT");
   const Recipe recipe = recipeOf(given);
   if (recipe.steps.empty())
-    throw UsageError("filter needs --filter SPEC or --recipe R.json; 'palpate filter --list' shows "
-                     "all filters");
+    throw UsageError(
+        "filter needs --filter SPEC or --recipe R.json; 'palpate filter --list' shows "
+        "all filters");
   const std::string& in = given.words()[0];
   const std::string& out = given.words()[1];
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;

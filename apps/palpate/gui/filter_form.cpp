@@ -95,9 +95,9 @@ void FilterForm::build(const FilterKind& kind) {
   for (const FilterOption& option : kind.options) addField(*grid, row++, option);
   addMatrices(*grid, row);
   static_cast<QVBoxLayout*>(layout())->insertWidget(0, fields_);
-  about_->setText(QString::fromStdString(kind.purpose) + "\nBorder: " +
-                  QString::fromStdString(kind.border) + ".\nSource: " +
-                  QString::fromStdString(kind.source) + ".");
+  about_->setText(QString::fromStdString(kind.purpose) +
+                  "\nBorder: " + QString::fromStdString(kind.border) +
+                  ".\nSource: " + QString::fromStdString(kind.source) + ".");
 }
 
 void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option) {
@@ -148,9 +148,10 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
       box->setSingleStep(odd ? 2 : 1);
       box->setSuffix(suffixOf(option));
       box->setKeyboardTracking(false);
-      connect(box, &QSpinBox::valueChanged, this, [this, key, odd, most = box->maximum()](int value) {
-        emit optionChosen(key, odd && value % 2 == 0 ? std::min(value + 1, most) : value);
-      });
+      connect(
+          box, &QSpinBox::valueChanged, this, [this, key, odd, most = box->maximum()](int value) {
+            emit optionChosen(key, odd && value % 2 == 0 ? std::min(value + 1, most) : value);
+          });
       show_.push_back([box, key](const FilterStep& step) {
         const QSignalBlocker blocker(box);
         box->setValue(step.integer(key));
@@ -174,9 +175,10 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
       if (option.automatic()) {
         automatic = new QCheckBox("automatic", fields_);
         automatic->setToolTip(tip);
-        connect(automatic, &QCheckBox::toggled, this, [this, key, first = firstValue(option)](bool on) {
-          emit optionChosen(key, on ? std::numeric_limits<double>::quiet_NaN() : first);
-        });
+        connect(
+            automatic, &QCheckBox::toggled, this, [this, key, first = firstValue(option)](bool on) {
+              emit optionChosen(key, on ? std::numeric_limits<double>::quiet_NaN() : first);
+            });
         grid.addWidget(automatic, row, 2);
       } else {
         grid.addWidget(caption(rangeOf(option), fields_), row, 2);

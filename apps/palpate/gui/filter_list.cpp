@@ -73,8 +73,7 @@ void FilterList::showRecipe(const Recipe& recipe, bool live) {
                      leftOut ? "Needs later frames: left out while a hand is live"
                              : QString::fromStdString(step.kind().purpose));
     const bool faint = leftOut || !step.enabled;
-    item->setForeground(
-        kName, palette().brush(faint ? QPalette::PlaceholderText : QPalette::Text));
+    item->setForeground(kName, palette().brush(faint ? QPalette::PlaceholderText : QPalette::Text));
   }
   if (before && *before < recipe.steps.size()) choose(before);
   filling_ = false;
@@ -94,10 +93,10 @@ void FilterList::showFigures(const std::optional<FilterFigures>& figures) {
                       : QString("…"));
     const bool delayKnown = figures && index < figures->latencies.size();
     item->setText(kLatency,
-                  !on                            ? QString("–")
-                  : !delayKnown                  ? QString("…")
-                  : figures->latencies[index]    ? QString::number(*figures->latencies[index])
-                                                 : QString("never"));
+                  !on                         ? QString("–")
+                  : !delayKnown               ? QString("…")
+                  : figures->latencies[index] ? QString::number(*figures->latencies[index])
+                                              : QString("never"));
   }
   filling_ = false;
 }

@@ -86,9 +86,10 @@ FilterPanel::FilterPanel(QWidget* parent) : QWidget(parent) {
   connect(form_, &FilterForm::optionChosen, this, [this](const std::string& key, double value) {
     if (const auto at = list_->chosen()) editor_.setOption(*at, key, value);
   });
-  connect(form_, &FilterForm::matricesChosen, this, [this](const std::vector<std::size_t>& matrices) {
-    if (const auto at = list_->chosen()) editor_.setMatrices(*at, matrices);
-  });
+  connect(
+      form_, &FilterForm::matricesChosen, this, [this](const std::vector<std::size_t>& matrices) {
+        if (const auto at = list_->chosen()) editor_.setMatrices(*at, matrices);
+      });
   renew();
 }
 
@@ -164,9 +165,10 @@ QWidget* FilterPanel::makeButtons() {
 }
 
 void FilterPanel::fillAddMenu(QMenu& menu) {
-  const std::pair<FilterDomain, const char*> parts[] = {{FilterDomain::kSpatial, "Over space"},
-                                                        {FilterDomain::kTemporal, "Over time"},
-                                                        {FilterDomain::kSpatioTemporal, "Over both"}};
+  const std::pair<FilterDomain, const char*> parts[] = {
+      {FilterDomain::kSpatial, "Over space"},
+      {FilterDomain::kTemporal, "Over time"},
+      {FilterDomain::kSpatioTemporal, "Over both"}};
   for (const auto& [domain, title] : parts) {
     menu.addSection(title);
     for (const FilterKind& kind : filterKinds()) {
@@ -194,7 +196,8 @@ void FilterPanel::fillMoreMenu(QMenu& menu) {
   connect(menu.addAction("Open a recipe…"), &QAction::triggered, this, &FilterPanel::openRecipe);
   connect(menu.addAction("Save the recipe…"), &QAction::triggered, this, &FilterPanel::saveRecipe);
   keep_ = menu.addAction("Keep it with the recording");
-  keep_->setToolTip("Whoever opens the recording finds the chain again; the frames stay as they are");
+  keep_->setToolTip(
+      "Whoever opens the recording finds the chain again; the frames stay as they are");
   connect(keep_, &QAction::triggered, this, &FilterPanel::keepAsked);
   menu.addSeparator();
   connect(menu.addAction("Remove all filters"), &QAction::triggered, this, [this] {
@@ -301,8 +304,7 @@ void FilterPanel::showTotals() {
   if (!failure_.isEmpty()) return totals_->setText(failure_);
   if (recipe.empty()) return totals_->setText("Nothing is filtered.");
   if (!figures_) return totals_->setText(on_ ? "…" : "Off: what is shown is as it was recorded.");
-  const double costUs =
-      std::accumulate(figures_->costsUs.begin(), figures_->costsUs.end(), 0.0);
+  const double costUs = std::accumulate(figures_->costsUs.begin(), figures_->costsUs.end(), 0.0);
   QString text = figure(costUs, 1) + " µs per frame, " + figure(costUs * kFastestHz / 1e4, 2) +
                  " % of a core at 230 frames/s. ";
   if (!recipe.causal() && !live_) {

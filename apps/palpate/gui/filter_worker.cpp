@@ -25,7 +25,8 @@ OpenedRecordingPtr filteredRecording(const OpenedRecordingPtr& source,
   // A recipe that needs all frames at once takes its time first.
   const auto part = [&](double from, double to) -> Progress {
     if (!progress) return {};
-    return [&progress, from, to](double fraction) { return progress(from + (to - from) * fraction); };
+    return
+        [&progress, from, to](double fraction) { return progress(from + (to - from) * fraction); };
   };
   const Profile profile = filteredProfile(
       source->profile, recipe, {settingsTimesUs(source->events.events)}, part(0.0, 0.5));
@@ -87,11 +88,10 @@ void FilterWorker::start(const OpenedRecordingPtr& source, const Recipe& recipe)
   pool_.start([this, source, recipe, stop = stop_, generation = generation_] {
     if (*stop) return;
     try {
-      const OpenedRecordingPtr filtered =
-          filteredRecording(source, recipe, [&](double fraction) {
-            tell(generation, [this, fraction] { emit progressed(fraction); });
-            return !*stop;
-          });
+      const OpenedRecordingPtr filtered = filteredRecording(source, recipe, [&](double fraction) {
+        tell(generation, [this, fraction] { emit progressed(fraction); });
+        return !*stop;
+      });
       tell(generation, [this, source, filtered] { emit made(source, filtered); });
       const FilterFigures figures = figuresOf(*source, recipe);
       tell(generation, [this, figures] {

@@ -16,9 +16,10 @@
 namespace palpate::gui {
 
 struct FilterFigures {
-  std::vector<double> costsUs;                // per step and frame; 0: off
-  std::vector<std::optional<int>> latencies;  // per step [frames]; nothing: a step of load never comes through
-  std::optional<int> latency;                 // of the chain
+  std::vector<double> costsUs;  // per step and frame; 0: off
+  std::vector<std::optional<int>>
+      latencies;               // per step [frames]; nothing: a step of load never comes through
+  std::optional<int> latency;  // of the chain
 };
 
 // What was found of a chain, until it changes.

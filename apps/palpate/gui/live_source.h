@@ -32,7 +32,7 @@ struct LiveSource {
   std::unique_ptr<CaptureSession> session;
   std::unique_ptr<SignalHistory> history;
   std::unique_ptr<ProcessingChain> chain;
-  FilterStage* filters = nullptr;  // of the chain, the first stage
+  FilterStage* filters = nullptr;         // of the chain, the first stage
   std::unique_ptr<GraspControl> control;  // null: a replay, which nobody can move
 };
 

@@ -74,7 +74,7 @@ struct WindowSurroundings {
   const Clock* clock = nullptr;               // null: the system's
   RecordingOpener::Read read = {};            // empty: openRecording
   std::vector<double> assumedAnglesDeg = {};  // of recordings without joint angles; empty: none
-  std::optional<Recipe> recipe = {};              // switched on; nothing: what was there last
+  std::optional<Recipe> recipe = {};          // switched on; nothing: what was there last
   bool offerUnfinished = false;  // recordings that an earlier day left, when the window opens
 };
 

@@ -49,7 +49,8 @@ void MainWindow::buildFilter() {
 }
 
 void MainWindow::connectFilter(const std::optional<Recipe>& recipe) {
-  const auto last = recipe ? recipe : recipeFrom(settings_.value(kRecipeKey).toString().toStdString());
+  const auto last =
+      recipe ? recipe : recipeFrom(settings_.value(kRecipeKey).toString().toStdString());
   if (last) filter_->editor().restore(*last);
   filter_->setOn(recipe || settings_.value(kOnKey, false).toBool());
   actions_.filtered->setChecked(filter_->on());
@@ -58,14 +59,13 @@ void MainWindow::connectFilter(const std::optional<Recipe>& recipe) {
     actions_.filtered->setChecked(on);
     settings_.setValue(kOnKey, on);
     showThroughFilter();
-    flash(!on                                 ? "as it was recorded"
+    flash(!on                                  ? "as it was recorded"
           : filter_->editor().recipe().empty() ? "no filter is in the chain: Ctrl+Shift+F"
                                                : "filtered: " + filterText());
   });
   connect(&filter_->editor(), &RecipeEditor::changed, this, [this] {
-    settings_.setValue(
-        kRecipeKey,
-        QString::fromStdString(recipeJson(filter_->editor().recipe()).text(-1)));
+    settings_.setValue(kRecipeKey,
+                       QString::fromStdString(recipeJson(filter_->editor().recipe()).text(-1)));
     filter_->showFigures(std::nullopt);
     showThroughFilter();
   });
@@ -134,7 +134,8 @@ void MainWindow::showThroughFilter() {
   if (liveShown_ || !current_) return updateStatus();
   if (now.empty()) {
     useShown(current_);
-  } else if (filterResults_.filtered && filterResults_.of == current_ && filterResults_.by.sameSteps(now)) {
+  } else if (filterResults_.filtered && filterResults_.of == current_ &&
+             filterResults_.by.sameSteps(now)) {
     useShown(filterResults_.filtered);
   } else {
     filterWorker_.start(current_, now);
@@ -175,6 +176,7 @@ void MainWindow::useShown(const OpenedRecordingPtr& recording) {
   showCurves();
   showReading();
   showEvents();
+  showSpectrum();
   updateStatus();
 }
 
@@ -218,7 +220,8 @@ void MainWindow::showLiveFilter() {
   const LiveSource* source = live_.source();
   if (source == nullptr || filterDock_->isHidden()) return;
   const Recipe& recipe = filter_->editor().recipe();
-  if (filterResults_.live.costsUs.size() != recipe.steps.size() || filterResults_.liveOf != recipe) {
+  if (filterResults_.live.costsUs.size() != recipe.steps.size() ||
+      filterResults_.liveOf != recipe) {
     filterResults_.liveOf = recipe;
     filterResults_.live = {};
     filterResults_.live.latency = latencyFrames(recipe);

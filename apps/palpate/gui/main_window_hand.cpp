@@ -157,9 +157,8 @@ ExportedView MainWindow::handExport() {
     pictures.timeUs = [recording = shown_](std::size_t frame) {
       return recording->profile.frameTimeUs(frame);
     };
-    pictures.painter = [recording = shown_,
-                        options = exportOptions(),
-                        shown = &handPanel_->view()](const PictureLook& look) {
+    pictures.painter = [recording = shown_, options = exportOptions(), shown = &handPanel_->view()](
+                           const PictureLook& look) {
       return handFramePainter(
           recording->profile, shown->pictureOptions(fitted(options, look)), shown->assumedAngles());
     };

@@ -67,7 +67,7 @@ void MainWindow::makeRoomForSpectrum() {
 }
 
 void MainWindow::showSpectrum() {
-  spectrum_->setSource(current_, liveShown_);
+  spectrum_->setSource(shown_, liveShown_);
   if (!liveShown_) spectrum_->setTaxels(matrices_->view().selection());
   spectrum_->setMap(view_.map);
   spectrum_->setTheme(resolved(view_.theme));

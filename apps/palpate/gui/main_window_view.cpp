@@ -180,8 +180,8 @@ void MainWindow::updateStatus() {
     const bool inGap = current_->gapAt(playback_.positionS()) != nullptr;
     now.lamp = inGap ? Status::Lamp::kWarning : playing ? Status::Lamp::kGood : Status::Lamp::kIdle;
     now.state = "playback · " + QString(playing ? "playing " : "paused ") +
-                QString::number(playback_.speed()) + "×" +
-                (filteredShown() ? " · filtered" : "") + opening;
+                QString::number(playback_.speed()) + "×" + (filteredShown() ? " · filtered" : "") +
+                opening;
     if (playback_.hasFrames()) {
       const std::size_t frame = playback_.frame();
       const CharacteristicSignals all = shown_->at(frame, shown_->numMatrices());

@@ -13,10 +13,10 @@
 namespace palpate {
 
 struct FilterStep {
-  std::string name;                                     // of a FilterKind
-  std::map<std::string, double, std::less<>> given{};   // what differs from the default, by key
-  std::vector<std::size_t> matrices{};                  // wire order, ascending; empty: all
-  bool enabled = true;                                  // off: it stands in the chain and does nothing
+  std::string name;                                    // of a FilterKind
+  std::map<std::string, double, std::less<>> given{};  // what differs from the default, by key
+  std::vector<std::size_t> matrices{};                 // wire order, ascending; empty: all
+  bool enabled = true;  // off: it stands in the chain and does nothing
 
   // Throws std::invalid_argument: unknown name or key (listing the known ones), a value out of range, an
   // even window, and what only fits together (order below window, search and patch).
