@@ -229,7 +229,8 @@ TEST_F(SpectrumPanelTest, CanBeGivenUpAndBegunAgain) {
   panel_->show();
   panel_->setSource(tones(400), false);
   ASSERT_TRUE(panel_->busy());
-  panel_->cancel();
+  EXPECT_TRUE(panel_->cancel());
+  EXPECT_FALSE(panel_->cancel()) << "nothing is left to give up";
   EXPECT_FALSE(panel_->busy());
   QCoreApplication::processEvents();
   EXPECT_EQ(panel_->emptyText(), "Given up.");

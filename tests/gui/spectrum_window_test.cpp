@@ -90,6 +90,15 @@ TEST_F(SpectrumWindowTest, FollowsTheRecordingThatIsShown) {
   EXPECT_TRUE(panel().emptyText().contains("Open a recording"));
 }
 
+TEST_F(SpectrumWindowTest, EscapeGivesItUp) {
+  showIt();
+  panel().header().setSetting({.window = 64, .overlap = 63});
+  ASSERT_TRUE(panel().busy());
+  press(Qt::Key_Escape);
+  EXPECT_FALSE(panel().busy());
+  EXPECT_EQ(panel().emptyText(), "Given up.");
+}
+
 TEST_F(SpectrumWindowTest, IsTakenAwayAsPictureAndTable) {
   showIt();
   ExportRequest request;
@@ -127,10 +136,12 @@ TEST_F(SpectrumWindowTest, InTheSmallestWindowItStandsBeforeTheTimeline) {
   EXPECT_GE(panel().chart().height(), panel().chart().minimumSizeHint().height());
 }
 
-TEST_F(SpectrumWindowTest, InTheUsualOneItIsNotTheLowest) {
+TEST_F(SpectrumWindowTest, InTheUsualOneItStandsAboveTheTimeline) {
   showIt();
-  EXPECT_GE(dock()->height(), window().height() / 4);
+  EXPECT_GE(panel().chart().height(), panel().chart().minimumSizeHint().height());
   EXPECT_GT(timeline().visibleRegion().boundingRect().height(), 60);
+  const auto* below = window().findChild<QDockWidget*>("Timeline");
+  EXPECT_LE(dock()->geometry().bottom(), below->geometry().top());
 }
 
 }  // namespace

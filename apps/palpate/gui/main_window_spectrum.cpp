@@ -9,7 +9,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kSpectrumShare = 0.36;  // of the window's height, when it is asked for
+constexpr double kSpectrumShare = 0.31;  // of the window's height, when it is asked for
 constexpr double kTimelineShare = 0.17;  // below it
 
 constexpr int kLowWindow = 760;  // [px] of height
@@ -59,11 +59,14 @@ void MainWindow::makeRoomForSpectrum() {
     spectrumDock_->raise();
     return;
   }
-  const int wanted = static_cast<int>(height() * kSpectrumShare);
-  if (spectrumDock_->isFloating() || spectrumDock_->height() >= wanted) return;
-  resizeDocks({spectrumDock_, timelineDock_},
-              {wanted, static_cast<int>(height() * kTimelineShare)},
-              Qt::Vertical);
+  // Once it has a place.
+  QTimer::singleShot(0, this, [this] {
+    const int wanted = static_cast<int>(height() * kSpectrumShare);
+    if (spectrumDock_->isFloating() || spectrumDock_->height() >= wanted) return;
+    resizeDocks({spectrumDock_, timelineDock_},
+                {wanted, static_cast<int>(height() * kTimelineShare)},
+                Qt::Vertical);
+  });
 }
 
 void MainWindow::showSpectrum() {

@@ -25,6 +25,7 @@
 #include "gui/message_banner.h"
 #include "gui/offer_strip.h"
 #include "gui/playback_bar.h"
+#include "gui/spectrum_panel.h"
 #include "gui/start_page.h"
 #include "gui/status_strip.h"
 #include "gui/take_away.h"
@@ -301,6 +302,7 @@ void MainWindow::dismiss() {
   if (opener_.busy()) return opener_.cancel();
   if (takeAway_->busy()) return takeAway_->cancel();
   if (job_.busy()) return job_.cancel();
+  if (spectrum_->cancel()) return;
   if (live_.state() == LiveController::State::kConnecting) return live_.end();
   if (!matrices_->view().selection().empty()) return matrices_->view().clearSelection();
   if (timeline_->selection() && !liveShown_) return timeline_->setSelection(std::nullopt);

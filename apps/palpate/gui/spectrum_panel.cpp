@@ -137,6 +137,7 @@ void SpectrumPanel::setTaxels(const TaxelSelection& taxels) {
 }
 
 void SpectrumPanel::setSeen(double fromS, double toS) {
+  if (fromS == fromS_ && toS == toS_) return;
   fromS_ = fromS;
   toS_ = toS;
   chart_->setSeen(fromS, toS);
@@ -160,11 +161,12 @@ void SpectrumPanel::ask() {
   worker_.ask(question);
 }
 
-void SpectrumPanel::cancel() {
-  if (!worker_.busy()) return;
+bool SpectrumPanel::cancel() {
+  if (!worker_.busy()) return false;
   worker_.giveUp();
   say("Given up.", "Compute the spectra");
   emit said("computing spectra was cancelled");
+  return true;
 }
 
 QString SpectrumPanel::nameOf(const SpectrumAnswer& answer) const {

@@ -35,7 +35,8 @@ class SpectrumPanel : public QWidget {
   void setPosition(double seconds);
   void setTheme(Theme theme);
   void setMap(ColorMapName map) { chart_->setMap(map); }
-  void cancel();
+  // Gives up what is being computed; whether there was anything.
+  bool cancel();
 
   // There is a spectrum, and it is seen.
   bool shown() const;

@@ -56,7 +56,7 @@ struct KelvinVoigtEstimate {
 
 // Times [s], values and gaps as for kelvinVoigtSmoothed. The start is read off the series: noise from its second
 // differences, pace from its slopes, damping 1. Throws std::invalid_argument, Cancelled.
-// About 0.6 us per sample and round.
+// About 0.2 us per sample and round where intervals repeat (whole milliseconds), 1.5 us where all differ.
 KelvinVoigtEstimate estimateKelvinVoigt(std::span<const double> timeS,
                                         std::span<const double> values,
                                         const KelvinVoigtEstimationOptions& options = {},
