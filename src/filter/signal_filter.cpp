@@ -14,9 +14,10 @@ class SignalFilter::Impl final : public FrameSink {
       : rows_(numMatrices), emit_(std::move(emit)), chain_(recipe, *this) {
     for (const FilterStep& step : recipe.steps)
       if (step.enabled && step.kind().domain != FilterDomain::kTemporal)
-        throw std::invalid_argument(step.name +
-                                    ": looks at neighbours, and a signal has none; filters over time "
-                                    "smooth signals");
+        throw std::invalid_argument(
+            step.name +
+            ": looks at neighbours, and a signal has none; filters over time "
+            "smooth signals");
     const MatrixLayout row = MatrixLayout::full(1, static_cast<int>(kAllSignalKinds.size()), 1.0);
     layout_ = std::make_shared<const SensorLayout>(std::vector<MatrixLayout>(numMatrices, row));
   }

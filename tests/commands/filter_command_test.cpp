@@ -182,14 +182,16 @@ TEST(FilterCommand, SignalsThemselvesAreSmoothedToo) {
     return values;
   };
   const auto raw = palpate({"signals", in, "--matrix", "1"});
-  const auto smooth = palpate({"signals", in, "--matrix", "1", "--smooth", "running-mean:window=3"});
+  const auto smooth =
+      palpate({"signals", in, "--matrix", "1", "--smooth", "running-mean:window=3"});
   ASSERT_EQ(smooth.exitCode, 0) << smooth.err;
   for (const std::size_t index : {3u, 5u, 6u, 8u}) {  // mean, min, max, active
     const auto before = column(raw.out, index);
     const auto after = column(smooth.out, index);
     ASSERT_EQ(before.size(), after.size());
     for (std::size_t i = 2; i < before.size(); ++i)
-      ASSERT_NEAR(after[i], (before[i - 2] + before[i - 1] + before[i]) / 3.0, 1e-3) << index << " " << i;
+      ASSERT_NEAR(after[i], (before[i - 2] + before[i - 1] + before[i]) / 3.0, 1e-3)
+          << index << " " << i;
   }
   expectOneLineError(palpate({"signals", in, "--smooth", "median"}), 2, {"median", "neighbours"});
 }

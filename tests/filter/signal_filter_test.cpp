@@ -21,10 +21,11 @@ std::vector<CharacteristicSignals> rowsAt(std::size_t i) {
 
 TEST(SignalFilter, SmoothsEverySignalAsASeriesOfItsOwn) {
   std::vector<std::vector<SignalValues>> got;
-  SignalFilter filter(recipeOf("kalman"), 2, [&](std::int64_t us, std::span<const SignalValues> rows) {
-    EXPECT_EQ(us, static_cast<std::int64_t>(got.size() + 1) * 30'000);
-    got.emplace_back(rows.begin(), rows.end());
-  });
+  SignalFilter filter(
+      recipeOf("kalman"), 2, [&](std::int64_t us, std::span<const SignalValues> rows) {
+        EXPECT_EQ(us, static_cast<std::int64_t>(got.size() + 1) * 30'000);
+        got.emplace_back(rows.begin(), rows.end());
+      });
   std::vector<double> means;
   std::vector<double> maxima;
   std::vector<double> actives;
@@ -50,7 +51,8 @@ TEST(SignalFilter, SmoothsEverySignalAsASeriesOfItsOwn) {
 
 TEST(SignalFilter, WhatNeedsLaterFramesComesAtTheEnd) {
   std::size_t came = 0;
-  SignalFilter filter(recipeOf("rts"), 1, [&](std::int64_t, std::span<const SignalValues>) { ++came; });
+  SignalFilter filter(
+      recipeOf("rts"), 1, [&](std::int64_t, std::span<const SignalValues>) { ++came; });
   for (std::size_t i = 0; i < 20; ++i)
     filter.push(static_cast<std::int64_t>(i) * 30'000, std::vector<CharacteristicSignals>(1));
   EXPECT_EQ(came, 0u);

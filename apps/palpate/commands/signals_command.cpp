@@ -20,8 +20,13 @@ constexpr std::int64_t kUsPerMs = 1000;
 
 // One value after the other, in the order of the columns.
 SignalValues columnsOf(const CharacteristicSignals& row) {
-  return {row.mean, row.filteredMean, row.minimum, row.maximum, row.sum,
-          static_cast<double>(row.active), row.areaMm2};
+  return {row.mean,
+          row.filteredMean,
+          row.minimum,
+          row.maximum,
+          row.sum,
+          static_cast<double>(row.active),
+          row.areaMm2};
 }
 // The same of filtered signals, which come in the order of kAllSignalKinds.
 SignalValues columnsOf(const SignalValues& row) {
