@@ -45,7 +45,7 @@ FilterOption masked() {
           1,
           0,
           {},
-          "1: keep the original value where the filtered one is above 0, else 0"};
+          "keep the original value where the filtered one is above 0, else 0"};
 }
 FilterOption centred() {
   return {"centred",
@@ -55,7 +55,7 @@ FilterOption centred() {
           1,
           0,
           {},
-          "1: a window around the frame, for recordings; 0: the frames up to now"};
+          "a window around the frame, for recordings; else the frames up to now"};
 }
 
 std::vector<FilterKind> spatialKinds() {
@@ -165,7 +165,7 @@ std::vector<FilterKind> temporalKinds() {
          1,
          0,
          {},
-         "1: smoothed over the whole recording (as rts); 0: the frames up to now"}},
+         "smoothed over the whole recording, as rts; else the frames up to now"}},
        "Expects a taxel to stay as it is: smooth, at the cost of some delay.",
        "begins at the first frame, and anew after a gap",
        "study 2.1.2; Q 0.05 and R 0.5 give the steady gain 0.270156"},
@@ -190,7 +190,7 @@ std::vector<FilterKind> temporalKinds() {
          1,
          0,
          {},
-         "1: smoothed over the whole recording; 0: the frames up to now"}},
+         "smoothed over the whole recording; else the frames up to now"}},
        "Mass, spring and damper driven by noise; what is left out comes from the recording by "
        "expectation-maximisation. The simple one does better.",
        "begins at the first frame, and anew after a gap",

@@ -23,19 +23,22 @@ class FilterChain::Link final : public FrameSink {
 
   void setNext(FrameSink& next) { next_ = &next; }
   void take(TactileFrame& frame) override {
-    if (!chain_.measuring_) {
-      filter_->push(frame, *next_);
-      return;
-    }
-    // Steps behind this one are called within push(): their time is theirs.
-    const double spentBehind = behindNs();
-    const auto from = SteadyClock::now();
-    filter_->push(frame, *next_);
-    chain_.spentNs_[step_] += nsBetween(from, SteadyClock::now()) - (behindNs() - spentBehind);
+    timed([&] { filter_->push(frame, *next_); });
   }
-  void finish() { filter_->finish(*next_); }
+  void finish() {
+    timed([this] { filter_->finish(*next_); });
+  }
 
  private:
+  template <typename Work>
+  void timed(const Work& work) {
+    if (!chain_.measuring_) return work();
+    // Steps behind this one are called within: their time is theirs.
+    const double spentBehind = behindNs();
+    const auto from = SteadyClock::now();
+    work();
+    chain_.spentNs_[step_] += nsBetween(from, SteadyClock::now()) - (behindNs() - spentBehind);
+  }
   double behindNs() const {
     double sum = 0.0;
     for (std::size_t i = step_ + 1; i < chain_.spentNs_.size(); ++i) sum += chain_.spentNs_[i];

@@ -102,6 +102,9 @@ void FilterForm::build(const FilterKind& kind) {
 
 void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option) {
   const QString tip = QString::fromStdString(option.purpose);
+  const QString rangeTip = option.kind == Kind::kFlag || option.kind == Kind::kChoice
+                               ? QString()
+                               : rangeOf(option) + "; arrow keys and the wheel step through it";
   const std::string key = option.key;
   auto* name = new QLabel(wordOf(option), fields_);
   name->setToolTip(tip);
@@ -117,8 +120,10 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
         const QSignalBlocker blocker(box);
         box->setChecked(step.flag(key));
       });
-      grid.addWidget(caption(tip, fields_), row, 1, 1, 2);
-      static_cast<QLabel*>(grid.itemAtPosition(row, 1)->widget())->setWordWrap(true);
+      auto* words = caption(tip, fields_);
+      words->setWordWrap(true);
+      words->setMinimumWidth(0);
+      grid.addWidget(words, row, 1, 1, 2);
       // The box stands before its words.
       name->hide();
       box->setText(wordOf(option));
@@ -146,6 +151,7 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
       const bool odd = option.kind == Kind::kOdd;
       box->setRange(static_cast<int>(option.minimum), static_cast<int>(option.maximum));
       box->setSingleStep(odd ? 2 : 1);
+      box->setButtonSymbols(QAbstractSpinBox::NoButtons);
       box->setSuffix(suffixOf(option));
       box->setKeyboardTracking(false);
       connect(
@@ -164,6 +170,7 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
     case Kind::kReal: {
       auto* box = new QDoubleSpinBox(fields_);
       box->setDecimals(kDecimals);
+      box->setButtonSymbols(QAbstractSpinBox::NoButtons);
       box->setRange(option.minimum, option.maximum);
       box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
       box->setSuffix(suffixOf(option));
@@ -199,7 +206,7 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
     }
   }
   field->setObjectName("option_" + QString::fromStdString(key));
-  field->setToolTip(tip);
+  field->setToolTip(tip + "\n" + rangeTip);
   field->setAccessibleName(wordOf(option));
 }
 

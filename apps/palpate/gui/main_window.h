@@ -236,6 +236,7 @@ class MainWindow : public QMainWindow {
   void keepRecipe();
   void showLiveFilter();
   QString filterText() const;
+  QString filteredCaption() const;
   std::ptrdiff_t saturatedNow() const;
   // main_window_library.cpp: Library and Log
   void buildLibrary();

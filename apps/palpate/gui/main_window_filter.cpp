@@ -32,10 +32,12 @@ std::optional<Recipe> recipeFrom(const std::string& json) {
   }
 }
 
+// As short as buttons in a row are: "0d".
 QStringList matrixNamesOf(const HandDescription& hand) {
   QStringList names;
   for (const MatrixDescription& matrix : hand.matrices)
-    names.append(QString::fromStdString(matrix.shortName));
+    names.append(QString::fromStdString(matrix.shortName).section(' ', 0, 0) +
+                 QString::fromStdString(matrix.shortName).section(' ', 1, 1).left(1));
   return names;
 }
 
@@ -95,6 +97,11 @@ QString MainWindow::filterText() const {
   Recipe seen = filter_->editor().recipe();
   std::erase_if(seen.steps, [](const FilterStep& step) { return !step.enabled; });
   return QString::fromStdString(recipeText(seen));
+}
+
+// A picture says what it is of.
+QString MainWindow::filteredCaption() const {
+  return filteredShown() ? " · filtered: " + filterText() : QString();
 }
 
 bool MainWindow::filteredShown() const {

@@ -318,12 +318,12 @@ void MainWindow::toggleFullScreen(bool on) {
 MatricesPictureOptions MainWindow::exportOptions() const {
   MatricesPictureOptions options = matrices_->pictureOptions();
   if (liveShown_) {
-    options.title = describe(live_.connection());
+    options.title = describe(live_.connection()) + filteredCaption();
     options.caption = QDateTime::fromMSecsSinceEpoch(matrices_->frame().hostUs / kUsPerMs)
                           .toString("yyyy-MM-dd HH:mm:ss.zzz");
     return options;
   }
-  options.title = QString::fromStdString(current_->path.filename().string());
+  options.title = QString::fromStdString(current_->path.filename().string()) + filteredCaption();
   options.caption = "frame " + QString::number(playback_.frame()) + " · " +
                     seconds(current_->timeAt(playback_.frame()));
   return options;

@@ -193,7 +193,7 @@ ValueRange MatricesPanel::rangeNow() const {
       maximum = std::max(maximum, recording_ ? recording_->maximumNow() : largestLive_);
       break;
   }
-  return {0.0, maximum};
+  return {0.0, std::ceil(maximum)};  // filters make fractions, which nobody reads on a scale
 }
 
 void MatricesPanel::applyLook() {

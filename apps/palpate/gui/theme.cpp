@@ -91,6 +91,11 @@ QToolButton[recording="true"] { background: @dangerSoft; border: 1px solid @dang
 #linkLog { background: @window; border: 1px solid @border; border-radius: 4px; color: @muted; }
 #libraryTable::item, #logTable::item { padding: 0 6px; border: 0; }
 #libraryTable::item:selected, #logTable::item:selected { background: @accentSoft; color: @text; }
+#filterList { border: 1px solid @border; border-radius: 4px; }
+#filterList::item { padding: 4px 2px; border: 0; }
+#filterList::item:selected { background: @accentSoft; color: @text; }
+#filterList::indicator { width: 11px; height: 11px; border: 1px solid @muted; border-radius: 3px; background: @window; }
+#filterList::indicator:checked { border-color: @accent; background: @accent; }
 #OpeningStrip { background: @panel; border-bottom: 1px solid @border; }
 #ViewHeader, #PlaybackBar { background: @panel; }
 #PlaybackBar { border-top: 1px solid @border; }
