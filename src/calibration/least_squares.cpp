@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include <Eigen/QR>
 #include <ceres/ceres.h>
@@ -99,16 +100,6 @@ void require(const LeastSquaresProblem& problem,
            std::to_string(start.size()) + " parameters");
   if (options.mostIterations < 1) refuse("mostIterations must be at least 1");
   if (!(options.tolerance > 0.0)) refuse("tolerance must be above 0");
-  for (const auto* bounds : {&problem.least, &problem.most})
-    if (!bounds->empty() && bounds->size() != sizeOf(start))
-      refuse("bounds of another number than the parameters");
-  for (std::size_t i = 0; i < sizeOf(start); ++i) {
-    const double x = start[static_cast<Eigen::Index>(i)];
-    if ((!problem.least.empty() && !(x >= problem.least[i])) ||
-        (!problem.most.empty() && !(x <= problem.most[i])))
-      refuse("parameter " + std::to_string(i) + " starts at " + numberText(x) +
-             ", outside its bounds");
-  }
 }
 
 // (J^T J)^-1 by QR of the column-scaled derivatives.
@@ -154,12 +145,6 @@ LeastSquaresReport descend(const LeastSquaresProblem& problem,
       start.size(), start.size(), std::numeric_limits<double>::quiet_NaN());
   ceres::Problem ceresProblem;
   ceresProblem.AddResidualBlock(new WholeProblem(problem, p), nullptr, report.x.data());
-  for (std::size_t i = 0; i < p; ++i) {
-    if (!problem.least.empty())
-      ceresProblem.SetParameterLowerBound(report.x.data(), static_cast<int>(i), problem.least[i]);
-    if (!problem.most.empty())
-      ceresProblem.SetParameterUpperBound(report.x.data(), static_cast<int>(i), problem.most[i]);
-  }
   ceres::Solver::Summary summary;
   ceres::Solve(solverOptions(options, radius), &ceresProblem, &summary);
   report.converged = summary.termination_type == ceres::CONVERGENCE;

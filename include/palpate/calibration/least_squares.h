@@ -2,10 +2,10 @@
 // extrapolated central differences unless they are given. Proof: all 27 nonlinear problems of NIST StRD.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -17,9 +17,6 @@ struct LeastSquaresProblem {
   std::function<bool(std::span<const double> x, std::span<double> residuals)> residuals;
   // d r_i / d x_j at [i * parameters + j]; may be absent.
   std::function<bool(std::span<const double> x, std::span<double> jacobian)> jacobian = {};
-  // Bounds, each empty (none) or one per parameter.
-  std::vector<double> least = {};
-  std::vector<double> most = {};
 };
 
 struct LeastSquaresOptions {
@@ -31,14 +28,15 @@ struct LeastSquaresOptions {
 struct LeastSquaresReport {
   Eigen::VectorXd x;
   double sumOfSquares = 0.0;
-  double residualSd = 0.0;     // sqrt(sum / (n - p)); 0 where n = p
-  Eigen::MatrixXd covariance;  // of x, linearised, scaled by residualSd^2; NaN where the derivatives are dependent
-  bool converged = false;      // a minimum was found
+  double residualSd = 0.0;  // sqrt(sum / (n - p)); 0 where n = p
+  Eigen::MatrixXd
+      covariance;  // of x, linearised, scaled by residualSd^2; NaN where the derivatives are dependent
+  bool converged = false;  // a minimum was found
   int iterations = 0;
-  std::string message;         // what ended it, one line
+  std::string message;  // what ended it, one line
 };
 
-// Throws std::invalid_argument (sizes, a start that is no number or not between the bounds, options). Trouble of the
+// Throws std::invalid_argument (sizes, a start that is no number, options). Trouble of the
 // data (not defined at the start, no convergence) is told by the report.
 LeastSquaresReport solveLeastSquares(const LeastSquaresProblem& problem,
                                      const Eigen::VectorXd& start,
