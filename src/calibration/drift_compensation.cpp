@@ -1,0 +1,38 @@
+#include "palpate/calibration/drift_compensation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate {
+
+double DriftCompensation::gainOf(const Surface& driftOfGain,
+                                 double timeS,
+                                 double reading,
+                                 double degC) {
+  compensating_ = false;
+  if (!(reading > 0.0)) {
+    beganS_.reset();
+    last_ = 0.0;
+    return 0.0;
+  }
+  const double since = beganS_ ? timeS - *beganS_ : 0.0;
+  const bool settled = since >= options_.steadyS;
+  // Within the lag the reading rises by itself.
+  if (!beganS_ || since < 0.0 ||
+      (settled && std::abs(reading - last_) > options_.sameLoadShare * last_))
+    beganS_ = timeS;
+  last_ = reading;
+  const double t = std::min(timeS - *beganS_, options_.longestS);
+  if (!driftOfGain.valid || t < options_.steadyS) return reading;
+  double gain = reading;
+  for (int i = 0; i < 3;
+       ++i) {  // m changes by a few per cent of K per second: it converges at once
+    const double drift = driftOfGain.at(gain, degC).value;
+    if (!std::isfinite(drift)) return reading;
+    gain = std::clamp(reading - drift * t, 0.5 * reading, 1.5 * reading);
+  }
+  compensating_ = true;
+  return gain;
+}
+
+}  // namespace palpate
