@@ -25,11 +25,13 @@ double DriftCompensation::gainOf(const Surface& driftOfGain,
   const double t = std::min(timeS - *beganS_, options_.longestS);
   if (!driftOfGain.valid || t < options_.steadyS) return reading;
   double gain = reading;
-  for (int i = 0; i < 3;
-       ++i) {  // m changes by a few per cent of K per second: it converges at once
-    const double drift = driftOfGain.at(gain, degC).value;
-    if (!std::isfinite(drift)) return reading;
-    gain = std::clamp(reading - drift * t, 0.5 * reading, 1.5 * reading);
+  // Newton's steps for K + m(K) t = a; m is nearly linear in K.
+  for (int i = 0; i < 3; ++i) {
+    const SurfaceEstimate drift = driftOfGain.at(gain, degC);
+    const double slope = 1.0 + drift.byX * t;
+    if (!std::isfinite(drift.value) || !(slope > 0.0)) return reading;
+    gain =
+        std::clamp(gain - (gain + drift.value * t - reading) / slope, 0.5 * reading, 1.5 * reading);
   }
   compensating_ = true;
   return gain;

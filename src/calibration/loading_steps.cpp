@@ -80,17 +80,18 @@ StepSignal stepSignal(const Profile& profile,
     out.timeS.push_back(static_cast<double>(frame.hostUs - profile.frameTimeUs(0)) / kUsPerS);
     const std::span<const float> values =
         std::span(frame.values).subspan(first, layout.numPlaces());
-    int saturated = 0, switched = 0;
-    bool any = false;
+    int saturated = 0, switched = 0, active = 0;
     for (std::size_t place = 0; place < values.size(); ++place) {
       const bool on = values[place] > 0.0F;
-      any = any || on;
+      active += on ? 1 : 0;
       saturated += values[place] >= profile.hand().saturationCounts ? 1 : 0;
       switched += on != wasOn[place] ? 1 : 0;
       wasOn[place] = on;
     }
     const auto matrixValues = std::as_const(frame).matrix(matrix);
-    out.values.push_back(any ? valueOf(characteristicSignals(matrixValues, layout), signal) : 0.0);
+    out.values.push_back(active > 0 ? valueOf(characteristicSignals(matrixValues, layout), signal)
+                                    : 0.0);
+    out.activeTaxels.push_back(active);
     out.saturatedTaxels.push_back(saturated);
     out.switchedTaxels.push_back(i == 0 ? 0 : switched);
   }

@@ -78,7 +78,7 @@ void addTemperatures(const Profile& profile, std::size_t matrix, FittedStep& fit
   if (numAll > 0) fitted.allSensorsDegC = all / static_cast<double>(numAll);
 }
 
-void judge(const StepSignal& signal, FittedStep& fitted) {
+void judge(const StepSignal& signal, double taxelAreaMm2, FittedStep& fitted) {
   const LoadingStep& step = fitted.step;
   const auto note = [&](std::string text) { fitted.notes.push_back(std::move(text)); };
   const std::size_t frames = step.end - step.begin + 1;
@@ -90,6 +90,12 @@ void judge(const StepSignal& signal, FittedStep& fitted) {
     if (fitted.saturatedFrames > 0)
       note("taxels are saturated in " + std::to_string(fitted.saturatedFrames) + " of " +
            std::to_string(frames) + " frames: K is too small; lower the sensitivity");
+  }
+  if (!signal.activeTaxels.empty()) {
+    const std::size_t middle = step.begin + frames / 2;
+    double active = 0.0;
+    for (std::size_t i = middle; i <= step.end; ++i) active += signal.activeTaxels[i];
+    fitted.activeAreaMm2 = active / static_cast<double>(step.end - middle + 1) * taxelAreaMm2;
   }
   if (!signal.switchedTaxels.empty()) {
     const std::size_t middle = step.begin + frames / 2;
@@ -163,6 +169,7 @@ Json jsonOf(const FittedStep& fitted) {
   json.set("nearest_temperature_c", orNull(fitted.nearestDegC));
   json.set("mean_temperature_c", orNull(fitted.allSensorsDegC));
   json.set("study_temperature_c", orNull(fitted.studyDegC));
+  json.set("active_area_mm2", fitted.activeAreaMm2);
   json.set("saturated_frames", fitted.saturatedFrames);
   json.set("switched_taxels_per_frame", fitted.switchedPerFrame);
   json.set("released", fitted.step.released);
@@ -209,7 +216,7 @@ StepReport reportSteps(const Profile& profile,
     fitted.fit = fitStep(samples.timeS, samples.values, options.fit);
     if (fitted.fit.converged) fitted.characteristics = characteristicsOf(fitted.fit.parameters);
     addTemperatures(profile, matrix, fitted);
-    judge(signal, fitted);
+    judge(signal, profile.layout().matrix(matrix).taxelAreaMm2(), fitted);
     report.steps.push_back(std::move(fitted));
   }
   const bool touched = std::any_of(signal.values.begin(), signal.values.end(), [&](double v) {

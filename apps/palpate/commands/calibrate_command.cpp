@@ -3,8 +3,10 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <ctime>
 #include <utility>
 
+#include "palpate/calibration/calibration.h"
 #include "palpate/core/error.h"
 #include "palpate/core/output_file.h"
 
@@ -20,9 +22,16 @@ struct Kind {
 };
 
 constexpr std::array kKinds = {
+    Kind{"noise", "noise floor of an unloaded hand over its temperature", &calibrateNoise},
     Kind{"step",
          "fits the response to each loading step: gain, drift, time constants",
          &calibrateStep},
+    Kind{"pressure",
+         "pressure from gain and temperature, from a table of recordings",
+         &calibratePressure},
+    Kind{"sensitivity", "gain against the sensor's sensitivity", &calibrateSensitivity},
+    Kind{"tare", "what the taxels read unloaded, noted beside the data", &calibrateTare},
+    Kind{"apply", "pressure and force of a recording by a calibration", &calibrateApply},
 };
 
 void showKinds() {
@@ -79,9 +88,33 @@ void requireMatrix(const std::filesystem::path& file, std::size_t numMatrices, s
               std::to_string(numMatrices - 1));
 }
 
-void printJson(const CommandLine& given, const Json& json) {
+StepLoss lossGiven(const CommandLine& given) {
+  const std::string loss = given.choice("loss", {"squares", "huber", "cauchy"}).value_or("squares");
+  return loss == "huber"    ? StepLoss::kHuber
+         : loss == "cauchy" ? StepLoss::kCauchy
+                            : StepLoss::kSquares;
+}
+
+std::string nowText() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text.data();
+}
+
+Json provenance(const std::string& kind) {
+  return Json::object()
+      .set("kind", "palpate " + kind + " calibration")
+      .set("format_version", Calibration::kFormatVersion)
+      .set("program_version", PALPATE_VERSION)
+      .set("made_at", nowText());
+}
+
+void printJson(const CommandLine& given, const Json& json, bool outputWritten) {
   const std::string text = json.text() + "\n";
-  if (const auto out = given.text("output")) {
+  if (const auto out = given.text("output"); out && !outputWritten) {
     OutputFile file(*out, given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse);
     file.write(text);
     file.commit();

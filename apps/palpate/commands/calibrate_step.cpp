@@ -1,5 +1,6 @@
 // palpate calibrate step FILE --matrix M: the response to each loading step, as JSON.
 #include "palpate/calibration/step_report.h"
+#include "palpate/core/hash.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/calibrate_commands.h"
@@ -39,21 +40,19 @@ int calibrateStep(const Words& words) {
   options.steps.aboveCounts = given.number("above", 0.0, 1e6).value_or(0.0);
   options.steps.leastDurationS =
       given.number("least", 0.0, 86'400.0).value_or(options.steps.leastDurationS);
-  const std::string loss = given.choice("loss", {"squares", "huber", "cauchy"}).value_or("squares");
-  if (loss == "huber") options.fit.loss = StepLoss::kHuber;
-  if (loss == "cauchy") options.fit.loss = StepLoss::kCauchy;
+  options.fit.loss = lossGiven(given);
   if (given.choice("damping", {"over", "any"}) == "any") options.fit.damping = StepDamping::kAny;
   ProgressLine progress("reading " + file.string(), given.quiet());
   const Profile profile = openRecording(file, progress.callback());
   requireMatrix(file, profile.layout().numMatrices(), matrix);
   const StepReport report = reportSteps(profile, matrix, options, progress.callback());
   progress.wipe();
-  Json json = Json::object();
-  json.set("file", file.string());
+  Json json = provenance("step");
+  json.set("file", file.string()).set("sha256", sha256OfFile(file));
   const Json found = jsonOf(report);
   for (const std::string& key : found.keys()) json.set(key, found.at(key));
   printJson(given, json);
-  return kDone;
+  return report.steps.empty() ? kPartlyDone : kDone;
 }
 
 }  // namespace palpate::commands

@@ -43,6 +43,7 @@ struct LoadingStep {
 struct StepSignal {
   std::vector<double> timeS;         // from the first frame [s]
   std::vector<double> values;        // the characteristic signal
+  std::vector<int> activeTaxels;     // taxels above 0; empty: not known
   std::vector<int> saturatedTaxels;  // taxels at or above the sensor's saturation; empty: not known
   std::vector<int>
       switchedTaxels;  // taxels that became active or inactive since the frame before; empty: not known

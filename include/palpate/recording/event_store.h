@@ -15,7 +15,7 @@
 namespace palpate {
 
 // Whether a person may add, change and remove an event: kinds "label" and "mark" (as the recorder writes
-// them), "note", and "segment" (a grasp or another part, as a person sees it).
+// them), "note", "segment" (a grasp or another part, as a person sees it), and "tare" (zeros to be taken off).
 bool isNoted(const RecordingEvent& event);
 
 struct SaveEventsOptions {
