@@ -10,18 +10,29 @@ double DriftCompensation::gainOf(const Surface& driftOfGain,
                                  double reading,
                                  double degC) {
   compensating_ = false;
-  if (!(reading > 0.0)) {
+  const bool loaded = reading > 0.0;
+  if (!beganS_ || timeS < *beganS_) {
     beganS_.reset();
-    last_ = 0.0;
-    return 0.0;
-  }
-  const double since = beganS_ ? timeS - *beganS_ : 0.0;
-  const bool settled = since >= options_.steadyS;
-  // Within the lag the reading rises by itself.
-  if (!beganS_ || since < 0.0 ||
-      (settled && std::abs(reading - last_) > options_.sameLoadShare * last_))
+    otherSinceS_.reset();
+    if (!loaded) return 0.0;
     beganS_ = timeS;
-  last_ = reading;
+  }
+  // Within the lag the reading rises by itself.
+  const bool settled = timeS - *beganS_ >= options_.steadyS;
+  const bool other =
+      !loaded || (settled && std::abs(reading - last_) > options_.sameLoadShare * last_);
+  if (!other) {
+    otherSinceS_.reset();
+    last_ = reading;
+  } else {
+    if (!otherSinceS_) otherSinceS_ = timeS;
+    if (timeS - *otherSinceS_ >= options_.flickerS) {
+      beganS_ = loaded ? otherSinceS_ : std::nullopt;
+      otherSinceS_.reset();
+      last_ = reading;
+    }
+  }
+  if (!loaded || !beganS_) return 0.0;
   const double t = std::min(timeS - *beganS_, options_.longestS);
   if (!driftOfGain.valid || t < options_.steadyS) return reading;
   double gain = reading;

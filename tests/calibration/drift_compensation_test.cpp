@@ -38,12 +38,26 @@ TEST(DriftCompensation, BeginsAnewWithAnotherLoad) {
   DriftCompensation compensation({.steadyS = 1.0});
   for (double t = 0.0; t < 5.0; t += 0.1) compensation.gainOf(drift, t, 300.0, 30.0);
   EXPECT_TRUE(compensation.compensating());
-  EXPECT_EQ(compensation.gainOf(drift, 5.0, 500.0, 30.0), 500.0);
+  compensation.gainOf(drift, 5.0, 500.0, 30.0);
+  EXPECT_EQ(compensation.gainOf(drift, 5.12, 500.0, 30.0), 500.0);
   EXPECT_FALSE(compensation.compensating());
-  for (double t = 5.1; t < 9.0; t += 0.1) compensation.gainOf(drift, t, 500.0, 30.0);
+  for (double t = 5.2; t < 9.0; t += 0.1) compensation.gainOf(drift, t, 500.0, 30.0);
   EXPECT_TRUE(compensation.compensating());
   EXPECT_EQ(compensation.gainOf(drift, 9.1, 0.0, 30.0), 0.0);
-  EXPECT_EQ(compensation.gainOf(drift, 9.2, 500.0, 30.0), 500.0) << "a new contact";
+  EXPECT_EQ(compensation.gainOf(drift, 9.25, 0.0, 30.0), 0.0);
+  EXPECT_EQ(compensation.gainOf(drift, 9.3, 500.0, 30.0), 500.0) << "a new contact";
+}
+
+// As real recordings have it: one frame of 665 among readings of 807, one of 0.
+TEST(DriftCompensation, ASingleFrameThatJumpsIsNoNewLoad) {
+  const Surface drift = driftSurface();
+  DriftCompensation compensation({.steadyS = 1.0});
+  for (double t = 0.0; t < 5.0; t += 0.03) compensation.gainOf(drift, t, 400.0, 30.0);
+  const double before = compensation.gainOf(drift, 5.0, 400.0, 30.0);
+  compensation.gainOf(drift, 5.03, 310.0, 30.0);
+  EXPECT_NEAR(compensation.gainOf(drift, 5.06, 400.0, 30.0), before, 1.0);
+  EXPECT_EQ(compensation.gainOf(drift, 5.09, 0.0, 30.0), 0.0);
+  EXPECT_NEAR(compensation.gainOf(drift, 5.12, 400.0, 30.0), before, 1.0);
 }
 
 TEST(DriftCompensation, StopsWhereCreepWasNotMeasuredAnyMore) {

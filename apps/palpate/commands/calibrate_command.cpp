@@ -39,7 +39,9 @@ void showKinds() {
       "Usage: palpate calibrate KIND ...\n\n"
       "From counts to kilopascals and newtons, with error bars. KIND:");
   for (const Kind& kind : kKinds) std::printf("  %-12s %s\n", kind.name, kind.summary);
-  std::puts("\n'palpate calibrate KIND --help' explains one.");
+  std::puts(
+      "\nEvery KIND takes --help and --quiet.\n\n"
+      "Example:\n  palpate calibrate step A1.dsa --matrix 1");
 }
 
 constexpr std::array<std::pair<const char*, SignalKind>, 7> kSignals = {

@@ -11,8 +11,10 @@ namespace palpate {
 struct DriftCompensationOptions {
   double steadyS = 1.0;    // the lag is over so long after contact began [s]
   double longestS = 30.0;  // creep was measured so long; later it counts as ended [s]
-  double sameLoadShare =
-      0.15;  // a reading that changes by more from one frame to the next is another load
+  // A reading that differs by more from the one before is another load, once it has lasted for flickerS: single frames
+  // jump when a taxel at the edge comes or goes.
+  double sameLoadShare = 0.15;
+  double flickerS = 0.1;  // [s]
 };
 
 // Of one contact, frame by frame; not thread-safe.
@@ -24,11 +26,14 @@ class DriftCompensation {
   // reading itself.
   double gainOf(const Surface& driftOfGain, double timeS, double reading, double degC);
   bool compensating() const noexcept { return compensating_; }  // in the last call
-  void reset() noexcept { beganS_.reset(); }
+  void reset() noexcept {
+    beganS_.reset();
+    otherSinceS_.reset();
+  }
 
  private:
   DriftCompensationOptions options_;
-  std::optional<double> beganS_;
+  std::optional<double> beganS_, otherSinceS_;
   double last_ = 0.0;
   bool compensating_ = false;
 };
