@@ -292,7 +292,7 @@ TEST(CalibrateCommand, ACalibrationThatIsNoneIsRefused) {
       {"no calibration"});
   expectOneLineError(palpate({"calibrate", "apply", folder / "a.dsa"}), 2, {"--calibration"});
   expectOneLineError(
-      palpate({"contact", folder / "a.dsa", "--sensitivity", "0.5"}), 2, {"--calibration"});
+      palpate({"contact", folder / "a.dsa", "--sensor-sensitivity", "0.5"}), 2, {"--calibration"});
 }
 
 }  // namespace

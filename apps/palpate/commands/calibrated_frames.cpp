@@ -25,8 +25,10 @@ std::optional<Tare> tareIn(const std::filesystem::path& file, const SensorLayout
 std::vector<OptionSpec> calibrationOptions() {
   return {
       {"calibration", "C.json", "what `palpate calibrate pressure` wrote"},
-      {"sensitivity", "S", "the recording was made with, default that of the calibration"},
-      {"threshold", "N", "the recording was made with [counts], default that of the calibration"},
+      {"sensor-sensitivity", "S", "the recording was made with, default that of the calibration"},
+      {"sensor-threshold",
+       "N",
+       "the recording was made with [counts], default that of the calibration"},
       {"no-tare", "", "don't take off the zeros that `calibrate tare --apply` noted"},
       {"no-drift", "", "don't take the creep out of contacts that last"}};
 }
@@ -39,7 +41,7 @@ std::vector<OptionSpec> withCalibration(std::vector<OptionSpec> options) {
 std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given) {
   const auto path = given.text("calibration");
   if (!path) {
-    for (const char* option : {"sensitivity", "threshold", "no-tare", "no-drift"})
+    for (const char* option : {"sensor-sensitivity", "sensor-threshold", "no-tare", "no-drift"})
       if (given.has(option))
         throw UsageError("--" + std::string(option) + " goes with --calibration C.json");
     return std::nullopt;
@@ -48,8 +50,8 @@ std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given) {
   if (!choice.calibration.pressure.valid())
     throw FileError(*path, "holds no P(K, T), so that no force follows from it; its notes say why");
   choice.options.compensateDrift = !given.has("no-drift");
-  const auto sensitivity = given.number("sensitivity", 0.01, 1.0),
-             threshold = given.number("threshold", 0.0, 4095.0);
+  const auto sensitivity = given.number("sensor-sensitivity", 0.01, 1.0),
+             threshold = given.number("sensor-threshold", 0.0, 4095.0);
   if (sensitivity || threshold) {
     SensorSettings settings = choice.calibration.settings;
     settings.assumed = true;

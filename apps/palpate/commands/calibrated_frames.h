@@ -14,7 +14,7 @@
 
 namespace palpate::commands {
 
-// --calibration C.json, --sensitivity S, --threshold N, --no-tare, --no-drift.
+// --calibration C.json, --sensor-sensitivity S, --sensor-threshold N, --no-tare, --no-drift.
 std::vector<OptionSpec> calibrationOptions();
 // Those of a command, and these.
 std::vector<OptionSpec> withCalibration(std::vector<OptionSpec> options);
