@@ -1,7 +1,6 @@
 #include "palpate/filter/gaussian.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 #include <stdexcept>
@@ -12,22 +11,6 @@ namespace {
 
 constexpr int kLargestSize = 31;
 constexpr double kFwhmPerSigma = 2.3548;  // full width at half maximum of a Gaussian, in sigmas
-
-using Kernel = std::array<float, kLargestSize>;  // the first `size` entries are used
-
-Kernel kernelOf(const GaussianOptions& options) {
-  Kernel kernel{};
-  const double sigma = options.effectiveSigma();
-  const int radius = options.size / 2;
-  double sum = 0.0;
-  for (int i = 0; i < options.size; ++i) {
-    const double t = (i - radius) / sigma;
-    kernel[static_cast<std::size_t>(i)] = static_cast<float>(std::exp(-0.5 * t * t));
-    sum += static_cast<double>(kernel[static_cast<std::size_t>(i)]);
-  }
-  for (float& weight : kernel) weight = static_cast<float>(static_cast<double>(weight) / sum);
-  return kernel;
-}
 
 // Weighted sum along one direction of a rows x columns array, border replicated.
 void convolve(const float* in,
@@ -70,6 +53,21 @@ void GaussianOptions::validate() const {
                                 std::to_string(sigma));
 }
 
+std::vector<float> gaussianWeights(const GaussianOptions& options) {
+  options.validate();
+  const double sigma = options.effectiveSigma();
+  const int radius = options.size / 2;
+  std::vector<float> weights;
+  double sum = 0.0;
+  for (int i = 0; i < options.size; ++i) {
+    const double t = (i - radius) / sigma;
+    weights.push_back(static_cast<float>(std::exp(-0.5 * t * t)));
+    sum += static_cast<double>(weights.back());
+  }
+  for (float& weight : weights) weight = static_cast<float>(static_cast<double>(weight) / sum);
+  return weights;
+}
+
 double GaussianOptions::effectiveSigma() const {
   return sigma > 0.0 ? sigma : (size + 1) / 2.0 / kFwhmPerSigma;
 }
@@ -80,8 +78,7 @@ MatrixValues gaussianFiltered(const Eigen::Ref<const MatrixValues>& values,
   options.validate();
   if (values.rows() != layout.rows || values.cols() != layout.columns)
     throw std::invalid_argument("gaussian: the matrix has not the size of its layout");
-  const Kernel weights = kernelOf(options);
-  const auto kernel = std::span(weights).first(static_cast<std::size_t>(options.size));
+  const std::vector<float> kernel = gaussianWeights(options);
   if (layout.numEnabled() == layout.numPlaces()) return convolvedBothWays(values, kernel);
 
   // Normalised convolution: what masked taxels would have weighed goes to the others.

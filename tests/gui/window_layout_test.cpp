@@ -120,7 +120,7 @@ TEST_F(WindowLayoutTest, DocksCloseByTheirButton) {
   window().showDock("Inspect");
   EXPECT_TRUE(dock("Inspect")->isVisible());
   EXPECT_EQ(window().dockNames(),
-            (QStringList{"Inspect", "Timeline", "Hand", "Link", "Library", "Log"}));
+            (QStringList{"Inspect", "Timeline", "Hand", "Link", "Spectrum", "Library", "Log"}));
 }
 
 }  // namespace

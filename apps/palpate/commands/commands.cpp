@@ -129,6 +129,8 @@ const std::vector<Command>& allCommands() {
        &convertCommand},
       {"demo", "a headless tour: reads, reports and draws a recording", &demoCommand},
       {"emulate", "the emulated hand on two ports, until it is interrupted", &emulateCommand},
+      {"filter", "a recording through a chain of filters, as a recording", &filterCommand},
+      {"ghosts", "false taxels, and what filters do to them and to contacts", &ghostsCommand},
       {"grasp", "moves a connected hand: plain and reactive grasps", &graspCommand},
       {"grasps", "where the grasps in recordings are, as CSV", &graspsCommand},
       {"info", "what is in a recording, or in each of a folder", &infoCommand},
@@ -138,6 +140,7 @@ const std::vector<Command>& allCommands() {
       {"recover", "saves what can be saved of a damaged or unfinished recording", &recoverCommand},
       {"render", "a picture of one frame: PNG, SVG or PDF", &renderCommand},
       {"signals", "characteristic signals of each matrix as CSV", &signalsCommand},
+      {"spectrum", "spectra of a taxel or a signal over time, as CSV", &spectrumCommand},
       {"synthesize", "makes a synthetic recording with known content", &synthesizeCommand},
       {"verify", "checks every byte of recordings", &verifyCommand},
   };

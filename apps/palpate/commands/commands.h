@@ -28,6 +28,8 @@ int contactCommand(const Words& words);
 int convertCommand(const Words& words);
 int demoCommand(const Words& words);
 int emulateCommand(const Words& words);
+int filterCommand(const Words& words);
+int ghostsCommand(const Words& words);
 int graspCommand(const Words& words);
 int graspsCommand(const Words& words);
 int infoCommand(const Words& words);
@@ -37,6 +39,7 @@ int recordCommand(const Words& words);
 int recoverCommand(const Words& words);
 int renderCommand(const Words& words);
 int signalsCommand(const Words& words);
+int spectrumCommand(const Words& words);
 int synthesizeCommand(const Words& words);
 int verifyCommand(const Words& words);
 // The window: files to open, --demo, --screenshot.

@@ -1,4 +1,4 @@
-// palpate signals PATH... [--matrix M]: characteristic signals as CSV.
+// palpate signals PATH... [--matrix M] [--filter SPEC..]: characteristic signals as CSV.
 #include <cstdint>
 #include <filesystem>
 
@@ -6,9 +6,11 @@
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
 #include "palpate/filter/characteristic_signals.h"
+#include "palpate/filter/signal_filter.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/filter_options.h"
 #include "commands/recording_list.h"
 
 namespace palpate::commands {
@@ -16,30 +18,41 @@ namespace {
 
 constexpr std::int64_t kUsPerMs = 1000;
 
+// One value after the other, in the order of the columns.
+SignalValues columnsOf(const CharacteristicSignals& row) {
+  return {row.mean,
+          row.filteredMean,
+          row.minimum,
+          row.maximum,
+          row.sum,
+          static_cast<double>(row.active),
+          row.areaMm2};
+}
+// The same of filtered signals, which come in the order of kAllSignalKinds.
+SignalValues columnsOf(const SignalValues& row) {
+  return {row[0], row[1], row[3], row[2], row[4], row[5], row[6]};
+}
+
 void appendRow(std::string& line,
                std::size_t frame,
                std::int64_t hostUs,
                std::size_t matrix,
-               const CharacteristicSignals& signals) {
+               const SignalValues& columns) {
   appendNumber(line, static_cast<std::int64_t>(frame));
   line += ',';
   appendNumber(line, hostUs / kUsPerMs);
   line += ',';
   appendNumber(line, static_cast<std::int64_t>(matrix));
-  for (double value :
-       {signals.mean, signals.filteredMean, signals.minimum, signals.maximum, signals.sum}) {
+  for (const double value : columns) {
     line += ',';
     appendNumber(line, value);
   }
-  line += ',';
-  appendNumber(line, static_cast<std::int64_t>(signals.active));
-  line += ',';
-  appendNumber(line, signals.areaMm2);
 }
 
 void writeSignals(StandardOutput& out,
                   const Profile& profile,
                   std::optional<std::size_t> onlyMatrix,
+                  const Recipe& smooth,
                   const std::string& lineEnd,
                   const Progress& progress) {
   const SensorLayout& layout = profile.layout();
@@ -47,15 +60,37 @@ void writeSignals(StandardOutput& out,
   const std::size_t last = onlyMatrix ? *onlyMatrix + 1 : layout.numMatrices();
   TactileFrame frame;
   std::string line;
+  std::size_t written = 0;
+  const auto write = [&](std::int64_t hostUs, const auto& rows) {
+    for (std::size_t m = first; m < last; ++m) {
+      line.clear();
+      appendRow(line, written, hostUs, m, columnsOf(rows[m]));
+      out.write(line += lineEnd);
+    }
+    ++written;
+  };
+  SignalFilter filter(smooth, layout.numMatrices(), write);
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     if (!progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
       throw Cancelled();
     profile.readFrame(i, frame);
-    for (std::size_t m = first; m < last; ++m) {
-      line.clear();
-      appendRow(line, i, frame.hostUs, m, characteristicSignals(frame.matrix(m), layout.matrix(m)));
-      out.write(line += lineEnd);
-    }
+    const std::vector<CharacteristicSignals> rows = characteristicSignals(frame);
+    if (smooth.empty())
+      write(frame.hostUs, rows);
+    else
+      filter.push(frame.hostUs, rows);
+  }
+  filter.finish();
+}
+
+// Filters over time for the signals themselves.
+Recipe smoothOf(const CommandLine& given) {
+  try {
+    const Recipe recipe = parseRecipe(given.texts("smooth"));
+    SignalFilter(recipe, 1, [](std::int64_t, std::span<const SignalValues>) {});
+    return recipe;
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--smooth ") + error.what());
   }
 }
 
@@ -63,26 +98,31 @@ void writeSignals(StandardOutput& out,
 
 int signalsCommand(const Words& words) {
   const CommandLine given(
-      {.synopsis = "palpate signals PATH... [--matrix M]",
+      {.synopsis = "palpate signals PATH... [--matrix M] [--filter SPEC..] [--smooth SPEC..]",
        .purpose = "Prints the characteristic signals of every matrix in every frame as CSV: mean, "
                   "minimum, maximum,\nsum and number of the active taxels (value > 0), their area, "
                   "and the mean of the 3x3 Gaussian-\nfiltered matrix over its active taxels. An "
                   "empty matrix has zeros. PATH is a recording, or a\nfolder: every recording "
                   "below it. With several a last column names the file; one that can't be\nread is "
                   "said, and the rows of the others are there: exit code 3.",
-       .options = {{"matrix", "M", "only this matrix (0, 1, ..)"}},
+       .options = withFilterOptions(
+           {{"matrix", "M", "only this matrix (0, 1, ..)"},
+            {"smooth", "SPEC", "then filter the signals themselves over time, as kalman:q=0.05"}}),
        .example = "palpate signals foam_ball.dsa --matrix 1 > curve.csv",
        .fewestWords = 1},
       words);
   if (given.helpShown()) return kDone;
   const auto matrix = given.integer("matrix", 0, INT64_MAX);
+  const Recipe recipe = recipeOf(given);
+  const Recipe smooth = smoothOf(given);
   const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
   bool headerWritten = false;
   return forEachProfile(
       recordings,
       given.quiet(),
-      [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
+      [&](const std::filesystem::path& file, const Profile& unfiltered, const Progress& progress) {
+        const Profile profile = lookedAtThrough(recipe, unfiltered, file);
         std::optional<std::size_t> only;
         if (matrix) {
           only = static_cast<std::size_t>(*matrix);
@@ -97,7 +137,7 @@ int signalsCommand(const Words& words) {
         const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";
         // What was written of a recording that fails on the way stays: whole rows, and it is said.
         try {
-          writeSignals(out, profile, only, lineEnd, progress);
+          writeSignals(out, profile, only, smooth, lineEnd, progress);
         } catch (const Error&) {
           out.finish();
           throw;

@@ -8,6 +8,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/display.h"
+#include "commands/filter_options.h"
 #include "commands/hand_options.h"
 #include "commands/picture_size.h"
 #include "gui/gl_probe.h"
@@ -15,6 +16,12 @@
 
 namespace palpate::commands {
 namespace {
+
+// Nothing where none is asked for: the window has those of last time.
+std::optional<Recipe> filtersOf(const CommandLine& given) {
+  Recipe recipe = recipeOf(given);
+  return recipe.steps.empty() ? std::nullopt : std::optional(std::move(recipe));
+}
 
 constexpr QSize kSmallestWindow{800, 500};
 
@@ -32,6 +39,7 @@ int screenshot(const CommandLine& given) {
   options.force = given.has("force");
   options.openGl = !given.has("no-gl");
   options.assumedAnglesDeg = anglesOf(given).value_or(std::vector<double>());
+  options.recipe = filtersOf(given);
   if (options.out.extension() != ".png")
     throw UsageError("--screenshot: the picture's name must end in .png, not '" +
                      options.out.string() + "'");
@@ -84,6 +92,8 @@ int workbenchCommand(const Words& words) {
                    {"angles",
                     "A0,..,A6",
                     "joint angles [deg] assumed for recordings that have none"},
+                   {"filter", "SPEC", "look through a filter, as median:size=3; may be repeated"},
+                   {"recipe", "R.json", "look through a recipe of filters"},
                    {"force", "", "with --screenshot: replace OUT.png"}},
        .example = "palpate foam_ball.dsa"},
       words);
@@ -95,6 +105,7 @@ int workbenchCommand(const Words& words) {
     throw UsageError("give FILE or --demo, not both");
   if (given.has("gl") && given.has("no-gl")) throw UsageError("give --gl or --no-gl, not both");
   const auto assumed = anglesOf(given);
+  const auto filters = filtersOf(given);
   if (!hasDisplay())
     throw Error("no display: run it on a desktop, or use a command ('palpate --help' lists them)");
   const RuntimeFolder runtime;
@@ -106,6 +117,7 @@ int workbenchCommand(const Words& words) {
                    : given.has("gl")  ? gui::OpenGlChoice::kAlways
                                       : gui::OpenGlChoice::kFast;
   options.assumedAnglesDeg = assumed.value_or(std::vector<double>());
+  options.recipe = filters;
   std::string name = "palpate";
   char* arguments[] = {name.data(), nullptr};
   int count = 1;

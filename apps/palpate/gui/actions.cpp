@@ -109,6 +109,8 @@ Actions::Actions(QWidget* window) : window_(window) {
   interpolated->setToolTip("Smooth between taxels (I)");
   values = make("View", "&Values", {key("V")}, true);
   values->setToolTip("Print the value of each active taxel (V)");
+  filtered = make("View", "&Filtered, or as recorded", {key("A")}, true);
+  filtered->setToolTip("After the filters, or before (A)");
   nextMap = make("View", "Next &colour map", {key("M")});
   nextRange = make("View", "Next colour &range", {key("R")});
   nextSignal = make("View", "Next &signal in the timeline", {key("S")});

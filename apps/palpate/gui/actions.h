@@ -49,6 +49,7 @@ struct Actions {
 
   QAction* interpolated;
   QAction* values;
+  QAction* filtered;  // what is shown, through the filters (after) or as it is (before)
   QAction* nextMap;
   QAction* nextRange;
   QAction* nextSignal;

@@ -68,6 +68,9 @@ std::unique_ptr<LiveSource> openSource(const Connection& connection,
   source->session = std::make_unique<CaptureSession>(deviceOf(*source, dataFolder, progress));
   source->history = std::make_unique<SignalHistory>();
   std::vector<std::unique_ptr<Stage>> stages;
+  auto filters = std::make_unique<FilterStage>();
+  source->filters = filters.get();
+  stages.push_back(std::move(filters));
   stages.push_back(std::make_unique<SignalsStage>());
   ChainOptions options;
   options.onResults = [history = source->history.get()](const LiveResults& results) {

@@ -9,6 +9,7 @@
 #include <palpate/control/grasp_control.h>
 #include <palpate/core/progress.h>
 #include <palpate/emulator/emulated_hand.h>
+#include <palpate/live/filter_stage.h>
 #include <palpate/live/processing_chain.h>
 #include <palpate/live/signal_history.h>
 
@@ -31,6 +32,7 @@ struct LiveSource {
   std::unique_ptr<CaptureSession> session;
   std::unique_ptr<SignalHistory> history;
   std::unique_ptr<ProcessingChain> chain;
+  FilterStage* filters = nullptr;         // of the chain, the first stage
   std::unique_ptr<GraspControl> control;  // null: a replay, which nobody can move
 };
 

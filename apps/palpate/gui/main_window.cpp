@@ -75,6 +75,8 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   connectEvents();
   connectCompare();
   connectHandView();
+  connectFilter(surroundings.recipe);
+  connectSpectrum();
 
   askForRecordings = [this] {
     return QFileDialog::getOpenFileNames(this,
@@ -185,6 +187,8 @@ void MainWindow::buildDocks() {
   link_ = new LinkPanel(this);
   linkDock_ = new Dock("Link", link_, nullptr, this);
   docks_ = {inspectDock_, timelineDock_, handDock_, linkDock_};
+  buildFilter();
+  buildSpectrum();
   buildLibrary();
   setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
   setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);

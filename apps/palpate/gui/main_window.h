@@ -24,6 +24,7 @@
 #include "gui/background_job.h"
 #include "gui/event_editor.h"
 #include "gui/exported_view.h"
+#include "gui/filter_worker.h"
 #include "gui/hand_look.h"
 #include "gui/live_controller.h"
 #include "gui/matrices_painter.h"
@@ -43,6 +44,7 @@ namespace palpate::gui {
 
 class ComparePanel;
 class Dock;
+class FilterPanel;
 class HandDock;
 class HandPanel;
 class InspectPanel;
@@ -59,6 +61,7 @@ class PlaybackBar;
 class StartPage;
 class StatusStrip;
 class SignalTree;
+class SpectrumPanel;
 class TakeAway;
 class TimelineChart;
 class TimelineHeader;
@@ -71,6 +74,7 @@ struct WindowSurroundings {
   const Clock* clock = nullptr;               // null: the system's
   RecordingOpener::Read read = {};            // empty: openRecording
   std::vector<double> assumedAnglesDeg = {};  // of recordings without joint angles; empty: none
+  std::optional<Recipe> recipe = {};          // switched on; nothing: what was there last
   bool offerUnfinished = false;  // recordings that an earlier day left, when the window opens
 };
 
@@ -141,6 +145,12 @@ class MainWindow : public QMainWindow {
   // What can be taken away, and how it is asked for.
   TakeAway& takeAway() noexcept { return *takeAway_; }
   LibraryPanel& library() noexcept { return *library_; }
+  FilterPanel& filter() noexcept { return *filter_; }
+  // As it is seen: through the filters, where they are on.
+  const OpenedRecordingPtr& shown() const noexcept { return shown_; }
+  bool filteredShown() const;
+  void waitForFilter() { filterWorker_.wait(); }
+  SpectrumPanel& spectrum() noexcept { return *spectrum_; }
   const ActivityLog& activity() const noexcept { return activity_; }
   // Waits until what is being written is on disk.
   void waitForExports();
@@ -190,6 +200,13 @@ class MainWindow : public QMainWindow {
   void selectEnd(bool begin);
   void nameChosenTaxels();
   void cropSelection();
+  // main_window_spectrum.cpp
+  void buildSpectrum();
+  void placeSpectrum();
+  void connectSpectrum();
+  void showSpectrum();
+  void makeRoomForSpectrum();
+  ExportedView spectrumExport();
   // main_window_events.cpp: rows of events
   void connectEvents();
   void showEvents();
@@ -209,6 +226,17 @@ class MainWindow : public QMainWindow {
   void noteWhereWeAre();
   void goBackToWhereWeWere();
   void rememberSession();
+  // main_window_filter.cpp: what is shown is seen through filters
+  void buildFilter();
+  void connectFilter(const std::optional<Recipe>& recipe);
+  void filterNewSource();
+  void showThroughFilter();
+  void useShown(const OpenedRecordingPtr& recording);
+  void takeKeptRecipe();
+  void keepRecipe();
+  void showLiveFilter();
+  QString filterText() const;
+  std::ptrdiff_t saturatedNow() const;
   // main_window_library.cpp: Library and Log
   void buildLibrary();
   void placeLibrary();
@@ -301,6 +329,9 @@ class MainWindow : public QMainWindow {
   std::vector<OpenedRecordingPtr> recordings_;
   std::map<std::filesystem::path, LeftAt> leftAt_;
   OpenedRecordingPtr current_;
+  OpenedRecordingPtr shown_;  // current_, or the same filtered
+  FilterResults filterResults_;
+  FilterWorker filterWorker_;
   Place place_ = Place::kStart;
   std::map<Place, QByteArray> layouts_;  // of docks
   QString hover_;
@@ -351,8 +382,12 @@ class MainWindow : public QMainWindow {
   Dock* handDock_ = nullptr;
   Dock* linkDock_ = nullptr;
   LinkPanel* link_ = nullptr;
+  FilterPanel* filter_ = nullptr;
+  Dock* filterDock_ = nullptr;
   LibraryPanel* library_ = nullptr;
   Dock* libraryDock_ = nullptr;
+  SpectrumPanel* spectrum_ = nullptr;
+  Dock* spectrumDock_ = nullptr;
   LogPanel* log_ = nullptr;
   Dock* logDock_ = nullptr;
   MessageBanner* alarmStrip_ = nullptr;

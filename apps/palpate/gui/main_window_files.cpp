@@ -131,6 +131,7 @@ void MainWindow::showRecording(const OpenedRecordingPtr& recording) {
   if (recording == current_ && current_ && !liveShown_) return;
   if (!liveShown_) noteWhereWeAre();
   current_ = recording;
+  shown_ = recording;
   // What is connected goes on, and comes back when no recording is left.
   const bool live = !recording && live_.source();
   liveShown_ = false;
@@ -158,6 +159,7 @@ void MainWindow::showRecording(const OpenedRecordingPtr& recording) {
       banner_->showMessage(nameOf(*recording) + ": holds no frame; there is nothing to show");
   }
   if (live) showLive();
+  if (!live) filterNewSource();
   showCurves();
   showEvents();
   enableActions();

@@ -154,12 +154,11 @@ ExportedView MainWindow::handExport() {
     pictures.fileName = recordingStem() + "_hand";
     pictures.numFrames = current_->profile.numFrames();
     if (takeAway_->selectedFrames) pictures.selected = takeAway_->selectedFrames();
-    pictures.timeUs = [recording = current_](std::size_t frame) {
+    pictures.timeUs = [recording = shown_](std::size_t frame) {
       return recording->profile.frameTimeUs(frame);
     };
-    pictures.painter = [recording = current_,
-                        options = exportOptions(),
-                        shown = &handPanel_->view()](const PictureLook& look) {
+    pictures.painter = [recording = shown_, options = exportOptions(), shown = &handPanel_->view()](
+                           const PictureLook& look) {
       return handFramePainter(
           recording->profile, shown->pictureOptions(fitted(options, look)), shown->assumedAngles());
     };

@@ -77,13 +77,18 @@ void MainWindow::connectLive() {
     updateStatus();
   });
   connect(&live_, &LiveController::frameCame, this, [this](const TactileFrame& frame) {
-    if (!liveShown_ || held_) return;
+    if (!liveShown_ || held_ || filteredShown()) return;
     const bool first = matrices_->frame().values.empty();
     matrices_->showLive(frame);
     if (first) enableActions();
   });
   connect(&live_, &LiveController::resultsCame, this, [this](const LiveResults& results) {
     if (!liveShown_ || held_) return;
+    if (filteredShown()) {
+      const bool first = matrices_->frame().values.empty();
+      matrices_->showLive(*results.frame);
+      if (first) enableActions();
+    }
     inspect_->showLive(results);
     if (!handPanel_->isHidden())
       handPanel_->showLive(*results.frame,
@@ -268,6 +273,7 @@ void MainWindow::showLive() {
     actions_.hold->setChecked(false);
   }
   setWindowTitle(describe(source->connection) + " – Palpate");
+  if (newly) filterNewSource();
   showStale();
   showPlotted();
   enableActions();
@@ -310,6 +316,7 @@ void MainWindow::showLook() {
                                         : " · " + figure(health.frames.rateHz, 1) + " fps"),
                    !live_.stale());
   showRecordingState();
+  showLiveFilter();
   heedScanAnswers();
   if (!liveShown_) return;
   const HandDescription hand = source->session->device().hand();

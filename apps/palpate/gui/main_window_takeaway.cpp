@@ -163,6 +163,7 @@ void MainWindow::connectTakeAway() {
   takeAway_->add(matricesExport());
   takeAway_->add(handExport());
   takeAway_->add(timelineExport());
+  takeAway_->add(spectrumExport());
   takeAway_->add(inspectExport());
   connect(actions_.exportPicture, &QAction::triggered, takeAway_.get(), &TakeAway::exportNow);
   connect(actions_.exportAgain, &QAction::triggered, takeAway_.get(), &TakeAway::repeatLast);
@@ -207,12 +208,12 @@ ExportedView MainWindow::matricesExport() {
     pictures.fileName = recordingStem();
     pictures.numFrames = current_->profile.numFrames();
     if (takeAway_->selectedFrames) pictures.selected = takeAway_->selectedFrames();
-    pictures.timeUs = [recording = current_](std::size_t frame) {
+    pictures.timeUs = [recording = shown_](std::size_t frame) {
       return recording->profile.frameTimeUs(frame);
     };
     MatricesPictureOptions options = exportOptions();
     if (view_.range == RangeMode::kFrame) options.rangeMax = options.rangeMin = 0.0;  // of each
-    pictures.painter = [recording = current_, options](const PictureLook& look) {
+    pictures.painter = [recording = shown_, options](const PictureLook& look) {
       return matricesFramePainter(recording, fitted(options, look));
     };
     return pictures;
@@ -238,7 +239,7 @@ ExportedView MainWindow::timelineExport() {
     if (liveShown_ || !current_) return tables;
     const auto add = [&](const QString& name, const std::optional<FrameSpan>& span) {
       if (!span) return;
-      tables.push_back({name, [recording = current_, curves = curvesNow(), span = *span] {
+      tables.push_back({name, [recording = shown_, curves = curvesNow(), span = *span] {
                           return curveTable(recording, curves, span);
                         }});
     };

@@ -128,6 +128,7 @@ void MainWindow::showCurves() {
   const std::vector<PlottedCurve> curves = curvesNow();
   timelineHeader_->setCurves(curves, resolved(view_.theme));
   timelineHeader_->setPlain(liveShown_);
+  showSpectrum();
   if (liveShown_) return;
   timeline_->setCurves(curves);
   showReading();
@@ -232,6 +233,7 @@ void MainWindow::cropSelection() {
 }
 
 void MainWindow::waitForWork() {
+  filterWorker_.wait();
   timeline_->store().waitUntilRead();
   while (job_.busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
 }

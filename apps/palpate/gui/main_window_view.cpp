@@ -25,6 +25,7 @@
 #include "gui/message_banner.h"
 #include "gui/offer_strip.h"
 #include "gui/playback_bar.h"
+#include "gui/spectrum_panel.h"
 #include "gui/start_page.h"
 #include "gui/status_strip.h"
 #include "gui/take_away.h"
@@ -180,17 +181,14 @@ void MainWindow::updateStatus() {
     const bool inGap = current_->gapAt(playback_.positionS()) != nullptr;
     now.lamp = inGap ? Status::Lamp::kWarning : playing ? Status::Lamp::kGood : Status::Lamp::kIdle;
     now.state = "playback · " + QString(playing ? "playing " : "paused ") +
-                QString::number(playback_.speed()) + "×" + opening;
+                QString::number(playback_.speed()) + "×" + (filteredShown() ? " · filtered" : "") +
+                opening;
     if (playback_.hasFrames()) {
       const std::size_t frame = playback_.frame();
-      const CharacteristicSignals all = current_->at(frame, current_->numMatrices());
-      const float saturation = current_->profile.hand().saturationCounts;
-      const auto& values = matrices_->frame().values;
-      const auto saturated = std::count_if(
-          values.begin(), values.end(), [=](float value) { return value >= saturation; });
+      const CharacteristicSignals all = shown_->at(frame, shown_->numMatrices());
       now.figures = {"active " + QString::number(all.active),
                      "max " + QString::number(all.maximum, 'f', 0),
-                     "saturated " + QString::number(saturated)};
+                     "saturated " + QString::number(saturatedNow())};
       now.right = "frame " + QString::number(frame) + " of " +
                   QString::number(playback_.numFrames()) + "   " + seconds(playback_.positionS());
     }
@@ -236,15 +234,18 @@ void MainWindow::placeDocks(Place place) {
   addDockWidget(live ? Qt::LeftDockWidgetArea : Qt::RightDockWidgetArea, handDock_);
   addDockWidget(Qt::RightDockWidgetArea, inspectDock_);
   addDockWidget(Qt::RightDockWidgetArea, linkDock_);
+  addDockWidget(Qt::RightDockWidgetArea, filterDock_);
   addDockWidget(Qt::BottomDockWidgetArea, timelineDock_);
   tabifyDockWidget(inspectDock_, linkDock_);
+  tabifyDockWidget(inspectDock_, filterDock_);
   if (!live) tabifyDockWidget(inspectDock_, handDock_);
   placeLibrary();
   for (Dock* dock : docks_) {
     if (staysEverywhere(dock)) continue;
     dock->setFloating(false);
-    dock->setVisible(live || (dock != handDock_ && dock != linkDock_));
+    dock->setVisible(live || (dock != handDock_ && dock != linkDock_ && dock != filterDock_));
   }
+  placeSpectrum();
   inspectDock_->raise();
 }
 
@@ -301,6 +302,7 @@ void MainWindow::dismiss() {
   if (opener_.busy()) return opener_.cancel();
   if (takeAway_->busy()) return takeAway_->cancel();
   if (job_.busy()) return job_.cancel();
+  if (spectrum_->cancel()) return;
   if (live_.state() == LiveController::State::kConnecting) return live_.end();
   if (!matrices_->view().selection().empty()) return matrices_->view().clearSelection();
   if (timeline_->selection() && !liveShown_) return timeline_->setSelection(std::nullopt);
@@ -338,6 +340,7 @@ void MainWindow::showDock(const QString& name) {
     if (dock->objectName() != name) continue;
     dock->show();
     dock->raise();
+    if (dock == spectrumDock_) makeRoomForSpectrum();
   }
 }
 

@@ -12,6 +12,7 @@
 #include "gui/hand_panel.h"
 #include "gui/main_window.h"
 #include "gui/picture_export.h"
+#include "gui/spectrum_panel.h"
 #include "gui/timeline_panel.h"
 #include "gui/workbench.h"
 
@@ -122,7 +123,8 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
                      .settingsPath = settings.filePath("palpate.ini"),
                      .clock = nullptr,
                      .read = {},
-                     .assumedAnglesDeg = options.assumedAnglesDeg});
+                     .assumedAnglesDeg = options.assumedAnglesDeg,
+                     .recipe = options.recipe});
   if (options.openGl && whyNoOpenGl().isEmpty()) window.handPanel().view().useOpenGl();
   window.setTheme(theme);
   window.setFixedSize(options.size);
@@ -135,7 +137,9 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   }
   if (options.comparedWith) showCompare(window, options);
   showDocks(window, options);
+  window.waitForFilter();
   window.timelinePanel().chart().store().waitForFirstLook();
+  window.spectrum().settle();
   // Layout requests and queued replots come one after the other.
   constexpr int kRounds = 5;
   for (int i = 0; i < kRounds; ++i) QCoreApplication::processEvents();

@@ -64,7 +64,7 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   edit->addAction(actions.nameTaxels);
 
   QMenu* view = window.menuBar()->addMenu("&View");
-  view->addActions({actions.interpolated, actions.values});
+  view->addActions({actions.interpolated, actions.values, actions.filtered});
   addChoices(view, "&Colour map", actions.maps);
   view->addAction(actions.nextMap);
   addChoices(view, "Colour r&ange", actions.ranges);

@@ -18,6 +18,7 @@ int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options) {
                      .clock = nullptr,
                      .read = {},
                      .assumedAnglesDeg = options.assumedAnglesDeg,
+                     .recipe = options.recipe,
                      .offerUnfinished = true});
   const FirstPaint firstPaint(window);
   const Termination termination;

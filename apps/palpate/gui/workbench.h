@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <palpate/filter/recipe.h>
+
 namespace palpate::gui {
 
 // kFast: where a graphics card has it; kAlways: where the processor draws it, too, without asking first.
@@ -19,6 +21,7 @@ struct WorkbenchOptions {
   std::filesystem::path dataFolder;           // the program's own data
   OpenGlChoice openGl = OpenGlChoice::kFast;  // for the hand in space
   std::vector<double> assumedAnglesDeg = {};  // of recordings without joint angles; empty: none
+  std::optional<Recipe> recipe = {};          // to look through; nothing: what was there last
 };
 
 // Shows the window and runs the event loop until it is closed. Returns the exit code. A QApplication
@@ -39,6 +42,7 @@ struct ScreenshotOptions {
   bool force = false;                         // replace `out` when it exists
   bool openGl = true;                         // as WorkbenchOptions
   std::vector<double> assumedAnglesDeg = {};  // as WorkbenchOptions
+  std::optional<Recipe> recipe = {};
 };
 
 // Shows the real window, saves its picture and closes it; the user's settings are neither used nor

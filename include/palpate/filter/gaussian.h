@@ -4,6 +4,8 @@
 // that exist are normalised to 1. Causal (one frame).
 #pragma once
 
+#include <vector>
+
 #include <palpate/model/tactile_frame.h>
 
 namespace palpate {
@@ -16,6 +18,9 @@ struct GaussianOptions {
   void validate() const;
   double effectiveSigma() const;
 };
+
+// The weights along one direction, normalised to 1; `size` of them. Throws std::invalid_argument.
+std::vector<float> gaussianWeights(const GaussianOptions& options);
 
 // Filters `values` (rows x columns of `layout`); places without an enabled taxel become 0.
 // Throws std::invalid_argument for bad options or a matrix of another size.

@@ -22,7 +22,9 @@ struct TaxelPeak {
 TaxelPeak taxelPeak(const TactileFrame& frame);
 
 struct LiveResults {
-  SharedFrame frame;  // never null
+  SharedFrame frame;  // never null; filtered where filters are on
+  // As it came, where filters are on; else null. Saturation is looked for here.
+  SharedFrame unfiltered;
   // The last samples at or before the frame; nothing: none came yet.
   std::optional<JointAngles> angles;
   std::optional<Temperatures> temperatures;

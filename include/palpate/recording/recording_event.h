@@ -1,6 +1,7 @@
 // Something that happened while recording, or that a person noted afterwards.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -27,5 +28,14 @@ struct EventsReport {
   std::vector<RecordingEvent> events;
   std::size_t damaged = 0;
 };
+
+// When the meaning of counts changed: events "settings", ascending [us since 1970].
+inline std::vector<std::int64_t> settingsTimesUs(const std::vector<RecordingEvent>& events) {
+  std::vector<std::int64_t> timesUs;
+  for (const RecordingEvent& event : events)
+    if (event.kind == "settings") timesUs.push_back(event.tUs);
+  std::sort(timesUs.begin(), timesUs.end());
+  return timesUs;
+}
 
 }  // namespace palpate

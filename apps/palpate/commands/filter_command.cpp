@@ -1,0 +1,99 @@
+// palpate filter IN OUT: a recording seen through a chain of filters, as a recording.
+#include <cstdio>
+
+#include "palpate/core/number_text.h"
+#include "palpate/core/one_line.h"
+#include "palpate/filter/filter_chain.h"
+#include "palpate/recording/recording.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+#include "commands/filter_options.h"
+
+namespace palpate::commands {
+namespace {
+
+std::string latencyText(const Recipe& recipe) {
+  if (!recipe.causal()) return "needs later frames: not for a live hand";
+  const auto latency = latencyFrames(recipe);
+  if (!latency) return "a step of load doesn't come through";
+  return "a contact is seen " + std::to_string(*latency) + (*latency == 1 ? " frame" : " frames") +
+         " later";
+}
+
+RecordingEvent filteredEvent(const Recipe& recipe, const Profile& profile) {
+  const std::int64_t us = profile.numFrames() == 0 ? 0 : profile.frameTimeUs(0);
+  return {us, us, "filtered", std::nullopt, recipeText(recipe), recipeJson(recipe).text(-1)};
+}
+
+}  // namespace
+
+int filterCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate filter IN OUT --filter SPEC.. | --recipe R.json | --list",
+       .purpose =
+           "Writes the recording IN filtered; the ending of OUT chooses the form as in 'palpate "
+           "convert'.\nSPEC is a filter with its options, as median:size=3,masked=1; several run "
+           "one after the other.\nValues are floats, nothing is rounded to counts. Filters over "
+           "time start anew after a gap\n(longer than max(1 s, 5 median intervals) of the frames "
+           "before it), after other settings and\nother masks. Borders are repeated; masked taxels "
+           "are neither read nor written. The same chain\nruns in the window, on recordings and "
+           "live.",
+       .options = {{"filter", "SPEC", "a filter; may be given several times, or joined by |"},
+                   {"recipe",
+                    "R.json",
+                    "a recipe, as the Filter dock saves it; before every --filter"},
+                   {"save-recipe", "R.json", "write the chain as a recipe, too"},
+                   {"list", "", "list all filters with options, ranges and sources"},
+                   {"force", "", "replace OUT and R.json"}},
+       .example = "palpate filter foam_ball.dsa calm.palpate --filter median --filter kalman:q=0.1",
+       .mostWords = 2},
+      words);
+  if (given.helpShown()) return kDone;
+  if (given.has("list")) {
+    if (!given.words().empty()) throw UsageError("--list takes no recording");
+    StandardOutput out;
+    out.write(filterList());
+    out.finish();
+    return kDone;
+  }
+  if (given.words().size() != 2) throw UsageError("filter needs IN and OUT");
+  const Recipe recipe = recipeOf(given);
+  if (recipe.steps.empty())
+    throw UsageError(
+        "filter needs --filter SPEC or --recipe R.json; 'palpate filter --list' shows "
+        "all filters");
+  const std::string& in = given.words()[0];
+  const std::string& out = given.words()[1];
+  const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
+  formOf(out);
+  requireOther(in, out);
+  requireWritable(out, overwrite);
+  const auto recipePath = given.text("save-recipe");
+  if (recipePath) requireWritable(*recipePath, overwrite);
+
+  ProgressLine line("reading " + in, given.quiet());
+  const Profile profile = openRecording(in, line.callback());
+  line.setLabel("filtering " + in);
+  const Profile filtered = lookedAtThrough(recipe, profile, in, line.callback());
+  EventsReport events = readEvents(in);
+  events.events.push_back(filteredEvent(recipe, profile));
+  line.setLabel("writing " + out);
+  saveRecording(filtered, events.events, out, overwrite, line.callback());
+  line.wipe();
+  if (recipePath) writeRecipe(*recipePath, recipe, given.has("force"));
+  if (!given.quiet())
+    std::printf("%s: %zu frames through %s; %s\n",
+                out.c_str(),
+                filtered.numFrames(),
+                recipeText(recipe).c_str(),
+                latencyText(recipe).c_str());
+  if (events.damaged == 0) return kDone;
+  std::fprintf(stderr,
+               "palpate: %s\n",
+               oneLine(in + ": " + std::to_string(events.damaged) + " damaged events were left out")
+                   .c_str());
+  return kPartlyDone;
+}
+
+}  // namespace palpate::commands

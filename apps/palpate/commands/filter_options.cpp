@@ -1,0 +1,98 @@
+#include "commands/filter_options.h"
+
+#include <stdexcept>
+
+#include "palpate/core/number_text.h"
+#include "palpate/filter/filtered_profile.h"
+#include "palpate/recording/recording.h"
+
+namespace palpate::commands {
+namespace {
+
+std::string rangeOf(const FilterOption& option) {
+  if (option.kind == FilterOption::Kind::kFlag) return "0|1";
+  if (option.kind == FilterOption::Kind::kChoice) {
+    std::string text;
+    for (const std::string& choice : option.choices) text += (text.empty() ? "" : "|") + choice;
+    return text;
+  }
+  return (option.kind == FilterOption::Kind::kOdd ? "odd " : "") + numberText(option.minimum) +
+         ".." + numberText(option.maximum) + (option.unit.empty() ? "" : " " + option.unit);
+}
+
+std::string fallbackOf(const FilterOption& option) {
+  if (option.automatic()) return "auto";
+  if (option.kind == FilterOption::Kind::kChoice)
+    return option.choices.at(static_cast<std::size_t>(option.fallback));
+  return numberText(option.fallback);
+}
+
+std::string padded(std::string text, std::size_t width) {
+  if (text.size() < width) text.resize(width, ' ');
+  return text;
+}
+
+const char* domainText(FilterDomain domain) {
+  switch (domain) {
+    case FilterDomain::kSpatial:
+      return "space";
+    case FilterDomain::kTemporal:
+      return "time";
+    case FilterDomain::kSpatioTemporal:
+      break;
+  }
+  return "space and time";
+}
+
+}  // namespace
+
+std::vector<OptionSpec> filterOptions() {
+  return {{"filter", "SPEC", "filters first, as median:size=3; several: one after the other"},
+          {"recipe", "R.json", "filters first, by a recipe; before every --filter"}};
+}
+
+std::vector<OptionSpec> withFilterOptions(std::vector<OptionSpec> options) {
+  for (OptionSpec& option : filterOptions()) options.push_back(std::move(option));
+  return options;
+}
+
+Recipe recipeOf(const CommandLine& given) {
+  Recipe recipe;
+  if (const auto file = given.text("recipe")) recipe = readRecipe(*file);
+  try {
+    const Recipe more = parseRecipe(given.texts("filter"));
+    recipe.steps.insert(recipe.steps.end(), more.steps.begin(), more.steps.end());
+    recipe.validate();
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--filter ") + error.what());
+  }
+  return recipe;
+}
+
+Profile lookedAtThrough(const Recipe& recipe,
+                        const Profile& profile,
+                        const std::filesystem::path& file,
+                        const Progress& progress) {
+  if (recipe.empty()) return profile;
+  try {
+    return filteredProfile(profile, recipe, {settingsTimesUs(readEvents(file).events)}, progress);
+  } catch (const std::invalid_argument& error) {
+    throw Error(file.string() + ": " + error.what());
+  }
+}
+
+std::string filterList() {
+  std::string text;
+  for (const FilterKind& kind : filterKinds()) {
+    text += padded(kind.name, 18) + kind.purpose + "\n";
+    text += padded("", 18) + "Over " + domainText(kind.domain) + ". Border: " + kind.border +
+            ". Source: " + kind.source + ".\n";
+    for (const FilterOption& option : kind.options)
+      text += "    " + padded(option.key, 14) + padded(rangeOf(option), 28) + "default " +
+              padded(fallbackOf(option), 8) + option.purpose + "\n";
+  }
+  text += "Every filter takes matrices=A+B.. (only these). A filter in round brackets is off.\n";
+  return text;
+}
+
+}  // namespace palpate::commands

@@ -1,0 +1,227 @@
+// palpate ghosts [PATH...]: how many false taxels filters leave, and what they take of true contacts.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <stdexcept>
+
+#include "palpate/core/number_text.h"
+#include "palpate/core/text_table.h"
+#include "palpate/model/profile_builder.h"
+#include "palpate/recording/recording.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+#include "commands/filter_options.h"
+#include "commands/ghosts_table.h"
+#include "commands/recording_list.h"
+
+namespace palpate::commands {
+namespace {
+
+constexpr double kDefaultDegC[] = {30.0, 45.0};
+constexpr double kDefaultBelow[] = {0.0, 2.0, 3.0, 5.0};
+
+// Rows as they come, or one JSON list at the end.
+class Rows {
+ public:
+  Rows(bool json, bool emulated) : json_(json), emulated_(emulated) {}
+
+  void add(const Recipe& recipe, const GhostSource& source, const GhostingReport& report) {
+    if (json_) {
+      list_.push(ghostJson(recipe, source, report, emulated_));
+      return;
+    }
+    if (!headerWritten_) out_.write(csvLine(ghostHeader(emulated_)));
+    headerWritten_ = true;
+    out_.write(csvLine(ghostCells(recipe, source, report, emulated_)));
+    out_.finish();
+  }
+  void finish() {
+    if (json_) out_.write(list_.text() + "\n");
+    out_.finish();
+  }
+
+ private:
+  const bool json_, emulated_;
+  bool headerWritten_ = false;
+  Json list_ = Json::array();
+  StandardOutput out_;
+};
+
+// Fraction of the whole, while a part of it runs.
+Progress partOf(const Progress& whole, std::size_t part, std::size_t parts) {
+  return [whole, part, parts](double fraction) {
+    return !whole || whole((static_cast<double>(part) + fraction) / static_cast<double>(parts));
+  };
+}
+
+std::vector<double> numbersOf(const CommandLine& given,
+                              const std::string& option,
+                              double least,
+                              double most,
+                              std::span<const double> fallback) {
+  std::vector<double> numbers;
+  for (const std::string& text : given.texts(option)) {
+    const auto number = parseDouble(text);
+    if (!number || *number < least || *number > most)
+      throw UsageError("--" + option + " must be a number from " + numberText(least) + " to " +
+                       numberText(most) + ", not '" + text + "'");
+    numbers.push_back(*number);
+  }
+  if (numbers.empty()) numbers.assign(fallback.begin(), fallback.end());
+  return numbers;
+}
+
+std::vector<TouchMask> touchOf(const NoisyContacts& made) {
+  std::vector<TouchMask> truth;
+  for (const std::vector<PlaceTruth>& frame : made.truth) {
+    TouchMask mask(frame.size(), Touch::kNothing);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+      if (frame[i] == PlaceTruth::kFaint) mask[i] = Touch::kFaint;
+      if (frame[i] == PlaceTruth::kTouched) mask[i] = Touch::kTouched;
+    }
+    truth.push_back(std::move(mask));
+  }
+  return truth;
+}
+
+int emulated(const CommandLine& given,
+             const std::vector<Recipe>& recipes,
+             const GhostingOptions& options) {
+  const std::vector<double> temperatures = numbersOf(given, "deg", 0.0, 80.0, kDefaultDegC);
+  const std::vector<double> belows = numbersOf(given, "below", -100.0, 100.0, kDefaultBelow);
+  NoisyContactsOptions make;
+  make.seed = static_cast<std::uint64_t>(given.integer("seed", 0, INT64_MAX).value_or(1));
+  make.frames = static_cast<std::size_t>(given.integer("frames", 1, 100'000).value_or(3000));
+  Rows rows(given.has("json"), true);
+  ProgressLine line("the emulated hand", given.quiet());
+  const std::size_t parts = temperatures.size() * belows.size() * recipes.size();
+  std::size_t part = 0;
+  for (const double degC : temperatures)
+    for (const double below : belows) {
+      make.degC = degC;
+      make.belowCounts = below;
+      const NoisyContacts made = makeNoisyContacts(make);
+      const std::vector<TouchMask> truth = touchOf(made);
+      const GhostSource source{.degC = degC, .belowCounts = below, .contacts = made.contacts};
+      for (const Recipe& recipe : recipes) {
+        const auto report = measureGhosting(
+            made.profile, recipe, truth, options, partOf(line.callback(), part++, parts));
+        line.wipe();
+        rows.add(recipe, source, report);
+      }
+    }
+  rows.finish();
+  return kDone;
+}
+
+// What thresholds at the noise floor, or so far below, leave of a recording at threshold 0. The temperature of a
+// matrix is that of the motor beside it.
+Profile lookedAtOver(double belowCounts,
+                     const Profile& profile,
+                     const std::filesystem::path& file) {
+  const std::vector<MatrixCharacteristics>& matrices = sdh2Sensor().matrices;
+  const SensorLayout& layout = profile.layout();
+  if (layout.numMatrices() != matrices.size() || profile.numTemperatures() == 0 ||
+      profile.temperatures(0).degC.size() <= matrices.size())
+    throw FileError(file, "--below needs the six matrices and the temperatures of an SDH-2");
+  ProfileBuilder builder(profile.hand().layout);
+  TactileFrame frame;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    profile.readFrame(i, frame);
+    const Temperatures temperatures = *profile.temperaturesAtFrame(i);
+    for (std::size_t m = 0; m < matrices.size(); ++m) {
+      const auto threshold =
+          static_cast<float>(noiseThresholdCounts(matrices[m],
+                                                  temperatures.degC[m + 1],
+                                                  NoisyContactsOptions{}.noiseMultiple,
+                                                  belowCounts));
+      const std::size_t from = layout.offset(m);
+      for (std::size_t place = from; place < from + layout.matrix(m).numPlaces(); ++place)
+        frame.values[place] = std::max(0.0F, frame.values[place] - threshold);
+    }
+    builder.addFrame(frame.hostUs, frame.values, frame.deviceMs);
+  }
+  return builder.finish(profile.info());
+}
+
+int recorded(const CommandLine& given,
+             const std::vector<Recipe>& recipes,
+             const GhostingOptions& options) {
+  for (const char* option : {"deg", "seed", "frames"})
+    if (given.has(option))
+      throw UsageError(std::string("--") + option + " is for the emulated hand: without PATH");
+  std::vector<std::optional<double>> belows;
+  for (const double below : numbersOf(given, "below", -100.0, 100.0, {}))
+    belows.emplace_back(below);
+  if (belows.empty()) belows.emplace_back();
+  Rows rows(given.has("json"), false);
+  const auto work =
+      [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
+        GhostingOptions ofFile = options;
+        ofFile.restartsUs = settingsTimesUs(readEvents(file).events);
+        std::size_t part = 0;
+        for (const std::optional<double>& below : belows) {
+          const Profile seen = below ? lookedAtOver(*below, profile, file) : profile;
+          const GhostSource source{.file = file.string(), .belowCounts = below};
+          for (const Recipe& recipe : recipes) {
+            const Progress ofThis = partOf(progress, part++, belows.size() * recipes.size());
+            try {
+              rows.add(recipe, source, measureGhosting(seen, recipe, {}, ofFile, ofThis));
+            } catch (const std::invalid_argument& error) {
+              throw Error(file.string() + ": " + error.what());
+            }
+          }
+        }
+      };
+  const int code = forEachProfile(recordingsIn(given.words()), given.quiet(), work);
+  rows.finish();
+  return code;
+}
+
+}  // namespace
+
+int ghostsCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate ghosts [PATH...] [--filter SPEC]... [--recipe R.json] [--json]",
+       .purpose =
+           "Measures filters against ghosts: taxels that are active (value > 0) while nothing "
+           "touches them. A CSV row\nfor each filter that might help and each preset; with "
+           "--filter or --recipe for this chain alone.\n\n"
+           "Of recordings: nothing touches anything in them; that is for you to know (it holds for "
+           "recordings of\nthe noise floor). With --below, recordings at threshold 0: what "
+           "thresholds at the noise floor (less\nCOUNTS) leave of them. Without PATH: an emulated "
+           "hand with the noise of the "
+           "real one at sensitivity 1, thresholds\nat the noise floor (docs/ghosting.md) and below "
+           "it; contacts of five sizes come, hold and go, and it is known\nwhich taxels the same "
+           "sensor would report without noise.\n\n"
+           "false: active, and nothing touches it; scattered: those of matrices that are not "
+           "lifted as a whole (more\nthan a quarter of their taxels); frames_false: share of "
+           "frames with at least one; whole_matrix: share of\nmatrices, over all frames, that are "
+           "lifted; touched_removed: share of the truly touched active taxels that\nthe chain "
+           "takes away, also by size of the contact; delay: frames from a contact's first taxel "
+           "as it came to\nthe first one filtered; latency_frames: of the chain itself; cost_us: "
+           "mean time of the chain per frame.",
+       .options = withFilterOptions(
+           {{"deg", "DEGC", "emulated: temperature of the hand, default 30 and 45; several times"},
+            {"below",
+             "COUNTS",
+             "thresholds so far below the noise floor, emulated 0, 2, 3 and 5; several times"},
+            {"frames", "N", "emulated: frames, default 3000"},
+            {"seed", "N", "emulated: of noise and contacts, default 1"},
+            {"above", "COUNTS", "a filtered value above it is active, default 0"},
+            {"json", "", "full reports, per matrix and per contact"}}),
+       .example = "palpate ghosts --below 5 --filter min-median:window=3,masked=1"},
+      words);
+  if (given.helpShown()) return kDone;
+  const Recipe own = recipeOf(given);
+  const std::vector<Recipe> recipes =
+      given.has("filter") || given.has("recipe") ? std::vector{own} : ghostCandidates();
+  GhostingOptions options;
+  options.activeAboveCounts = given.number("above", 0.0, 4095.0).value_or(0.0);
+  return given.words().empty() ? emulated(given, recipes, options)
+                               : recorded(given, recipes, options);
+}
+
+}  // namespace palpate::commands

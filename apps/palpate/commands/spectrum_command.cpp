@@ -1,0 +1,287 @@
+// palpate spectrum FILE: the short-time Fourier transform of a taxel or a matrix signal, as CSV.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "palpate/core/error.h"
+#include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
+#include "palpate/filter/profile_series.h"
+#include "palpate/filter/spectrum.h"
+#include "palpate/recording/recording.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+#include "commands/filter_options.h"
+
+namespace palpate::commands {
+namespace {
+
+constexpr double kPercent = 100.0;
+constexpr std::size_t kMostNamed = 8;  // taxels in one line
+
+struct NamedSignal {
+  const char* word;
+  SignalKind kind;
+};
+constexpr NamedSignal kSignals[] = {{"mean", SignalKind::kMean},
+                                    {"filtered_mean", SignalKind::kFilteredMean},
+                                    {"min", SignalKind::kMinimum},
+                                    {"max", SignalKind::kMaximum},
+                                    {"sum", SignalKind::kSum},
+                                    {"active", SignalKind::kActive},
+                                    {"area_mm2", SignalKind::kArea}};
+
+std::string placeText(std::size_t matrix, std::int64_t x, std::int64_t y) {
+  return "matrix " + std::to_string(matrix) + ", x " + std::to_string(x) + ", y " +
+         std::to_string(y);
+}
+
+// What a matrix has instead: its few taxels by name, or the columns of that row.
+std::string whatExists(const MatrixLayout& matrix, std::int64_t y) {
+  if (matrix.numEnabled() == 0) return "no taxel of this matrix is scanned";
+  std::string text;
+  if (matrix.numEnabled() <= kMostNamed) {
+    for (int row = 0; row < matrix.rows; ++row)
+      for (int x = 0; x < matrix.columns; ++x)
+        if (matrix.enabled(row, x))
+          text +=
+              (text.empty() ? "" : "; ") + ("x " + std::to_string(x)) + " y " + std::to_string(row);
+    return "there are " + text;
+  }
+  if (y >= matrix.rows)
+    return "x is 0.." + std::to_string(matrix.columns - 1) + ", y 0.." +
+           std::to_string(matrix.rows - 1);
+  for (int x = 0; x < matrix.columns; ++x)
+    if (matrix.enabled(static_cast<int>(y), x))
+      text += (text.empty() ? "" : ", ") + std::to_string(x);
+  return text.empty() ? "row " + std::to_string(y) + " has none"
+                      : "row " + std::to_string(y) + " has x " + text;
+}
+
+SeriesChoice taxelOf(const SensorLayout& layout,
+                     std::size_t m,
+                     std::int64_t x,
+                     std::int64_t y,
+                     const std::string& file) {
+  const MatrixLayout& matrix = layout.matrix(m);
+  const bool inside = x < matrix.columns && y < matrix.rows;
+  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  if (!inside || !matrix.enabled(row, column)) {
+    const bool masked = inside && matrix.exists(row, column);
+    throw Error(file + ": " + placeText(m, x, y) +
+                (masked ? ": this taxel is masked, it was not scanned; " : ": no such taxel; ") +
+                whatExists(matrix, y));
+  }
+  SeriesChoice choice{.kind = SeriesChoice::Kind::kTaxels, .taxels = TaxelSelection(layout)};
+  choice.taxels.toggle(m, row, column);
+  return choice;
+}
+
+SeriesChoice choiceOf(const CommandLine& given, const SensorLayout& layout) {
+  const std::string& file = given.words().front();
+  const auto matrix = given.integer("matrix", 0, INT64_MAX);
+  const auto numMatrices = static_cast<std::int64_t>(layout.numMatrices());
+  if (matrix && *matrix >= numMatrices)
+    throw Error(file + ": has no matrix " + std::to_string(*matrix) + ", only 0.." +
+                std::to_string(numMatrices - 1));
+  const auto x = given.integer("x", 0, INT32_MAX), y = given.integer("y", 0, INT32_MAX);
+  std::vector<std::string> words;
+  for (const NamedSignal& signal : kSignals) words.emplace_back(signal.word);
+  if (const auto word = given.choice("signal", words)) {
+    if (x || y) throw UsageError("give --signal, or --x and --y, not both");
+    SeriesChoice choice{.index = static_cast<std::size_t>(matrix.value_or(numMatrices))};
+    for (const NamedSignal& signal : kSignals)
+      if (*word == signal.word) choice.signal = signal.kind;
+    return choice;
+  }
+  if (!matrix || !x || !y)
+    throw UsageError("spectrum needs --matrix M --x X --y Y (a taxel), or --signal");
+  return taxelOf(layout, static_cast<std::size_t>(*matrix), *x, *y, file);
+}
+
+// Frames from..to, both inclusive.
+Series seriesOf(const CommandLine& given, const Profile& profile, const Progress& progress) {
+  const std::string& file = given.words().front();
+  const SeriesChoice choice = choiceOf(given, profile.layout());
+  if (profile.numFrames() == 0) throw Error(file + ": holds no frame");
+  const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
+  const std::int64_t from = given.integer("from", 0, last).value_or(0);
+  const std::int64_t to = given.integer("to", 0, last).value_or(last);
+  if (from > to) throw UsageError("--from lies behind --to");
+  const auto secondsOf = [&](std::int64_t frame) {
+    const auto us = profile.frameTimeUs(static_cast<std::size_t>(frame)) - profile.frameTimeUs(0);
+    return static_cast<double>(us) / 1e6;
+  };
+  const double fromS = secondsOf(from), toS = secondsOf(to);
+  Series series = readSeries(profile, choice, fromS, toS, progress);
+  // The neighbours on either side that come with a part are not asked for.
+  while (!series.timeS.empty() && series.timeS.back() > toS + 1e-7) {
+    series.timeS.pop_back();
+    series.values.pop_back();
+  }
+  return series;
+}
+
+SpectrumOptions optionsOf(const CommandLine& given) {
+  SpectrumOptions options;
+  options.window = static_cast<int>(given.integer("window", 2, 65'536).value_or(options.window));
+  // Unasked: all but one sample, as the study has it.
+  options.overlap = static_cast<int>(
+      given.integer("overlap", 0, options.window - 1).value_or(options.window - 1));
+  const std::string detrend = given.choice("detrend", {"mean", "line", "none"}).value_or("mean");
+  options.detrend = detrend == "none"   ? Detrend::kNone
+                    : detrend == "line" ? Detrend::kLine
+                                        : Detrend::kMean;
+  if (given.choice("rate", {"mean", "median"}).value_or("mean") == "median")
+    options.gridRate = GridRate::kMedian;
+  return options;
+}
+
+void appendRows(std::string& text, const SpectrumSegment& segment) {
+  for (std::size_t k = 0; k < segment.psd.size(); ++k) {
+    appendNumber(text, static_cast<std::int64_t>(segment.segment));
+    for (const double value : {segment.timeS,
+                               static_cast<double>(k) * segment.binHz,
+                               segment.psd[k],
+                               segment.magnitude[k]}) {
+      text += ',';
+      appendNumber(text, value);
+    }
+    text += '\n';
+  }
+}
+
+Json known(double value) { return value > 0.0 ? Json(value) : Json(); }
+
+Json jsonOf(const SpectrumReport& report,
+            const SpectrumOptions& options,
+            const MeanSpectrum& mean,
+            double strongestTimeS) {
+  Json stretches = Json::array();
+  for (const SpectrumStretch& stretch : report.stretches)
+    stretches.push(Json::object()
+                       .set("begin_s", stretch.beginS)
+                       .set("end_s", stretch.endS)
+                       .set("samples", stretch.samples)
+                       .set("rate_hz", known(stretch.rateHz))
+                       .set("segments", stretch.segments));
+  Json strongest;  // null: nothing moves
+  if (mean.strongestBin() > 0)
+    strongest = Json::object()
+                    .set("frequency_hz", mean.strongestHz())
+                    .set("magnitude", mean.magnitude[mean.strongestBin()])
+                    .set("psd", mean.psd[mean.strongestBin()])
+                    .set("time_s", strongestTimeS);
+  return Json::object()
+      .set("samples", report.samples)
+      .set("not_finite", report.notFinite)
+      .set("in_no_segment", report.inNoSegment)
+      .set("rate_hz", known(report.rateHz))
+      .set("nyquist_hz", known(report.nyquistHz))
+      .set("jitter", report.jitter)
+      .set("window", options.window)
+      .set("overlap", options.overlap)
+      .set("bin_hz", mean.binHz)
+      .set("segments", report.segments)
+      .set("stretches", stretches)
+      .set("strongest", strongest);
+}
+
+std::string tooShort(const SpectrumReport& report, const SpectrumOptions& options) {
+  std::size_t longest = 0;
+  for (const SpectrumStretch& stretch : report.stretches)
+    longest = std::max(longest, stretch.gridSamples);
+  return "the longest stretch without a gap has " + std::to_string(longest) +
+         " samples, a window takes " + std::to_string(options.window) + ": take a smaller --window";
+}
+
+}  // namespace
+
+int spectrumCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate spectrum FILE --matrix M --x X --y Y [--window 32] [--overlap 31] ..",
+       .purpose =
+           "Short-time Fourier transform of one taxel (value in counts; 0 where it feels nothing) "
+           "or of a\nmatrix signal, as CSV: segment,time_s,frequency_hz,psd,magnitude. Frames come "
+           "when they come:\nevery stretch without a gap is first interpolated onto an even grid "
+           "of its mean rate; nothing\nabove half that rate can be seen. Hann window (periodic), "
+           "power spectral density one-sided in\ncounts^2/Hz, magnitude in counts: a tone of "
+           "amplitude A at a bin reads A. time_s is the middle\nof the window, from the "
+           "recording's first frame.",
+       .options = withFilterOptions(
+           {{"matrix", "M", "matrix (0, 1, ..)"},
+            {"x", "X", "column of the taxel"},
+            {"y", "Y", "row of the taxel; row 0 is the fingertip"},
+            {"signal",
+             "NAME",
+             "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
+             "without --matrix of the whole hand"},
+            {"window", "N", "samples per segment, 2..65536, default 32"},
+            {"overlap", "N", "samples shared with the next segment, default window - 1"},
+            {"detrend", "HOW", "what a segment loses first: mean (default), line, none"},
+            {"rate", "HOW", "of the even grid: mean (default) or median of the intervals"},
+            {"from", "N", "first frame, default 0"},
+            {"to", "N", "last frame, inclusive"},
+            {"json", "", "no spectra: rate, Nyquist, jitter, strongest line as JSON"}}),
+       .example = "palpate spectrum roughness_test_rough.dsa --matrix 5 --x 2 --y 9 > spectra.csv",
+       .fewestWords = 1,
+       .mostWords = 1},
+      words);
+  if (given.helpShown()) return kDone;
+  const SpectrumOptions options = optionsOf(given);
+  const Recipe recipe = recipeOf(given);
+  const std::string& file = given.words().front();
+  ProgressLine line("reading " + file, given.quiet());
+  const Profile profile =
+      lookedAtThrough(recipe, openRecording(file, line.callback()), file, line.callback());
+  const Series series = seriesOf(given, profile, line.callback());
+  const SpectrumReport plan = planSpectra(series.timeS, series.values, options);
+  if (plan.segments == 0) throw Error(file + ": " + tooShort(plan, options));
+
+  line.setLabel("transforming " + file);
+  StandardOutput out;
+  if (given.has("json")) {
+    MeanSpectrumCollector collector(plan);
+    const auto visit = [&](const SpectrumSink& sink) {
+      visitSpectra(series.timeS, series.values, options, sink, line.callback());
+    };
+    visit([&](const SpectrumSegment& segment) { collector.add(segment); });
+    const MeanSpectrum mean = collector.result();
+    // When that line was strongest: a second way through, now that it is known.
+    double largest = -1.0, timeS = 0.0;
+    visit([&](const SpectrumSegment& segment) {
+      if (segment.binHz != mean.binHz || !(segment.magnitude[mean.strongestBin()] > largest))
+        return;
+      largest = segment.magnitude[mean.strongestBin()];
+      timeS = segment.timeS;
+    });
+    out.write(jsonOf(plan, options, mean, timeS).text() + "\n");
+    out.finish();
+    return kDone;
+  }
+  std::string text = "segment,time_s,frequency_hz,psd,magnitude\n";
+  visitSpectra(
+      series.timeS,
+      series.values,
+      options,
+      [&](const SpectrumSegment& segment) {
+        appendRows(text, segment);
+        out.write(text);
+        text.clear();
+      },
+      line.callback());
+  out.finish();
+  line.wipe();
+  if (!given.quiet())
+    std::fprintf(stderr,
+                 "palpate: intervals vary by %s %%: resampled to %s Hz; nothing above %s Hz can be "
+                 "seen\n",
+                 fixedText(plan.jitter * kPercent, 0).c_str(),
+                 fixedText(plan.rateHz, 2).c_str(),
+                 fixedText(plan.nyquistHz, 2).c_str());
+  return kDone;
+}
+
+}  // namespace palpate::commands

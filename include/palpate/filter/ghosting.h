@@ -1,0 +1,90 @@
+// Ghosting (study, chapter 2.4): with low thresholds the noise of the sensor shows taxels as touched that nothing
+// touches. Counts those false taxels in a profile, how many of them a recipe removes, and what of the true contact
+// it takes away or brings later.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <palpate/core/progress.h>
+#include <palpate/filter/recipe.h>
+#include <palpate/model/profile.h>
+
+namespace palpate {
+
+// What is true of a taxel in a frame.
+enum class Touch : std::uint8_t {
+  kNothing,  // nothing presses on it: when it is active, it is a ghost
+  kFaint,    // pressed, but too little to be reported without noise: neither true nor false
+  kTouched   // pressed, and reported without noise
+};
+using TouchMask = std::vector<Touch>;  // one per place of the layout
+
+struct GhostingOptions {
+  // A contact begins when so many touched taxels of a matrix are active in one frame. > 0
+  int leastTaxels = 1;
+  // A value above it is active [counts]; what is filtered without mask keeps small remainders for long. >= 0
+  double activeAboveCounts = 0.0;
+  // More than this share of a matrix' taxels falsely active: the whole matrix is lifted over its threshold, and no
+  // neighbourhood tells its taxels from a contact. Counted apart. 0..1
+  double wholeMatrixShare = 0.25;
+  // Moments at which counts begin to mean something else [us since 1970], ascending: filters over time restart.
+  std::vector<std::int64_t> restartsUs = {};
+};
+
+// The frames as they came, and filtered.
+struct BeforeAfter {
+  std::uint64_t before = 0;
+  std::uint64_t after = 0;
+  // Of those before, 0..1 (below 0: the recipe made more); NaN where there were none.
+  double shareRemoved() const noexcept;
+};
+
+struct MatrixGhosting {
+  BeforeAfter falseTaxels;  // summed over the frames
+  BeforeAfter
+      scattered;  // of them, those in frames in which the matrix as it came was not lifted as a whole
+  BeforeAfter framesWithFalse;  // at least one false taxel
+  BeforeAfter framesWhole;      // more than wholeMatrixShare of the taxels are false
+};
+
+// One contact with one matrix: consecutive frames with touched taxels, of which at least one shows `leastTaxels`.
+struct ContactGhosting {
+  std::size_t matrix = 0;
+  std::size_t begin = 0, end = 0;  // first frame with a touched taxel, and the one behind the last
+  std::size_t firstBefore = 0;     // first frame in which it is seen, as it came
+  std::optional<std::size_t> firstAfter;  // and filtered; nothing: the recipe hides it altogether
+  BeforeAfter taxels;  // touched ones that are active; after: of those active before
+  double sumBefore = 0.0, sumAfter = 0.0;  // of the touched taxels over all frames [counts]
+  std::optional<std::int64_t> delayFrames() const;
+};
+
+struct GhostingReport {
+  std::uint64_t frames = 0;
+  BeforeAfter framesWithFalse;  // in any matrix
+  std::vector<MatrixGhosting> matrices;
+  std::vector<ContactGhosting> contacts;  // by begin, then matrix
+  BeforeAfter touched;            // touched taxels that are active; after: of those active before
+  double touchedSumBefore = 0.0;  // of all touched taxels over all frames [counts]
+  double touchedSumAfter = 0.0;
+  std::optional<int> latencyFrames;  // of the recipe: filter_chain.h
+  double costUs = 0.0;  // mean time that the chain took for a frame, on this machine [us]
+
+  MatrixGhosting total() const;    // sums over the matrices
+  std::uint64_t hidden() const;    // contacts that the recipe hides
+  double meanDelayFrames() const;  // of the others; NaN where there are none
+  double largestDelayFrames() const;
+};
+
+// truth: one mask per frame, or none at all: then nothing touches anything. Throws std::invalid_argument (recipe, options,
+// truth of another size than the profile), Cancelled, Error (a frame that can't be read).
+GhostingReport measureGhosting(const Profile& profile,
+                               const Recipe& recipe,
+                               std::span<const TouchMask> truth = {},
+                               const GhostingOptions& options = {},
+                               const Progress& progress = {});
+
+}  // namespace palpate

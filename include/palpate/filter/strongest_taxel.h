@@ -1,0 +1,26 @@
+// The taxel of a recording that feels most: what is looked at while nobody has chosen one.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include <palpate/core/progress.h>
+#include <palpate/model/profile.h>
+
+namespace palpate {
+
+struct TaxelPlace {
+  std::size_t matrix = 0;
+  int y = 0;
+  int x = 0;
+  bool operator==(const TaxelPlace&) const = default;
+};
+
+// The enabled taxel with the largest sum of values over at most `mostFrames` frames, spread evenly (the first of
+// equals); nothing where none feels anything. Throws std::invalid_argument for no frames to look at, Cancelled,
+// FormatError where a block is damaged.
+std::optional<TaxelPlace> strongestTaxel(const Profile& profile,
+                                         std::size_t mostFrames = 4000,
+                                         const Progress& progress = {});
+
+}  // namespace palpate

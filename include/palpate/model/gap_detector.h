@@ -1,0 +1,26 @@
+// Tells gaps between frames as they come, from the stamps of the past alone: live and in a recording the same
+// frames give the same answers. (timing.h looks at a whole recording at once.)
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+
+namespace palpate {
+
+class GapDetector {
+ public:
+  // The next stamp [us], ascending. True: the interval before it is longer than max(1 s, 5 medians of the last
+  // 15 intervals). Never before the first and the second frame: no rate is known yet.
+  bool afterGap(std::int64_t stampUs);
+  void reset();
+
+ private:
+  std::int64_t medianIntervalUs() const;
+
+  std::int64_t lastUs_ = 0;
+  bool any_ = false;
+  std::deque<std::int64_t> intervalsUs_;  // the last ones
+};
+
+}  // namespace palpate

@@ -1,0 +1,289 @@
+#include "palpate/filter/filter_catalog.h"
+
+#include <limits>
+#include <stdexcept>
+
+#include "palpate/filter/savitzky_golay.h"
+
+namespace palpate {
+namespace {
+
+using Kind = FilterOption::Kind;
+
+constexpr double kAutomatic = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLargestSize = 31;      // taxels
+constexpr double kLargestWindow = 1001;  // frames
+
+const char* const kSpatialBorder =
+    "the taxel at the border is repeated; masked taxels are neither read nor written";
+const char* const kShrinks =
+    "the window holds the frames there are: shorter after the first frame and after a gap";
+
+FilterOption odd(
+    const char* key, double maximum, double fallback, const char* unit, const char* purpose) {
+  return {key, unit, Kind::kOdd, 1, maximum, fallback, {}, purpose};
+}
+FilterOption size(double fallback = 3) {
+  return odd("size", kLargestSize, fallback, "taxels", "width of the window, 2 radius + 1");
+}
+FilterOption window(double fallback) {
+  return odd("window", kLargestWindow, fallback, "frames", "frames that count");
+}
+FilterOption real(const char* key,
+                  double minimum,
+                  double maximum,
+                  double fallback,
+                  const char* unit,
+                  const char* purpose) {
+  return {key, unit, Kind::kReal, minimum, maximum, fallback, {}, purpose};
+}
+FilterOption masked() {
+  return {"masked",
+          "",
+          Kind::kFlag,
+          0,
+          1,
+          0,
+          {},
+          "1: keep the original value where the filtered one is above 0, else 0"};
+}
+FilterOption centred() {
+  return {"centred",
+          "",
+          Kind::kFlag,
+          0,
+          1,
+          0,
+          {},
+          "1: a window around the frame, for recordings; 0: the frames up to now"};
+}
+
+std::vector<FilterKind> spatialKinds() {
+  return {
+      {"box",
+       "Box",
+       FilterDomain::kSpatial,
+       {size(), masked()},
+       "Mean of the neighbours: smooths, and smears edges.",
+       kSpatialBorder,
+       "study 2.3"},
+      {"gaussian",
+       "Gaussian",
+       FilterDomain::kSpatial,
+       {size(),
+        real("sigma", 0.01, 100, kAutomatic, "taxels", "width; left out: (size + 1) / 2 / 2.3548"),
+        masked()},
+       "Weighted mean of the neighbours, without the box's side lobes; the base of eq. 3.2.",
+       kSpatialBorder,
+       "study 2.1.1 and 2.3, kernel exp(-x^2 / 2 sigma^2), normalised"},
+      {"median",
+       "Median",
+       FilterDomain::kSpatial,
+       {size(), masked()},
+       "Middle value of the neighbours: removes lone taxels, keeps edges.",
+       "the taxel at the border is repeated; masked taxels are neither read nor written (of an "
+       "even "
+       "number the lower middle value)",
+       "study 2.3"},
+      {"bilateral",
+       "Bilateral",
+       FilterDomain::kSpatial,
+       {odd("diameter", kLargestSize, 3, "taxels", "diameter of the round window"),
+        real("sigma_value", 0.01, 10000, 50, "counts", "difference of value that still counts"),
+        real("sigma_space", 0.01, 1000, 3, "taxels", "distance that still counts"),
+        masked()},
+       "Gaussian over neighbours of like value: smooths and keeps edges.",
+       kSpatialBorder,
+       "Tomasi and Manduchi 1998; study 2.3"},
+      {"nlm",
+       "Non-local means",
+       FilterDomain::kSpatial,
+       {odd("patch", 9, 3, "taxels", "width of the patches that are compared"),
+        odd("search", 21, 5, "taxels", "width of the region that is searched"),
+        real("h", 0.01, 10000, 50, "counts", "root mean square difference that still counts"),
+        masked()},
+       "Mean of taxels whose surroundings look alike.",
+       kSpatialBorder,
+       "Buades, Coll and Morel 2005; study 2.3"},
+      {"opening",
+       "Opening",
+       FilterDomain::kSpatial,
+       {{"shape",
+         "",
+         Kind::kChoice,
+         0,
+         2,
+         0,
+         {"cross", "rectangle", "ellipse"},
+         "structuring element"},
+        size(),
+        masked()},
+       "Erosion, then dilation: removes whatever the element doesn't fit into.",
+       kSpatialBorder,
+       "study 2.4"},
+  };
+}
+
+std::vector<FilterKind> temporalKinds() {
+  FilterOption anyWindow = window(3);
+  anyWindow.kind = Kind::kInteger;
+  anyWindow.purpose = "frames that count; odd with centred=1";
+  return {
+      {"running-mean",
+       "Running mean",
+       FilterDomain::kTemporal,
+       {window(5), centred()},
+       "Mean of the last frames: the least noise for a given steepness of a step.",
+       kShrinks,
+       "study 2.1.1"},
+      {"temporal-gaussian",
+       "Temporal Gaussian",
+       FilterDomain::kTemporal,
+       {window(5),
+        real(
+            "sigma", 0.01, 1000, 1.5, "frames", "width; causal: of the half that lies in the past"),
+        centred()},
+       "Weighted mean of the last frames, the newest the most.",
+       kShrinks,
+       "study 2.1.1"},
+      {"temporal-min",
+       "Temporal minimum",
+       FilterDomain::kTemporal,
+       {anyWindow, centred()},
+       "Smallest of the last frames: flickering taxels vanish, contacts come a little later.",
+       kShrinks,
+       "study 2.4"},
+      {"kalman",
+       "Kalman, zero order",
+       FilterDomain::kTemporal,
+       {real("q", 0, 1e6, 0.05, "counts^2", "variance of the process per frame"),
+        real("r", 1e-6, 1e6, 0.5, "counts^2", "variance of the measurement"),
+        {"centred",
+         "",
+         Kind::kFlag,
+         0,
+         1,
+         0,
+         {},
+         "1: smoothed over the whole recording (as rts); 0: the frames up to now"}},
+       "Expects a taxel to stay as it is: smooth, at the cost of some delay.",
+       "begins at the first frame, and anew after a gap",
+       "study 2.1.2; Q 0.05 and R 0.5 give the steady gain 0.270156"},
+      {"kelvin-voigt",
+       "Kalman, Kelvin-Voigt",
+       FilterDomain::kTemporal,
+       {real("m", 1e-9, 1e9, kAutomatic, "force s^2/count", "mass; left out: 1"),
+        real("e", 0, 1e9, kAutomatic, "force/count", "spring; left out: found in the recording"),
+        real(
+            "eta", 0, 1e9, kAutomatic, "force s/count", "damper; left out: found in the recording"),
+        real("q",
+             1e-12,
+             1e18,
+             kAutomatic,
+             "force^2 s",
+             "noise of the force; left out: found in the recording"),
+        real("r", 1e-9, 1e9, kAutomatic, "counts^2", "noise; left out: found in the recording"),
+        {"centred",
+         "",
+         Kind::kFlag,
+         0,
+         1,
+         0,
+         {},
+         "1: smoothed over the whole recording; 0: the frames up to now"}},
+       "Mass, spring and damper driven by noise; what is left out comes from the recording by "
+       "expectation-maximisation. The simple one does better.",
+       "begins at the first frame, and anew after a gap",
+       "study 2.1.2, eq. 2.1"},
+      {"rts",
+       "Kalman smoother (RTS)",
+       FilterDomain::kTemporal,
+       {real("q", 0, 1e6, 0.05, "counts^2", "variance of the process per frame"),
+        real("r", 1e-6, 1e6, 0.5, "counts^2", "variance of the measurement")},
+       "The zero-order Kalman filter forwards and back: no delay, for recordings only.",
+       "from the first frame to the last, or to a gap",
+       "Rauch, Tung and Striebel 1965; study 2.1.2"},
+      {"savitzky-golay",
+       "Savitzky-Golay",
+       FilterDomain::kTemporal,
+       {odd("window", kLongestSavitzkyGolayWindow, 5, "frames", "frames that count"),
+        {"order", "", Kind::kInteger, 0, 6, 2, {}, "degree of the polynomial, below the window"},
+        {"derivative",
+         "",
+         Kind::kInteger,
+         0,
+         2,
+         0,
+         {},
+         "0: smoothed, 1: slope per frame, 2: curvature per frame^2"},
+        centred()},
+       "Least-squares polynomial through the window: keeps peaks, gives derivatives.",
+       "the polynomial of the first (last) window; of fewer frames the order that fits them",
+       "Savitzky and Golay 1964; study 2.2"},
+  };
+}
+
+std::vector<FilterKind> spatioTemporalKinds() {
+  FilterOption anyWindow = window(3);
+  anyWindow.kind = Kind::kInteger;
+  anyWindow.purpose = "frames of the minimum; odd with centred=1";
+  return {
+      {"median3d",
+       "Median in space and time",
+       FilterDomain::kSpatioTemporal,
+       {size(), window(3), masked(), centred()},
+       "Middle value of the neighbours in space and time: the study's choice against ghosts.",
+       "the taxel at the border and the first frame (the last one) are repeated; masked taxels are "
+       "neither read nor written",
+       "study 2.4, 26 neighbours"},
+      {"min-median",
+       "Minimum, then median",
+       FilterDomain::kSpatioTemporal,
+       {anyWindow, size(), masked(), centred()},
+       "Smallest of the last frames, then the middle value of the neighbours.",
+       "the window holds the frames there are; the taxel at the border is repeated; masked taxels "
+       "are neither read nor written",
+       "study 2.4; called \"3D median\" by the program of the study"},
+  };
+}
+
+const std::vector<FilterKind>& all() {
+  static const std::vector<FilterKind> kinds = [] {
+    std::vector<FilterKind> made = spatialKinds();
+    for (auto&& more : {temporalKinds(), spatioTemporalKinds()})
+      made.insert(made.end(), more.begin(), more.end());
+    return made;
+  }();
+  return kinds;
+}
+
+}  // namespace
+
+const FilterOption* FilterKind::option(std::string_view key) const noexcept {
+  for (const FilterOption& option : options)
+    if (option.key == key) return &option;
+  return nullptr;
+}
+
+std::string FilterKind::optionKeys() const {
+  std::string keys;
+  for (const FilterOption& option : options) keys += (keys.empty() ? "" : ", ") + option.key;
+  return keys;
+}
+
+std::span<const FilterKind> filterKinds() { return all(); }
+
+const FilterKind& filterKind(std::string_view name) {
+  for (const FilterKind& kind : all())
+    if (kind.name == name) return kind;
+  throw std::invalid_argument("unknown filter \"" + std::string(name) +
+                              "\"; there are: " + filterNames());
+}
+
+std::string filterNames() {
+  std::string names;
+  for (const FilterKind& kind : all()) names += (names.empty() ? "" : ", ") + kind.name;
+  return names;
+}
+
+}  // namespace palpate

@@ -1,0 +1,102 @@
+#include "palpate/filter/filter_chain.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace palpate {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+double nsBetween(SteadyClock::time_point from, SteadyClock::time_point to) {
+  return std::chrono::duration<double, std::nano>(to - from).count();
+}
+
+}  // namespace
+
+// One step, and what it hands on to. A link takes frames for its filter.
+class FilterChain::Link final : public FrameSink {
+ public:
+  Link(FilterChain& chain, std::size_t step, std::unique_ptr<FrameFilter> filter)
+      : chain_(chain), step_(step), filter_(std::move(filter)) {}
+
+  void setNext(FrameSink& next) { next_ = &next; }
+  void take(TactileFrame& frame) override {
+    if (!chain_.measuring_) {
+      filter_->push(frame, *next_);
+      return;
+    }
+    // Steps behind this one are called within push(): their time is theirs.
+    const double spentBehind = behindNs();
+    const auto from = SteadyClock::now();
+    filter_->push(frame, *next_);
+    chain_.spentNs_[step_] += nsBetween(from, SteadyClock::now()) - (behindNs() - spentBehind);
+  }
+  void finish() { filter_->finish(*next_); }
+
+ private:
+  double behindNs() const {
+    double sum = 0.0;
+    for (std::size_t i = step_ + 1; i < chain_.spentNs_.size(); ++i) sum += chain_.spentNs_[i];
+    return sum;
+  }
+
+  FilterChain& chain_;
+  const std::size_t step_;
+  const std::unique_ptr<FrameFilter> filter_;
+  FrameSink* next_ = nullptr;
+};
+
+FilterChain::FilterChain(Recipe recipe, FrameSink& out)
+    : recipe_(std::move(recipe)), out_(out), spentNs_(recipe_.steps.size(), 0.0) {
+  recipe_.validate();
+}
+
+FilterChain::~FilterChain() = default;
+
+void FilterChain::build(const std::shared_ptr<const SensorLayout>& layout) {
+  std::vector<std::unique_ptr<Link>> links;
+  for (std::size_t i = 0; i < recipe_.steps.size(); ++i)
+    if (recipe_.steps[i].enabled)
+      links.push_back(std::make_unique<Link>(*this, i, makeFrameFilter(recipe_.steps[i], layout)));
+  for (std::size_t i = 0; i < links.size(); ++i)
+    links[i]->setNext(i + 1 < links.size() ? static_cast<FrameSink&>(*links[i + 1]) : out_);
+  links_ = std::move(links);
+  layout_ = layout;
+}
+
+void FilterChain::endStretch() {
+  for (const auto& link : links_) link->finish();
+}
+
+void FilterChain::push(TactileFrame& frame) {
+  if (frame.layout != layout_ && (!layout_ || !(*frame.layout == *layout_))) {
+    endStretch();
+    build(frame.layout);
+  }
+  if (gaps_.afterGap(frame.hostUs)) endStretch();
+  if (measuring_) ++frames_;
+  if (links_.empty()) {
+    out_.take(frame);
+  } else {
+    links_.front()->take(frame);
+  }
+}
+
+void FilterChain::restart() { endStretch(); }
+
+void FilterChain::finish() {
+  endStretch();
+  gaps_.reset();
+}
+
+std::vector<double> FilterChain::costsUs() const {
+  std::vector<double> costs(spentNs_.size(), 0.0);
+  if (frames_ > 0)
+    for (std::size_t i = 0; i < costs.size(); ++i)
+      costs[i] = std::max(0.0, spentNs_[i]) / 1e3 / static_cast<double>(frames_);
+  return costs;
+}
+
+}  // namespace palpate

@@ -1,0 +1,100 @@
+// What a chain does to time: found by sending a step of load through it.
+#include <algorithm>
+#include <cmath>
+
+#include "palpate/filter/filter_chain.h"
+
+namespace palpate {
+namespace {
+
+constexpr int kPlaces = 9;        // rows and columns of the matrix that is tried
+constexpr float kLoad = 1000.0F;  // counts
+constexpr int kMostFrames = 4096;
+constexpr double kForgotten = 1e-9;
+constexpr std::int64_t kIntervalUs = 30'000;
+constexpr std::size_t kMostMemory = 5000;
+
+// Counts the frames that come until the middle of the matrix has half the load.
+class StepWatcher final : public FrameSink {
+ public:
+  void take(TactileFrame& frame) override {
+    const float middle = frame.matrix(0)(kPlaces / 2, kPlaces / 2);
+    if (!arrived_ && middle >= kLoad / 2) arrived_ = frames_;
+    ++frames_;
+  }
+  std::optional<int> arrived() const { return arrived_; }
+
+ private:
+  int frames_ = 0;
+  std::optional<int> arrived_;
+};
+
+// Everywhere, and without what looks into the future.
+Recipe tried(const Recipe& recipe) {
+  Recipe causal;
+  for (FilterStep step : recipe.steps) {
+    if (!step.enabled || !step.causal()) continue;
+    step.matrices.clear();
+    causal.steps.push_back(std::move(step));
+  }
+  return causal;
+}
+
+std::optional<std::size_t> memoryOf(const FilterStep& step) {
+  if (step.kind().option("window") != nullptr) {
+    const auto window = static_cast<std::size_t>(step.integer("window"));
+    // Polynomials at the beginning of a stretch use the frames behind, too.
+    return step.name == "savitzky-golay" ? 2 * window : window - 1;
+  }
+  if (step.kind().domain == FilterDomain::kSpatial) return 0;
+  if (!step.causal()) return std::nullopt;
+  if (step.name != "kalman") return kMostMemory;
+  const double q = step.value("q");
+  const double r = step.value("r");
+  const double gain = (std::sqrt(q * q + 4.0 * q * r) - q) / (2.0 * r);
+  if (gain >= 1.0) return 1;
+  if (gain <= 0.0) return std::nullopt;
+  return std::min(kMostMemory,
+                  static_cast<std::size_t>(std::ceil(std::log(kForgotten) / std::log1p(-gain))));
+}
+
+}  // namespace
+
+std::optional<int> latencyFrames(const Recipe& recipe) {
+  const Recipe causal = tried(recipe);
+  const auto memory = memoryFrames(causal);
+  const int before = static_cast<int>(memory.value_or(kMostFrames)) + 2;
+  StepWatcher watcher;
+  FilterChain chain(causal, watcher);
+  const auto layout = std::make_shared<const SensorLayout>(
+      std::vector<MatrixLayout>{MatrixLayout::full(kPlaces, kPlaces, 1.0)});
+  TactileFrame frame(layout);
+  for (int i = 0; i < before + kMostFrames && !watcher.arrived(); ++i) {
+    frame.layout = layout;
+    frame.values.assign(layout->numPlaces(), i < before ? 0.0F : kLoad);
+    frame.hostUs = i * kIntervalUs;
+    chain.push(frame);
+  }
+  if (!watcher.arrived()) return std::nullopt;
+  return *watcher.arrived() - before;
+}
+
+std::optional<int> latencyFrames(const FilterStep& step) {
+  Recipe recipe;
+  recipe.steps.push_back(step);
+  recipe.steps.back().enabled = true;
+  return latencyFrames(recipe);
+}
+
+std::optional<std::size_t> memoryFrames(const Recipe& recipe) {
+  std::size_t sum = 0;
+  for (const FilterStep& step : recipe.steps) {
+    if (!step.enabled) continue;
+    const auto memory = memoryOf(step);
+    if (!memory) return std::nullopt;
+    sum += *memory;
+  }
+  return sum;
+}
+
+}  // namespace palpate

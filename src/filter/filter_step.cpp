@@ -1,0 +1,211 @@
+#include "palpate/filter/filter_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+using Kind = FilterOption::Kind;
+
+constexpr std::size_t kMostMatrices = 1024;
+constexpr const char* kMatrices = "matrices";
+
+std::string_view trimmed(std::string_view text) {
+  const auto from = text.find_first_not_of(" \t");
+  if (from == std::string_view::npos) return {};
+  return text.substr(from, text.find_last_not_of(" \t") - from + 1);
+}
+
+std::vector<std::string_view> split(std::string_view text, char at) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const auto end = text.find(at);
+    parts.push_back(trimmed(text.substr(0, end)));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+std::string choicesOf(const FilterOption& option) {
+  std::string text;
+  for (const std::string& choice : option.choices) text += (text.empty() ? "" : ", ") + choice;
+  return text;
+}
+
+std::string rangeOf(const FilterOption& option) {
+  const std::string range = numberText(option.minimum) + ".." + numberText(option.maximum) +
+                            (option.unit.empty() ? "" : " " + option.unit);
+  switch (option.kind) {
+    case Kind::kOdd:
+      return "an odd number " + range;
+    case Kind::kInteger:
+      return "a whole number " + range;
+    case Kind::kFlag:
+      return "0 or 1";
+    case Kind::kChoice:
+      return "one of " + choicesOf(option);
+    case Kind::kReal:
+      break;
+  }
+  return "a number " + range;
+}
+
+[[noreturn]] void refuse(const FilterStep& step,
+                         const FilterOption& option,
+                         const std::string& is) {
+  throw std::invalid_argument(step.name + ": " + option.key + " must be " + rangeOf(option) +
+                              ", is " + is);
+}
+
+std::string unknownKey(const FilterKind& kind, std::string_view key) {
+  return kind.name + ": unknown key \"" + std::string(key) + "\"; there are: " + kind.optionKeys() +
+         ", " + kMatrices;
+}
+
+bool fits(const FilterOption& option, double value) {
+  if (!std::isfinite(value) || value < option.minimum || value > option.maximum) return false;
+  if (option.kind == Kind::kReal) return true;
+  if (value != std::floor(value)) return false;
+  return option.kind != Kind::kOdd || std::fmod(value, 2.0) == 1.0;
+}
+
+std::vector<std::size_t> parseMatrices(const FilterStep& step, std::string_view text) {
+  std::vector<std::size_t> matrices;
+  for (const std::string_view part : split(text, '+')) {
+    const auto index = parseInteger(part);
+    if (!index || *index < 0 || *index >= static_cast<std::int64_t>(kMostMatrices))
+      throw std::invalid_argument(step.name +
+                                  ": matrices must be numbers joined by +, as 1+3, is \"" +
+                                  std::string(text) + "\"");
+    matrices.push_back(static_cast<std::size_t>(*index));
+  }
+  std::sort(matrices.begin(), matrices.end());
+  matrices.erase(std::unique(matrices.begin(), matrices.end()), matrices.end());
+  return matrices;
+}
+
+double parseValue(const FilterStep& step, const FilterOption& option, std::string_view text) {
+  if (option.kind == Kind::kChoice) {
+    const auto at = std::find(option.choices.begin(), option.choices.end(), text);
+    if (at == option.choices.end()) refuse(step, option, "\"" + std::string(text) + "\"");
+    return static_cast<double>(at - option.choices.begin());
+  }
+  if (option.automatic() && text == "auto") return option.fallback;
+  const auto number = parseDouble(text);
+  if (!number || !fits(option, *number)) refuse(step, option, "\"" + std::string(text) + "\"");
+  return *number;
+}
+
+bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+}  // namespace
+
+void FilterStep::validate() const {
+  const FilterKind& kind = this->kind();
+  for (const auto& [key, value] : given) {
+    const FilterOption* option = kind.option(key);
+    if (option == nullptr) throw std::invalid_argument(unknownKey(kind, key));
+    if (std::isnan(value) && option->automatic()) continue;
+    if (!fits(*option, value)) refuse(*this, *option, numberText(value));
+  }
+  if (!std::is_sorted(matrices.begin(), matrices.end()))
+    throw std::invalid_argument(name + ": matrices must be in ascending order");
+  const FilterOption* window = kind.option("window");
+  if (window != nullptr && valueOr0("centred") != 0.0 && integer("window") % 2 == 0)
+    throw std::invalid_argument(name + ": window must be odd with centred=1, is " +
+                                std::to_string(integer("window")));
+  if (kind.option("order") != nullptr) {
+    if (integer("order") >= integer("window"))
+      throw std::invalid_argument(name + ": order must be below the window of " +
+                                  std::to_string(integer("window")) + ", is " +
+                                  std::to_string(integer("order")));
+    if (integer("derivative") > integer("order"))
+      throw std::invalid_argument(name + ": derivative " + std::to_string(integer("derivative")) +
+                                  " of a polynomial of order " + std::to_string(integer("order")) +
+                                  " is 0 everywhere: choose a higher order");
+  }
+}
+
+double FilterStep::value(std::string_view key) const {
+  const FilterKind& kind = this->kind();
+  const FilterOption* option = kind.option(key);
+  if (option == nullptr) throw std::invalid_argument(unknownKey(kind, key));
+  const auto at = given.find(key);
+  return at == given.end() ? option->fallback : at->second;
+}
+
+double FilterStep::valueOr0(std::string_view key) const {
+  return kind().option(key) == nullptr ? 0.0 : value(key);
+}
+
+bool FilterStep::causal() const {
+  if (name == "rts" || valueOr0("centred") != 0.0) return false;
+  if (name != "kelvin-voigt") return true;
+  // What isn't given is found in the recording.
+  for (const char* key : {"e", "eta", "q", "r"})
+    if (std::isnan(value(key))) return false;
+  return true;
+}
+
+FilterStep parseFilterStep(std::string_view text) {
+  FilterStep step;
+  const auto colon = text.find(':');
+  step.name = trimmed(text.substr(0, colon));
+  if (step.name.empty())
+    throw std::invalid_argument("a filter is wanted, as \"median:size=3\"; there are: " +
+                                filterNames());
+  const FilterKind& kind = step.kind();
+  if (colon != std::string_view::npos) {
+    std::vector<std::string_view> seen;
+    for (const std::string_view part : split(text.substr(colon + 1), ',')) {
+      const auto equals = part.find('=');
+      const std::string_view key = trimmed(part.substr(0, equals));
+      if (equals == std::string_view::npos || key.empty())
+        throw std::invalid_argument(step.name + ": \"" + std::string(part) +
+                                    "\" is no KEY=VALUE; keys: " + kind.optionKeys() + ", " +
+                                    kMatrices);
+      if (std::find(seen.begin(), seen.end(), key) != seen.end())
+        throw std::invalid_argument(step.name + ": " + std::string(key) + " is given twice");
+      seen.push_back(key);
+      const std::string_view value = trimmed(part.substr(equals + 1));
+      if (key == kMatrices) {
+        step.matrices = parseMatrices(step, value);
+        continue;
+      }
+      const FilterOption* option = kind.option(key);
+      if (option == nullptr) throw std::invalid_argument(unknownKey(kind, key));
+      const double number = parseValue(step, *option, value);
+      if (!same(number, option->fallback)) step.given[std::string(key)] = number;
+    }
+  }
+  step.validate();
+  return step;
+}
+
+std::string filterText(const FilterStep& step) {
+  std::string text = step.name;
+  char before = ':';
+  for (const FilterOption& option : step.kind().options) {
+    const double value = step.value(option.key);
+    if (same(value, option.fallback)) continue;
+    text += before + option.key + '=';
+    if (option.kind == Kind::kChoice)
+      text += option.choices.at(static_cast<std::size_t>(value));
+    else
+      appendNumber(text, value);
+    before = ',';
+  }
+  if (!step.matrices.empty()) {
+    text += before + std::string(kMatrices) + '=';
+    for (std::size_t i = 0; i < step.matrices.size(); ++i)
+      text += (i > 0 ? "+" : "") + std::to_string(step.matrices[i]);
+  }
+  return text;
+}
+
+}  // namespace palpate

@@ -1,0 +1,217 @@
+#include "palpate/filter/filtered_profile.h"
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <mutex>
+#include <optional>
+
+#include "palpate/core/error.h"
+#include "palpate/filter/filter_chain.h"
+#include "palpate/model/profile_builder.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kFramesPerReport = 64;
+constexpr std::size_t kFramesForRate = 16;  // what the gap rule looks back at
+constexpr std::size_t kCursors = 4;         // readers at different places: screen, charts, exports
+
+// Reads the source in order through a chain.
+class Cursor final : public FrameSink {
+ public:
+  Cursor(const Profile& source,
+         const Recipe& recipe,
+         const std::vector<std::int64_t>& restartsUs,
+         std::size_t from)
+      : source_(source), restartsUs_(restartsUs), next_(from), chain_(recipe, *this) {}
+
+  void take(TactileFrame& frame) override {
+    out_.push_back({pushed_.front(), std::move(frame)});
+    pushed_.pop_front();
+  }
+
+  // Index of the frame that advance() gives next, at least.
+  std::size_t position() const noexcept {
+    if (!out_.empty()) return out_.front().index;
+    return pushed_.empty() ? next_ : pushed_.front();
+  }
+
+  // The next filtered frame up to `last`; nothing where there is none. What can't be read is passed by, but for
+  // `wanted`: that throws.
+  std::optional<std::pair<std::size_t, TactileFrame>> advance(std::size_t last,
+                                                              std::size_t wanted) {
+    while (out_.empty() && next_ <= last) push(wanted);
+    if (out_.empty()) return std::nullopt;
+    Filtered filtered = std::move(out_.front());
+    out_.pop_front();
+    return std::pair{filtered.index, std::move(filtered.frame)};
+  }
+
+ private:
+  struct Filtered {
+    std::size_t index;
+    TactileFrame frame;
+  };
+
+  void push(std::size_t wanted) {
+    const std::size_t index = next_++;
+    TactileFrame frame;
+    try {
+      source_.readFrame(index, frame);
+    } catch (const Error&) {
+      chain_.restart();
+      if (index == wanted) throw;
+      return;
+    }
+    const auto restart = std::upper_bound(restartsUs_.begin(), restartsUs_.end(), frame.hostUs);
+    if (lastUs_ && restart != restartsUs_.begin() && *std::prev(restart) > *lastUs_)
+      chain_.restart();
+    lastUs_ = frame.hostUs;
+    pushed_.push_back(index);
+    chain_.push(frame);
+    if (next_ == source_.numFrames()) chain_.finish();
+  }
+
+  const Profile source_;
+  const std::vector<std::int64_t>& restartsUs_;
+  std::size_t next_;  // of the source
+  std::optional<std::int64_t> lastUs_;
+  std::deque<std::size_t> pushed_;  // went in, and didn't come out yet
+  std::deque<Filtered> out_;
+  FilterChain chain_;
+};
+
+// Everything but the values of the taxels is the source's.
+class BesideFrames : public ProfileStorage {
+ public:
+  explicit BesideFrames(Profile source) : source_(std::move(source)) {}
+  std::size_t numFrames() const override { return source_.numFrames(); }
+  std::int64_t frameTimeUs(std::size_t frame) const override { return source_.frameTimeUs(frame); }
+  std::size_t numAngles() const override { return source_.numAngles(); }
+  std::int64_t angleTimeUs(std::size_t sample) const override {
+    return source_.angleTimeUs(sample);
+  }
+  JointAngles angles(std::size_t sample) const override { return source_.angles(sample); }
+  std::size_t numTemperatures() const override { return source_.numTemperatures(); }
+  std::int64_t temperatureTimeUs(std::size_t sample) const override {
+    return source_.temperatureTimeUs(sample);
+  }
+  Temperatures temperatures(std::size_t sample) const override {
+    return source_.temperatures(sample);
+  }
+
+ protected:
+  const Profile source_;
+};
+
+class ComputedFrames final : public BesideFrames {
+ public:
+  ComputedFrames(Profile source, Profile frames)
+      : BesideFrames(std::move(source)), frames_(std::move(frames)) {}
+  void readFrame(std::size_t frame, TactileFrame& out) const override {
+    frames_.readFrame(frame, out);
+  }
+
+ private:
+  const Profile frames_;
+};
+
+class FilteredFrames final : public BesideFrames {
+ public:
+  FilteredFrames(Profile source, Recipe recipe, std::vector<std::int64_t> restartsUs)
+      : BesideFrames(std::move(source)),
+        recipe_(std::move(recipe)),
+        restartsUs_(std::move(restartsUs)),
+        memory_(*memoryFrames(recipe_) + kFramesForRate) {}
+
+  void readFrame(std::size_t frame, TactileFrame& out) const override {
+    const std::lock_guard lock(mutex_);
+    Reader& reader = readerFor(frame);
+    reader.usedAt = ++uses_;
+    while (!reader.last || reader.last->first < frame) {
+      auto next = reader.cursor->advance(source_.numFrames() - 1, frame);
+      if (!next) throw Error("frame " + std::to_string(frame) + " came out of no filter");
+      reader.last = std::move(next);
+    }
+    // Passed by: it couldn't be read, and says so itself.
+    if (reader.last->first != frame) return source_.readFrame(frame, out);
+    out = reader.last->second;
+  }
+
+ private:
+  struct Reader {
+    std::unique_ptr<Cursor> cursor;
+    std::optional<std::pair<std::size_t, TactileFrame>> last;  // that it gave
+    std::uint64_t usedAt = 0;
+  };
+
+  // One that has the frame, or comes to it soon; else a new one in place of the longest unused.
+  Reader& readerFor(std::size_t frame) const {
+    for (Reader& reader : readers_)
+      if (reader.last && reader.last->first == frame) return reader;
+    for (Reader& reader : readers_) {
+      if (!reader.cursor || (reader.last && reader.last->first > frame)) continue;
+      const std::size_t at = reader.cursor->position();
+      if (at <= frame && frame - at <= memory_) return reader;
+    }
+    Reader& reader =
+        *std::min_element(readers_.begin(), readers_.end(), [](const Reader& a, const Reader& b) {
+          return a.usedAt < b.usedAt;
+        });
+    reader.last.reset();
+    reader.cursor = std::make_unique<Cursor>(
+        source_, recipe_, restartsUs_, frame > memory_ ? frame - memory_ : 0);
+    return reader;
+  }
+
+  const Recipe recipe_;
+  const std::vector<std::int64_t> restartsUs_;
+  const std::size_t memory_;
+  mutable std::mutex mutex_;
+  mutable std::array<Reader, kCursors> readers_;
+  mutable std::uint64_t uses_ = 0;
+};
+
+Profile computedWhole(const Profile& source,
+                      const Recipe& recipe,
+                      const std::vector<std::int64_t>& restartsUs,
+                      const Progress& progress) {
+  ProfileBuilder builder(source.hand().layout);
+  Cursor cursor(source, recipe, restartsUs, 0);
+  const std::size_t numFrames = source.numFrames();
+  // Nothing comes before the stretch is whole: reading is the first half of the work.
+  for (std::size_t i = 0; i < numFrames; ++i) {
+    if (progress && i % kFramesPerReport == 0 &&
+        !progress(static_cast<double>(i) / static_cast<double>(numFrames)))
+      throw Cancelled();
+    while (const auto next = cursor.advance(i, i))
+      builder.addFrame(next->second.hostUs, next->second.values, next->second.deviceMs);
+  }
+  return builder.finish(source.info());
+}
+
+}  // namespace
+
+Profile filteredProfile(const Profile& source,
+                        const Recipe& recipe,
+                        FilteredProfileOptions options,
+                        const Progress& progress) {
+  recipe.validate();
+  for (const FilterStep& step : recipe.steps)
+    if (step.enabled)
+      makeFrameFilter(step, source.hand().layout);  // throws for a matrix that isn't there
+  if (recipe.empty()) return source;
+  ProfileInfo info = source.info();
+  info.valueType = ValueType::kFloat;
+  if (memoryFrames(recipe))
+    return Profile(info,
+                   source.hand(),
+                   std::make_shared<FilteredFrames>(source, recipe, std::move(options.restartsUs)));
+  return Profile(info,
+                 source.hand(),
+                 std::make_shared<ComputedFrames>(
+                     source, computedWhole(source, recipe, options.restartsUs, progress)));
+}
+
+}  // namespace palpate

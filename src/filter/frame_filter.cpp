@@ -1,0 +1,46 @@
+#include "palpate/filter/frame_filter.h"
+
+#include <stdexcept>
+
+#include "filter/spatial_filter.h"
+#include "filter/temporal_filters.h"
+
+namespace palpate {
+namespace {
+
+using detail::MatrixKernel;
+
+std::unique_ptr<MatrixKernel> kernelOf(const FilterStep& step, const MatrixLayout& layout) {
+  if (step.name == "box") return detail::boxKernel(layout, step);
+  if (step.name == "gaussian") return detail::gaussianKernel(layout, step);
+  if (step.name == "median") return detail::medianKernel(layout, step.integer("size"));
+  if (step.name == "bilateral") return detail::bilateralKernel(layout, step);
+  if (step.name == "nlm") return detail::nonLocalMeansKernel(layout, step);
+  if (step.name == "opening") return detail::openingKernel(layout, step);
+  throw std::logic_error("makeFrameFilter: " + step.name + " has no kernel");
+}
+
+}  // namespace
+
+std::unique_ptr<FrameFilter> makeFrameFilter(const FilterStep& step,
+                                             std::shared_ptr<const SensorLayout> layout) {
+  step.validate();
+  for (const std::size_t matrix : step.matrices)
+    if (matrix >= layout->numMatrices())
+      throw std::invalid_argument(step.name + ": there is no matrix " + std::to_string(matrix) +
+                                  ", only 0.." + std::to_string(layout->numMatrices() - 1));
+  switch (step.kind().domain) {
+    case FilterDomain::kSpatial:
+      return std::make_unique<detail::SpatialFilter>(
+          step, std::move(layout), [&](const MatrixLayout& of) { return kernelOf(step, of); });
+    case FilterDomain::kSpatioTemporal:
+      return detail::spatioTemporalFilter(step, std::move(layout));
+    case FilterDomain::kTemporal:
+      break;
+  }
+  const bool smoother = step.name == "rts" || step.name == "kalman" || step.name == "kelvin-voigt";
+  if (smoother && !step.causal()) return detail::stretchFilter(step, std::move(layout));
+  return detail::temporalFilter(step, std::move(layout));
+}
+
+}  // namespace palpate

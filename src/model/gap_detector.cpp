@@ -1,0 +1,42 @@
+#include "palpate/model/gap_detector.h"
+
+#include <algorithm>
+#include <array>
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kLeastGapUs = 1'000'000;
+constexpr std::int64_t kGapIntervals = 5;
+constexpr std::size_t kIntervals = 15;
+
+}  // namespace
+
+std::int64_t GapDetector::medianIntervalUs() const {
+  std::array<std::int64_t, kIntervals> sorted{};
+  const auto end = std::copy(intervalsUs_.begin(), intervalsUs_.end(), sorted.begin());
+  const auto middle = sorted.begin() + (end - sorted.begin()) / 2;
+  std::nth_element(sorted.begin(), middle, end);
+  return *middle;
+}
+
+bool GapDetector::afterGap(std::int64_t stampUs) {
+  const std::int64_t intervalUs = stampUs - lastUs_;
+  const bool second = any_;
+  lastUs_ = stampUs;
+  any_ = true;
+  if (!second) return false;
+  // The median is only asked for where it matters.
+  const bool gap = intervalUs > kLeastGapUs && !intervalsUs_.empty() &&
+                   intervalUs > kGapIntervals * medianIntervalUs();
+  intervalsUs_.push_back(intervalUs);
+  if (intervalsUs_.size() > kIntervals) intervalsUs_.pop_front();
+  return gap;
+}
+
+void GapDetector::reset() {
+  any_ = false;
+  intervalsUs_.clear();
+}
+
+}  // namespace palpate

@@ -1,0 +1,188 @@
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
+#include "palpate/model/hand_description.h"
+#include "palpate/model/profile_builder.h"
+#include "palpate/recording/dsa_writer.h"
+
+#include "commands/palpate_program.h"
+
+namespace palpate {
+namespace {
+
+using testing::expectOneLineError;
+using testing::palpate;
+
+struct Row {
+  double segment = 0.0, timeS = 0.0, frequencyHz = 0.0, psd = 0.0, magnitude = 0.0;
+};
+
+std::vector<Row> rowsOf(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "segment,time_s,frequency_hz,psd,magnitude");
+  std::vector<Row> rows;
+  while (std::getline(lines, line)) {
+    std::vector<double> values;
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');)
+      values.push_back(parseDouble(cell).value());
+    EXPECT_EQ(values.size(), 5u);
+    rows.push_back({values.at(0), values.at(1), values.at(2), values.at(3), values.at(4)});
+  }
+  return rows;
+}
+
+// 4 s at 50 frames/s: taxel (2, 7) of matrix 1 swings by 400 counts at 6.25 Hz (bin 4 of 32) around 1000, from frame 100
+// on; taxel (3, 7) rests at 500.
+void writeTone(const std::filesystem::path& path, std::size_t frames = 200) {
+  ProfileBuilder builder(sdh2().layout);
+  for (std::size_t i = 0; i < frames; ++i) {
+    TactileFrame frame(sdh2().layout);
+    const double swing =
+        i < 100 ? 0.0 : 400.0 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / 8.0);
+    frame.matrix(1)(7, 2) = static_cast<float>(std::round(1000.0 + swing));
+    frame.matrix(1)(7, 3) = 500.0F;
+    builder.addFrame(1'400'000'000'000'000 + static_cast<std::int64_t>(i) * 20'000, frame.values);
+  }
+  writeDsa(builder.finish({}), path, Overwrite::kReplace);
+}
+
+TEST(SpectrumCommand, ReadsTheAmplitudeOfATone) {
+  const testing::TemporaryFolder folder;
+  writeTone(folder / "tone.dsa");
+  const auto result =
+      palpate({"spectrum", folder / "tone.dsa", "--matrix", "1", "--x", "2", "--y", "7"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const auto rows = rowsOf(result.out);
+  ASSERT_EQ(rows.size(), 169u * 17u);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::size_t segment = i / 17, bin = i % 17;
+    EXPECT_EQ(rows[i].segment, static_cast<double>(segment));
+    EXPECT_NEAR(rows[i].timeS, 0.02 * static_cast<double>(segment + 16), 1e-9);
+    EXPECT_NEAR(rows[i].frequencyHz, 50.0 / 32.0 * static_cast<double>(bin), 1e-9);
+    if (segment + 32 <= 100) {
+      EXPECT_NEAR(rows[i].magnitude, 0.0, 1e-9);
+    }
+    if (segment >= 100 && bin == 4) {
+      EXPECT_NEAR(rows[i].magnitude, 400.0, 1.0);  // values are whole counts
+      // A^2 / 2 in a bin whose noise bandwidth is 1.5 bins.
+      EXPECT_NEAR(rows[i].psd, 400.0 * 400.0 / 2.0 / (1.5 * 50.0 / 32.0), 300.0);
+    }
+  }
+  EXPECT_NE(result.err.find("25.00 Hz"), std::string::npos) << result.err;
+}
+
+TEST(SpectrumCommand, TellsRateNyquistAndTheStrongestLine) {
+  const testing::TemporaryFolder folder;
+  writeTone(folder / "tone.dsa");
+  const auto result =
+      palpate({"spectrum", folder / "tone.dsa", "--matrix", "1", "--x", "2", "--y", "7", "--json"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const Json report = Json::parse(result.out);
+  EXPECT_NEAR(report.at("rate_hz").asDouble(), 50.0, 1e-9);
+  EXPECT_NEAR(report.at("nyquist_hz").asDouble(), 25.0, 1e-9);
+  EXPECT_NEAR(report.at("jitter").asDouble(), 0.0, 1e-9);
+  EXPECT_EQ(report.at("samples").asInteger(), 200);
+  EXPECT_EQ(report.at("segments").asInteger(), 169);
+  EXPECT_EQ(report.at("stretches").size(), 1u);
+  EXPECT_NEAR(report.at("strongest").at("frequency_hz").asDouble(), 6.25, 1e-9);
+  EXPECT_GE(report.at("strongest").at("time_s").asDouble(), 2.0);
+  const Json still = Json::parse(
+      palpate({"spectrum", folder / "tone.dsa", "--matrix", "1", "--x", "3", "--y", "7", "--json"})
+          .out);
+  EXPECT_TRUE(still.at("strongest").isNull());
+}
+
+TEST(SpectrumCommand, TakesSignalsFramesAndWindowsAsAsked) {
+  const testing::TemporaryFolder folder;
+  writeTone(folder / "tone.dsa");
+  const auto rows = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"spectrum", folder / "tone.dsa"});
+    const auto result = palpate(words);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return rowsOf(result.out);
+  };
+  // The mean of two taxels swings by half as much; so it does in the whole hand.
+  for (const auto& words : {std::vector<std::string>{"--signal", "mean", "--matrix", "1"},
+                            std::vector<std::string>{"--signal", "mean"}})
+    EXPECT_NEAR(rows(words).at(150 * 17 + 4).magnitude, 200.0, 1.0);
+  const auto part = rows(
+      {"--matrix", "1", "--x", "2", "--y", "7", "--from", "110", "--to", "149", "--window", "40"});
+  ASSERT_EQ(part.size(), 21u);
+  EXPECT_NEAR(part[5].frequencyHz, 6.25, 1e-9);
+  EXPECT_NEAR(part[5].magnitude, 400.0, 1.0);
+  EXPECT_NEAR(part[5].timeS, 0.02 * (110 + 20), 1e-9);
+  const auto kept =
+      rows({"--matrix", "1", "--x", "3", "--y", "7", "--detrend", "none", "--overlap", "0"});
+  ASSERT_EQ(kept.size(), 6u * 17u);
+  EXPECT_NEAR(kept[0].magnitude, 500.0, 1e-6);
+}
+
+TEST(SpectrumCommand, SaysWhichTaxelsThereAre) {
+  const testing::TemporaryFolder folder;
+  writeTone(folder / "tone.dsa", 40);
+  const auto with = [&](const char* matrix, const char* x, const char* y) {
+    return palpate({"spectrum", folder / "tone.dsa", "--matrix", matrix, "--x", x, "--y", y});
+  };
+  // The corners of a fingertip are cut: row 0 of a distal matrix has its two (four) middle taxels.
+  expectOneLineError(with("1", "0", "0"), 1, {"matrix 1, x 0, y 0", "row 0 has x"});
+  expectOneLineError(with("1", "6", "3"), 1, {"no such taxel", "row 3 has x"});
+  expectOneLineError(with("1", "0", "13"), 1, {"no such taxel", "y 0..12"});
+  expectOneLineError(with("6", "0", "0"), 1, {"no matrix 6", "0..5"});
+}
+
+TEST(SpectrumCommand, RefusesWrongUsageAndTooLittle) {
+  const testing::TemporaryFolder folder;
+  writeTone(folder / "short.dsa", 20);
+  const std::string file = folder / "short.dsa";
+  const std::vector<std::string> taxel = {
+      "spectrum", file, "--matrix", "1", "--x", "2", "--y", "7"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), taxel.begin(), taxel.end());
+    return palpate(more);
+  };
+  expectOneLineError(with({}), 1, {"20 samples", "32", "--window"});
+  EXPECT_EQ(with({"--window", "16"}).exitCode, 0) << "the overlap follows the window";
+  expectOneLineError(with({"--window", "1"}), 2, {"window"});
+  expectOneLineError(with({"--window", "16", "--overlap", "16"}), 2, {"overlap", "15"});
+  expectOneLineError(with({"--signal", "mean"}), 2, {"--signal"});
+  expectOneLineError(with({"--from", "20"}), 2, {"from", "19"});
+  expectOneLineError(with({"--from", "5", "--to", "4"}), 2, {"--from"});
+  expectOneLineError(palpate({"spectrum", file}), 2, {"--matrix", "--signal"});
+  expectOneLineError(palpate({"spectrum", file, "--matrix", "1", "--x", "2"}), 2, {"--y"});
+  expectOneLineError(palpate({"spectrum", file, "--signal", "hum"}), 2, {"mean", "sum"});
+  writeTone(folder / "one.dsa", 1);
+  expectOneLineError(
+      palpate({"spectrum", folder / "one.dsa", "--signal", "sum"}), 1, {"1 samples"});
+}
+
+// Two taxels at about 74 frames/s. Numbers from the stamps in the XML, by a few lines of Python: 3235 intervals in
+// 43.289 s, population sd 2.4713 ms at a mean of 13.3815 ms.
+TEST(SpectrumCommand, SaysWhatRealRecordingsCannotShow) {
+  const auto folder = testing::recordingsFolder();
+  PALPATE_NEED(folder);
+  const std::string file = *folder / "frequency_analysis" / "roughness_test_rough.dsa";
+  const auto result =
+      palpate({"spectrum", file, "--matrix", "5", "--x", "2", "--y", "9", "--json"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const Json report = Json::parse(result.out);
+  EXPECT_EQ(report.at("samples").asInteger(), 3236);
+  EXPECT_EQ(report.at("segments").asInteger(), 3236 - 31);
+  EXPECT_NEAR(report.at("rate_hz").asDouble(), 3235 / 43.289, 1e-3);
+  EXPECT_NEAR(report.at("nyquist_hz").asDouble(), 37.4, 0.05);
+  EXPECT_NEAR(report.at("jitter").asDouble(), 2.471306 / 13.381453, 1e-5);
+  expectOneLineError(palpate({"spectrum", file, "--matrix", "5", "--x", "1", "--y", "9"}),
+                     1,
+                     {"masked", "x 2 y 9; x 3 y 9"});
+  expectOneLineError(palpate({"spectrum", file, "--matrix", "0", "--x", "1", "--y", "9"}),
+                     1,
+                     {"masked", "no taxel of this matrix is scanned"});
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,225 @@
+#include "palpate/filter/filter_chain.h"
+
+#include <random>
+#include <stdexcept>
+
+#include "palpate/model/hand_description.h"
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+class Collector final : public FrameSink {
+ public:
+  void take(TactileFrame& frame) override { frames.push_back(frame); }
+  std::vector<TactileFrame> frames;
+};
+
+std::vector<TactileFrame> randomFrames(std::size_t count,
+                                       unsigned seed,
+                                       std::int64_t intervalUs = 31'000) {
+  std::mt19937 random(seed);
+  std::vector<TactileFrame> frames(count, TactileFrame(sdh2().layout));
+  std::int64_t us = 1'700'000'000'000'000;
+  for (TactileFrame& frame : frames) {
+    frame.hostUs = us += intervalUs;
+    for (std::size_t m = 0; m < 6; ++m)
+      for (int y = 0; y < frame.layout->matrix(m).rows; ++y)
+        for (int x = 0; x < 6; ++x)
+          if (frame.layout->matrix(m).enabled(y, x) && random() % 3 != 0)
+            frame.matrix(m)(y, x) = static_cast<float>(random() % 4096);
+  }
+  return frames;
+}
+
+Recipe recipeOf(const std::string& text) { return parseRecipe(std::vector<std::string>{text}); }
+
+std::vector<TactileFrame> through(const std::string& recipe, std::vector<TactileFrame> frames) {
+  Collector out;
+  FilterChain chain(recipeOf(recipe), out);
+  for (TactileFrame& frame : frames) chain.push(frame);
+  chain.finish();
+  return out.frames;
+}
+
+void expectSame(const std::vector<TactileFrame>& a,
+                const std::vector<TactileFrame>& b,
+                const std::string& what) {
+  ASSERT_EQ(a.size(), b.size()) << what;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a[i].hostUs, b[i].hostUs) << what << " " << i;
+    ASSERT_EQ(a[i].values, b[i].values) << what << " frame " << i;
+  }
+}
+
+const char* const kCausal[] = {"box",
+                               "gaussian",
+                               "median",
+                               "median:size=5",
+                               "bilateral",
+                               "nlm",
+                               "opening",
+                               "running-mean",
+                               "temporal-gaussian",
+                               "temporal-min",
+                               "kalman",
+                               "kelvin-voigt:m=1,e=400,eta=40,q=1e8,r=1",
+                               "median3d",
+                               "min-median",
+                               "savitzky-golay",
+                               "median | kalman | savitzky-golay:derivative=1"};
+
+TEST(FilterChain, CausalFiltersNeverChangeThePast) {
+  const auto frames = randomFrames(40, 1);
+  for (const char* text : kCausal) {
+    ASSERT_TRUE(recipeOf(text).causal()) << text;
+    const auto whole = through(text, frames);
+    // Whatever comes later: other frames, or none.
+    auto changed = frames;
+    const auto other = randomFrames(40, 2);
+    for (std::size_t i = 25; i < changed.size(); ++i) changed[i].values = other[i].values;
+    auto early = through(text, changed);
+    early.resize(25);
+    auto expected = whole;
+    expected.resize(25);
+    expectSame(early, expected, text);
+    // And each comes out at once.
+    Collector out;
+    FilterChain chain(recipeOf(text), out);
+    for (std::size_t i = 0; i < 10; ++i) {
+      TactileFrame frame = frames[i];
+      chain.push(frame);
+      ASSERT_EQ(out.frames.size(), i + 1) << text;
+    }
+  }
+}
+
+TEST(FilterChain, StepsFollowEachOther) {
+  const auto frames = randomFrames(20, 3);
+  expectSame(
+      through("median | kalman", frames), through("kalman", through("median", frames)), "two");
+  expectSame(through("median | (kalman) | box", frames),
+             through("box", through("median", frames)),
+             "one is off");
+  expectSame(through("(median)", frames), frames, "none is on");
+  const std::string offline = "running-mean:centred=1 | rts | median3d:centred=1";
+  expectSame(
+      through(offline, frames),
+      through("median3d:centred=1", through("rts", through("running-mean:centred=1", frames))),
+      "offline");
+}
+
+TEST(FilterChain, TimeStartsAnewAfterAGap) {
+  const auto first = randomFrames(20, 4);
+  auto second = randomFrames(20, 5);
+  for (TactileFrame& frame : second) frame.hostUs = frame.hostUs + 147'000'000;  // 147 s later
+  auto both = first;
+  both.insert(both.end(), second.begin(), second.end());
+  for (const char* text : {"running-mean",
+                           "running-mean:centred=1",
+                           "temporal-min",
+                           "kalman",
+                           "rts",
+                           "median3d",
+                           "median3d:centred=1",
+                           "min-median",
+                           "savitzky-golay:centred=1",
+                           "kelvin-voigt:m=1,e=400,eta=40,q=1e8,r=1"}) {
+    auto expected = through(text, first);
+    const auto rest = through(text, second);
+    expected.insert(expected.end(), rest.begin(), rest.end());
+    expectSame(through(text, both), expected, text);
+  }
+}
+
+TEST(FilterChain, TimeStartsAnewWhenAskedAndWithOtherMasks) {
+  const auto first = randomFrames(10, 6);
+  auto second = randomFrames(10, 7);
+  for (TactileFrame& frame : second) frame.hostUs += 310'000;
+  for (const bool masks : {false, true}) {
+    if (masks) {
+      std::vector<MatrixLayout> other = sdh2().layout->matrices();
+      other[0].dynamicMask.assign(other[0].numPlaces(), 0);
+      const auto layout = std::make_shared<const SensorLayout>(other);
+      for (TactileFrame& frame : second) frame.layout = layout;
+    }
+    Collector out;
+    FilterChain chain(recipeOf("kalman"), out);
+    for (TactileFrame frame : first) chain.push(frame);
+    if (!masks) chain.restart();
+    for (TactileFrame frame : second) chain.push(frame);
+    chain.finish();
+    auto expected = through("kalman", first);
+    const auto rest = through("kalman", second);
+    expected.insert(expected.end(), rest.begin(), rest.end());
+    expectSame(out.frames, expected, masks ? "masks" : "asked");
+  }
+}
+
+TEST(FilterChain, RefusesAMatrixThatIsNotThere) {
+  Collector out;
+  FilterChain chain(recipeOf("median:matrices=7"), out);
+  TactileFrame frame(sdh2().layout);
+  EXPECT_THROW(chain.push(frame), std::invalid_argument);
+  Recipe bad;
+  bad.steps.push_back({.name = "median", .given = {{"size", 4}}});
+  EXPECT_THROW(FilterChain(bad, out), std::invalid_argument);
+}
+
+TEST(FilterChain, SaturatedTaxelsAreValuesLikeOthers) {
+  auto frames = randomFrames(5, 8);
+  for (TactileFrame& frame : frames)
+    for (float& value : frame.values)
+      if (value > 0.0F) value = 4095.0F;
+  for (const TactileFrame& frame : through("median | gaussian", frames))
+    for (const float value : frame.values) {
+      EXPECT_GE(value, 0.0F);
+      EXPECT_LE(value, 4095.001F);
+    }
+}
+
+TEST(FilterChain, TellsWhatEachStepCosts) {
+  Collector out;
+  FilterChain chain(recipeOf("nlm | (box) | median"), out);
+  chain.measureCosts(true);
+  for (TactileFrame frame : randomFrames(50, 9)) chain.push(frame);
+  const auto costs = chain.costsUs();
+  ASSERT_EQ(costs.size(), 3u);
+  EXPECT_GT(costs[0], 0.0);
+  EXPECT_EQ(costs[1], 0.0);
+  EXPECT_GT(costs[2], 0.0);
+}
+
+TEST(FilterLatency, CountsFramesUntilHalfOfAStepIsThere) {
+  const std::pair<const char*, int> cases[] = {
+      {"gaussian", 0},
+      {"median", 0},
+      {"running-mean", 2},           // three of five
+      {"running-mean:window=9", 4},  // five of nine
+      {"temporal-min", 2},           // all three
+      {"temporal-min:window=2", 1},
+      {"min-median", 2},
+      {"median3d", 1},                // two of three
+      {"running-mean:centred=1", 0},  // sees the future
+      {"kalman", 2},                  // 1 - 0.729844^n reaches half at n = 3, the third frame
+      {"median | temporal-min | temporal-min", 4},
+  };
+  for (const auto& [text, frames] : cases) {
+    const auto latency = latencyFrames(recipeOf(text));
+    ASSERT_TRUE(latency) << text;
+    EXPECT_EQ(*latency, frames) << text;
+  }
+  EXPECT_FALSE(latencyFrames(recipeOf("savitzky-golay:derivative=2")));
+}
+
+TEST(FilterMemory, IsTheSumOfTheWindows) {
+  EXPECT_EQ(memoryFrames(recipeOf("median")), 0u);
+  EXPECT_EQ(memoryFrames(recipeOf("median3d | running-mean")), 6u);
+  EXPECT_EQ(memoryFrames(recipeOf("median | rts")), std::nullopt);
+  EXPECT_EQ(memoryFrames(recipeOf("(rts)")), 0u);
+  EXPECT_GE(memoryFrames(recipeOf("kalman")).value(), 60u);  // 0.729844^66 = 1e-9
+}
+
+}  // namespace
+}  // namespace palpate
