@@ -30,7 +30,8 @@ MatrixDescription fingerMatrix(int finger, const std::string& segment) {
           finger,
           segment,
           finger,
-          segment == "distal" ? 0 : 1};
+          segment == "distal" ? 0 : 1,
+          std::nullopt};
 }
 
 HandDescription makeSdh2() {
@@ -41,6 +42,8 @@ HandDescription makeSdh2() {
     hand.matrices.push_back(fingerMatrix(finger, "proximal"));
     hand.matrices.push_back(fingerMatrix(finger, "distal"));
   }
+  // The motor in the joint below a matrix drives axis m + 1 (study, 3.4).
+  for (std::size_t m = 0; m < hand.matrices.size(); ++m) hand.matrices[m].temperatureSensor = m + 1;
   // Ranges, velocities and accelerations: what the controller answers to vlim and alim (SDH-2 firmware 0.0.3.3).
   hand.axes = {{"fingers 0 and 2 base", 0.0, 90.0, 83.0, 5000.0},
                {"finger 0 proximal", -90.0, 90.0, 140.0, 400.0},
@@ -101,6 +104,7 @@ HandDescription describeHand(const SensorLayout& layout,
   }
   if (numTemperatureSensors != 0 && numTemperatureSensors != hand.temperatureSensors.size()) {
     hand.temperatureSensors.clear();
+    for (MatrixDescription& matrix : hand.matrices) matrix.temperatureSensor.reset();
     for (std::size_t i = 0; i < numTemperatureSensors; ++i)
       hand.temperatureSensors.push_back({"sensor " + std::to_string(i)});
   }

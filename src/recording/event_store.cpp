@@ -198,7 +198,8 @@ void saveSidecar(const fs::path& path,
 }  // namespace
 
 bool isNoted(const RecordingEvent& event) {
-  constexpr std::array<std::string_view, 5> kNoted{"label", "mark", "note", "recipe", "segment"};
+  constexpr std::array<std::string_view, 6> kNoted{
+      "label", "mark", "note", "recipe", "segment", "tare"};
   return std::find(kNoted.begin(), kNoted.end(), event.kind) != kNoted.end();
 }
 

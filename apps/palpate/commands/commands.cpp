@@ -119,6 +119,9 @@ int runCaught(const Words& words) {
 
 const std::vector<Command>& allCommands() {
   static const std::vector<Command> commands = {
+      {"calibrate",
+       "from counts to kPa and N: noise, steps, pressure, sensitivity, tare",
+       &calibrateCommand},
       {"compare", "two recordings frame beside frame, as CSV", &compareCommand},
       {"contact", "where a hand touches, and how large what it holds is", &contactCommand},
       {"convert",

@@ -22,6 +22,7 @@ struct Command {
 };
 
 // One function per command, one file per command. They throw; run() turns that into exit codes.
+int calibrateCommand(const Words& words);
 int compareCommand(const Words& words);
 int contactCommand(const Words& words);
 int convertCommand(const Words& words);

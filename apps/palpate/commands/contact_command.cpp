@@ -13,6 +13,7 @@
 #include "palpate/kinematics/hand_geometry.h"
 #include "palpate/kinematics/joint_range.h"
 
+#include "commands/calibrated_frames.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/contact_size.h"
@@ -35,6 +36,7 @@ struct Request {
   bool matrices = false;
   ContactOptions options = {};
   std::optional<std::int64_t> from = std::nullopt, to = std::nullopt;
+  std::optional<CalibrationChoice> calibration = std::nullopt;
 };
 
 // What was odd about the joint angles of a recording.
@@ -61,7 +63,11 @@ void appendStart(std::string& line, std::size_t frame, std::int64_t hostUs) {
   line += ',';
 }
 
-void appendFrame(std::string& line, const HandContact& contact, bool posed) {
+// forceN: nothing without a calibration.
+void appendFrame(std::string& line,
+                 const HandContact& contact,
+                 bool posed,
+                 std::optional<double> forceN) {
   appendNumber(line, static_cast<std::int64_t>(contact.numActive));
   if (posed && contact.taxelSphere) {
     appendVector(line, contact.taxelSphere->centreMm);
@@ -70,7 +76,8 @@ void appendFrame(std::string& line, const HandContact& contact, bool posed) {
   } else {
     line += ",,,,";
   }
-  line += ',';  // the force is known when the sensor is calibrated
+  line += ',';
+  if (forceN) appendNumber(line, *forceN);
 }
 
 void appendMatrix(std::string& line, std::size_t m, const MatrixContact& contact, bool posed) {
@@ -152,6 +159,7 @@ class PoseOfFrames {
 };
 
 AngleTroubles writeContact(StandardOutput& out,
+                           const std::filesystem::path& file,
                            const Profile& profile,
                            const HandGeometry& geometry,
                            const Request& request,
@@ -160,6 +168,8 @@ AngleTroubles writeContact(StandardOutput& out,
                            const Progress& progress) {
   const auto [first, last] = range;
   PoseOfFrames poses(profile, geometry, request);
+  std::optional<CalibratedFrames> calibrated;
+  if (request.calibration) calibrated.emplace(*request.calibration, file, profile);
   AngleTroubles troubles;
   TactileFrame frame;
   HandContact contact;
@@ -178,7 +188,10 @@ AngleTroubles writeContact(StandardOutput& out,
       if (request.matrices)
         appendMatrix(line, m, contact.matrices[m], posed);
       else
-        appendFrame(line, contact, posed);
+        appendFrame(line,
+                    contact,
+                    posed,
+                    calibrated ? std::optional(calibrated->of(frame).forceN) : std::nullopt);
       out.write(line += lineEnd);
     }
   }
@@ -215,13 +228,14 @@ int contactCommand(const Words& words) {
        .purpose =
            "Prints, for every frame, how many taxels are active (value > 0) and the smallest "
            "sphere around them in the\nhand's base frame [mm], as CSV; empty where nothing "
-           "touches. force_n is empty until the sensor is\ncalibrated. With --matrices a row per "
+           "touches. force_n [N] is empty without --calibration (its standard deviation: calibrate "
+           "apply). With --matrices a row per "
            "matrix instead: its contact centroid, mean normal, principal axes and\nthe standard "
            "deviations along them; with --size a row per grasp: diameter and compression of what "
            "is "
            "held. PATH is a\nrecording, or a folder: every recording below it. With several a last "
            "column names the file. A recording\nwithout joint angles needs --angles.",
-       .options =
+       .options = withCalibration(
            {{"angles", "A0,..,A6", "assume these joint angles [deg] for all frames"},
             {"matrices", "", "a row per matrix"},
             {"size", "", "a row per grasp: how large the object is, how much it gave way"},
@@ -230,7 +244,7 @@ int contactCommand(const Words& words) {
              "study|effective",
              "radius of the bent fingertips: 58 mm (default) or 48.4 mm (default of --size)"},
             {"from", "N", "first frame, default 0"},
-            {"to", "M", "last frame (inclusive), default the last one"}},
+            {"to", "M", "last frame (inclusive), default the last one"}}),
        .example = "palpate contact foam_ball.dsa > contact.csv",
        .fewestWords = 1},
       words);
@@ -239,6 +253,10 @@ int contactCommand(const Words& words) {
   Request request{.anglesDeg = anglesOf(given)};
   request.matrices = given.has("matrices");
   request.options.threshold = given.number("threshold", 0.0, 4095.0).value_or(0.0);
+  request.calibration = calibrationGiven(given);
+  if (request.calibration && request.matrices)
+    throw UsageError(
+        "--calibration fills force_n of frames; forces of matrices: palpate calibrate apply");
   request.options.spheres = !request.matrices;
   request.from = given.integer("from", 0, INT64_MAX);
   request.to = given.integer("to", 0, INT64_MAX);
@@ -265,7 +283,7 @@ int contactCommand(const Words& words) {
         // What was written of a recording that fails on the way stays: whole rows, and it is said.
         AngleTroubles troubles;
         try {
-          troubles = writeContact(out, profile, geometry, request, range, lineEnd, progress);
+          troubles = writeContact(out, file, profile, geometry, request, range, lineEnd, progress);
         } catch (const Error&) {
           out.finish();
           throw;

@@ -2,7 +2,9 @@
 // numbers; another hand, or a single pad, is another description.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +21,8 @@ struct MatrixDescription {
   // Where a picture of the whole sensor draws it: column and row of a grid, fingertips on top.
   int pictureColumn = 0;
   int pictureRow = 0;
+  // The temperature sensor nearest to it (index into temperatureSensors); nothing: none is known to be near.
+  std::optional<std::size_t> temperatureSensor = std::nullopt;
 };
 
 struct AxisDescription {

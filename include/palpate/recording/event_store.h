@@ -15,8 +15,8 @@
 namespace palpate {
 
 // Whether a person may add, change and remove an event: kinds "label" and "mark" (as the recorder writes
-// them), "note", "recipe" (filters to look through, JSON: filter/recipe.h), and "segment" (a grasp or another part,
-// as a person sees it).
+// them), "note", "recipe" (filters to look through, JSON: filter/recipe.h), "segment" (a grasp or another part,
+// as a person sees it), and "tare" (zeros to be taken off: calibration/tare.h).
 bool isNoted(const RecordingEvent& event);
 
 struct SaveEventsOptions {

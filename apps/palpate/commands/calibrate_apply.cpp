@@ -1,0 +1,135 @@
+// palpate calibrate apply FILE --calibration C.json: kilopascals and newtons, frame by frame.
+#include <cstdio>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/one_line.h"
+#include "palpate/model/profile_builder.h"
+#include "palpate/recording/recording.h"
+
+#include "commands/calibrate_commands.h"
+#include "commands/calibrated_frames.h"
+
+namespace palpate::commands {
+namespace {
+
+constexpr std::int64_t kUsPerMs = 1000;
+constexpr const char* kColumns =
+    "frame,time_ms,matrix,active,K,pressure_kpa,pressure_sd_kpa,force_n,force_sd_n,in_range,"
+    "temperature_known,"
+    "saturated\n";
+
+void appendRow(std::string& line,
+               std::size_t frame,
+               std::size_t matrix,
+               const PressureFrame& pressures) {
+  const MatrixPressure& p = pressures.matrices[matrix];
+  line.clear();
+  for (const std::int64_t whole : {static_cast<std::int64_t>(frame),
+                                   pressures.hostUs / kUsPerMs,
+                                   static_cast<std::int64_t>(matrix),
+                                   static_cast<std::int64_t>(p.active)}) {
+    appendNumber(line, whole);
+    line += ',';
+  }
+  for (const double value : {p.gainCounts, p.kpa, p.sdKpa, p.forceN, p.sdForceN}) {
+    appendNumber(line, value);
+    line += ',';
+  }
+  for (const bool flag : {p.inRange, p.temperatureKnown, p.saturated}) {
+    line += flag ? '1' : '0';
+    line += ',';
+  }
+  line.back() = '\n';
+}
+
+// Angles and temperatures as they were, so that the new recording stands for itself.
+void copyState(const Profile& profile, ProfileBuilder& builder) {
+  for (std::size_t i = 0; i < profile.numAngles(); ++i) {
+    const JointAngles angles = profile.angles(i);
+    builder.addAngles(angles.hostUs, angles.deg);
+  }
+  for (std::size_t i = 0; i < profile.numTemperatures(); ++i) {
+    const Temperatures temperatures = profile.temperatures(i);
+    builder.addTemperatures(temperatures.hostUs, temperatures.degC);
+  }
+}
+
+}  // namespace
+
+int calibrateApply(const Words& words) {
+  std::vector<OptionSpec> options = calibrationOptions();
+  options.push_back(
+      {"output,o",
+       "OUT",
+       "write the pressure of every taxel [kPa] as a recording: .palpate, .dsa, .npz, .csv"});
+  options.push_back({"force", "", "replace OUT"});
+  const CommandLine given(
+      {.synopsis = "palpate calibrate apply FILE --calibration C.json [-o OUT.palpate]",
+       .purpose = "Pressure and force by a calibration. Prints CSV, a row per frame and matrix "
+                  "that is touched: K [counts], "
+                  "pressure\n[kPa] and force [N] with their standard deviations; in_range 0: "
+                  "beyond what was measured, don't "
+                  "rely on it.",
+       .options = options,
+       .example = "palpate calibrate apply grasp.palpate --calibration hand.json > force.csv",
+       .fewestWords = 1,
+       .mostWords = 1},
+      words);
+  if (given.helpShown()) return kDone;
+  const auto choice = calibrationGiven(given);
+  if (!choice)
+    throw UsageError("--calibration C.json is missing; 'palpate calibrate pressure' makes one");
+  const std::filesystem::path file = given.words().front();
+  const auto outPath = given.text("output");
+  if (outPath) requireOther(file, *outPath);
+  ProgressLine progress("reading " + file.string(), given.quiet());
+  const Profile profile = openRecording(file, progress.callback());
+  progress.wipe();
+  CalibratedFrames frames(*choice, file, profile);
+  if (!given.quiet())
+    for (const std::string& sentence : frames.assumptions())
+      std::fprintf(stderr, "palpate: %s\n", oneLine(sentence).c_str());
+  StandardOutput out;
+  if (!outPath) out.write(kColumns);
+  ProfileBuilder builder(profile.hand().layout);
+  std::size_t beyond = 0, touched = 0;
+  std::string line;
+  TactileFrame frame;
+  const Progress report = progress.callback();
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    if (report && !report(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
+      throw Cancelled();
+    profile.readFrame(i, frame);
+    const PressureFrame& pressures = frames.of(frame);
+    for (std::size_t m = 0; m < pressures.matrices.size(); ++m) {
+      if (pressures.matrices[m].active == 0) continue;
+      ++touched;
+      beyond += pressures.matrices[m].inRange ? 0 : 1;
+      if (outPath) continue;
+      appendRow(line, i, m, pressures);
+      out.write(line);
+    }
+    if (outPath) builder.addFrame(frame.hostUs, pressures.kpa, frame.deviceMs);
+  }
+  out.finish();
+  progress.wipe();
+  if (beyond > 0 && !given.quiet())
+    std::fprintf(stderr,
+                 "palpate: %zu of %zu contacts are beyond what was measured: not to be relied on\n",
+                 beyond,
+                 touched);
+  if (outPath) {
+    copyState(profile, builder);
+    ProfileInfo info = profile.info();
+    info.valueType = ValueType::kFloat;
+    saveRecording(builder.finish(info),
+                  readEvents(file).events,
+                  *outPath,
+                  given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse,
+                  report);
+  }
+  return kDone;
+}
+
+}  // namespace palpate::commands

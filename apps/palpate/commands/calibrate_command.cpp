@@ -1,0 +1,131 @@
+// palpate calibrate KIND ..: which kind, and what the kinds share.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <utility>
+
+#include "palpate/calibration/calibration.h"
+#include "palpate/core/error.h"
+#include "palpate/core/output_file.h"
+
+#include "commands/calibrate_commands.h"
+
+namespace palpate::commands {
+namespace {
+
+struct Kind {
+  const char* name;
+  const char* summary;
+  int (*run)(const Words& words);
+};
+
+constexpr std::array kKinds = {
+    Kind{"noise", "noise floor of an unloaded hand over its temperature", &calibrateNoise},
+    Kind{"step",
+         "fits the response to each loading step: gain, drift, time constants",
+         &calibrateStep},
+    Kind{"pressure",
+         "pressure from gain and temperature, from a table of recordings",
+         &calibratePressure},
+    Kind{"sensitivity", "gain against the sensor's sensitivity", &calibrateSensitivity},
+    Kind{"tare", "what the taxels read unloaded, noted beside the data", &calibrateTare},
+    Kind{"apply", "pressure and force of a recording by a calibration", &calibrateApply},
+};
+
+void showKinds() {
+  std::puts(
+      "Usage: palpate calibrate KIND ...\n\n"
+      "From counts to kilopascals and newtons, with error bars. KIND:");
+  for (const Kind& kind : kKinds) std::printf("  %-12s %s\n", kind.name, kind.summary);
+  std::puts(
+      "\nEvery KIND takes --help and --quiet.\n\n"
+      "Example:\n  palpate calibrate step A1.dsa --matrix 1");
+}
+
+constexpr std::array<std::pair<const char*, SignalKind>, 7> kSignals = {
+    {{"filtered_mean", SignalKind::kFilteredMean},
+     {"mean", SignalKind::kMean},
+     {"max", SignalKind::kMaximum},
+     {"min", SignalKind::kMinimum},
+     {"sum", SignalKind::kSum},
+     {"active", SignalKind::kActive},
+     {"area_mm2", SignalKind::kArea}}};
+
+}  // namespace
+
+int calibrateCommand(const Words& words) {
+  if (!words.empty() && (words[0] == "--help" || words[0] == "-h")) {
+    showKinds();
+    return kDone;
+  }
+  std::string known;
+  for (const Kind& kind : kKinds) {
+    if (!words.empty() && words[0] == kind.name) return kind.run({words.begin() + 1, words.end()});
+    known += (known.empty() ? "" : ", ") + std::string(kind.name);
+  }
+  throw UsageError(words.empty() ? "calibrate what? one of " + known
+                                 : "calibrate knows no '" + words[0] + "', only " + known);
+}
+
+std::size_t matrixGiven(const CommandLine& given) {
+  const auto matrix = given.integer("matrix", 0, INT32_MAX);
+  if (!matrix) throw UsageError("--matrix M is missing: which matrix was loaded?");
+  return static_cast<std::size_t>(*matrix);
+}
+
+SignalKind signalGiven(const CommandLine& given) {
+  Words known;
+  for (const auto& [name, kind] : kSignals) known.emplace_back(name);
+  const std::string name = given.choice("signal", known).value_or("filtered_mean");
+  return std::find_if(
+             kSignals.begin(), kSignals.end(), [&](const auto& s) { return s.first == name; })
+      ->second;
+}
+
+void requireMatrix(const std::filesystem::path& file, std::size_t numMatrices, std::size_t matrix) {
+  if (matrix < numMatrices) return;
+  throw Error(file.string() + ": has no matrix " + std::to_string(matrix) + ", only 0.." +
+              std::to_string(numMatrices - 1));
+}
+
+StepLoss lossGiven(const CommandLine& given) {
+  const std::string loss = given.choice("loss", {"squares", "huber", "cauchy"}).value_or("squares");
+  return loss == "huber"    ? StepLoss::kHuber
+         : loss == "cauchy" ? StepLoss::kCauchy
+                            : StepLoss::kSquares;
+}
+
+std::string nowText() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text.data();
+}
+
+Json provenance(const std::string& kind) {
+  return Json::object()
+      .set("kind", "palpate " + kind + " calibration")
+      .set("format_version", Calibration::kFormatVersion)
+      .set("program_version", PALPATE_VERSION)
+      .set("made_at", nowText());
+}
+
+void printJson(const CommandLine& given, const Json& json, bool outputWritten) {
+  const std::string text = json.text() + "\n";
+  if (const auto out = given.text("output"); out && !outputWritten) {
+    OutputFile file(*out, given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse);
+    file.write(text);
+    file.commit();
+    if (!given.quiet()) std::printf("%s\n", out->c_str());
+    return;
+  }
+  StandardOutput out;
+  out.write(text);
+  out.finish();
+}
+
+}  // namespace palpate::commands

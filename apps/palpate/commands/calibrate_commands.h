@@ -1,0 +1,38 @@
+// palpate calibrate KIND ..: one function per kind, each given the words behind it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "palpate/calibration/step_fit.h"
+#include "palpate/core/json.h"
+#include "palpate/filter/characteristic_signals.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+
+namespace palpate::commands {
+
+int calibrateApply(const Words& words);
+int calibrateNoise(const Words& words);
+int calibratePressure(const Words& words);
+int calibrateSensitivity(const Words& words);
+int calibrateStep(const Words& words);
+int calibrateTare(const Words& words);
+
+// The matrix that --matrix names; throws UsageError where it is missing or negative.
+std::size_t matrixGiven(const CommandLine& given);
+// --signal, by the names of `palpate signals`; the filtered mean where it isn't given.
+SignalKind signalGiven(const CommandLine& given);
+// Throws Error naming the file and what it has.
+void requireMatrix(const std::filesystem::path& file, std::size_t numMatrices, std::size_t matrix);
+// --loss squares|huber|cauchy.
+StepLoss lossGiven(const CommandLine& given);
+// Begins the JSON of one kind: what it is, format version, program version, when.
+Json provenance(const std::string& kind);
+// Now, as UTC in ISO 8601.
+std::string nowText();
+// To standard output, or into the file of -o (unless that was written already).
+void printJson(const CommandLine& given, const Json& json, bool outputWritten = false);
+
+}  // namespace palpate::commands

@@ -1,0 +1,58 @@
+// palpate calibrate noise FILE [-o N.xml]: the noise floor of an unloaded hand.
+#include <filesystem>
+
+#include "palpate/calibration/noise_floor.h"
+#include "palpate/core/hash.h"
+#include "palpate/core/output_file.h"
+#include "palpate/recording/recording.h"
+
+#include "commands/calibrate_commands.h"
+
+namespace palpate::commands {
+
+int calibrateNoise(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate calibrate noise FILE [-o N.xml|N.json]",
+       .purpose = "Noise floor of a hand that nothing touches, recorded at threshold 0 while it "
+                  "warms up: per matrix a line "
+                  "of the\nlargest reading over the temperature of the nearest motor. Prints JSON: "
+                  "slope [counts/deg C], "
+                  "intercept, rmse\n[counts] (the study's) and rmse_true (of this line). A "
+                  "threshold of intercept + slope T + "
+                  "3 rmse hides the noise.",
+       .options = {{"bins", "N", "equal bins over the temperatures, default 20"},
+                   {"output,o",
+                    "OUT",
+                    "write it there: .xml as the prior program reads it, else JSON"},
+                   {"force", "", "replace OUT"}},
+       .example = "palpate calibrate noise temperature-noise.dsa -o noise.xml",
+       .fewestWords = 1,
+       .mostWords = 1},
+      words);
+  if (given.helpShown()) return kDone;
+  const std::filesystem::path file = given.words().front();
+  NoiseFloorOptions options;
+  options.bins = static_cast<std::size_t>(given.integer("bins", 2, 1000).value_or(20));
+  ProgressLine progress("reading " + file.string(), given.quiet());
+  const Profile profile = openRecording(file, progress.callback());
+  const NoiseFloor floor = fitNoiseFloor(profile, options, progress.callback());
+  progress.wipe();
+  const auto out = given.text("output");
+  const bool xml = out && std::filesystem::path(*out).extension() == ".xml";
+  if (xml) {
+    OutputFile written(*out, given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse);
+    written.write(noiseXml(floor));
+    written.commit();
+  }
+  Json json = provenance("noise");
+  json.set("file", file.string()).set("sha256", sha256OfFile(file));
+  json.set("options", Json::object().set("bins", options.bins));
+  const Json found = jsonOf(floor);
+  for (const std::string& key : found.keys()) json.set(key, found.at(key));
+  printJson(given, json, xml);
+  for (const NoiseLine& line : floor.lines)
+    if (!line.valid) return kPartlyDone;
+  return kDone;
+}
+
+}  // namespace palpate::commands

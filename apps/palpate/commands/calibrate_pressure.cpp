@@ -1,0 +1,162 @@
+// palpate calibrate pressure TABLE.csv -o P.json: pressure from gain and temperature.
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "palpate/calibration/calibration.h"
+#include "palpate/calibration/pressure_table.h"
+#include "palpate/core/error.h"
+#include "palpate/core/hash.h"
+#include "palpate/core/one_line.h"
+#include "palpate/recording/recording.h"
+
+#include "commands/calibrate_commands.h"
+
+namespace palpate::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string textOf(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::error_code ignored;
+  if (!in || fs::is_directory(path, ignored)) throw FileError(path, "can't be opened");
+  return {(std::istreambuf_iterator<char>(in)), {}};
+}
+
+// The matrix with the largest sum over the recording: the one that was loaded.
+std::size_t loadedMatrix(const Profile& profile) {
+  std::vector<double> sums(profile.layout().numMatrices());
+  TactileFrame frame;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    profile.readFrame(i, frame);
+    for (std::size_t m = 0; m < sums.size(); ++m)
+      sums[m] += static_cast<double>(std::as_const(frame).matrix(m).sum());
+  }
+  return static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+}
+
+struct Gathered {
+  std::vector<PressureSample> samples;
+  std::vector<StepReport> reports;
+  std::optional<std::size_t> matrix;
+  std::string hand;
+};
+
+// The steps of one row's recording; what is wrong with it becomes an unused sample.
+void gather(const fs::path& folder,
+            const PressureTableRow& row,
+            const StepReportOptions& options,
+            const Progress& progress,
+            Gathered& all) {
+  if (!row.trouble.empty()) {
+    all.samples.push_back(
+        unusedSample(row, "line " + std::to_string(row.line) + ": " + row.trouble));
+    return;
+  }
+  const fs::path file = row.file.is_absolute() ? row.file : folder / row.file;
+  try {
+    const Profile profile = openRecording(file, progress);
+    if (!all.matrix) all.matrix = loadedMatrix(profile);
+    requireMatrix(file, profile.layout().numMatrices(), *all.matrix);
+    if (all.hand.empty()) all.hand = profile.hand().name;
+    all.reports.push_back(reportSteps(profile, *all.matrix, options));
+    for (PressureSample& sample : samplesOf(row, all.reports.back(), sha256OfFile(file)))
+      all.samples.push_back(std::move(sample));
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    all.samples.push_back(unusedSample(row, error.what()));
+  }
+}
+
+}  // namespace
+
+int calibratePressure(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate calibrate pressure TABLE.csv [-o P.json]",
+       .purpose = "Pressure from gain K and temperature T: P(K, T), and from the drift m: P(m, T) "
+                  "[kPa]. TABLE names "
+                  "recordings of\nloading steps and their pressures: "
+                  "file,pressure_kpa[,temperature_c]. Terms are kept where "
+                  "leave-one-out says so,\nT is that of the motor nearest to the matrix; --choices "
+                  "study keeps all terms and "
+                  "takes the study's T. Prints the\ncalibration as JSON, or writes it to P.json "
+                  "for `calibrate apply` and "
+                  "`contact --calibration`.",
+       .options = {{"matrix",
+                    "M",
+                    "the matrix that was loaded; default the one with the largest readings"},
+                   {"choices", "NAME", "default or study"},
+                   {"area", "MM2", "area of the stamp [mm^2]: forces then count what it covers"},
+                   {"sensitivity", "S", "the recordings were made with, default 1"},
+                   {"threshold", "N", "the recordings were made with [counts], default 100"},
+                   {"loss", "NAME", "of the step fits: squares (default), huber, cauchy"},
+                   {"noise", "N.json", "noise lines (`calibrate noise`) to keep with it"},
+                   {"sensitivity-offset",
+                    "COUNTS",
+                    "offset of K over sensitivity (`calibrate sensitivity`)"},
+                   {"output,o", "P.json", "write it there"},
+                   {"force", "", "replace P.json"}},
+       .example = "palpate calibrate pressure weights.csv --area 110.25 -o hand.json",
+       .fewestWords = 1,
+       .mostWords = 1},
+      words);
+  if (given.helpShown()) return kDone;
+  const fs::path table = given.words().front();
+  StepReportOptions options;
+  options.fit.loss = lossGiven(given);
+  PressureModelOptions model;
+  model.study = given.choice("choices", {"default", "study"}) == "study";
+  model.stampAreaMm2 = given.number("area", 0.0, 1e6).value_or(0.0);
+  Calibration calibration;
+  calibration.settings = {given.number("sensitivity", 0.01, 1.0).value_or(1.0),
+                          given.number("threshold", 0.0, 4095.0).value_or(100.0),
+                          true};
+  calibration.sensitivityOffset = given.number("sensitivity-offset", -4095.0, 4095.0);
+  if (const auto noise = given.text("noise"))
+    calibration.noise = noiseFloorFrom(Json::parse(textOf(*noise)));
+  Gathered all;
+  if (given.has("matrix")) all.matrix = matrixGiven(given);
+  const std::vector<PressureTableRow> rows = parsePressureTable(textOf(table), table);
+  {
+    ProgressLine progress("reading", given.quiet());
+    for (const PressureTableRow& row : rows) {
+      progress.setLabel("reading " + row.file.string());
+      gather(table.parent_path(), row, options, progress.callback(), all);
+    }
+  }
+  calibration.programVersion = PALPATE_VERSION;
+  calibration.madeAt = nowText();
+  calibration.hand = all.hand;
+  calibration.matrix = all.matrix.value_or(0);
+  calibration.pressure = fitPressureModel(all.samples, model);
+  calibration.pressure.steadyS = medianSteadyS(all.reports);
+  calibration.samples = all.samples;
+  calibration.options = Json::object()
+                            .set("table", table.string())
+                            .set("table_sha256", sha256OfFile(table))
+                            .set("choices", model.study ? "study" : "default")
+                            .set("loss", given.text("loss").value_or("squares"))
+                            .set("area_mm2", model.stampAreaMm2);
+  std::size_t unused = 0;
+  for (const PressureSample& sample : all.samples) {
+    if (sample.used) continue;
+    ++unused;
+    std::fprintf(
+        stderr,
+        "palpate: %s\n",
+        oneLine(sample.file + " is left out: " + (sample.notes.empty() ? "" : sample.notes.back()))
+            .c_str());
+  }
+  if (unused == all.samples.size())
+    throw FileError(table,
+                    "none of its " + std::to_string(rows.size()) + " rows gives a usable step");
+  printJson(given, jsonOf(calibration));
+  return unused > 0 || !calibration.pressure.valid() ? kPartlyDone : kDone;
+}
+
+}  // namespace palpate::commands

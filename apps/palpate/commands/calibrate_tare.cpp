@@ -1,0 +1,94 @@
+// palpate calibrate tare FILE [--apply | --remove]: what the taxels read unloaded, as an event.
+#include <cstdio>
+
+#include "palpate/calibration/tare.h"
+#include "palpate/core/error.h"
+#include "palpate/recording/event_store.h"
+#include "palpate/recording/recording.h"
+
+#include "commands/calibrate_commands.h"
+
+namespace palpate::commands {
+namespace {
+
+// The events without those that tell a tare.
+std::vector<RecordingEvent> withoutTare(const EventsReport& events) {
+  std::vector<RecordingEvent> kept;
+  for (const RecordingEvent& event : events.events)
+    if (event.kind != "tare") kept.push_back(event);
+  return kept;
+}
+
+RecordingEvent eventOf(const Tare& tare, const Profile& profile) {
+  RecordingEvent event;
+  event.tUs = profile.frameTimeUs(0);
+  event.t1Us = profile.frameTimeUs(profile.numFrames() - 1);
+  event.kind = "tare";
+  std::size_t raised = 0;
+  for (const MatrixTare& matrix : tare.matrices) raised += matrix.raisedTaxels;
+  event.text = "zero of " + std::to_string(raised) + " taxels";
+  event.json = jsonOf(tare, profile.layout()).text(-1);
+  return event;
+}
+
+}  // namespace
+
+int calibrateTare(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate calibrate tare FILE [--apply | --remove]",
+       .purpose = "Finds the windows in which nothing touches a matrix, and what its taxels read "
+                  "there: the zero. Prints JSON; "
+                  "with\n--apply it is noted in the recording as an event (kind tare; a .dsa: in "
+                  "its sidecar) that `calibrate "
+                  "apply` and\n`contact --calibration` go by. The values themselves never change; "
+                  "--remove takes the event "
+                  "away again.",
+       .options = {{"window", "S", "length of a window [s], default 1"},
+                   {"most",
+                    "N",
+                    "a matrix that never reads less is never unloaded [counts], default 150"},
+                   {"apply", "", "note it in the recording"},
+                   {"remove", "", "take it away again"},
+                   {"output,o", "OUT.json", "write the JSON there"},
+                   {"force", "", "replace OUT.json"}},
+       .example = "palpate calibrate tare session.palpate --apply",
+       .fewestWords = 1,
+       .mostWords = 1},
+      words);
+  if (given.helpShown()) return kDone;
+  if (given.has("apply") && given.has("remove"))
+    throw UsageError("give --apply or --remove, not both");
+  const std::filesystem::path file = given.words().front();
+  if (given.has("remove")) {
+    const EventsReport events = readEvents(file);
+    const std::vector<RecordingEvent> kept = withoutTare(events);
+    if (kept.size() == events.events.size()) throw FileError(file, "holds no tare");
+    saveEvents(file, events, kept);
+    if (!given.quiet()) std::printf("%s: tare removed\n", file.string().c_str());
+    return kDone;
+  }
+  TareOptions options;
+  options.windowS = given.number("window", 0.05, 3600.0).value_or(options.windowS);
+  options.mostRestCounts = given.number("most", 0.0, 4095.0).value_or(options.mostRestCounts);
+  ProgressLine progress("reading " + file.string(), given.quiet());
+  const Profile profile = openRecording(file, progress.callback());
+  const Tare tare = findTare(profile, options, progress.callback());
+  progress.wipe();
+  std::size_t found = 0;
+  for (const MatrixTare& matrix : tare.matrices) found += matrix.valid ? 1 : 0;
+  if (given.has("apply")) {
+    if (found == 0) throw FileError(file, "has no unloaded window: no zero to note");
+    const EventsReport events = readEvents(file);
+    std::vector<RecordingEvent> all = withoutTare(events);
+    all.push_back(eventOf(tare, profile));
+    saveEvents(file, events, all);
+  }
+  Json json = provenance("tare");
+  json.set("file", file.string()).set("applied", given.has("apply"));
+  const Json result = jsonOf(tare, profile.layout());
+  for (const std::string& key : result.keys()) json.set(key, result.at(key));
+  printJson(given, json);
+  return found == tare.matrices.size() ? kDone : kPartlyDone;
+}
+
+}  // namespace palpate::commands

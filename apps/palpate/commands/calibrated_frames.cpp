@@ -1,0 +1,97 @@
+#include "commands/calibrated_frames.h"
+
+#include "palpate/core/error.h"
+#include "palpate/recording/recording.h"
+
+namespace palpate::commands {
+namespace {
+
+// The tare that was said last.
+std::optional<Tare> tareIn(const std::filesystem::path& file, const SensorLayout& layout) {
+  std::optional<Tare> tare;
+  for (const RecordingEvent& event : readEvents(file).events)
+    if (event.kind == "tare") try {
+        tare = tareFrom(Json::parse(event.json), layout);
+      } catch (const Error& error) {
+        throw FileError(file,
+                        std::string("its tare event can't be used (") + error.what() +
+                            "); --no-tare leaves it out");
+      }
+  return tare;
+}
+
+}  // namespace
+
+std::vector<OptionSpec> calibrationOptions() {
+  return {
+      {"calibration", "C.json", "what `palpate calibrate pressure` wrote"},
+      {"sensor-sensitivity", "S", "the recording was made with, default that of the calibration"},
+      {"sensor-threshold",
+       "N",
+       "the recording was made with [counts], default that of the calibration"},
+      {"no-tare", "", "don't take off the zeros that `calibrate tare --apply` noted"},
+      {"no-drift", "", "don't take the creep out of contacts that last"}};
+}
+
+std::vector<OptionSpec> withCalibration(std::vector<OptionSpec> options) {
+  for (const OptionSpec& option : calibrationOptions()) options.push_back(option);
+  return options;
+}
+
+std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given) {
+  const auto path = given.text("calibration");
+  if (!path) {
+    for (const char* option : {"sensor-sensitivity", "sensor-threshold", "no-tare", "no-drift"})
+      if (given.has(option))
+        throw UsageError("--" + std::string(option) + " goes with --calibration C.json");
+    return std::nullopt;
+  }
+  CalibrationChoice choice{loadCalibration(*path), {}, !given.has("no-tare")};
+  if (!choice.calibration.pressure.valid())
+    throw FileError(*path, "holds no P(K, T), so that no force follows from it; its notes say why");
+  choice.options.compensateDrift = !given.has("no-drift");
+  const auto sensitivity = given.number("sensor-sensitivity", 0.01, 1.0),
+             threshold = given.number("sensor-threshold", 0.0, 4095.0);
+  if (sensitivity || threshold) {
+    SensorSettings settings = choice.calibration.settings;
+    settings.assumed = true;
+    settings.sensitivity = sensitivity.value_or(settings.sensitivity);
+    settings.thresholdCounts = threshold.value_or(settings.thresholdCounts);
+    choice.options.settings.push_back(settings);
+  }
+  return choice;
+}
+
+CalibratedFrames::CalibratedFrames(const CalibrationChoice& choice,
+                                   const std::filesystem::path& file,
+                                   const Profile& profile)
+    : profile_(profile), map_(choice.calibration, profile.hand(), choice.options) {
+  if (profile.info().valueType != ValueType::kCounts)
+    throw FileError(file, "holds filtered values, not counts: a calibration doesn't apply to them");
+  if (choice.tare) tare_ = tareIn(file, profile.layout());
+}
+
+const PressureFrame& CalibratedFrames::of(const TactileFrame& frame) {
+  std::vector<double> degC;
+  if (const auto sample = profile_.temperatureSampleAt(frame.hostUs))
+    degC = profile_.temperatures(*sample).degC;
+  if (tare_) {
+    tared_ = frame;
+    applyTare(*tare_, tared_.values);
+  }
+  map_.apply(tare_ ? tared_ : frame, degC, out_);
+  return out_;
+}
+
+std::vector<std::string> CalibratedFrames::assumptions() const {
+  std::vector<std::string> said = map_.assumptions();
+  if (tare_) said.push_back("the zeros of the recording's tare event are taken off");
+  if (profile_.numTemperatures() == 0)
+    said.push_back(
+        "no temperatures were recorded: " +
+        std::to_string(static_cast<int>(map_.calibration().pressure.options.assumedDegC)) +
+        " deg C assumed, and the band is wider");
+  return said;
+}
+
+}  // namespace palpate::commands

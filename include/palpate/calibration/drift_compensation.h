@@ -1,0 +1,41 @@
+// Takes the creep out of a contact that lasts: rubber under a constant load answers K + m t (study, 3.1), with m told by
+// K and temperature. From the steady state on (when the lag is over) the reading a at t gives K = a - m(K, T) t.
+#pragma once
+
+#include <optional>
+
+#include <palpate/calibration/surface.h>
+
+namespace palpate {
+
+struct DriftCompensationOptions {
+  double steadyS = 1.0;    // the lag is over so long after contact began [s]
+  double longestS = 30.0;  // creep was measured so long; later it counts as ended [s]
+  // A reading that differs by more from the one before is another load, once it has lasted for flickerS: single frames
+  // jump when a taxel at the edge comes or goes.
+  double sameLoadShare = 0.15;
+  double flickerS = 0.1;  // [s]
+};
+
+// Of one contact, frame by frame; not thread-safe.
+class DriftCompensation {
+ public:
+  explicit DriftCompensation(DriftCompensationOptions options = {}) : options_(options) {}
+
+  // K [counts] of a reading at a time [s]; 0 ends the contact. driftOfGain: m(K, T) [counts/s]; where it isn't known the
+  // reading itself.
+  double gainOf(const Surface& driftOfGain, double timeS, double reading, double degC);
+  bool compensating() const noexcept { return compensating_; }  // in the last call
+  void reset() noexcept {
+    beganS_.reset();
+    otherSinceS_.reset();
+  }
+
+ private:
+  DriftCompensationOptions options_;
+  std::optional<double> beganS_, otherSinceS_;
+  double last_ = 0.0;
+  bool compensating_ = false;
+};
+
+}  // namespace palpate

@@ -1,0 +1,56 @@
+// Adaptive sensitivity (the study's idea, 3.4): seeks the highest sensitivity at which nothing saturates, from what is
+// seen. A reading is sensitivity * gain - threshold, so one unsaturated look tells about where the limit is; a saturated
+// one only that it is lower: then the interval is halved. Logic only: whoever owns the device sets what this proposes
+// (it pauses the stream for a few hundred ms) and reports what comes then.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+namespace palpate {
+
+struct SensitivitySearchOptions {
+  double least = 0.1;  // sensitivities tried, 0..1
+  double most = 1.0;
+  double resolution = 0.03;        // ends where less is to be won; > 0
+  double saturationCounts = 3500;  // a taxel at or above is saturated [counts]
+  double headroom = 0.1;           // aim so far below saturation; 0..0.9
+  std::size_t framesToLook = 10;   // with contact, at one sensitivity; >= 1
+  double loosenAfterS =
+      5.0;  // an end is looked at anew when the maximum stays low so long [s]; >= 0
+
+  // Throws std::invalid_argument with the field's name.
+  void validate() const;
+};
+
+class SensitivitySearch {
+ public:
+  // Begins at a sensitivity that is set already, between least and most.
+  SensitivitySearch(double sensitivity,
+                    double thresholdCounts,
+                    const SensitivitySearchOptions& options = {});
+
+  // One frame, taken at the sensitivity that was proposed last: its largest reading (0: no contact). The next
+  // sensitivity to set; nothing: stay. Frames that aren't numbers are ignored.
+  std::optional<double> observe(double timeS, double maximumCounts);
+
+  double sensitivity() const noexcept { return sensitivity_; }  // present
+  bool settled() const noexcept { return settled_; }            // nothing higher is left to try
+  bool saturated() const noexcept { return saturated_; }        // also at `least`: nothing helps
+
+ private:
+  std::optional<double> propose(double sensitivity);
+
+  SensitivitySearchOptions options_;
+  double thresholdCounts_;
+  double sensitivity_;
+  double safe_ = 0.0;       // highest that didn't saturate; 0: none yet
+  double unsafe_ = 2.0;     // lowest that did; 2: none yet
+  double largest_ = 0.0;    // in this look [counts]
+  std::size_t frames_ = 0;  // of this look
+  bool settled_ = false;
+  bool saturated_ = false;
+  std::optional<double> lowSinceS_;
+};
+
+}  // namespace palpate

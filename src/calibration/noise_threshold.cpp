@@ -1,0 +1,139 @@
+#include "palpate/calibration/noise_threshold.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+void require(bool good, const std::string& what) {
+  if (!good) throw std::invalid_argument("NoiseThresholds: " + what);
+}
+
+}  // namespace
+
+TactileThresholds resetThresholds(const SensorCharacteristics& sensor) {
+  TactileThresholds reset;
+  for (const MatrixCharacteristics& matrix : sensor.matrices) {
+    reset.sensitivity = matrix.sensitivity;
+    reset.counts.push_back(matrix.thresholdCounts);
+  }
+  return reset;
+}
+
+std::vector<std::optional<std::size_t>> nearestSensors(const HandDescription& hand) {
+  std::vector<std::optional<std::size_t>> sensors;
+  for (const MatrixDescription& matrix : hand.matrices) sensors.push_back(matrix.temperatureSensor);
+  return sensors;
+}
+
+void NoiseThresholdOptions::validate() const {
+  require(sigmas >= 0.0 && sigmas <= 20.0, "sigmas must be 0..20, is " + numberText(sigmas));
+  require(sensitivity >= 0.0 && sensitivity <= 1.0,
+          "sensitivity must be 0..1, is " + numberText(sensitivity));
+  require(leastCounts >= 0 && leastCounts <= mostCounts && mostCounts <= 4095,
+          "leastCounts and mostCounts must be 0..4095, in order");
+  require(hysteresisCounts >= 1, "hysteresisCounts must be 1 or more");
+  require(leastIntervalS >= 0.0, "leastIntervalS must be 0 or more");
+  require(collapseShare >= 0.0 && collapseShare <= 1.0,
+          "collapseShare must be 0..1, is " + numberText(collapseShare));
+  require(guardWindowS > 0.0 && guardCalmS > 0.0, "guardWindowS and guardCalmS must be above 0");
+  require(guardStepCounts >= 1, "guardStepCounts must be 1 or more");
+}
+
+int noiseThreshold(const NoiseLine& line, double degC, const NoiseThresholdOptions& options) {
+  const double counts = std::ceil(line.threshold(degC, options.sigmas));
+  return static_cast<int>(std::clamp(
+      counts, static_cast<double>(options.leastCounts), static_cast<double>(options.mostCounts)));
+}
+
+NoiseThresholds::NoiseThresholds(NoiseFloor floor,
+                                 std::vector<std::optional<std::size_t>> sensors,
+                                 TactileThresholds reset,
+                                 double usualRateHz,
+                                 NoiseThresholdOptions options)
+    : floor_(std::move(floor)),
+      sensors_(std::move(sensors)),
+      reset_(std::move(reset)),
+      usualRateHz_(usualRateHz),
+      options_(options) {
+  options_.validate();
+  require(!reset_.counts.empty() && sensors_.size() == reset_.counts.size(),
+          std::to_string(sensors_.size()) + " sensors for " + std::to_string(reset_.counts.size()) +
+              " matrices");
+  require(floor_.lines.size() <= reset_.counts.size(), "more noise lines than matrices");
+  require(usualRateHz > 0.0 && std::isfinite(usualRateHz), "usualRateHz must be above 0");
+}
+
+// True when the guard moved.
+bool NoiseThresholds::watchRate(double timeS, double rateHz) {
+  if (!std::isfinite(rateHz)) return false;
+  const bool slow = rateHz < options_.collapseShare * usualRateHz_;
+  auto& since = slow ? slowSinceS_ : calmSinceS_;
+  (slow ? calmSinceS_ : slowSinceS_).reset();
+  if (!since) since = timeS;
+  if (slow && timeS - *since >= options_.guardWindowS) {
+    since = timeS;  // the next step only after the rate had time to answer
+    if (status_.atLimit) return false;
+    status_.guardCounts += options_.guardStepCounts;
+    return true;
+  }
+  if (!slow && status_.guardCounts > 0 && timeS - *since >= options_.guardCalmS) {
+    since = timeS;
+    status_.guardCounts = std::max(status_.guardCounts - options_.guardStepCounts, 0);
+    return true;
+  }
+  return false;
+}
+
+std::vector<int> NoiseThresholds::wanted(std::span<const double> degC) {
+  status_.extrapolated.clear();
+  status_.unknown.clear();
+  status_.atLimit = status_.guardCounts > 0;
+  std::vector<int> counts = reset_.counts;
+  for (std::size_t m = 0; m < counts.size(); ++m) {
+    const std::size_t sensor = sensors_[m].value_or(SIZE_MAX);
+    const double t = sensor < degC.size() ? degC[sensor] : 0.0;
+    const bool known =
+        m < floor_.lines.size() && floor_.lines[m].valid && std::isfinite(t) && t != 0.0;
+    if (known) {
+      counts[m] = noiseThreshold(floor_.lines[m], t, options_);
+      if (floor_.lines[m].mostDegC > floor_.lines[m].leastDegC && !floor_.lines[m].covers(t))
+        status_.extrapolated.push_back(m);
+    } else {
+      status_.unknown.push_back(m);
+    }
+    counts[m] = std::min(counts[m] + status_.guardCounts, std::max(options_.mostCounts, counts[m]));
+    status_.atLimit = status_.atLimit && counts[m] >= options_.mostCounts;
+  }
+  return counts;
+}
+
+std::optional<TactileThresholds> NoiseThresholds::update(double timeS,
+                                                         std::span<const double> degC,
+                                                         double rateHz) {
+  const bool guardMoved = watchRate(timeS, rateHz);
+  std::vector<int> counts = wanted(degC);
+  status_.guarding = status_.guardCounts > 0;
+  if (lastSetS_ && !guardMoved) {
+    if (timeS - *lastSetS_ < options_.leastIntervalS) return std::nullopt;
+    bool moves = false;
+    for (std::size_t m = 0; m < counts.size(); ++m) {
+      const int by = counts[m] - proposed_.counts[m];
+      moves = moves || by >= options_.hysteresisCounts || by <= -2 * options_.hysteresisCounts;
+    }
+    if (!moves) return std::nullopt;
+  }
+  TactileThresholds next{options_.sensitivity, std::move(counts)};
+  if (lastSetS_ && next == proposed_) return std::nullopt;
+  lastSetS_ = timeS;
+  proposed_ = next;
+  return next;
+}
+
+}  // namespace palpate

@@ -1,0 +1,149 @@
+#include "palpate/calibration/pressure_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+// Cells of one line; quoted ones (RFC 4180) may hold commas. Blanks around a cell don't count.
+std::vector<std::string> cellsOf(std::string_view line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+      cells.back() += line[++i];
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  for (std::string& cell : cells) {
+    const auto first = cell.find_first_not_of(" \t\r");
+    const auto last = cell.find_last_not_of(" \t\r");
+    cell = first == std::string::npos ? "" : cell.substr(first, last - first + 1);
+  }
+  return cells;
+}
+
+constexpr std::size_t kAbsent = SIZE_MAX;
+
+struct Columns {
+  std::size_t file = kAbsent, pressure = kAbsent, temperature = kAbsent;
+};
+
+PressureTableRow rowOf(const std::vector<std::string>& cells, const Columns& columns) {
+  const auto cell = [&](std::size_t column) {
+    return column < cells.size() ? cells[column] : std::string();
+  };
+  PressureTableRow row;
+  row.file = cell(columns.file);
+  if (row.file.empty()) row.trouble = "names no file";
+  const auto pressure = parseDouble(cell(columns.pressure));
+  if (!pressure || *pressure < 0.0)
+    row.trouble = "pressure_kpa '" + cell(columns.pressure) + "' is no pressure";
+  row.pressureKpa = pressure.value_or(std::nan(""));
+  const std::string temperature = cell(columns.temperature);
+  if (!temperature.empty()) {
+    row.temperatureC = parseDouble(temperature);
+    if (!row.temperatureC || std::abs(*row.temperatureC) > 200.0)
+      row.trouble = "temperature_c '" + temperature + "' is no temperature";
+  }
+  return row;
+}
+
+}  // namespace
+
+std::vector<PressureTableRow> parsePressureTable(std::string_view csv,
+                                                 const std::filesystem::path& name) {
+  std::vector<PressureTableRow> rows;
+  Columns columns;
+  bool header = false;
+  std::size_t number = 0;
+  if (csv.starts_with("\xEF\xBB\xBF")) csv.remove_prefix(3);  // as spreadsheets begin a file
+  while (!csv.empty()) {
+    const std::string_view line = csv.substr(0, csv.find('\n'));
+    csv.remove_prefix(std::min(line.size() + 1, csv.size()));
+    ++number;
+    const std::vector<std::string> cells = cellsOf(line);
+    if (cells.size() == 1 && cells[0].empty()) continue;
+    if (header) {
+      PressureTableRow row = rowOf(cells, columns);
+      row.line = number;
+      rows.push_back(std::move(row));
+      continue;
+    }
+    header = true;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (cells[i] == "file") columns.file = i;
+      if (cells[i] == "pressure_kpa") columns.pressure = i;
+      if (cells[i] == "temperature_c") columns.temperature = i;
+    }
+    if (columns.file == kAbsent || columns.pressure == kAbsent)
+      throw FormatError(name,
+                        "its first line must name the columns file,pressure_kpa[,temperature_c]");
+  }
+  if (rows.empty())
+    throw FormatError(name,
+                      "holds no row: file,pressure_kpa[,temperature_c], then a line per recording");
+  return rows;
+}
+
+PressureSample unusedSample(const PressureTableRow& row, const std::string& why) {
+  PressureSample sample;
+  sample.file = row.file.string();
+  sample.pressureKpa = row.pressureKpa;
+  sample.used = false;
+  sample.notes.push_back(why);
+  return sample;
+}
+
+std::vector<PressureSample> samplesOf(const PressureTableRow& row,
+                                      const StepReport& report,
+                                      const std::string& sha256) {
+  std::vector<PressureSample> samples;
+  for (const FittedStep& step : report.steps) {
+    PressureSample sample;
+    sample.file = row.file.string();
+    sample.sha256 = sha256;
+    sample.pressureKpa = row.pressureKpa;
+    sample.gainCounts = step.fit.parameters.gainCounts;
+    sample.driftPerS = step.fit.parameters.driftPerS;
+    sample.nearestDegC = row.temperatureC   ? row.temperatureC
+                         : step.nearestDegC ? step.nearestDegC
+                                            : step.allSensorsDegC;
+    sample.studyDegC = row.temperatureC ? row.temperatureC : step.studyDegC;
+    sample.activeAreaMm2 = step.activeAreaMm2;
+    sample.notes = step.notes;
+    sample.notes.insert(sample.notes.end(), step.fit.notes.begin(), step.fit.notes.end());
+    // A few saturated taxels make K a little too small, and are told; a fit without gain says nothing.
+    sample.used = step.fit.usable();
+    samples.push_back(std::move(sample));
+  }
+  if (samples.empty())
+    samples.push_back(unusedSample(row, report.notes.empty() ? "no step" : report.notes.front()));
+  return samples;
+}
+
+double medianSteadyS(const std::vector<StepReport>& reports) {
+  std::vector<double> times;
+  for (const StepReport& report : reports)
+    for (const FittedStep& step : report.steps)
+      if (step.fit.usable() && std::isfinite(step.characteristics.steadyS))
+        times.push_back(step.characteristics.steadyS);
+  if (times.empty()) return 0.0;
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  return *middle;
+}
+
+}  // namespace palpate

@@ -1,0 +1,97 @@
+#include "palpate/calibration/sensitivity_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kNoLimit = 2.0;
+
+void require(bool good, const std::string& what) {
+  if (!good) throw std::invalid_argument("SensitivitySearch: " + what);
+}
+
+}  // namespace
+
+void SensitivitySearchOptions::validate() const {
+  require(least > 0.0 && least <= most && most <= 1.0,
+          "least and most must be within 0..1, in order");
+  require(resolution > 0.0, "resolution must be above 0, is " + numberText(resolution));
+  require(saturationCounts > 0.0,
+          "saturationCounts must be above 0, is " + numberText(saturationCounts));
+  require(headroom >= 0.0 && headroom <= 0.9,
+          "headroom must be 0..0.9, is " + numberText(headroom));
+  require(framesToLook >= 1, "framesToLook must be 1 or more");
+  require(loosenAfterS >= 0.0, "loosenAfterS must be 0 or more, is " + numberText(loosenAfterS));
+}
+
+SensitivitySearch::SensitivitySearch(double sensitivity,
+                                     double thresholdCounts,
+                                     const SensitivitySearchOptions& options)
+    : options_(options),
+      thresholdCounts_(thresholdCounts),
+      sensitivity_(sensitivity),
+      unsafe_(kNoLimit) {
+  options_.validate();
+  require(thresholdCounts >= 0.0 && std::isfinite(thresholdCounts),
+          "thresholdCounts must be 0 or more");
+  require(sensitivity >= options_.least && sensitivity <= options_.most,
+          "sensitivity must be between least and most, is " + numberText(sensitivity));
+}
+
+std::optional<double> SensitivitySearch::propose(double sensitivity) {
+  const double next = std::clamp(sensitivity, options_.least, options_.most);
+  frames_ = 0;
+  largest_ = 0.0;
+  lowSinceS_.reset();
+  if (std::abs(next - sensitivity_) < 0.5 * options_.resolution && next != options_.least &&
+      next != options_.most)
+    return std::nullopt;
+  if (next == sensitivity_) return std::nullopt;
+  sensitivity_ = next;
+  settled_ = false;
+  return next;
+}
+
+std::optional<double> SensitivitySearch::observe(double timeS, double maximumCounts) {
+  if (!std::isfinite(maximumCounts) || !(maximumCounts > 0.0)) return std::nullopt;
+  if (maximumCounts >= options_.saturationCounts) {
+    // At once: what is saturated is lost.
+    unsafe_ = std::min(unsafe_, sensitivity_);
+    if (safe_ >= unsafe_) safe_ = 0.0;  // the load grew since
+    saturated_ = sensitivity_ <= options_.least;
+    settled_ = saturated_;
+    return propose(safe_ > 0.0 ? 0.5 * (safe_ + unsafe_)
+                               : 0.5 * (options_.least + unsafe_) - 0.25 * options_.resolution);
+  }
+  saturated_ = false;
+  largest_ = std::max(largest_, maximumCounts);
+  const double aim = (1.0 - options_.headroom) * options_.saturationCounts;
+  if (settled_) {
+    // Much lower than it was for a while: another load, another limit.
+    const double wanted =
+        sensitivity_ * (aim + thresholdCounts_) / (maximumCounts + thresholdCounts_);
+    const bool low = sensitivity_ < options_.most &&
+                     wanted > sensitivity_ + 2.0 * options_.resolution + options_.headroom;
+    if (!low) lowSinceS_.reset();
+    if (low && !lowSinceS_) lowSinceS_ = timeS;
+    if (!low || timeS - *lowSinceS_ < options_.loosenAfterS) return std::nullopt;
+    unsafe_ = kNoLimit;
+    return propose(wanted);
+  }
+  if (++frames_ < options_.framesToLook) return std::nullopt;
+  safe_ = std::max(safe_, sensitivity_);
+  const double expected = sensitivity_ * (aim + thresholdCounts_) / (largest_ + thresholdCounts_);
+  const double next =
+      std::min({expected, options_.most, unsafe_ < kNoLimit ? 0.5 * (safe_ + unsafe_) : kNoLimit});
+  const auto proposal = next > sensitivity_ + options_.resolution ? propose(next) : std::nullopt;
+  if (!proposal) settled_ = true;
+  return proposal;
+}
+
+}  // namespace palpate

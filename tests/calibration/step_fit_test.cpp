@@ -1,0 +1,248 @@
+#include "palpate/calibration/step_fit.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+struct Samples {
+  std::vector<double> t, y;
+};
+
+// 31.7 frames/s whose stamps jitter by a quarter, as real ones do.
+Samples samplesOf(const StepParameters& truth,
+                  double durationS,
+                  double noise,
+                  std::mt19937_64& random,
+                  double rateHz = 31.7) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> jitter(-0.25, 0.25);
+  Samples samples;
+  for (int i = 0; i < durationS * rateHz; ++i) {
+    const double t = i == 0 ? 0.0 : (i + jitter(random)) / rateHz;
+    samples.t.push_back(t);
+    samples.y.push_back(stepResponse(truth, t) + noise * normal(random));
+  }
+  return samples;
+}
+
+double rmseOf(const Samples& samples, const StepParameters& p) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < samples.t.size(); ++i)
+    sum += std::pow(samples.y[i] - stepResponse(p, samples.t[i]), 2);
+  return std::sqrt(sum / static_cast<double>(samples.t.size()));
+}
+
+TEST(StepFit, FindsTheTruthWithoutNoise) {
+  std::mt19937_64 random(1);
+  const StepParameters truth = StepParameters::ofTimes(436.0, 12.4, 0.505, 0.0636);
+  const Samples samples = samplesOf(truth, 12.0, 0.0, random);
+  const StepFit fit = fitStep(samples.t, samples.y);
+  EXPECT_TRUE(fit.converged);
+  EXPECT_TRUE(fit.identifiable);
+  EXPECT_TRUE(fit.gainReached);
+  EXPECT_TRUE(fit.notes.empty());
+  EXPECT_EQ(fit.numSamples, samples.t.size());
+  EXPECT_NEAR(fit.parameters.gainCounts, 436.0, 1e-6);
+  EXPECT_NEAR(fit.parameters.driftPerS, 12.4, 1e-7);
+  EXPECT_NEAR(fit.parameters.t1S(), 0.505, 1e-8);
+  EXPECT_NEAR(fit.parameters.t2S(), 0.0636, 1e-8);
+  EXPECT_LT(fit.rmse, 1e-6);
+}
+
+// The range that 24 measured steps of a real hand span (golden/pressure_calibration.csv).
+TEST(StepFit, FindsAThousandRandomTruths) {
+  std::mt19937_64 random(2);
+  const auto between = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+  };
+  int missed = 0, above = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double t1 = between(0.2, 1.1), t2 = between(0.01, 0.95 * std::min(t1, 0.3));
+    const StepParameters truth =
+        StepParameters::ofTimes(between(50.0, 850.0), between(2.0, 32.0), t1, t2);
+    const Samples clean = samplesOf(truth, between(6.0, 14.0), 0.0, random);
+    const StepFit exact = fitStep(clean.t, clean.y);
+    const StepParameters& p = exact.parameters;
+    if (!exact.converged || std::abs(p.gainCounts / truth.gainCounts - 1.0) > 1e-5 ||
+        std::abs(p.driftPerS / truth.driftPerS - 1.0) > 1e-4 ||
+        std::abs(p.t1S() / t1 - 1.0) > 1e-2 || std::abs(p.t2S() / t2 - 1.0) > 1e-2)
+      ++missed;
+    // With noise no fit may be worse than the truth itself.
+    const Samples noisy = samplesOf(truth, 10.0, 0.03 * truth.gainCounts, random);
+    const StepFit fit = fitStep(noisy.t, noisy.y);
+    if (!fit.converged || fit.rmse > rmseOf(noisy, truth)) ++above;
+  }
+  EXPECT_EQ(missed, 0);
+  EXPECT_EQ(above, 0);
+}
+
+TEST(StepFit, StatedIntervalsHoldTheTruthInNinetyFivePerCent) {
+  std::mt19937_64 random(3);
+  const StepParameters truth = StepParameters::ofTimes(436.0, 12.4, 0.505, 0.0836);
+  const double values[] = {436.0, 12.4, 0.505};
+  constexpr int kRuns = 3000;
+  int inside[3] = {};
+  for (int run = 0; run < kRuns; ++run) {
+    const Samples samples = samplesOf(truth, 12.0, 11.5, random);
+    const StepFit fit = fitStep(samples.t, samples.y);
+    const double found[] = {
+        fit.parameters.gainCounts, fit.parameters.driftPerS, fit.parameters.t1S()};
+    for (int p = 0; p < 3; ++p)
+      if (std::abs(found[p] - values[p]) <= fit.interval95(p)) ++inside[p];
+  }
+  for (int p = 0; p < 3; ++p) {
+    EXPECT_GE(inside[p], 0.93 * kRuns) << "K, m, T1: " << p;
+    EXPECT_LE(inside[p], 0.97 * kRuns) << "K, m, T1: " << p;
+  }
+}
+
+TEST(StepFit, CovarianceIsThatOfRepeatedFits) {
+  std::mt19937_64 random(4);
+  const StepParameters truth = StepParameters::ofTimes(300.0, 8.0, 0.6, 0.12);
+  constexpr int kRuns = 2000;
+  Eigen::Matrix4d stated = Eigen::Matrix4d::Zero(), squares = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  for (int run = 0; run < kRuns; ++run) {
+    const Samples samples = samplesOf(truth, 10.0, 3.0, random);
+    const StepFit fit = fitStep(samples.t, samples.y);
+    const StepParameters& p = fit.parameters;
+    const Eigen::Vector4d found(p.gainCounts, p.driftPerS, p.t1S(), p.t2S());
+    stated += fit.covariance / kRuns;
+    sum += found / kRuns;
+    squares += found * found.transpose() / kRuns;
+  }
+  const Eigen::Matrix4d seen = squares - sum * sum.transpose();
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c)
+      EXPECT_NEAR(stated(r, c), seen(r, c), 0.12 * std::sqrt(seen(r, r) * seen(c, c)))
+          << r << ", " << c;
+}
+
+TEST(StepFit, FitsTheCriticalAndTheOscillatingCase) {
+  std::mt19937_64 random(5);
+  const StepParameters critical{500.0, 20.0, 0.22, 1.0};
+  const Samples samples = samplesOf(critical, 6.0, 0.0, random);
+  const StepFit fit = fitStep(samples.t, samples.y);
+  EXPECT_TRUE(fit.converged);
+  EXPECT_NEAR(fit.parameters.gainCounts, 500.0, 1e-3);
+  EXPECT_NEAR(fit.parameters.timeConstantS, 0.22, 1e-5);
+  EXPECT_NEAR(fit.parameters.damping, 1.0, 1e-4);
+
+  const StepParameters swinging{500.0, 20.0, 0.1, 0.4};
+  const Samples other = samplesOf(swinging, 6.0, 2.0, random, 100.0);
+  const StepFit over = fitStep(other.t, other.y);
+  EXPECT_GE(over.parameters.damping, 1.0) << "unless it is asked for";
+  StepFitOptions any;
+  any.damping = StepDamping::kAny;
+  const StepFit found = fitStep(other.t, other.y, any);
+  EXPECT_TRUE(found.converged);
+  EXPECT_TRUE(found.identifiable);
+  EXPECT_NEAR(found.parameters.damping, 0.4, 3 * found.sd(3));
+  EXPECT_NEAR(found.parameters.timeConstantS, 0.1, 3 * found.sd(2));
+  EXPECT_LT(found.rmse, 2.2);
+  // An overdamped step stays one.
+  const Samples plain = samplesOf(StepParameters::ofTimes(300.0, 8.0, 0.6, 0.12), 8.0, 3.0, random);
+  EXPECT_GE(fitStep(plain.t, plain.y, any).parameters.damping, 1.0);
+}
+
+TEST(StepFit, RobustLossesShrugOffOutliers) {
+  std::mt19937_64 random(6);
+  const StepParameters truth = StepParameters::ofTimes(300.0, 8.0, 0.6, 0.12);
+  Samples samples = samplesOf(truth, 12.0, 2.0, random);
+  for (std::size_t i = 30; i < samples.y.size(); i += 12) samples.y[i] += 150.0;
+  const StepFit plain = fitStep(samples.t, samples.y);
+  EXPECT_GT(std::abs(plain.parameters.gainCounts - 300.0), 5.0);
+  for (const StepLoss loss : {StepLoss::kHuber, StepLoss::kCauchy}) {
+    StepFitOptions options;
+    options.loss = loss;
+    const StepFit robust = fitStep(samples.t, samples.y, options);
+    EXPECT_TRUE(robust.converged);
+    EXPECT_NEAR(robust.parameters.gainCounts, 300.0, 1.5);
+    EXPECT_NEAR(robust.parameters.driftPerS, 8.0, 0.2);
+    EXPECT_GE(robust.numDownweighted, 25u);
+    EXPECT_LE(robust.numDownweighted, 60u);
+  }
+}
+
+TEST(StepFit, SaysThatT2IsNotIdentifiableFarBelowTheFramePeriod) {
+  std::mt19937_64 random(7);
+  int said = 0;
+  for (int run = 0; run < 100; ++run) {
+    const Samples samples =
+        samplesOf(StepParameters::ofTimes(57.0, 2.9, 0.71, 1e-6), 12.0, 1.8, random);
+    const StepFit fit = fitStep(samples.t, samples.y);
+    EXPECT_TRUE(fit.converged);
+    EXPECT_TRUE(fit.usable()) << "K and m are sound";
+    EXPECT_NEAR(fit.parameters.gainCounts, 57.0, 5 * fit.sd(0));
+    if (!fit.identifiable && fit.notes.size() == 1 &&
+        fit.notes[0].find("T2 is not identifiable") != std::string::npos)
+      ++said;
+  }
+  EXPECT_GE(said, 95) << "noise alone looks like a T2 of two standard deviations now and then";
+}
+
+TEST(StepFit, SaysThatAStepWasCutOffBeforeItsGain) {
+  std::mt19937_64 random(8);
+  const Samples samples =
+      samplesOf(StepParameters::ofTimes(400.0, 10.0, 1.0, 0.1), 1.5, 4.0, random);
+  const StepFit fit = fitStep(samples.t, samples.y);
+  EXPECT_FALSE(fit.gainReached);
+  EXPECT_FALSE(fit.usable());
+  ASSERT_FALSE(fit.notes.empty());
+  EXPECT_NE(fit.notes[0].find("cut off before the gain"), std::string::npos);
+}
+
+TEST(StepFit, LeavesOutWhatIsNoNumberAndTakesAnyOrder) {
+  std::mt19937_64 random(9);
+  const StepParameters truth = StepParameters::ofTimes(300.0, 8.0, 0.6, 0.12);
+  Samples samples = samplesOf(truth, 10.0, 0.0, random);
+  samples.y[7] = std::numeric_limits<double>::quiet_NaN();
+  samples.t[9] = std::numeric_limits<double>::infinity();
+  samples.t.push_back(-0.5);
+  samples.y.push_back(99.0);
+  std::swap(samples.t[20], samples.t[90]);
+  std::swap(samples.y[20], samples.y[90]);
+  const StepFit fit = fitStep(samples.t, samples.y);
+  EXPECT_EQ(fit.numDropped, 3u);
+  EXPECT_NEAR(fit.parameters.gainCounts, 300.0, 1e-6);
+  ASSERT_EQ(fit.notes.size(), 1u);
+  EXPECT_NE(fit.notes[0].find("3 of"), std::string::npos);
+}
+
+TEST(StepFit, SaysWhatIsMissingWhereNothingCanBeFitted) {
+  const StepFit none = fitStep({}, {});
+  EXPECT_FALSE(none.converged);
+  EXPECT_FALSE(none.usable());
+  EXPECT_EQ(none.notes.size(), 1u);
+  const std::vector<double> two = {0.0, 0.1}, values = {0.0, 50.0};
+  EXPECT_NE(fitStep(two, values).notes.at(0).find("only 2 usable samples"), std::string::npos);
+  std::vector<double> t(50), zeros(50, 0.0);
+  for (std::size_t i = 0; i < t.size(); ++i) t[i] = 0.03 * static_cast<double>(i);
+  EXPECT_NE(fitStep(t, zeros).notes.at(0).find("no step"), std::string::npos);
+  // All at one time; a ramp, which has no gain.
+  EXPECT_FALSE(fitStep(zeros, t).converged);
+  const StepFit ramp = fitStep(t, t);
+  EXPECT_FALSE(ramp.identifiable);
+  EXPECT_FALSE(ramp.notes.empty());
+}
+
+TEST(StepFit, RefusesBadOptions) {
+  const std::vector<double> t = {0.0, 1.0}, one = {0.0};
+  EXPECT_THROW(fitStep(t, one), std::invalid_argument);
+  StepFitOptions scale;
+  scale.lossScale = -1.0;
+  EXPECT_THROW(fitStep(t, t, scale), std::invalid_argument);
+  StepFitOptions iterations;
+  iterations.mostIterations = 0;
+  EXPECT_THROW(fitStep(t, t, iterations), std::invalid_argument);
+  EXPECT_THROW(fitStep(t, t).sd(4), std::out_of_range);
+}
+
+}  // namespace
+}  // namespace palpate
