@@ -172,7 +172,7 @@ TEST_F(OpeningTest, AmongSeveralTheBadOnesAreNamedAndTheFirstGoodIsShown) {
 TEST_F(OpeningTest, CancelLeavesWhatIsOpen) {
   open({"good.dsa"});
   window().openFiles({file("slow.dsa"), file("good2.dsa")});
-  auto* strip = window().findChild<OpeningStrip*>();
+  const QWidget* strip = find<QPushButton>("cancelOpening")->parentWidget();
   ASSERT_TRUE(QTest::qWaitFor([&] { return strip->isVisible(); }, 10'000));
   QTest::mouseClick(find<QPushButton>("cancelOpening"), Qt::LeftButton);
   waitUntilOpened();
