@@ -29,7 +29,7 @@ Calibration tenth() {
 }
 
 // Whole rows of matrix 2 read `counts` in every second frame, 50 ms apart; temperatures where told.
-Profile recorded(float counts, bool temperatures, ValueType type = ValueType::kCounts) {
+Profile recorded(float counts, bool temperatures) {
   const HandDescription& hand = sdh2();
   ProfileBuilder builder(hand.layout);
   for (int i = 0; i < 10; ++i) {
@@ -39,9 +39,7 @@ Profile recorded(float counts, bool temperatures, ValueType type = ValueType::kC
   }
   if (temperatures)
     builder.addTemperatures(1'000'000, std::vector<double>(hand.temperatureSensors.size(), 36.0));
-  ProfileInfo info;
-  info.valueType = type;
-  return builder.finish(info);
+  return builder.finish({});
 }
 
 TEST(ForceSeries, IsPressureTimesActiveArea) {
@@ -100,7 +98,7 @@ TEST(ForceSeries, TakesTheTareOff) {
 }
 
 TEST(ForceSeries, RefusesWhatIsNoCounts) {
-  EXPECT_THROW(forceSeries(recorded(1.0F, true, ValueType::kFloat), tenth()), Error);
+  EXPECT_THROW(forceSeries(recorded(1.5F, true), tenth()), Error);
   EXPECT_THROW(forceSeries(recorded(1.0F, true), Calibration{}), std::invalid_argument);
   EXPECT_THROW(
       forceSeries(recorded(1.0F, true), tenth(), {}, std::nullopt, [](double) { return false; }),

@@ -70,7 +70,7 @@ TEST_F(CalibrateForceTest, APressureTableBecomesACalibration) {
   EXPECT_TRUE(facts.contains("leave-one-out")) << facts.toStdString();
   EXPECT_TRUE(facts.contains("4 of 5 used")) << facts.toStdString();
   EXPECT_TRUE(facts.contains(QString::fromStdString((folder_ / "t.csv").string())));
-  EXPECT_EQ(cell("pressureSamples", 4, 6), "left out");
+  EXPECT_TRUE(cell("pressureSamples", 4, 6).startsWith("left out: "));
   // One temperature: no term with it.
   ASSERT_TRUE(made.pressure.valid());
   EXPECT_NEAR(made.pressure.pressureAt(made.samples[1].gainCounts, 30.0).kpa, 40.0, 0.2);

@@ -83,6 +83,7 @@ TEST_F(CalibrateWindowTest, TheSensorsSettingsAreKeptAsAnEvent) {
       EXPECT_EQ(event.text, "sensitivity 0.5, threshold 150");
       EXPECT_EQ(Json::parse(event.json).at("sensitivity").asDouble(), 0.5);
     }
+  EXPECT_NO_THROW(window().events()->save()) << "such events are a person's";
   window().events()->undoStack().undo();
   EXPECT_EQ(eventsOf("sensor_settings"), 0u);
 }

@@ -6,6 +6,11 @@
 #include <palpate/core/time.h>
 
 namespace palpate::gui {
+namespace {
+
+constexpr int kNotesMargin = 8;  // [px]
+
+}  // namespace
 
 QString linesOf(const std::vector<std::string>& notes) { return linesOf(notes, {}); }
 
@@ -22,7 +27,7 @@ QLabel* notesLabel(const char* name, QWidget* parent) {
   label->setProperty("role", "muted");
   label->setTextFormat(Qt::PlainText);
   label->setWordWrap(true);
-  label->setContentsMargins(12, 6, 12, 6);
+  label->setMargin(kNotesMargin);  // contents margins would not count for its height
   return label;
 }
 

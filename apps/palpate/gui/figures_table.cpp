@@ -5,15 +5,18 @@
 #include <QPainter>
 #include <QStyledItemDelegate>
 #include <algorithm>
+#include <numeric>
 
 namespace palpate::gui {
 namespace {
 
 constexpr int kDetailRole = Qt::UserRole + 1;
 constexpr int kWarningRole = Qt::UserRole + 2;
-constexpr int kPadding = 8;       // [px] beside a figure
-constexpr int kAir = 5;           // [px] above and below
-constexpr int kMostRowsSeen = 6;  // the others are scrolled to
+constexpr int kPadding = 8;          // [px] beside a figure
+constexpr int kAir = 5;              // [px] above and below
+constexpr double kNarrowest = 0.85;  // of a column's width
+constexpr int kLastLeast = 90;       // [px] of the last column
+constexpr int kMostRowsSeen = 6;     // the others are scrolled to
 
 class FigureDelegate : public QStyledItemDelegate {
  public:
@@ -70,7 +73,6 @@ FiguresTable::FiguresTable(const std::vector<FigureColumn>& columns, QWidget* pa
   QHeaderView* header = horizontalHeader();
   header->setHighlightSections(false);
   header->setMinimumSectionSize(24);
-  header->setStretchLastSection(true);
   header->setDefaultAlignment(Qt::AlignRight | Qt::AlignVCenter);
   for (int i = 0; i < columnCount(); ++i) {
     const FigureColumn& column = columns[static_cast<std::size_t>(i)];
@@ -78,7 +80,7 @@ FiguresTable::FiguresTable(const std::vector<FigureColumn>& columns, QWidget* pa
     item->setToolTip(column.tip);
     item->setTextAlignment((column.words ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
     setHorizontalHeaderItem(i, item);
-    header->resizeSection(i, column.letters * fontMetrics().horizontalAdvance('0') + 2 * kPadding);
+    widths_.push_back(column.letters * fontMetrics().horizontalAdvance('0') + 2 * kPadding);
   }
   connect(this, &QTableWidget::itemSelectionChanged, this, [this] {
     if (const int row = chosenRow(); row >= 0) emit rowChosen(row);
@@ -110,6 +112,29 @@ void FiguresTable::setRows(const std::vector<std::vector<FigureCell>>& rows) {
 void FiguresTable::setTheme(Theme theme) {
   static_cast<FigureDelegate*>(itemDelegate())->setTheme(theme);
   viewport()->update();
+}
+
+void FiguresTable::setSingleLine() {
+  verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 2 * kAir);
+}
+
+void FiguresTable::fitColumns() {
+  const int room = viewport()->width();
+  const int before = std::accumulate(widths_.begin(), widths_.end() - 1, 0);
+  const double scale =
+      std::clamp(static_cast<double>(room - widths_.back()) / before, kNarrowest, 1.0);
+  int used = 0;
+  for (int i = 0; i + 1 < columnCount(); ++i) {
+    const int width = static_cast<int>(scale * widths_[static_cast<std::size_t>(i)]);
+    horizontalHeader()->resizeSection(i, width);
+    used += width;
+  }
+  horizontalHeader()->resizeSection(columnCount() - 1, std::max(room - used, kLastLeast));
+}
+
+void FiguresTable::resizeEvent(QResizeEvent* event) {
+  QTableWidget::resizeEvent(event);
+  fitColumns();
 }
 
 int FiguresTable::chosenRow() const {

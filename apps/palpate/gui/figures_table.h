@@ -30,6 +30,8 @@ class FiguresTable : public QTableWidget {
   explicit FiguresTable(const std::vector<FigureColumn>& columns, QWidget* parent = nullptr);
   void setRows(const std::vector<std::vector<FigureCell>>& rows);
   void setTheme(Theme theme);
+  // No cell has a second line.
+  void setSingleLine();
   // -1: none.
   int chosenRow() const;
 
@@ -42,6 +44,13 @@ class FiguresTable : public QTableWidget {
  protected:
   // Keys that move in it move in it, and play nothing back.
   bool event(QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  // The last column takes what is left; where there is too little the others give way.
+  void fitColumns();
+
+  std::vector<int> widths_;  // of the columns, where there is room [px]
 };
 
 }  // namespace palpate::gui

@@ -116,8 +116,8 @@ ForcePage::ForcePage(QSettings& settings, QWidget* parent)
   auto* column = new QVBoxLayout(content);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  column->addWidget(table_, 1);
-  column->addWidget(chart_, 1);
+  column->addWidget(table_, 3);
+  column->addWidget(chart_, 2);
   column->addWidget(notes_);
   setContent(content);
   askForCalibration = [this] {
@@ -275,11 +275,12 @@ void ForcePage::take(const std::shared_ptr<const ForceSeries>& found, const Sens
   QString notes = linesOf(found->assumptions);
   if (found->beyond > 0)
     notes.prepend(QString::number(found->beyond) + " of " + QString::number(found->contacts) +
-                  " contacts are beyond what was measured: don't rely on them\n");
+                  " contacts are beyond what was measured (amber): don't rely on them\n");
   notes_->setText(notes);
   const QSignalBlocker blocker(table_);
   table_->selectRow(static_cast<int>(found->numMatrices));
   showChosen(static_cast<int>(found->numMatrices));
+  table_->scrollToTop();
   showContent();
 }
 

@@ -58,9 +58,9 @@ std::vector<FigureCell> rowOf(const PressureSample& sample, const PressureModel&
       {.text = known ? figure(degC, 1) : QString("–"),
        .tip = known ? QString() : "not recorded: " + figure(degC, 0) + " °C assumed"},
       {.text = off},
-      {.text = sample.used ? "" : "left out",
-       .detail = sample.used || sample.notes.empty() ? QString()
-                                                     : QString::fromStdString(sample.notes.back()),
+      {.text = sample.used            ? QString()
+               : sample.notes.empty() ? "left out"
+                                      : "left out: " + QString::fromStdString(sample.notes.back()),
        .tip = linesOf(sample.notes),
        .warning = !sample.used}};
 }
@@ -119,6 +119,7 @@ PressurePage::PressurePage(QWidget* parent) : CalibratePage("pressure", parent) 
   auto* figures = new QWidget(content);
   samples_ = new FiguresTable(columns(), figures);
   samples_->setObjectName("pressureSamples");
+  samples_->setSingleLine();
   facts_ = new FactsView(figures);
   facts_->setObjectName("pressureFacts");
   auto* framed = new QWidget(figures);

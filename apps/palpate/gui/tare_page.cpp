@@ -193,9 +193,12 @@ void TarePage::setKept(bool kept) {
 }
 
 void TarePage::showState() {
-  state_->setText(kept_                      ? "A zero is kept with this recording."
-                  : found_ && !found_->any() ? "At rest every taxel reads 0: nothing to take off."
-                                             : "");
+  const bool unloaded = found_ && std::any_of(found_->matrices.begin(),
+                                              found_->matrices.end(),
+                                              [](const MatrixTare& each) { return each.valid; });
+  state_->setText(kept_                        ? "A zero is kept with this recording."
+                  : unloaded && !found_->any() ? "At rest every taxel reads 0: nothing to take off."
+                                               : "");
   keep_->setEnabled(found_ && found_->any());
   remove_->setVisible(kept_);
 }
