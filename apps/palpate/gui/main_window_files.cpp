@@ -138,6 +138,7 @@ void MainWindow::showRecording(const OpenedRecordingPtr& recording) {
   if (!recording) showCompare(false);
   setPlace(recording ? Place::kRecording : live ? Place::kLive : Place::kStart);
   timeline_->setRecording(recording);
+  timeline_->setBefore(nullptr);
   if (recording)
     signalTree_->setSource(recording->profile.hand(),
                            recording->profile.numAngles() > 0,

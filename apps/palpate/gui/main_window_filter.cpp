@@ -175,6 +175,7 @@ void MainWindow::useShown(const OpenedRecordingPtr& recording) {
   shown_ = recording;
   const std::size_t frame = playback_.frame();
   timeline_->setRecording(recording);
+  timeline_->setBefore(recording != current_ ? current_ : nullptr);
   matrices_->setRecording(recording);
   handPanel_->setRecording(recording);
   inspect_->setRecording(recording);

@@ -236,6 +236,7 @@ void MainWindow::cropSelection() {
 void MainWindow::waitForWork() {
   filterWorker_.wait();
   timeline_->store().waitUntilRead();
+  timeline_->storeBefore().waitUntilRead();
   while (job_.busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
 }
 

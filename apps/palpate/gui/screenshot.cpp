@@ -155,6 +155,7 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   showDocks(window, options);
   window.waitForFilter();
   window.timelinePanel().chart().store().waitForFirstLook();
+  window.timelinePanel().chart().storeBefore().waitForFirstLook();
   window.spectrum().settle();
   calibration(window).settle();
   // Layout requests and queued replots come one after the other.

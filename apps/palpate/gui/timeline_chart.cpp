@@ -8,6 +8,7 @@
 namespace palpate::gui {
 namespace {
 
+constexpr int kFaint = 110;              // opacity of what stands behind, of 255
 constexpr double kEmptyDurationS = 1.0;  // axis of a recording without extent
 constexpr double kShortestSeenS = 0.05;
 constexpr double kHeadroom = 1.06;  // the highest curve stays below the frame
@@ -46,6 +47,10 @@ TimelineChart::TimelineChart(QWidget* parent) : QCustomPlot(parent) {
     placeSelection();
     emit seenChanged();
   });
+  connect(&before_, &SeriesStore::changed, this, [this] {
+    scaleAxes();
+    refill();
+  });
   connect(&store_, &SeriesStore::changed, this, [this] {
     if (recording_ && recording_->timingNow().gaps.size() != gaps_.size()) return rebuildGraphs();
     scaleAxes();
@@ -71,11 +76,21 @@ void TimelineChart::setRecording(const OpenedRecordingPtr& recording) {
   fit();
 }
 
+void TimelineChart::setBefore(const OpenedRecordingPtr& before) {
+  hasBefore_ = before && !before->isLong();
+  before_.setRecording(hasBefore_ ? before : nullptr);
+  std::vector<SeriesChoice> wanted;
+  for (const PlottedCurve& curve : curves_) wanted.push_back(curve.choice);
+  before_.setWanted(wanted);
+  rebuildGraphs();
+}
+
 void TimelineChart::setCurves(const std::vector<PlottedCurve>& curves) {
   curves_ = curves;
   std::vector<SeriesChoice> wanted;
   for (const PlottedCurve& curve : curves_) wanted.push_back(curve.choice);
   store_.setWanted(wanted);
+  before_.setWanted(wanted);
   rebuildGraphs();
 }
 
@@ -125,6 +140,17 @@ void TimelineChart::rebuildGraphs() {
     added->setPen(curve.pen);
     added->setAdaptiveSampling(false);  // thinned already
   }
+  for (const PlottedCurve& curve : hasBefore_ ? curves_ : std::vector<PlottedCurve>()) {
+    QCPGraph* behind = addGraph(xAxis, axisFor(curve));
+    QPen faint = curve.pen;
+    QColor color = faint.color();
+    color.setAlpha(kFaint);
+    faint.setColor(color);
+    faint.setWidthF(1.0);
+    behind->setPen(faint);
+    behind->setLayer("grid");
+    behind->setAdaptiveSampling(false);
+  }
   gaps_.clear();
   if (recording_) gaps_ = recording_->timingNow().gaps;
   for (std::size_t i = 0; i < std::min(gaps_.size(), kMostGapMarks); ++i) {
@@ -153,8 +179,10 @@ void TimelineChart::scaleAxes() {
     bool fromZero = true;
     for (const PlottedCurve& curve : curves_) {
       if (curve.unit != unit) continue;
-      const auto its = store_.extremes(curve.choice);
+      auto its = store_.extremes(curve.choice);
       if (!its) continue;
+      if (const auto before = before_.extremes(curve.choice))
+        its = {std::min(its->first, before->first), std::max(its->second, before->second)};
       fromZero = curve.choice.kind == SeriesChoice::Kind::kMatrix ||
                  curve.choice.kind == SeriesChoice::Kind::kTaxels;
       if (!extent) extent = its;
@@ -175,13 +203,17 @@ void TimelineChart::refill() {
   const DecimationOptions options{.from = range.lower,
                                   .to = range.upper,
                                   .columns = static_cast<std::size_t>(std::max(1, width()))};
-  for (std::size_t i = 0; i < curves_.size(); ++i) {
-    const auto points = store_.points(curves_[i].choice, options);
-    QVector<QCPGraphData> samples;
-    samples.reserve(static_cast<qsizetype>(points.size()));
-    for (const SeriesPoint& point : points) samples.append({point.x, point.y});
-    graph(static_cast<int>(i))->data()->set(samples, true);
-  }
+  const auto fill = [&](const SeriesStore& store, std::size_t first) {
+    for (std::size_t i = 0; i < curves_.size(); ++i) {
+      const auto points = store.points(curves_[i].choice, options);
+      QVector<QCPGraphData> samples;
+      samples.reserve(static_cast<qsizetype>(points.size()));
+      for (const SeriesPoint& point : points) samples.append({point.x, point.y});
+      graph(static_cast<int>(first + i))->data()->set(samples, true);
+    }
+  };
+  fill(store_, 0);
+  if (hasBefore_) fill(before_, curves_.size());
   showGapLabels();
   replot(QCustomPlot::rpQueuedReplot);
 }
@@ -255,6 +287,7 @@ void TimelineChart::setSeen(double from, double to) {
   xAxis->setRange(start, start + span);
   nameTime();
   store_.setSeen(start, start + span);
+  before_.setSeen(start, start + span);
   refill();
 }
 

@@ -33,6 +33,9 @@ class TimelineChart : public QCustomPlot {
   void setCurves(const std::vector<PlottedCurve>& curves);
   const std::vector<PlottedCurve>& curves() const noexcept { return curves_; }
   SeriesStore& store() noexcept { return store_; }
+  // The same recording as it was before filters: its curves stand faintly behind. Null, or a long one: none.
+  void setBefore(const OpenedRecordingPtr& before);
+  SeriesStore& storeBefore() noexcept { return before_; }
   void setTheme(Theme theme);
   // Moves the cursor; a view that is zoomed in turns the page when the cursor leaves it.
   void setPosition(double seconds);
@@ -90,6 +93,8 @@ class TimelineChart : public QCustomPlot {
 
   OpenedRecordingPtr recording_;
   SeriesStore store_;
+  SeriesStore before_;      // of what stands behind
+  bool hasBefore_ = false;  // something does
   std::vector<PlottedCurve> curves_;
   std::map<QString, QCPAxis*> axes_;  // by unit
   std::map<QString, QString> axisNames_;
