@@ -12,10 +12,10 @@ namespace {
 
 constexpr int kDetailRole = Qt::UserRole + 1;
 constexpr int kWarningRole = Qt::UserRole + 2;
-constexpr int kPadding = 8;          // [px] beside a figure
+constexpr int kPadding = 6;          // [px] beside a figure
 constexpr int kAir = 5;              // [px] above and below
 constexpr double kNarrowest = 0.85;  // of a column's width
-constexpr int kLastLeast = 90;       // [px] of the last column
+constexpr int kLastLeast = 64;       // [px] of the last column
 constexpr int kMostRowsSeen = 6;     // the others are scrolled to
 
 class FigureDelegate : public QStyledItemDelegate {
@@ -121,8 +121,7 @@ void FiguresTable::setSingleLine() {
 void FiguresTable::fitColumns() {
   const int room = viewport()->width();
   const int before = std::accumulate(widths_.begin(), widths_.end() - 1, 0);
-  const double scale =
-      std::clamp(static_cast<double>(room - widths_.back()) / before, kNarrowest, 1.0);
+  const double scale = std::clamp(static_cast<double>(room - kLastLeast) / before, kNarrowest, 1.0);
   int used = 0;
   for (int i = 0; i + 1 < columnCount(); ++i) {
     const int width = static_cast<int>(scale * widths_[static_cast<std::size_t>(i)]);

@@ -28,13 +28,13 @@ constexpr int kMostBins = 1000;
 
 std::vector<FigureColumn> columns() {
   return {{"matrix", {}, 15, true},
-          {"slope", "[counts/°C]", 8},
-          {"at 0 °C", "Intercept of the line [counts]", 8},
+          {"slope", "[counts/°C]", 6},
+          {"at 0 °C", "Intercept of the line [counts]", 6},
           {"RMSE", "The study's [counts]; below: that of this very line", 9},
-          {"°C", "Temperatures it was measured at", 11},
-          {"threshold", "Line + 3 RMSE at the warmest [counts]: above it no noise shows", 9},
-          {"frames", "With a temperature; below: those far above the line", 9},
-          {"", {}, 8, true}};
+          {"°C", "Temperatures it was measured at", 9},
+          {"threshold", "Line + 3 RMSE at the warmest [counts]: above it no noise shows", 8},
+          {"frames", "With a temperature; below: those far above the line", 7},
+          {"", {}, 6, true}};
 }
 
 std::vector<FigureCell> rowOf(const NoiseLine& line, const QString& name) {
@@ -43,7 +43,7 @@ std::vector<FigureCell> rowOf(const NoiseLine& line, const QString& name) {
   if (line.valid) {
     row.push_back({.text = figure(line.slope, 3)});
     row.push_back({.text = figure(line.intercept, 2)});
-    row.push_back({.text = figure(line.rmse, 3), .detail = "true " + figure(line.rmseTrue, 3)});
+    row.push_back({.text = figure(line.rmse, 3), .detail = "true " + figure(line.rmseTrue, 2)});
     row.push_back({.text = figure(line.leastDegC, 1) + "–" + figure(line.mostDegC, 1)});
     row.push_back({.text = figure(line.threshold(line.mostDegC), 1)});
   } else {

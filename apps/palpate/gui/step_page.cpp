@@ -23,7 +23,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kMatrixShare = 0.3;  // of the work: which matrix is loaded
-constexpr int kWideFrom = 980;        // [px] table and chart side by side
+constexpr int kWideFrom = 1240;       // [px] table and chart side by side
 constexpr double kLarge = 1000.0;
 
 std::vector<FigureColumn> columns() {
@@ -32,7 +32,7 @@ std::vector<FigureColumn> columns() {
       {"K [counts]",
        "Gain: what the signal reaches without the drift; below: half width of the 95 % interval",
        8},
-      {"m [counts/s]", "Drift afterwards", 9},
+      {"m [counts/s]", "Drift afterwards", 10},
       {"T1 [s]", "The slower time constant", 7},
       {"T2 [s]", "The faster time constant", 7},
       {"d", "Damping, from T1 and T2; below: T", 7},
@@ -312,8 +312,10 @@ void StepPage::paint(QPainter& painter, const PictureLook& look, const QString& 
 
 void StepPage::resizeEvent(QResizeEvent* event) {
   CalibratePage::resizeEvent(event);
-  halves_->setDirection(event->size().width() >= kWideFrom ? QBoxLayout::LeftToRight
-                                                           : QBoxLayout::TopToBottom);
+  const bool wide = event->size().width() >= kWideFrom;
+  halves_->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+  halves_->setStretch(0, wide ? 1 : 2);
+  halves_->setStretch(1, wide ? 1 : 3);
 }
 
 }  // namespace palpate::gui
