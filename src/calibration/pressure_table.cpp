@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "palpate/core/error.h"
@@ -105,6 +107,15 @@ PressureSample unusedSample(const PressureTableRow& row, const std::string& why)
   sample.used = false;
   sample.notes.push_back(why);
   return sample;
+}
+
+std::vector<PressureTableRow> readPressureTable(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::error_code ignored;
+  if (!in || std::filesystem::is_directory(path, ignored)) throw FileError(path, "can't be opened");
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  if (in.bad()) throw FileError(path, "can't be read");
+  return parsePressureTable(text, path);
 }
 
 std::vector<PressureSample> samplesOf(const PressureTableRow& row,

@@ -198,8 +198,8 @@ void saveSidecar(const fs::path& path,
 }  // namespace
 
 bool isNoted(const RecordingEvent& event) {
-  constexpr std::array<std::string_view, 6> kNoted{
-      "label", "mark", "note", "recipe", "segment", "tare"};
+  constexpr std::array<std::string_view, 7> kNoted{
+      "label", "mark", "note", "recipe", "segment", "sensor_settings", "tare"};
   return std::find(kNoted.begin(), kNoted.end(), event.kind) != kNoted.end();
 }
 

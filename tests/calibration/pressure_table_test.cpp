@@ -1,5 +1,7 @@
 #include "palpate/calibration/pressure_table.h"
 
+#include <fstream>
+
 #include "palpate/core/error.h"
 
 #include "testing/testing.h"
@@ -37,6 +39,15 @@ TEST(PressureTable, SaysWhatIsWrongWithARow) {
 TEST(PressureTable, RefusesWhatIsNoTable) {
   for (const char* bad : {"", "\n\n", "file,pressure_kpa\n", "a,b\n1,2\n", "A1.dsa,17.8\n"})
     EXPECT_THROW(parsePressureTable(bad, "t.csv"), FormatError) << bad;
+}
+
+TEST(PressureTable, IsReadFromAFile) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder / "t.csv";
+  std::ofstream(path) << "file,pressure_kpa\nA.dsa,5\n";
+  EXPECT_EQ(readPressureTable(path).at(0).pressureKpa, 5.0);
+  EXPECT_THROW(readPressureTable(folder / "none.csv"), FileError);
+  EXPECT_THROW(readPressureTable(folder / "."), FileError);
 }
 
 TEST(PressureTable, ARowWithoutAStepIsASampleThatIsNotUsed) {

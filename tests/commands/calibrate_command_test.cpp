@@ -9,6 +9,7 @@
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/model/profile_builder.h"
+#include "palpate/recording/event_store.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/palpate_program.h"
@@ -181,6 +182,34 @@ TEST(CalibrateCommand, PressureIsMadeAndApplied) {
       palpate({"calibrate", "apply", folder / "kpa.palpate", "--calibration", folder / "c.json"}),
       1,
       {"not counts"});
+}
+
+TEST(CalibrateCommand, SettingsThatTheRecordingNotesAreTaken) {
+  const TemporaryFolder folder;
+  writeTable(folder);
+  ASSERT_EQ(
+      palpate({"calibrate", "pressure", folder / "table.csv", "-o", folder / "c.json"}).exitCode,
+      0);
+  const std::vector<std::string> apply = {
+      "calibrate", "apply", folder / "step4.dsa", "--calibration", folder / "c.json"};
+  const auto note = [&](const std::string& json) {
+    const EventsReport before = readEvents(folder / "step4.dsa");
+    RecordingEvent event;
+    event.tUs = event.t1Us = 1'000'000;
+    event.kind = "sensor_settings";
+    event.json = json;
+    saveEvents(folder / "step4.dsa", before, std::vector{event});
+  };
+  note(R"({"sensitivity":0.5,"threshold_counts":100})");
+  const auto noted = palpate(apply);
+  ASSERT_EQ(noted.exitCode, 0) << noted.err;
+  EXPECT_NE(noted.err.find("sensitivity 0.5"), std::string::npos) << noted.err;
+  auto told = apply;
+  told.insert(told.end(), {"--sensor-sensitivity", "1"});
+  EXPECT_EQ(palpate(told).err.find("sensitivity 0.5"), std::string::npos) << "goes before it";
+  note(R"({"sensitivity":7})");
+  expectOneLineError(palpate(apply), 1, {"sensor_settings"});
+  EXPECT_EQ(palpate(told).exitCode, 0);
 }
 
 TEST(CalibrateCommand, PressureSaysWhichRowsAreLeftOut) {

@@ -120,7 +120,15 @@ TEST_F(WindowLayoutTest, DocksCloseByTheirButton) {
   window().showDock("Inspect");
   EXPECT_TRUE(dock("Inspect")->isVisible());
   EXPECT_EQ(window().dockNames(),
-            (QStringList{"Inspect", "Timeline", "Hand", "Link", "Spectrum", "Library", "Log"}));
+            (QStringList{"Inspect",
+                         "Timeline",
+                         "Hand",
+                         "Link",
+                         "Filter",
+                         "Spectrum",
+                         "Calibrate",
+                         "Library",
+                         "Log"}));
 }
 
 }  // namespace

@@ -1,13 +1,11 @@
 // palpate calibrate pressure TABLE.csv -o P.json: pressure from gain and temperature.
-#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <optional>
-#include <utility>
 
 #include "palpate/calibration/calibration.h"
-#include "palpate/calibration/pressure_table.h"
+#include "palpate/calibration/pressure_gathering.h"
 #include "palpate/core/error.h"
 #include "palpate/core/hash.h"
 #include "palpate/core/one_line.h"
@@ -25,52 +23,6 @@ std::string textOf(const fs::path& path) {
   std::error_code ignored;
   if (!in || fs::is_directory(path, ignored)) throw FileError(path, "can't be opened");
   return {(std::istreambuf_iterator<char>(in)), {}};
-}
-
-// The matrix with the largest sum over the recording: the one that was loaded.
-std::size_t loadedMatrix(const Profile& profile) {
-  std::vector<double> sums(profile.layout().numMatrices());
-  TactileFrame frame;
-  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    profile.readFrame(i, frame);
-    for (std::size_t m = 0; m < sums.size(); ++m)
-      sums[m] += static_cast<double>(std::as_const(frame).matrix(m).sum());
-  }
-  return static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
-}
-
-struct Gathered {
-  std::vector<PressureSample> samples;
-  std::vector<StepReport> reports;
-  std::optional<std::size_t> matrix;
-  std::string hand;
-};
-
-// The steps of one row's recording; what is wrong with it becomes an unused sample.
-void gather(const fs::path& folder,
-            const PressureTableRow& row,
-            const StepReportOptions& options,
-            const Progress& progress,
-            Gathered& all) {
-  if (!row.trouble.empty()) {
-    all.samples.push_back(
-        unusedSample(row, "line " + std::to_string(row.line) + ": " + row.trouble));
-    return;
-  }
-  const fs::path file = row.file.is_absolute() ? row.file : folder / row.file;
-  try {
-    const Profile profile = openRecording(file, progress);
-    if (!all.matrix) all.matrix = loadedMatrix(profile);
-    requireMatrix(file, profile.layout().numMatrices(), *all.matrix);
-    if (all.hand.empty()) all.hand = profile.hand().name;
-    all.reports.push_back(reportSteps(profile, *all.matrix, options));
-    for (PressureSample& sample : samplesOf(row, all.reports.back(), sha256OfFile(file)))
-      all.samples.push_back(std::move(sample));
-  } catch (const Cancelled&) {
-    throw;
-  } catch (const Error& error) {
-    all.samples.push_back(unusedSample(row, error.what()));
-  }
 }
 
 }  // namespace
@@ -112,30 +64,29 @@ int calibratePressure(const Words& words) {
   PressureModelOptions model;
   model.study = given.choice("choices", {"default", "study"}) == "study";
   model.stampAreaMm2 = given.number("area", 0.0, 1e6).value_or(0.0);
-  Calibration calibration;
+  std::optional<NoiseFloor> noise;
+  if (const auto path = given.text("noise")) noise = noiseFloorFrom(Json::parse(textOf(*path)));
+  GatherOptions gather;
+  gather.steps = options;
+  if (given.has("matrix")) gather.matrix = matrixGiven(given);
+  const std::vector<PressureTableRow> rows = readPressureTable(table);
+  GatheredSteps all;
+  {
+    ProgressLine line("reading", given.quiet());
+    const auto open = [&](const fs::path& file, const Progress& progress) {
+      line.setLabel("reading " + file.string());
+      return GatheredSource{openRecording(file, progress), sha256OfFile(file)};
+    };
+    all = gatherSteps(rows, table.parent_path(), open, gather, line.callback());
+  }
+  Calibration calibration = calibrationOf(all, model);
   calibration.settings = {given.number("sensitivity", 0.01, 1.0).value_or(1.0),
                           given.number("threshold", 0.0, 4095.0).value_or(100.0),
                           true};
   calibration.sensitivityOffset = given.number("sensitivity-offset", -4095.0, 4095.0);
-  if (const auto noise = given.text("noise"))
-    calibration.noise = noiseFloorFrom(Json::parse(textOf(*noise)));
-  Gathered all;
-  if (given.has("matrix")) all.matrix = matrixGiven(given);
-  const std::vector<PressureTableRow> rows = parsePressureTable(textOf(table), table);
-  {
-    ProgressLine progress("reading", given.quiet());
-    for (const PressureTableRow& row : rows) {
-      progress.setLabel("reading " + row.file.string());
-      gather(table.parent_path(), row, options, progress.callback(), all);
-    }
-  }
+  calibration.noise = noise;
   calibration.programVersion = PALPATE_VERSION;
   calibration.madeAt = nowText();
-  calibration.hand = all.hand;
-  calibration.matrix = all.matrix.value_or(0);
-  calibration.pressure = fitPressureModel(all.samples, model);
-  calibration.pressure.steadyS = medianSteadyS(all.reports);
-  calibration.samples = all.samples;
   calibration.options = Json::object()
                             .set("table", table.string())
                             .set("table_sha256", sha256OfFile(table))

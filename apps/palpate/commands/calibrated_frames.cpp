@@ -1,5 +1,6 @@
 #include "commands/calibrated_frames.h"
 
+#include "palpate/calibration/force_series.h"
 #include "palpate/core/error.h"
 #include "palpate/recording/recording.h"
 
@@ -20,17 +21,34 @@ std::optional<Tare> tareIn(const std::filesystem::path& file, const SensorLayout
   return tare;
 }
 
+// With what the window noted of the recording's sensor, where the command line says nothing.
+PressureMapOptions withNoted(PressureMapOptions options, const std::filesystem::path& file) {
+  if (!options.settings.empty()) return options;
+  std::optional<SensorSettings> noted;  // that was said last
+  for (const RecordingEvent& event : readEvents(file).events)
+    if (event.kind == "sensor_settings") try {
+        noted = sensorSettingsFrom(Json::parse(event.json));
+      } catch (const Error& error) {
+        throw FileError(file,
+                        std::string("its sensor_settings event can't be used (") + error.what() +
+                            "); --sensor-sensitivity and --sensor-threshold go before it");
+      }
+  if (noted) options.settings.push_back(*noted);
+  return options;
+}
+
 }  // namespace
 
 std::vector<OptionSpec> calibrationOptions() {
-  return {
-      {"calibration", "C.json", "what `palpate calibrate pressure` wrote"},
-      {"sensor-sensitivity", "S", "the recording was made with, default that of the calibration"},
-      {"sensor-threshold",
-       "N",
-       "the recording was made with [counts], default that of the calibration"},
-      {"no-tare", "", "don't take off the zeros that `calibrate tare --apply` noted"},
-      {"no-drift", "", "don't take the creep out of contacts that last"}};
+  return {{"calibration", "C.json", "what `palpate calibrate pressure` wrote"},
+          {"sensor-sensitivity",
+           "S",
+           "the recording was made with, default as noted in it, or that of the calibration"},
+          {"sensor-threshold",
+           "N",
+           "the recording was made with [counts], default that of the calibration"},
+          {"no-tare", "", "don't take off the zeros that `calibrate tare --apply` noted"},
+          {"no-drift", "", "don't take the creep out of contacts that last"}};
 }
 
 std::vector<OptionSpec> withCalibration(std::vector<OptionSpec> options) {
@@ -65,7 +83,7 @@ std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given) {
 CalibratedFrames::CalibratedFrames(const CalibrationChoice& choice,
                                    const std::filesystem::path& file,
                                    const Profile& profile)
-    : profile_(profile), map_(choice.calibration, profile.hand(), choice.options) {
+    : profile_(profile), map_(choice.calibration, profile.hand(), withNoted(choice.options, file)) {
   if (profile.info().valueType != ValueType::kCounts)
     throw FileError(file, "holds filtered values, not counts: a calibration doesn't apply to them");
   if (choice.tare) tare_ = tareIn(file, profile.layout());

@@ -85,7 +85,10 @@ int workbenchCommand(const Words& words) {
                    {"size", "WxH", "with --screenshot: size in pixels, default 1600x1000"},
                    {"frame", "N", "with --screenshot: default the frame of largest sum"},
                    {"after", "S", "with --screenshot: let the source play for S seconds first"},
-                   {"dock", "NAME", "with --screenshot: show this dock; may be repeated"},
+                   {"dock",
+                    "NAME",
+                    "with --screenshot: show this dock ('Calibrate/Noise': a page of it); may be "
+                    "repeated"},
                    {"theme", "dark|light", "with --screenshot: default dark"},
                    {"gl", "", "draw the hand in space with OpenGL, even by the processor"},
                    {"no-gl", "", "draw the hand in space without OpenGL"},

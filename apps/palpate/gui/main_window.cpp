@@ -18,6 +18,7 @@
 #include "gui/library_panel.h"
 #include "gui/link_panel.h"
 #include "gui/live_chart.h"
+#include "gui/main_window_calibrate.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
 #include "gui/offer_strip.h"
@@ -77,6 +78,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   connectHandView();
   connectFilter(surroundings.recipe);
   connectSpectrum();
+  calibrate_->connectAll();
 
   askForRecordings = [this] {
     return QFileDialog::getOpenFileNames(this,
@@ -103,6 +105,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
 MainWindow::~MainWindow() {
   hand_->setHand(nullptr, nullptr);
   liveChart_->setHistory(nullptr, 0);
+  calibrate_->leave();
   delete libraryDock_;  // they hold on to settings and log, which go before other children
   delete logDock_;
 }
@@ -189,6 +192,7 @@ void MainWindow::buildDocks() {
   docks_ = {inspectDock_, timelineDock_, handDock_, linkDock_};
   buildFilter();
   buildSpectrum();
+  calibrate_ = new CalibrateView(*this);
   buildLibrary();
   setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
   setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);

@@ -360,9 +360,7 @@ class MainWindow : public QMainWindow {
   QStackedWidget* centre_ = nullptr;  // matrices, or the comparison
   ComparePanel* compare_ = nullptr;
   MessageBanner* banner_ = nullptr;
-  OpeningStrip* opening_ = nullptr;
-  OpeningStrip* exporting_ = nullptr;
-  OpeningStrip* working_ = nullptr;
+  OpeningStrip *opening_ = nullptr, *exporting_ = nullptr, *working_ = nullptr;
   StartPage* startPage_ = nullptr;
   MatricesPanel* matrices_ = nullptr;
   HandPanel* handPanel_ = nullptr;
@@ -389,6 +387,8 @@ class MainWindow : public QMainWindow {
   Dock* libraryDock_ = nullptr;
   SpectrumPanel* spectrum_ = nullptr;
   Dock* spectrumDock_ = nullptr;
+  class CalibrateView;  // main_window_calibrate.h
+  CalibrateView* calibrate_ = nullptr;
   LogPanel* log_ = nullptr;
   Dock* logDock_ = nullptr;
   MessageBanner* alarmStrip_ = nullptr;

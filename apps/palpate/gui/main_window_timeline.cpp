@@ -9,7 +9,7 @@
 
 #include "gui/captions.h"
 #include "gui/inspect_panel.h"
-#include "gui/main_window.h"
+#include "gui/main_window_calibrate.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
 #include "gui/opening_strip.h"
@@ -129,6 +129,7 @@ void MainWindow::showCurves() {
   timelineHeader_->setCurves(curves, resolved(view_.theme));
   timelineHeader_->setPlain(liveShown_);
   showSpectrum();
+  calibrate_->show();
   if (liveShown_) return;
   timeline_->setCurves(curves);
   showReading();

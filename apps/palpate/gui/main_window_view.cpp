@@ -20,7 +20,7 @@
 #include "gui/link_panel.h"
 #include "gui/live_chart.h"
 #include "gui/log_panel.h"
-#include "gui/main_window.h"
+#include "gui/main_window_calibrate.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
 #include "gui/offer_strip.h"
@@ -246,6 +246,7 @@ void MainWindow::placeDocks(Place place) {
     dock->setVisible(live || (dock != handDock_ && dock != linkDock_ && dock != filterDock_));
   }
   placeSpectrum();
+  calibrate_->place();
   inspectDock_->raise();
 }
 
@@ -302,7 +303,7 @@ void MainWindow::dismiss() {
   if (opener_.busy()) return opener_.cancel();
   if (takeAway_->busy()) return takeAway_->cancel();
   if (job_.busy()) return job_.cancel();
-  if (spectrum_->cancel()) return;
+  if (spectrum_->cancel() || calibrate_->cancel()) return;
   if (live_.state() == LiveController::State::kConnecting) return live_.end();
   if (!matrices_->view().selection().empty()) return matrices_->view().clearSelection();
   if (timeline_->selection() && !liveShown_) return timeline_->setSelection(std::nullopt);
@@ -341,6 +342,7 @@ void MainWindow::showDock(const QString& name) {
     dock->show();
     dock->raise();
     if (dock == spectrumDock_) makeRoomForSpectrum();
+    calibrate_->makeRoomFor(dock);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <palpate/core/output_file.h>
 
 #include "gui/application.h"
+#include "gui/calibrate_panel.h"
 #include "gui/compare_panel.h"
 #include "gui/gl_probe.h"
 #include "gui/hand_panel.h"
@@ -97,13 +98,28 @@ ThemeChoice themeOf(const ScreenshotOptions& options) {
   return choice;
 }
 
+CalibratePanel& calibration(const MainWindow& window) {
+  return *window.findChild<CalibratePanel*>("CalibratePanel");
+}
+
+void showPage(const MainWindow& window, const QString& page) {
+  CalibratePanel& panel = calibration(window);
+  if (page.isEmpty()) return;
+  if (!panel.pageNames().contains(page))
+    throw Error("no page '" + page.toStdString() + "' of Calibrate: there are " +
+                panel.pageNames().join(", ").toStdString());
+  panel.showPage(page);
+}
+
 void showDocks(MainWindow& window, const ScreenshotOptions& options) {
   for (const std::string& dock : options.docks) {
-    const QString name = QString::fromStdString(dock);
+    const QString name = QString::fromStdString(dock).section('/', 0, 0);
     if (!window.dockNames().contains(name))
       throw Error("no dock '" + dock + "': there are " +
                   window.dockNames().join(", ").toStdString());
     if (window.current() || window.liveShown()) window.showDock(name);
+    // "Calibrate/Noise": one of its pages.
+    if (name == "Calibrate") showPage(window, QString::fromStdString(dock).section('/', 1));
   }
 }
 
@@ -141,6 +157,7 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   window.timelinePanel().chart().store().waitForFirstLook();
   window.timelinePanel().chart().storeBefore().waitForFirstLook();
   window.spectrum().settle();
+  calibration(window).settle();
   // Layout requests and queued replots come one after the other.
   constexpr int kRounds = 5;
   for (int i = 0; i < kRounds; ++i) QCoreApplication::processEvents();

@@ -27,6 +27,9 @@ struct PressureTableRow {
 std::vector<PressureTableRow> parsePressureTable(std::string_view csv,
                                                  const std::filesystem::path& name);
 
+// Of a file. Throws FileError, FormatError.
+std::vector<PressureTableRow> readPressureTable(const std::filesystem::path& path);
+
 // A sample per step of the row's recording (one at least: without a step it isn't used, and says why).
 std::vector<PressureSample> samplesOf(const PressureTableRow& row,
                                       const StepReport& report,

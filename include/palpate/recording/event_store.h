@@ -16,7 +16,8 @@ namespace palpate {
 
 // Whether a person may add, change and remove an event: kinds "label" and "mark" (as the recorder writes
 // them), "note", "recipe" (filters to look through, JSON: filter/recipe.h), "segment" (a grasp or another part,
-// as a person sees it), and "tare" (zeros to be taken off: calibration/tare.h).
+// as a person sees it), "sensor_settings" (what a person says that the sensor was set to: calibration/force_series.h),
+// and "tare" (zeros to be taken off: calibration/tare.h).
 bool isNoted(const RecordingEvent& event);
 
 struct SaveEventsOptions {

@@ -1,0 +1,63 @@
+// The content of the dock Calibrate: one page at a time of what leads from counts to kilopascals and newtons.
+#pragma once
+
+#include <QSettings>
+#include <QWidget>
+#include <optional>
+
+#include "gui/calibrate_page.h"
+
+class QButtonGroup;
+class QStackedWidget;
+
+namespace palpate::gui {
+
+class ForcePage;
+class NoisePage;
+class PressurePage;
+class StepPage;
+class TarePage;
+
+class CalibratePanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit CalibratePanel(QSettings& settings, QWidget* parent = nullptr);
+  // The chooser of pages, for the dock's title row.
+  QWidget& header() noexcept { return *header_; }
+
+  void setSource(const OpenedRecordingPtr& recording, bool live);
+  void setTheme(Theme theme);
+  void setPosition(double seconds);
+  bool cancel();
+  void settle();
+
+  StepPage& steps() noexcept { return *steps_; }
+  PressurePage& pressure() noexcept { return *pressure_; }
+  NoisePage& noise() noexcept { return *noise_; }
+  TarePage& tare() noexcept { return *tare_; }
+  ForcePage& force() noexcept { return *force_; }
+  QStringList pageNames() const;
+  void showPage(const QString& name);  // one of pageNames(); another is ignored
+  CalibratePage& page() const;         // that is seen
+  QString pageName() const;            // its name
+  QSize sizeHint() const override { return {640, 560}; }
+
+ signals:
+  void said(const QString& text);
+
+ private:
+  void add(CalibratePage* page, const QString& name, const QString& tip);
+
+  QSettings& settings_;
+  std::optional<Theme> theme_;
+  QWidget* header_;
+  QButtonGroup* chooser_;
+  QStackedWidget* pages_;
+  StepPage* steps_;
+  PressurePage* pressure_;
+  NoisePage* noise_;
+  TarePage* tare_;
+  ForcePage* force_;
+};
+
+}  // namespace palpate::gui

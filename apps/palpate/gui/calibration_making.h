@@ -1,0 +1,27 @@
+// A calibration as the dock Calibrate has it: made from a table of recordings, or read from a file.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include <palpate/calibration/pressure_gathering.h>
+
+namespace palpate::gui {
+
+struct ShownCalibration {
+  std::filesystem::path source;  // the table, or the file it was read from
+  Calibration calibration;
+  std::shared_ptr<const GatheredSteps> gathered = {};  // null: read from a file
+};
+using ShownCalibrationPtr = std::shared_ptr<const ShownCalibration>;
+
+// Reads the table's recordings, unless `known` has their steps. Throws Error (one line: what is missing), Cancelled.
+ShownCalibrationPtr calibrationFromTable(const std::filesystem::path& table,
+                                         const PressureModelOptions& options,
+                                         const SensorSettings& settings,
+                                         std::shared_ptr<const GatheredSteps> known,
+                                         const Progress& progress);
+// Throws Error.
+ShownCalibrationPtr calibrationFromFile(const std::filesystem::path& path);
+
+}  // namespace palpate::gui

@@ -1,0 +1,86 @@
+// The page Force of the dock Calibrate: pressures and forces of the recording by the calibration that is applied to this
+// hand; of the frame that is shown in figures, over time as a chart. Without a calibration there are none.
+#pragma once
+
+#include <QSettings>
+#include <memory>
+#include <optional>
+
+#include <palpate/calibration/force_series.h>
+
+#include "gui/calibrate_page.h"
+
+class QDoubleSpinBox;
+class QLabel;
+class QPushButton;
+
+namespace palpate::gui {
+
+class FiguresTable;
+class ForceChart;
+
+// What the recording's events say of its sensor; of the event that was noted last.
+struct KeptWithRecording {
+  std::optional<SensorSettings> settings = {};
+  std::optional<Tare> tare = {};
+  QString trouble = {};  // an event that can't be used: why
+};
+
+// The calibration that is applied to a hand: a file, remembered by the hand's name.
+QString appliedCalibration(const QSettings& settings, const std::string& hand);
+void applyCalibration(QSettings& settings, const std::string& hand, const QString& path);
+
+class ForcePage : public CalibratePage {
+  Q_OBJECT
+ public:
+  explicit ForcePage(QSettings& settings, QWidget* parent = nullptr);
+  void setTheme(Theme theme) override;
+  void setPosition(double seconds) override;
+  std::vector<ExportedTable> tables() const override;
+  void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
+
+  void setKept(const KeptWithRecording& kept);
+  // Another calibration is applied now.
+  void calibrationChanged();
+  // Null: none was computed.
+  const std::shared_ptr<const ForceSeries>& found() const noexcept { return found_; }
+
+  // How a calibration is asked for; empty: cancelled. Tests answer themselves.
+  std::function<QString()> askForCalibration;
+
+ signals:
+  void keepAsked(double sensitivity, double thresholdCounts);  // with the recording
+  void sought(double seconds);
+
+ protected:
+  QString whyNot() const override;
+  void compute() override;
+  void forget() override;
+
+ private:
+  void makeTop();
+  void take(const std::shared_ptr<const ForceSeries>& found, const SensorSettings& own);
+  void showFrame();
+  void showChosen(int row);
+  void showCalibration();
+  void chooseCalibration();
+  std::string handName() const;
+  QString rowName(std::size_t row) const;
+
+  QSettings& settings_;
+  KeptWithRecording kept_;
+  std::optional<SensorSettings> said_;  // typed, not kept yet
+  double positionS_ = 0.0;
+  std::shared_ptr<const ForceSeries> found_;
+  QLabel* name_ = nullptr;
+  QPushButton* choose_ = nullptr;
+  QPushButton* drop_ = nullptr;
+  QPushButton* keep_ = nullptr;
+  QDoubleSpinBox* sensitivity_ = nullptr;
+  QDoubleSpinBox* threshold_ = nullptr;
+  ForceChart* chart_;
+  FiguresTable* table_;
+  QLabel* notes_;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,61 @@
+// A whole recording through a calibration: pressure and force of every matrix in every frame. A tare that is kept with
+// the recording is taken off first, and creep of contacts that last taken out, as pressure_map.h does.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <palpate/calibration/pressure_map.h>
+#include <palpate/calibration/tare.h>
+#include <palpate/core/json.h>
+#include <palpate/core/progress.h>
+#include <palpate/model/profile.h>
+
+namespace palpate {
+
+// MatrixPressure, small: hours are kept of it.
+struct MatrixForce {
+  float gainCounts = 0.0F;
+  float kpa = 0.0F, sdKpa = 0.0F;
+  float forceN = 0.0F, sdForceN = 0.0F;
+  std::uint16_t active = 0;  // taxels above 0
+  bool inRange = true;
+  bool temperatureKnown = true;
+  bool saturated = false;
+  bool compensated = false;
+};
+
+struct ForceSeries {
+  std::size_t numMatrices = 0;
+  std::vector<double> timeS;      // from the first frame [s]
+  std::vector<MatrixForce> rows;  // frame after frame, matrix after matrix
+  std::size_t contacts = 0;       // rows with an active taxel
+  std::size_t beyond = 0;         // of these: not within what was measured
+  std::vector<std::string> assumptions;
+
+  const MatrixForce& at(std::size_t frame, std::size_t matrix) const {
+    return rows.at(frame * numMatrices + matrix);
+  }
+  // Of the whole hand [N]: sum over the matrices; standard deviations add up (one calibration).
+  double forceN(std::size_t frame) const;
+  double sdForceN(std::size_t frame) const;
+  std::size_t frameAt(double seconds) const;  // the last one at or before; 0 where there is none
+};
+
+// Throws Error (filtered values, not counts), std::invalid_argument (calibration without P(K, T), settings or tare of
+// another hand), Cancelled.
+ForceSeries forceSeries(const Profile& profile,
+                        const Calibration& calibration,
+                        const PressureMapOptions& options = {},
+                        const std::optional<Tare>& tare = std::nullopt,
+                        const Progress& progress = {});
+
+// What a person said that a recording was made with, as its event of kind "sensor_settings" keeps it; and back. Throws
+// Error: not such JSON.
+Json jsonOf(const SensorSettings& settings);
+SensorSettings sensorSettingsFrom(const Json& json);
+
+}  // namespace palpate

@@ -1,0 +1,111 @@
+#include "palpate/calibration/force_series.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kToldEvery = 1024;  // frames
+constexpr double kUsPerS = 1e6;
+constexpr double kFullScaleCounts = 4095.0;
+
+MatrixForce small(const MatrixPressure& of) {
+  constexpr int kMost = std::numeric_limits<std::uint16_t>::max();
+  return {.gainCounts = static_cast<float>(of.gainCounts),
+          .kpa = static_cast<float>(of.kpa),
+          .sdKpa = static_cast<float>(of.sdKpa),
+          .forceN = static_cast<float>(of.forceN),
+          .sdForceN = static_cast<float>(of.sdForceN),
+          .active = static_cast<std::uint16_t>(std::clamp(of.active, 0, kMost)),
+          .inRange = of.inRange,
+          .temperatureKnown = of.temperatureKnown,
+          .saturated = of.saturated,
+          .compensated = of.compensated};
+}
+
+}  // namespace
+
+double ForceSeries::forceN(std::size_t frame) const {
+  double sum = 0.0;
+  for (std::size_t m = 0; m < numMatrices; ++m) sum += static_cast<double>(at(frame, m).forceN);
+  return sum;
+}
+
+double ForceSeries::sdForceN(std::size_t frame) const {
+  double sum = 0.0;
+  for (std::size_t m = 0; m < numMatrices; ++m) sum += static_cast<double>(at(frame, m).sdForceN);
+  return sum;
+}
+
+std::size_t ForceSeries::frameAt(double seconds) const {
+  const auto after = std::upper_bound(timeS.begin(), timeS.end(), seconds);
+  return after == timeS.begin() ? 0 : static_cast<std::size_t>(after - timeS.begin()) - 1;
+}
+
+ForceSeries forceSeries(const Profile& profile,
+                        const Calibration& calibration,
+                        const PressureMapOptions& options,
+                        const std::optional<Tare>& tare,
+                        const Progress& progress) {
+  if (profile.info().valueType != ValueType::kCounts)
+    throw Error(
+        "the recording holds filtered values, not counts: a calibration doesn't apply to them");
+  PressureMap map(calibration, profile.hand(), options);
+  ForceSeries series;
+  series.numMatrices = profile.layout().numMatrices();
+  series.assumptions = map.assumptions();
+  if (tare)
+    series.assumptions.emplace_back("the zeros of the recording's tare event are taken off");
+  if (profile.numTemperatures() == 0)
+    series.assumptions.push_back(
+        "no temperatures were recorded: " +
+        std::to_string(static_cast<int>(calibration.pressure.options.assumedDegC)) +
+        " deg C assumed, and the band is wider");
+  const std::size_t numFrames = profile.numFrames();
+  series.timeS.reserve(numFrames);
+  series.rows.reserve(numFrames * series.numMatrices);
+  TactileFrame frame;
+  PressureFrame pressures;
+  std::optional<std::size_t> sample;
+  std::vector<double> degC;
+  for (std::size_t i = 0; i < numFrames; ++i) {
+    if (progress && i % kToldEvery == 0 &&
+        !progress(static_cast<double>(i) / static_cast<double>(numFrames)))
+      throw Cancelled();
+    profile.readFrame(i, frame);
+    const auto belongs = profile.temperatureSampleAt(frame.hostUs);
+    if (belongs && belongs != sample) degC = profile.temperatures(*belongs).degC;
+    sample = belongs;
+    if (tare) applyTare(*tare, frame.values);
+    map.apply(frame, degC, pressures);
+    series.timeS.push_back(static_cast<double>(frame.hostUs - profile.frameTimeUs(0)) / kUsPerS);
+    for (const MatrixPressure& matrix : pressures.matrices) {
+      series.rows.push_back(small(matrix));
+      if (matrix.active == 0) continue;
+      ++series.contacts;
+      series.beyond += matrix.inRange ? 0 : 1;
+    }
+  }
+  return series;
+}
+
+Json jsonOf(const SensorSettings& settings) {
+  return Json::object()
+      .set("sensitivity", settings.sensitivity)
+      .set("threshold_counts", settings.thresholdCounts);
+}
+
+SensorSettings sensorSettingsFrom(const Json& json) {
+  const Json sensitivity = json.at("sensitivity"), threshold = json.at("threshold_counts");
+  if (!sensitivity.isNumber() || !(sensitivity.asDouble() > 0.0) || sensitivity.asDouble() > 1.0)
+    throw Error("sensor settings: 'sensitivity' isn't in (0..1]");
+  if (!threshold.isNumber() || !(threshold.asDouble() >= 0.0) ||
+      threshold.asDouble() > kFullScaleCounts)
+    throw Error("sensor settings: 'threshold_counts' isn't in 0..4095");
+  return {sensitivity.asDouble(), threshold.asDouble(), true};
+}
+
+}  // namespace palpate

@@ -1,0 +1,122 @@
+#include "palpate/calibration/force_series.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "palpate/core/error.h"
+#include "palpate/model/profile_builder.h"
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+// P = .1 K [kPa], whatever the temperature.
+Calibration tenth() {
+  Calibration calibration;
+  int i = 0;
+  for (const double t : {28.0, 36.0, 44.0})
+    for (double k = 50.0; k <= 850.0; k += 100.0)
+      calibration.samples.push_back({.file = "a",
+                                     .sha256 = "",
+                                     .pressureKpa = 0.1 * k + (i++ % 2 == 0 ? 0.01 : -0.01),
+                                     .gainCounts = k,
+                                     .driftPerS = 0.0,
+                                     .nearestDegC = t,
+                                     .activeAreaMm2 = 100.0});
+  calibration.pressure = fitPressureModel(calibration.samples, {});
+  return calibration;
+}
+
+// Whole rows of matrix 2 read `counts` in every second frame, 50 ms apart; temperatures where told.
+Profile recorded(float counts, bool temperatures) {
+  const HandDescription& hand = sdh2();
+  ProfileBuilder builder(hand.layout);
+  for (int i = 0; i < 10; ++i) {
+    TactileFrame frame(hand.layout);
+    if (i % 2 == 1) frame.matrix(2).setConstant(counts);
+    builder.addFrame(1'000'000 + i * 50'000, frame.values);
+  }
+  if (temperatures)
+    builder.addTemperatures(1'000'000, std::vector<double>(hand.temperatureSensors.size(), 36.0));
+  return builder.finish({});
+}
+
+TEST(ForceSeries, IsPressureTimesActiveArea) {
+  const ForceSeries series = forceSeries(recorded(400.0F, true), tenth());
+  ASSERT_EQ(series.timeS.size(), 10u);
+  EXPECT_EQ(series.numMatrices, 6u);
+  EXPECT_DOUBLE_EQ(series.timeS[3], 0.15);
+  const MatrixForce& contact = series.at(3, 2);
+  // K is the mean of the filtered matrix over what it is active on: less than 400 at the borders.
+  EXPECT_NEAR(contact.kpa, 0.1F * contact.gainCounts, 0.2F);
+  const double areaMm2 = contact.active * 11.56;
+  EXPECT_NEAR(contact.forceN, static_cast<double>(contact.kpa) * 1e-3 * areaMm2, 0.02);
+  EXPECT_EQ(series.at(2, 2).forceN, 0.0F);
+  EXPECT_EQ(series.at(3, 1).forceN, 0.0F);
+  EXPECT_DOUBLE_EQ(series.forceN(3), static_cast<double>(contact.forceN));
+  EXPECT_DOUBLE_EQ(series.sdForceN(3), static_cast<double>(contact.sdForceN));
+  EXPECT_TRUE(contact.inRange);
+  EXPECT_TRUE(contact.temperatureKnown);
+  EXPECT_EQ(series.contacts, 5u);
+  EXPECT_EQ(series.beyond, 0u);
+}
+
+TEST(ForceSeries, TellsTheFrameOfATime) {
+  const ForceSeries series = forceSeries(recorded(400.0F, true), tenth());
+  EXPECT_EQ(series.frameAt(-1.0), 0u);
+  EXPECT_EQ(series.frameAt(0.0), 0u);
+  EXPECT_EQ(series.frameAt(0.149), 2u);
+  EXPECT_EQ(series.frameAt(0.151), 3u);
+  EXPECT_EQ(series.frameAt(99.0), 9u);
+  EXPECT_EQ(ForceSeries{}.frameAt(1.0), 0u);
+}
+
+TEST(ForceSeries, SaysWhatIsAssumedAndBeyond) {
+  const ForceSeries series = forceSeries(recorded(2000.0F, false), tenth());
+  EXPECT_EQ(series.beyond, 5u) << "K was measured up to 850 counts";
+  EXPECT_FALSE(series.at(1, 2).inRange);
+  EXPECT_FALSE(series.at(1, 2).temperatureKnown);
+  const auto says = [&](const std::string& word) {
+    return std::any_of(series.assumptions.begin(), series.assumptions.end(), [&](const auto& s) {
+      return s.find(word) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(says("no temperatures"));
+  EXPECT_TRUE(says("settings of the calibration"));
+  EXPECT_FALSE(says("tare"));
+}
+
+TEST(ForceSeries, TakesTheTareOff) {
+  const Profile profile = recorded(400.0F, true);
+  Tare tare;
+  tare.zero.assign(profile.layout().numPlaces(), 400.0F);
+  tare.matrices.resize(6);
+  const ForceSeries series = forceSeries(profile, tenth(), {}, tare);
+  EXPECT_EQ(series.contacts, 0u);
+  EXPECT_EQ(series.at(3, 2).forceN, 0.0F);
+}
+
+TEST(ForceSeries, RefusesWhatIsNoCounts) {
+  EXPECT_THROW(forceSeries(recorded(1.5F, true), tenth()), Error);
+  EXPECT_THROW(forceSeries(recorded(1.0F, true), Calibration{}), std::invalid_argument);
+  EXPECT_THROW(
+      forceSeries(recorded(1.0F, true), tenth(), {}, std::nullopt, [](double) { return false; }),
+      Cancelled);
+}
+
+TEST(ForceSeries, SettingsGoThereAndBack) {
+  const SensorSettings said{0.25, 150.0, true};
+  EXPECT_EQ(sensorSettingsFrom(Json::parse(jsonOf(said).text())), said);
+  for (const char* bad : {"{}",
+                          "[]",
+                          R"({"sensitivity":0,"threshold_counts":5})",
+                          R"({"sensitivity":2,"threshold_counts":5})",
+                          R"({"sensitivity":"1","threshold_counts":5})",
+                          R"({"sensitivity":1,"threshold_counts":-5})",
+                          R"({"sensitivity":1,"threshold_counts":5000})"})
+    EXPECT_THROW(sensorSettingsFrom(Json::parse(bad)), Error) << bad;
+}
+
+}  // namespace
+}  // namespace palpate
