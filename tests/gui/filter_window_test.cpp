@@ -181,5 +181,37 @@ TEST_F(FilterWindowTest, ALiveHandIsSeenThroughTheSameChain) {
   EXPECT_TRUE(QTest::qWaitFor([&] { return !window().liveShown(); }, 20'000));
 }
 
+TEST_F(FilterWindowTest, ARecordingMadeThroughFiltersHoldsWhatCameAndTheRecipe) {
+  setRecipe("median:size=5");
+  window().filter().setOn(true);
+  window().askForRecording = [this](RecordingSettings settings, const QString&) {
+    settings.folder = QString::fromStdString((folder_ / "runs").string());
+    settings.nameTemplate = "run";
+    return std::optional(settings);
+  };
+  Connection connection;
+  connection.kind = Connection::Kind::kReplay;
+  connection.recording = QString::fromStdString(path_);
+  window().connectTo(connection);
+  const auto await = [](const auto& condition) { return QTest::qWaitFor(condition, 20'000); };
+  ASSERT_TRUE(await([&] { return window().liveShown() && !window().live().stale(); }));
+  actions().record->trigger();
+  ASSERT_TRUE(
+      await([&] { return window().live().source()->session->recorderStatus().frames > 20; }));
+  actions().record->trigger();
+  const auto made = folder_ / "runs/run.palpate";
+  ASSERT_TRUE(await([&] { return !window().live().recording() && std::filesystem::exists(made); }));
+  window().live().end();
+  ASSERT_TRUE(await([&] { return !window().liveShown(); }));
+  const auto events = readEvents(made).events;
+  EXPECT_EQ(std::count_if(events.begin(),
+                          events.end(),
+                          [](const RecordingEvent& event) {
+                            return event.kind == "recipe" && event.text == "median:size=5";
+                          }),
+            1);
+  EXPECT_TRUE(openRecording(made).info().valueType == ValueType::kCounts);  // as it came
+}
+
 }  // namespace
 }  // namespace palpate::gui

@@ -71,6 +71,18 @@ void MainWindow::connectFilter(const std::optional<Recipe>& recipe) {
     filter_->showFigures(std::nullopt);
     showThroughFilter();
   });
+  // What the operator saw belongs to what was recorded.
+  const auto noteRecipe = [this] {
+    LiveSource* source = live_.source();
+    if (!source || !live_.recording() || !filteredShown()) return;
+    const Recipe& seen = filter_->editor().recipe();
+    const std::int64_t us = source->session->nowUs();
+    source->session->note(
+        {us, us, kRecipeKind, std::nullopt, recipeText(seen), recipeJson(seen).text(-1)});
+  };
+  connect(&live_, &LiveController::recordingStarted, this, noteRecipe);
+  connect(filter_, &FilterPanel::onChanged, this, noteRecipe);
+  connect(&filter_->editor(), &RecipeEditor::changed, this, noteRecipe);
   connect(filter_, &FilterPanel::told, this, &MainWindow::flash);
   connect(filter_, &FilterPanel::keepAsked, this, &MainWindow::keepRecipe);
   connect(&filterWorker_, &FilterWorker::progressed, filter_, [this](double fraction) {
