@@ -7,7 +7,7 @@
 namespace palpate {
 namespace {
 
-constexpr int kPlaces = 9;        // rows and columns of the matrix that is tried
+constexpr int kPlaces = 1;        // rows and columns of the matrix that is tried
 constexpr float kLoad = 1000.0F;  // counts
 constexpr int kMostFrames = 4096;
 constexpr double kForgotten = 1e-9;
@@ -29,11 +29,13 @@ class StepWatcher final : public FrameSink {
   std::optional<int> arrived_;
 };
 
-// Everywhere, and without what looks into the future.
+// Everywhere, and without what looks into the future. The load is the same on all taxels, so what happens among
+// neighbours changes nothing: only time is tried.
 Recipe tried(const Recipe& recipe) {
   Recipe causal;
   for (FilterStep step : recipe.steps) {
-    if (!step.enabled || !step.causal()) continue;
+    if (!step.enabled || !step.causal() || step.kind().domain == FilterDomain::kSpatial) continue;
+    if (step.kind().domain == FilterDomain::kSpatioTemporal) step.given["size"] = 1;
     step.matrices.clear();
     causal.steps.push_back(std::move(step));
   }
@@ -63,7 +65,8 @@ std::optional<std::size_t> memoryOf(const FilterStep& step) {
 std::optional<int> latencyFrames(const Recipe& recipe) {
   const Recipe causal = tried(recipe);
   const auto memory = memoryFrames(causal);
-  const int before = static_cast<int>(memory.value_or(kMostFrames)) + 2;
+  const int before =
+      static_cast<int>(std::min<std::size_t>(memory.value_or(kMostFrames), kMostMemory)) + 2;
   StepWatcher watcher;
   FilterChain chain(causal, watcher);
   const auto layout = std::make_shared<const SensorLayout>(

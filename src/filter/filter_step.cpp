@@ -13,6 +13,7 @@ namespace {
 using Kind = FilterOption::Kind;
 
 constexpr std::size_t kMostMatrices = 1024;
+constexpr int kMostMedianValues = 2001;  // that one value is the middle of: some ms per frame
 constexpr const char* kMatrices = "matrices";
 
 std::string_view trimmed(std::string_view text) {
@@ -119,6 +120,11 @@ void FilterStep::validate() const {
   if (window != nullptr && valueOr0("centred") != 0.0 && integer("window") % 2 == 0)
     throw std::invalid_argument(name + ": window must be odd with centred=1, is " +
                                 std::to_string(integer("window")));
+  if (name == "median3d" &&
+      integer("size") * integer("size") * integer("window") > kMostMedianValues)
+    throw std::invalid_argument(
+        name + ": size * size * window must be at most " + std::to_string(kMostMedianValues) +
+        ", is " + std::to_string(integer("size") * integer("size") * integer("window")));
   if (kind.option("order") != nullptr) {
     if (integer("order") >= integer("window"))
       throw std::invalid_argument(name + ": order must be below the window of " +

@@ -200,9 +200,10 @@ TEST(FilterLatency, CountsFramesUntilHalfOfAStepIsThere) {
       {"temporal-min", 2},           // all three
       {"temporal-min:window=2", 1},
       {"min-median", 2},
-      {"median3d", 1},                // two of three
-      {"running-mean:centred=1", 0},  // sees the future
-      {"kalman", 2},                  // 1 - 0.729844^n reaches half at n = 3, the third frame
+      {"median:size=31 | median3d:size=3,window=201", 100},  // 101 of 201
+      {"median3d", 1},                                       // two of three
+      {"running-mean:centred=1", 0},                         // sees the future
+      {"kalman", 2},  // 1 - 0.729844^n reaches half at n = 3, the third frame
       {"median | temporal-min | temporal-min", 4},
   };
   for (const auto& [text, frames] : cases) {

@@ -91,6 +91,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Bad{"savitzky-golay:window=5,order=5", "order must be below the window of 5"},
                       Bad{"savitzky-golay:window=5,order=1,derivative=2", "derivative 2"},
                       Bad{"savitzky-golay:derivative=3", "0..2"},
+                      Bad{"median3d:size=31,window=1001",
+                          "size * size * window must be at most 2001"},
                       Bad{"kalman:r=0", "r must be"},
                       Bad{"kalman:q=-1", "q must be"},
                       Bad{"median:matrices=", "joined by +"},

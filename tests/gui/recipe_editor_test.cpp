@@ -66,6 +66,12 @@ TEST(RecipeEditor, OptionsThatDependOnEachOtherGoAlong) {
   editor.setOption(0, "derivative", 1);
   EXPECT_EQ(editor.recipe().steps[0].integer("order"), 1);
   editor.setRecipe({});
+  editor.insert(0, parseFilterStep("median3d:window=201"));
+  editor.setOption(0, "size", 7);
+  EXPECT_EQ(textOf(editor), "median3d:size=7,window=39");  // 49 * 39 = 1911
+  editor.setOption(0, "window", 1001);
+  EXPECT_EQ(textOf(editor), "median3d:size=1,window=1001");
+  editor.setRecipe({});
   editor.insert(0, parseFilterStep("temporal-min:window=4"));
   editor.setOption(0, "centred", 1);
   EXPECT_EQ(editor.recipe().steps[0].integer("window"), 5);

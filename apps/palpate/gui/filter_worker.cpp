@@ -1,6 +1,7 @@
 #include "gui/filter_worker.h"
 
 #include <QCoreApplication>
+#include <QElapsedTimer>
 #include <algorithm>
 
 #include <palpate/core/error.h>
@@ -11,6 +12,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr std::size_t kMeasuredFrames = 200;
+constexpr qint64 kMeasuredMs = 200;  // at most, about
 
 class Nowhere final : public FrameSink {
  public:
@@ -50,7 +52,11 @@ FilterFigures figuresOf(const OpenedRecording& source, const Recipe& recipe) {
   const std::size_t from = loudest > kMeasuredFrames / 2 ? loudest - kMeasuredFrames / 2 : 0;
   TactileFrame frame;
   chain.measureCosts(true);
-  for (std::size_t i = from; i < std::min(numFrames, from + kMeasuredFrames); ++i) {
+  QElapsedTimer timer;
+  timer.start();
+  for (std::size_t i = from;
+       i < std::min(numFrames, from + kMeasuredFrames) && timer.elapsed() < kMeasuredMs;
+       ++i) {
     source.profile.readFrame(i, frame);
     chain.push(frame);
   }

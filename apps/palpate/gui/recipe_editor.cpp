@@ -7,12 +7,26 @@
 namespace palpate::gui {
 namespace {
 
+bool sound(const FilterStep& step) {
+  try {
+    step.validate();
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
 // The options that depend on each other, brought into range of the one that was chosen.
 void reconcile(FilterStep& step, const std::string& chosen) {
   const FilterKind& kind = step.kind();
   if (kind.option("window") != nullptr && step.valueOr0("centred") != 0.0 &&
       step.integer("window") % 2 == 0)
     step.given["window"] = step.integer("window") + 1;
+  // What was chosen stays; the other one gives way until the step is sound.
+  if (step.name == "median3d") {
+    const char* other = chosen == "size" ? "window" : "size";
+    while (step.integer(other) > 1 && !sound(step)) step.given[other] = step.integer(other) - 2;
+  }
   if (kind.option("order") == nullptr) return;
   if (step.integer("order") >= step.integer("window")) {
     if (chosen == "order")
