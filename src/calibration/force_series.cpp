@@ -108,4 +108,28 @@ SensorSettings sensorSettingsFrom(const Json& json) {
   return {sensitivity.asDouble(), threshold.asDouble(), true};
 }
 
+std::vector<SensorSettings> reportedSettingsFrom(const Json& json) {
+  const Json rows = json.isArray() ? json : json.at("matrices");
+  if (!rows.isArray()) throw Error("sensor settings: no array of matrices");
+  std::vector<SensorSettings> settings;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    settings.push_back(sensorSettingsFrom(rows.at(i)));
+    settings.back().assumed = false;
+  }
+  return settings;
+}
+
+void useReportedSettings(PressureMapOptions& options,
+                         const std::string& metaSettings,
+                         std::vector<ReportedChange> changes) {
+  if (metaSettings.empty()) return;
+  options.settings = reportedSettingsFrom(Json::parse(metaSettings));
+  std::erase_if(changes, [](const ReportedChange& change) { return change.json.empty(); });
+  std::stable_sort(changes.begin(), changes.end(), [](const auto& a, const auto& b) {
+    return a.fromUs < b.fromUs;
+  });
+  for (const ReportedChange& change : changes)
+    options.changes.push_back({change.fromUs, reportedSettingsFrom(Json::parse(change.json))});
+}
+
 }  // namespace palpate

@@ -40,16 +40,44 @@ PressureMap::PressureMap(Calibration calibration,
       saturationCounts_(static_cast<double>(hand.saturationCounts)) {
   if (!calibration_.pressure.valid())
     throw std::invalid_argument("PressureMap: the calibration has no P(K, T)");
-  const std::size_t settings = options_.settings.size();
-  if (settings > 1 && settings != layout_->numMatrices())
-    throw std::invalid_argument("PressureMap: " + std::to_string(settings) + " settings for " +
-                                std::to_string(layout_->numMatrices()) + " matrices");
+  for (const SettingsChange& change : options_.changes) requireFitting(change.settings);
   prepare(hand);
   reset();
 }
 
+void PressureMap::requireFitting(const std::vector<SensorSettings>& settings) const {
+  if (settings.size() > 1 && settings.size() != layout_->numMatrices())
+    throw std::invalid_argument("PressureMap: " + std::to_string(settings.size()) +
+                                " settings for " + std::to_string(layout_->numMatrices()) +
+                                " matrices");
+  for (const SensorSettings& used : settings)
+    if (!(used.sensitivity > 0.0))
+      throw std::invalid_argument("PressureMap: sensitivity must be above 0, is " +
+                                  numberText(used.sensitivity));
+}
+
+void PressureMap::useSettings(const std::vector<SensorSettings>& settings) {
+  requireFitting(settings);
+  const SensorSettings& measured = calibration_.settings;
+  for (std::size_t m = 0; m < matrices_.size(); ++m) {
+    const SensorSettings& used = settings.empty()       ? measured
+                                 : settings.size() == 1 ? settings[0]
+                                                        : settings[m];
+    matrices_[m].sensitivityRatio = measured.sensitivity / used.sensitivity;
+    matrices_[m].extraSdCounts =
+        std::abs(measured.thresholdCounts - used.thresholdCounts) * matrices_[m].sensitivityRatio;
+  }
+  for (DriftCompensation& drift : drift_) drift.reset();
+}
+
+void PressureMap::setSettings(const std::vector<SensorSettings>& settings) {
+  useSettings(settings);
+  options_.settings = settings;
+  options_.changes.clear();
+  nextChange_ = 0;
+}
+
 void PressureMap::prepare(const HandDescription& hand) {
-  const SensorSettings measured = calibration_.settings;
   for (std::size_t m = 0; m < layout_->numMatrices(); ++m) {
     const MatrixLayout& layout = layout_->matrix(m);
     Prepared matrix;
@@ -59,15 +87,6 @@ void PressureMap::prepare(const HandDescription& hand) {
     matrix.taxelAreaMm2 = layout.taxelAreaMm2();
     matrix.sensor =
         m < hand.matrices.size() ? hand.matrices[m].temperatureSensor.value_or(SIZE_MAX) : SIZE_MAX;
-    const SensorSettings used = options_.settings.empty()       ? measured
-                                : options_.settings.size() == 1 ? options_.settings[0]
-                                                                : options_.settings[m];
-    if (!(used.sensitivity > 0.0))
-      throw std::invalid_argument("PressureMap: sensitivity must be above 0, is " +
-                                  numberText(used.sensitivity));
-    matrix.sensitivityRatio = measured.sensitivity / used.sensitivity;
-    matrix.extraSdCounts =
-        std::abs(measured.thresholdCounts - used.thresholdCounts) * matrix.sensitivityRatio;
     if (layout.columns <= kMostColumns) {
       matrix.weights = filteredSumWeights(layout);
       for (int y = 0; y < layout.rows; ++y) {
@@ -85,6 +104,8 @@ void PressureMap::reset() {
   DriftCompensationOptions drift;
   if (calibration_.pressure.steadyS > 0.0) drift.steadyS = calibration_.pressure.steadyS;
   drift_.assign(matrices_.size(), DriftCompensation(drift));
+  nextChange_ = 0;
+  useSettings(options_.settings);
 }
 
 PressureMap::Contact PressureMap::contactIn(std::span<const float> values,
@@ -131,6 +152,9 @@ void PressureMap::apply(const TactileFrame& frame,
   if (frame.values.size() != layout_->numPlaces())
     throw std::invalid_argument("PressureMap: a frame of " + std::to_string(frame.values.size()) +
                                 " values, the hand has " + std::to_string(layout_->numPlaces()));
+  while (nextChange_ < options_.changes.size() &&
+         frame.hostUs >= options_.changes[nextChange_].fromUs)
+    useSettings(options_.changes[nextChange_++].settings);
   const PressureModel& model = calibration_.pressure;
   out.hostUs = frame.hostUs;
   out.kpa.assign(frame.values.size(), 0.0F);
@@ -212,6 +236,10 @@ std::vector<std::string> PressureMap::assumptions() const {
                      "another threshold than the calibration's: the band is wider, all counts as "
                      "out of range");
   }
+  if (!options_.changes.empty())
+    said.push_back("settings that were changed while recording are followed: " +
+                   std::to_string(options_.changes.size()) +
+                   (options_.changes.size() == 1 ? " change" : " changes"));
   return said;
 }
 

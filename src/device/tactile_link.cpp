@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 
 namespace palpate {
@@ -309,7 +310,23 @@ void TactileLink::restoreSettings() {
   }
   if (!restored) return;
   learn();
-  eventNow("settings", "the settings of before were restored");
+  const std::int64_t nowUs = time_.nowUs();
+  event("settings",
+        "the settings of before were restored",
+        nowUs,
+        nowUs,
+        std::nullopt,
+        settingsJson());
+}
+
+// What holds from now on: a recording can be read without knowing what went before.
+std::string TactileLink::settingsJson() const {
+  Json matrices = Json::array();
+  for (const DsaMatrixFacts& matrix : controller_->facts().matrices)
+    matrices.push(Json::object()
+                      .set("sensitivity", matrix.sensitivity)
+                      .set("threshold_counts", matrix.thresholdCounts.value_or(0)));
+  return Json::object().set("matrices", matrices).text(-1);
 }
 
 void TactileLink::change(const Wanted& wanted, std::optional<int> matrix, const std::string& text) {
@@ -334,7 +351,8 @@ void TactileLink::change(const Wanted& wanted, std::optional<int> matrix, const 
                        : " (all matrices)"),
         fromUs,
         time_.nowUs(),
-        matrix);
+        matrix,
+        settingsJson());
 }
 
 CommandAnswer TactileLink::execute(const DeviceCommand& command) {

@@ -48,6 +48,7 @@ class TactileLink : public PortLink {
   void watchChecksums();
   void endGap(std::int64_t nowUs);
   void restoreSettings();
+  std::string settingsJson() const;
   void applySetting(std::size_t matrix, const Wanted& wanted);
   void change(const Wanted& wanted, std::optional<int> matrix, const std::string& text);
   void learn();

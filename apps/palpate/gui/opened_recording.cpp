@@ -5,6 +5,7 @@
 
 #include <palpate/core/error.h>
 #include <palpate/recording/recording.h>
+#include <palpate/recording/recording_meta.h>
 #include <palpate/recording/second_summary.h>
 
 namespace palpate::gui {
@@ -90,6 +91,7 @@ void readTheirEvents(OpenedRecording& opened) {
   if (!std::filesystem::exists(opened.path, failure)) return;
   try {
     opened.events = readEvents(opened.path);
+    opened.meta = readRecordingMeta(opened.path);
   } catch (const std::exception& error) {
     opened.eventsFailure = error.what();
   }

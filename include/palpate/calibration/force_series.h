@@ -56,6 +56,20 @@ ForceSeries forceSeries(const Profile& profile,
 // What a person said that a recording was made with, as its event of kind "sensor_settings" keeps it; and back. Throws
 // Error: not such JSON.
 Json jsonOf(const SensorSettings& settings);
+// What the controller itself reported, as a recording's meta "settings" and its events of kind "settings" have it:
+// an array of the above, or one in "matrices". Throws Error.
+std::vector<SensorSettings> reportedSettingsFrom(const Json& json);
+
+// JSON of an event "settings", and when it held from [us since 1970].
+struct ReportedChange {
+  std::int64_t fromUs = 0;
+  std::string json;
+};
+// Fills in settings and changes of a recording that tells them: its meta "settings" (empty: doesn't tell), its events.
+// Changes without JSON (older recordings) are left out. Throws Error (what can't be used).
+void useReportedSettings(PressureMapOptions& options,
+                         const std::string& metaSettings,
+                         std::vector<ReportedChange> changes);
 SensorSettings sensorSettingsFrom(const Json& json);
 
 }  // namespace palpate

@@ -43,9 +43,16 @@ struct PressureFrame {
   bool temperatureKnown = true;
 };
 
+// Settings that hold for frames from a moment on.
+struct SettingsChange {
+  std::int64_t fromUs = 0;               // [us since 1970]
+  std::vector<SensorSettings> settings;  // one per matrix, or one for all
+};
+
 struct PressureMapOptions {
   // What the frames were recorded with; nothing: as the calibration. One per matrix, or one for all.
   std::vector<SensorSettings> settings = {};
+  std::vector<SettingsChange> changes = {};  // after these, ascending
   bool compensateDrift = true;
 };
 
@@ -62,6 +69,8 @@ class PressureMap {
   // std::invalid_argument). Values that are no numbers count as 0.
   void apply(const TactileFrame& frame, std::span<const double> degC, PressureFrame& out);
   void reset();
+  // Others than before from the next frame on: contacts begin anew. Throws std::invalid_argument.
+  void setSettings(const std::vector<SensorSettings>& settings);
 
   // Assumptions that a reader must know of, a sentence each: what was measured on another matrix, settings nobody
   // recorded, sensitivity converted.
@@ -87,6 +96,8 @@ class PressureMap {
   };
   Contact contactIn(std::span<const float> values, const Prepared& matrix) const;
   void prepare(const HandDescription& hand);
+  void requireFitting(const std::vector<SensorSettings>& settings) const;
+  void useSettings(const std::vector<SensorSettings>& settings);
 
   Calibration calibration_;
   std::shared_ptr<const SensorLayout> layout_;
@@ -94,6 +105,7 @@ class PressureMap {
   std::vector<Prepared> matrices_;
   std::vector<DriftCompensation> drift_;
   double saturationCounts_ = 0.0;
+  std::size_t nextChange_ = 0;  // of options_.changes
   mutable std::vector<std::uint64_t> rows_;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct TaxelPeak {
 };
 TaxelPeak taxelPeak(const TactileFrame& frame);
 
+struct PressureFrame;  // calibration/pressure_map.h
+
 struct LiveResults {
   SharedFrame frame;  // never null; filtered where filters are on
   // As it came, where filters are on; else null. Saturation is looked for here.
@@ -32,6 +35,8 @@ struct LiveResults {
   std::vector<CharacteristicSignals> matrixSignals;
   CharacteristicSignals wholeSignals;
   TaxelPeak peak;
+  // Of the pressure stage, where a calibration is chosen; else null.
+  std::shared_ptr<const PressureFrame> pressure;
 };
 
 }  // namespace palpate

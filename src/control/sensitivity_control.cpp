@@ -1,0 +1,217 @@
+#include "palpate/control/sensitivity_control.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kUsPerS = 1e6;
+constexpr std::size_t kLeastStamps = 10;  // that tell a rate
+constexpr std::size_t kMostStamps = 64;
+constexpr double kTemperaturesWithinS = 3.0;  // else it goes without
+constexpr std::int64_t kStaleUs = 1'000'000;  // no frame for so long tells no rate
+
+// A second or two of frames: whoever calls step() so rarely misses some, and nothing else.
+constexpr FeedOptions kFeed{.tactileItems = 256, .motionItems = 256, .eventItems = 64};
+
+bool isReady(const std::shared_future<CommandAnswer>& answer) {
+  return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+TactileThresholds resetOf(const HandDescription& hand) {
+  TactileThresholds reset;
+  for (const MatrixSettings& matrix : defaultTactileSettings(hand)) {
+    reset.sensitivity = matrix.sensitivity;
+    reset.counts.push_back(matrix.thresholdCounts);
+  }
+  return reset;
+}
+
+TactileSettings settingsOf(const TactileThresholds& thresholds) {
+  TactileSettings settings;
+  for (const int counts : thresholds.counts) settings.push_back({thresholds.sensitivity, counts});
+  return settings;
+}
+
+}  // namespace
+
+SensitivityControl::SensitivityControl(CaptureSession& session,
+                                       GraspControl& control,
+                                       const Clock& clock)
+    : session_(session), control_(control), clock_(clock) {}
+
+double SensitivityControl::nowS() const {
+  return static_cast<double>(clock_.monotonicUs()) / kUsPerS;
+}
+
+void SensitivityControl::begin(SensitivityMode mode, const std::string& text) {
+  const bool was = status_.mode != SensitivityMode::kManual;
+  status_ = {};
+  status_.mode = mode;
+  high_.reset();
+  search_.reset();
+  wanted_.reset();
+  stampsUs_.clear();
+  degC_.clear();
+  begunS_ = nowS();
+  feed_.reset();
+  if (mode != SensitivityMode::kManual) feed_ = session_.subscribe("sensitivity", kFeed);
+  if (mode == SensitivityMode::kManual && !was) return;
+  const std::int64_t us = session_.nowUs();
+  session_.note({us, us, "sensitivity_mode", std::nullopt, text, ""});
+}
+
+void SensitivityControl::holdHigh(const NoiseFloor& floor, const NoiseThresholdOptions& options) {
+  options.validate();
+  const std::size_t matrices = session_.device().hand().layout->numMatrices();
+  const bool usable = std::any_of(
+      floor.lines.begin(), floor.lines.end(), [](const auto& line) { return line.valid; });
+  if (!usable) throw std::invalid_argument("the noise calibration has no valid line");
+  for (const NoiseLine& line : floor.lines)
+    if (line.matrix >= matrices)
+      throw std::invalid_argument("the noise lines are of another hand: matrix " +
+                                  std::to_string(line.matrix) + " of " + std::to_string(matrices));
+  floor_ = floor;
+  highOptions_ = options;
+  begin(SensitivityMode::kHigh, "high sensitivity: thresholds follow the temperatures");
+  status_.measuring = true;
+}
+
+void SensitivityControl::seek(const SensitivitySearchOptions& options) {
+  options.validate();
+  searchOptions_ = options;
+  begin(SensitivityMode::kAdaptive, "adaptive sensitivity: the highest without saturation");
+}
+
+void SensitivityControl::letGo() { begin(SensitivityMode::kManual, "sensitivity set by hand"); }
+
+void SensitivityControl::reset() {
+  letGo();
+  wanted_ = defaultTactileSettings(session_.device().hand());
+  bring();
+}
+
+void SensitivityControl::heedAnswers() {
+  for (const auto& answer : pending_) {
+    if (!isReady(answer)) continue;
+    try {
+      answer.get();
+    } catch (const std::exception& error) {
+      status_.failure = error.what();
+    }
+  }
+  const bool had = !pending_.empty();
+  std::erase_if(pending_, isReady);
+  if (had && pending_.empty()) {
+    settledFromUs_ = session_.nowUs();
+    stampsUs_.clear();
+  }
+  status_.setting = !pending_.empty();
+}
+
+// Settings differ from what is wanted: sent where the hand may be told.
+void SensitivityControl::bring() {
+  if (!wanted_ || !pending_.empty()) return;
+  status_.waiting.clear();
+  const TactileSettings now = session_.device().facts().matrices;
+  if (now.empty()) {
+    status_.waiting = "no tactile controller is connected";
+    return;
+  }
+  try {
+    for (const DeviceCommand& command : commandsBetween(now, *wanted_))
+      pending_.push_back(control_.change(command));
+    status_.failure.clear();
+    wanted_.reset();
+  } catch (const DeviceError& error) {
+    status_.waiting = error.what();  // tried again at the next step
+  } catch (const std::invalid_argument& error) {
+    status_.failure = error.what();
+    wanted_.reset();
+  }
+  status_.setting = !pending_.empty();
+}
+
+double SensitivityControl::rateHz() const {
+  if (stampsUs_.size() < kLeastStamps || session_.nowUs() - stampsUs_.back() > kStaleUs)
+    return std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::int64_t> intervals;
+  for (std::size_t i = 1; i < stampsUs_.size(); ++i)
+    intervals.push_back(stampsUs_[i] - stampsUs_[i - 1]);
+  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  return *middle > 0 ? kUsPerS / static_cast<double>(*middle)
+                     : std::numeric_limits<double>::quiet_NaN();
+}
+
+void SensitivityControl::heard(const TactileFrame& frame) {
+  if (frame.hostUs <= settledFromUs_) return;
+  stampsUs_.push_back(frame.hostUs);
+  if (stampsUs_.size() > kMostStamps) stampsUs_.pop_front();
+  if (!search_ || wanted_ || !pending_.empty()) return;
+  const float maximum =
+      frame.values.empty() ? 0.0F : *std::max_element(frame.values.begin(), frame.values.end());
+  const auto next =
+      search_->observe(static_cast<double>(frame.hostUs) / kUsPerS, static_cast<double>(maximum));
+  if (!next) return;
+  TactileSettings target = session_.device().facts().matrices;
+  for (MatrixSettings& matrix : target) matrix.sensitivity = *next;
+  wanted_ = std::move(target);
+}
+
+void SensitivityControl::hear() {
+  items_.clear();
+  feed_->take(items_);
+  for (const CaptureItem& item : items_) {
+    if (const auto* frame = std::get_if<SharedFrame>(&item)) heard(**frame);
+    if (const auto* temperatures = std::get_if<Temperatures>(&item)) degC_ = temperatures->degC;
+    // A pause is no slow stream.
+    if (const auto* event = std::get_if<RecordingEvent>(&item))
+      if (event->kind == "settings" || event->kind == "gap") stampsUs_.clear();
+  }
+}
+
+// The rate before anything is changed is the usual one.
+void SensitivityControl::makeHigh() {
+  const double usual = rateHz();
+  if (!(usual > 0.0) || (degC_.empty() && nowS() - begunS_ < kTemperaturesWithinS)) return;
+  const HandDescription hand = session_.device().hand();
+  NoiseFloor floor = *floor_;
+  high_.emplace(std::move(floor), nearestSensors(hand), resetOf(hand), usual, highOptions_);
+  status_.measuring = false;
+}
+
+void SensitivityControl::step() {
+  heedAnswers();
+  if (!feed_) return bring();
+  hear();
+  if (status_.mode == SensitivityMode::kAdaptive && !search_) {
+    const TactileSettings now = session_.device().facts().matrices;
+    if (!now.empty())
+      search_.emplace(std::clamp(now[0].sensitivity, searchOptions_.least, searchOptions_.most),
+                      now[0].thresholdCounts,
+                      searchOptions_);
+    else
+      status_.waiting = "no tactile controller is connected";
+  }
+  if (status_.mode == SensitivityMode::kHigh && !high_) makeHigh();
+  if (high_ && pending_.empty() && !wanted_) {
+    if (const auto next = high_->update(nowS(), degC_, rateHz())) wanted_ = settingsOf(*next);
+    status_.noise = high_->status();
+  }
+  if (search_) {
+    status_.sensitivity = search_->sensitivity();
+    status_.settled = search_->settled();
+    status_.saturated = search_->saturated();
+  }
+  bring();
+}
+
+}  // namespace palpate
