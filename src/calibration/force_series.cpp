@@ -12,7 +12,9 @@ constexpr std::size_t kToldEvery = 1024;  // frames
 constexpr double kUsPerS = 1e6;
 constexpr double kFullScaleCounts = 4095.0;
 
-MatrixForce small(const MatrixPressure& of) {
+}  // namespace
+
+MatrixForce matrixForce(const MatrixPressure& of) {
   constexpr int kMost = std::numeric_limits<std::uint16_t>::max();
   return {.gainCounts = static_cast<float>(of.gainCounts),
           .kpa = static_cast<float>(of.kpa),
@@ -25,8 +27,6 @@ MatrixForce small(const MatrixPressure& of) {
           .saturated = of.saturated,
           .compensated = of.compensated};
 }
-
-}  // namespace
 
 double ForceSeries::forceN(std::size_t frame) const {
   double sum = 0.0;
@@ -83,7 +83,7 @@ ForceSeries forceSeries(const Profile& profile,
     map.apply(frame, degC, pressures);
     series.timeS.push_back(static_cast<double>(frame.hostUs - profile.frameTimeUs(0)) / kUsPerS);
     for (const MatrixPressure& matrix : pressures.matrices) {
-      series.rows.push_back(small(matrix));
+      series.rows.push_back(matrixForce(matrix));
       if (matrix.active == 0) continue;
       ++series.contacts;
       series.beyond += matrix.inRange ? 0 : 1;

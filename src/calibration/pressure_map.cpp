@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -30,6 +31,19 @@ std::vector<float> filteredSumWeights(const MatrixLayout& layout) {
 }
 
 }  // namespace
+
+double taxelForceN(const PressureFrame& frame,
+                   const SensorLayout& layout,
+                   std::size_t matrix,
+                   int row,
+                   int column) {
+  if (matrix >= frame.matrices.size() || frame.kpa.size() != layout.numPlaces()) return 0.0;
+  const MatrixLayout& of = layout.matrix(matrix);
+  const auto first = frame.kpa.begin() + static_cast<std::ptrdiff_t>(layout.offset(matrix));
+  const double whole = std::accumulate(first, first + of.rows * of.columns, 0.0);
+  const auto own = static_cast<double>(*(first + row * of.columns + column));
+  return whole > 0.0 ? frame.matrices[matrix].forceN * own / whole : 0.0;
+}
 
 PressureMap::PressureMap(Calibration calibration,
                          const HandDescription& hand,

@@ -3,6 +3,7 @@
 #include "palpate/calibration/force_series.h"
 #include "palpate/core/error.h"
 #include "palpate/recording/recording.h"
+#include "palpate/recording/recording_meta.h"
 
 namespace palpate::commands {
 namespace {
@@ -21,11 +22,13 @@ std::optional<Tare> tareIn(const std::filesystem::path& file, const SensorLayout
   return tare;
 }
 
-// With what the window noted of the recording's sensor, where the command line says nothing.
+// With what the window noted of the recording's sensor, else what the controller itself reported, where the command line
+// says nothing.
 PressureMapOptions withNoted(PressureMapOptions options, const std::filesystem::path& file) {
   if (!options.settings.empty()) return options;
   std::optional<SensorSettings> noted;  // that was said last
-  for (const RecordingEvent& event : readEvents(file).events)
+  const std::vector<RecordingEvent> events = readEvents(file).events;
+  for (const RecordingEvent& event : events)
     if (event.kind == "sensor_settings") try {
         noted = sensorSettingsFrom(Json::parse(event.json));
       } catch (const Error& error) {
@@ -33,7 +36,20 @@ PressureMapOptions withNoted(PressureMapOptions options, const std::filesystem::
                         std::string("its sensor_settings event can't be used (") + error.what() +
                             "); --sensor-sensitivity and --sensor-threshold go before it");
       }
-  if (noted) options.settings.push_back(*noted);
+  if (noted) {
+    options.settings.push_back(*noted);
+    return options;
+  }
+  std::vector<ReportedChange> changes;
+  for (const RecordingEvent& event : events)
+    if (event.kind == "settings") changes.push_back({event.t1Us, event.json});
+  try {
+    useReportedSettings(options, readRecordingMeta(file)["settings"], std::move(changes));
+  } catch (const Error& error) {
+    throw FileError(file,
+                    std::string("the settings it reports can't be used (") + error.what() +
+                        "); --sensor-sensitivity and --sensor-threshold go before it");
+  }
   return options;
 }
 
@@ -43,7 +59,8 @@ std::vector<OptionSpec> calibrationOptions() {
   return {{"calibration", "C.json", "what `palpate calibrate pressure` wrote"},
           {"sensor-sensitivity",
            "S",
-           "the recording was made with, default as noted in it, or that of the calibration"},
+           "the recording was made with, default as noted or reported in it, or that of the "
+           "calibration"},
           {"sensor-threshold",
            "N",
            "the recording was made with [counts], default that of the calibration"},

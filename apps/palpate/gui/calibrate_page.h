@@ -33,6 +33,7 @@ class CalibratePage : public QWidget {
   virtual std::vector<ExportedTable> tables() const = 0;
   virtual void paint(QPainter& painter, const PictureLook& look, const QString& title) = 0;
 
+  const OpenedRecordingPtr& source() const noexcept { return recording_; }
   // Something was found, and it is seen.
   bool shown() const;
   QString emptyText() const;  // why nothing is; empty: something is

@@ -16,13 +16,21 @@ GatheredSource openSource(const std::filesystem::path& file, const Progress& pro
 }  // namespace
 
 ShownCalibrationPtr calibrationFromTable(const std::filesystem::path& table,
-                                         const PressureModelOptions& options,
-                                         const SensorSettings& settings,
-                                         std::shared_ptr<const GatheredSteps> known,
+                                         const CalibrationChoices& choices,
+                                         const ShownCalibrationPtr& before,
                                          const Progress& progress) {
-  if (!known)
+  const PressureModelOptions& options = choices.model;
+  std::shared_ptr<const GatheredSteps> known;
+  if (before && before->source == table && before->by.matrix == choices.matrix &&
+      before->by.robust == choices.robust)
+    known = before->gathered;
+  if (!known) {
+    GatherOptions gather;
+    gather.matrix = choices.matrix;
+    if (choices.robust) gather.steps.fit.loss = StepLoss::kHuber;
     known = std::make_shared<const GatheredSteps>(
-        gatherSteps(readPressureTable(table), table.parent_path(), openSource, {}, progress));
+        gatherSteps(readPressureTable(table), table.parent_path(), openSource, gather, progress));
+  }
   if (known->numUnused() == known->samples.size()) {
     const auto& notes = known->samples.front().notes;
     throw FileError(table,
@@ -32,15 +40,16 @@ ShownCalibrationPtr calibrationFromTable(const std::filesystem::path& table,
   auto made = std::make_shared<ShownCalibration>();
   made->source = table;
   made->gathered = known;
+  made->by = choices;
   Calibration& calibration = made->calibration = calibrationOf(*known, options);
-  calibration.settings = settings;
+  calibration.settings = choices.settings;
   calibration.programVersion = programVersion();
   calibration.madeAt = madeNow();
   calibration.options = Json::object()
                             .set("table", table.string())
                             .set("table_sha256", sha256OfFile(table))
                             .set("choices", options.study ? "study" : "default")
-                            .set("loss", "squares")
+                            .set("loss", choices.robust ? "huber" : "squares")
                             .set("area_mm2", options.stampAreaMm2);
   return made;
 }

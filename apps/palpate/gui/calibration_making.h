@@ -8,18 +8,27 @@
 
 namespace palpate::gui {
 
+// How a table becomes a calibration.
+struct CalibrationChoices {
+  PressureModelOptions model = {};
+  SensorSettings settings = {};
+  std::optional<std::size_t> matrix = std::nullopt;  // nothing: the loaded one
+  bool robust = false;                               // outliers in a step count less (Huber's loss)
+};
+
 struct ShownCalibration {
   std::filesystem::path source;  // the table, or the file it was read from
   Calibration calibration;
   std::shared_ptr<const GatheredSteps> gathered = {};  // null: read from a file
+  CalibrationChoices by = {};                          // of a table
 };
 using ShownCalibrationPtr = std::shared_ptr<const ShownCalibration>;
 
-// Reads the table's recordings, unless `known` has their steps. Throws Error (one line: what is missing), Cancelled.
+// Reads the table's recordings, unless `known` has their steps already. Throws Error (one line: what is missing),
+// Cancelled.
 ShownCalibrationPtr calibrationFromTable(const std::filesystem::path& table,
-                                         const PressureModelOptions& options,
-                                         const SensorSettings& settings,
-                                         std::shared_ptr<const GatheredSteps> known,
+                                         const CalibrationChoices& choices,
+                                         const ShownCalibrationPtr& known,
                                          const Progress& progress);
 // Throws Error.
 ShownCalibrationPtr calibrationFromFile(const std::filesystem::path& path);

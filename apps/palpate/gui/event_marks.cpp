@@ -84,12 +84,20 @@ void addGrasps(const OpenedRecording& recording,
   }
 }
 
+void sortMarks(std::vector<EventMark>& marks) {
+  std::stable_sort(marks.begin(), marks.end(), [](const EventMark& a, const EventMark& b) {
+    return std::tuple(a.lane, a.fromS) < std::tuple(b.lane, b.fromS);
+  });
+}
+
 }  // namespace
 
 QString nameOf(EventLane lane) {
   switch (lane) {
     case EventLane::kGrasps:
       return "grasps";
+    case EventLane::kSteps:
+      return "steps";
     case EventLane::kGaps:
       return "gaps";
     case EventLane::kLabels:
@@ -135,6 +143,27 @@ bool saysNoGrasp(const RecordingEvent& event) {
   return event.kind == kSegmentKind && event.text == kNoGraspText && event.t1Us == event.tUs;
 }
 
+void addSteps(const StepReport& report,
+              const OpenedRecording& recording,
+              std::vector<EventMark>& marks) {
+  for (std::size_t i = 0; i < report.steps.size(); ++i) {
+    const FittedStep& found = report.steps[i];
+    EventMark mark;
+    mark.lane = EventLane::kSteps;
+    mark.fromS = recording.timeAt(found.step.begin);
+    mark.toS = recording.timeAt(found.step.end);
+    mark.text = QString::number(i + 1);
+    mark.detail = "loading step " + mark.text + " of " +
+                  QString::fromStdString(recording.profile.hand().matrixName(report.matrix)) +
+                  " (found)\n" + spanText(mark.fromS, mark.toS);
+    if (found.fit.converged)
+      mark.detail += "\nK " + figure(found.fit.parameters.gainCounts, 1) + " counts" +
+                     (found.usable() ? "" : ", not to be calibrated with");
+    marks.push_back(std::move(mark));
+  }
+  sortMarks(marks);
+}
+
 std::vector<EventMark> marksOf(const OpenedRecording& recording,
                                std::span<const RecordingEvent> events,
                                std::span<const GraspSegment> grasps) {
@@ -147,9 +176,7 @@ std::vector<EventMark> marksOf(const OpenedRecording& recording,
       events.begin(), events.end(), [](const auto& event) { return event.kind == kSegmentKind; });
   if (!corrected) addGrasps(recording, grasps, marks);
   addGaps(recording, marks);
-  std::stable_sort(marks.begin(), marks.end(), [](const EventMark& a, const EventMark& b) {
-    return std::tuple(a.lane, a.fromS) < std::tuple(b.lane, b.fromS);
-  });
+  sortMarks(marks);
   std::size_t number = 0;
   for (EventMark& mark : marks) {
     if (mark.lane != EventLane::kGrasps) continue;

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include <palpate/calibration/step_report.h>
 #include <palpate/recognition/grasp_segments.h>
 #include <palpate/recording/recording_event.h>
 
@@ -16,8 +17,9 @@
 
 namespace palpate::gui {
 
-enum class EventLane { kGrasps, kGaps, kLabels, kNotes, kOthers };
+enum class EventLane { kGrasps, kSteps, kGaps, kLabels, kNotes, kOthers };
 inline constexpr std::array kAllEventLanes = {EventLane::kGrasps,
+                                              EventLane::kSteps,
                                               EventLane::kGaps,
                                               EventLane::kLabels,
                                               EventLane::kNotes,
@@ -46,6 +48,11 @@ struct EventMark {
 std::vector<EventMark> marksOf(const OpenedRecording& recording,
                                std::span<const RecordingEvent> events,
                                std::span<const GraspSegment> grasps);
+
+// Loading steps that were found (dock Calibrate), among the others in their order.
+void addSteps(const StepReport& report,
+              const OpenedRecording& recording,
+              std::vector<EventMark>& marks);
 
 // A grasp that was found, as an event.
 RecordingEvent segmentOf(const OpenedRecording& recording, const GraspSegment& grasp);

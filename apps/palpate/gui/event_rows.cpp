@@ -101,6 +101,8 @@ QColor EventRows::colorOf(const EventMark& mark) const {
   switch (mark.lane) {
     case EventLane::kGrasps:
       return matrixColor(0, theme_);
+    case EventLane::kSteps:
+      return matrixColor(3, theme_);
     case EventLane::kGaps:
       return colors.warning;
     case EventLane::kLabels:
@@ -135,7 +137,9 @@ void EventRows::paintMark(QPainter& painter, std::size_t index) const {
     if (other.lane == mark.lane && other.fromS > mark.fromS)
       room = std::min(room, pixelOf(other.fromS) - bar.right() - 2 * kTextRoom);
   const int narrowest = fontMetrics().averageCharWidth() * 3;
-  if (mark.lane == EventLane::kGrasps || mark.lane == EventLane::kGaps || room < narrowest) return;
+  if (mark.lane == EventLane::kGrasps || mark.lane == EventLane::kSteps ||
+      mark.lane == EventLane::kGaps || room < narrowest)
+    return;
   const QRectF place(bar.right() + kTextRoom, bar.top(), room, bar.height());
   painter.drawText(place,
                    Qt::AlignVCenter | Qt::AlignLeft,

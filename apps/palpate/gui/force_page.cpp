@@ -25,10 +25,6 @@ constexpr double kQuantile = 1.96;  // 95 %
 constexpr double kFullScaleCounts = 4095.0;
 constexpr double kLeastSensitivity = 0.01;
 
-QString keyOf(const std::string& hand) {
-  return "calibrate/applied/" + QString::fromStdString(hand).replace('/', '_');
-}
-
 std::vector<FigureColumn> columns() {
   return {{"matrix", {}, 16, true},
           {"taxels", "Active ones", 6},
@@ -93,17 +89,6 @@ TextTable forceTable(const std::shared_ptr<const ForceSeries>& found) {
 }
 
 }  // namespace
-
-QString appliedCalibration(const QSettings& settings, const std::string& hand) {
-  return settings.value(keyOf(hand)).toString();
-}
-
-void applyCalibration(QSettings& settings, const std::string& hand, const QString& path) {
-  if (path.isEmpty())
-    settings.remove(keyOf(hand));
-  else
-    settings.setValue(keyOf(hand), QFileInfo(path).absoluteFilePath());
-}
 
 ForcePage::ForcePage(QSettings& settings, QWidget* parent)
     : CalibratePage("force", parent), settings_(settings) {
@@ -172,10 +157,7 @@ void ForcePage::makeTop() {
   top().addLayout(files);
   top().addLayout(made);
   connect(choose_, &QPushButton::clicked, this, &ForcePage::chooseCalibration);
-  connect(drop_, &QPushButton::clicked, this, [this] {
-    applyCalibration(settings_, handName(), {});
-    calibrationChanged();
-  });
+  connect(drop_, &QPushButton::clicked, this, [this] { applyThis({}); });
   connect(keep_, &QPushButton::clicked, this, [this] {
     emit keepAsked(sensitivity_->value(), threshold_->value());
   });
@@ -186,20 +168,31 @@ void ForcePage::makeTop() {
     });
 }
 
-std::string ForcePage::handName() const {
-  return recording() ? recording()->profile.hand().name : std::string();
+const HandDescription* ForcePage::hand() const {
+  if (live()) return liveHand_ ? &*liveHand_ : nullptr;
+  return recording() ? &recording()->profile.hand() : nullptr;
 }
 
+std::string ForcePage::handName() const { return hand() ? hand()->name : std::string(); }
+
 QString ForcePage::rowName(std::size_t row) const {
-  return row < found_->numMatrices
-             ? QString::fromStdString(recording()->profile.hand().matrixName(row))
-             : QString("whole hand");
+  return row < hand()->layout->numMatrices() ? QString::fromStdString(hand()->matrixName(row))
+                                             : QString("whole hand");
 }
 
 void ForcePage::chooseCalibration() {
   const QString path = askForCalibration();
-  if (path.isEmpty() || !recording()) return;
+  if (!path.isEmpty() && hand()) applyThis(path);
+}
+
+void ForcePage::applyThis(const QString& path) {
   applyCalibration(settings_, handName(), path);
+  calibrationChanged();
+  emit applied();
+}
+
+void ForcePage::setLiveHand(const HandDescription& hand) {
+  liveHand_ = hand;
   calibrationChanged();
 }
 
@@ -210,12 +203,7 @@ void ForcePage::calibrationChanged() {
 }
 
 void ForcePage::setKept(const KeptWithRecording& kept) {
-  const auto zeros = [](const KeptWithRecording& of) {
-    return of.tare ? of.tare->zero : std::vector<float>();
-  };
-  const bool same = kept.settings == kept_.settings && kept.trouble == kept_.trouble &&
-                    kept.tare.has_value() == kept_.tare.has_value() && zeros(kept) == zeros(kept_);
-  if (same) return;
+  if (kept == kept_) return;
   kept_ = kept;
   if (kept.settings) said_.reset();
   renew();
@@ -229,37 +217,38 @@ void ForcePage::forget() {
 }
 
 void ForcePage::showCalibration() {
-  const QString path = recording() ? appliedCalibration(settings_, handName()) : QString();
+  const QString path = hand() ? appliedCalibration(settings_, handName()) : QString();
   name_->setText(path.isEmpty() ? "no calibration" : QFileInfo(path).fileName());
   name_->setToolTip(path);
   drop_->setVisible(!path.isEmpty());
-  choose_->setEnabled(recording() != nullptr);
+  choose_->setEnabled(hand() != nullptr);
   for (QWidget* each : std::initializer_list<QWidget*>{sensitivity_, threshold_, keep_})
-    each->setEnabled(!path.isEmpty());
+    each->setEnabled(!path.isEmpty() && !live());
+  chart_->setVisible(!live());
 }
 
 QString ForcePage::whyNot() const {
-  if (QString why = CalibratePage::whyNot(); !why.isEmpty()) return why;
+  if (QString why = CalibratePage::whyNot(); !why.isEmpty() && !live()) return why;
+  if (live() && !liveHand_) return "Waiting for the hand.";
   if (appliedCalibration(settings_, handName()).isEmpty())
     return "No calibration is applied to this hand: its values are counts.\n\nMake one on the page "
            "Pressure, or choose one that was saved.";
-  return kept_.trouble;
+  return live() ? QString() : kept_.trouble;
 }
 
 void ForcePage::compute() {
+  if (live()) return;  // showLive()
   const OpenedRecordingPtr of = recording();
   const QString path = appliedCalibration(settings_, handName());
-  const auto said = said_ ? said_ : kept_.settings;
-  run("forces", [this, of, path, said, tare = kept_.tare](const Progress& progress) -> Take {
-    const Calibration calibration = loadCalibration(path.toStdString());
-    if (!calibration.pressure.valid())
-      throw Error(path.toStdString() +
-                  ": holds no P(K, T), so that no force follows from it; its notes say why");
-    PressureMapOptions options;
-    if (said) options.settings.push_back(*said);
+  run("forces", [this, of, path, typed = said_, kept = kept_](const Progress& progress) -> Take {
+    const Calibration calibration = usableCalibration(path);
+    const PressureMapOptions options = pressureOptions(kept, typed);
     auto found = std::make_shared<const ForceSeries>(
-        forceSeries(of->profile, calibration, options, tare, progress));
-    return [this, found, own = said.value_or(calibration.settings)] { take(found, own); };
+        forceSeries(of->profile, calibration, options, kept.tare, progress));
+    const SensorSettings own = options.settings.empty()
+                                   ? calibration.settings
+                                   : options.settings[calibration.matrix % options.settings.size()];
+    return [this, found, own] { take(found, own); };
   });
 }
 
@@ -285,6 +274,7 @@ void ForcePage::take(const std::shared_ptr<const ForceSeries>& found, const Sens
 }
 
 void ForcePage::showChosen(int row) {
+  if (live()) return;
   const auto chosen = static_cast<std::size_t>(row);
   chart_->choose(chosen, rowName(chosen));
 }
@@ -296,23 +286,38 @@ void ForcePage::setPosition(double seconds) {
 }
 
 void ForcePage::showFrame() {
-  if (!found_ || found_->timeS.empty()) return;
+  if (live() || !found_ || found_->timeS.empty()) return;
   const std::size_t frame = found_->frameAt(positionS_);
+  std::vector<MatrixForce> forces;
+  for (std::size_t m = 0; m < found_->numMatrices; ++m) forces.push_back(found_->at(frame, m));
+  showForces(forces, found_->forceN(frame), found_->sdForceN(frame));
+}
+
+void ForcePage::showLive(const PressureFrame& pressure,
+                         const std::vector<std::string>& assumptions) {
+  if (!live() || !liveHand_ || !isVisible() || pressure.matrices.empty()) return;
+  std::vector<MatrixForce> forces;
+  for (const MatrixPressure& matrix : pressure.matrices) forces.push_back(matrixForce(matrix));
+  showForces(forces, pressure.forceN, pressure.sdForceN);
+  const QString notes = linesOf(assumptions);
+  if (notes_->text() != notes) notes_->setText(notes);
+  if (!shown()) showContent();
+}
+
+void ForcePage::showForces(const std::vector<MatrixForce>& forces, double sumN, double sdN) {
   std::vector<std::vector<FigureCell>> rows;
   int active = 0;
   bool inRange = true;
-  for (std::size_t m = 0; m < found_->numMatrices; ++m) {
-    const MatrixForce& force = found_->at(frame, m);
-    rows.push_back(rowOf(rowName(m), force));
-    active += force.active;
-    inRange = inRange && force.inRange;
+  for (std::size_t m = 0; m < forces.size(); ++m) {
+    rows.push_back(rowOf(rowName(m), forces[m]));
+    active += forces[m].active;
+    inRange = inRange && forces[m].inRange;
   }
-  rows.push_back({{.text = rowName(found_->numMatrices)},
+  rows.push_back({{.text = rowName(forces.size())},
                   {.text = QString::number(active)},
                   {},
                   {},
-                  {.text = figure(found_->forceN(frame), 2),
-                   .detail = active > 0 ? plusMinus(found_->sdForceN(frame)) : QString()},
+                  {.text = figure(sumN, 2), .detail = active > 0 ? plusMinus(sdN) : QString()},
                   {.text = inRange ? "" : "outside range", .warning = !inRange}});
   table_->setRows(rows);
 }
@@ -323,7 +328,7 @@ void ForcePage::setTheme(Theme theme) {
 }
 
 std::vector<ExportedTable> ForcePage::tables() const {
-  if (!shown()) return {};
+  if (!shown() || !found_) return {};
   return {{"forces", [found = found_] { return forceTable(found); }}};
 }
 

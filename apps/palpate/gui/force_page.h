@@ -8,6 +8,7 @@
 
 #include <palpate/calibration/force_series.h>
 
+#include "gui/applied_calibration.h"
 #include "gui/calibrate_page.h"
 
 class QDoubleSpinBox;
@@ -18,17 +19,6 @@ namespace palpate::gui {
 
 class FiguresTable;
 class ForceChart;
-
-// What the recording's events say of its sensor; of the event that was noted last.
-struct KeptWithRecording {
-  std::optional<SensorSettings> settings = {};
-  std::optional<Tare> tare = {};
-  QString trouble = {};  // an event that can't be used: why
-};
-
-// The calibration that is applied to a hand: a file, remembered by the hand's name.
-QString appliedCalibration(const QSettings& settings, const std::string& hand);
-void applyCalibration(QSettings& settings, const std::string& hand, const QString& path);
 
 class ForcePage : public CalibratePage {
   Q_OBJECT
@@ -42,6 +32,9 @@ class ForcePage : public CalibratePage {
   void setKept(const KeptWithRecording& kept);
   // Another calibration is applied now.
   void calibrationChanged();
+  // What is connected instead of a recording, and what it feels.
+  void setLiveHand(const HandDescription& hand);
+  void showLive(const PressureFrame& pressure, const std::vector<std::string>& assumptions);
   // Null: none was computed.
   const std::shared_ptr<const ForceSeries>& found() const noexcept { return found_; }
 
@@ -50,6 +43,7 @@ class ForcePage : public CalibratePage {
 
  signals:
   void keepAsked(double sensitivity, double thresholdCounts);  // with the recording
+  void applied();                                              // another calibration, or none
   void sought(double seconds);
 
  protected:
@@ -61,15 +55,19 @@ class ForcePage : public CalibratePage {
   void makeTop();
   void take(const std::shared_ptr<const ForceSeries>& found, const SensorSettings& own);
   void showFrame();
+  void showForces(const std::vector<MatrixForce>& forces, double sumN, double sdN);
   void showChosen(int row);
+  void applyThis(const QString& path);
   void showCalibration();
   void chooseCalibration();
   std::string handName() const;
   QString rowName(std::size_t row) const;
+  const HandDescription* hand() const;
 
   QSettings& settings_;
   KeptWithRecording kept_;
   std::optional<SensorSettings> said_;  // typed, not kept yet
+  std::optional<HandDescription> liveHand_;
   double positionS_ = 0.0;
   std::shared_ptr<const ForceSeries> found_;
   QLabel* name_ = nullptr;

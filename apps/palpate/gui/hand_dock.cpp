@@ -13,6 +13,7 @@
 #include "gui/captions.h"
 #include "gui/facts_view.h"
 #include "gui/grasp_panel.h"
+#include "gui/sensitivity_modes.h"
 #include "gui/stop_key.h"
 #include "gui/tactile_settings_panel.h"
 
@@ -50,6 +51,8 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   connect(grasp_, &GraspPanel::refused, this, refused);
   connect(grasp_, &GraspPanel::asked, this, &HandDock::refresh);
   connect(tactile_, &TactileSettingsPanel::refused, this, refused);
+  connect(sensitivity_, &SensitivityModes::refused, this, refused);
+  connect(tactile_, &TactileSettingsPanel::changedByHand, sensitivity_, &SensitivityModes::letGo);
   timer_.setInterval(kRefreshMs);
   connect(&timer_, &QTimer::timeout, this, &HandDock::refresh);
   setHand(nullptr, nullptr);
@@ -95,6 +98,7 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   area->setFocusPolicy(Qt::NoFocus);
   auto* content = new QWidget(area);
   grasp_ = new GraspPanel(settings, content);
+  sensitivity_ = new SensitivityModes(content);
   tactile_ = new TactileSettingsPanel(settings, content);
   angles_ = new FactsView(content);
   angles_->setObjectName("liveAngles");
@@ -121,6 +125,7 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   column->addWidget(grasp_);
   column->addSpacing(8);
   column->addWidget(sectionHeading("Matrices", content));
+  column->addWidget(sensitivity_);
   column->addWidget(tactile_);
   column->addSpacing(8);
   column->addLayout(measured);
@@ -138,6 +143,7 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   said_.clear();
   feed_ = session ? session->subscribe("the dock Hand", smallFeed()) : nullptr;
   grasp_->setControl(control);
+  sensitivity_->setHand(session, control);
   tactile_->setHand(session, control);
   stopKey_->setControl(control);
   stop_->setEnabled(control != nullptr);
@@ -161,6 +167,7 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
 void HandDock::refresh() {
   const GraspStatus status = control_ ? control_->status() : GraspStatus{};
   grasp_->showStatus(status);
+  sensitivity_->refresh();
   tactile_->refresh(status);
   showState(status);
   showSamples();

@@ -19,6 +19,7 @@ namespace palpate::gui {
 
 class FactsView;
 class GraspPanel;
+class SensitivityModes;
 class StopKey;
 class TactileSettingsPanel;
 
@@ -32,6 +33,7 @@ class HandDock : public QWidget {
   void setHand(CaptureSession* session, GraspControl* control);
   void setTheme(Theme theme);
   TactileSettingsPanel& tactileSettings() noexcept { return *tactile_; }
+  SensitivityModes& sensitivity() noexcept { return *sensitivity_; }
   // What the timer does while a hand is connected.
   void refresh();
   QSize sizeHint() const override { return {455, 640}; }
@@ -55,6 +57,7 @@ class HandDock : public QWidget {
   QLabel* heat_;
   QPushButton* stop_;
   GraspPanel* grasp_;
+  SensitivityModes* sensitivity_;
   TactileSettingsPanel* tactile_;
   FactsView* angles_;
   FactsView* temperatures_;

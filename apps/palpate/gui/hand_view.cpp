@@ -333,9 +333,14 @@ void HandView::setHover(std::optional<TaxelPlace> place) {
   emit hovered(hoverText());
 }
 
+void HandView::setPressure(std::shared_ptr<const PressureFrame> pressure) {
+  pressure_ = std::move(pressure);
+  if (hover_) emit hovered(hoverText());
+}
+
 QString HandView::hoverText() const {
   if (!hover_ || !drawing_.hasHand()) return {};
-  return taxelText(drawing_.hand(), *hover_, drawing_.moment().frame);
+  return taxelText(drawing_.hand(), *hover_, drawing_.moment().frame, pressure_.get());
 }
 
 }  // namespace palpate::gui

@@ -4,12 +4,17 @@
 
 #include <QPoint>
 #include <QWidget>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "gui/hand_drawing.h"
 #include "gui/hand_picture.h"
 #include "gui/hand_raster.h"
+
+namespace palpate {
+struct PressureFrame;
+}
 
 namespace palpate::gui {
 
@@ -52,6 +57,7 @@ class HandView : public QWidget {
   void zoomBy(double factor);
   // "finger 0 distal · x 3, y 5 · 812 counts"; empty beside the taxels.
   QString hoverText() const;
+  void setPressure(std::shared_ptr<const PressureFrame> pressure);  // as MatricesView has it
   // What is seen, for a picture of its own: `page` gives size and colours.
   HandPictureOptions pictureOptions(const MatricesPictureOptions& page) const;
   bool usesOpenGl() const noexcept { return canvas_ != nullptr; }
@@ -103,6 +109,7 @@ class HandView : public QWidget {
   bool assumed_ = false;
   TaxelSelection selection_;
   std::optional<TaxelPlace> hover_;
+  std::shared_ptr<const PressureFrame> pressure_;
   Drag drag_ = Drag::kNone;
   QPointF pressed_, last_;
   int numPaints_ = 0;

@@ -20,7 +20,7 @@ QString rate(double hz) {
   return figure(hz, hz < kSlow ? 2 : 1);
 }
 
-std::vector<Fact> factsOf(const OpenedRecording& recording) {
+std::vector<Fact> factsOf(const OpenedRecording& recording, const QString& calibration) {
   const Profile& profile = recording.profile;
   const ProfileInfo& info = profile.info();
   std::vector<Fact> facts;
@@ -58,7 +58,7 @@ std::vector<Fact> factsOf(const OpenedRecording& recording) {
   facts.push_back({"saturated frames",
                    saturated ? QString::number(*saturated) : QString("being counted"),
                    saturated.value_or(0) > 0});
-  facts.push_back({"calibration", "none: values are counts"});
+  facts.push_back({"calibration", calibration});
   for (const std::string& warning : info.warnings)
     facts.push_back({"warning", QString::fromStdString(warning), true});
   return facts;
@@ -121,14 +121,20 @@ void InspectPanel::setRecording(const OpenedRecordingPtr& recording) {
     return;
   }
   heading_->setText("RECORDING");
-  facts_->setFacts(factsOf(*recording));
+  facts_->setFacts(factsOf(*recording, calibration_));
   listSensors(recording->profile.hand(),
               recording->profile.numAngles() > 0,
               recording->profile.numTemperatures() > 0);
 }
 
+void InspectPanel::setCalibration(const QString& text) {
+  if (text == calibration_) return;
+  calibration_ = text;
+  renewFacts();
+}
+
 void InspectPanel::renewFacts() {
-  if (recording_) facts_->setFacts(factsOf(*recording_));
+  if (recording_) facts_->setFacts(factsOf(*recording_, calibration_));
 }
 
 void InspectPanel::setHand(const HandDescription& hand) {

@@ -21,6 +21,8 @@ class InspectPanel : public QScrollArea {
   explicit InspectPanel(QWidget* parent = nullptr);
   void setRecording(const OpenedRecordingPtr& recording);
   void showFrame(std::size_t frame);
+  // What values are told in beside counts: "none: values are counts", or the calibration's name.
+  void setCalibration(const QString& text);
   // More is known of a long recording now.
   void renewFacts();
   // A live hand instead of a recording.
@@ -40,6 +42,7 @@ class InspectPanel : public QScrollArea {
   void showTemperatures(const Temperatures& temperatures);
 
   OpenedRecordingPtr recording_;
+  QString calibration_;
   MatrixTableModel* model_;
   MatrixTable* matrices_;
   QLabel* heading_;

@@ -1,5 +1,6 @@
 #include "gui/live_source.h"
 
+#include <palpate/calibration/force_series.h>
 #include <palpate/capture/replay.h>
 #include <palpate/core/error.h>
 #include <palpate/device/live_hand.h>
@@ -7,6 +8,7 @@
 #include <palpate/emulator/scene.h>
 #include <palpate/live/signals_stage.h>
 #include <palpate/recording/recording.h>
+#include <palpate/recording/recording_meta.h>
 
 namespace palpate::gui {
 namespace {
@@ -43,6 +45,22 @@ std::unique_ptr<Device> deviceOf(LiveSource& source,
   return std::make_unique<LiveHand>(std::move(ports));
 }
 
+// What the matrices are set to: the controller says it, or a recording that is replayed.
+PressureStage::AskSettings settingsOf(const CaptureSession& session, const Connection& connection) {
+  if (connection.kind == Connection::Kind::kReplay) {
+    auto meta = readRecordingMeta(connection.recording.toStdString());
+    return [told = meta["settings"]] {
+      return told.empty() ? std::vector<SensorSettings>() : reportedSettingsFrom(Json::parse(told));
+    };
+  }
+  return [&session] {
+    std::vector<SensorSettings> settings;
+    for (const MatrixSettings& matrix : session.device().facts().matrices)
+      settings.push_back({matrix.sensitivity, static_cast<double>(matrix.thresholdCounts), false});
+    return settings;
+  };
+}
+
 }  // namespace
 
 LiveSource::~LiveSource() {
@@ -72,6 +90,10 @@ std::unique_ptr<LiveSource> openSource(const Connection& connection,
   source->filters = filters.get();
   stages.push_back(std::move(filters));
   stages.push_back(std::make_unique<SignalsStage>());
+  auto pressure = std::make_unique<PressureStage>(source->session->device().hand(),
+                                                  settingsOf(*source->session, connection));
+  source->pressure = pressure.get();
+  stages.push_back(std::move(pressure));
   ChainOptions options;
   options.onResults = [history = source->history.get()](const LiveResults& results) {
     history->add(results);

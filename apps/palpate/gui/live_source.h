@@ -10,6 +10,7 @@
 #include <palpate/core/progress.h>
 #include <palpate/emulator/emulated_hand.h>
 #include <palpate/live/filter_stage.h>
+#include <palpate/live/pressure_stage.h>
 #include <palpate/live/processing_chain.h>
 #include <palpate/live/signal_history.h>
 
@@ -33,6 +34,7 @@ struct LiveSource {
   std::unique_ptr<SignalHistory> history;
   std::unique_ptr<ProcessingChain> chain;
   FilterStage* filters = nullptr;         // of the chain, the first stage
+  PressureStage* pressure = nullptr;      // of the chain
   std::unique_ptr<GraspControl> control;  // null: a replay, which nobody can move
 };
 

@@ -8,6 +8,7 @@
 #include "gui/calibrate_panel.h"
 #include "gui/dock.h"
 #include "gui/force_page.h"
+#include "gui/noise_page.h"
 #include "gui/pressure_page.h"
 #include "gui/step_page.h"
 #include "gui/tare_page.h"
@@ -19,18 +20,6 @@ namespace {
 constexpr const char* kTareKind = "tare";  // of events
 constexpr const char* kSettingsKind = "sensor_settings";
 constexpr int kUsualWidth = 640;  // [px] its tables are read without scrolling
-
-KeptWithRecording keptIn(const std::vector<RecordingEvent>& events, const SensorLayout& layout) {
-  KeptWithRecording kept;
-  for (const RecordingEvent& event : events) try {
-      if (event.kind == kTareKind) kept.tare = tareFrom(Json::parse(event.json), layout);
-      if (event.kind == kSettingsKind) kept.settings = sensorSettingsFrom(Json::parse(event.json));
-    } catch (const Error& error) {
-      kept.trouble = "An event \"" + QString::fromStdString(event.kind) +
-                     "\" of the recording can't be used: " + error.what();
-    }
-  return kept;
-}
 
 }  // namespace
 
@@ -83,8 +72,10 @@ void MainWindow::CalibrateView::connectAll() {
     applyCalibration(
         window_.settings_, current ? current->profile.hand().name : made->calibration.hand, path);
     panel_->force().calibrationChanged();
+    applied();
     window_.flash("applied: " + QFileInfo(path).fileName());
   });
+  connectPressures();
   connect(dock_->toggleViewAction(), &QAction::triggered, this, [this](bool shown) {
     if (!shown) return;
     dock_->raise();
@@ -106,6 +97,7 @@ void MainWindow::CalibrateView::show() {
   followEvents();
   panel_->setTheme(resolved(window_.view_.theme));
   panel_->setPosition(window_.playback_.positionS());
+  renewPressures();
 }
 
 void MainWindow::CalibrateView::zoomTo(double fromS, double toS) {
@@ -124,11 +116,10 @@ void MainWindow::CalibrateView::followEvents() {
 }
 
 void MainWindow::CalibrateView::tellKept() {
-  const KeptWithRecording kept =
-      followed_ ? keptIn(followed_->events(), window_.current_->profile.layout())
-                : KeptWithRecording{};
-  panel_->tare().setKept(kept.tare || !kept.trouble.isEmpty());
-  panel_->force().setKept(kept);
+  kept_ = followed_ ? keptWith(*window_.current_, followed_->events()) : KeptWithRecording{};
+  panel_->tare().setKept(kept_.tare || !kept_.trouble.isEmpty());
+  panel_->force().setKept(kept_);
+  renewPressures();
 }
 
 void MainWindow::CalibrateView::keep(const std::string& kind,
@@ -146,6 +137,12 @@ void MainWindow::CalibrateView::keep(const std::string& kind,
 bool MainWindow::CalibrateView::cancel() { return panel_->cancel(); }
 
 void MainWindow::CalibrateView::leave() { delete dock_; }
+
+void MainWindow::CalibrateView::addSteps(std::vector<EventMark>& marks) const {
+  const auto& found = panel_->steps().found();
+  if (found && panel_->steps().source() == window_.current_)
+    palpate::gui::addSteps(found->report, *window_.current_, marks);
+}
 
 ExportedView MainWindow::CalibrateView::exported() {
   ExportedView view;

@@ -2,11 +2,17 @@
 #pragma once
 
 #include <QPointer>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include <palpate/calibration/pressure_reader.h>
+#include <palpate/filter/recipe.h>
 #include <palpate/recording/recording_event.h>
 
+#include "gui/applied_calibration.h"
+#include "gui/event_marks.h"
 #include "gui/main_window.h"
 
 namespace palpate::gui {
@@ -23,11 +29,24 @@ class MainWindow::CalibrateView : public QObject {
   void makeRoomFor(const Dock* asked);  // where it is this dock
   bool cancel();
   ExportedView exported();
+  // The loading steps that were found in the recording that is shown, among its events.
+  void addSteps(std::vector<EventMark>& marks) const;
+  // main_window_pressure.cpp: pressures and forces beside the counts, of a recording or live
+  void showLive(const LiveResults& results);
+  const QString& text() const noexcept { return text_; }  // what values are told in
   void leave();  // the window goes: what is at work ends, while all it needs is there
 
  private:
   void followEvents();
   void tellKept();
+  void connectPressures();
+  void renewPressures();
+  void renewLive(const QString& path);
+  void renewRecording(const QString& path);
+  void showFrame();
+  void showForces(const std::shared_ptr<const PressureFrame>& pressure);
+  void applied();
+  void filterGhosts(bool on);
   // Instead of those of its kind that are there; nothing: only takes these away.
   void keep(const std::string& kind,
             const std::optional<RecordingEvent>& event,
@@ -38,6 +57,21 @@ class MainWindow::CalibrateView : public QObject {
   CalibratePanel* panel_;
   Dock* dock_;
   QPointer<EventEditor> followed_;
+  KeptWithRecording kept_;
+  QString text_ = "none: values are counts";
+  std::unique_ptr<PressureReader> reader_;  // of the recording that is shown; null: no pressures
+  struct Told {
+    const void* of = nullptr;  // recording or live source
+    QString path;              // of the calibration
+    KeptWithRecording kept;
+    bool operator==(const Told&) const = default;
+  };
+  std::optional<Told> told_;  // what the pressures that are shown are of
+  struct Filters {
+    Recipe recipe;
+    bool on = false;
+  };
+  std::optional<Filters> filtersBefore_;  // high sensitivity began
 };
 
 }  // namespace palpate::gui

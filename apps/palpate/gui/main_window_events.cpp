@@ -6,7 +6,7 @@
 #include <palpate/core/error.h>
 #include <palpate/recording/event_store.h>
 
-#include "gui/main_window.h"
+#include "gui/main_window_calibrate.h"
 #include "gui/message_banner.h"
 #include "gui/timeline_panel.h"
 
@@ -123,10 +123,12 @@ const std::vector<GraspSegment>& MainWindow::graspsOf(const OpenedRecordingPtr& 
 void MainWindow::showEvents() {
   if (liveShown_) return;
   EventRows& rows = timelinePanel_->rows();
-  if (EventEditor* editor = events())
-    rows.setMarks(marksOf(*current_, editor->events(), graspsOf(current_)));
-  else
-    rows.setMarks({});
+  std::vector<EventMark> marks;
+  if (EventEditor* editor = events()) {
+    marks = marksOf(*current_, editor->events(), graspsOf(current_));
+    calibrate_->addSteps(marks);
+  }
+  rows.setMarks(std::move(marks));
   enableEventActions();
 }
 

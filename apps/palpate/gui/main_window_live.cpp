@@ -14,7 +14,7 @@
 #include "gui/inspect_panel.h"
 #include "gui/link_panel.h"
 #include "gui/live_chart.h"
-#include "gui/main_window.h"
+#include "gui/main_window_calibrate.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
 #include "gui/offer_strip.h"
@@ -25,7 +25,8 @@ namespace {
 
 std::vector<Fact> factsOf(const Connection& connection,
                           const DeviceFacts& device,
-                          const QString& hand) {
+                          const QString& hand,
+                          const QString& calibration) {
   std::vector<Fact> facts{{"source", describe(connection)}, {"hand", hand}};
   const auto add = [&](const QString& name, const std::string& value) {
     if (!value.empty()) facts.push_back({name, QString::fromStdString(value)});
@@ -33,7 +34,7 @@ std::vector<Fact> factsOf(const Connection& connection,
   add("serial", device.serial);
   add("tactile firmware", device.firmware);
   add("motion firmware", device.motionFirmware);
-  facts.push_back({"calibration", "none: values are counts"});
+  facts.push_back({"calibration", calibration});
   return facts;
 }
 
@@ -90,6 +91,7 @@ void MainWindow::connectLive() {
       if (first) enableActions();
     }
     inspect_->showLive(results);
+    calibrate_->showLive(results);
     if (!handPanel_->isHidden())
       handPanel_->showLive(*results.frame,
                            results.angles ? results.angles->deg : std::vector<double>());
@@ -320,8 +322,10 @@ void MainWindow::showLook() {
   heedScanAnswers();
   if (!liveShown_) return;
   const HandDescription hand = source->session->device().hand();
-  inspect_->setLiveFacts(factsOf(
-      source->connection, source->session->device().facts(), QString::fromStdString(hand.name)));
+  inspect_->setLiveFacts(factsOf(source->connection,
+                                 source->session->device().facts(),
+                                 QString::fromStdString(hand.name),
+                                 calibrate_->text()));
   // Other taxels are scanned now, or another hand was found.
   if (matrices_->hand() && !(*matrices_->hand()->layout == *hand.layout)) {
     matrices_->setHand(hand);

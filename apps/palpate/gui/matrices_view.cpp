@@ -39,6 +39,11 @@ void MatricesView::clear() {
   renew();
 }
 
+void MatricesView::setPressure(std::shared_ptr<const PressureFrame> pressure) {
+  pressure_ = std::move(pressure);
+  if (hover_) emit hovered(hoverText());
+}
+
 void MatricesView::setFrame(const TactileFrame& frame) {
   if (!hand_) return;
   const bool first = !frame_;
@@ -237,7 +242,7 @@ void MatricesView::mouseMoveEvent(QMouseEvent* event) {
 void MatricesView::leaveEvent(QEvent*) { setHover(std::nullopt); }
 
 QString MatricesView::hoverText() const {
-  return hover_ && hand_ ? taxelText(*hand_, *hover_, frame_) : QString();
+  return hover_ && hand_ ? taxelText(*hand_, *hover_, frame_, pressure_.get()) : QString();
 }
 
 }  // namespace palpate::gui

@@ -5,11 +5,16 @@
 #include <QPixmap>
 #include <QWidget>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include <palpate/model/taxel_selection.h>
 
 #include "gui/matrices_painter.h"
+
+namespace palpate {
+struct PressureFrame;
+}
 
 namespace palpate::gui {
 
@@ -32,6 +37,8 @@ class MatricesView : public QWidget {
   void setHand(const HandDescription& hand);
   void clear();
   void setFrame(const TactileFrame& frame);
+  // Told beside the counts of the taxel under the mouse; null: no calibration is applied.
+  void setPressure(std::shared_ptr<const PressureFrame> pressure);
   void setLook(const MatricesLook& look);
   const MatricesLook& look() const noexcept { return look_; }
   const MatricesGeometry& geometryOfMatrices() const noexcept { return geometry_; }
@@ -77,6 +84,7 @@ class MatricesView : public QWidget {
 
   std::optional<HandDescription> hand_;
   std::optional<TactileFrame> frame_;
+  std::shared_ptr<const PressureFrame> pressure_;
   MatricesLook look_;
   MatricesGeometry geometry_;
   QPixmap background_;

@@ -6,6 +6,8 @@
 #include <QResizeEvent>
 #include <algorithm>
 
+#include "gui/captions.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -61,6 +63,7 @@ void MatrixTableModel::setRecording(const OpenedRecordingPtr& recording) {
   recording_ = recording;
   shown_.clear();
   plotted_.clear();
+  forces_.clear();
   if (recording_) {
     hand_ = recording_->profile.hand();
     shown_.resize(recording_->numMatrices() + 1);
@@ -77,6 +80,7 @@ void MatrixTableModel::setHand(const HandDescription& hand) {
   recording_.reset();
   hand_ = hand;
   shown_.assign(hand.layout->numMatrices() + 1, {});
+  forces_.clear();
   plotted_.assign(hand.layout->numMatrices(), true);
   plotted_.push_back(false);
   endResetModel();
@@ -98,6 +102,14 @@ void MatrixTableModel::showFrame(std::size_t frame) {
 void MatrixTableModel::showSignals(const std::vector<CharacteristicSignals>& rows) {
   if (rows.size() != shown_.size()) return;
   for (std::size_t row = 0; row < shown_.size(); ++row) showRow(row, rows[row]);
+}
+
+void MatrixTableModel::showForces(const std::vector<Force>& forces, const QString& why) {
+  const auto& fitting = forces.size() == shown_.size() ? forces : std::vector<Force>();
+  if (fitting == forces_ && why == forceTip_) return;
+  forces_ = fitting;
+  forceTip_ = why;
+  if (rowCount() > 0) emit dataChanged(index(0, kForce), index(rowCount() - 1, kForce));
 }
 
 void MatrixTableModel::setOld(bool old) {
@@ -142,6 +154,8 @@ QString MatrixTableModel::text(std::size_t row, int column) const {
       return now.active == 0 ? "–" : QString::number(now.mean, 'f', 0);
     case kMaximum:
       return now.active == 0 ? "–" : QString::number(now.maximum, 'f', 0);
+    case kForce:
+      return row < forces_.size() ? figure(forces_[row].newtons, 2) : QString("–");
     case kMinimum:
       return now.active == 0 ? "–" : QString::number(now.minimum, 'f', 0);
     case kSum:
@@ -151,6 +165,14 @@ QString MatrixTableModel::text(std::size_t row, int column) const {
     default:
       return {};
   }
+}
+
+QString MatrixTableModel::forceText(std::size_t row) const {
+  if (row >= forces_.size()) return forceTip_;
+  constexpr double kQuantile = 1.96;
+  const Force& force = forces_[row];
+  return figure(force.newtons, 3) + " ± " + figure(kQuantile * force.sd, 3) + " N (95 %)" +
+         (force.inRange ? "" : "\noutside what the calibration measured");
 }
 
 QVariant MatrixTableModel::data(const QModelIndex& index, int role) const {
@@ -171,10 +193,13 @@ QVariant MatrixTableModel::data(const QModelIndex& index, int role) const {
       if (index.column() == kName) return whole ? wholeColor(theme_) : matrixColor(row, theme_);
       return {};
     case Qt::ForegroundRole:
+      if (index.column() == kForce && row < forces_.size() && !forces_[row].inRange && !old_)
+        return colorsOf(theme_).warning;
       return (shown_[row].active > 0 && !old_) || index.column() == kName ? colorsOf(theme_).text
                                                                           : colorsOf(theme_).muted;
     case Qt::ToolTipRole:
       if (index.column() == kName) return "Ticked rows are plotted in the timeline";
+      if (index.column() == kForce) return forceText(row);
       return {};
     default:
       return {};
@@ -199,11 +224,12 @@ QVariant MatrixTableModel::headerData(int section, Qt::Orientation orientation, 
   if (role == Qt::TextAlignmentRole)
     return QVariant::fromValue(Qt::Alignment(section == kName ? Qt::AlignLeft | Qt::AlignVCenter
                                                               : Qt::AlignRight | Qt::AlignVCenter));
-  static const char* const names[] = {"matrix", "active", "mean", "max", "min", "sum", "mm²"};
+  static const char* const names[] = {"matrix", "active", "mean", "max", "N", "min", "sum", "mm²"};
   static const char* const tips[] = {"Sensor matrix; tick to plot it in the timeline",
                                      "Taxels with a value above 0",
                                      "Mean of the active taxels in counts",
                                      "Largest value in counts",
+                                     "Force in newtons; needs a calibration (Calibrate)",
                                      "Smallest value of the active taxels in counts",
                                      "Sum of all values in counts",
                                      "Area of the active taxels in mm²"};

@@ -17,7 +17,7 @@ namespace palpate::gui {
 class MatrixTableModel : public QAbstractTableModel {
   Q_OBJECT
  public:
-  enum Column { kName, kActive, kMean, kMaximum, kMinimum, kSum, kArea, kNumColumns };
+  enum Column { kName, kActive, kMean, kMaximum, kForce, kMinimum, kSum, kArea, kNumColumns };
 
   using QAbstractTableModel::QAbstractTableModel;
 
@@ -27,6 +27,15 @@ class MatrixTableModel : public QAbstractTableModel {
   void showFrame(std::size_t frame);
   // One per matrix, the whole last; another number is ignored.
   void showSignals(const std::vector<CharacteristicSignals>& rows);
+  // Force of one row [N]; nothing: no calibration is applied.
+  struct Force {
+    double newtons = 0.0;
+    double sd = 0.0;
+    bool inRange = true;
+    bool operator==(const Force&) const = default;
+  };
+  // One per matrix, the whole last; empty: no calibration is applied. `why`: says so, for the tool tip.
+  void showForces(const std::vector<Force>& forces, const QString& why);
   // What is shown is of before: greyed.
   void setOld(bool old);
   std::size_t numMatrices() const noexcept { return shown_.empty() ? 0 : shown_.size() - 1; }
@@ -48,12 +57,15 @@ class MatrixTableModel : public QAbstractTableModel {
 
  private:
   QString text(std::size_t row, int column) const;
+  QString forceText(std::size_t row) const;
 
   void showRow(std::size_t row, const CharacteristicSignals& now);
 
   OpenedRecordingPtr recording_;
   HandDescription hand_;
   std::vector<CharacteristicSignals> shown_;  // of the current frame, the whole last
+  std::vector<Force> forces_;                 // as shown_, or empty
+  QString forceTip_;
   std::vector<bool> plotted_;
   bool old_ = false;
   Theme theme_ = Theme::kDark;

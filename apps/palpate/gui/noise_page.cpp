@@ -14,6 +14,7 @@
 #include <palpate/core/number_text.h>
 #include <palpate/core/output_file.h>
 
+#include "gui/applied_calibration.h"
 #include "gui/calibrate_texts.h"
 #include "gui/captions.h"
 #include "gui/figures_table.h"
@@ -118,12 +119,22 @@ NoisePage::NoisePage(QWidget* parent) : CalibratePage("noise", parent) {
   save_->setObjectName("noiseSave");
   save_->setToolTip("As JSON, or as XML that the prior program reads");
   save_->setEnabled(false);
+  apply_ = new QPushButton("Apply to this hand", this);
+  apply_->setObjectName("noiseApply");
+  apply_->setToolTip("High sensitivity (dock Hand) keeps thresholds just above these lines");
+  apply_->setProperty("primary", true);
+  apply_->setEnabled(false);
+  auto* openLines = new QPushButton("Apply a file…", this);
+  openLines->setObjectName("noiseOpen");
+  openLines->setToolTip("Lines that were saved (JSON), or the prior program's (XML)");
   auto* row = new QHBoxLayout;
   row->setSpacing(8);
   row->addWidget(new QLabel("Bins", this));
   row->addWidget(bins_);
   row->addStretch(1);
+  row->addWidget(openLines);
   row->addWidget(save_);
+  row->addWidget(apply_);
   top().addLayout(row);
 
   auto* content = new QWidget(this);
@@ -147,6 +158,20 @@ NoisePage::NoisePage(QWidget* parent) : CalibratePage("noise", parent) {
                                      "Noise lines (*.json);;For the prior program (*.xml)")
             .toStdString());
   };
+  askForLines = [this] {
+    return QFileDialog::getOpenFileName(
+        this, "Apply noise lines", {}, "Noise lines (*.json *.xml);;All files (*)");
+  };
+  connect(apply_, &QPushButton::clicked, this, [this] { emit applyAsked(found_->floor); });
+  connect(openLines, &QPushButton::clicked, this, [this] {
+    const QString path = askForLines();
+    if (path.isEmpty()) return;
+    try {
+      emit applyAsked(noiseFromFile(path));
+    } catch (const Error& error) {
+      emit said(error.what());
+    }
+  });
   connect(bins_, &QSpinBox::valueChanged, this, &NoisePage::renew);
   connect(table_, &FiguresTable::rowChosen, this, [this](int chosen) {
     chart_->choose(static_cast<std::size_t>(chosen));
@@ -168,6 +193,7 @@ NoisePage::NoisePage(QWidget* parent) : CalibratePage("noise", parent) {
 void NoisePage::forget() {
   found_.reset();
   save_->setEnabled(false);
+  apply_->setEnabled(false);
 }
 
 QStringList NoisePage::names() const {
@@ -199,6 +225,7 @@ void NoisePage::take(const std::shared_ptr<const FoundNoise>& found) {
   const bool any =
       std::any_of(lines.begin(), lines.end(), [](const NoiseLine& line) { return line.valid; });
   save_->setEnabled(any);
+  apply_->setEnabled(any);
   if (!any) {
     QString why = linesOf(found->floor.notes);
     if (why.isEmpty() && !lines.empty()) why = linesOf(lines.front().notes);

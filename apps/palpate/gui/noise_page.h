@@ -41,6 +41,11 @@ class NoisePage : public CalibratePage {
 
   // How a place is asked for; an empty answer means cancelled. Tests answer themselves.
   std::function<std::filesystem::path(const QString& suggestion)> askForPlace;
+  std::function<QString()> askForLines;
+
+ signals:
+  // High sensitivity of the hand shall go by these lines from now on.
+  void applyAsked(const palpate::NoiseFloor& floor);
 
  protected:
   void compute() override;
@@ -54,6 +59,7 @@ class NoisePage : public CalibratePage {
   std::shared_ptr<const FoundNoise> found_;
   QSpinBox* bins_;
   QPushButton* save_;
+  QPushButton* apply_;
   FiguresTable* table_;
   QLabel* notes_;
   NoiseChart* chart_;

@@ -35,8 +35,8 @@ struct OpenedRecording {
   std::size_t saturatedFrames = 0;           // frames with a taxel at or above saturation
   std::vector<bool> touched;                 // per matrix: has an active taxel in some frame
   EventsReport events;                       // as the file has them
-  std::map<std::string, std::string> meta = {};   // recording_meta.h; empty of a .dsa
-  std::string eventsFailure;                 // why they could not be read; empty: they could
+  std::map<std::string, std::string> meta = {};  // recording_meta.h; empty of a .dsa
+  std::string eventsFailure;                     // why they could not be read; empty: they could
   // Of a long one: filled by whoever shows it (compute()); null: the table has everything.
   std::shared_ptr<SignalOverview> overview;
 

@@ -1,6 +1,7 @@
 #include "gui/pressure_page.h"
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -195,6 +196,18 @@ void PressurePage::makeTop() {
   study_->setObjectName("pressureStudy");
   study_->setToolTip("All terms, and the study's temperatures; else only terms that hold up");
   options->addWidget(study_);
+  robust_ = new QCheckBox("Robust", this);
+  robust_->setObjectName("pressureRobust");
+  robust_->setToolTip("Outliers within a step count less (Huber's loss)");
+  options->addWidget(robust_);
+  matrix_ = new QComboBox(this);
+  matrix_->setObjectName("pressureMatrix");
+  matrix_->setAccessibleName("Matrix");
+  matrix_->setToolTip("The matrix that was loaded");
+  matrix_->addItem("loaded matrix");
+  for (const MatrixDescription& matrix : sdh2().matrices)
+    matrix_->addItem(QString::fromStdString(matrix.shortName));
+  options->addWidget(matrix_);
   options->addStretch(1);
   const auto field = [&](const char* name, const QString& label, const QString& tip, double most) {
     auto* made = new SecondsField(this);
@@ -233,13 +246,22 @@ void PressurePage::makeTop() {
   });
   connect(save_, &QPushButton::clicked, this, &PressurePage::saveAs);
   connect(apply_, &QPushButton::clicked, this, &PressurePage::apply);
-  connect(study_, &QCheckBox::toggled, this, &PressurePage::renew);
+  for (QCheckBox* each : {study_, robust_})
+    connect(each, &QCheckBox::toggled, this, &PressurePage::renew);
+  connect(matrix_, &QComboBox::activated, this, &PressurePage::renew);
   for (QDoubleSpinBox* each : {area_, sensitivity_, threshold_})
     connect(each, &QDoubleSpinBox::valueChanged, this, &PressurePage::renew);
 }
 
-SensorSettings PressurePage::settings() const {
-  return {sensitivity_->value(), threshold_->value(), true};
+CalibrationChoices PressurePage::choices() const {
+  CalibrationChoices choices;
+  choices.model.study = study_->isChecked();
+  choices.model.stampAreaMm2 = area_->value();
+  choices.settings = {sensitivity_->value(), threshold_->value(), true};
+  choices.robust = robust_->isChecked();
+  if (matrix_->currentIndex() > 0)
+    choices.matrix = static_cast<std::size_t>(matrix_->currentIndex() - 1);
+  return choices;
 }
 
 void PressurePage::open(const std::filesystem::path& path) {
@@ -267,14 +289,9 @@ void PressurePage::compute() {
     });
     return;
   }
-  PressureModelOptions options;
-  options.study = study_->isChecked();
-  options.stampAreaMm2 = area_->value();
-  const auto known = now_ ? now_->gathered : nullptr;
   run("the calibration",
-      [this, path = path_, options, known, settings = settings()](
-          const Progress& progress) -> Take {
-        auto shown = calibrationFromTable(path, options, settings, known, progress);
+      [this, path = path_, known = now_, choices = choices()](const Progress& progress) -> Take {
+        auto shown = calibrationFromTable(path, choices, known, progress);
         return [this, shown] { take(shown); };
       });
 }
@@ -300,7 +317,8 @@ void PressurePage::showOptions() {
   name_->setToolTip(QString::fromStdString(path_.string()));
   save_->setEnabled(there);
   apply_->setEnabled(there && now_->calibration.pressure.valid());
-  for (QWidget* option : std::initializer_list<QWidget*>{study_, area_, sensitivity_, threshold_})
+  for (QWidget* option :
+       std::initializer_list<QWidget*>{study_, robust_, matrix_, area_, sensitivity_, threshold_})
     option->setEnabled(fromTable);
   if (fromTable) return;
   const Calibration& read = now_->calibration;

@@ -11,6 +11,7 @@
 
 class QBoxLayout;
 class QCheckBox;
+class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
 class QPushButton;
@@ -57,7 +58,7 @@ class PressurePage : public CalibratePage {
   void showOptions();
   void saveAs();
   void apply();
-  SensorSettings settings() const;
+  CalibrationChoices choices() const;
 
   std::filesystem::path path_;   // that is asked for
   std::filesystem::path saved_;  // where this very calibration is on disk; empty: nowhere
@@ -66,6 +67,8 @@ class PressurePage : public CalibratePage {
   QPushButton* save_ = nullptr;
   QPushButton* apply_ = nullptr;
   QCheckBox* study_ = nullptr;
+  QCheckBox* robust_ = nullptr;
+  QComboBox* matrix_ = nullptr;
   QDoubleSpinBox* area_ = nullptr;
   QDoubleSpinBox* sensitivity_ = nullptr;
   QDoubleSpinBox* threshold_ = nullptr;

@@ -215,6 +215,7 @@ void StepPage::forget() {
   found_.reset();
   matrix_.reset();
   matrices_->clear();
+  emit foundChanged();
   if (!recording()) return;
   for (std::size_t m = 0; m < recording()->numMatrices(); ++m) matrices_->addItem(matrixName(m));
 }
@@ -246,6 +247,7 @@ void StepPage::take(const std::shared_ptr<const FoundSteps>& found) {
   const StepReport& report = found->report;
   matrix_ = report.matrix;
   matrices_->setCurrentIndex(static_cast<int>(report.matrix));
+  emit foundChanged();
   if (report.steps.empty()) {
     const QString notes = linesOf(report.notes);
     return say((notes.isEmpty() ? "No loading step was found." : notes) +

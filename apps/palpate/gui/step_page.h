@@ -45,6 +45,7 @@ class StepPage : public CalibratePage {
   // A row was chosen: its span in the recording [s].
   void spanChosen(double fromS, double toS);
   void sought(double seconds);
+  void foundChanged();  // other steps than before, or none
 
  protected:
   void compute() override;

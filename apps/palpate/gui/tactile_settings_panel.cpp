@@ -161,6 +161,7 @@ void TactileSettingsPanel::listNames() {
 
 void TactileSettingsPanel::send(const std::vector<DeviceCommand>& commands) {
   if (!control_) return;
+  emit changedByHand();
   try {
     for (const DeviceCommand& command : commands) pending_.push_back(control_->change(command));
   } catch (const std::exception& error) {

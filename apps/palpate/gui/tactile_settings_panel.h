@@ -35,6 +35,7 @@ class TactileSettingsPanel : public QWidget {
 
  signals:
   void refused(const QString& why);
+  void changedByHand();  // a value was set, a set brought, or a reset asked for
 
  private:
   struct Row {

@@ -2,11 +2,29 @@
 
 #include <cmath>
 
+#include "gui/captions.h"
+
 namespace palpate::gui {
+namespace {
+
+QString pressureText(const HandDescription& hand,
+                     const TaxelPlace& place,
+                     const PressureFrame* pressure) {
+  const auto [m, y, x] = place;
+  if (!pressure || pressure->kpa.size() != hand.layout->numPlaces()) return {};
+  const std::size_t at =
+      hand.layout->offset(m) + static_cast<std::size_t>(y * hand.layout->matrix(m).columns + x);
+  return " · " + figure(static_cast<double>(pressure->kpa[at]), 1) + " kPa · " +
+         figure(taxelForceN(*pressure, *hand.layout, m, y, x), 3) + " N" +
+         (pressure->matrices[m].inRange ? "" : ", outside what was measured");
+}
+
+}  // namespace
 
 QString taxelText(const HandDescription& hand,
                   const TaxelPlace& place,
-                  const std::optional<TactileFrame>& frame) {
+                  const std::optional<TactileFrame>& frame,
+                  const PressureFrame* pressure) {
   const auto [m, y, x] = place;
   const MatrixLayout& layout = hand.layout->matrix(m);
   const QString where = QString::fromStdString(hand.matrixName(m)) + " · x " + QString::number(x) +
@@ -18,7 +36,8 @@ QString taxelText(const HandDescription& hand,
   const QString number = value == std::round(value)
                              ? QString::number(std::lround(value))
                              : QString::number(static_cast<double>(value), 'f', 2);
-  return where + number + " counts" + (value >= hand.saturationCounts ? ", saturated" : "");
+  return where + number + " counts" + (value >= hand.saturationCounts ? ", saturated" : "") +
+         pressureText(hand, place, pressure);
 }
 
 }  // namespace palpate::gui

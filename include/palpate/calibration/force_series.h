@@ -28,6 +28,8 @@ struct MatrixForce {
   bool compensated = false;
 };
 
+MatrixForce matrixForce(const MatrixPressure& of);
+
 struct ForceSeries {
   std::size_t numMatrices = 0;
   std::vector<double> timeS;      // from the first frame [s]

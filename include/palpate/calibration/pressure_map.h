@@ -49,6 +49,13 @@ struct SettingsChange {
   std::vector<SensorSettings> settings;  // one per matrix, or one for all
 };
 
+// Force on one taxel [N]: its share of the matrix's force. 0 where nothing is told.
+double taxelForceN(const PressureFrame& frame,
+                   const SensorLayout& layout,
+                   std::size_t matrix,
+                   int row,
+                   int column);
+
 struct PressureMapOptions {
   // What the frames were recorded with; nothing: as the calibration. One per matrix, or one for all.
   std::vector<SensorSettings> settings = {};
