@@ -9,11 +9,13 @@
 #include <QPushButton>
 #include <QSlider>
 #include <QTest>
+#include <QToolButton>
 
 #include <palpate/model/preshape.h>
 
 #include "control/emulated_bench.h"
 #include "gui/facts_view.h"
+#include "gui/sensitivity_modes.h"
 #include "gui/tactile_settings_panel.h"
 #include "gui/value_slider.h"
 #include "testing/testing.h"
@@ -305,6 +307,62 @@ TEST_F(HandDockTest, ChoicesAreRemembered) {
   EXPECT_EQ(find<QComboBox>("preshape")->currentData().toString(), "parallel");
   EXPECT_EQ(find<ValueSlider>("velocity")->value(), 33.0);
   EXPECT_EQ(find<ValueSlider>("limit")->value(), 450.0);
+}
+
+NoiseFloor noiseLines() {
+  NoiseFloor floor;
+  for (std::size_t m = 0; m < 6; ++m) {
+    NoiseLine line;
+    line.matrix = m;
+    line.slope = 0.3;
+    line.intercept = 40.0;
+    line.rmse = 2.0;
+    line.valid = true;
+    floor.lines.push_back(line);
+  }
+  return floor;
+}
+
+TEST_F(HandDockTest, HighSensitivityNeedsNoiseLinesAndEndsByAHandOnTheValues) {
+  EXPECT_FALSE(find<QToolButton>("sensitivityHigh")->isEnabled()) << "no hand";
+  connectTo(testing::handWith("empty"));
+  SensitivityModes& modes = dock_->sensitivity();
+  int on = 0, off = 0;
+  QObject::connect(&modes, &SensitivityModes::highChanged, [&](bool is) { ++(is ? on : off); });
+  const auto settings = [&] { return bench_->session->device().facts().matrices; };
+  find<QToolButton>("sensitivityHigh")->click();
+  EXPECT_EQ(modes.mode(), SensitivityMode::kManual);
+  EXPECT_TRUE(find<QToolButton>("sensitivityManual")->isChecked());
+  ASSERT_TRUE(await([&] { return state().contains("noise lines"); })) << state().toStdString();
+  EXPECT_EQ(settings()[0].sensitivity, 0.5) << "nothing was set";
+  modes.noiseLines = [](const std::string& hand) {
+    EXPECT_EQ(hand, sdh2().name);
+    return std::optional(noiseLines());
+  };
+  find<QToolButton>("sensitivityHigh")->click();
+  EXPECT_EQ(on, 1);
+  ASSERT_TRUE(await([&] {
+    return settings()[5].sensitivity == 1.0 && settings()[5].thresholdCounts < 80;
+  })) << modes.statusText().toStdString();
+  ASSERT_TRUE(await([&] { return modes.statusText().contains("follow the temperatures"); }));
+  // A hand on a value: it holds nothing any more.
+  type("threshold1", "123");
+  EXPECT_EQ(modes.mode(), SensitivityMode::kManual);
+  EXPECT_TRUE(find<QToolButton>("sensitivityManual")->isChecked());
+  EXPECT_EQ(off, 1);
+  ASSERT_TRUE(await([&] { return settings()[1].thresholdCounts == 123; }));
+  EXPECT_EQ(settings()[5].sensitivity, 1.0) << "the others stay";
+}
+
+TEST_F(HandDockTest, AdaptiveSensitivitySaysWhatItWaitsFor) {
+  connectTo(testing::handWith("empty"));
+  find<QToolButton>("sensitivityAdaptive")->click();
+  EXPECT_TRUE(await([&] {
+    return dock_->sensitivity().statusText().contains("waits for something");
+  })) << dock_->sensitivity().statusText().toStdString();
+  dock_->setHand(nullptr, nullptr);
+  EXPECT_EQ(dock_->sensitivity().mode(), SensitivityMode::kManual);
+  EXPECT_EQ(dock_->sensitivity().statusText(), "");
 }
 
 }  // namespace
