@@ -118,5 +118,28 @@ TEST(ForceSeries, SettingsGoThereAndBack) {
     EXPECT_THROW(sensorSettingsFrom(Json::parse(bad)), Error) << bad;
 }
 
+TEST(ReportedSettings, AreThoseOfTheRecordingAndItsChangesInOrderOfTime) {
+  const std::string two = R"([{"sensitivity":0.5,"threshold_counts":150},)"
+                          R"({"sensitivity":1,"threshold_counts":60}])";
+  PressureMapOptions options;
+  useReportedSettings(options, "", {{5, two}});
+  EXPECT_TRUE(options.settings.empty()) << "it doesn't tell";
+  EXPECT_TRUE(options.changes.empty());
+  useReportedSettings(options,
+                      two,
+                      {{9, R"({"matrices":[{"sensitivity":0.25,"threshold_counts":0}]})"},
+                       {7, ""},
+                       {3, R"({"matrices":)" + two + "}"}});
+  ASSERT_EQ(options.settings.size(), 2u);
+  EXPECT_EQ(options.settings[0], (SensorSettings{0.5, 150.0, false}));
+  EXPECT_EQ(options.settings[1], (SensorSettings{1.0, 60.0, false}));
+  ASSERT_EQ(options.changes.size(), 2u) << "one says nothing";
+  EXPECT_EQ(options.changes[0].fromUs, 3);
+  EXPECT_EQ(options.changes[1].fromUs, 9);
+  EXPECT_EQ(options.changes[1].settings[0], (SensorSettings{0.25, 0.0, false}));
+  for (const char* bad : {"{}", "[{}]", "[{\"sensitivity\":0,\"threshold_counts\":1}]", "nonsense"})
+    EXPECT_THROW(useReportedSettings(options, bad, {}), Error) << bad;
+}
+
 }  // namespace
 }  // namespace palpate

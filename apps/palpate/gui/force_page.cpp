@@ -146,7 +146,9 @@ void ForcePage::makeTop() {
   threshold_ = field("forceThreshold", "Threshold in counts", 0.0, kFullScaleCounts);
   threshold_->setDecimals(0);
   keep_ = button("forceKeep", "Keep", "Note these settings in the recording (undo: Ctrl+Z)");
-  auto* made = new QHBoxLayout;
+  recordedWith_ = new QWidget(this);
+  auto* made = new QHBoxLayout(recordedWith_);
+  made->setContentsMargins(0, 0, 0, 0);
   made->setSpacing(8);
   made->addWidget(new QLabel("Recorded with sensitivity", this));
   made->addWidget(sensitivity_);
@@ -155,7 +157,7 @@ void ForcePage::makeTop() {
   made->addWidget(keep_);
   made->addStretch(1);
   top().addLayout(files);
-  top().addLayout(made);
+  top().addWidget(recordedWith_);
   connect(choose_, &QPushButton::clicked, this, &ForcePage::chooseCalibration);
   connect(drop_, &QPushButton::clicked, this, [this] { applyThis({}); });
   connect(keep_, &QPushButton::clicked, this, [this] {
@@ -223,7 +225,8 @@ void ForcePage::showCalibration() {
   drop_->setVisible(!path.isEmpty());
   choose_->setEnabled(hand() != nullptr);
   for (QWidget* each : std::initializer_list<QWidget*>{sensitivity_, threshold_, keep_})
-    each->setEnabled(!path.isEmpty() && !live());
+    each->setEnabled(!path.isEmpty());
+  recordedWith_->setVisible(!live());  // a controller says it
   chart_->setVisible(!live());
 }
 

@@ -71,6 +71,7 @@ class ForcePage : public CalibratePage {
   double positionS_ = 0.0;
   std::shared_ptr<const ForceSeries> found_;
   QLabel* name_ = nullptr;
+  QWidget* recordedWith_ = nullptr;
   QPushButton* choose_ = nullptr;
   QPushButton* drop_ = nullptr;
   QPushButton* keep_ = nullptr;

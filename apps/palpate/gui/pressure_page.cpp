@@ -209,6 +209,8 @@ void PressurePage::makeTop() {
     matrix_->addItem(QString::fromStdString(matrix.shortName));
   options->addWidget(matrix_);
   options->addStretch(1);
+  auto* measured = new QHBoxLayout;
+  measured->setSpacing(8);
   const auto field = [&](const char* name, const QString& label, const QString& tip, double most) {
     auto* made = new SecondsField(this);
     made->setObjectName(name);
@@ -219,8 +221,8 @@ void PressurePage::makeTop() {
     made->setFixedWidth(made->fontMetrics().horizontalAdvance("00000.00") + 18);
     auto* words = new QLabel(label, this);
     words->setToolTip(tip);
-    options->addWidget(words);
-    options->addWidget(made);
+    measured->addWidget(words);
+    measured->addWidget(made);
     return made;
   };
   area_ = field("pressureArea",
@@ -240,7 +242,9 @@ void PressurePage::makeTop() {
   threshold_->setDecimals(0);
   threshold_->setValue(SensorSettings{}.thresholdCounts);
   top().addLayout(files);
+  measured->addStretch(1);
   top().addLayout(options);
+  top().addLayout(measured);
   connect(openIt, &QPushButton::clicked, this, [this] {
     if (const auto path = askForTable(); !path.empty()) open(path);
   });
