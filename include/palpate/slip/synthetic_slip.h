@@ -51,7 +51,7 @@ struct SyntheticSensor {
   double noiseSd = 5.0;              // [counts]
   double thresholdCounts = 150.0;    // a reading below is 0
   double saturationCounts = 3560.0;  // no reading is above
-  double coverTaxels = 0.6;          // sd of an edge [taxels], > 0
+  double coverTaxels = 0.4;          // sd of an edge [taxels], > 0
 
   // Throws std::invalid_argument naming the field.
   void validate() const;
