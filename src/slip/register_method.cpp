@@ -20,8 +20,8 @@ constexpr double kMostTurnDeg = 40.0;
 // A misfit beyond which a registration says nothing.
 constexpr double kNoFit = 0.6;
 
-constexpr double kNoiseMemory = 0.1;  // weight of a new frame in the noise
-constexpr double kMostNoise = 100.0;  // [counts]
+constexpr double kNoiseMemory = 0.03;  // weight of a new frame in the noise
+constexpr double kMostNoise = 100.0;   // [counts]
 constexpr double kSureShift = 0.7;  // the centroid's shift is a better start from here on [taxels]
 
 // p -> R p + t, with the angle kept as it added up.
@@ -176,7 +176,7 @@ class RegisterMethod final : public TranslationMethod {
       beginKey(frame, motion().after(keyFromReference_));
       reading.newKey = true;
     } else {
-      surface_.learn(frame, motion_, options);
+      surface_.learn(frame, result, options);
     }
   }
 

@@ -47,9 +47,9 @@ class LearnedSurface {
   bool empty() const noexcept { return key_.empty(); }
   // x within -kMargin .. columns - 1 + kMargin, y alike.
   Sample at(float x, float y) const noexcept;
-  // Takes what a registered frame says; `motion` as found, the options as they were used.
+  // Takes what a registered frame says, by as much as its motion is known; the options as they were used.
   void learn(const ConstMatrixMap& frame,
-             const RigidMotion& motion,
+             const RegistrationResult& found,
              const RegistrationOptions& options) noexcept;
 
   const KeyFrame& start() const noexcept { return key_; }  // the frame it began with

@@ -21,7 +21,7 @@ struct SlipTrackerOptions {
   double saturationCounts = 3500.0;           // a taxel at or above is saturated, > 0
   int farthestTaxels = 4;                     // ncc, phase: a step is looked for within, 1..8
   RotationOptions rotation = {};
-  RegistrationOptions registration = {.noiseCounts = 5.0, .relativeError = 0.003};
+  RegistrationOptions registration = {.noiseCounts = 5.0, .relativeError = 0.001};
   LearnedSurfaceOptions surface = {};
 
   void validate() const;  // throws std::invalid_argument naming the field
