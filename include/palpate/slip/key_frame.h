@@ -1,0 +1,99 @@
+// A key frame of one matrix as a smooth surface: what a later frame is registered to.
+//
+// The counts become a cubic B-spline that goes through them (optionally through their Gauss-smoothed values). A taxel that reads 0 has
+// felt something between nothing and the sensor's threshold: beside active taxels it is filled by a part of the
+// threshold and counts as unknown. Masked taxels are unknown, too, and filled from their neighbours.
+// x = column, y = row, in taxels; the surface reaches from -0.5 to columns - 0.5 and rows - 0.5.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <palpate/model/matrix_layout.h>
+#include <palpate/model/tactile_frame.h>
+
+namespace palpate {
+
+struct KeyFrameOptions {
+  double blurTaxels =
+      0.0;  // sd of the Gaussian over 3 x 3 that smooths key and frames; 0: none, at most 2
+  double fillOfThreshold = 0.4;  // what a silent taxel beside an active one is taken for, 0..1
+
+  void validate() const;  // throws std::invalid_argument naming the field
+};
+
+// Gaussian over 3 x 3 of enabled taxels, borders left out and renormalised; sd 0: a copy. `out` must have rows x columns
+// values and be another place than `in`. Masked places become 0.
+void smoothMatrix(const MatrixLayout& layout,
+                  double blurTaxels,
+                  const float* in,
+                  float* out) noexcept;
+
+class KeyFrame {
+ public:
+  // Value and slope of the surface, and how much of it is unknown, 0 .. 1.
+  struct Sample {
+    float value = 0.0F;
+    float alongX = 0.0F;  // [counts per taxel]
+    float alongY = 0.0F;
+    float unknown = 0.0F;
+  };
+
+  // Throws std::invalid_argument.
+  explicit KeyFrame(const MatrixLayout& layout, const KeyFrameOptions& options = {});
+
+  // Takes a frame of this matrix; allocates nothing. False: fewer than `fewestTaxels` are active, there is no key then.
+  // Throws std::invalid_argument when the size is another one.
+  bool set(const ConstMatrixMap& frame);
+  void clear() noexcept { active_ = 0; }
+  bool empty() const noexcept { return active_ == 0; }
+
+  // x within -0.5 .. columns - 0.5, y within -0.5 .. rows - 0.5.
+  Sample at(float x, float y) const noexcept;
+
+  int active() const noexcept { return active_; }
+  double centerX() const noexcept { return centerX_; }  // centroid of the active taxels
+  double centerY() const noexcept { return centerY_; }
+  double sum() const noexcept { return sum_; }  // [counts]
+  float leastCounts() const noexcept {
+    return least_;
+  }  // the smallest active value: at or above the threshold
+  // How much turning the contact would change: the part of its slopes that runs around the centroid instead of towards
+  // it, by squares over the taxels with known neighbours. 0: round (nothing tells an angle), 0.5 at most for what has no order.
+  float turning() const noexcept { return turning_; }
+  const MatrixLayout& layout() const noexcept { return layout_; }
+  const KeyFrameOptions& options() const noexcept { return options_; }
+  // The smoothed values, rows x columns, row by row.
+  const std::vector<float>& smoothed() const noexcept { return smoothed_; }
+
+  // One flag per place, row by row.
+  const std::uint8_t* enabled() const noexcept { return enabled_.data(); }
+  // The values with the silent and the masked ones filled, row by row.
+  const std::vector<float>& filled() const noexcept { return filled_; }
+  // Coefficient of the spline at a taxel; beyond two places outside of the matrix the last one.
+  float coefficient(int y, int x) const noexcept;
+
+  static constexpr int kFewestTaxels = 2;
+
+ private:
+  void fill();
+  void interpolate() noexcept;
+  void lookForTurning() noexcept;
+
+  MatrixLayout layout_;
+  KeyFrameOptions options_;
+  int stride_ = 0;
+  std::vector<std::uint8_t> enabled_;
+  std::vector<float> smoothed_;
+  std::vector<float> filled_;
+  std::vector<float> coefficients_;  // with two places around
+  std::vector<float> unknown_;       // with one place around
+  int active_ = 0;
+  double centerX_ = 0.0;
+  double centerY_ = 0.0;
+  double sum_ = 0.0;
+  float least_ = 0.0F;
+  float turning_ = 0.0F;
+};
+
+}  // namespace palpate

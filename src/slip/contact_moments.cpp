@@ -1,0 +1,73 @@
+#include "palpate/slip/contact_moments.h"
+
+#include <algorithm>
+#include <array>
+
+namespace palpate {
+namespace {
+
+constexpr Eigen::Index kMostColumns = 256;
+
+}  // namespace
+
+// The third moments along one axis need the sums over the other alone: one pass over the matrix makes row and
+// column sums, the rest works on those.
+ContactMoments contactMoments(const ConstMatrixMap& matrix) noexcept {
+  const Eigen::Index rows = matrix.rows();
+  const Eigen::Index columns = std::min(matrix.cols(), kMostColumns);
+  std::array<double, kMostColumns> ofColumn;
+  for (Eigen::Index x = 0; x < columns; ++x) ofColumn[static_cast<std::size_t>(x)] = 0.0;
+
+  ContactMoments moments;
+  double m01 = 0.0;
+  double m02 = 0.0;
+  double m03 = 0.0;
+  double m11 = 0.0;
+  for (Eigen::Index y = 0; y < rows; ++y) {
+    const float* values = matrix.data() + y * matrix.cols();
+    double sum = 0.0;
+    double alongX = 0.0;
+    int active = 0;
+    for (Eigen::Index x = 0; x < columns; ++x) {
+      const bool isActive = values[x] > 0.0F;
+      const double value = isActive ? static_cast<double>(values[x]) : 0.0;
+      active += isActive ? 1 : 0;
+      sum += value;
+      alongX += static_cast<double>(x) * value;
+      ofColumn[static_cast<std::size_t>(x)] += value;
+    }
+    if (active == 0) continue;
+    moments.active += active;
+    const auto at = static_cast<double>(y);
+    moments.sum += sum;
+    m01 += at * sum;
+    m02 += at * at * sum;
+    m03 += at * at * at * sum;
+    m11 += at * alongX;
+  }
+  if (moments.active == 0) return {};
+
+  double m10 = 0.0;
+  double m20 = 0.0;
+  double m30 = 0.0;
+  for (Eigen::Index x = 0; x < columns; ++x) {
+    const double sum = ofColumn[static_cast<std::size_t>(x)];
+    const auto at = static_cast<double>(x);
+    m10 += at * sum;
+    m20 += at * at * sum;
+    m30 += at * at * at * sum;
+  }
+  const double scale = 1.0 / moments.sum;
+  const double cx = m10 * scale;
+  const double cy = m01 * scale;
+  moments.x = cx;
+  moments.y = cy;
+  moments.mu20 = m20 * scale - cx * cx;
+  moments.mu02 = m02 * scale - cy * cy;
+  moments.mu11 = m11 * scale - cx * cy;
+  moments.mu30 = m30 * scale - 3.0 * cx * m20 * scale + 2.0 * cx * cx * cx;
+  moments.mu03 = m03 * scale - 3.0 * cy * m02 * scale + 2.0 * cy * cy * cy;
+  return moments;
+}
+
+}  // namespace palpate

@@ -1,0 +1,93 @@
+#include "palpate/slip/rigid_registration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "slip/registration_passes.h"
+
+namespace palpate {
+namespace {
+
+// A key frame with what its silence hides as variance.
+struct KeySurface {
+  struct Sample {
+    float value, alongX, alongY, variance;
+  };
+  const KeyFrame& key;
+  float blind;  // sd of what isn't known [counts]
+
+  Sample at(float x, float y) const noexcept {
+    const KeyFrame::Sample sample = key.at(x, y);
+    const float unsure = blind * sample.unknown;
+    return {sample.value, sample.alongX, sample.alongY, unsure * unsure};
+  }
+};
+
+void check(bool good, const char* field, double value) {
+  if (!good)
+    throw std::invalid_argument(std::string("RegistrationOptions: ") + field + " is " +
+                                std::to_string(value));
+}
+
+}  // namespace
+
+void RegistrationOptions::validate() const {
+  check(passes >= 1 && passes <= 50, "passes", passes);
+  check(convergedTaxels > 0.0, "convergedTaxels", convergedTaxels);
+  check(noiseCounts > 0.0, "noiseCounts", noiseCounts);
+  check(relativeError >= 0.0, "relativeError", relativeError);
+  check(saturationCounts > 0.0, "saturationCounts", saturationCounts);
+  check(anglePriorDeg > 0.0, "anglePriorDeg", anglePriorDeg);
+  check(leastTurning >= 0.0 && leastTurning <= 0.5, "leastTurning", leastTurning);
+  check(gainPrior > 0.0, "gainPrior", gainPrior);
+  check(leastOverlap >= 0.0 && leastOverlap <= 1.0, "leastOverlap", leastOverlap);
+}
+
+RegistrationResult registerFrame(const KeyFrame& key,
+                                 const ConstMatrixMap& frame,
+                                 const RigidMotion& start,
+                                 const RegistrationOptions& options,
+                                 float* scratch) {
+  RegistrationResult result;
+  result.motion = start;
+  const MatrixLayout& layout = key.layout();
+  if (frame.rows() != layout.rows || frame.cols() != layout.columns)
+    throw std::invalid_argument("registerFrame: the frame hasn't the size of the key's matrix");
+  if (key.empty()) return result;
+
+  float least = 0.0F;
+  registration::Frame view{
+      frame.data(),
+      key.enabled(),
+      layout.columns,
+      registration::windowOf(frame.data(), layout.rows, layout.columns, least)};
+  if (least == 0.0F) return result;
+  const bool smooth = key.options().blurTaxels > 0.0;
+  if (smooth) {
+    smoothMatrix(layout, key.options().blurTaxels, frame.data(), scratch);
+    view.values = scratch;
+  }
+  const registration::Contact contact{static_cast<float>(key.centerX()),
+                                      static_cast<float>(key.centerY()),
+                                      static_cast<float>(key.sum()),
+                                      std::sqrt(static_cast<float>(key.active())),
+                                      key.turning() >= static_cast<float>(options.leastTurning),
+                                      smooth ? 0.0F : std::min(least, key.leastCounts()),
+                                      0.0F,
+                                      static_cast<float>(layout.columns - 1),
+                                      0.0F,
+                                      static_cast<float>(layout.rows - 1)};
+  const KeySurface surface{key, 0.3F * key.leastCounts()};
+  return registration::registerTo(surface, contact, view, start, options);
+}
+
+RigidRegistration::RigidRegistration(const MatrixLayout& layout,
+                                     const RegistrationOptions& options,
+                                     const KeyFrameOptions& keyOptions)
+    : key_(layout, keyOptions), options_(options), scratch_(layout.numPlaces()) {
+  options_.validate();
+}
+
+}  // namespace palpate

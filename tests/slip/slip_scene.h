@@ -1,0 +1,27 @@
+// Frames for tests of slip: one matrix, made to order.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "palpate/slip/synthetic_slip.h"
+
+namespace palpate::testing {
+
+inline ConstMatrixMap viewOf(const MatrixValues& values) {
+  return {values.data(), values.rows(), values.cols()};
+}
+
+// Readings without noise, threshold and rounding, or as a sensor gives them.
+inline MatrixValues idealReading(const SyntheticContact& contact, const SyntheticSensor& sensor) {
+  MatrixValues values(sensor.layout.rows, sensor.layout.columns);
+  idealCounts(contact, sensor, MatrixMap(values.data(), values.rows(), values.cols()));
+  return values;
+}
+inline MatrixValues reading(SyntheticSlip& slip, const SyntheticContact& contact) {
+  MatrixValues values(slip.sensor().layout.rows, slip.sensor().layout.columns);
+  slip.read(contact, MatrixMap(values.data(), values.rows(), values.cols()));
+  return values;
+}
+
+}  // namespace palpate::testing
