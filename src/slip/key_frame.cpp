@@ -8,26 +8,15 @@
 
 #include "palpate/slip/contact_moments.h"
 
+#include "slip/spline_weights.h"
+
 namespace palpate {
 namespace {
 
 constexpr int kAround = 2;             // places of coefficients on every side
 constexpr float kPole = -0.26794919F;  // sqrt(3) - 2, of the cubic spline's inverse filter
 
-using Four = Eigen::Array<float, 4, 1>;
-
-// Weights of the cubic B-spline at the four places around, and their derivatives; t = 0..1 behind the second.
-Four splineWeights(float t) noexcept {
-  const float s = 1.0F - t;
-  const float t2 = t * t;
-  const float s2 = s * s;
-  return Four(s2 * s, 4.0F - 6.0F * t2 + 3.0F * t2 * t, 4.0F - 6.0F * s2 + 3.0F * s2 * s, t2 * t) *
-         (1.0F / 6.0F);
-}
-Four splineSlopes(float t) noexcept {
-  const float s = 1.0F - t;
-  return Four(-0.5F * s * s, 1.5F * t * t - 2.0F * t, -1.5F * s * s + 2.0F * s, 0.5F * t * t);
-}
+using spline::Four;
 
 // In place: values -> coefficients of the spline through them, along one line; mirrored at its ends.
 void inverseFilter(float* line, int length, int step) noexcept {
@@ -214,6 +203,12 @@ void KeyFrame::lookForTurning() noexcept {
   turning_ = all > 0.0F ? around / all : 0.0F;
 }
 
+float KeyFrame::coefficient(int y, int x) const noexcept {
+  const int row = std::clamp(y + kAround, 0, layout_.rows + 2 * kAround - 1);
+  const int column = std::clamp(x + kAround, 0, stride_ - 1);
+  return coefficients_[static_cast<std::size_t>(row * stride_ + column)];
+}
+
 KeyFrame::Sample KeyFrame::at(float x, float y) const noexcept {
   const float floorX = std::floor(x);
   const float floorY = std::floor(y);
@@ -222,8 +217,8 @@ KeyFrame::Sample KeyFrame::at(float x, float y) const noexcept {
   const int corner =
       (static_cast<int>(floorY) + kAround) * stride_ + static_cast<int>(floorX) + kAround;
   const float* places = coefficients_.data() + corner - stride_ - 1;
-  const Four weightsY = splineWeights(ty);
-  const Four slopesY = splineSlopes(ty);
+  const Four weightsY = spline::weights(ty);
+  const Four slopesY = spline::slopes(ty);
   Four values = Four::Zero();
   Four slopes = Four::Zero();
   for (int j = 0; j < 4; ++j) {
@@ -231,10 +226,10 @@ KeyFrame::Sample KeyFrame::at(float x, float y) const noexcept {
     values += weightsY(j) * line;
     slopes += slopesY(j) * line;
   }
-  const Four weightsX = splineWeights(tx);
+  const Four weightsX = spline::weights(tx);
   Sample sample;
   sample.value = (values * weightsX).sum();
-  sample.alongX = (values * splineSlopes(tx)).sum();
+  sample.alongX = (values * spline::slopes(tx)).sum();
   sample.alongY = (slopes * weightsX).sum();
   const float* unknown = unknown_.data() + corner;
   sample.unknown = (1.0F - ty) * ((1.0F - tx) * unknown[0] + tx * unknown[1]) +

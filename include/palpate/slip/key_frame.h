@@ -66,6 +66,13 @@ class KeyFrame {
   // The smoothed values, rows x columns, row by row.
   const std::vector<float>& smoothed() const noexcept { return smoothed_; }
 
+  // One flag per place, row by row.
+  const std::uint8_t* enabled() const noexcept { return enabled_.data(); }
+  // The values with the silent and the masked ones filled, row by row.
+  const std::vector<float>& filled() const noexcept { return filled_; }
+  // Coefficient of the spline at a taxel; beyond two places outside of the matrix the last one.
+  float coefficient(int y, int x) const noexcept;
+
   static constexpr int kFewestTaxels = 2;
 
  private:

@@ -1,0 +1,221 @@
+// The least squares of a registration, over any surface: a key frame, or one that learns.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <Eigen/Dense>
+
+#include "palpate/slip/rigid_registration.h"
+
+namespace palpate::registration {
+
+using Normal = Eigen::Matrix4f;
+using Unknowns = Eigen::Vector4f;  // dx, dy, angle [rad], gain
+
+constexpr float kRadians = static_cast<float>(std::numbers::pi / 180.0);
+
+struct Place {
+  float dx = 0.0F;
+  float dy = 0.0F;
+  float angle = 0.0F;
+  float gain = 1.0F;
+};
+
+// What a surface is asked for beside its samples.
+struct Contact {
+  float centerX = 0.0F;
+  float centerY = 0.0F;
+  float sum = 0.0F;     // [counts]
+  float extent = 1.0F;  // turns an angle into taxels at the contact's edge
+  bool turns = false;   // an angle can be told
+  float silent = 0.0F;  // a silent taxel felt less than this [counts]
+  float lowX = 0.0F;    // where the surface may be asked
+  float highX = 0.0F;
+  float lowY = 0.0F;
+  float highY = 0.0F;
+};
+
+// Rows and columns around what is active, one taxel more on every side.
+struct Window {
+  int top = 0;
+  int bottom = -1;
+  int left = 0;
+  int right = -1;
+};
+
+struct Frame {
+  const float* values = nullptr;
+  const std::uint8_t* enabled = nullptr;
+  int columns = 0;
+  Window window;
+};
+
+inline Window windowOf(const float* values, int rows, int columns, float& least) noexcept {
+  Window window{rows, -1, columns, -1};
+  least = 0.0F;
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      const float value = values[y * columns + x];
+      if (!(value > 0.0F)) continue;
+      least = least == 0.0F ? value : std::min(least, value);
+      window = {std::min(window.top, y), y, std::min(window.left, x), std::max(window.right, x)};
+    }
+  if (window.bottom < 0) return window;
+  return {std::max(window.top - 1, 0),
+          std::min(window.bottom + 1, rows - 1),
+          std::max(window.left - 1, 0),
+          std::min(window.right + 1, columns - 1)};
+}
+
+struct Pass {
+  std::array<float, 15> sums{};  // upper triangle of the normal equations, right side, squares
+  int taxels = 0;
+  float inside = 0.0F;  // load of the surface that was seen
+};
+
+template <typename Surface>
+Pass passOver(const Surface& surface,
+              const Contact& contact,
+              const Frame& frame,
+              const Place& at,
+              const RegistrationOptions& options) {
+  Pass pass;
+  const float cosine = std::cos(at.angle);
+  const float sine = std::sin(at.angle);
+  const auto noise2 = static_cast<float>(options.noiseCounts * options.noiseCounts);
+  const auto relative2 = static_cast<float>(options.relativeError * options.relativeError);
+  const auto saturated = static_cast<float>(options.saturationCounts);
+  Normal normal = Normal::Zero();
+  Unknowns right = Unknowns::Zero();
+  float squares = 0.0F;
+  for (int y = frame.window.top; y <= frame.window.bottom; ++y)
+    for (int x = frame.window.left; x <= frame.window.right; ++x) {
+      const int place = y * frame.columns + x;
+      const float vx = static_cast<float>(x) - contact.centerX - at.dx;
+      const float vy = static_cast<float>(y) - contact.centerY - at.dy;
+      const float ux = cosine * vx + sine * vy;
+      const float uy = -sine * vx + cosine * vy;
+      const float sx = ux + contact.centerX;
+      const float sy = uy + contact.centerY;
+      if (!(sx >= contact.lowX && sx <= contact.highX && sy >= contact.lowY && sy <= contact.highY))
+        continue;
+      if (frame.enabled[place] == 0) continue;
+      const auto sample = surface.at(sx, sy);
+      const float model = at.gain * sample.value;
+      pass.inside += std::max(sample.value, 0.0F);
+      float measured = frame.values[place];
+      if (!(measured > 0.0F)) {
+        if (model <= contact.silent) continue;  // as silent as expected
+        measured = contact.silent;
+      } else if (measured >= saturated && model >= measured) {
+        continue;
+      }
+      const float residual = measured - model;
+      const float weight =
+          1.0F / (noise2 + relative2 * measured * measured + at.gain * at.gain * sample.variance);
+      const Unknowns slope(-at.gain * (cosine * sample.alongX - sine * sample.alongY),
+                           -at.gain * (sine * sample.alongX + cosine * sample.alongY),
+                           at.gain * (sample.alongX * uy - sample.alongY * ux),
+                           sample.value);
+      const Unknowns weighted = weight * slope;
+      normal.noalias() += weighted * slope.transpose();
+      right += residual * weighted;
+      squares += weight * residual * residual;
+      ++pass.taxels;
+    }
+  std::size_t i = 0;
+  for (int row = 0; row < 4; ++row)
+    for (int column = row; column < 4; ++column) pass.sums[i++] = normal(row, column);
+  for (int row = 0; row < 4; ++row) pass.sums[i++] = right(row);
+  pass.sums[i] = squares;
+  return pass;
+}
+
+inline Normal normalOf(const Pass& pass) {
+  Normal normal;
+  std::size_t i = 0;
+  for (int row = 0; row < 4; ++row)
+    for (int column = row; column < 4; ++column)
+      normal(row, column) = normal(column, row) = pass.sums[i++];
+  return normal;
+}
+
+// Gauss-Newton from `start`; `least` is the frame's smallest active value (0: nothing is active).
+template <typename Surface>
+RegistrationResult registerTo(const Surface& surface,
+                              const Contact& contact,
+                              const Frame& frame,
+                              const RigidMotion& start,
+                              const RegistrationOptions& options) {
+  RegistrationResult result;
+  result.motion = start;
+  Place at{static_cast<float>(start.dx),
+           static_cast<float>(start.dy),
+           static_cast<float>(start.angleDeg) * kRadians,
+           static_cast<float>(start.gain)};
+  const Place from = at;
+  const float anglePrior =
+      1.0F / static_cast<float>(std::pow(options.anglePriorDeg * static_cast<double>(kRadians), 2));
+  const float gainPrior = 1.0F / static_cast<float>(std::pow(options.gainPrior * start.gain, 2));
+  const auto limit = static_cast<float>(options.convergedTaxels);
+  for (int i = 0; i < options.passes; ++i) {
+    const Pass pass = passOver(surface, contact, frame, at, options);
+    result.taxels = pass.taxels;
+    result.overlap =
+        std::clamp(static_cast<double>(pass.inside) / static_cast<double>(contact.sum), 0.0, 1.0);
+    if (pass.taxels < 2 || result.overlap < options.leastOverlap) break;
+    result.chi2 = static_cast<double>(pass.sums[14]) / pass.taxels;
+    Normal normal = normalOf(pass);
+    Unknowns right(pass.sums[10], pass.sums[11], pass.sums[12], pass.sums[13]);
+    normal(0, 0) += 1e-3F;  // a motion that nothing tells is none
+    normal(1, 1) += 1e-3F;
+    normal(2, 2) += anglePrior;
+    right(2) += anglePrior * (from.angle - at.angle);
+    normal(3, 3) += gainPrior;
+    right(3) += gainPrior * (from.gain - at.gain);
+    if (!contact.turns) {
+      normal.row(2).setZero();
+      normal.col(2).setZero();
+      normal(2, 2) = 1.0F;
+      right(2) = 0.0F;
+    }
+    const Eigen::LLT<Normal> solver(normal);
+    if (solver.info() != Eigen::Success) break;
+    Unknowns step = solver.solve(right);
+    if (!step.allFinite()) break;
+    // A Gauss-Newton step is trusted over a taxel, half a radian and a doubled load.
+    const float longest = std::max({std::abs(step(0)),
+                                    std::abs(step(1)),
+                                    2.0F * std::abs(step(2)),
+                                    std::abs(step(3)) / at.gain});
+    if (longest > 1.0F) step /= longest;
+    at.dx += step(0);
+    at.dy += step(1);
+    at.angle += step(2);
+    at.gain = std::clamp(at.gain + step(3), 0.02F, 50.0F);
+    if (std::abs(at.dx) > 300.0F || std::abs(at.dy) > 300.0F) break;
+    const float moved =
+        std::max({std::abs(step(0)), std::abs(step(1)), contact.extent * std::abs(step(2))});
+    if (moved < limit || i + 1 == options.passes) {
+      const Normal covariance = solver.solve(Normal::Identity());
+      result.sdX = static_cast<double>(std::sqrt(covariance(0, 0)));
+      result.sdY = static_cast<double>(std::sqrt(covariance(1, 1)));
+      if (contact.turns)
+        result.sdAngleDeg = static_cast<double>(std::sqrt(covariance(2, 2)) / kRadians);
+      // Where a pass more would change nothing that counts, it has arrived.
+      result.converged = moved < 50.0F * limit;
+      break;
+    }
+  }
+  result.motion = {static_cast<double>(at.dx),
+                   static_cast<double>(at.dy),
+                   static_cast<double>(at.angle / kRadians),
+                   static_cast<double>(at.gain)};
+  return result;
+}
+
+}  // namespace palpate::registration

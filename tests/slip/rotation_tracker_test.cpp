@@ -1,0 +1,91 @@
+#include "palpate/slip/rotation_tracker.h"
+
+#include <cmath>
+
+#include "slip_scene.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+// Moments of a long contact that lies at an angle, without a sensor in between.
+ContactMoments lying(double angleDeg, double along = 4.0, double across = 1.0) {
+  const double angle = angleDeg * M_PI / 180.0;
+  ContactMoments moments;
+  moments.active = 20;
+  moments.sum = 1.0;
+  moments.mu20 = along * std::pow(std::cos(angle), 2) + across * std::pow(std::sin(angle), 2);
+  moments.mu02 = along * std::pow(std::sin(angle), 2) + across * std::pow(std::cos(angle), 2);
+  moments.mu11 = (along - across) * std::sin(angle) * std::cos(angle);
+  return moments;
+}
+
+TEST(RotationTracker, CountsWholeTurnsBothWays) {
+  RotationTracker tracker;
+  for (int i = 0; i <= 100; ++i) {
+    const SlipRotation& rotation = tracker.update(lying(30.0 + 9.0 * i), 0.5);
+    EXPECT_TRUE(rotation.reliable);
+    EXPECT_EQ(rotation.valid, i > 0);
+    EXPECT_TRUE(rotation.refValid);
+    EXPECT_NEAR(rotation.rotationDeg, i > 0 ? 9.0 : 0.0, 1e-9);
+    EXPECT_NEAR(rotation.refRotationDeg, 9.0 * i, 1e-7);
+  }
+  for (int i = 99; i >= -50; --i)
+    EXPECT_NEAR(tracker.update(lying(30.0 + 9.0 * i), 0.5).refRotationDeg, 9.0 * i, 1e-7);
+}
+
+TEST(RotationTracker, RoundContactsHaveNoDirection) {
+  RotationTracker tracker;
+  tracker.update(lying(10.0), 0.5);
+  const SlipRotation round = tracker.update(lying(50.0, 1.1, 1.0), 0.95);
+  EXPECT_FALSE(round.reliable);
+  EXPECT_FALSE(round.valid);
+  EXPECT_FALSE(round.refValid);
+  // Round outline alone, or low eccentricity alone, is no reason (the study's rule).
+  EXPECT_TRUE(tracker.update(lying(20.0, 1.1, 1.0), 0.8).reliable);
+  EXPECT_TRUE(tracker.update(lying(20.0, 4.0, 1.0), 0.95).reliable);
+}
+
+TEST(RotationTracker, BehindAnInterruptionTheReferenceHoldsAndTheStepIsUnknown) {
+  RotationTracker tracker;
+  tracker.update(lying(10.0), 0.5);
+  tracker.update({}, 0.0);  // contact lost
+  SlipRotation rotation = tracker.update(lying(25.0), 0.5);
+  EXPECT_FALSE(rotation.valid);
+  EXPECT_TRUE(rotation.refValid);
+  EXPECT_NEAR(rotation.refRotationDeg, 15.0, 1e-9);
+  tracker.skip();
+  rotation = tracker.update(lying(30.0), 0.5);
+  EXPECT_FALSE(rotation.valid);
+  rotation = tracker.update(lying(31.0), 0.5);
+  EXPECT_TRUE(rotation.valid);
+  EXPECT_NEAR(rotation.rotationDeg, 1.0, 1e-9);
+}
+
+TEST(RotationTracker, ReferenceIsTakenWhenItIsAskedFor) {
+  RotationTracker tracker;
+  tracker.update(lying(10.0), 0.5);
+  tracker.update(lying(40.0), 0.5);
+  EXPECT_TRUE(tracker.setReference());
+  EXPECT_NEAR(tracker.update(lying(45.0), 0.5).refRotationDeg, 5.0, 1e-9);
+  tracker.update(lying(0.0, 1.0, 1.0), 1.0);
+  EXPECT_FALSE(tracker.setReference());  // round now: the next direction it will be
+  EXPECT_NEAR(tracker.update(lying(80.0), 0.5).refRotationDeg, 0.0, 1e-9);
+  tracker.clearReference();
+  EXPECT_FALSE(tracker.update(lying(81.0), 0.5).refValid);
+  tracker.reset();
+  EXPECT_TRUE(tracker.update(lying(81.0), 0.5).refValid);
+}
+
+TEST(RotationTracker, TooFewTaxelsTellNothing) {
+  RotationTracker tracker;
+  ContactMoments two = lying(30.0);
+  two.active = 2;
+  EXPECT_FALSE(tracker.update(two, 0.0).reliable);
+  RotationOptions options;
+  options.leastEccentricity = 1.5;
+  EXPECT_THROW(RotationTracker{options}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace palpate
