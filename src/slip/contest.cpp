@@ -1,9 +1,11 @@
 #include "palpate/slip/contest.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -13,6 +15,9 @@ namespace {
 
 constexpr float kBlindPart = 0.3F;  // sd of what is anywhere between 0 and a threshold
 constexpr int kFieldPasses = 2;
+constexpr double kNoiseOfSlope = 0.75;  // variance of a spline's slope, per variance of its values
+constexpr float kSlopeGuess = 1.0F;
+constexpr std::array<std::pair<int, int>, 4> kNeighbors = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 
 void check(bool good, const char* field, double value) {
   if (!good)
@@ -116,9 +121,8 @@ LoadFieldResult fitLoadField(const KeyFrame& key,
     field = solved;
   }
   result.taxels = activeInEither(key, frame);
-  result.field = {static_cast<double>(field(0)),
-                  static_cast<double>(field(1)),
-                  static_cast<double>(field(2))};
+  result.field = {
+      static_cast<double>(field(0)), static_cast<double>(field(1)), static_cast<double>(field(2))};
   result.residual = static_cast<double>(squares) / result.taxels;
   return result;
 }
@@ -165,10 +169,19 @@ ShapeCondition shapeCondition(const KeyFrame& key, const RegistrationOptions& op
   const bool turns = key.turning() >= static_cast<float>(options.leastTurning);
   // dx, dy, gain, angle | gradient of load along x, along y.
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  double noise = 0.0;  // what noise alone would be taken for
   for (int y = 0; y < layout.rows; ++y)
     for (int x = 0; x < layout.columns; ++x) {
       if (!layout.enabled(y, x)) continue;
       const KeyFrame::Sample sample = key.at(static_cast<float>(x), static_cast<float>(y));
+      // Beside a silent taxel the slope is half a guess.
+      float unknown = sample.unknown;
+      for (const auto& [stepY, stepX] : kNeighbors)
+        if (layout.exists(y + stepY, x + stepX))
+          unknown = std::max(
+              unknown,
+              kSlopeGuess *
+                  key.at(static_cast<float>(x + stepX), static_cast<float>(y + stepY)).unknown);
       const double u = x - key.centerX();
       const double v = y - key.centerY();
       const auto value = static_cast<double>(sample.value);
@@ -176,8 +189,9 @@ ShapeCondition shapeCondition(const KeyFrame& key, const RegistrationOptions& op
       const auto slopeY = static_cast<double>(sample.alongY);
       Eigen::Matrix<double, 6, 1> slope;
       slope << slopeX, slopeY, value, turns ? slopeX * v - slopeY * u : 0.0, value * u, value * v;
-      information += static_cast<double>(weigh(sample.value, 0.0F, sample.unknown)) * slope *
-                     slope.transpose();
+      const auto weight = static_cast<double>(weigh(sample.value, 0.0F, unknown));
+      information += weight * slope * slope.transpose();
+      noise += weight * kNoiseOfSlope * options.noiseCounts * options.noiseCounts;
     }
   if (!turns) information(3, 3) += 1.0;
   const double scale = information.diagonal().maxCoeff();
@@ -186,7 +200,9 @@ ShapeCondition shapeCondition(const KeyFrame& key, const RegistrationOptions& op
   const Eigen::Matrix4d known = information.topLeftCorner<4, 4>().inverse();
   const Eigen::Matrix<double, 6, 6> free = information.inverse();
   const auto ratio = [&](int axis) {
-    const double value = std::sqrt(free(axis, axis) / known(axis, axis));
+    const double told = 1.0 / free(axis, axis) - noise;
+    if (!(told > 0.0)) return kWorstCondition;
+    const double value = 1.0 / std::sqrt(told * known(axis, axis));
     return std::isfinite(value) ? std::clamp(value, 1.0, kWorstCondition) : kWorstCondition;
   };
   return {.x = ratio(0), .y = ratio(1)};

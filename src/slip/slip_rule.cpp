@@ -5,15 +5,14 @@
 #include <stdexcept>
 #include <string>
 
-#include "palpate/slip/slip_state.h"
-
 namespace palpate {
 namespace {
 
-constexpr double kCentroidPart = 1.3;  // the centroid loses motion where a contact reaches over an edge
-constexpr double kFarSlack = 0.3;      // [taxels]
+constexpr double kCentroidPart =
+    1.3;  // the centroid loses motion where a contact reaches over an edge
+constexpr double kUndecided = 0.5;
+constexpr double kFarSlack = 0.3;  // [taxels]
 constexpr double kSds = 2.0;
-constexpr double kNoWorse = 15.0;      // residual above which an angle isn't believed
 
 void check(bool good, const char* field, double value) {
   if (!good)
@@ -74,8 +73,7 @@ std::optional<SlipWindow> SlipRule::asksFor(const SlipEvidence& evidence) const 
   for (std::size_t i = 0; i < kSlipWindows; ++i) {
     if (!counts(evidence, i)) continue;
     const WindowEvidence& window = evidence.windows[i];
-    const double reach =
-        kCentroidPart * shiftOf(window) / (threshold(i) + allowance(window, i));
+    const double reach = kCentroidPart * shiftOf(window) / (threshold(i) + allowance(window, i));
     if (reach <= most) continue;
     most = reach;
     best = static_cast<SlipWindow>(i);
@@ -108,8 +106,7 @@ RuleOutcome SlipRule::decide(const SlipEvidence& evidence) {
     const double registered =
         contest.computed ? std::hypot(contest.motion.dx, contest.motion.dy) : shift;
     const double motion = std::min(kCentroidPart * shift, registered);
-    const bool believed =
-        contest.computed && registered <= options_.furthest * shift + kFarSlack;
+    const bool believed = contest.computed && registered <= options_.furthest * shift + kFarSlack;
     above = motion * (believed ? contest.pMoved : 0.5) > threshold(*asked) + allowed;
     if (*asked == kShortWindow && above) outcome.alarm = true;
     if (*asked == kMiddleWindow &&
@@ -125,7 +122,7 @@ RuleOutcome SlipRule::decide(const SlipEvidence& evidence) {
     const bool turns =
         std::abs(contest.motion.angleDeg) - kSds * contest.sdAngleDeg >
             options_.rotationDeg + options_.rotationPerLog * std::abs(middle.logLoadRatio) &&
-        contest.pMoved > kSurelyMoved && contest.movedResidual < kNoWorse;
+        contest.pMoved > kUndecided;
     outcome.turning = turns && turnPending_;
     turnPending_ = turns;
   }

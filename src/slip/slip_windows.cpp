@@ -89,8 +89,7 @@ const SlipEvidence& SlipWindows::add(const ConstMatrixMap& frame,
     window.logLoadRatio = std::log(moments_.sum / then.moments.sum);
     const std::size_t joints = std::min(then.jointsDeg.size(), jointsDeg.size());
     for (std::size_t j = 0; j < joints; ++j)
-      window.jointsDeg =
-          std::max(window.jointsDeg, std::abs(jointsDeg[j] - then.jointsDeg[j]));
+      window.jointsDeg = std::max(window.jointsDeg, std::abs(jointsDeg[j] - then.jointsDeg[j]));
     if (!std::isfinite(window.jointsDeg)) window.jointsDeg = 0.0;
   }
   return evidence_;

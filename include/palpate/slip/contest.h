@@ -67,13 +67,14 @@ ContestResult contest(const KeyFrame& key,
                       const ContestOptions& options);
 
 // How much worse motion is known when the load may tilt: sd(d | field free) / sd(d | only a gain free), per axis, to
-// first order. 1.5 to 4 for shapes with edges. Above kShapeCannotTell the shape can't tell a shift of load from a small
-// motion along that axis: a Gaussian moved IS a Gaussian times an exponential.
+// first order, from one key frame. 1.5 to 4 for shapes with edges. In theory it has no bound for a Gaussian (a Gaussian moved IS a
+// Gaussian times an exponential); estimated from noisy taxels it comes out as 5 to 15. Above kShapeCannotTell the
+// shape can't tell a shift of load from a small motion along that axis.
 struct ShapeCondition {
   double x = 1.0;
   double y = 1.0;
 };
-inline constexpr double kShapeCannotTell = 10.0;
+inline constexpr double kShapeCannotTell = 5.0;
 inline constexpr double kWorstCondition = 1e6;  // also of an empty key
 ShapeCondition shapeCondition(const KeyFrame& key, const RegistrationOptions& options);
 

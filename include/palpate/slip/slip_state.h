@@ -7,9 +7,9 @@
 namespace palpate {
 
 enum class SlipState {
-  kInvalid,    // nothing can be said: too little is touched, or neither explanation of what changed holds
-  kStill,      // nothing moves that would count
-  kLoading,    // it shifts, but no more than contacts do while their load changes so fast, or joints move
+  kInvalid,  // nothing can be said: too little is touched, or neither explanation of what changed holds
+  kStill,  // nothing moves that would count
+  kLoading,  // it shifts, but no more than contacts do while their load changes so fast, or joints move
   kLoadShift,  // the load went to another place, the contact stayed: p_moved < 0.25
   kAmbiguous,  // 0.25 .. 0.75: the shape doesn't tell; or not confirmed yet
   kSlip,       // p_moved > 0.75, or an alarm

@@ -17,8 +17,8 @@ namespace palpate {
 
 struct SlipWindowsOptions {
   ContestOptions contest;
-  int leastActive = 4;         // taxels, >= 2
-  double leastCounts = 400.0;  // load: sum of all taxels [counts], >= 0
+  int leastActive = 4;           // taxels, >= 2
+  double leastCounts = 400.0;    // load: sum of all taxels [counts], >= 0
   std::int64_t keepUs = 20'000;  // >= 0
 
   void validate() const;  // throws std::invalid_argument naming the field
@@ -40,7 +40,7 @@ class SlipWindows {
 
   const SlipEvidence& evidence() const noexcept { return evidence_; }
   const ContactMoments& moments() const noexcept { return moments_; }  // of the last frame
-  bool afterGap() const noexcept { return afterGap_; }                 // the last frame came after one
+  bool afterGap() const noexcept { return afterGap_; }  // the last frame came after one
 
  private:
   struct Kept {
