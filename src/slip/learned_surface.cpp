@@ -22,6 +22,8 @@ void check(bool good, const char* field, double value) {
                                 std::to_string(value));
 }
 
+constexpr float kMotionCounts = 8.0F;
+
 float square(float value) { return value * value; }
 
 }  // namespace
@@ -140,8 +142,9 @@ LearnedSurface::Sample LearnedSurface::at(float x, float y) const noexcept {
 }
 
 void LearnedSurface::learn(const ConstMatrixMap& frame,
-                           const RigidMotion& motion,
+                           const RegistrationResult& found,
                            const RegistrationOptions& options) noexcept {
+  const RigidMotion& motion = found.motion;
   if (empty() || motion.gain <= 0.0) return;
   const MatrixLayout& layout = key_.layout();
   const auto angle = static_cast<float>(motion.angleDeg) * registration::kRadians;
@@ -156,6 +159,9 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
   const float relative2 = square(static_cast<float>(options.relativeError));
   const auto saturated = static_cast<float>(options.saturationCounts);
   const float forgotten = static_cast<float>(options_.forgetting) * noise2;
+  const auto sdX = static_cast<float>(found.sdX);
+  const auto sdY = static_cast<float>(found.sdY);
+  const auto sdAngle = static_cast<float>(found.sdAngleDeg) * registration::kRadians;
   float least = 0.0F;
   const registration::Window window =
       registration::windowOf(frame.data(), layout.rows, layout.columns, least);
@@ -199,7 +205,19 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
       } else if (measured >= saturated && model >= measured) {
         continue;
       }
-      const float all = variance + noise2 + relative2 * square(measured);
+      // An error of the motion moves the whole surface, which no single taxel can know: it counts more than once.
+      const Four along = values * spline::slopes(halfX - floorX);
+      Four across = Four::Zero();
+      const Four slopesY = spline::slopes(halfY - floorY);
+      for (int j = 0; j < 4; ++j)
+        across += slopesY(j) * Eigen::Map<const Four>(coefficients + j * columns_);
+      const float slopeX = 2.0F * gain * along.sum();
+      const float slopeY = 2.0F * gain * (across * weightsX).sum();
+      const float turn = slopeX * (sy - cy) - slopeY * (sx - cx);
+      const float unsureMotion =
+          square(slopeX * sdX) + square(slopeY * sdY) + square(turn * sdAngle);
+      const float all =
+          variance + noise2 + relative2 * square(measured) + kMotionCounts * unsureMotion;
       const float residual = measured - model;
       const float scale = gain / all;
       for (int j = 0; j < 4; ++j) {

@@ -39,6 +39,7 @@ int recordCommand(const Words& words);
 int recoverCommand(const Words& words);
 int renderCommand(const Words& words);
 int signalsCommand(const Words& words);
+int slipBenchmarkCommand(const Words& words);
 int spectrumCommand(const Words& words);
 int synthesizeCommand(const Words& words);
 int verifyCommand(const Words& words);

@@ -16,12 +16,12 @@
 namespace palpate {
 
 struct LearnedSurfaceOptions {
-  double unsureOfBend = 0.08;  // sd of the start per count of second difference, >= 0
+  double unsureOfBend = 0.03;  // sd of the start per count of second difference, >= 0
   double unsureOfSilence =
-      0.3;  // sd of what a silent taxel beside an active one feels, per threshold, >= 0
+      0.5;  // sd of what a silent taxel beside an active one feels, per threshold, >= 0
   double unsureOutside = 0.3;  // sd outside of the matrix, per largest count, > 0
   double forgetting =
-      0.01;  // variance that a frame adds, per variance of the noise, >= 0: follows a shape that changes
+      0.001;  // variance that a frame adds, per variance of the noise, >= 0: follows a shape that changes
   KeyFrameOptions key = {};
 
   void validate() const;  // throws std::invalid_argument naming the field
@@ -47,9 +47,9 @@ class LearnedSurface {
   bool empty() const noexcept { return key_.empty(); }
   // x within -kMargin .. columns - 1 + kMargin, y alike.
   Sample at(float x, float y) const noexcept;
-  // Takes what a registered frame says; `motion` as found, the options as they were used.
+  // Takes what a registered frame says, by as much as its motion is known; the options as they were used.
   void learn(const ConstMatrixMap& frame,
-             const RigidMotion& motion,
+             const RegistrationResult& found,
              const RegistrationOptions& options) noexcept;
 
   const KeyFrame& start() const noexcept { return key_; }  // the frame it began with

@@ -1,0 +1,88 @@
+// palpate slip-benchmark: how well every method measures slip, against synthetic truth.
+#include "palpate/core/json.h"
+#include "palpate/slip/slip_accuracy.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+
+namespace palpate::commands {
+namespace {
+
+Json toJson(const SlipAccuracy& accuracy) {
+  Json json = Json::object();
+  json.set("rmse", accuracy.rmse)
+      .set("bias", accuracy.bias)
+      .set("gain_x", accuracy.gainX)
+      .set("gain_y", accuracy.gainY)
+      .set("drift_100", accuracy.drift100)
+      .set("rmse_deg", accuracy.rmseDeg)
+      .set("crb", accuracy.crb)
+      .set("crb_deg", accuracy.crbDeg)
+      .set("ns_per_step", accuracy.nsPerStep)
+      .set("drift_100_deg", accuracy.driftDeg100)
+      .set("edge_1_5", accuracy.edge)
+      .set("tilt_40", accuracy.tilt)
+      .set("steps", accuracy.steps)
+      .set("invalid_steps", accuracy.invalid);
+  return json;
+}
+
+}  // namespace
+
+int slipBenchmarkCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate slip-benchmark [--noise SD] [--shape S].. [--seed N]",
+       .purpose =
+           "Measures how well every method reads slip, on synthetic contacts whose motion is "
+           "known, beside the\nCramer-Rao bound. Prints JSON; docs/slip.md explains it.",
+       .options = {{"noise", "SD", "standard deviation of the noise [counts], default 5"},
+                   {"shape",
+                    "S",
+                    "disc, bar, flat-ellipse, two-blobs, gaussian, elliptic-gaussian; "
+                    "default all"},
+                   {"seed", "N", "of noise and places, default 1"},
+                   {"trials", "N", "contacts per shape, default 8"}},
+       .example = "palpate slip-benchmark --noise 20",
+       .mostWords = 0},
+      words);
+  if (given.helpShown()) return kDone;
+  SlipAccuracyOptions options;
+  options.noiseSd = given.number("noise", 0.0, 1000.0).value_or(options.noiseSd);
+  options.seed = static_cast<std::uint64_t>(given.integer("seed", 0, UINT32_MAX).value_or(1));
+  options.trials = static_cast<int>(given.integer("trials", 1, 1000).value_or(options.trials));
+  for (const std::string& name : given.texts("shape")) {
+    const auto shape = slipShapeNamed(name);
+    if (!shape) {
+      std::string known;
+      for (const SlipShape one : slipShapes())
+        known += (known.empty() ? "" : ", ") + std::string(nameOf(one));
+      throw UsageError("--shape is '" + name + "'; known: " + known);
+    }
+    options.shapes.push_back(*shape);
+  }
+
+  std::vector<MethodAccuracy> results;
+  {
+    ProgressLine progress("measuring slip", given.quiet());
+    results = measureSlipAccuracy(measuredMethods(), options, progress.callback());
+  }
+  Json methods = Json::object();
+  for (const MethodAccuracy& result : results) {
+    Json method = toJson(result.all);
+    Json shapes = Json::object();
+    for (const ShapeAccuracy& one : result.shapes)
+      shapes.set(nameOf(one.shape), toJson(one.accuracy));
+    method.set("shapes", shapes);
+    methods.set(result.name, method);
+  }
+  Json json = Json::object();
+  json.set("noise_sd", options.noiseSd)
+      .set("seed", static_cast<std::int64_t>(options.seed))
+      .set("methods", methods);
+  StandardOutput out;
+  out.write(json.text() + "\n");
+  out.finish();
+  return kDone;
+}
+
+}  // namespace palpate::commands

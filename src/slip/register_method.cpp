@@ -1,0 +1,203 @@
+// Rigid registration over a stream: a key frame that learns, renewed where it no longer fits, and the motion since a
+// reference carried on from key to key.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "slip/translation_method.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180.0;
+
+// When a key has served: what it can't see any more, or no longer resembles.
+constexpr double kLeastOverlap = 0.6;
+constexpr double kWorstMisfit = 0.25;  // rms residual against the mean active taxel
+constexpr double kMostGain = 1.8;
+constexpr double kFarthest = 3.0;  // [taxels]
+constexpr double kMostTurnDeg = 40.0;
+// A misfit beyond which a registration says nothing.
+constexpr double kNoFit = 0.6;
+
+constexpr double kNoiseMemory = 0.03;  // weight of a new frame in the noise
+constexpr double kMostNoise = 100.0;   // [counts]
+constexpr double kSureShift = 0.7;  // the centroid's shift is a better start from here on [taxels]
+
+// p -> R p + t, with the angle kept as it added up.
+struct Transform {
+  double angleDeg = 0.0;
+  double tx = 0.0;
+  double ty = 0.0;
+
+  void apply(double x, double y, double& outX, double& outY) const {
+    const double c = std::cos(angleDeg * kRadians);
+    const double s = std::sin(angleDeg * kRadians);
+    outX = c * x - s * y + tx;
+    outY = s * x + c * y + ty;
+  }
+  // First `first`, then this.
+  Transform after(const Transform& first) const {
+    Transform both{angleDeg + first.angleDeg, 0.0, 0.0};
+    apply(first.tx, first.ty, both.tx, both.ty);
+    return both;
+  }
+  Transform inverse() const {
+    Transform back{-angleDeg, 0.0, 0.0};
+    double x = 0.0;
+    double y = 0.0;
+    back.apply(tx, ty, x, y);
+    back.tx = -x;
+    back.ty = -y;
+    return back;
+  }
+};
+
+class RegisterMethod final : public TranslationMethod {
+ public:
+  RegisterMethod(const MatrixLayout& layout, const SlipTrackerOptions& options)
+      : options_(options.registration), surface_(layout, options.surface) {
+    options_.saturationCounts = options.saturationCounts;
+    noise_ = options_.noiseCounts;
+  }
+
+  TranslationReading update(const ConstMatrixMap& frame,
+                            const ContactMoments& moments,
+                            bool measurable,
+                            bool stepPossible) override {
+    TranslationReading reading;
+    if (!measurable) {
+      seen_ = false;
+      return reading;
+    }
+    const bool first = surface_.empty();
+    if (first) {
+      beginKey(frame, {});
+      reading.newKey = true;
+    } else {
+      follow(frame, moments, reading, stepPossible && seen_);
+    }
+    if (hasReference_) {
+      const Transform whole = motion().after(keyFromReference_);
+      double x = 0.0;
+      double y = 0.0;
+      whole.apply(referenceX_, referenceY_, x, y);
+      reading.refValid = true;
+      reading.refDx = x - referenceX_;
+      reading.refDy = y - referenceY_;
+      reading.refAngleValid = reading.turns;
+      reading.refAngleDeg = whole.angleDeg;
+    }
+    reading.gain = motion_.gain;
+    lastX_ = moments.x;
+    lastY_ = moments.y;
+    seen_ = true;
+    return reading;
+  }
+  void lost() override { seen_ = false; }
+  void takeReference() override {
+    keyFromReference_ = motion().inverse();
+    referenceX_ = lastX_;
+    referenceY_ = lastY_;
+    hasReference_ = true;
+  }
+  void dropReference() override { hasReference_ = false; }
+
+ private:
+  Transform motion() const {  // key -> newest frame
+    Transform transform{motion_.angleDeg, 0.0, 0.0};
+    const double cx = surface_.start().centerX();
+    const double cy = surface_.start().centerY();
+    double x = 0.0;
+    double y = 0.0;
+    transform.apply(cx, cy, x, y);
+    transform.tx = cx + motion_.dx - x;
+    transform.ty = cy + motion_.dy - y;
+    return transform;
+  }
+
+  // What came so far is kept in keyFromReference_: `sofar` leads from the reference to this frame.
+  void beginKey(const ConstMatrixMap& frame, const Transform& sofar) {
+    surface_.set(frame, noise_);
+    motion_ = {};
+    keyFromReference_ = sofar;
+  }
+
+  void follow(const ConstMatrixMap& frame,
+              const ContactMoments& moments,
+              TranslationReading& reading,
+              bool stepPossible) {
+    const RigidMotion before = motion_;
+    const double shiftX = moments.x - lastX_;
+    const double shiftY = moments.y - lastY_;
+    RigidMotion start = before;
+    if (std::hypot(shiftX, shiftY) > kSureShift) {
+      start.dx += shiftX;
+      start.dy += shiftY;
+    }
+    RegistrationOptions options = options_;
+    options.noiseCounts = noise_;
+    const RegistrationResult result = registerFrame(surface_, frame, start, options);
+    const double mean = moments.sum / moments.active;
+    const double misfit = std::sqrt(result.chi2) * noise_ / mean;
+    const double scale = noise_ / options_.noiseCounts;
+    reading.residual = result.chi2 * scale * scale;
+    reading.turns = surface_.start().turning() >= static_cast<float>(options_.leastTurning);
+
+    if (!result.converged || misfit > kNoFit) {
+      // Nothing of the key is left: the centroid leads on, and is believed little.
+      motion_ = before;
+      motion_.dx += shiftX;
+      motion_.dy += shiftY;
+      reading.valid = stepPossible;
+      reading.dx = stepPossible ? shiftX : 0.0;
+      reading.dy = stepPossible ? shiftY : 0.0;
+      reading.confidence = 0.1;
+      reading.newKey = true;
+      beginKey(frame, motion().after(keyFromReference_));
+      return;
+    }
+    motion_ = result.motion;
+    reading.valid = stepPossible;
+    if (stepPossible) {
+      reading.dx = motion_.dx - before.dx;
+      reading.dy = motion_.dy - before.dy;
+      reading.angleDeg = motion_.angleDeg - before.angleDeg;
+      reading.angleValid = reading.turns;
+    }
+    reading.confidence = result.overlap / (1.0 + 5.0 * misfit);
+    const double noise = noise_ * std::sqrt(std::clamp(result.chi2, 0.1, 10.0));
+    noise_ = std::clamp(
+        noise_ + kNoiseMemory * (noise - noise_), 0.5 * options_.noiseCounts, kMostNoise);
+
+    if (result.overlap < kLeastOverlap || misfit > kWorstMisfit || motion_.gain > kMostGain ||
+        motion_.gain < 1.0 / kMostGain || std::hypot(motion_.dx, motion_.dy) > kFarthest ||
+        std::abs(motion_.angleDeg) > kMostTurnDeg) {
+      beginKey(frame, motion().after(keyFromReference_));
+      reading.newKey = true;
+    } else {
+      surface_.learn(frame, result, options);
+    }
+  }
+
+  RegistrationOptions options_;
+  LearnedSurface surface_;
+  double noise_ = 0.0;  // as the residuals have it [counts]
+  RigidMotion motion_;  // key -> newest frame
+  Transform keyFromReference_;
+  double referenceX_ = 0.0;
+  double referenceY_ = 0.0;
+  bool hasReference_ = false;
+  double lastX_ = 0.0;
+  double lastY_ = 0.0;
+  bool seen_ = false;  // the frame before was measurable
+};
+
+}  // namespace
+
+std::unique_ptr<TranslationMethod> makeRegisterMethod(const MatrixLayout& layout,
+                                                      const SlipTrackerOptions& options) {
+  return std::make_unique<RegisterMethod>(layout, options);
+}
+
+}  // namespace palpate
