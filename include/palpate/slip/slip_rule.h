@@ -1,0 +1,99 @@
+// When a matrix raises the alarm: thresholds on what three windows of the past say, and what is allowed for load that
+// changes and joints that move.
+//
+// Each window compares the frame with an earlier one of the same contact: 3, 10 and 30 frames before (at rates above 50 Hz
+// 60, 200 and 600 ms, slip_windows.h). Of each, m = min(1.3 |centroid shift|, |d of the registration|), and
+//   P m > threshold + allowance         short window: at once; the others: in two frames in a row
+//   m > accumulated + allowance         middle window, whatever P: a tilt of the load saturates, slip goes on
+//   |angle| - 2 sd > rotation + ..      middle window, P > 0.5: it turns
+// allowance = rise max(0, ln(load / load before)) + joints [deg] x 0.1 taxel. Windows that reach into the first frames of a
+// contact don't count. One contest per frame is enough: of the window that is nearest to its threshold.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include <palpate/slip/contest.h>
+
+namespace palpate {
+
+inline constexpr std::size_t kSlipWindows = 3;
+enum SlipWindow : std::size_t { kShortWindow, kMiddleWindow, kLongWindow };
+inline constexpr std::array<std::size_t, kSlipWindows> kWindowFrames = {3, 10, 30};
+
+// What one window says.
+struct WindowEvidence {
+  bool filled = false;     // its earlier frame is of this contact, without a gap between
+  double centroidX = 0.0;  // shift of the centroid [taxels]
+  double centroidY = 0.0;
+  double logLoadRatio = 0.0;  // ln(load now / load then)
+  double jointsDeg = 0.0;     // largest change of a joint angle; 0 where none are known
+  ContestResult contest;      // of the two frames, where asked for
+};
+
+struct SlipEvidence {
+  bool computable = false;     // enough taxels and load
+  std::size_t contactAge = 0;  // frames (above 50 Hz: steps of 20 ms) since it became computable
+  std::array<WindowEvidence, kSlipWindows> windows;
+};
+
+struct SlipRuleOptions {
+  double stepTaxels = 0.20;      // motion per frame that is slip, > 0; at 31 Hz 6 taxels/s
+  double referenceTaxels = 1.0;  // motion in all that is slip, > 0
+  double rotationDeg = 5.0;      // > 0
+  // Thresholds of the windows, in steps and references.
+  double shortSteps = 1.75;
+  double middleSteps = 3.0;
+  double longReferences = 1.2;
+  double accumulatedReferences = 1.0;
+  // Allowances [taxels].
+  std::array<double, kSlipWindows> perLogRise = {1.5, 1.5, 1.0};
+  double perJointDeg = 0.1;
+  double rotationPerLog = 20.0;  // [deg]: of the load's change, up or down
+  // Age of the contact at a window's earlier frame, at least [frames].
+  std::array<std::size_t, kSlipWindows> settled = {5, 10, 10};
+  double furthest =
+      3.0;  // a registration beyond so many centroid shifts + 0.3 taxel isn't believed
+
+  void validate() const;  // throws std::invalid_argument naming the field
+};
+
+// What the rule makes of one frame.
+struct RuleOutcome {
+  bool alarm = false;    // of translation
+  bool turning = false;  // alarm of rotation
+  std::optional<SlipWindow>
+      leading;  // the window nearest to its threshold; nothing: none is filled
+  // Of the leading window: largest motion it could mean, over its threshold without and with allowance.
+  double reach = 0.0;
+  double allowedReach = 0.0;
+};
+
+class SlipRule {
+ public:
+  // Throws std::invalid_argument.
+  explicit SlipRule(const SlipRuleOptions& options = {});
+
+  // The window whose contest would decide something in this frame; nothing: no window can raise an alarm.
+  std::optional<SlipWindow> asksFor(const SlipEvidence& evidence) const;
+  // Whether a contest of the middle window could tell that it turns: worth a look now and then where nothing is asked for.
+  bool canTurn(const SlipEvidence& evidence) const;
+  // The next frame. Read are the contest of the window that asksFor() names, and for turning that of the middle window
+  // where it was made (two such looks in a row must agree).
+  RuleOutcome decide(const SlipEvidence& evidence);
+  void reset() noexcept { pending_ = turnPending_ = false; }
+
+  const SlipRuleOptions& options() const noexcept { return options_; }
+
+ private:
+  bool counts(const SlipEvidence& evidence, std::size_t window) const;
+  double threshold(std::size_t window) const;
+  double allowance(const WindowEvidence& evidence, std::size_t window) const;
+
+  SlipRuleOptions options_;
+  bool pending_ = false;  // the frame before was above a threshold that wants two
+  bool turnPending_ = false;
+};
+
+}  // namespace palpate

@@ -1,0 +1,33 @@
+// What is said about the contact of one matrix: a state, and a lamp.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace palpate {
+
+enum class SlipState {
+  kInvalid,  // nothing can be said: too little is touched, or neither explanation of what changed holds
+  kStill,  // nothing moves that would count
+  kLoading,  // it shifts, but no more than contacts do while their load changes so fast, or joints move
+  kLoadShift,  // the load went to another place, the contact stayed: p_moved < 0.25
+  kAmbiguous,  // 0.25 .. 0.75: the shape doesn't tell; or not confirmed yet
+  kSlip,       // p_moved > 0.75, or an alarm
+};
+inline constexpr double kSurelyStill = 0.25;  // p_moved
+inline constexpr double kSurelyMoved = 0.75;
+
+// "invalid", "still", "loading", "load_shift", "ambiguous", "slip"
+std::string_view nameOf(SlipState state) noexcept;
+std::optional<SlipState> slipStateNamed(std::string_view name) noexcept;
+
+enum class SlipLamp {
+  kOff,            // switched off
+  kNotComputable,  // no contact, too small a one, or it hasn't been touched long enough
+  kReady,          // watches, and nothing slips
+  kSlipping,
+};
+// "off", "not computable", "ready", "slipping"
+std::string_view nameOf(SlipLamp lamp) noexcept;
+
+}  // namespace palpate

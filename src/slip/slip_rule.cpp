@@ -1,0 +1,132 @@
+#include "palpate/slip/slip_rule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace palpate {
+namespace {
+
+constexpr double kCentroidPart =
+    1.3;  // the centroid loses motion where a contact reaches over an edge
+constexpr double kUndecided = 0.5;
+constexpr double kFarSlack = 0.3;  // [taxels]
+constexpr double kSds = 2.0;
+
+void check(bool good, const char* field, double value) {
+  if (!good)
+    throw std::invalid_argument(std::string("SlipRuleOptions: ") + field + " is " +
+                                std::to_string(value));
+}
+
+double shiftOf(const WindowEvidence& window) {
+  return std::hypot(window.centroidX, window.centroidY);
+}
+
+}  // namespace
+
+void SlipRuleOptions::validate() const {
+  check(stepTaxels > 0.0, "stepTaxels", stepTaxels);
+  check(referenceTaxels > 0.0, "referenceTaxels", referenceTaxels);
+  check(rotationDeg > 0.0, "rotationDeg", rotationDeg);
+  check(shortSteps > 0.0, "shortSteps", shortSteps);
+  check(middleSteps > 0.0, "middleSteps", middleSteps);
+  check(longReferences > 0.0, "longReferences", longReferences);
+  check(accumulatedReferences > 0.0, "accumulatedReferences", accumulatedReferences);
+  for (const double value : perLogRise) check(value >= 0.0, "perLogRise", value);
+  check(perJointDeg >= 0.0, "perJointDeg", perJointDeg);
+  check(rotationPerLog >= 0.0, "rotationPerLog", rotationPerLog);
+  check(furthest >= 1.0, "furthest", furthest);
+}
+
+SlipRule::SlipRule(const SlipRuleOptions& options) : options_(options) { options_.validate(); }
+
+bool SlipRule::counts(const SlipEvidence& evidence, std::size_t window) const {
+  return evidence.computable && evidence.windows[window].filled &&
+         evidence.contactAge > kWindowFrames[window] + options_.settled[window];
+}
+
+double SlipRule::threshold(std::size_t window) const {
+  switch (window) {
+    case kShortWindow:
+      return options_.shortSteps * options_.stepTaxels;
+    case kMiddleWindow:
+      return options_.middleSteps * options_.stepTaxels;
+    default:
+      return options_.longReferences * options_.referenceTaxels;
+  }
+}
+
+double SlipRule::allowance(const WindowEvidence& evidence, std::size_t window) const {
+  return options_.perLogRise[window] * std::max(0.0, evidence.logLoadRatio) +
+         options_.perJointDeg * evidence.jointsDeg;
+}
+
+bool SlipRule::canTurn(const SlipEvidence& evidence) const {
+  return counts(evidence, kMiddleWindow);
+}
+
+std::optional<SlipWindow> SlipRule::asksFor(const SlipEvidence& evidence) const {
+  std::optional<SlipWindow> best;
+  double most = 1.0;
+  for (std::size_t i = 0; i < kSlipWindows; ++i) {
+    if (!counts(evidence, i)) continue;
+    const WindowEvidence& window = evidence.windows[i];
+    const double reach = kCentroidPart * shiftOf(window) / (threshold(i) + allowance(window, i));
+    if (reach <= most) continue;
+    most = reach;
+    best = static_cast<SlipWindow>(i);
+  }
+  return best;
+}
+
+RuleOutcome SlipRule::decide(const SlipEvidence& evidence) {
+  RuleOutcome outcome;
+  bool above = false;
+  for (std::size_t i = 0; i < kSlipWindows; ++i) {
+    if (!counts(evidence, i)) continue;
+    const WindowEvidence& window = evidence.windows[i];
+    const double most = kCentroidPart * shiftOf(window);
+    const double reach = most / threshold(i);
+    if (outcome.leading && reach <= outcome.reach) continue;
+    outcome.leading = static_cast<SlipWindow>(i);
+    outcome.reach = reach;
+    outcome.allowedReach = most / (threshold(i) + allowance(window, i));
+  }
+  if (const auto asked = asksFor(evidence)) {
+    const WindowEvidence& window = evidence.windows[*asked];
+    const ContestResult& contest = window.contest;
+    outcome.leading = asked;
+    outcome.reach = kCentroidPart * shiftOf(window) / threshold(*asked);
+    const double allowed = allowance(window, *asked);
+    outcome.allowedReach = kCentroidPart * shiftOf(window) / (threshold(*asked) + allowed);
+    // Where nothing could be registered the centroid alone speaks, and P is undecided.
+    const double shift = shiftOf(window);
+    const double registered =
+        contest.computed ? std::hypot(contest.motion.dx, contest.motion.dy) : shift;
+    const double motion = std::min(kCentroidPart * shift, registered);
+    const bool believed = contest.computed && registered <= options_.furthest * shift + kFarSlack;
+    above = motion * (believed ? contest.pMoved : 0.5) > threshold(*asked) + allowed;
+    if (*asked == kShortWindow && above) outcome.alarm = true;
+    if (*asked == kMiddleWindow &&
+        motion > options_.accumulatedReferences * options_.referenceTaxels + allowed)
+      above = true;
+  }
+  outcome.alarm = outcome.alarm || (above && pending_);
+  pending_ = above;
+  const WindowEvidence& middle = evidence.windows[kMiddleWindow];
+  if (!evidence.computable) turnPending_ = false;
+  if (counts(evidence, kMiddleWindow) && middle.contest.computed) {
+    const ContestResult& contest = middle.contest;
+    const bool turns =
+        std::abs(contest.motion.angleDeg) - kSds * contest.sdAngleDeg >
+            options_.rotationDeg + options_.rotationPerLog * std::abs(middle.logLoadRatio) &&
+        contest.pMoved > kUndecided;
+    outcome.turning = turns && turnPending_;
+    turnPending_ = turns;
+  }
+  return outcome;
+}
+
+}  // namespace palpate

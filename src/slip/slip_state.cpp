@@ -1,0 +1,46 @@
+#include "palpate/slip/slip_state.h"
+
+#include <array>
+#include <utility>
+
+namespace palpate {
+namespace {
+
+constexpr std::array<std::pair<SlipState, std::string_view>, 6> kStates = {{
+    {SlipState::kInvalid, "invalid"},
+    {SlipState::kStill, "still"},
+    {SlipState::kLoading, "loading"},
+    {SlipState::kLoadShift, "load_shift"},
+    {SlipState::kAmbiguous, "ambiguous"},
+    {SlipState::kSlip, "slip"},
+}};
+
+}  // namespace
+
+std::string_view nameOf(SlipState state) noexcept {
+  for (const auto& [known, name] : kStates)
+    if (known == state) return name;
+  return "invalid";
+}
+
+std::optional<SlipState> slipStateNamed(std::string_view name) noexcept {
+  for (const auto& [state, known] : kStates)
+    if (known == name) return state;
+  return std::nullopt;
+}
+
+std::string_view nameOf(SlipLamp lamp) noexcept {
+  switch (lamp) {
+    case SlipLamp::kOff:
+      return "off";
+    case SlipLamp::kNotComputable:
+      return "not computable";
+    case SlipLamp::kReady:
+      return "ready";
+    case SlipLamp::kSlipping:
+      return "slipping";
+  }
+  return "off";
+}
+
+}  // namespace palpate

@@ -1,0 +1,113 @@
+#include "palpate/slip/slip_windows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kRing = kWindowFrames.back() + 2;
+constexpr double kLongWay = 0.5;  // [taxels] beyond which a second start is worth its time
+
+void check(bool good, const char* field, double value) {
+  if (!good)
+    throw std::invalid_argument(std::string("SlipWindowsOptions: ") + field + " is " +
+                                std::to_string(value));
+}
+
+}  // namespace
+
+void SlipWindowsOptions::validate() const {
+  contest.validate();
+  check(leastActive >= 2, "leastActive", leastActive);
+  check(leastCounts >= 0.0, "leastCounts", leastCounts);
+  check(keepUs >= 0, "keepUs", static_cast<double>(keepUs));
+}
+
+SlipWindows::SlipWindows(const MatrixLayout& layout, const SlipWindowsOptions& options)
+    : layout_(layout),
+      options_(options),
+      kept_(kRing),
+      current_(layout.numPlaces()),
+      key_(layout, {.blurTaxels = 0.0}) {
+  options_.validate();
+  for (Kept& kept : kept_) kept.values.resize(layout.numPlaces());
+}
+
+void SlipWindows::reset() {
+  gaps_.reset();
+  numKept_ = 0;
+  evidence_ = {};
+  moments_ = {};
+  afterGap_ = false;
+}
+
+const SlipWindows::Kept& SlipWindows::back(std::size_t frames) const {
+  return kept_[(newest_ + kRing - frames) % kRing];
+}
+
+const SlipEvidence& SlipWindows::add(const ConstMatrixMap& frame,
+                                     std::int64_t timeUs,
+                                     std::span<const double> jointsDeg) {
+  if (frame.rows() != layout_.rows || frame.cols() != layout_.columns)
+    throw std::invalid_argument("SlipWindows: the frame hasn't the size of the matrix");
+  afterGap_ = gaps_.afterGap(timeUs);
+  for (std::size_t i = 0; i < current_.size(); ++i) {
+    const float value = frame.data()[i];
+    current_[i] = std::isfinite(value) && value > 0.0F ? value : 0.0F;
+  }
+  const ConstMatrixMap now(current_.data(), layout_.rows, layout_.columns);
+  moments_ = contactMoments(now);
+  const std::size_t ageBefore = evidence_.contactAge;
+  evidence_ = {};
+  evidence_.computable =
+      moments_.active >= options_.leastActive && moments_.sum > options_.leastCounts;
+  if (!evidence_.computable || afterGap_) numKept_ = 0;
+  if (!evidence_.computable) return evidence_;
+  evidence_.contactAge = numKept_ == 0 ? 0 : ageBefore;
+  if (numKept_ == 0 || timeUs - keptUs_ >= options_.keepUs) {
+    newest_ = (newest_ + 1) % kRing;
+    Kept& kept = kept_[newest_];
+    kept.values = current_;
+    kept.jointsDeg.assign(jointsDeg.begin(), jointsDeg.end());
+    kept.moments = moments_;
+    keptUs_ = timeUs;
+    numKept_ = std::min(numKept_ + 1, kRing);
+    ++evidence_.contactAge;
+  }
+  for (std::size_t i = 0; i < kSlipWindows; ++i) {
+    WindowEvidence& window = evidence_.windows[i];
+    const std::size_t frames = kWindowFrames[i];
+    window.filled = numKept_ > frames;
+    if (!window.filled) continue;
+    const Kept& then = back(frames);
+    window.centroidX = moments_.x - then.moments.x;
+    window.centroidY = moments_.y - then.moments.y;
+    window.logLoadRatio = std::log(moments_.sum / then.moments.sum);
+    const std::size_t joints = std::min(then.jointsDeg.size(), jointsDeg.size());
+    for (std::size_t j = 0; j < joints; ++j)
+      window.jointsDeg = std::max(window.jointsDeg, std::abs(jointsDeg[j] - then.jointsDeg[j]));
+    if (!std::isfinite(window.jointsDeg)) window.jointsDeg = 0.0;
+  }
+  return evidence_;
+}
+
+void SlipWindows::compete(SlipWindow which) {
+  WindowEvidence& window = evidence_.windows.at(which);
+  if (!window.filled) return;
+  const Kept& then = back(kWindowFrames[which]);
+  key_.set(ConstMatrixMap(then.values.data(), layout_.rows, layout_.columns));
+  const double gain = moments_.sum / then.moments.sum;
+  const std::array<RigidMotion, 2> starts = {
+      RigidMotion{.dx = window.centroidX, .dy = window.centroidY, .gain = gain}, RigidMotion{}};
+  const bool far = std::abs(window.centroidX) + std::abs(window.centroidY) > kLongWay;
+  window.contest = contest(key_,
+                           ConstMatrixMap(current_.data(), layout_.rows, layout_.columns),
+                           std::span(starts).first(far ? 2 : 1),
+                           options_.contest);
+}
+
+}  // namespace palpate

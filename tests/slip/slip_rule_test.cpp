@@ -1,0 +1,136 @@
+#include "palpate/slip/slip_rule.h"
+
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace palpate {
+namespace {
+
+// A contact of age 100 in which one window sees the centroid and the registration shifted by the same amount.
+SlipEvidence shifted(SlipWindow window, double taxels, double pMoved = 1.0, double logRise = 0.0) {
+  SlipEvidence evidence{.computable = true, .contactAge = 100, .windows = {}};
+  WindowEvidence& seen = evidence.windows[window];
+  seen.filled = true;
+  seen.centroidX = taxels;
+  seen.logLoadRatio = logRise;
+  seen.contest.computed = true;
+  seen.contest.motion.dx = taxels;
+  seen.contest.pMoved = pMoved;
+  return evidence;
+}
+
+// Short window: 1.75 steps of 0.20 = 0.35 taxel.
+TEST(SlipRule, TheShortWindowAlarmsAtOnce) {
+  SlipRule rule;
+  EXPECT_FALSE(rule.decide(shifted(kShortWindow, 0.34)).alarm);
+  EXPECT_TRUE(rule.decide(shifted(kShortWindow, 0.36)).alarm);
+}
+
+// Middle window 3 steps = 0.6, long window 1.2 references = 1.2 taxels, in two frames.
+TEST(SlipRule, TheOthersWantTwoFramesInARow) {
+  for (const auto& [window, threshold] : {std::pair{kMiddleWindow, 0.6}, {kLongWindow, 1.2}}) {
+    SlipRule rule;
+    EXPECT_FALSE(rule.decide(shifted(window, threshold + 0.01)).alarm);
+    EXPECT_FALSE(rule.decide(shifted(window, threshold - 0.01)).alarm);
+    EXPECT_FALSE(rule.decide(shifted(window, threshold + 0.01)).alarm);
+    EXPECT_TRUE(rule.decide(shifted(window, threshold + 0.01)).alarm);
+    rule.reset();
+    EXPECT_FALSE(rule.decide(shifted(window, threshold + 0.01)).alarm);
+  }
+}
+
+TEST(SlipRule, TheContestWeighs) {
+  SlipRule rule;
+  EXPECT_FALSE(rule.decide(shifted(kShortWindow, 0.6, 0.5)).alarm);
+  EXPECT_TRUE(rule.decide(shifted(kShortWindow, 0.6, 0.6)).alarm);
+}
+
+// A tilt saturates, slip goes on: beyond 1 taxel in ten frames P doesn't matter.
+TEST(SlipRule, WhatGoesOnIsSlipWhateverTheContest) {
+  SlipRule rule;
+  rule.decide(shifted(kMiddleWindow, 1.01, 0.0));
+  EXPECT_TRUE(rule.decide(shifted(kMiddleWindow, 1.01, 0.0)).alarm);
+  rule.reset();
+  rule.decide(shifted(kMiddleWindow, 0.99, 0.0));
+  EXPECT_FALSE(rule.decide(shifted(kMiddleWindow, 0.99, 0.0)).alarm);
+}
+
+TEST(SlipRule, AllowsMoreWhileTheLoadRisesOrJointsMove) {
+  SlipRule rule;
+  EXPECT_FALSE(rule.decide(shifted(kShortWindow, 0.64, 1.0, 0.2)).alarm);  // 0.35 + 1.5 * 0.2
+  EXPECT_TRUE(rule.decide(shifted(kShortWindow, 0.66, 1.0, 0.2)).alarm);
+  EXPECT_TRUE(rule.decide(shifted(kShortWindow, 0.36, 1.0, -0.2)).alarm);  // not while it falls
+  SlipEvidence moving = shifted(kShortWindow, 0.54);
+  moving.windows[kShortWindow].jointsDeg = 2.0;  // 0.35 + 0.1 * 2
+  EXPECT_FALSE(rule.decide(moving).alarm);
+  moving.windows[kShortWindow].jointsDeg = 1.8;
+  EXPECT_TRUE(rule.decide(moving).alarm);
+}
+
+TEST(SlipRule, AContactSettlesFirst) {
+  SlipRule rule;
+  SlipEvidence young = shifted(kShortWindow, 2.0);
+  young.contactAge = 8;  // the earlier frame is of age 5
+  EXPECT_FALSE(rule.decide(young).alarm);
+  young.contactAge = 9;
+  EXPECT_TRUE(rule.decide(young).alarm);
+}
+
+// m = min(1.3 |centroid|, |registered|): one of them alone moves nothing.
+TEST(SlipRule, CentroidAndRegistrationMustAgree) {
+  SlipRule rule;
+  SlipEvidence evidence = shifted(kShortWindow, 1.0);
+  evidence.windows[kShortWindow].contest.motion.dx = 0.3;
+  EXPECT_FALSE(rule.decide(evidence).alarm);
+  evidence = shifted(kShortWindow, 0.26);  // 1.3 * 0.26 = 0.338
+  evidence.windows[kShortWindow].contest.motion.dx = 1.0;
+  EXPECT_FALSE(rule.decide(evidence).alarm);
+  evidence =
+      shifted(kShortWindow, 0.4);  // a registration that far off isn't believed: P counts 0.5
+  evidence.windows[kShortWindow].contest.motion.dx = 4.0;
+  EXPECT_FALSE(rule.decide(evidence).alarm);
+}
+
+TEST(SlipRule, AsksForTheWindowNearestToItsThreshold) {
+  SlipRule rule;
+  SlipEvidence evidence = shifted(kMiddleWindow, 0.7);
+  EXPECT_EQ(rule.asksFor(evidence), kMiddleWindow);
+  evidence.windows[kShortWindow] = shifted(kShortWindow, 0.6).windows[kShortWindow];
+  EXPECT_EQ(rule.asksFor(evidence), kShortWindow);
+  EXPECT_FALSE(rule.asksFor(shifted(kMiddleWindow, 0.45)));  // 1.3 * 0.45 < 0.6
+  evidence.computable = false;
+  EXPECT_FALSE(rule.asksFor(evidence));
+}
+
+TEST(SlipRule, ThresholdsScaleWithSteps) {
+  SlipRule rule({.stepTaxels = 0.4, .referenceTaxels = 2.0});
+  EXPECT_FALSE(rule.decide(shifted(kShortWindow, 0.69)).alarm);
+  EXPECT_TRUE(rule.decide(shifted(kShortWindow, 0.71)).alarm);
+  rule.decide(shifted(kLongWindow, 2.39));
+  EXPECT_FALSE(rule.decide(shifted(kLongWindow, 2.39)).alarm);
+  rule.decide(shifted(kLongWindow, 2.41));
+  EXPECT_TRUE(rule.decide(shifted(kLongWindow, 2.41)).alarm);
+}
+
+TEST(SlipRule, TellsTurningWhereTheAngleIsKnown) {
+  SlipRule rule;
+  SlipEvidence evidence = shifted(kMiddleWindow, 0.1, 0.8);
+  evidence.windows[kMiddleWindow].contest.motion.angleDeg = -7.5;
+  evidence.windows[kMiddleWindow].contest.sdAngleDeg = 1.0;  // 7.5 - 2 > 5
+  EXPECT_FALSE(rule.decide(evidence).turning);
+  const RuleOutcome second = rule.decide(evidence);
+  EXPECT_TRUE(second.turning);
+  EXPECT_FALSE(second.alarm);
+  evidence.windows[kMiddleWindow].contest.sdAngleDeg = 1.5;
+  EXPECT_FALSE(rule.decide(evidence).turning);
+}
+
+TEST(SlipRule, RefusesThresholdsThatAreNone) {
+  EXPECT_THROW(SlipRule({.stepTaxels = 0.0}), std::invalid_argument);
+  EXPECT_THROW(SlipRule({.referenceTaxels = -1.0}), std::invalid_argument);
+  EXPECT_THROW(SlipRule({.rotationDeg = 0.0}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace palpate

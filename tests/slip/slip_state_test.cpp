@@ -1,0 +1,37 @@
+#include "palpate/slip/slip_state.h"
+
+#include <gtest/gtest.h>
+
+namespace palpate {
+namespace {
+
+// The words of the column `state` are a promise (docs/commands.md).
+TEST(SlipState, HasTheWordsOfTheTable) {
+  EXPECT_EQ(nameOf(SlipState::kStill), "still");
+  EXPECT_EQ(nameOf(SlipState::kLoading), "loading");
+  EXPECT_EQ(nameOf(SlipState::kLoadShift), "load_shift");
+  EXPECT_EQ(nameOf(SlipState::kAmbiguous), "ambiguous");
+  EXPECT_EQ(nameOf(SlipState::kSlip), "slip");
+  EXPECT_EQ(nameOf(SlipState::kInvalid), "invalid");
+}
+
+TEST(SlipState, IsFoundByItsWord) {
+  for (const SlipState state : {SlipState::kInvalid,
+                                SlipState::kStill,
+                                SlipState::kLoading,
+                                SlipState::kLoadShift,
+                                SlipState::kAmbiguous,
+                                SlipState::kSlip})
+    EXPECT_EQ(slipStateNamed(nameOf(state)), state);
+  EXPECT_FALSE(slipStateNamed("slipping"));
+}
+
+TEST(SlipLamp, HasFourFaces) {
+  EXPECT_EQ(nameOf(SlipLamp::kOff), "off");
+  EXPECT_EQ(nameOf(SlipLamp::kNotComputable), "not computable");
+  EXPECT_EQ(nameOf(SlipLamp::kReady), "ready");
+  EXPECT_EQ(nameOf(SlipLamp::kSlipping), "slipping");
+}
+
+}  // namespace
+}  // namespace palpate
