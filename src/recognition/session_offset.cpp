@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <Eigen/Cholesky>
+
 #include "palpate/core/number_text.h"
 #include "palpate/recognition/day_features.h"
 
@@ -77,7 +79,33 @@ Eigen::MatrixXd overGrid(const DayModel& model,
   return out;
 }
 
-// Different objects: classes that were told with certainty in enough grasps, counted once where they are of one size.
+// Distance of two classes in everything but size, as grasps of one class scatter, today and on another day.
+class ShapeDistance {
+ public:
+  explicit ShapeDistance(const DayModel& model) : model_(model) {
+    for (std::size_t f = 0; f < model.numFeatures(); ++f)
+      if (f != model.data().sizeColumn) columns_.push_back(static_cast<Eigen::Index>(f));
+    Eigen::MatrixXd scatter =
+        Eigen::MatrixXd::Zero(model.data().pooled.rows(), model.data().pooled.cols());
+    for (const DayBell& bell : model.data().bells) scatter += bell.scatter;
+    scatter /= static_cast<double>(model.numClasses());
+    scatter_.compute(scatter(columns_, columns_));
+  }
+  double operator()(std::size_t a, std::size_t b) const {
+    if (columns_.empty()) return 0.0;
+    const Eigen::VectorXd apart =
+        (model_.data().bells[a].mean - model_.data().bells[b].mean)(columns_);
+    return std::sqrt(apart.dot(scatter_.solve(apart)));
+  }
+
+ private:
+  const DayModel& model_;
+  std::vector<Eigen::Index> columns_;
+  Eigen::LDLT<Eigen::MatrixXd> scatter_;
+};
+
+// Different objects: classes that were told with certainty in enough grasps, and can't be taken for one another by a wrong
+// offset.
 std::size_t objectsIn(const DayModel& model,
                       const std::vector<std::pair<std::size_t, double>>& told,
                       const SessionOffsetOptions& options) {
@@ -88,23 +116,21 @@ std::size_t objectsIn(const DayModel& model,
   constexpr double kStray = 0.15;
   const auto needed = static_cast<std::size_t>(
       std::clamp(std::ceil(kStray * static_cast<double>(told.size())), 1.0, 2.0));
-  std::vector<double> sizes;
+  const auto column = model.data().sizeColumn;
+  const auto sizeOf = [&](std::size_t c) {
+    return column ? distanceOfSizeZ(model.data().bells[c].mean[static_cast<Eigen::Index>(*column)])
+                  : 0.0;
+  };
+  const ShapeDistance shapeDistance(model);
+  std::vector<std::size_t> different;
   for (std::size_t c = 0; c < times.size(); ++c)
-    if (times[c] >= needed) {
-      const DayBell& bell = model.data().bells[c];
-      const auto column = model.data().sizeColumn;
-      sizes.push_back(column ? distanceOfSizeZ(bell.mean[static_cast<Eigen::Index>(*column)])
-                             : 0.0);
-    }
-  std::sort(sizes.begin(), sizes.end());
-  std::size_t objects = 0;
-  double last = kNever;
-  for (const double size : sizes)
-    if (size - last > options.objectGapMm) {
-      ++objects;
-      last = size;
-    }
-  return objects;
+    if (times[c] >= needed &&
+        std::all_of(different.begin(), different.end(), [&](std::size_t other) {
+          return std::abs(sizeOf(c) - sizeOf(other)) > options.objectGapMm ||
+                 shapeDistance(c, other) > options.objectDistance;
+        }))
+      different.push_back(c);
+  return different.size();
 }
 
 void setTrust(SessionOffset& offset, const SessionOffsetOptions& options) {
@@ -154,6 +180,7 @@ void SessionOffsetOptions::validate() const {
   require(positive(floorNats), "floorNats must be > 0");
   require(positive(mostReferences), "mostReferences must be > 0");
   require(objectGapMm >= 0.0 && std::isfinite(objectGapMm), "objectGapMm must be >= 0");
+  require(positive(objectDistance), "objectDistance must be > 0");
   require(objectProbability >= 0.0 && objectProbability <= 1.0, "objectProbability must be 0..1");
   require(positive(largestSdMm), "largestSdMm must be > 0");
 }

@@ -44,7 +44,10 @@ struct SessionOffsetOptions {
       2.0;  // so many labelled grasps of one object count, however many there are, > 0
   // An offset makes classes certain when it rests on so many different objects,
   std::size_t fewestObjects = 2;
-  double objectGapMm = 3.0;        // which differ by more than this in size, >= 0,
+  double objectGapMm =
+      3.0;  // which differ by more than this in size, >= 0, or, whatever their sizes,
+  double objectDistance =
+      5.0;  // by this in everything else (Mahalanobis, as grasps of one class scatter), > 0,
   double objectProbability = 0.8;  // and were told with this probability,
   double largestSdMm = 1.0;        // and its own error is no larger, > 0
 
@@ -105,7 +108,7 @@ struct DayVerdict {
 
 struct VerdictOptions {
   double leastKnown = 0.0;        // [ln]
-  double sureProbability = 0.95;  // of the best class, 0.5..1
+  double sureProbability = 0.97;  // of the best class, 0.5..1
 
   void validate() const;
 };
