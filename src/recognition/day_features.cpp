@@ -58,15 +58,8 @@ std::vector<std::size_t> plateauOf(const std::vector<double>& loads,
   return taken;
 }
 
-struct PadPicture {
-  double lnMajor = 0.0, lnMinor = 0.0, skew = 0.0, entropy = 0.0, lnActive = 0.0, lnSum = 0.0;
-  double lnPeak = 0.0;
-  std::array<double, 3> shares{};
-  double column = 0.0, row = 0.0;  // centroid [taxels]
-};
-
-PadPicture describe(const Eigen::MatrixXd& mean, const DayFeatureOptions& options) {
-  PadPicture out;
+PlateauPad describe(const Eigen::MatrixXd& mean, const DayFeatureOptions& options) {
+  PlateauPad out;
   const double threshold = options.activePart * mean.maxCoeff();
   std::vector<double> parts;
   double sum = 0.0;
@@ -94,7 +87,7 @@ PadPicture describe(const Eigen::MatrixXd& mean, const DayFeatureOptions& option
   const double half = std::hypot((u - v) / 2.0, w);
   out.lnMajor = std::log((u + v) / 2.0 + half + kMomentFloor);
   out.lnMinor = std::log(std::max(0.0, (u + v) / 2.0 - half) + kMomentFloor);
-  out.skew = 2.0 * std::abs(w) / (u + v + 2.0 * kMomentFloor);
+  out.slant = 2.0 * w / (u + v + 2.0 * kMomentFloor);
   std::sort(parts.begin(), parts.end(), std::greater<>());
   double share = 0.0;
   for (std::size_t i = 0, k = 0; k < kStrongest.size(); ++k) {
@@ -196,7 +189,7 @@ DayFeatures dayFeatures(const Profile& profile,
     out.plateauAnglesDeg.push_back(median(std::move(angles)));
   }
 
-  std::array<PadPicture, 2> pads;
+  std::array<PlateauPad, 2>& pads = out.pads;
   std::array<Eigen::Vector2d, 2> atPlateauMm, atStartMm;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::size_t pad = hand.pads[i];
@@ -213,10 +206,6 @@ DayFeatures dayFeatures(const Profile& profile,
         mean.sum() * pitchMm;
     const PadLoad& load = frames.loads[start][pad];
     atStartMm[i] = {load.xMm, load.yMm};
-    out.rowOfContact[i] = pads[i].row;
-    out.columnOfContact[i] = pads[i].column;
-    out.lnSum[i] = pads[i].lnSum;
-    out.lnPeak[i] = pads[i].lnPeak;
   }
   const auto distance = distanceOf(hand, out.plateauAnglesDeg, atPlateauMm);
   const auto atStart = distanceOf(hand, frames.anglesDeg[start], atStartMm);
@@ -227,15 +216,15 @@ DayFeatures dayFeatures(const Profile& profile,
   out.distanceMm = *distance;
   const auto mean = [&](auto of) { return (of(pads[0]) + of(pads[1])) / 2.0; };
   out.values = {sizeZ(*distance),
-                mean([](const PadPicture& pad) { return pad.lnMajor; }),
-                mean([](const PadPicture& pad) { return pad.lnMinor; }),
-                mean([](const PadPicture& pad) { return pad.shares[0]; }),
-                mean([](const PadPicture& pad) { return pad.shares[1]; }),
-                mean([](const PadPicture& pad) { return pad.shares[2]; }),
-                mean([](const PadPicture& pad) { return pad.skew; }),
-                mean([](const PadPicture& pad) { return pad.entropy; }),
-                mean([](const PadPicture& pad) { return pad.lnActive; }),
-                mean([](const PadPicture& pad) { return pad.lnSum; }),
+                mean([](const PlateauPad& pad) { return pad.lnMajor; }),
+                mean([](const PlateauPad& pad) { return pad.lnMinor; }),
+                mean([](const PlateauPad& pad) { return pad.shares[0]; }),
+                mean([](const PlateauPad& pad) { return pad.shares[1]; }),
+                mean([](const PlateauPad& pad) { return pad.shares[2]; }),
+                mean([](const PlateauPad& pad) { return std::abs(pad.slant); }),
+                mean([](const PlateauPad& pad) { return pad.entropy; }),
+                mean([](const PlateauPad& pad) { return pad.lnActive; }),
+                mean([](const PlateauPad& pad) { return pad.lnSum; }),
                 *atStart - *distance};
   return out;
 }
