@@ -14,6 +14,7 @@
 namespace palpate {
 namespace {
 
+constexpr const char* kNotFacing = "the two pads don't face each other";
 constexpr int kSmoothReach = 2;  // frames to each side
 constexpr double kSizeScaleMm = 40.0;
 constexpr double kLeastDistanceMm = -39.9;
@@ -128,45 +129,13 @@ std::optional<double> distanceOf(const PinchHand& hand,
   return chordDistanceMm(points[0], normals[0], points[1], normals[1]);
 }
 
-}  // namespace
-
-void DayFeatureOptions::validate() const {
-  const auto require = [](bool holds, const char* what) {
-    if (!holds) throw std::invalid_argument(std::string("DayFeatureOptions: ") + what);
-  };
-  require(plateauPart > 0.0 && plateauPart <= 1.0, "plateauPart must be above 0, up to 1");
-  require(startPart > 0.0 && startPart <= 1.0, "startPart must be above 0, up to 1");
-  require(mostPlateauFrames >= 1, "mostPlateauFrames must be 1 or more");
-  require(activePart >= 0.0 && activePart < 1.0, "activePart must be 0 up to below 1");
-}
-
-double sizeZ(double distanceMm) noexcept {
-  return kSizeScaleMm * std::log1p(std::max(distanceMm, kLeastDistanceMm) / kSizeScaleMm);
-}
-
-double distanceOfSizeZ(double z) noexcept { return kSizeScaleMm * std::expm1(z / kSizeScaleMm); }
-
-const std::vector<std::string>& dayFeatureNames() {
-  static const std::vector<std::string> names = {"size_z",
-                                                 "ln_major",
-                                                 "ln_minor",
-                                                 "share_1",
-                                                 "share_4",
-                                                 "share_9",
-                                                 "skew",
-                                                 "entropy",
-                                                 "ln_active",
-                                                 "ln_sum",
-                                                 "compression_mm"};
-  return names;
-}
-
-DayFeatures dayFeatures(const Profile& profile,
-                        const GraspSegment& grasp,
-                        const PinchHand& hand,
-                        const DayFeatureOptions& options) {
-  options.validate();
+// With the hand's first two pads.
+DayFeatures featuresOfPads(const Profile& profile,
+                           const GraspSegment& grasp,
+                           const PinchHand& hand,
+                           const DayFeatureOptions& options) {
   DayFeatures out;
+  out.matrices = hand.pads;
   const PinchFrames frames = readPinch(profile, grasp, hand, false);
   out.trouble = frames.trouble;
   if (!out.trouble.empty()) return out;
@@ -210,7 +179,7 @@ DayFeatures dayFeatures(const Profile& profile,
   const auto distance = distanceOf(hand, out.plateauAnglesDeg, atPlateauMm);
   const auto atStart = distanceOf(hand, frames.anglesDeg[start], atStartMm);
   if (!distance || !atStart) {
-    out.trouble = "the two pads don't face each other";
+    out.trouble = kNotFacing;
     return out;
   }
   out.distanceMm = *distance;
@@ -226,6 +195,55 @@ DayFeatures dayFeatures(const Profile& profile,
                 mean([](const PlateauPad& pad) { return pad.lnActive; }),
                 mean([](const PlateauPad& pad) { return pad.lnSum; }),
                 *atStart - *distance};
+  return out;
+}
+
+}  // namespace
+
+void DayFeatureOptions::validate() const {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(std::string("DayFeatureOptions: ") + what);
+  };
+  require(plateauPart > 0.0 && plateauPart <= 1.0, "plateauPart must be above 0, up to 1");
+  require(startPart > 0.0 && startPart <= 1.0, "startPart must be above 0, up to 1");
+  require(mostPlateauFrames >= 1, "mostPlateauFrames must be 1 or more");
+  require(activePart >= 0.0 && activePart < 1.0, "activePart must be 0 up to below 1");
+}
+
+double sizeZ(double distanceMm) noexcept {
+  return kSizeScaleMm * std::log1p(std::max(distanceMm, kLeastDistanceMm) / kSizeScaleMm);
+}
+
+double distanceOfSizeZ(double z) noexcept { return kSizeScaleMm * std::expm1(z / kSizeScaleMm); }
+
+const std::vector<std::string>& dayFeatureNames() {
+  static const std::vector<std::string> names = {"size_z",
+                                                 "ln_major",
+                                                 "ln_minor",
+                                                 "share_1",
+                                                 "share_4",
+                                                 "share_9",
+                                                 "skew",
+                                                 "entropy",
+                                                 "ln_active",
+                                                 "ln_sum",
+                                                 "compression_mm"};
+  return names;
+}
+
+DayFeatures dayFeatures(const Profile& profile,
+                        const GraspSegment& grasp,
+                        const PinchHand& hand,
+                        const DayFeatureOptions& options) {
+  options.validate();
+  DayFeatures out = featuresOfPads(profile, grasp, hand, options);
+  for (std::size_t i = 0; i < hand.otherPads.size() && out.trouble == kNotFacing; ++i) {
+    PinchHand other = hand;
+    other.pads = hand.otherPads[i];
+    other.secondPadGain = 1.0;
+    DayFeatures found = featuresOfPads(profile, grasp, other, options);
+    if (found.trouble.empty()) out = std::move(found);
+  }
   return out;
 }
 

@@ -35,6 +35,7 @@ TEST(PinchHand, WhatDoesNotFitIsRefused) {
   };
   refused([](PinchHand& hand) { hand.pads = {1, 1}; });
   refused([](PinchHand& hand) { hand.pads = {1, 6}; });
+  refused([](PinchHand& hand) { hand.otherPads = {{1, 9}}; });
   refused([](PinchHand& hand) { hand.secondPadGain = 0.0; });
   refused([](PinchHand& hand) { hand.fullScaleCounts = std::nan(""); });
   refused([](PinchHand& hand) { hand.pictureSize = 12; });

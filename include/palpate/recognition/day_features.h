@@ -62,8 +62,9 @@ struct DayFeatures {
   std::size_t startFrame = 0;    // the first one with a quarter of the load
   std::size_t plateauFrame = 0;  // first and last one of the plateau
   std::size_t plateauEndFrame = 0;
-  double distanceMm = 0.0;               // D on the plateau
-  std::vector<double> plateauAnglesDeg;  // median over the plateau
+  double distanceMm = 0.0;                // D on the plateau
+  std::vector<double> plateauAnglesDeg;   // median over the plateau
+  std::array<std::size_t, 2> matrices{};  // the two pads that were used
   std::array<PlateauPad, 2> pads;
   std::vector<double> values;  // as dayFeatureNames(); empty with trouble
 };
