@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
-#include "palpate/core/parallel_work.h"
+#include "palpate/core/parallel.h"
 
 namespace palpate {
 namespace {
@@ -89,11 +89,11 @@ ValidationReport crossValidate(const SampleSet& samples,
   requireLearnable(samples);
   requireSplits(splits);
   std::vector<std::vector<ExaminedSample>> perSplit(splits.size());
-  forEachParallel(
+  forEachInParallel(
       splits.size(),
       [&](std::size_t i) { perSplit[i] = examine(samples, options, splits[i], i); },
-      threads,
-      progress);
+      progress,
+      threads);
   return reportOf(samples, perSplit);
 }
 
@@ -107,7 +107,7 @@ std::vector<ValidationReport> crossValidateAll(const SampleSet& samples,
   requireSplits(splits);
   std::vector<std::vector<std::vector<ExaminedSample>>> all(
       options.size(), std::vector<std::vector<ExaminedSample>>(splits.size()));
-  forEachParallel(
+  forEachInParallel(
       options.size() * splits.size(),
       [&](std::size_t i) {
         const std::size_t which = i / splits.size(), split = i % splits.size();
@@ -116,8 +116,8 @@ std::vector<ValidationReport> crossValidateAll(const SampleSet& samples,
         } catch (const Error&) {  // this split leaves too little to fit it
         }
       },
-      threads,
-      progress);
+      progress,
+      threads);
   std::vector<ValidationReport> reports;
   for (const auto& perSplit : all) {
     const bool whole = std::none_of(

@@ -129,6 +129,7 @@ const std::vector<Command>& allCommands() {
        &convertCommand},
       {"demo", "a headless tour: reads, reports and draws a recording", &demoCommand},
       {"emulate", "the emulated hand on two ports, until it is interrupted", &emulateCommand},
+      {"features", "what recognition knows of each grasp, as CSV", &featuresCommand},
       {"filter", "a recording through a chain of filters, as a recording", &filterCommand},
       {"ghosts", "false taxels, and what filters do to them and to contacts", &ghostsCommand},
       {"grasp", "moves a connected hand: plain and reactive grasps", &graspCommand},

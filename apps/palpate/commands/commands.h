@@ -28,6 +28,7 @@ int contactCommand(const Words& words);
 int convertCommand(const Words& words);
 int demoCommand(const Words& words);
 int emulateCommand(const Words& words);
+int featuresCommand(const Words& words);
 int filterCommand(const Words& words);
 int ghostsCommand(const Words& words);
 int graspCommand(const Words& words);
