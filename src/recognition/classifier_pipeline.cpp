@@ -20,8 +20,8 @@ constexpr std::array<std::pair<ClassifierKind, std::string_view>, 4> kNames{{
     {ClassifierKind::kGauss, "gauss"},
 }};
 
-GaussianOptions gaussianOf(const PipelineOptions& options) {
-  GaussianOptions gaussian = options.gaussian;
+ClassGaussianOptions gaussianOf(const PipelineOptions& options) {
+  ClassGaussianOptions gaussian = options.gaussian;
   if (options.classifier == ClassifierKind::kLda) gaussian.pooledShare = 1.0;
   if (options.classifier == ClassifierKind::kGauss) {
     gaussian.offDiagonal = 0.8;  // reference/another_day.md, section 5
@@ -178,9 +178,10 @@ ClassifierPipeline ClassifierPipeline::of(const SampleSet& samples,
   ClassifierPipeline pipeline = fitted(samples.x, samples.y, samples.numClasses(), options);
   if (options.calibrationBlocks == 0) return pipeline;
   calibrate(samples, options, pipeline);
-  const Eigen::MatrixXd z = pipeline.standardisation.apply(samples.x);
-  pipeline.novelty = GaussianClassifier::of(
-      z, samples.y, samples.numClasses(), {.pooledShare = 1.0, .offDiagonal = 0.9, .ridge = 1e-2});
+  pipeline.novelty = GaussianClassifier::of(projected(pipeline, samples.x),
+                                            samples.y,
+                                            samples.numClasses(),
+                                            {.pooledShare = 0.5, .ridge = 1e-2});
   return pipeline;
 }
 
@@ -202,7 +203,7 @@ Eigen::MatrixXd ClassifierPipeline::probabilities(const Eigen::MatrixXd& x) cons
 
 Eigen::VectorXd ClassifierPipeline::noveltyOf(const Eigen::MatrixXd& x) const {
   if (novelty.classes.empty()) throw std::invalid_argument("ClassifierPipeline: not calibrated");
-  return novelty.nearestSquaredDistance(standardisation.apply(x));
+  return novelty.nearestSquaredDistance(projected(*this, x));
 }
 
 Eigen::VectorXd ClassifierPipeline::featureWeights() const {

@@ -15,7 +15,7 @@ namespace {
 
 void requireShare(double value, double most, const char* name) {
   if (!(value >= 0.0) || !(value <= most))
-    throw std::invalid_argument(std::string("GaussianOptions: ") + name + " is out of range");
+    throw std::invalid_argument(std::string("ClassGaussianOptions: ") + name + " is out of range");
 }
 
 // S_c of every class that has two samples; empty else.
@@ -36,18 +36,18 @@ std::vector<Eigen::MatrixXd> classCovariances(const WithinScatter& within,
 
 }  // namespace
 
-void GaussianOptions::validate() const {
+void ClassGaussianOptions::validate() const {
   requireShare(pooledShare, 1.0, "pooledShare");
   requireShare(offDiagonal, 1.0, "offDiagonal");
   requireShare(extraVariance, 1e6, "extraVariance");
   if (!(ridge >= 1e-9) || !(ridge <= 1.0))
-    throw std::invalid_argument("GaussianOptions: ridge must be 1e-9 .. 1");
+    throw std::invalid_argument("ClassGaussianOptions: ridge must be 1e-9 .. 1");
 }
 
 GaussianClassifier GaussianClassifier::of(const Eigen::MatrixXd& x,
                                           const std::vector<int>& y,
                                           std::size_t numClasses,
-                                          const GaussianOptions& options) {
+                                          const ClassGaussianOptions& options) {
   options.validate();
   for (const int label : y)
     if (label < 0 || static_cast<std::size_t>(label) >= numClasses)

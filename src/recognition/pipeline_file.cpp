@@ -150,7 +150,7 @@ ClassifierPipeline pipelineFrom(const Json& json) {
     pipeline.sigmoids = sigmoidsFrom(json, pipeline.svm.pairs.size());
     pipeline.exponent = js::number(json, "exponent");
     if (!(pipeline.exponent > 0.0)) refuse("'exponent' must be above 0");
-    pipeline.novelty = gaussianFrom(json, "novelty", pipeline.numClasses, features);
+    pipeline.novelty = gaussianFrom(json, "novelty", pipeline.numClasses, inner);
   }
   return pipeline;
 }

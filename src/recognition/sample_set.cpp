@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -67,6 +68,38 @@ void SampleSet::validate() const {
       fail("label " + std::to_string(label) + " of " + std::to_string(classes.size()) + " classes");
   if (std::set<std::string>(classes.begin(), classes.end()).size() != classes.size())
     fail("two classes of one name");
+}
+
+SampleSet samplesOf(const FeatureTable& table) { return samplesOf(table, table.classes()); }
+
+SampleSet samplesOf(const FeatureTable& table, const std::vector<std::string>& classes) {
+  SampleSet samples{{}, {}, classes, table.names};
+  samples.x.resize(static_cast<Eigen::Index>(table.rows.size()),
+                   static_cast<Eigen::Index>(table.names.size()));
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const FeatureRow& row = table.rows[i];
+    const auto found = std::find(classes.begin(), classes.end(), row.className);
+    if (row.className.empty())
+      throw FileError(row.file, "its class isn't known: name a folder with a folder per class");
+    if (found == classes.end())
+      throw FileError(row.file, "its class '" + row.className + "' isn't one of the model's");
+    samples.y.push_back(static_cast<int>(found - classes.begin()));
+    samples.x.row(static_cast<Eigen::Index>(i)) = Eigen::Map<const Eigen::RowVectorXd>(
+        row.values.data(), static_cast<Eigen::Index>(row.values.size()));
+  }
+  return samples;
+}
+
+SampleSet studyPart(const SampleSet& study, StudyPart part) {
+  constexpr std::size_t kFirst = 4;
+  if (study.features != featureNames(FeatureSet::kStudy))
+    throw std::invalid_argument("studyPart: these are not the study's features");
+  std::vector<std::size_t> columns(study.numFeatures());
+  std::iota(columns.begin(), columns.end(), std::size_t{0});
+  if (part == StudyPart::kDiameter) columns.resize(1);
+  if (part == StudyPart::kFirst4) columns.resize(kFirst);
+  if (part == StudyPart::kMoments) columns.erase(columns.begin(), columns.begin() + kFirst);
+  return study.columns(columns);
 }
 
 void requireLearnable(const SampleSet& samples) {

@@ -30,7 +30,7 @@ struct PipelineOptions {
   std::optional<std::size_t> components;  // of the discriminant analysis; nothing: without it. >= 1
   DiscriminantOptions discriminant;       // its `components` isn't read
   SvmOptions svm;
-  GaussianOptions gaussian;  // of qda; lda takes its ridge
+  ClassGaussianOptions gaussian;  // of qda; lda takes its ridge
   // Contiguous blocks per class that calibrate probabilities (sample_splits.h); 0: none are wanted.
   std::size_t calibrationBlocks = 0;
 
@@ -47,8 +47,8 @@ struct ClassifierPipeline {
   GaussianClassifier gaussian;  // of the others
   bool calibrated = false;
   std::vector<Sigmoid> sigmoids;  // per pair of svm
-  double exponent = 1.0;          // on the coupled probabilities of svm, the densities of the others
-  GaussianClassifier novelty;     // one covariance, shrunk, over the standardised features
+  double exponent = 1.0;       // on the coupled probabilities of svm, the densities of the others
+  GaussianClassifier novelty;  // what the classifier sees, covariances half of all classes
 
   // Throws Error (requireLearnable), std::invalid_argument (options).
   static ClassifierPipeline of(const SampleSet& samples, const PipelineOptions& options = {});

@@ -11,7 +11,7 @@
 
 namespace palpate {
 
-struct GaussianOptions {
+struct ClassGaussianOptions {
   double pooledShare = 0.5;    // 0..1; a class with one sample takes S_w whole
   double offDiagonal = 1.0;    // 0..1
   double extraVariance = 0.0;  // >= 0, of the pooled variance: what other days add
@@ -35,7 +35,7 @@ struct GaussianClassifier {
   static GaussianClassifier of(const Eigen::MatrixXd& x,
                                const std::vector<int>& y,
                                std::size_t numClasses,
-                               const GaussianOptions& options = {});
+                               const ClassGaussianOptions& options = {});
   // ln p(x | c) per sample and class, without the constant -d/2 ln 2 pi; -infinity for a class without samples.
   Eigen::MatrixXd logDensity(const Eigen::MatrixXd& x) const;
   // Squared Mahalanobis distance to the nearest class, per sample.

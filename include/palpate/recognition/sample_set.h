@@ -9,6 +9,8 @@
 
 #include <Eigen/Core>
 
+#include <palpate/recognition/feature_table.h>
+
 namespace palpate {
 
 struct SampleSet {
@@ -30,6 +32,21 @@ struct SampleSet {
   // Throws std::invalid_argument when sizes or class numbers don't agree.
   void validate() const;
 };
+
+// The rows of a table that have a class; classes sorted by name. With `classes` given: those, and a row of none of them is
+// refused. Throws Error (a row without class, or of an unknown one).
+SampleSet samplesOf(const FeatureTable& table);
+SampleSet samplesOf(const FeatureTable& table, const std::vector<std::string>& classes);
+
+// The parts of the study's 54 features that its table 6.1 compares.
+enum class StudyPart {
+  kDiameter,  // the first
+  kFirst4,    // diameter, compressibility, both standard deviations
+  kMoments,   // the other 50
+  kAll
+};
+// Columns of a sample set of the study's features. Throws std::invalid_argument when it has other features.
+SampleSet studyPart(const SampleSet& study, StudyPart part);
 
 // Throws Error (one line: what, which sample or class) when nothing can be learnt from it: no sample, fewer than two classes
 // with samples, no class with two samples, a value that is no number, no feature that varies.
