@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "palpate/recognition/sample_splits.h"
+#include "palpate/recognition/session_offset.h"
 
 namespace palpate {
 namespace {
@@ -23,10 +24,6 @@ constexpr std::array<std::pair<ClassifierKind, std::string_view>, 4> kNames{{
 ClassGaussianOptions gaussianOf(const PipelineOptions& options) {
   ClassGaussianOptions gaussian = options.gaussian;
   if (options.classifier == ClassifierKind::kLda) gaussian.pooledShare = 1.0;
-  if (options.classifier == ClassifierKind::kGauss) {
-    gaussian.offDiagonal = 0.8;  // reference/another_day.md, section 5
-    gaussian.extraVariance = 0.0625;
-  }
   return gaussian;
 }
 
@@ -147,6 +144,48 @@ void calibrate(const SampleSet& samples,
   pipeline.calibrated = true;
 }
 
+ClassifierPipeline ofDay(const SampleSet& samples) {
+  ClassifierPipeline pipeline;
+  pipeline.classifier = ClassifierKind::kGauss;
+  pipeline.numClasses = samples.numClasses();
+  pipeline.day = DayModel::learn(samples.x, samples.y, samples.classes, samples.features);
+  pipeline.calibrated = true;
+  return pipeline;
+}
+
+// Of each feature: how far the means of classes lie apart, against what grasps of one class scatter.
+Eigen::VectorXd separationWeights(const Eigen::MatrixXd& means, const Eigen::VectorXd& variance) {
+  const Eigen::MatrixXd away = means.rowwise() - means.colwise().mean();
+  const Eigen::VectorXd between =
+      away.colwise().squaredNorm().transpose() / static_cast<double>(means.rows());
+  const Eigen::VectorXd weights = between.cwiseQuotient(variance.cwiseMax(1e-12)).cwiseSqrt();
+  return weights.sum() > 0.0 ? Eigen::VectorXd(weights / weights.sum()) : weights;
+}
+
+Eigen::VectorXd separationWeights(const DayModel& day) {
+  const DayModelData& data = day.data();
+  Eigen::MatrixXd means(static_cast<Eigen::Index>(data.bells.size()), data.pooled.cols());
+  for (std::size_t c = 0; c < data.bells.size(); ++c)
+    means.row(static_cast<Eigen::Index>(c)) = data.bells[c].mean.transpose();
+  return separationWeights(means, data.pooled.diagonal());
+}
+
+Eigen::VectorXd separationWeights(const GaussianClassifier& gaussian) {
+  Eigen::MatrixXd means(0, 0);
+  Eigen::VectorXd variance;
+  for (const GaussianClassifier::Class& one : gaussian.classes) {
+    if (!one.present) continue;
+    means.conservativeResize(means.rows() + 1, one.mean.size());
+    means.bottomRows(1) = one.mean.transpose();
+    const auto size = one.mean.size();
+    const Eigen::MatrixXd root =
+        one.whitening.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(size, size));
+    const Eigen::VectorXd own = root.rowwise().squaredNorm();
+    variance = variance.size() == 0 ? own : Eigen::VectorXd(variance + own);
+  }
+  return separationWeights(means, variance / static_cast<double>(means.rows()));
+}
+
 }  // namespace
 
 std::string_view classifierName(ClassifierKind kind) noexcept {
@@ -164,6 +203,8 @@ std::optional<ClassifierKind> classifierNamed(std::string_view name) noexcept {
 void PipelineOptions::validate() const {
   if (components && *components == 0)
     throw std::invalid_argument("PipelineOptions: components must be 1 or more");
+  if (components && classifier == ClassifierKind::kGauss)
+    throw std::invalid_argument("PipelineOptions: gauss takes no discriminant analysis");
   if (calibrationBlocks == 1)
     throw std::invalid_argument("PipelineOptions: calibrationBlocks must be 0, or 2 and more");
   discriminant.validate();
@@ -175,6 +216,7 @@ ClassifierPipeline ClassifierPipeline::of(const SampleSet& samples,
                                           const PipelineOptions& options) {
   options.validate();
   requireLearnable(samples);
+  if (options.classifier == ClassifierKind::kGauss) return ofDay(samples);
   ClassifierPipeline pipeline = fitted(samples.x, samples.y, samples.numClasses(), options);
   if (options.calibrationBlocks == 0) return pipeline;
   calibrate(samples, options, pipeline);
@@ -186,6 +228,12 @@ ClassifierPipeline ClassifierPipeline::of(const SampleSet& samples,
 }
 
 Eigen::MatrixXd ClassifierPipeline::scores(const Eigen::MatrixXd& x) const {
+  if (day) {
+    Eigen::MatrixXd all(x.rows(), static_cast<Eigen::Index>(numClasses));
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+      all.row(i) = day->logLikelihoods(x.row(i).transpose(), 0.0).transpose();
+    return all;
+  }
   const Eigen::MatrixXd z = projected(*this, x);
   if (classifier != ClassifierKind::kSvm) return gaussian.logDensity(z);
   const Eigen::MatrixXd decisions = svm.decisions(z);
@@ -197,20 +245,32 @@ Eigen::MatrixXd ClassifierPipeline::scores(const Eigen::MatrixXd& x) const {
 
 Eigen::MatrixXd ClassifierPipeline::probabilities(const Eigen::MatrixXd& x) const {
   if (!calibrated) throw std::invalid_argument("ClassifierPipeline: not calibrated");
+  if (day) {
+    Eigen::MatrixXd all(x.rows(), static_cast<Eigen::Index>(numClasses));
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+      all.row(i) = judge(*day, x.row(i).transpose(), givenOffset(0.0)).probability.transpose();
+    return all;
+  }
   if (classifier != ClassifierKind::kSvm) return softmaxRows(scores(x), exponent);
   return softmaxRows(coupledRows(*this, svm.decisions(projected(*this, x))), exponent);
 }
 
 Eigen::VectorXd ClassifierPipeline::noveltyOf(const Eigen::MatrixXd& x) const {
+  if (day) {
+    Eigen::VectorXd all(x.rows());
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+      all[i] = -judge(*day, x.row(i).transpose(), givenOffset(0.0)).knownness;
+    return all;
+  }
   if (novelty.classes.empty()) throw std::invalid_argument("ClassifierPipeline: not calibrated");
   return novelty.nearestSquaredDistance(projected(*this, x));
 }
 
 Eigen::VectorXd ClassifierPipeline::featureWeights() const {
+  if (day) return separationWeights(*day);
   if (!discriminant) {
     if (classifier == ClassifierKind::kSvm) return svm.featureWeights();
-    const auto features = standardisation.mean.size();
-    return Eigen::VectorXd::Constant(features, 1.0 / static_cast<double>(features));
+    return separationWeights(gaussian);
   }
   if (classifier != ClassifierKind::kSvm) return discriminant->featureWeights();
   // The planes, carried back to the features.

@@ -91,6 +91,11 @@ std::vector<Sigmoid> sigmoidsFrom(const Json& json, std::size_t pairs) {
 }  // namespace
 
 Json jsonOf(const ClassifierPipeline& pipeline) {
+  if (pipeline.day)
+    return Json::object()
+        .set("classifier", classifierName(pipeline.classifier))
+        .set("classes", pipeline.numClasses)
+        .set("day", dayModelJson(*pipeline.day));
   Json json = Json::object()
                   .set("classifier", classifierName(pipeline.classifier))
                   .set("classes", pipeline.numClasses)
@@ -125,6 +130,12 @@ ClassifierPipeline pipelineFrom(const Json& json) {
   if (!kind) refuse("its classifier '" + name + "' isn't known to this version");
   pipeline.classifier = *kind;
   pipeline.numClasses = js::count(json, "classes");
+  if (*kind == ClassifierKind::kGauss) {
+    pipeline.day = dayModelFrom(js::member(json, "day"));
+    if (pipeline.day->numClasses() != pipeline.numClasses) refuse("'day' has other classes");
+    pipeline.calibrated = true;
+    return pipeline;
+  }
   const auto features = static_cast<Eigen::Index>(js::count(json, "features"));
   if (pipeline.numClasses < 2 || features < 1) refuse("it has no classes or no features");
   pipeline.standardisation.mean = js::vector(json, "mean", features);

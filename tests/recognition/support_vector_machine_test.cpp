@@ -1,5 +1,6 @@
 #include "palpate/recognition/support_vector_machine.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -104,7 +105,8 @@ TEST(SupportVectorMachine, DecidesAsLibsvm) {
                        (decisions.row(i).transpose() - oracle.decisions(samples.x.row(i)))
                            .cwiseAbs()
                            .maxCoeff());
-    EXPECT_LT(worst, 2e-3) << "C = " << c;  // OpenCV's kernel has single precision
+    // OpenCV's kernel has single precision (6e-8), and the alphas grow with C.
+    EXPECT_LT(worst, 3e-4 * std::max(c, 5.0)) << "C = " << c;
   }
 }
 

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <palpate/core/json.h>
+#include <palpate/recognition/day_model.h>
 #include <palpate/recognition/discriminant_analysis.h>
 #include <palpate/recognition/gaussian_classifier.h>
 #include <palpate/recognition/probability_calibration.h>
@@ -19,8 +20,8 @@
 
 namespace palpate {
 
-// svm: one against one, linear. qda: a Gaussian per class. lda: Gaussians of one covariance. gauss: as qda, with what other
-// days add (another day's variance, weaker correlations).
+// svm: one against one, linear. qda: a Gaussian per class. lda: Gaussians of one covariance. gauss: bells that hold on
+// another day (day_model.h), of the features as they are: no discriminant analysis.
 enum class ClassifierKind { kSvm, kQda, kLda, kGauss };
 std::string_view classifierName(ClassifierKind kind) noexcept;
 std::optional<ClassifierKind> classifierNamed(std::string_view name) noexcept;
@@ -44,21 +45,23 @@ struct ClassifierPipeline {
   Standardisation standardisation;
   std::optional<DiscriminantAnalysis> discriminant;
   SupportVectorMachine svm;     // of svm
-  GaussianClassifier gaussian;  // of the others
+  GaussianClassifier gaussian;  // of qda, lda
+  std::optional<DayModel> day;  // of gauss; nothing else of the pipeline is used then
   bool calibrated = false;
   std::vector<Sigmoid> sigmoids;  // per pair of svm
   double exponent = 1.0;       // on the coupled probabilities of svm, the densities of the others
   GaussianClassifier novelty;  // what the classifier sees, covariances half of all classes
 
-  // Throws Error (requireLearnable), std::invalid_argument (options).
+  // Throws Error (requireLearnable; gauss: a class without samples), std::invalid_argument (options).
   static ClassifierPipeline of(const SampleSet& samples, const PipelineOptions& options = {});
 
   // Samples x classes, the larger the better: votes of svm, logarithms of densities else. Throws std::invalid_argument
   // (another number of features).
   Eigen::MatrixXd scores(const Eigen::MatrixXd& x) const;
-  // Samples x classes, rows of sum 1; needs calibration (std::invalid_argument).
+  // Samples x classes, rows of sum 1; needs calibration (std::invalid_argument). gauss: on the day of training, offset 0.
   Eigen::MatrixXd probabilities(const Eigen::MatrixXd& x) const;
-  // How far from everything that was learnt, per sample: squared Mahalanobis distance to the nearest class.
+  // How far from everything that was learnt, per sample: squared Mahalanobis distance to the nearest class; gauss:
+  // -knownness (session_offset.h).
   Eigen::VectorXd noveltyOf(const Eigen::MatrixXd& x) const;
   // Of each feature, summing to 1: how much the fitted planes or directions rest on it.
   Eigen::VectorXd featureWeights() const;
