@@ -103,6 +103,30 @@ TEST(SimulatedRecording, AZeroErrorOfTheJointsShowsInWhatTheyReport) {
   EXPECT_THROW(stopDeg(), std::invalid_argument);
 }
 
+TEST(SimulatedRecording, GraspsFollowEachOtherAndDiffer) {
+  const Scene pen = loadScene("pen", testing::dataFolder() / "scenes");
+  const Scene a = variedScene(pen, {}, 1), again = variedScene(pen, {}, 1),
+              b = variedScene(pen, {}, 2);
+  EXPECT_EQ(a.objects[0].positionMm, again.objects[0].positionMm);
+  EXPECT_NE(a.objects[0].positionMm, b.objects[0].positionMm);
+  EXPECT_LT((a.objects[0].positionMm - pen.objects[0].positionMm).norm(), 15.0);
+  EXPECT_NEAR(a.objects[0].rotation.determinant(), 1.0, 1e-9);
+  EXPECT_EQ(variedScene(pen, {0.0, 0.0, 0.0, 0.0}, 5).objects[0].positionMm,
+            pen.objects[0].positionMm);
+  const Profile profile = simulateGrasps(pen, 3);
+  std::size_t begun = 0;
+  bool before = false;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    const TactileFrame frame = profile.frame(i);
+    const bool touches = sumOf(frame, 1) > 0.0 && sumOf(frame, 5) > 0.0;
+    begun += touches && !before ? 1 : 0;
+    before = touches;
+  }
+  EXPECT_EQ(begun, 3u);
+  EXPECT_THROW(simulateGrasps(pen, 0), std::invalid_argument);
+  EXPECT_THROW(variedScene(pen, {-1.0, 0.0, 0.0, 0.0}, 1), std::invalid_argument);
+}
+
 TEST(SimulatedRecording, WrongQuestionsAreRefused) {
   SimulatedRecordingOptions options;
   options.durationS = 0.0;

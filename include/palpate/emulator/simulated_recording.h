@@ -27,4 +27,23 @@ Profile simulateRecording(const Scene& scene,
                           const SimulatedRecordingOptions& options = {},
                           const Progress& progress = {});
 
+// How differently the same thing is presented from grasp to grasp: standard deviations, all >= 0.
+struct GraspVariation {
+  double positionMm = 2.0;     // of each object, along each axis of the base frame
+  double turnDeg = 3.0;        // of each object, about each axis
+  double velocityPart = 0.1;   // of the fingers' velocity
+  double stiffnessPart = 0.1;  // of the objects' surfaces
+
+  void validate() const;
+};
+// The scene as it might be the next time; the same for the same seed.
+Scene variedScene(const Scene& scene, const GraspVariation& variation, std::uint64_t seed);
+
+// A recording of `count` runs of a scene, each varied anew, one after the other. Runs last options.durationS.
+Profile simulateGrasps(const Scene& scene,
+                       int count,
+                       const GraspVariation& variation = {},
+                       const SimulatedRecordingOptions& options = {},
+                       const Progress& progress = {});
+
 }  // namespace palpate
