@@ -82,4 +82,24 @@ PinchFrames readPinch(const Profile& profile,
   return out;
 }
 
+std::optional<GraspSegment> longestTouch(const Profile& profile,
+                                         const GraspSegment& grasp,
+                                         const std::array<std::size_t, 2>& pads) {
+  std::size_t longest = 0, run = 0, end = 0;
+  TactileFrame frame;
+  for (std::size_t i = grasp.begin; i <= grasp.end; ++i) {
+    profile.readFrame(i, frame);
+    const TactileFrame& values = frame;
+    const bool both = (values.matrix(pads[0]).array() > 0.0F).any() &&
+                      (values.matrix(pads[1]).array() > 0.0F).any();
+    run = both ? run + 1 : 0;
+    if (run > longest) {
+      longest = run;
+      end = i;
+    }
+  }
+  if (longest < kFewestPinchFrames) return std::nullopt;
+  return GraspSegment{.begin = end + 1 - longest, .end = end, .fingers = {}};
+}
+
 }  // namespace palpate
