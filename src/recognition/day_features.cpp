@@ -14,6 +14,7 @@
 namespace palpate {
 namespace {
 
+constexpr const char* kNotFacing = "the two pads don't face each other";
 constexpr int kSmoothReach = 2;  // frames to each side
 constexpr double kSizeScaleMm = 40.0;
 constexpr double kLeastDistanceMm = -39.9;
@@ -58,15 +59,8 @@ std::vector<std::size_t> plateauOf(const std::vector<double>& loads,
   return taken;
 }
 
-struct PadPicture {
-  double lnMajor = 0.0, lnMinor = 0.0, skew = 0.0, entropy = 0.0, lnActive = 0.0, lnSum = 0.0;
-  double lnPeak = 0.0;
-  std::array<double, 3> shares{};
-  double column = 0.0, row = 0.0;  // centroid [taxels]
-};
-
-PadPicture describe(const Eigen::MatrixXd& mean, const DayFeatureOptions& options) {
-  PadPicture out;
+PlateauPad describe(const Eigen::MatrixXd& mean, const DayFeatureOptions& options) {
+  PlateauPad out;
   const double threshold = options.activePart * mean.maxCoeff();
   std::vector<double> parts;
   double sum = 0.0;
@@ -94,7 +88,7 @@ PadPicture describe(const Eigen::MatrixXd& mean, const DayFeatureOptions& option
   const double half = std::hypot((u - v) / 2.0, w);
   out.lnMajor = std::log((u + v) / 2.0 + half + kMomentFloor);
   out.lnMinor = std::log(std::max(0.0, (u + v) / 2.0 - half) + kMomentFloor);
-  out.skew = 2.0 * std::abs(w) / (u + v + 2.0 * kMomentFloor);
+  out.slant = 2.0 * w / (u + v + 2.0 * kMomentFloor);
   std::sort(parts.begin(), parts.end(), std::greater<>());
   double share = 0.0;
   for (std::size_t i = 0, k = 0; k < kStrongest.size(); ++k) {
@@ -135,6 +129,75 @@ std::optional<double> distanceOf(const PinchHand& hand,
   return chordDistanceMm(points[0], normals[0], points[1], normals[1]);
 }
 
+// With the hand's first two pads.
+DayFeatures featuresOfPads(const Profile& profile,
+                           const GraspSegment& grasp,
+                           const PinchHand& hand,
+                           const DayFeatureOptions& options) {
+  DayFeatures out;
+  out.matrices = hand.pads;
+  const PinchFrames frames = readPinch(profile, grasp, hand, false);
+  out.trouble = frames.trouble;
+  if (!out.trouble.empty()) return out;
+
+  const std::vector<double> loads = smoothLoads(frames, hand);
+  const double largest = *std::max_element(loads.begin(), loads.end());
+  const auto start = static_cast<std::size_t>(
+      std::find_if(loads.begin(),
+                   loads.end(),
+                   [&](double load) { return load >= options.startPart * largest; }) -
+      loads.begin());
+  const std::vector<std::size_t> plateau = plateauOf(loads, options);
+  out.startFrame = grasp.begin + start;
+  out.plateauFrame = grasp.begin + plateau.front();
+  out.plateauEndFrame = grasp.begin + plateau.back();
+
+  for (std::size_t axis = 0; axis < frames.anglesDeg.front().size(); ++axis) {
+    std::vector<double> angles;
+    for (const std::size_t i : plateau) angles.push_back(frames.anglesDeg[i][axis]);
+    out.plateauAnglesDeg.push_back(median(std::move(angles)));
+  }
+
+  std::array<PlateauPad, 2>& pads = out.pads;
+  std::array<Eigen::Vector2d, 2> atPlateauMm, atStartMm;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::size_t pad = hand.pads[i];
+    const Eigen::MatrixXd mean = meanPicture(profile, grasp.begin, plateau, pad);
+    pads[i] = describe(mean, options);
+    // The centroid that D goes by counts every taxel.
+    const Eigen::VectorXd columns =
+        Eigen::VectorXd::LinSpaced(mean.cols(), 0.0, static_cast<double>(mean.cols()) - 1.0);
+    const Eigen::VectorXd rows =
+        Eigen::VectorXd::LinSpaced(mean.rows(), 0.0, static_cast<double>(mean.rows()) - 1.0);
+    const double pitchMm = profile.layout().matrix(pad).pitchMm;
+    atPlateauMm[i] =
+        Eigen::Vector2d(mean.colwise().sum().dot(columns), mean.rowwise().sum().dot(rows)) /
+        mean.sum() * pitchMm;
+    const PadLoad& load = frames.loads[start][pad];
+    atStartMm[i] = {load.xMm, load.yMm};
+  }
+  const auto distance = distanceOf(hand, out.plateauAnglesDeg, atPlateauMm);
+  const auto atStart = distanceOf(hand, frames.anglesDeg[start], atStartMm);
+  if (!distance || !atStart) {
+    out.trouble = kNotFacing;
+    return out;
+  }
+  out.distanceMm = *distance;
+  const auto mean = [&](auto of) { return (of(pads[0]) + of(pads[1])) / 2.0; };
+  out.values = {sizeZ(*distance),
+                mean([](const PlateauPad& pad) { return pad.lnMajor; }),
+                mean([](const PlateauPad& pad) { return pad.lnMinor; }),
+                mean([](const PlateauPad& pad) { return pad.shares[0]; }),
+                mean([](const PlateauPad& pad) { return pad.shares[1]; }),
+                mean([](const PlateauPad& pad) { return pad.shares[2]; }),
+                mean([](const PlateauPad& pad) { return std::abs(pad.slant); }),
+                mean([](const PlateauPad& pad) { return pad.entropy; }),
+                mean([](const PlateauPad& pad) { return pad.lnActive; }),
+                mean([](const PlateauPad& pad) { return pad.lnSum; }),
+                *atStart - *distance};
+  return out;
+}
+
 }  // namespace
 
 void DayFeatureOptions::validate() const {
@@ -173,70 +236,14 @@ DayFeatures dayFeatures(const Profile& profile,
                         const PinchHand& hand,
                         const DayFeatureOptions& options) {
   options.validate();
-  DayFeatures out;
-  const PinchFrames frames = readPinch(profile, grasp, hand, false);
-  out.trouble = frames.trouble;
-  if (!out.trouble.empty()) return out;
-
-  const std::vector<double> loads = smoothLoads(frames, hand);
-  const double largest = *std::max_element(loads.begin(), loads.end());
-  const auto start = static_cast<std::size_t>(
-      std::find_if(loads.begin(),
-                   loads.end(),
-                   [&](double load) { return load >= options.startPart * largest; }) -
-      loads.begin());
-  const std::vector<std::size_t> plateau = plateauOf(loads, options);
-  out.startFrame = grasp.begin + start;
-  out.plateauFrame = grasp.begin + plateau.front();
-  out.plateauEndFrame = grasp.begin + plateau.back();
-
-  for (std::size_t axis = 0; axis < frames.anglesDeg.front().size(); ++axis) {
-    std::vector<double> angles;
-    for (const std::size_t i : plateau) angles.push_back(frames.anglesDeg[i][axis]);
-    out.plateauAnglesDeg.push_back(median(std::move(angles)));
+  DayFeatures out = featuresOfPads(profile, grasp, hand, options);
+  for (std::size_t i = 0; i < hand.otherPads.size() && out.trouble == kNotFacing; ++i) {
+    PinchHand other = hand;
+    other.pads = hand.otherPads[i];
+    other.secondPadGain = 1.0;
+    DayFeatures found = featuresOfPads(profile, grasp, other, options);
+    if (found.trouble.empty()) out = std::move(found);
   }
-
-  std::array<PadPicture, 2> pads;
-  std::array<Eigen::Vector2d, 2> atPlateauMm, atStartMm;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const std::size_t pad = hand.pads[i];
-    const Eigen::MatrixXd mean = meanPicture(profile, grasp.begin, plateau, pad);
-    pads[i] = describe(mean, options);
-    // The centroid that D goes by counts every taxel.
-    const Eigen::VectorXd columns =
-        Eigen::VectorXd::LinSpaced(mean.cols(), 0.0, static_cast<double>(mean.cols()) - 1.0);
-    const Eigen::VectorXd rows =
-        Eigen::VectorXd::LinSpaced(mean.rows(), 0.0, static_cast<double>(mean.rows()) - 1.0);
-    const double pitchMm = profile.layout().matrix(pad).pitchMm;
-    atPlateauMm[i] =
-        Eigen::Vector2d(mean.colwise().sum().dot(columns), mean.rowwise().sum().dot(rows)) /
-        mean.sum() * pitchMm;
-    const PadLoad& load = frames.loads[start][pad];
-    atStartMm[i] = {load.xMm, load.yMm};
-    out.rowOfContact[i] = pads[i].row;
-    out.columnOfContact[i] = pads[i].column;
-    out.lnSum[i] = pads[i].lnSum;
-    out.lnPeak[i] = pads[i].lnPeak;
-  }
-  const auto distance = distanceOf(hand, out.plateauAnglesDeg, atPlateauMm);
-  const auto atStart = distanceOf(hand, frames.anglesDeg[start], atStartMm);
-  if (!distance || !atStart) {
-    out.trouble = "the two pads don't face each other";
-    return out;
-  }
-  out.distanceMm = *distance;
-  const auto mean = [&](auto of) { return (of(pads[0]) + of(pads[1])) / 2.0; };
-  out.values = {sizeZ(*distance),
-                mean([](const PadPicture& pad) { return pad.lnMajor; }),
-                mean([](const PadPicture& pad) { return pad.lnMinor; }),
-                mean([](const PadPicture& pad) { return pad.shares[0]; }),
-                mean([](const PadPicture& pad) { return pad.shares[1]; }),
-                mean([](const PadPicture& pad) { return pad.shares[2]; }),
-                mean([](const PadPicture& pad) { return pad.skew; }),
-                mean([](const PadPicture& pad) { return pad.entropy; }),
-                mean([](const PadPicture& pad) { return pad.lnActive; }),
-                mean([](const PadPicture& pad) { return pad.lnSum; }),
-                *atStart - *distance};
   return out;
 }
 

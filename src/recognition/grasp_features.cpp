@@ -1,17 +1,24 @@
 #include "palpate/recognition/grasp_features.h"
 
+#include <array>
+
 #include "palpate/recognition/day_features.h"
 #include "palpate/recognition/study_features.h"
 
 namespace palpate {
 namespace {
 
+constexpr std::array<const char*, 6> kSessionPadNames = {
+    "row", "column", "ln_sum", "ln_peak", "ln_major", "ln_minor"};
+
+std::array<double, kSessionPadNames.size()> sessionOf(const PlateauPad& pad) {
+  return {pad.row, pad.column, pad.lnSum, pad.lnPeak, pad.lnMajor, pad.lnMinor};
+}
+
 void appendSession(const DayFeatures& day, const PinchHand& hand, std::vector<double>& values) {
   for (const std::size_t axis : hand.gripAxes) values.push_back(day.plateauAnglesDeg[axis]);
-  for (std::size_t i = 0; i < 2; ++i)
-    for (const double value :
-         {day.rowOfContact[i], day.columnOfContact[i], day.lnSum[i], day.lnPeak[i]})
-      values.push_back(value);
+  for (const PlateauPad& pad : day.pads)
+    for (const double value : sessionOf(pad)) values.push_back(value);
 }
 
 }  // namespace
@@ -39,7 +46,7 @@ std::vector<std::string> featureNames(FeatureSet set, const PinchHand& hand) {
   if (set == FeatureSet::kBest) return names;
   for (const std::size_t axis : hand.gripAxes) names.push_back("angle_" + std::to_string(axis));
   for (const std::size_t pad : hand.pads)
-    for (const char* what : {"row", "column", "ln_sum", "ln_peak"})
+    for (const char* what : kSessionPadNames)
       names.push_back("m" + std::to_string(pad) + "_" + what);
   return names;
 }

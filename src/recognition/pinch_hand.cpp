@@ -1,5 +1,6 @@
 #include "palpate/recognition/pinch_hand.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -18,6 +19,7 @@ bool sameSensor(const SensorLayout& a, const SensorLayout& b) {
 PinchHand makeSdh2() {
   PinchHand hand;
   hand.pads = {1, 5};
+  hand.otherPads = {{1, 3}, {5, 3}};
   hand.secondPadGain = 2.7;
   hand.fullScaleCounts = 4096.0;
   hand.pictureSize = 14;
@@ -57,6 +59,9 @@ void PinchHand::validate() const {
                 mine.layout.matrix(pad).columns <= pictureSize,
             "pictureSize is smaller than a pad");
   }
+  for (const auto& [first, second] : otherPads)
+    require(first != second && std::max(first, second) < mine.layout.numMatrices(),
+            "otherPads must be pairs of pads");
   require(secondPadGain > 0.0 && std::isfinite(secondPadGain), "secondPadGain must be > 0");
   require(fullScaleCounts > 0.0 && std::isfinite(fullScaleCounts), "fullScaleCounts must be > 0");
   for (const double largest : largestCounts)

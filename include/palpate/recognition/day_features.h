@@ -47,18 +47,26 @@ const std::vector<std::string>& dayFeatureNames();
 // Place of size_z in dayFeatureNames().
 constexpr std::size_t kSizeZColumn = 0;
 
+// Of one pad on the mean plateau frame.
+struct PlateauPad {
+  double lnMajor = 0.0, lnMinor = 0.0, entropy = 0.0, lnActive = 0.0, lnSum = 0.0;
+  double slant = 0.0;   // as skew, with its sign: > 0 where the contact leans to rising x and y
+  double lnPeak = 0.0;  // ln(largest counts)
+  std::array<double, 3> shares{};  // of the strongest 1, 4, 9 taxels
+  double column = 0.0, row = 0.0;  // centroid [taxels]
+};
+
 struct DayFeatures {
   std::string
       trouble;  // why there are none: no joint angles, no contact, too short, pads that don't face each other, ..
   std::size_t startFrame = 0;    // the first one with a quarter of the load
   std::size_t plateauFrame = 0;  // first and last one of the plateau
   std::size_t plateauEndFrame = 0;
-  double distanceMm = 0.0;               // D on the plateau
-  std::vector<double> plateauAnglesDeg;  // median over the plateau
-  std::vector<double> values;            // as dayFeatureNames(); empty with trouble
-  // Of each pad on the mean plateau frame, for those who want more: rows and columns of the contact [taxels].
-  std::array<double, 2> rowOfContact{}, columnOfContact{};
-  std::array<double, 2> lnSum{}, lnPeak{};  // of each pad
+  double distanceMm = 0.0;                // D on the plateau
+  std::vector<double> plateauAnglesDeg;   // median over the plateau
+  std::array<std::size_t, 2> matrices{};  // the two pads that were used
+  std::array<PlateauPad, 2> pads;
+  std::vector<double> values;  // as dayFeatureNames(); empty with trouble
 };
 
 // Of one grasp. Throws std::out_of_range: frames that aren't there. What the recording lacks is said by `trouble`.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <palpate/kinematics/hand_geometry.h>
 #include <palpate/model/profile.h>
@@ -14,6 +15,8 @@ namespace palpate {
 
 struct PinchHand {
   std::array<std::size_t, 2> pads{0, 1};  // matrices
+  // Where the two don't face each other (three fingers around a thing), the first of these that do; all alike in gain.
+  std::vector<std::array<std::size_t, 2>> otherPads = {};
   // The second pad's counts times this are the first one's for the same force, > 0.
   double secondPadGain = 1.0;
   double fullScaleCounts = 4096.0;  // counts are divided by it in the study's features
