@@ -100,7 +100,7 @@ TEST(ModelEvaluation, AClassifierWithoutOffsetRefusesOne) {
   EXPECT_NO_THROW(sessionFor(model, test.x, times(24, 101), {}));
   EXPECT_THROW(sessionFor(model, test.x, times(24, 101), {OffsetChoice::Kind::kBatch, 0.0}), Error);
   EXPECT_THROW(sessionFor(model, test.x, times(24, 101), {OffsetChoice::Kind::kGiven, 1.0}), Error);
-  EXPECT_THROW(evaluateModel(model, test, times(24, 101), {.adaptPerClass = 1}), Error);
+  EXPECT_THROW(evaluateModel(model, test, times(24, 101), {1, {}}), Error);
 }
 
 TEST(ModelEvaluation, SessionsAreWhatPausesPart) {
@@ -114,13 +114,13 @@ TEST(ModelEvaluation, SessionsAreWhatPausesPart) {
 TEST(ModelEvaluation, WhatAdaptsDoesNotCount) {
   const TrainedModel model = modelOf(ClassifierKind::kGauss);
   const SampleSet test = things(6, 4, 4.0, 2);
-  const auto evaluation = evaluateModel(model, test, times(24, 2000), {.adaptPerClass = 1});
+  const auto evaluation = evaluateModel(model, test, times(24, 2000), {1, {}});
   EXPECT_EQ(evaluation.adapted, (std::vector<std::size_t>{0, 4, 8, 12, 16, 20}))
       << "the first in time of each class";
   EXPECT_EQ(evaluation.confusion.total(), 18u);
   EXPECT_GT(evaluation.confusion.accuracy(), 0.9);
   EXPECT_EQ(evaluation.sessions.at(0).offset.origin, OffsetOrigin::kReferences);
-  EXPECT_THROW(evaluateModel(model, test, times(24, 2000), {.adaptPerClass = 4}), Error);
+  EXPECT_THROW(evaluateModel(model, test, times(24, 2000), {4, {}}), Error);
   EXPECT_THROW(evaluateModel(model, test, times(23, 2000)), std::invalid_argument);
 }
 
