@@ -128,7 +128,8 @@ TEST_F(WindowLayoutTest, DocksCloseByTheirButton) {
                          "Spectrum",
                          "Calibrate",
                          "Library",
-                         "Log"}));
+                         "Log",
+                         "Recognise"}));
 }
 
 }  // namespace
