@@ -1,6 +1,7 @@
 // Grasps of the emulated hand, and a small model of them.
 #pragma once
 
+#include <QDockWidget>
 #include <QSettings>
 #include <memory>
 #include <string>
@@ -57,6 +58,59 @@ class RecognisePanelTest : public ::testing::Test {
   QSettings settings_{QString::fromStdString((folder_ / "palpate.ini").string()),
                       QSettings::IniFormat};
   std::unique_ptr<RecognisePanel> panel_;
+};
+
+class RecogniseWindowTest : public WindowTest {
+ protected:
+  RecogniseWindowTest() {
+    // Recordings are read as they are.
+    window_.reset();
+    WindowSurroundings surroundings;
+    surroundings.dataFolder = testing::dataFolder();
+    surroundings.settingsPath = settingsFile();
+    window_ = std::make_unique<MainWindow>(surroundings);
+    window_->resize(1280, 800);
+    window_->show();
+  }
+  QDockWidget* dock() { return window().findChild<QDockWidget*>("Recognise"); }
+  RecognisePanel& panel() { return *find<RecognisePanel>("RecognisePanel"); }
+  const RecognitionAnswer& answer() { return panel().desk().answer(); }
+  void settle() {
+    panel().settle();
+    QCoreApplication::processEvents();
+  }
+  std::string record(const std::string& object) {
+    const auto path = folder_ / (object + ".palpate");
+    saveRecording(graspsOf(object, 2), {}, path);
+    return path.string();
+  }
+  void openIt(const std::string& path) {
+    QSignalSpy shown(&window(), &MainWindow::recordingShown);
+    window().openFiles({path});
+    ASSERT_TRUE(shown.wait(20'000));
+  }
+  // Grasps a scene by its script, asks while it is held, until it is named.
+  QString heldName(const std::string& scene) {
+    Connection connection;
+    connection.kind = Connection::Kind::kEmulated;
+    connection.scene = QString::fromStdString(scene);
+    connection.sceneActs = true;
+    window().connectTo(connection);
+    if (!dock()->isVisible()) window().showDock("Recognise");
+    const bool told = QTest::qWaitFor(
+        [&] {
+          QTest::qWait(250);
+          press(Qt::Key_Q);
+          settle();
+          return answer().sure || answer().kind == RecognitionAnswer::Kind::kUnknown;
+        },
+        30'000);
+    const QString name = told ? answer().name() : "not told: " + answer().spoken();
+    window().live().end();
+    EXPECT_TRUE(QTest::qWaitFor(
+        [&] { return window().live().state() == LiveController::State::kNone; }, 20'000));
+    return name;
+  }
 };
 
 }  // namespace palpate::gui

@@ -14,59 +14,6 @@
 namespace palpate::gui {
 namespace {
 
-class RecogniseWindowTest : public WindowTest {
- protected:
-  RecogniseWindowTest() {
-    // Recordings are read as they are.
-    window_.reset();
-    WindowSurroundings surroundings;
-    surroundings.dataFolder = testing::dataFolder();
-    surroundings.settingsPath = settingsFile();
-    window_ = std::make_unique<MainWindow>(surroundings);
-    window_->resize(1280, 800);
-    window_->show();
-  }
-  QDockWidget* dock() { return window().findChild<QDockWidget*>("Recognise"); }
-  RecognisePanel& panel() { return *find<RecognisePanel>("RecognisePanel"); }
-  const RecognitionAnswer& answer() { return panel().desk().answer(); }
-  void settle() {
-    panel().settle();
-    QCoreApplication::processEvents();
-  }
-  std::string record(const std::string& object) {
-    const auto path = folder_ / (object + ".palpate");
-    saveRecording(graspsOf(object, 2), {}, path);
-    return path.string();
-  }
-  void openIt(const std::string& path) {
-    QSignalSpy shown(&window(), &MainWindow::recordingShown);
-    window().openFiles({path});
-    ASSERT_TRUE(shown.wait(20'000));
-  }
-  // Grasps a scene by its script, asks while it is held, until it is named.
-  QString heldName(const std::string& scene) {
-    Connection connection;
-    connection.kind = Connection::Kind::kEmulated;
-    connection.scene = QString::fromStdString(scene);
-    connection.sceneActs = true;
-    window().connectTo(connection);
-    if (!dock()->isVisible()) window().showDock("Recognise");
-    const bool told = QTest::qWaitFor(
-        [&] {
-          QTest::qWait(250);
-          press(Qt::Key_Q);
-          settle();
-          return answer().sure || answer().kind == RecognitionAnswer::Kind::kUnknown;
-        },
-        30'000);
-    const QString name = told ? answer().name() : "not told: " + answer().spoken();
-    window().live().end();
-    EXPECT_TRUE(QTest::qWaitFor(
-        [&] { return window().live().state() == LiveController::State::kNone; }, 20'000));
-    return name;
-  }
-};
-
 TEST_F(RecogniseWindowTest, ComesAndGoesByItsKey) {
   openIt(record("pen"));
   EXPECT_FALSE(dock()->isVisible());

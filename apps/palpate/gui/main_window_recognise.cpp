@@ -296,6 +296,10 @@ void MainWindow::RecogniseView::showWanted() {
 }
 
 bool MainWindow::RecogniseView::cancel() {
+  if (full_) {
+    full_->close();
+    return true;
+  }
   // The key stops the hand, too.
   if (zeroStep_ != Zero::kNone) endZero("given up");
   return panel_->cancel();
