@@ -138,7 +138,8 @@ void AskPage::showModel() {
 
 void AskPage::showTelling() {
   const RecognitionAnswer& answer = desk_.answer();
-  const bool can = desk_.model() && desk_.model()->carriesOver() && answer.grasp;
+  const bool can = desk_.model() && desk_.model()->carriesOver() && answer.grasp &&
+                   *answer.grasp < desk_.day()->grasps().size();
   classes_->setEnabled(can);
   tell_->setEnabled(can);
   if (!can || answer.best.empty()) return;

@@ -111,7 +111,7 @@ void paintConfusion(QPainter& painter,
                         grid.side - 1.0);
       const bool right = called == y;
       // A single mistake is to be seen.
-      const double tone = count == 0 ? 0.0 : std::max(share, right ? 0.15 : 0.35);
+      const double tone = count == 0 ? 0.0 : std::max(share, right ? 0.25 : 0.75);
       const QColor ground = mixed(colors.taxel, right ? colors.accent : colors.warning, tone);
       painter.fillRect(cell, ground);
       if (count > 0 && grid.side >= kLeastCellForText) {

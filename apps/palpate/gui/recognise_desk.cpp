@@ -12,6 +12,7 @@ constexpr const char* kModelKey = "recognise/model";
 constexpr const char* kEmulatedModelKey = "recognise/emulated_model";
 constexpr const char* kEmulatedModel = "emulated_objects.json";
 
+constexpr const char* kHowToAsk = "Choose a grasp in the timeline, or hold something: then ask.";
 constexpr const char* kNoModel =
     "No model is chosen. Open one (Model), or teach objects on the page Teach.";
 
@@ -19,7 +20,7 @@ constexpr const char* kNoModel =
 
 RecogniseDesk::RecogniseDesk(QSettings& settings, std::filesystem::path dataFolder, QObject* parent)
     : QObject(parent), settings_(settings), emulatedModel_(dataFolder / kEmulatedModel) {
-  answer_.text = "Choose a grasp in the timeline, or hold something: then ask.";
+  answer_.text = kHowToAsk;
   connect(&opening_, &BackgroundJob::failed, this, [this](const QString& message) {
     setModel(std::nullopt, path_);
     modelTrouble_ = message;
@@ -87,8 +88,13 @@ void RecogniseDesk::setModel(std::optional<TrainedModel> model, const std::files
     day_->choose({OffsetChoice::Kind::kGiven, 0.0});
   setPhotoFolder(photoFolder_);
   last_.reset();
+  ++generation_;
+  // What the last model said is nothing of this one's.
+  answer_ = {};
+  answer_.text = kHowToAsk;
   emit modelChanged();
   emit dayChanged();
+  emit answered(answer_);
   if (day_ && waiting_) ask(*std::exchange(waiting_, std::nullopt));
 }
 
