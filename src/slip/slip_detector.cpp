@@ -54,10 +54,10 @@ SlipDetector::SlipDetector(const MatrixLayout& layout, const SlipDetectorOptions
 }
 
 void SlipDetector::reset() {
-  tracker_.reset();
+  clearReference();
+  tracker_.reset();  // last: it may wait for its first contact
   windows_.reset();
   rule_.reset();
-  clearReference();
   verdict_ = {};
   wantsReference_ = options_.reference == SlipReference::kFirst;
   calm_ = 0;

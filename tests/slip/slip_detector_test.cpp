@@ -95,11 +95,14 @@ TEST(SlipDetector, StepsAddUpToTheWay) {
 }
 
 TEST(SlipDetector, CallsATiltALoadShiftNotSlip) {
-  Watch watch;
-  watch.rest(40);
+  SlipDetectorOptions options;
+  options.rule.stepTaxels = 0.1;  // so that the shift of the centroid, 0.23 taxel, would be enough
+  Watch watch(options);
+  watch.rest(40, {.shape = SlipShape::kBar});
   std::set<SlipState> states;
   for (int i = 1; i <= 30; ++i) {
-    const SlipVerdict& verdict = watch.read({.tiltY = 0.4 * std::min(1.0, i / 3.0)});
+    const SlipVerdict& verdict =
+        watch.read({.shape = SlipShape::kBar, .tiltY = 0.4 * std::min(1.0, i / 3.0)});
     states.insert(verdict.state);
     EXPECT_FALSE(verdict.slipping);
     EXPECT_LT(std::hypot(verdict.motion.refDx, verdict.motion.refDy), 0.1) << i;
