@@ -7,6 +7,10 @@
 namespace palpate {
 namespace {
 
+constexpr double kReading =
+    2.0;  // the reading trusts the contest this much more than the alarm does
+constexpr double kDoubtFrom = 3.0;  // ShapeCondition
+constexpr double kDoubt = 4.0;
 constexpr double kSureP = 0.9;
 constexpr double kSureTaxels = 0.35;
 constexpr int kSureFrames = 2;
@@ -50,10 +54,10 @@ SlipDetector::SlipDetector(const MatrixLayout& layout, const SlipDetectorOptions
 }
 
 void SlipDetector::reset() {
-  tracker_.reset();
+  clearReference();
+  tracker_.reset();  // last: it may wait for its first contact
   windows_.reset();
   rule_.reset();
-  clearReference();
   verdict_ = {};
   wantsReference_ = options_.reference == SlipReference::kFirst;
   calm_ = 0;
@@ -138,17 +142,24 @@ void SlipDetector::weigh(const SlipMotion& moved) {
   }
   double weight = 1.0;
   if (!latched_) {
+    double p = 1.0;
     const RigidMotion start{.dx = moved.refDx,
                             .dy = moved.refDy,
                             .angleDeg = moved.rotation.refValid ? moved.rotation.refRotationDeg : 0,
                             .gain = moved.sum / reference_.sum()};
     referenceContest_ =
         contest(reference_, windows_.frame(), std::span(&start, 1), options_.windows.contest);
-    if (referenceContest_->computed) weight = referenceContest_->pMoved;
+    if (referenceContest_->computed) {
+      p = referenceContest_->pMoved;
+      // The less the shape can tell, the more it must say.
+      const double doubt = std::max(1.0, std::max(condition_.x, condition_.y) / kDoubtFrom);
+      const double odds = std::pow(p / std::max(1.0 - p, 1e-9), kReading) / std::pow(doubt, kDoubt);
+      weight = odds / (1.0 + odds);
+    }
     const double shifted =
         kCentroidPart * std::hypot(moved.x - reference_.centerX(), moved.y - reference_.centerY());
     const double sure = std::min(shifted, std::hypot(moved.refDx, moved.refDy));
-    certain_ = weight > kSureP && sure > kSureTaxels ? certain_ + 1 : 0;
+    certain_ = p > kSureP && sure > kSureTaxels ? certain_ + 1 : 0;
     latched_ = certain_ >= kSureFrames;
     if (latched_) weight = 1.0;
   }
