@@ -8,8 +8,9 @@ namespace palpate {
 namespace {
 
 constexpr double kReading =
-    2.0;                        // the reading trusts the contest this much more than the alarm does
-constexpr double kDoubt = 0.1;  // odds of motion where the shape can't tell
+    2.0;  // the reading trusts the contest this much more than the alarm does
+constexpr double kDoubtFrom = 3.0;  // ShapeCondition
+constexpr double kDoubt = 4.0;
 constexpr double kSureP = 0.9;
 constexpr double kSureTaxels = 0.35;
 constexpr int kSureFrames = 2;
@@ -53,10 +54,10 @@ SlipDetector::SlipDetector(const MatrixLayout& layout, const SlipDetectorOptions
 }
 
 void SlipDetector::reset() {
-  tracker_.reset();
+  clearReference();
+  tracker_.reset();  // last: it may wait for its first contact
   windows_.reset();
   rule_.reset();
-  clearReference();
   verdict_ = {};
   wantsReference_ = options_.reference == SlipReference::kFirst;
   calm_ = 0;
@@ -150,8 +151,9 @@ void SlipDetector::weigh(const SlipMotion& moved) {
         contest(reference_, windows_.frame(), std::span(&start, 1), options_.windows.contest);
     if (referenceContest_->computed) {
       p = referenceContest_->pMoved;
-      const bool tells = std::max(condition_.x, condition_.y) < kShapeCannotTell;
-      const double odds = std::pow(p / std::max(1.0 - p, 1e-9), kReading) * (tells ? 1.0 : kDoubt);
+      // The less the shape can tell, the more it must say.
+      const double doubt = std::max(1.0, std::max(condition_.x, condition_.y) / kDoubtFrom);
+      const double odds = std::pow(p / std::max(1.0 - p, 1e-9), kReading) / std::pow(doubt, kDoubt);
       weight = odds / (1.0 + odds);
     }
     const double shifted =

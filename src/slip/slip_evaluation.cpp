@@ -159,7 +159,7 @@ void SlipEvaluation::add(const Profile& profile, bool slip, const Progress& prog
   TactileFrame frame;
   std::vector<double> jointsDeg;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (!progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
+    if (progress && !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
       throw Cancelled();
     profile.readFrame(i, frame);
     if (const auto sample = profile.angleSampleAt(frame.hostUs))

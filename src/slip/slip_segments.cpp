@@ -24,7 +24,7 @@ void passSlip(const Profile& profile,
   std::vector<double> jointsDeg;
   std::optional<std::size_t> sample;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (!progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
+    if (progress && !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
       throw Cancelled();
     profile.readFrame(i, frame);
     if (const auto angles = profile.angleSampleAt(frame.hostUs); angles != sample) {

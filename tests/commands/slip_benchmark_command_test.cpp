@@ -21,7 +21,8 @@ TEST(SlipBenchmarkCommand, PrintsEveryMethodBesideTheBound) {
                            "ncc-gauss3",
                            "phase",
                            "phase-normalized",
-                           "register"}) {
+                           "register",
+                           "contest"}) {
     ASSERT_TRUE(methods.contains(name)) << name;
     for (const char* key : {"rmse",
                             "bias",
