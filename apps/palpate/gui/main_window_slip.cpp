@@ -3,6 +3,7 @@
 #include "gui/dock.h"
 #include "gui/hand_panel.h"
 #include "gui/slip_chart.h"
+#include "gui/slip_controls.h"
 #include "gui/slip_panel.h"
 #include "gui/timeline_chart.h"
 
@@ -38,6 +39,11 @@ void MainWindow::SlipView::connectAll() {
   connect(window.timeline_, &TimelineChart::seenChanged, this, [this] {
     const QCPRange seen = window_.timeline_->seen();
     panel_->setSeen(seen.lower, seen.upper);
+  });
+  connect(panel_, &SlipPanel::liveOptionsChanged, this, &SlipView::tellStage);
+  connect(panel_, &SlipPanel::liveReferenceAsked, this, [this] {
+    if (const LiveSource* source = window_.live_.source()) source->slip->setReference();
+    window_.flash("slip is measured from this frame on");
   });
   connect(window.actions_.slipReference, &QAction::triggered, this, [this] {
     if (dock_->isHidden()) window_.showDock(dock_->objectName());
@@ -80,7 +86,25 @@ void MainWindow::SlipView::addSlips(std::vector<EventMark>& marks) const {
   palpate::gui::addSlips(*panel_->found(), *window_.current_, marks);
 }
 
-void MainWindow::SlipView::showLive(const LiveResults& /*results*/) {}
+void MainWindow::SlipView::showLive(const LiveResults& results) {
+  const LiveSource* source = window_.live_.source();
+  if (!source || results.slip.empty()) return;
+  if (liveOf_ != source->history.get()) {
+    liveOf_ = source->history.get();
+    panel_->setLiveHand(source->session->device().hand());
+    tellStage();
+  }
+  panel_->showLive(*results.frame, results.slip);
+}
+
+// The alarm of what is live is the contest's, whatever gives the vector.
+void MainWindow::SlipView::tellStage() {
+  const LiveSource* source = window_.live_.source();
+  if (!source || !window_.liveShown_) return;
+  SlipDetectorOptions options = detectorOptions(panel_->controls().options());
+  options.contestAlarm = true;
+  source->slip->setOptions(options);
+}
 
 // The contacts' last moments, as arrows on the hand.
 void MainWindow::SlipView::showArrows() {

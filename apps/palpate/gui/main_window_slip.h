@@ -27,6 +27,7 @@ class MainWindow::SlipView : public QObject {
 
  private:
   void showArrows();
+  void tellStage();
 
   MainWindow& window_;
   SlipPanel* panel_;

@@ -306,21 +306,28 @@ void SlipPanel::showNotes(const SlipSample* sample) {
 void SlipPanel::setLiveHand(const HandDescription& hand) {
   liveHand_ = hand;
   liveSeries_ = {};
+  liveSlips_.reset();
   liveSeries_.matrices.resize(hand.layout->numMatrices());
 }
 
 void SlipPanel::showLive(const TactileFrame& frame, const std::vector<SlipVerdict>& verdicts) {
   if (!live() || !liveHand_ || verdicts.size() != liveSeries_.matrices.size()) return;
-  if (liveSeries_.timeS.empty()) liveFirstUs_ = frame.hostUs;
-  if (liveSeries_.timeS.size() >= 2 * kMostLive) liveSeries_.dropFirst(kMostLive);
+  if (liveSeries_.timeS.empty()) liveSeries_.firstUs = frame.hostUs;
+  if (liveSeries_.timeS.size() >= 2 * kMostLive) {
+    liveSeries_.dropFirst(kMostLive);
+    liveSlips_.reset();
+  }
+  if (!liveSlips_) liveSlips_.emplace(verdicts.size());
   liveSeries_.options = controls_->options();
   frame_ = liveSeries_.timeS.size();
-  liveSeries_.timeS.push_back(static_cast<double>(frame.hostUs - liveFirstUs_) / kUsPerS);
+  liveSeries_.timeS.push_back(static_cast<double>(frame.hostUs - liveSeries_.firstUs) / kUsPerS);
   for (std::size_t m = 0; m < verdicts.size(); ++m)
     if (verdicts[m].motion.active > 0)
       liveSeries_.matrices[m].push_back(sampleOf(verdicts[m], frame_));
+  liveSlips_->add(frame_, frame.hostUs, verdicts);
   emit frameChanged();
   if (!isVisible()) return;
+  liveSeries_.slips = liveSlips_->segments();
   values_ = frame;
   if (!shown()) showContent();
   positionS_ = liveSeries_.timeS.back();

@@ -83,7 +83,7 @@ class SlipPanel : public CalibratePage {
   Found found_;
   std::optional<HandDescription> liveHand_;
   SlipSeries liveSeries_;
-  std::int64_t liveFirstUs_ = 0;
+  std::optional<SlipSegmenter> liveSlips_;
   TactileFrame values_;  // of the frame that is shown
   double positionS_ = 0.0;
   std::size_t frame_ = 0;
