@@ -99,6 +99,8 @@ std::vector<PathPoint> SlipSeries::pathUntil(std::size_t matrix,
   const auto add = [&](const SlipSample& sample) {
     path.push_back({x + static_cast<double>(sample.refDx), y + static_cast<double>(sample.refDy)});
   };
+  // The frame that became the reference may not tell of it itself.
+  if (first->shiftTaxels() > 0.0) path.push_back({x, y});
   for (std::size_t i = 0; i < count; i += stride) add(first[i]);
   if ((count - 1) % stride != 0) add(*now);
   return path;

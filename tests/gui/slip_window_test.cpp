@@ -2,7 +2,10 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QImage>
+#include <filesystem>
+#include <functional>
 
+#include "gui/connection.h"
 #include "gui/event_rows.h"
 #include "gui/hand_panel.h"
 #include "gui/slip_panel.h"
@@ -119,6 +122,46 @@ TEST_F(SlipWindowTest, IsTakenAwayAsPictureAndTable) {
   EXPECT_FALSE(QImage(QString::fromStdString((folder_ / "s.png").string())).isNull());
   EXPECT_EQ(testing::readFile(folder_ / "s.csv").find("frame,time_ms,matrix,active,valid,dx,dy"),
             0U);
+}
+
+// A handle that is pulled out of the emulated hand's grasp.
+TEST_F(SlipWindowTest, OfAConnectedHandItTellsWhenItSlips) {
+  std::filesystem::create_directory_symlink(testing::dataFolder() / "scenes", folder_ / "scenes");
+  start();
+  Connection handle;
+  handle.kind = Connection::Kind::kEmulated;
+  handle.scene = "slipping_handle";
+  handle.sceneActs = true;
+  window().connectTo(handle);
+  const auto await = [](const std::function<bool()>& condition) {
+    return QTest::qWaitFor(condition, 40'000);
+  };
+  ASSERT_TRUE(await([&] { return window().live().framesCameYet(); }));
+  press(Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier);
+  ASSERT_TRUE(await([&] { return panel().shown(); })) << panel().emptyText().toStdString();
+  EXPECT_EQ(find<QComboBox>("slipMethod")->currentText(), "centroid");
+  const auto newest = [&](std::size_t matrix) {
+    return panel().found()->at(matrix, panel().frame());
+  };
+  const auto slipping = [&] {
+    for (std::size_t m = 0; panel().found() && m < panel().found()->matrices.size(); ++m)
+      if (const SlipSample* sample = newest(m); sample && sample->slipping) return true;
+    return false;
+  };
+  ASSERT_TRUE(await(slipping)) << "it is pulled";
+  bool arrow = false;
+  for (const HandSlip& slip : window().handPanel().view().drawing().slip())
+    arrow = arrow || slip.slipping;
+  EXPECT_TRUE(arrow);
+  // The frame that is shown becomes the reference: what was moved is zero again.
+  std::size_t touched = 0;
+  for (std::size_t m = 0; m < panel().found()->matrices.size(); ++m)
+    if (newest(m)) touched = m;
+  press(Qt::Key_O);
+  EXPECT_TRUE(await([&] {
+    const SlipSample* sample = newest(touched);
+    return sample && sample->refValid && sample->shiftTaxels() < 0.05;
+  }));
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ EventLane laneOf(const std::string& kind) {
   if (kind == kSegmentKind) return EventLane::kGrasps;
   if (kind == kLabelKind || kind == "mark") return EventLane::kLabels;
   if (kind == kNoteKind) return EventLane::kNotes;
+  if (kind == "slip") return EventLane::kSlips;  // was seen while it was recorded
   return kind == "gap" ? EventLane::kGaps : EventLane::kOthers;
 }
 

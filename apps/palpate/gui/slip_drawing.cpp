@@ -14,11 +14,13 @@ namespace {
 
 constexpr double kMargin = 10.0;        // [px]
 constexpr double kLargestTaxel = 40.0;  // [px]
-constexpr double kFaint = 0.5;          // opacity of the taxels
+constexpr int kFootLines = 4;           // of figures, below the drawing
+constexpr double kFaintest = 0.2;       // opacity of the taxels
+constexpr double kFaint = 0.6;          // opacity of the taxels
 constexpr double kEllipseSds = 2.0;
 constexpr double kSkewSeen = 0.05;   // smaller ones have no mark
 constexpr double kMostSkew = 1.5;    // for the size of a mark
-constexpr double kLeastArrow = 2.5;  // [px]
+constexpr double kLeastArrow = 6.0;  // [px] shorter ones are a dot
 constexpr double kHead = 7.0;        // [px] of an arrow
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
@@ -47,7 +49,13 @@ void paintArrow(QPainter& painter,
                 const QColor& rim) {
   const QPointF way = to - from;
   const double length = std::hypot(way.x(), way.y());
-  if (length < kLeastArrow) return;
+  if (length < kLeastArrow) {
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(color);
+    painter.drawEllipse(from, 2.5, 2.5);
+    painter.setBrush(Qt::NoBrush);
+    return;
+  }
   const QPointF along = way / length;
   const double head = std::min(kHead + 2.0, length);
   QPainterPath shaft(from);
@@ -105,7 +113,7 @@ void SlipDrawing::setMap(ColorMapName map) {
 
 SlipDrawing::Place SlipDrawing::placeIn(const QRectF& area) const {
   const double line = fontMetrics().height();
-  const QRectF room = area.adjusted(kMargin, line + 10.0, -kMargin, -2.0 * line - 12.0);
+  const QRectF room = area.adjusted(kMargin, line + 10.0, -kMargin, -kFootLines * line - 12.0);
   const MatrixLayout& layout = scene_->layout;
   Place place;
   place.side = std::floor(std::clamp(
@@ -144,12 +152,15 @@ void SlipDrawing::paint(QPainter& painter, const QRectF& area, Theme theme) cons
       if (!(value > 0.0) || !scene.layout.enabled(y, x)) continue;
       QColor color = QColor::fromRgb(table[static_cast<std::size_t>(
           colorIndex(value, 0.0, std::max(1.0, scene.largestCounts)))]);
-      color.setAlphaF(static_cast<float>(kFaint));
+      color.setAlphaF(static_cast<float>(kFaintest + (kFaint - kFaintest) * value /
+                                                         std::max(1.0, scene.largestCounts)));
       painter.fillRect(square, color);
     }
   painter.setRenderHint(QPainter::Antialiasing);
-  const QRectF foot(
-      area.left() + kMargin, area.bottom() - 2.0 * line - 6.0, area.width() - 2 * kMargin, line);
+  const QRectF foot(area.left() + kMargin,
+                    area.bottom() - kFootLines * line - 6.0,
+                    area.width() - 2 * kMargin,
+                    line);
   painter.setPen(colors.muted);
   if (!scene.sample) {
     painter.drawText(foot, Qt::AlignHCenter, "no contact");
@@ -219,24 +230,19 @@ void SlipDrawing::paint(QPainter& painter, const QRectF& area, Theme theme) cons
                             kEnlarged * place.side,
                lamp,
                rim);
-  painter.setPen(colors.text);
-  QString first = "step " + (sample.valid ? signedFigure(sample.dx) + ", " + signedFigure(sample.dy)
-                                          : QString("–"));
-  first += "   since ref. " + (sample.refValid
-                                   ? signedFigure(sample.refDx) + ", " + signedFigure(sample.refDy)
-                                   : QString("–"));
-  const auto text = [&](const QRectF& at, const QString& words) {
-    painter.drawText(at,
-                     Qt::AlignHCenter | Qt::AlignVCenter,
-                     QFontMetricsF(painter.font()).elidedText(words, Qt::ElideRight, at.width()));
+  const auto pair = [](bool known, float x, float y) {
+    return known ? signedFigure(x) + ", " + signedFigure(y) : QString("–");
   };
-  text(foot, first);
-  painter.setPen(colors.muted);
-  text(foot.translated(0.0, line),
-       "axis " +
-           (sample.reliable ? figure(static_cast<double>(sample.orientationDeg), 0) + "°"
-                            : QString("none (round)")) +
-           "   skew " + signedFigure(sample.skewX) + ", " + signedFigure(sample.skewY));
+  const QString lines[] = {
+      "step " + pair(sample.valid, sample.dx, sample.dy),
+      "in all " + pair(sample.refValid, sample.refDx, sample.refDy),
+      sample.reliable ? "axis " + figure(static_cast<double>(sample.orientationDeg), 0) + "°"
+                      : QString("too round for an axis"),
+      "skew " + pair(true, sample.skewX, sample.skewY)};
+  for (int i = 0; i < kFootLines; ++i) {
+    painter.setPen(i < 2 ? colors.text : colors.muted);
+    painter.drawText(foot.translated(0.0, i * line), Qt::AlignHCenter | Qt::AlignVCenter, lines[i]);
+  }
   painter.restore();
 }
 

@@ -27,11 +27,27 @@ constexpr double kLiveSeenS = 30.0;
 constexpr double kPictureDrawing = 0.36;  // of the width of a picture
 
 std::vector<FigureColumn> columns() {
-  return {{"matrix", {}, 13, true},
-          {"", "What is said of it", 11, true},
+  return {{"matrix", {}, 17, true},
+          {"", "What is said of it", 10, true},
           {"step", "Motion of the last frame [taxels]", 5},
           {"in all", "Since the reference [taxels]", 5},
-          {"turned", "Since the reference [deg], whole turns counted", 8}};
+          {"turned", "Since the reference [deg], whole turns counted", 7}};
+}
+
+bool knowsReference(const SlipSeries& series) {
+  for (const auto& samples : series.matrices)
+    for (const SlipSample& sample : samples)
+      if (sample.refValid) return true;
+  return false;
+}
+
+// Where nothing ever rests there is no reference: then motion is measured from the first contact.
+SlipSeries seriesOf(const Profile& profile, SlipSeriesOptions options, const Progress& progress) {
+  SlipSeries series = slipSeries(profile, options, progress);
+  if (options.reference != SlipReference::kRest || options.referenceFrame || knowsReference(series))
+    return series;
+  options.reference = SlipReference::kFirst;
+  return slipSeries(profile, options, progress);
 }
 
 QString millimetres(double taxels, double pitchMm) {
@@ -43,6 +59,7 @@ QString millimetres(double taxels, double pitchMm) {
 SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : CalibratePage("slip", parent) {
   setObjectName("SlipPanel");
   controls_ = new SlipControls(settings, this);
+  controls_->setReferenceEnabled(false);
   top().addWidget(controls_);
   auto* all = new QWidget(this);
   auto* left = new QWidget(all);
@@ -50,12 +67,15 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : CalibratePage("slip
   list_->setObjectName("slipList");
   list_->setAccessibleName("Slip of every matrix");
   list_->setSingleLine();
+  list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  list_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
   notes_ = notesLabel("slipNotes", left);
   auto* leftColumn = new QVBoxLayout(left);
   leftColumn->setContentsMargins(0, 0, 0, 0);
   leftColumn->setSpacing(0);
-  leftColumn->addWidget(list_, 1);
+  leftColumn->addWidget(list_);
   leftColumn->addWidget(notes_);
+  leftColumn->addStretch(1);
   drawing_ = new SlipDrawing(all);
   chart_ = new SlipChart(all);
   auto* beside = new QSplitter(Qt::Horizontal, all);
@@ -144,15 +164,15 @@ void SlipPanel::compute() {
   const SlipSeriesOptions options = controls_->options();
   kept_.remove_if([](const Kept& each) { return each.of.expired(); });
   for (auto at = kept_.begin(); at != kept_.end(); ++at) {
-    if (at->of.lock() != recording() || at->found->options != options) continue;
+    if (at->of.lock() != recording() || at->asked != options) continue;
     kept_.splice(kept_.begin(), kept_, at);
     return take(at->found);
   }
   const OpenedRecordingPtr of = recording();
   run("slip", [this, of, options](const Progress& progress) -> Take {
-    auto found = std::make_shared<const SlipSeries>(slipSeries(of->profile, options, progress));
-    return [this, of, found] {
-      kept_.push_front({of, found});
+    const auto found = std::make_shared<const SlipSeries>(seriesOf(of->profile, options, progress));
+    return [this, of, options, found] {
+      kept_.push_front({of, options, found});
       if (kept_.size() > kMostKept) kept_.pop_back();
       take(found);
     };
@@ -297,8 +317,11 @@ void SlipPanel::showNotes(const SlipSample* sample) {
     facts.append("confidence " + figure(static_cast<double>(sample->confidence), 2));
     facts.append("eccentricity " + figure(static_cast<double>(sample->eccentricity), 2));
     facts.append("roundness " + figure(static_cast<double>(sample->roundness), 2));
-    if (!sample->refValid) facts.append("no reference yet: it is taken when the contact rests");
     text += "\n" + facts.join(" · ");
+    if (!sample->refValid && !found()->options.referenceFrame)
+      text += "\nNo reference yet: it is taken when the contact rests.";
+    if (!live() && found()->options.reference != controls_->options().reference)
+      text += "\nNothing rests in this recording: motion is measured from the first contact.";
   }
   if (notes_->text() != text) notes_->setText(text);
 }

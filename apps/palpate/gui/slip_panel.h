@@ -64,6 +64,7 @@ class SlipPanel : public CalibratePage {
   using Found = std::shared_ptr<const SlipSeries>;
   struct Kept {
     std::weak_ptr<const OpenedRecording> of;
+    SlipSeriesOptions asked;
     Found found;
   };
   void take(const Found& found);
