@@ -3,6 +3,7 @@
 #include <QStringList>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 
 #include <palpate/core/json.h>
@@ -171,19 +172,32 @@ void addSteps(const StepReport& report,
 void addSlips(const SlipSeries& series,
               const OpenedRecording& recording,
               std::vector<EventMark>& marks) {
+  const HandDescription& hand = recording.profile.hand();
+  EventMark* last = nullptr;
+  QStringList names;
+  std::vector<EventMark> bars;
+  bars.reserve(series.slips.size());
   for (const SlipSegment& slip : series.slips) {
-    EventMark mark;
-    mark.lane = EventLane::kSlips;
-    mark.fromS = recording.timeAt(slip.begin);
-    mark.toS = recording.timeAt(slip.end);
-    mark.text = QString::fromStdString(recording.profile.hand().matrices.at(slip.matrix).shortName);
-    mark.detail = "slip of " +
-                  QString::fromStdString(recording.profile.hand().matrixName(slip.matrix)) +
-                  " (found)\n" + spanText(mark.fromS, mark.toS) + "\npath " +
-                  figure(slip.pathTaxels, 2) + " taxels, turned " + figure(slip.rotationDeg, 1) +
-                  "°, confidence " + figure(slip.confidence, 2);
-    marks.push_back(std::move(mark));
+    const double fromS = recording.timeAt(slip.begin), toS = recording.timeAt(slip.end);
+    // Matrices that slip at the same time share a bar.
+    if (last == nullptr || fromS > last->toS) {
+      last = &bars.emplace_back();
+      last->lane = EventLane::kSlips;
+      last->fromS = fromS;
+      names.clear();
+    } else {
+      last->detail += "\n";
+    }
+    last->toS = std::max(last->toS, toS);
+    const QString name = QString::fromStdString(hand.matrices.at(slip.matrix).shortName);
+    if (!names.contains(name)) names.append(name);
+    last->text = names.join(", ");
+    last->detail += "slip of " + QString::fromStdString(hand.matrixName(slip.matrix)) +
+                    " (found)\n" + spanText(fromS, toS) + "\npath " + figure(slip.pathTaxels, 2) +
+                    " taxels, turned " + figure(slip.rotationDeg, 1) + "°, confidence " +
+                    figure(slip.confidence, 2);
   }
+  std::move(bars.begin(), bars.end(), std::back_inserter(marks));
   sortMarks(marks);
 }
 

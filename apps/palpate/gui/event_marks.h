@@ -59,7 +59,7 @@ void addSteps(const StepReport& report,
               const OpenedRecording& recording,
               std::vector<EventMark>& marks);
 
-// Slip that was found (dock Slip): a bar for each stretch of a matrix, likewise.
+// Slip that was found (dock Slip), likewise: matrices that slip together share a bar.
 void addSlips(const SlipSeries& series,
               const OpenedRecording& recording,
               std::vector<EventMark>& marks);

@@ -19,6 +19,9 @@ using Eigen::Vector3f;
 
 constexpr double kLeastMm = 0.2;  // motion that is drawn
 constexpr double kLeastTurnDeg = 1.0;
+// Within the arrows' time: more is what contacts in one line make of noise.
+constexpr double kMostMm = 40.0;
+constexpr double kMostDeg = 60.0;
 constexpr double kLiftMm = 1.2;  // above the surface
 constexpr double kHeadMm = 5.0;
 constexpr double kArcMm = 22.0;  // radius of the object's turn
@@ -85,10 +88,12 @@ void HandDrawing::addSlip(HandScene& scene, const HandLook& look) const {
     scene.labels.push_back({from + way, figure(mm, 1) + " mm", color});
   }
   // Of an object only while something slips: else it is noise, and what the load does.
-  if (!moves || arrows.size() < 2 || look.only) return;
+  // Where the fingers are has to be known.
+  if (!moves || arrows.size() < 2 || look.only || !posed()) return;
   const ObjectMotion object = objectMotion(arrows);
   if (object.rank < kLeastRank) return;
   const double mm = object.translationMm.norm(), deg = object.rotationRad.norm() * kDegPerRad;
+  if (mm > kMostMm || deg > kMostDeg) return;
   const QColor color = colors.accent;
   const double enlarged = static_cast<double>(kSlipEnlarged);
   if (mm >= kLeastMm)

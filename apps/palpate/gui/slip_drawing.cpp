@@ -14,9 +14,10 @@ namespace {
 
 constexpr double kMargin = 10.0;        // [px]
 constexpr double kLargestTaxel = 40.0;  // [px]
-constexpr int kFootLines = 4;           // of figures, below the drawing
-constexpr double kFaintest = 0.2;       // opacity of the taxels
-constexpr double kFaint = 0.6;          // opacity of the taxels
+constexpr int kFootLines = 4;      // of figures, below the drawing; half of them where it is low
+constexpr double kLow = 320.0;     // [px]
+constexpr double kFaintest = 0.2;  // opacity of the taxels
+constexpr double kFaint = 0.6;     // opacity of the taxels
 constexpr double kEllipseSds = 2.0;
 constexpr double kSkewSeen = 0.05;   // smaller ones have no mark
 constexpr double kMostSkew = 1.5;    // for the size of a mark
@@ -75,6 +76,8 @@ QString signedFigure(float value) {
          figure(std::abs(static_cast<double>(value)), 2);
 }
 
+int footLines(const QRectF& area) { return area.height() < kLow ? kFootLines / 2 : kFootLines; }
+
 }  // namespace
 
 struct SlipDrawing::Place {
@@ -113,7 +116,7 @@ void SlipDrawing::setMap(ColorMapName map) {
 
 SlipDrawing::Place SlipDrawing::placeIn(const QRectF& area) const {
   const double line = fontMetrics().height();
-  const QRectF room = area.adjusted(kMargin, line + 10.0, -kMargin, -kFootLines * line - 12.0);
+  const QRectF room = area.adjusted(kMargin, line + 10.0, -kMargin, -footLines(area) * line - 12.0);
   const MatrixLayout& layout = scene_->layout;
   Place place;
   place.side = std::floor(std::clamp(
@@ -158,7 +161,7 @@ void SlipDrawing::paint(QPainter& painter, const QRectF& area, Theme theme) cons
     }
   painter.setRenderHint(QPainter::Antialiasing);
   const QRectF foot(area.left() + kMargin,
-                    area.bottom() - kFootLines * line - 6.0,
+                    area.bottom() - footLines(area) * line - 6.0,
                     area.width() - 2 * kMargin,
                     line);
   painter.setPen(colors.muted);
@@ -239,7 +242,7 @@ void SlipDrawing::paint(QPainter& painter, const QRectF& area, Theme theme) cons
       sample.reliable ? "axis " + figure(static_cast<double>(sample.orientationDeg), 0) + "°"
                       : QString("too round for an axis"),
       "skew " + pair(true, sample.skewX, sample.skewY)};
-  for (int i = 0; i < kFootLines; ++i) {
+  for (int i = 0; i < footLines(area); ++i) {
     painter.setPen(i < 2 ? colors.text : colors.muted);
     painter.drawText(foot.translated(0.0, i * line), Qt::AlignHCenter | Qt::AlignVCenter, lines[i]);
   }

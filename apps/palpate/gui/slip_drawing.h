@@ -46,7 +46,7 @@ class SlipDrawing : public QWidget {
   QPointF pixelOf(double x, double y) const;
 
   QSize sizeHint() const override { return {240, 380}; }
-  QSize minimumSizeHint() const override { return {150, 200}; }
+  QSize minimumSizeHint() const override { return {140, 200}; }
 
  protected:
   void paintEvent(QPaintEvent* event) override;

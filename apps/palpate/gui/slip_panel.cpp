@@ -23,13 +23,15 @@ namespace {
 constexpr std::size_t kMostKept = 8;
 constexpr std::size_t kMostLive = 20'000;  // frames of a live chart
 constexpr double kUsPerS = 1e6;
+constexpr int kListWidth = 380, kDrawingWidth = 240;  // [px] of the usual dock
+constexpr int kShortNames = 440;  // [px] of the list's width: below, matrices are "0 distal"
 constexpr double kLiveSeenS = 30.0;
 constexpr double kPictureDrawing = 0.36;  // of the width of a picture
 
 std::vector<FigureColumn> columns() {
-  return {{"matrix", {}, 17, true},
+  return {{"matrix", {}, 15, true},
           {"", "What is said of it", 10, true},
-          {"step", "Motion of the last frame [taxels]", 5},
+          {"step", "Motion of the last frame [taxels]", 4},
           {"in all", "Since the reference [taxels]", 5},
           {"turned", "Since the reference [deg], whole turns counted", 7}};
 }
@@ -70,12 +72,13 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : CalibratePage("slip
   list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   list_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
   notes_ = notesLabel("slipNotes", left);
+  notes_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  notes_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Ignored);  // the list comes first
   auto* leftColumn = new QVBoxLayout(left);
   leftColumn->setContentsMargins(0, 0, 0, 0);
   leftColumn->setSpacing(0);
   leftColumn->addWidget(list_);
-  leftColumn->addWidget(notes_);
-  leftColumn->addStretch(1);
+  leftColumn->addWidget(notes_, 1);
   drawing_ = new SlipDrawing(all);
   chart_ = new SlipChart(all);
   auto* beside = new QSplitter(Qt::Horizontal, all);
@@ -84,11 +87,12 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : CalibratePage("slip
   beside->addWidget(drawing_);
   beside->setStretchFactor(0, 5);
   beside->setStretchFactor(1, 4);
+  beside->setSizes({kListWidth, kDrawingWidth});
   auto* column = new QVBoxLayout(all);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  column->addWidget(beside, 5);
-  column->addWidget(chart_, 4);
+  column->addWidget(beside, 3);
+  column->addWidget(chart_, 2);
   setContent(all);
   connect(list_, &FiguresTable::rowChosen, this, [this](int row) {
     chosenByUser_ = true;
@@ -257,8 +261,12 @@ void SlipPanel::showRows() {
     const SlipSample* sample = sampleNow(m);
     const LampLook lamp = lampOf(sample);
     const double pitchMm = hand()->layout->matrix(m).pitchMm;
-    std::vector<FigureCell> row = {{.text = nameOfMatrix(m), .icon = lampIcon(lamp, theme_)},
-                                   {.text = verdictOf(sample), .tip = meaningOf(sample)}};
+    const QString name = list_->width() < kShortNames
+                             ? QString::fromStdString(hand()->matrices.at(m).shortName)
+                             : nameOfMatrix(m);
+    std::vector<FigureCell> row = {
+        {.text = name, .tip = nameOfMatrix(m), .icon = lampIcon(lamp, theme_)},
+        {.text = verdictOf(sample), .tip = meaningOf(sample)}};
     const auto add = [&](bool known, const QString& text, const QString& tip, bool warning) {
       row.push_back({.text = known ? text : QString("–"),
                      .tip = known ? tip : QString(),
@@ -286,6 +294,7 @@ void SlipPanel::showRows() {
   const QSignalBlocker blocker(list_);
   list_->setRows(rows);
   list_->selectRow(static_cast<int>(chosen_));
+  list_->setMinimumHeight(list_->sizeHint().height());  // all of them are seen
 }
 
 void SlipPanel::showScene() {
@@ -323,7 +332,9 @@ void SlipPanel::showNotes(const SlipSample* sample) {
     if (!live() && found()->options.reference != controls_->options().reference)
       text += "\nNothing rests in this recording: motion is measured from the first contact.";
   }
-  if (notes_->text() != text) notes_->setText(text);
+  if (notes_->text() == text) return;
+  notes_->setText(text);
+  notes_->setToolTip(text);
 }
 
 void SlipPanel::setLiveHand(const HandDescription& hand) {
