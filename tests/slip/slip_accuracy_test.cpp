@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "palpate/core/error.h"
+#include "palpate/slip/slip_method.h"
 
 #include "slip_scene.h"
 #include "testing/testing.h"
@@ -33,7 +34,7 @@ TEST(SlipAccuracy, RegisterIsNearTheBound) {
     EXPECT_LT(all.rmse / all.crb, most) << noise;
     EXPECT_GT(all.rmse / all.crb, 0.9) << noise;  // a bound that is beaten is wrong
     EXPECT_LT(all.drift100, 0.025) << noise;
-    EXPECT_LT(all.driftDeg100, 0.9) << noise;
+    EXPECT_LT(all.driftDeg100, noise > 10.0 ? 0.95 : 0.6) << noise;
     EXPECT_LT(all.edge, 0.1) << noise;
     EXPECT_LT(std::abs(all.bias), 0.001) << noise;
     EXPECT_NEAR(all.gainX, 1.0, 0.01) << noise;
@@ -84,7 +85,7 @@ TEST(SlipAccuracy, IsReproducibleAndCanBeCancelled) {
   options.shapes = {SlipShape::kBar};
   const auto first = measureSlipAccuracy(measuredMethods(), options);
   const auto second = measureSlipAccuracy(measuredMethods(), options);
-  ASSERT_EQ(first.size(), 7U);
+  ASSERT_EQ(first.size(), slipMethods().size());
   for (std::size_t i = 0; i < first.size(); ++i)
     EXPECT_EQ(first[i].all.rmse, second[i].all.rmse) << first[i].name;
   options.seed = 2;
