@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include <palpate/core/json.h>
+#include <palpate/slip/slip_series.h>
 
 #include "gui/captions.h"
 
@@ -98,6 +99,8 @@ QString nameOf(EventLane lane) {
       return "grasps";
     case EventLane::kSteps:
       return "steps";
+    case EventLane::kSlips:
+      return "slip";
     case EventLane::kGaps:
       return "gaps";
     case EventLane::kLabels:
@@ -159,6 +162,25 @@ void addSteps(const StepReport& report,
     if (found.fit.converged)
       mark.detail += "\nK " + figure(found.fit.parameters.gainCounts, 1) + " counts" +
                      (found.usable() ? "" : ", not to be calibrated with");
+    marks.push_back(std::move(mark));
+  }
+  sortMarks(marks);
+}
+
+void addSlips(const SlipSeries& series,
+              const OpenedRecording& recording,
+              std::vector<EventMark>& marks) {
+  for (const SlipSegment& slip : series.slips) {
+    EventMark mark;
+    mark.lane = EventLane::kSlips;
+    mark.fromS = recording.timeAt(slip.begin);
+    mark.toS = recording.timeAt(slip.end);
+    mark.text = QString::fromStdString(recording.profile.hand().matrices.at(slip.matrix).shortName);
+    mark.detail = "slip of " +
+                  QString::fromStdString(recording.profile.hand().matrixName(slip.matrix)) +
+                  " (found)\n" + spanText(mark.fromS, mark.toS) + "\npath " +
+                  figure(slip.pathTaxels, 2) + " taxels, turned " + figure(slip.rotationDeg, 1) +
+                  "°, confidence " + figure(slip.confidence, 2);
     marks.push_back(std::move(mark));
   }
   sortMarks(marks);

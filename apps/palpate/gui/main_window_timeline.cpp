@@ -10,6 +10,7 @@
 #include "gui/captions.h"
 #include "gui/inspect_panel.h"
 #include "gui/main_window_calibrate.h"
+#include "gui/main_window_slip.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
 #include "gui/opening_strip.h"
@@ -130,6 +131,7 @@ void MainWindow::showCurves() {
   timelineHeader_->setPlain(liveShown_);
   showSpectrum();
   calibrate_->show();
+  slip_->show();
   if (liveShown_) return;
   timeline_->setCurves(curves);
   showReading();
