@@ -63,7 +63,8 @@ class HeldObject {
       machine_.onFrame(frame, us());
       obey();
       std::vector<int> states;
-      for (const AxisState state : hand_.joints().states()) states.push_back(static_cast<int>(state));
+      for (const AxisState state : hand_.joints().states())
+        states.push_back(static_cast<int>(state));
       machine_.onAxisStates(states, us());
       machine_.onTime(us());
       obey();

@@ -2,7 +2,8 @@
 // when the grasp has come to rest.
 //
 // A matrix counts when it has three active taxels, 400 counts and a reading that is believed. It slips when the contact moved by
-// more than 0.20 taxel per frame in two frames in a row, or by more than 1.0 taxel or 5 degrees since the reference.
+// more than 0.20 taxel per frame in two frames in a row, or by more than 0.3 taxel or 5 degrees since the reference: less than an
+// alarm asks for (1.0), since what slips out of a grasp leaves its imprint behind, and a false one costs no more than force.
 #pragma once
 
 #include <optional>
@@ -17,7 +18,7 @@ namespace palpate {
 struct GripWatchOptions {
   SlipMethod method = SlipMethod::kRegister;
   double stepTaxels = 0.20;      // per frame, > 0
-  double referenceTaxels = 1.0;  // since the reference, > 0
+  double referenceTaxels = 0.3;  // since the reference, > 0
   double turnDeg = 5.0;          // since the reference [deg], > 0
   int fewestTaxels = 3;          // a matrix with fewer says nothing, 2..
   double leastCounts = 400.0;    // nor one with less in sum, >= 0

@@ -9,6 +9,7 @@
 #include <palpate/capture/capture_feed.h>
 #include <palpate/filter/characteristic_signals.h>
 #include <palpate/model/hand_state.h>
+#include <palpate/slip/slip_detector.h>
 
 namespace palpate {
 
@@ -32,6 +33,8 @@ struct LiveResults {
   std::vector<CharacteristicSignals> matrixSignals;
   CharacteristicSignals wholeSignals;
   TaxelPeak peak;
+  // Of the slip stage: one per matrix.
+  std::vector<SlipVerdict> slip;
 };
 
 }  // namespace palpate
