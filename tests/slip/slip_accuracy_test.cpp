@@ -33,7 +33,7 @@ TEST(SlipAccuracy, RegisterIsNearTheBound) {
     EXPECT_LT(all.rmse / all.crb, most) << noise;
     EXPECT_GT(all.rmse / all.crb, 0.9) << noise;  // a bound that is beaten is wrong
     EXPECT_LT(all.drift100, 0.025) << noise;
-    EXPECT_LT(all.driftDeg100, 0.9) << noise;
+    EXPECT_LT(all.driftDeg100, noise > 10.0 ? 0.95 : 0.6) << noise;
     EXPECT_LT(all.edge, 0.1) << noise;
     EXPECT_LT(std::abs(all.bias), 0.001) << noise;
     EXPECT_NEAR(all.gainX, 1.0, 0.01) << noise;
