@@ -241,7 +241,9 @@ DayFeatures dayFeatures(const Profile& profile,
     PinchHand other = hand;
     other.pads = hand.otherPads[i];
     other.secondPadGain = 1.0;
-    DayFeatures found = featuresOfPads(profile, grasp, other, options);
+    const auto touch = longestTouch(profile, grasp, other.pads);
+    if (!touch) continue;
+    DayFeatures found = featuresOfPads(profile, *touch, other, options);
     if (found.trouble.empty()) out = std::move(found);
   }
   return out;

@@ -15,6 +15,7 @@ std::string inFrame(std::size_t frame) { return " in frame " + std::to_string(fr
 
 PadLoad padLoad(const ConstMatrixMap& values, double pitchMm) {
   PadLoad load;
+  if (!(values.maxCoeff() > 0.0F)) return load;  // most pads, most of the time
   double x = 0.0, y = 0.0;
   const float* value = values.data();
   for (Eigen::Index row = 0; row < values.rows(); ++row) {
@@ -80,6 +81,26 @@ PinchFrames readPinch(const Profile& profile,
       out.trouble = "joint angles that are missing or no numbers" + inFrame(i);
   }
   return out;
+}
+
+std::optional<GraspSegment> longestTouch(const Profile& profile,
+                                         const GraspSegment& grasp,
+                                         const std::array<std::size_t, 2>& pads) {
+  std::size_t longest = 0, run = 0, end = 0;
+  TactileFrame frame;
+  for (std::size_t i = grasp.begin; i <= grasp.end; ++i) {
+    profile.readFrame(i, frame);
+    const TactileFrame& values = frame;
+    const bool both = (values.matrix(pads[0]).array() > 0.0F).any() &&
+                      (values.matrix(pads[1]).array() > 0.0F).any();
+    run = both ? run + 1 : 0;
+    if (run > longest) {
+      longest = run;
+      end = i;
+    }
+  }
+  if (longest < kFewestPinchFrames) return std::nullopt;
+  return GraspSegment{.begin = end + 1 - longest, .end = end, .fingers = {}};
 }
 
 }  // namespace palpate

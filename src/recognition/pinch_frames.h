@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,11 @@ PinchFrames readPinch(const Profile& profile,
                       const GraspSegment& grasp,
                       const PinchHand& hand,
                       bool allMatrices);
+
+// The longest run of frames within a grasp in which both pads touch; nothing when it is shorter than kFewestPinchFrames.
+std::optional<GraspSegment> longestTouch(const Profile& profile,
+                                         const GraspSegment& grasp,
+                                         const std::array<std::size_t, 2>& pads);
 
 // Of one matrix of a frame.
 PadLoad padLoad(const ConstMatrixMap& values, double pitchMm);

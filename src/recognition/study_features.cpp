@@ -57,9 +57,10 @@ class Diameters {
 };
 
 // The two of the last frames whose diameters are nearest to their median (which lies in the middle between them), less one.
-std::array<std::size_t, 2> endFrames(Diameters& diameters, std::size_t count) {
+std::array<std::size_t, 2> endFrames(const std::array<double, kTail>& diameters,
+                                     std::size_t count) {
   std::array<std::pair<double, std::size_t>, kTail> tail;
-  for (std::size_t i = 0; i < kTail; ++i) tail[i] = {diameters.at(count - kTail + i), i};
+  for (std::size_t i = 0; i < kTail; ++i) tail[i] = {diameters[i], i};
   std::sort(tail.begin(), tail.end());
   const auto [first, last] = std::minmax(tail[kTail / 2 - 1].second, tail[kTail / 2].second);
   return {count - 1 - kTail + first, count - 1 - kTail + last};
@@ -126,13 +127,16 @@ StudyFeatures studyFeatures(const Profile& profile,
 
   const std::size_t count = frames.loads.size();
   Diameters diameters(frames, hand);
-  const auto ends = endFrames(diameters, count);
+  std::array<double, kTail> last{};  // diameters of the last frames
+  for (std::size_t i = 0; i < kTail; ++i) last[i] = diameters.at(count - kTail + i);
+  const auto ends = endFrames(last, count);
   const std::size_t end = endFrame ? *endFrame - grasp.begin : ends[0];
   out.endFrame = grasp.begin + end;
   out.otherEndFrame = grasp.begin + ends[1];
 
-  double diameter = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < count; ++k) diameter = std::min(diameter, diameters.at(k, diameter));
+  double diameter = *std::min_element(last.begin(), last.end());
+  for (std::size_t k = 0; k < count - kTail; ++k)
+    diameter = std::min(diameter, diameters.at(k, diameter));
 
   HandPose pose;
   std::size_t initial = 0;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "palpate/core/error.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -157,6 +158,28 @@ TEST(DayFeatures, WhatIsMissingIsSaid) {
   options = {};
   options.activePart = 1.0;
   EXPECT_THROW(options.validate(), std::invalid_argument);
+}
+
+// Fingers 0 and 2 side by side against finger 1, which comes five frames later: its pad and finger 0's face each other.
+TEST(DayFeatures, AnotherPairOfPadsIsTakenWhereTheFirstDoesNotFaceEachOther) {
+  ProfileBuilder builder(sdh2().layout);
+  for (int i = 0; i < 40; ++i) {
+    TactileFrame frame(sdh2().layout);
+    frame.matrix(1)(10, 2) = frame.matrix(5)(10, 2) = 500.0F;
+    frame.matrix(3)(10, 2) = i < 5 ? 0.0F : 900.0F;
+    builder.addFrame(testing::kPinchStartUs + i * testing::kPinchPeriodUs, frame.values);
+    builder.addAngles(testing::kPinchStartUs + i * testing::kPinchPeriodUs,
+                      std::vector<double>{0, -10, 10, -10, 10, -10, 10});
+  }
+  const Profile profile = builder.finish({});
+  const DayFeatures features = dayFeatures(profile, whole(profile));
+  EXPECT_EQ(features.trouble, "");
+  EXPECT_EQ(features.matrices, (std::array<std::size_t, 2>{1, 3}));
+  EXPECT_GE(features.startFrame, 5u);
+  // The bases of fingers 0 and 1 are 57.16 mm apart along x; as with the pinch, but for that:
+  EXPECT_NEAR(features.distanceMm,
+              57.1577 + 2.0 * 86.5 * std::sin(10.0 * std::numbers::pi / 180.0) - 2.0 * 14.8,
+              1e-3);
 }
 
 // reference/another_day.md, section 1: the thick pen of 28 November reads 4.34 mm less than in September, the hockey ball of the

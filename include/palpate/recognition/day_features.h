@@ -14,7 +14,8 @@
 //
 // All but the two of D are means over both pads, of the mean plateau frame; a taxel counts above 3 % of its pad's largest. Load:
 // sum of both pads, the second one multiplied by its gain, five-frame mean; plateau: frames with at least 0.9 of the largest load,
-// at most 25 of them, evenly taken.
+// at most 25 of them, evenly taken. Where the hand's two pads don't face each other (three fingers around a thing), another
+// pair of it is taken that does (PinchHand::otherPads), over the frames in which both of it touch.
 #pragma once
 
 #include <array>
