@@ -15,12 +15,12 @@ namespace {
 using namespace palpate;
 
 const SampleSet* grasps(benchmark::State& state) {
-  static const auto folder = testing::goldenFolder();
+  static const auto folder = palpate::testing::goldenFolder();
   if (!folder) {
     state.SkipWithError("golden numbers are missing: set PALPATE_GOLDEN");
     return nullptr;
   }
-  static const SampleSet samples = testing::goldenSamples(*folder);
+  static const SampleSet samples = palpate::testing::goldenSamples(*folder);
   return &samples;
 }
 
