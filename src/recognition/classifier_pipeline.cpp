@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -144,6 +145,15 @@ void calibrate(const SampleSet& samples,
   pipeline.calibrated = true;
 }
 
+// The votes decide (they are right more often); the probabilities are dealt out in their order.
+Eigen::RowVectorXd inOrder(const std::vector<int>& ranking, const Eigen::RowVectorXd& p) {
+  std::vector<double> sorted(p.begin(), p.end());
+  std::sort(sorted.begin(), sorted.end(), std::greater<>());
+  Eigen::RowVectorXd dealt(p.size());
+  for (std::size_t k = 0; k < ranking.size(); ++k) dealt[ranking[k]] = sorted[k];
+  return dealt;
+}
+
 ClassifierPipeline ofDay(const SampleSet& samples) {
   ClassifierPipeline pipeline;
   pipeline.classifier = ClassifierKind::kGauss;
@@ -252,7 +262,11 @@ Eigen::MatrixXd ClassifierPipeline::probabilities(const Eigen::MatrixXd& x) cons
     return all;
   }
   if (classifier != ClassifierKind::kSvm) return softmaxRows(scores(x), exponent);
-  return softmaxRows(coupledRows(*this, svm.decisions(projected(*this, x))), exponent);
+  const Eigen::MatrixXd decisions = svm.decisions(projected(*this, x));
+  Eigen::MatrixXd all = softmaxRows(coupledRows(*this, decisions), exponent);
+  for (Eigen::Index i = 0; i < all.rows(); ++i)
+    all.row(i) = inOrder(rankedClasses(svm.votes(decisions.row(i).transpose())), all.row(i));
+  return all;
 }
 
 Eigen::VectorXd ClassifierPipeline::noveltyOf(const Eigen::MatrixXd& x) const {

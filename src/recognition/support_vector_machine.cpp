@@ -98,12 +98,10 @@ Eigen::VectorXd SupportVectorMachine::votes(const Eigen::VectorXd& decisions) co
            " pairs");
   const auto classes = static_cast<Eigen::Index>(numClasses);
   Eigen::VectorXd votes = Eigen::VectorXd::Zero(classes), distance = votes;
-  for (std::size_t p = 0; p < pairs.size(); ++p)
-    votes[decisions[static_cast<Eigen::Index>(p)] > 0.0 ? pairs[p].first : pairs[p].second] += 1.0;
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const auto at = static_cast<Eigen::Index>(p);
     const auto [first, second] = pairs[p];
-    if (votes[first] != votes[second]) continue;
+    votes[decisions[at] > 0.0 ? first : second] += 1.0;
     const double length = weights.row(at).norm();
     const double along = length > 0.0 ? decisions[at] / length : 0.0;
     distance[first] += along;

@@ -135,22 +135,23 @@ TEST(SupportVectorMachine, CallsRealGraspsAsLibsvm) {
   EXPECT_GE(static_cast<double>(sameSign), 0.999 * static_cast<double>(z.rows() * 630));
 }
 
-TEST(SupportVectorMachine, TiesGoByDistanceAmongThoseThatTie) {
-  // Three classes beat each other in a ring; 0 over 1 by 1, 1 over 2 by 2, 2 over 0 by 5.
+TEST(SupportVectorMachine, TiesGoByTheSumOfDistances) {
+  // Three classes beat each other in a ring, and all of them beat class 3: 0 over 1 by 1, 1 over 2 by 2, 2 over 0 by 5.
   SupportVectorMachine machine;
   machine.numClasses = 4;
   machine.pairs = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
   machine.weights = Eigen::MatrixXd::Ones(6, 1);
   machine.offsets = Eigen::VectorXd::Zero(6);
   Eigen::VectorXd decisions(6);
-  decisions << 1.0, -5.0, 90.0, 2.0, 9.0, 9.0;
+  decisions << 1.0, -5.0, 6.0, 2.0, 6.0, 6.0;  // sums: 2, 7, 9
   const Eigen::VectorXd votes = machine.votes(decisions);
   Eigen::Index best = 0;
   votes.maxCoeff(&best);
-  EXPECT_EQ(best, 2) << "what lies between 0 and 3 doesn't count";
+  EXPECT_EQ(best, 2);
   EXPECT_EQ(std::floor(votes[3] + 0.5), 0.0);
   for (const int c : {0, 1, 2}) EXPECT_EQ(std::floor(votes[c] + 0.5), 2.0);
-  machine.weights(1, 0) = 100.0;  // the same decision, a hundredth of the distance
+  machine.weights(1, 0) =
+      100.0;  // the same decision, a hundredth of the distance: sums 6.95, 7, 4.05
   machine.votes(decisions).maxCoeff(&best);
   EXPECT_EQ(best, 1);
 }

@@ -15,9 +15,9 @@
 namespace palpate {
 
 struct ModelSearchOptions {
-  std::optional<ClassifierKind> classifier;        // given: not searched
-  std::optional<std::size_t> components;           // given: not searched; >= 1
-  std::vector<double> costs = {1.0, 10.0, 100.0};  // C of svm
+  std::optional<ClassifierKind> classifier = std::nullopt;  // given: not searched
+  std::optional<std::size_t> components = std::nullopt;     // given: not searched; >= 1
+  std::vector<double> costs = {1.0, 10.0, 100.0};           // C of svm
   std::vector<std::size_t> componentGrid = {8, 11, 14, 20};
   std::vector<double> pooledShares = {0.3, 0.5, 0.7};  // of qda
   std::size_t blocks = 5;                              // >= 2

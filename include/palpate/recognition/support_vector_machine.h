@@ -2,7 +2,7 @@
 // minimises |w|^2 / 2 + C sum of max(0, 1 - y (w.x + b)), b not penalised. OpenCV's `ml` solves the pairs (single precision
 // kernel); it has neither decision values of several classes nor probabilities: the votes are ours. A class gets
 // a vote of each of its pairs; the most votes win, and of several with as many that which lies farther on its own side of
-// the planes between those.
+// its planes, summed over all of them.
 #pragma once
 
 #include <cstddef>
