@@ -30,7 +30,8 @@ CommandSpec spec() {
           "default 0.5), whatever\nis felt. 'reactive' opens to the preshape, then closes to R "
           "(default 1) until the first taxel is over\nN counts. Ctrl-C stops the hand. A line "
           "per state: seconds, state, text. The hand stays powered and holds.\nNAME: parallel, "
-          "cylindrical, centrical, spherical, pinch-parallel, pinch-tilted, pinch-empty, calibration.",
+          "cylindrical, centrical, spherical, pinch-parallel, pinch-tilted, pinch-empty, "
+          "calibration.",
       .options = {{"sdh", "PORT", "motion controller"},
                   {"dsa", "PORT", "tactile controller; 'reactive' needs it"},
                   {"preshape", "NAME", "how the fingers stand"},
