@@ -47,8 +47,12 @@ struct PhysicalHand::Impl {
       throw std::invalid_argument("PhysicalHandOptions: stepS is not in 0..0.01");
     if (options.motorNmm.size() != sdh2().axes.size())
       throw std::invalid_argument("PhysicalHandOptions: one motorNmm per axis");
+    if (!options.zeroErrorDeg.empty() && options.zeroErrorDeg.size() != sdh2().axes.size())
+      throw std::invalid_argument("PhysicalHandOptions: one zeroErrorDeg per axis, or none");
+    for (const double error : options.zeroErrorDeg)
+      if (!std::isfinite(error)) throw std::invalid_argument("PhysicalHandOptions: zeroErrorDeg");
     for (const double offset : kOffsetDegC) degC.push_back(kAmbientDegC + offset);
-    geometry.pose(joints.angles(), pose);
+    geometry.pose(trueAngles(), pose);
     before = pose;
     objects.press(pose, pressure);
     spreadPressure(*sdh2().layout, sdh2Sensor().spreadShare, pressure);
@@ -60,9 +64,9 @@ struct PhysicalHand::Impl {
     const bool moved = joints.angles() != anglesBefore;
     if (moved) {
       std::swap(before, pose);
-      geometry.pose(joints.angles(), pose);
+      geometry.pose(trueAngles(), pose);
     }
-    if (objects.size() > 0 && (moved || !still)) {
+    if (moved || (objects.size() > 0 && !still)) {
       objects.press(pose, pressure);
       objects.advance(dtS);
       hold();
@@ -72,6 +76,14 @@ struct PhysicalHand::Impl {
     still = !moved && objects.quiet();
     sensor.advance(pressure, dtS);
     warm(dtS);
+  }
+
+  // Where the joints stand, whatever they report.
+  std::vector<double> trueAngles() const {
+    std::vector<double> angles = joints.angles();
+    for (std::size_t axis = 0; axis < options.zeroErrorDeg.size(); ++axis)
+      angles[axis] += options.zeroErrorDeg[axis];
+    return angles;
   }
 
   // An axis that would push harder than its motor can is stopped.
@@ -98,7 +110,7 @@ struct PhysicalHand::Impl {
     for (std::size_t m = 0; m < truth.size(); ++m) {
       const MatrixContact& contact = objects.contacts()[m];
       MatrixTruth& now = truth[m];
-      if (contact.forceN < kContactN || !contact.object) {
+      if (contact.forceN < kContactN) {
         now = MatrixTruth{};
         continue;
       }
@@ -108,6 +120,7 @@ struct PhysicalHand::Impl {
       now.xMm = contact.centreMm.x();
       now.yMm = contact.centreMm.y();
       now.zMm = contact.centreMm.z();
+      if (!contact.object) continue;  // another pad: neither slips
       const PhysicalObjects::Motion& motion = objects.motion(*contact.object);
       const Vector3d arm = contact.centreMm - objects.positionMm(*contact.object);
       Vector3d slide = (motion.velocityMmPerS + motion.angularRadPerS.cross(arm)) * dtS;

@@ -7,6 +7,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "emulator/pad_contact.h"
+
 namespace palpate {
 namespace {
 
@@ -53,6 +55,7 @@ void PhysicalObjects::press(const HandPose& pose, std::vector<double>& pressureK
   std::fill(contacts_.begin(), contacts_.end(), MatrixContact{});
   std::fill(strongestN_.begin(), strongestN_.end(), 0.0);
   for (std::size_t b = 0; b < bodies_.size(); ++b) pressBody(b, pose, pressureKpa);
+  pressPads(pose, pressureKpa);
   for (MatrixContact& contact : contacts_) {
     if (contact.forceN <= 0.0) continue;
     contact.centreMm /= contact.forceN;
@@ -60,6 +63,25 @@ void PhysicalObjects::press(const HandPose& pose, std::vector<double>& pressureK
     contact.surfaceYMm /= contact.forceN;
     contact.normal.normalize();
   }
+}
+
+void PhysicalObjects::pressPads(const HandPose& pose, std::vector<double>& pressureKpa) {
+  const SensorLayout& layout = geometry_.description().layout;
+  const double k = rubberNPerMm3_ / 2.0;  // two in a row
+  findPadContacts(pose, [&](std::size_t m, int y, int x, double depthMm) {
+    const MatrixLayout& matrix = layout.matrix(m);
+    const std::size_t place = layout.offset(m) + static_cast<std::size_t>(y * matrix.columns + x);
+    const double forceN = k * depthMm * matrix.taxelAreaMm2();
+    const Vector3d outwardN = pose.normals()[place] * forceN;
+    pressureKpa[place] += k * depthMm * kKpaPerNPerMm2;
+    MatrixContact& contact = contacts_[m];
+    contact.forceN += forceN;
+    contact.forceOnPadN -= outwardN;
+    contact.centreMm += pose.positionsMm()[place] * forceN;
+    contact.normal += outwardN;
+    contact.surfaceXMm += matrix.pitchMm * x * forceN;
+    contact.surfaceYMm += matrix.pitchMm * y * forceN;
+  });
 }
 
 void PhysicalObjects::pressBody(std::size_t index,

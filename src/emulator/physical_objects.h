@@ -24,7 +24,7 @@ struct MatrixContact {
   Eigen::Vector3d centreMm = Eigen::Vector3d::Zero();     // of pressure, base frame
   double surfaceXMm = 0.0, surfaceYMm = 0.0;              // the same place on the sensor surface
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();       // mean outward normal there
-  std::optional<std::size_t> object;                      // that presses most
+  std::optional<std::size_t> object;                      // that presses most; nothing: another pad
 };
 
 class PhysicalObjects {
@@ -33,7 +33,7 @@ class PhysicalObjects {
                   const HandGeometry& geometry,
                   double rubberNPerMm3);
 
-  // Finds contact in a pose: pressure per place [kPa] and contact per matrix.
+  // Finds contact in a pose, with the objects and of pads with each other: pressure per place [kPa] and contact per matrix.
   void press(const HandPose& pose, std::vector<double>& pressureKpa);
   const std::vector<MatrixContact>& contacts() const noexcept { return contacts_; }
   // Moves the objects for a time under what press() found.
@@ -85,6 +85,7 @@ class PhysicalObjects {
     Motion motion;
   };
 
+  void pressPads(const HandPose& pose, std::vector<double>& pressureKpa);
   void pressBody(std::size_t index, const HandPose& pose, std::vector<double>& pressureKpa);
   static void advanceBody(Body& body, double dtS);
   // What is left of a force [N] that friction opposes; zero where it holds.

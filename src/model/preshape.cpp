@@ -47,6 +47,13 @@ std::vector<Preshape> makeAll() {
                      {10.0, 13.0},
                      folded,
                      straight));
+  all.push_back(make("pinch-empty",
+                     "Pinch, until the pads touch",
+                     90.0,
+                     {-72.0, 87.0},
+                     {72.0, -87.0},
+                     folded,
+                     straight));
   all.push_back({"calibration",
                  "Calibration pose",
                  {{90.0, 0.0}, straight, straight, folded, folded, folded, folded}});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "calibration/sample_calibrations.h"
 #include "control/emulated_bench.h"
 #include "control/scripted_hand.h"
 #include "testing/testing.h"
@@ -10,22 +11,6 @@
 namespace palpate {
 namespace {
 using namespace testing;
-
-NoiseFloor lines(double slope, double intercept, double rmse) {
-  NoiseFloor floor;
-  for (std::size_t m = 0; m < 6; ++m) {
-    NoiseLine line;
-    line.matrix = m;
-    line.slope = slope;
-    line.intercept = intercept + static_cast<double>(m);
-    line.rmse = rmse;
-    line.valid = true;
-    line.leastDegC = 20.0;
-    line.mostDegC = 60.0;
-    floor.lines.push_back(line);
-  }
-  return floor;
-}
 
 // A hand that does at once what it is told, and control of its sensitivity, by the clock of the test.
 struct SensitivityBench {
@@ -76,7 +61,7 @@ constexpr std::int64_t kPeriodUs = 31'500;
 
 TEST(SensitivityControl, HighSensitivityPutsThresholdsAboveTheNoiseAndFollowsTheTemperature) {
   SensitivityBench bench;
-  bench.control.holdHigh(lines(0.5, 30.0, 2.0));
+  bench.control.holdHigh(evenNoise(0.5, 30.0, 2.0));
   EXPECT_TRUE(bench.control.status().measuring);
   bench.run(2.0, kPeriodUs, 0.0, 30.0);
   EXPECT_FALSE(bench.control.status().measuring);
@@ -95,7 +80,7 @@ TEST(SensitivityControl, HighSensitivityPutsThresholdsAboveTheNoiseAndFollowsThe
 
 TEST(SensitivityControl, TheGuardRaisesThresholdsWhenTheRateCollapses) {
   SensitivityBench bench;
-  bench.control.holdHigh(lines(0.5, 30.0, 2.0));
+  bench.control.holdHigh(evenNoise(0.5, 30.0, 2.0));
   bench.run(3.0, kPeriodUs, 0.0, 30.0);
   EXPECT_EQ(bench.settings()[0].thresholdCounts, 51);
   bench.run(6.0, 3 * kPeriodUs, 0.0, 30.0);
@@ -103,7 +88,7 @@ TEST(SensitivityControl, TheGuardRaisesThresholdsWhenTheRateCollapses) {
   EXPECT_GE(bench.settings()[0].thresholdCounts, 61);
   // A pause (of a setting, say) is no slow stream.
   SensitivityBench paused;
-  paused.control.holdHigh(lines(0.5, 30.0, 2.0));
+  paused.control.holdHigh(evenNoise(0.5, 30.0, 2.0));
   paused.run(3.0, kPeriodUs, 0.0, 30.0);
   for (int i = 0; i < 10; ++i) {
     paused.bench.clock.pass(700'000);
@@ -116,7 +101,7 @@ TEST(SensitivityControl, TheGuardRaisesThresholdsWhenTheRateCollapses) {
 
 TEST(SensitivityControl, WaitsWhileFingersMoveUnderTactileControl) {
   SensitivityBench bench;
-  bench.control.holdHigh(lines(0.5, 30.0, 2.0));
+  bench.control.holdHigh(evenNoise(0.5, 30.0, 2.0));
   bench.run(0.2, kPeriodUs, 0.0, 30.0);
   GraspRequest request;
   request.mode = GraspMode::kReactive;
@@ -153,7 +138,7 @@ TEST(SensitivityControl, AdaptiveFindsTheHighestThatDoesNotSaturate) {
 
 TEST(SensitivityControl, LettingGoLeavesAndResetBringsBack) {
   SensitivityBench bench;
-  bench.control.holdHigh(lines(0.5, 30.0, 2.0));
+  bench.control.holdHigh(evenNoise(0.5, 30.0, 2.0));
   bench.run(3.0, kPeriodUs, 0.0, 30.0);
   bench.control.letGo();
   bench.run(15.0, kPeriodUs, 0.0, 50.0);
@@ -170,10 +155,10 @@ TEST(SensitivityControl, LettingGoLeavesAndResetBringsBack) {
 
 TEST(SensitivityControl, SaysWhatIsMissing) {
   SensitivityBench bench;
-  NoiseFloor none = lines(0.5, 30.0, 2.0);
+  NoiseFloor none = evenNoise(0.5, 30.0, 2.0);
   for (NoiseLine& line : none.lines) line.valid = false;
   EXPECT_THROW(bench.control.holdHigh(none), std::invalid_argument);
-  NoiseFloor other = lines(0.5, 30.0, 2.0);
+  NoiseFloor other = evenNoise(0.5, 30.0, 2.0);
   other.lines.back().matrix = 6;
   EXPECT_THROW(bench.control.holdHigh(other), std::invalid_argument);
   EXPECT_EQ(bench.control.status().mode, SensitivityMode::kManual);
@@ -189,7 +174,7 @@ TEST(SensitivityControl, OnTheEmulatedHand) {
   EmulatedBench bench(handWith("empty"));
   bench.connect();
   SensitivityControl control(*bench.session, *bench.control);
-  control.holdHigh(lines(0.3, 40.0, 2.0));
+  control.holdHigh(evenNoise(0.3, 40.0, 2.0));
   const auto set = [&] {
     control.step();
     const TactileSettings now = bench.session->device().facts().matrices;

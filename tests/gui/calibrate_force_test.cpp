@@ -13,6 +13,7 @@
 #include "gui/force_page.h"
 #include "gui/pressure_chart.h"
 #include "gui/pressure_page.h"
+#include "gui/surface_chart.h"
 
 namespace palpate::gui {
 namespace {
@@ -74,6 +75,15 @@ TEST_F(CalibrateForceTest, APressureTableBecomesACalibration) {
   // One temperature: no term with it.
   ASSERT_TRUE(made.pressure.valid());
   EXPECT_NEAR(made.pressure.pressureAt(made.samples[1].gainCounts, 30.0).kpa, 40.0, 0.2);
+  // From above: the same model, told under the mouse.
+  find<QCheckBox>("pressureAbove")->setChecked(true);
+  const auto* surface = panel_->findChild<SurfaceChart*>();
+  ASSERT_TRUE(surface->isVisible());
+  for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();
+  const QPointF at(surface->xAxis->coordToPixel(made.samples[1].gainCounts),
+                   surface->yAxis->coordToPixel(30.0));
+  EXPECT_TRUE(surface->valueAt(at).contains("30.0 °C: 40.")) << surface->valueAt(at).toStdString();
+  EXPECT_EQ(surface->valueAt({-5.0, -5.0}), "");
   // What was said of the sensor goes with it.
   find<QDoubleSpinBox>("pressureThreshold")->setValue(150.0);
   find<QDoubleSpinBox>("pressureArea")->setValue(50.0);

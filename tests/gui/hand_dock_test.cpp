@@ -13,6 +13,7 @@
 
 #include <palpate/model/preshape.h>
 
+#include "calibration/sample_calibrations.h"
 #include "control/emulated_bench.h"
 #include "gui/facts_view.h"
 #include "gui/sensitivity_modes.h"
@@ -332,20 +333,6 @@ TEST_F(HandDockTest, ChoicesAreRemembered) {
   EXPECT_EQ(find<ValueSlider>("limit")->value(), 450.0);
 }
 
-NoiseFloor noiseLines() {
-  NoiseFloor floor;
-  for (std::size_t m = 0; m < 6; ++m) {
-    NoiseLine line;
-    line.matrix = m;
-    line.slope = 0.3;
-    line.intercept = 40.0;
-    line.rmse = 2.0;
-    line.valid = true;
-    floor.lines.push_back(line);
-  }
-  return floor;
-}
-
 TEST_F(HandDockTest, HighSensitivityNeedsNoiseLinesAndEndsByAHandOnTheValues) {
   EXPECT_FALSE(find<QToolButton>("sensitivityHigh")->isEnabled()) << "no hand";
   connectTo(testing::handWith("empty"));
@@ -360,7 +347,7 @@ TEST_F(HandDockTest, HighSensitivityNeedsNoiseLinesAndEndsByAHandOnTheValues) {
   EXPECT_EQ(settings()[0].sensitivity, 0.5) << "nothing was set";
   modes.noiseLines = [](const std::string& hand) {
     EXPECT_EQ(hand, sdh2().name);
-    return std::optional(noiseLines());
+    return std::optional(testing::evenNoise(0.3, 40.0, 2.0));
   };
   find<QToolButton>("sensitivityHigh")->click();
   EXPECT_EQ(on, 1);

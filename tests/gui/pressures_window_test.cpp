@@ -6,6 +6,7 @@
 
 #include <palpate/calibration/force_series.h>
 
+#include "calibration/sample_calibrations.h"
 #include "control/emulated_bench.h"
 #include "gui/applied_calibration.h"
 #include "gui/calibrate_panel.h"
@@ -25,28 +26,12 @@
 namespace palpate::gui {
 namespace {
 
-// P = 2 + 0.1 K whatever the temperature, measured at sensitivity 0.5, threshold 150.
-Calibration calibration() {
-  Calibration made;
-  made.hand = sdh2().name;
-  made.matrix = 1;
-  made.settings = {0.5, 150.0, false};
-  for (int i = 0; i < 20; ++i) {
-    PressureSample sample;
-    sample.gainCounts = 50.0 * (i + 1);
-    sample.pressureKpa = 2.0 + 0.1 * sample.gainCounts;
-    sample.nearestDegC = 25.0 + i % 5;
-    made.samples.push_back(sample);
-  }
-  made.pressure = fitPressureModel(made.samples, {});
-  return made;
-}
+Calibration calibration() { return testing::linearCalibration({0.5, 150.0, false}); }
 
 class PressuresWindowTest : public WindowTest {
  protected:
   PressuresWindowTest() {
-    std::filesystem::create_directory_symlink(testing::dataFolder() / "scenes",
-                                              folder_ / "scenes");
+    std::filesystem::create_directory_symlink(testing::dataFolder() / "scenes", folder_ / "scenes");
   }
   // Before the window opens.
   void apply(const std::string& file) {
@@ -150,22 +135,14 @@ TEST_F(PressuresWindowTest, ALiveHandHasForcesToo) {
 
 TEST_F(PressuresWindowTest, NoiseLinesLeadToHighSensitivityAndAFilterAgainstGhosts) {
   start();
-  NoiseFloor floor;
-  for (std::size_t m = 0; m < 6; ++m) {
-    NoiseLine line;
-    line.matrix = m;
-    line.slope = 0.3;
-    line.intercept = 40.0;
-    line.rmse = 2.0;
-    line.valid = true;
-    floor.lines.push_back(line);
-  }
   Connection connection;
   connection.kind = Connection::Kind::kEmulated;
   connection.scene = "empty";
   window().connectTo(connection);
   ASSERT_TRUE(await([&] { return window().liveShown() && !window().live().stale(); }));
-  emit find<CalibratePanel>("CalibratePanel")->noise().applyAsked(floor);
+  emit find<CalibratePanel>("CalibratePanel")
+      ->noise()
+      .applyAsked(testing::evenNoise(0.3, 40.0, 2.0));
   window().filter().editor().setRecipe(parseRecipe(std::vector<std::string>{"gaussian"}));
   EXPECT_FALSE(window().filter().on());
   find<QToolButton>("sensitivityHigh")->click();

@@ -10,28 +10,13 @@
 #include "palpate/live/signals_stage.h"
 #include "palpate/model/hand_description.h"
 
+#include "calibration/sample_calibrations.h"
 #include "testing/testing.h"
 
 namespace palpate {
 namespace {
 
-// P = 2 + 0.1 K, whatever the temperature; measured at sensitivity 0.5, threshold 100.
-Calibration calibration() {
-  Calibration made;
-  made.hand = sdh2().name;
-  made.matrix = 1;
-  made.settings = {0.5, 100.0, false};
-  for (int i = 0; i < 12; ++i) {
-    PressureSample sample;
-    sample.gainCounts = 100.0 * (i + 1);
-    sample.pressureKpa = 2.0 + 0.1 * sample.gainCounts;
-    sample.nearestDegC = 30.0 + i % 3;
-    sample.used = true;
-    made.samples.push_back(sample);
-  }
-  made.pressure = fitPressureModel(made.samples, {});
-  return made;
-}
+Calibration calibration() { return testing::linearCalibration({0.5, 100.0, false}); }
 
 Profile grasps() { return synthesize({.durationS = 5.0, .grasps = 2, .noiseCounts = 12.0}); }
 

@@ -12,6 +12,14 @@ namespace {
 
 using Angles = std::vector<double>;
 
+// Flat fingertips meet at proximal joints of asin(36.4 / 173) = 12.1 deg: there the gap is 66 - 2 * 86.5 sin b - 2 * 14.8 mm.
+TEST(Preshape, ThePinchOfTheEmptyHandClosesUntilThePadsTouch) {
+  const Angles angles = sdh2Preshape("pinch-empty").anglesDeg(1.0);
+  EXPECT_EQ(angles, (Angles{90, 15, -15, -90, 0, 15, -15}));
+  EXPECT_GT(sdh2Preshape("pinch-parallel").anglesDeg(1.0)[1], 0.0);
+  EXPECT_LT(sdh2Preshape("pinch-parallel").anglesDeg(1.0)[1], 12.1) << "a gap stays";
+}
+
 // The table of the prior program.
 TEST(Preshape, AnglesAreThoseOfTheTable) {
   EXPECT_EQ(sdh2Preshape("parallel").anglesDeg(0.0), (Angles{0, -75, 75, -75, 75, -75, 75}));
@@ -26,7 +34,7 @@ TEST(Preshape, AnglesAreThoseOfTheTable) {
 }
 
 TEST(Preshape, EveryPoseIsWithinTheJointsRanges) {
-  EXPECT_EQ(sdh2Preshapes().size(), 7u);
+  EXPECT_EQ(sdh2Preshapes().size(), 8u);
   for (const Preshape& preshape : sdh2Preshapes())
     for (int i = 0; i <= 100; ++i) {
       const Angles angles = preshape.anglesDeg(i / 100.0);

@@ -92,6 +92,7 @@ TEST(SlipTargets, ATiltOfTheLoadIsNoSlip) {
     RecordProperty("worst_" + std::string(nameOf(shape)), std::to_string(worst));
     EXPECT_LT(worst, hasEdge(shape) ? 0.1 : 0.2) << nameOf(shape);
   }
+  RecordProperty("alarms", alarms);
   EXPECT_LT(alarms, 0.01 * ramps) << alarms << " of " << ramps;
 }
 
@@ -103,6 +104,7 @@ TEST(SlipTargets, SlipIsFlaggedWithinThreeFrames) {
       found += frames >= 1 && frames <= 3 ? 1 : 0;
       ++trials;
     }
+  RecordProperty("found", found);
   EXPECT_GE(found, 0.98 * trials) << found << " of " << trials;
 }
 
@@ -114,6 +116,7 @@ TEST(SlipTargets, CreepIsFlaggedWithinFortyFrames) {
       found += frames >= 1 && frames <= 40 ? 1 : 0;
       ++trials;
     }
+  RecordProperty("found", found);
   EXPECT_GE(found, 0.98 * trials) << found << " of " << trials;
 }
 

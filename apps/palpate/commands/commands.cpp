@@ -119,9 +119,11 @@ int runCaught(const Words& words) {
 
 const std::vector<Command>& allCommands() {
   static const std::vector<Command> commands = {
+      {"adapt", "a recognition model to today, by labelled grasps", &adaptCommand},
       {"calibrate",
        "from counts to kPa and N: noise, steps, pressure, sensitivity, tare",
        &calibrateCommand},
+      {"classify", "what was grasped, by a model", &classifyCommand},
       {"compare", "two recordings frame beside frame, as CSV", &compareCommand},
       {"contact", "where a hand touches, and how large what it holds is", &contactCommand},
       {"convert",
@@ -129,6 +131,8 @@ const std::vector<Command>& allCommands() {
        &convertCommand},
       {"demo", "a headless tour: reads, reports and draws a recording", &demoCommand},
       {"emulate", "the emulated hand on two ports, until it is interrupted", &emulateCommand},
+      {"evaluate", "how well grasps are recognised", &evaluateCommand},
+      {"features", "what recognition knows of each grasp, as CSV", &featuresCommand},
       {"filter", "a recording through a chain of filters, as a recording", &filterCommand},
       {"ghosts", "false taxels, and what filters do to them and to contacts", &ghostsCommand},
       {"grasp", "moves a connected hand: plain and reactive grasps", &graspCommand},
@@ -146,6 +150,7 @@ const std::vector<Command>& allCommands() {
        &slipBenchmarkCommand},
       {"spectrum", "spectra of a taxel or a signal over time, as CSV", &spectrumCommand},
       {"synthesize", "makes a synthetic recording with known content", &synthesizeCommand},
+      {"train", "a model that recognises what is grasped", &trainCommand},
       {"verify", "checks every byte of recordings", &verifyCommand},
   };
   return commands;

@@ -22,12 +22,16 @@ struct Command {
 };
 
 // One function per command, one file per command. They throw; run() turns that into exit codes.
+int adaptCommand(const Words& words);
 int calibrateCommand(const Words& words);
+int classifyCommand(const Words& words);
 int compareCommand(const Words& words);
 int contactCommand(const Words& words);
 int convertCommand(const Words& words);
 int demoCommand(const Words& words);
 int emulateCommand(const Words& words);
+int evaluateCommand(const Words& words);
+int featuresCommand(const Words& words);
 int filterCommand(const Words& words);
 int ghostsCommand(const Words& words);
 int graspCommand(const Words& words);
@@ -43,6 +47,7 @@ int slipBenchmarkCommand(const Words& words);
 int slipCommand(const Words& words);
 int spectrumCommand(const Words& words);
 int synthesizeCommand(const Words& words);
+int trainCommand(const Words& words);
 int verifyCommand(const Words& words);
 // The window: files to open, --demo, --screenshot.
 int workbenchCommand(const Words& words);

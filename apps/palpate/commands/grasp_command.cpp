@@ -34,7 +34,8 @@ CommandSpec spec() {
           "300 counts, when what it\nholds slips, until Ctrl-C or for S seconds. Ctrl-C stops the "
           "hand. A line "
           "per state: seconds, state, text. The hand stays powered and holds.\nNAME: parallel, "
-          "cylindrical, centrical, spherical, pinch-parallel, pinch-tilted, calibration.",
+          "cylindrical, centrical, spherical, pinch-parallel, pinch-tilted, pinch-empty, "
+          "calibration.",
       .options = {{"sdh", "PORT", "motion controller"},
                   {"dsa", "PORT", "tactile controller; 'reactive' and 'slip' need it"},
                   {"preshape", "NAME", "how the fingers stand"},

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "palpate/emulator/scene.h"
+#include "palpate/emulator/simulated_recording.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/recording/dsa_writer.h"
 
@@ -14,15 +16,47 @@ namespace {
 
 constexpr double kFramesPerGrasp = 12.0;  // at least: SyntheticOptions::validate
 
+Profile fromScene(const CommandLine& given, const std::string& name, const Progress& progress) {
+  const Scene scene = loadScene(name, dataFolder() / "scenes");
+  SimulatedRecordingOptions options;
+  options.durationS = given.number("duration", 0.1, 3600.0).value_or(options.durationS);
+  options.frameIntervalS =
+      1.0 / given.number("rate", 0.1, 1000.0).value_or(1.0 / options.frameIntervalS);
+  options.hand.seed = static_cast<std::uint64_t>(given.integer("seed", 0, UINT32_MAX).value_or(1));
+  const auto runs = given.integer("grasps", 1, 1000);
+  if (!runs) return simulateRecording(scene, options, progress);
+  return simulateGrasps(scene, static_cast<int>(*runs), {}, options, progress);
+}
+
+Profile fromOptions(const CommandLine& given) {
+  SyntheticOptions options;
+  options.durationS = given.number("duration", 0.1, 86'400.0).value_or(options.durationS);
+  options.rateHz = given.number("rate", 0.1, 1000.0).value_or(options.rateHz);
+  // Unasked, no more grasps than a short recording holds.
+  const double fits = std::floor(options.durationS * options.rateHz / kFramesPerGrasp);
+  options.grasps = static_cast<int>(std::min<double>(options.grasps, fits));
+  options.grasps = static_cast<int>(given.integer("grasps", 0, 10'000).value_or(options.grasps));
+  options.peakCounts = given.number("peak", 50.0, 3500.0).value_or(options.peakCounts);
+  options.noiseCounts = given.number("noise", 0.0, 1000.0).value_or(options.noiseCounts);
+  options.seed =
+      static_cast<std::uint32_t>(given.integer("seed", 0, UINT32_MAX).value_or(options.seed));
+  return synthesize(options);
+}
+
 }  // namespace
 
 int synthesizeCommand(const Words& words) {
   const CommandLine given(
-      {.synopsis = "palpate synthesize -o OUT.dsa [--duration S] [--grasps N] [--noise SD] ..",
+      {.synopsis = "palpate synthesize -o OUT.dsa [--scene NAME] [--duration S] [--grasps N] "
+                   "[--noise SD] ..",
        .purpose = "Makes a synthetic recording of pinch grasps: the same options give the same "
-                  "frames. The\nrecording in data/ was made by it.",
+                  "frames. The\nrecording in data/ was made by it.\n\n"
+                  "With --scene the emulated hand plays a scene (palpate emulate --scene), without "
+                  "ports and without\nwaiting; with --grasps N it plays it N times, each time with "
+                  "the objects a little differently placed.",
        .options = {{"output,o", "OUT.dsa", "where to write it"},
-                   {"duration", "S", "length [s], default 12"},
+                   {"scene", "NAME", "of data/scenes, or a JSON file"},
+                   {"duration", "S", "length [s] (of a scene: of each run), default 12"},
                    {"rate", "HZ", "tactile frames per second, default 31.7"},
                    {"grasps", "N", "grasps, spread evenly; default 3"},
                    {"peak", "COUNTS", "value under the middle of the contact, default 1800"},
@@ -37,19 +71,14 @@ int synthesizeCommand(const Words& words) {
   if (!out) throw UsageError("synthesize needs -o OUT.dsa");
   if (std::filesystem::path(*out).extension() != ".dsa")
     throw UsageError("the recording's name must end in .dsa, not '" + *out + "'");
-  SyntheticOptions options;
-  options.durationS = given.number("duration", 0.1, 86'400.0).value_or(options.durationS);
-  options.rateHz = given.number("rate", 0.1, 1000.0).value_or(options.rateHz);
-  // Unasked, no more grasps than a short recording holds.
-  const double fits = std::floor(options.durationS * options.rateHz / kFramesPerGrasp);
-  options.grasps = static_cast<int>(std::min<double>(options.grasps, fits));
-  options.grasps = static_cast<int>(given.integer("grasps", 0, 10'000).value_or(options.grasps));
-  options.peakCounts = given.number("peak", 50.0, 3500.0).value_or(options.peakCounts);
-  options.noiseCounts = given.number("noise", 0.0, 1000.0).value_or(options.noiseCounts);
-  options.seed =
-      static_cast<std::uint32_t>(given.integer("seed", 0, UINT32_MAX).value_or(options.seed));
-  const Profile profile = synthesize(options);
-  ProgressLine progress("writing " + *out, given.quiet());
+  const auto scene = given.text("scene");
+  for (const char* name : {"peak", "noise"})
+    if (scene && given.has(name))
+      throw UsageError(std::string("--") + name + " does not go with --scene");
+  ProgressLine progress("making " + *out, given.quiet());
+  const Profile profile =
+      scene ? fromScene(given, *scene, progress.callback()) : fromOptions(given);
+  progress.setLabel("writing " + *out);
   writeDsa(profile,
            *out,
            given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse,

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <palpate/core/number_text.h>
+
+#include "gui/calibrate_texts.h"
 #include "gui/captions.h"
 
 namespace palpate::gui {
@@ -104,6 +107,51 @@ std::vector<Fact> calibrationFacts(const Calibration& calibration) {
   for (const std::string& note : model.notes)
     facts.push_back({"note", QString::fromStdString(note), true});
   return facts;
+}
+
+TextTable sampleTable(const ShownCalibrationPtr& now) {
+  return {.header = {"file",
+                     "sha256",
+                     "pressure_kpa",
+                     "K [counts]",
+                     "m [counts/s]",
+                     "temperature_c",
+                     "told_kpa",
+                     "told_sd_kpa",
+                     "in_range",
+                     "used",
+                     "notes"},
+          .numRows = now->calibration.samples.size(),
+          .row = [now](std::size_t row) {
+            const PressureSample& sample = now->calibration.samples[row];
+            const PressureModel& model = now->calibration.pressure;
+            const auto& degC = model.options.study ? sample.studyDegC : sample.nearestDegC;
+            const bool told = model.valid() && sample.gainCounts > 0.0;
+            const PressureEstimate estimate =
+                told ? model.pressureAt(sample.gainCounts, degC) : PressureEstimate{};
+            const auto given = [](bool there, double value) {
+              return there ? numberText(value) : std::string();
+            };
+            return std::vector<std::string>{
+                sample.file,
+                sample.sha256,
+                numberText(sample.pressureKpa),
+                numberText(sample.gainCounts),
+                numberText(sample.driftPerS),
+                given(degC.has_value(), degC.value_or(0.0)),
+                given(told, estimate.kpa),
+                given(told, estimate.sdKpa),
+                told && estimate.inRange ? "1" : "0",
+                sample.used ? "1" : "0",
+                linesOf(sample.notes).replace('\n', "; ").toStdString()};
+          }};
+}
+
+TextTable factTable(const std::vector<Fact>& facts) {
+  return {.header = {"what", "value"}, .numRows = facts.size(), .row = [facts](std::size_t row) {
+            return std::vector<std::string>{facts[row].name.toStdString(),
+                                            facts[row].value.toStdString()};
+          }};
 }
 
 }  // namespace palpate::gui

@@ -9,6 +9,7 @@
 #include <QResizeEvent>
 #include <QScrollArea>
 #include <QSignalBlocker>
+#include <QStackedWidget>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -22,6 +23,7 @@
 #include "gui/figures_table.h"
 #include "gui/number_field.h"
 #include "gui/pressure_chart.h"
+#include "gui/surface_chart.h"
 
 namespace palpate::gui {
 namespace {
@@ -66,57 +68,19 @@ std::vector<FigureCell> rowOf(const PressureSample& sample, const PressureModel&
        .warning = !sample.used}};
 }
 
-TextTable sampleTable(const ShownCalibrationPtr& now) {
-  return {.header = {"file",
-                     "sha256",
-                     "pressure_kpa",
-                     "K [counts]",
-                     "m [counts/s]",
-                     "temperature_c",
-                     "told_kpa",
-                     "told_sd_kpa",
-                     "in_range",
-                     "used",
-                     "notes"},
-          .numRows = now->calibration.samples.size(),
-          .row = [now](std::size_t row) {
-            const PressureSample& sample = now->calibration.samples[row];
-            const PressureModel& model = now->calibration.pressure;
-            const auto& degC = model.options.study ? sample.studyDegC : sample.nearestDegC;
-            const bool told = model.valid() && sample.gainCounts > 0.0;
-            const PressureEstimate estimate =
-                told ? model.pressureAt(sample.gainCounts, degC) : PressureEstimate{};
-            const auto given = [](bool there, double value) {
-              return there ? numberText(value) : std::string();
-            };
-            return std::vector<std::string>{
-                sample.file,
-                sample.sha256,
-                numberText(sample.pressureKpa),
-                numberText(sample.gainCounts),
-                numberText(sample.driftPerS),
-                given(degC.has_value(), degC.value_or(0.0)),
-                given(told, estimate.kpa),
-                given(told, estimate.sdKpa),
-                told && estimate.inRange ? "1" : "0",
-                sample.used ? "1" : "0",
-                linesOf(sample.notes).replace('\n', "; ").toStdString()};
-          }};
-}
-
-TextTable factTable(const std::vector<Fact>& facts) {
-  return {.header = {"what", "value"}, .numRows = facts.size(), .row = [facts](std::size_t row) {
-            return std::vector<std::string>{facts[row].name.toStdString(),
-                                            facts[row].value.toStdString()};
-          }};
-}
-
 }  // namespace
 
 PressurePage::PressurePage(QWidget* parent) : CalibratePage("pressure", parent) {
   makeTop();
   auto* content = new QWidget(this);
-  chart_ = new PressureChart(content);
+  charts_ = new QStackedWidget(content);
+  chart_ = new PressureChart(charts_);
+  surface_ = new SurfaceChart(charts_);
+  charts_->addWidget(chart_);
+  charts_->addWidget(surface_);
+  connect(above_, &QCheckBox::toggled, charts_, [this](bool above) {
+    charts_->setCurrentIndex(above ? 1 : 0);
+  });
   auto* figures = new QWidget(content);
   samples_ = new FiguresTable(columns(), figures);
   samples_->setObjectName("pressureSamples");
@@ -141,11 +105,12 @@ PressurePage::PressurePage(QWidget* parent) : CalibratePage("pressure", parent) 
   halves_ = new QBoxLayout(QBoxLayout::TopToBottom, content);
   halves_->setContentsMargins(0, 0, 0, 0);
   halves_->setSpacing(0);
-  halves_->addWidget(chart_, 1);
+  halves_->addWidget(charts_, 1);
   halves_->addWidget(figures, 1);
   setContent(content);
   connect(samples_, &FiguresTable::rowChosen, this, [this](int row) {
     chart_->choose(static_cast<std::size_t>(row));
+    surface_->choose(static_cast<std::size_t>(row));
   });
   askForTable = [this] {
     return std::filesystem::path(
@@ -209,6 +174,11 @@ void PressurePage::makeTop() {
     matrix_->addItem(QString::fromStdString(matrix.shortName));
   options->addWidget(matrix_);
   options->addStretch(1);
+  above_ = new QCheckBox("From above", this);
+  above_->setObjectName("pressureAbove");
+  above_->setToolTip(
+      "The surface over gain and temperature, pressure as colour; else slices of it");
+  options->addWidget(above_);
   auto* measured = new QHBoxLayout;
   measured->setSpacing(8);
   const auto field = [&](const char* name, const QString& label, const QString& tip, double most) {
@@ -309,6 +279,7 @@ void PressurePage::take(const ShownCalibrationPtr& shown) {
   samples_->setRows(rows);
   samples_->clearSelection();
   chart_->setModel(calibration.pressure, calibration.samples);
+  surface_->setModel(calibration.pressure, calibration.samples);
   facts_->setFacts(calibrationFacts(calibration));
   showOptions();
   showContent();
@@ -365,6 +336,7 @@ QStringList PressurePage::facts() const {
 
 void PressurePage::setTheme(Theme theme) {
   chart_->setTheme(theme);
+  surface_->setTheme(theme);
   samples_->setTheme(theme);
   facts_->setTheme(theme);
 }
@@ -376,7 +348,10 @@ std::vector<ExportedTable> PressurePage::tables() const {
 }
 
 void PressurePage::paint(QPainter& painter, const PictureLook& look, const QString&) {
-  chart_->paint(painter, look, name_->text());
+  if (above_->isChecked())
+    surface_->paint(painter, look, name_->text());
+  else
+    chart_->paint(painter, look, name_->text());
 }
 
 void PressurePage::resizeEvent(QResizeEvent* event) {

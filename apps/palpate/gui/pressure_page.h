@@ -15,12 +15,14 @@ class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
 class QPushButton;
+class QStackedWidget;
 
 namespace palpate::gui {
 
 class FactsView;
 class FiguresTable;
 class PressureChart;
+class SurfaceChart;
 
 class PressurePage : public CalibratePage {
   Q_OBJECT
@@ -72,7 +74,10 @@ class PressurePage : public CalibratePage {
   QDoubleSpinBox* area_ = nullptr;
   QDoubleSpinBox* sensitivity_ = nullptr;
   QDoubleSpinBox* threshold_ = nullptr;
+  QCheckBox* above_ = nullptr;  // the surface is seen from above, not in slices
+  QStackedWidget* charts_;
   PressureChart* chart_;
+  SurfaceChart* surface_;
   FiguresTable* samples_;
   FactsView* facts_;
   QBoxLayout* halves_;

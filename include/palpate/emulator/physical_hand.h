@@ -18,6 +18,9 @@ struct PhysicalHandOptions {
   double rubberNPerMm3 = 0.15;
   // What each motor holds against before it gives up (current limit) [N mm].
   std::vector<double> motorNmm = {3000, 2100, 1400, 2100, 1400, 2100, 1400};
+  // Error of the joints' zeros: an axis that reports an angle stands so much further [deg]. Empty: none. What a hand
+  // brings along from day to day (recognition's session offset).
+  std::vector<double> zeroErrorDeg = {};
   double stepS = 0.004;  // of the simulation while something moves [s]
 };
 

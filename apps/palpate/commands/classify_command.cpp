@@ -1,0 +1,121 @@
+// palpate classify MODEL.json FILE...: what was grasped.
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/recognition/model_evaluation.h"
+#include "palpate/recognition/trained_model.h"
+
+#include "commands/recognition_work.h"
+
+namespace palpate::commands {
+namespace {
+
+constexpr std::size_t kTop = 5;
+
+std::string labelOf(const TrainedModel& model, int label) {
+  return label == Verdict::kUnknown ? "unknown" : model.classes[static_cast<std::size_t>(label)];
+}
+
+Json graspJson(const TrainedModel& model, const FeatureRow& row, const Verdict& verdict) {
+  Json top = Json::array();
+  for (std::size_t k = 0; k < std::min(kTop, verdict.ranking.size()); ++k)
+    top.push(
+        Json::object().set("label", labelOf(model, verdict.ranking[k])).set("p", verdict.p[k]));
+  return Json::object()
+      .set("file", row.file.string())
+      .set("begin", row.begin)
+      .set("end", row.end)
+      .set("label", labelOf(model, verdict.label))
+      .set("confidence", verdict.confidence)
+      .set("sure", verdict.sure)
+      .set("top", std::move(top));
+}
+
+void printTable(const TrainedModel& model,
+                const FeatureTable& table,
+                const std::vector<Verdict>& verdicts,
+                const SessionUse& use) {
+  StandardOutput out;
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    const FeatureRow& row = table.rows[i];
+    const Verdict& verdict = verdicts[i];
+    std::string line = row.file.string() + " " + std::to_string(row.begin) + "-" +
+                       std::to_string(row.end) + ": " + labelOf(model, verdict.label) +
+                       (verdict.sure ? " (sure)" : "") + ";";
+    for (std::size_t k = 0; k < std::min<std::size_t>(3, verdict.ranking.size()); ++k)
+      line += (k == 0 ? " " : ", ") + labelOf(model, verdict.ranking[k]) + " " +
+              fixedText(verdict.p[k], 2);
+    out.write(line + "\n");
+  }
+  if (model.carriesOver()) out.write(use.offset.text() + "\n");
+  out.finish();
+}
+
+}  // namespace
+
+int classifyCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis =
+           "palpate classify MODEL.json FILE... [--json] [--session-offset model|none|batch|MM]",
+       .purpose =
+           "Says what was grasped: a line per grasp, or with --json an object. FILEs (recordings, "
+           "or "
+           "folders of them) of\none call are of one day. A verdict is called sure when it is "
+           "right "
+           "95 times in 100: in the session of the\ntraining, or with an offset of the session "
+           "that "
+           "can be trusted.\n\n  model  what `adapt` stored; 0 in a fresh model (default)\n  none  "
+           " "
+           "nothing is assumed: all offsets are weighed\n  batch  estimated from all grasps of the "
+           "call, unlabelled, and applied; resting on fewer than two different\n         objects "
+           "it "
+           "warns and nothing is sure\n  MM     so many mm the hand reads too wide",
+       .options = {{"json", "", "one JSON object"},
+                   {"session-offset", "WHICH", "model (default), none, batch, or mm"}},
+       .example = "palpate classify objects.json grasp.dsa --json --session-offset batch",
+       .fewestWords = 2},
+      words);
+  if (given.helpShown()) return kDone;
+  OffsetChoice choice;
+  try {
+    if (const auto text = given.text("session-offset")) choice = OffsetChoice::from(*text);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--session-offset: ") + error.what());
+  }
+  const TrainedModel model = loadModel(given.words().front());
+  const FeatureTable table =
+      gatherTable(given, {given.words().begin() + 1, given.words().end()}, model.set);
+  requireFits(model, table);
+  Eigen::MatrixXd x(static_cast<Eigen::Index>(table.rows.size()),
+                    static_cast<Eigen::Index>(table.names.size()));
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    x.row(static_cast<Eigen::Index>(i)) =
+        Eigen::Map<const Eigen::RowVectorXd>(table.rows[i].values.data(), x.cols());
+  const SessionUse use = sessionFor(model, x, timesOf(table), choice);
+  for (const std::string& warning : use.warnings) sayLine(warning);
+  const std::vector<Verdict> verdicts = classifyRows(model, x, use.offset, use.sameSession);
+  if (!given.has("json")) {
+    printTable(model, table, verdicts, use);
+    return codeFor(table);
+  }
+  Json grasps = Json::array(), warnings = Json::array();
+  for (std::size_t i = 0; i < verdicts.size(); ++i)
+    grasps.push(graspJson(model, table.rows[i], verdicts[i]));
+  for (const std::string& warning : use.warnings) warnings.push(warning);
+  printObject(Json::object()
+                  .set("grasps", std::move(grasps))
+                  .set("session_offset",
+                       Json::object()
+                           .set("mm", use.offset.mm)
+                           .set("sd_mm", use.offset.sdMm)
+                           .set("origin", offsetOriginName(use.offset.origin))
+                           .set("objects", use.offset.objects)
+                           .set("trusted", use.offset.trusted))
+                  .set("warnings", std::move(warnings)));
+  return codeFor(table);
+}
+
+}  // namespace palpate::commands

@@ -1,0 +1,249 @@
+// palpate evaluate PATH: how well grasps are recognised, by cross-validation or by a model on other recordings.
+#include <algorithm>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/recognition/cross_validation.h"
+#include "palpate/recognition/model_evaluation.h"
+#include "palpate/recognition/model_search.h"
+
+#include "commands/recognition_work.h"
+
+namespace palpate::commands {
+namespace {
+
+constexpr std::size_t kBlocks = 5;
+
+struct SetChoice {
+  std::string name = "best";
+  FeatureSet set = FeatureSet::kBest;
+  StudyPart part = StudyPart::kAll;
+};
+
+SetChoice setGiven(const CommandLine& given) {
+  SetChoice choice;
+  choice.name = given.choice("set", {"diameter", "first4", "moments", "study", "best", "session"})
+                    .value_or("best");
+  if (const auto set = featureSetNamed(choice.name)) {
+    choice.set = *set;
+    return choice;
+  }
+  choice.set = FeatureSet::kStudy;
+  choice.part = choice.name == "diameter" ? StudyPart::kDiameter
+                : choice.name == "first4" ? StudyPart::kFirst4
+                                          : StudyPart::kMoments;
+  return choice;
+}
+
+Json coverageJson(const std::vector<CoveragePoint>& curve) {
+  Json list = Json::array();
+  for (const CoveragePoint& point : curve)
+    list.push(Json::object()
+                  .set("confidence", point.confidence)
+                  .set("coverage", point.coverage)
+                  .set("accuracy", point.accuracy));
+  return list;
+}
+
+void addConfidence(const SampleSet& samples, const ValidationReport& report, Json& json) {
+  std::vector<ConfidentAnswer> answers;
+  for (const ExaminedSample& one : report.examined)
+    answers.push_back({one.confidence, one.called == samples.y[one.sample]});
+  json.set("calibration_error", calibrationError(answers))
+      .set("sure_confidence", sureThreshold(answers))
+      .set("coverage", coverageJson(coverageCurve(answers)));
+}
+
+Json weightsJson(const SampleSet& samples, const PipelineOptions& options) {
+  const Eigen::VectorXd weights = ClassifierPipeline::of(samples, options).featureWeights();
+  Json json = Json::object();
+  for (std::size_t j = 0; j < samples.numFeatures(); ++j)
+    json.set(samples.features[j], weights[static_cast<Eigen::Index>(j)]);
+  return json;
+}
+
+Json curveJson(const std::vector<LearningPoint>& curve) {
+  Json list = Json::array();
+  for (const LearningPoint& point : curve)
+    list.push(Json::object()
+                  .set("per_class", point.perClass)
+                  .set("train_grasps", point.trainSamples)
+                  .set("accuracy_mean", point.accuracyMean)
+                  .set("accuracy_sd", point.accuracySd));
+  return list;
+}
+
+Json eliminationJson(const SampleSet& samples, const std::vector<EliminationStep>& steps) {
+  Json list = Json::array();
+  for (const EliminationStep& step : steps)
+    list.push(Json::object()
+                  .set("features", step.features)
+                  .set("accuracy_mean", step.accuracyMean)
+                  .set("accuracy_sd", step.accuracySd)
+                  .set("then_dropped", samples.features[step.dropped]));
+  return list;
+}
+
+std::vector<std::size_t> curveSizes(const SampleSet& samples) {
+  const std::vector<std::size_t> counts = samples.counts();
+  const std::size_t most = *std::max_element(counts.begin(), counts.end()) * 4 / 5;
+  std::vector<std::size_t> sizes;
+  for (const std::size_t size : {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64})
+    if (size <= most) sizes.push_back(size);
+  return sizes;
+}
+
+int crossValidation(const CommandLine& given) {
+  const SetChoice choice = setGiven(given);
+  PipelineOptions options;
+  if (choice.set == FeatureSet::kBest && !given.has("lda"))
+    options.classifier = ClassifierKind::kGauss;  // as train
+  takePipelineOptions(given, options);
+  const bool blocks = given.choice("protocol", {"S", "B"}) == "B";
+  const auto numSplits = static_cast<std::size_t>(given.integer("splits", 1, 100000).value_or(10));
+  const auto seed = static_cast<std::uint64_t>(given.integer("seed", 0, 1'000'000'000).value_or(0));
+  if (given.has("confidence")) options.calibrationBlocks = kBlocks;
+
+  const FeatureTable table = gatherTable(given, {given.words().front()}, choice.set);
+  SampleSet samples = samplesOf(table);
+  if (choice.part != StudyPart::kAll) samples = studyPart(samples, choice.part);
+  sayNotes(given, choice.set, samples);
+  requireLearnable(samples);
+  const auto splits =
+      blocks ? blockSplits(samples.y, kBlocks) : stratifiedSplits(samples.y, numSplits, seed);
+  ValidationReport report(samples.classes);
+  std::vector<LearningPoint> curve;
+  std::vector<EliminationStep> steps;
+  runInterruptibly(given, "cross-validation", [&](const Progress& progress) {
+    report = crossValidate(samples, options, splits, 0, progress);
+    if (given.has("learning-curve"))
+      curve = learningCurve(samples, options, curveSizes(samples), numSplits, seed, 0, progress);
+    if (given.has("eliminate")) steps = eliminateFeatures(samples, options, splits, 0, progress);
+  });
+  const Json confusion = report.confusion.confusionJson();
+  Json accuracies = Json::array();
+  for (const double accuracy : report.accuracies) accuracies.push(accuracy);
+  Json json = Json::object()
+                  .set("accuracy_mean", report.accuracyMean)
+                  .set("accuracy_sd", report.accuracySd)
+                  .set("top3", report.top3)
+                  .set("protocol", blocks ? "B" : "S")
+                  .set("set", choice.name)
+                  .set("pipeline", jsonOf(options))
+                  .set("seed", blocks ? Json() : Json(static_cast<std::int64_t>(seed)))
+                  .set("splits", splits.size())
+                  .set("grasps", samples.numSamples())
+                  .set("accuracies", std::move(accuracies))
+                  .set("classes", report.confusion.classesJson())
+                  .set("confusion", confusion.at("counts"))
+                  .set("confusion_labels", confusion.at("labels"));
+  if (given.has("confidence")) addConfidence(samples, report, json);
+  if (given.has("weights")) json.set("weights", weightsJson(samples, options));
+  if (given.has("learning-curve")) json.set("learning_curve", curveJson(curve));
+  if (given.has("eliminate")) json.set("elimination", eliminationJson(samples, steps));
+  printObject(json);
+  return codeFor(table);
+}
+
+Json verdictsJson(const ModelEvaluation& evaluation,
+                  const FeatureTable& table,
+                  const SampleSet& samples) {
+  Json list = Json::array();
+  for (const EvaluatedGrasp& one : evaluation.grasps) {
+    const FeatureRow& row = table.rows[one.sample];
+    const int label = one.verdict.label;
+    list.push(Json::object()
+                  .set("file", row.file.string())
+                  .set("begin", row.begin)
+                  .set("end", row.end)
+                  .set("class", samples.classes[static_cast<std::size_t>(samples.y[one.sample])])
+                  .set("label",
+                       label == Verdict::kUnknown
+                           ? std::string("unknown")
+                           : samples.classes[static_cast<std::size_t>(label)])
+                  .set("confidence", one.verdict.confidence)
+                  .set("sure", one.verdict.sure)
+                  .set("novelty", one.verdict.novelty)
+                  .set("session", one.session));
+  }
+  return list;
+}
+
+int withModel(const CommandLine& given) {
+  for (const char* option :
+       {"set", "lda", "classifier", "protocol", "splits", "seed", "c", "shrinkage"})
+    if (given.has(option))
+      throw UsageError(std::string("--") + option + " doesn't go with --model, which has its own");
+  EvaluationOptions options;
+  options.adaptPerClass = static_cast<std::size_t>(given.integer("adapt", 0, 10000).value_or(0));
+  try {
+    if (const auto text = given.text("session-offset")) options.offset = OffsetChoice::from(*text);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--session-offset: ") + error.what());
+  }
+  const TrainedModel model = loadModel(*given.text("model"));
+  const FeatureTable table = gatherTable(given, {given.words().front()}, model.set);
+  requireFits(model, table);
+  const SampleSet samples = samplesOf(table, model.classes);
+  const ModelEvaluation evaluation = evaluateModel(model, samples, timesOf(table), options);
+  for (const SessionUse& session : evaluation.sessions)
+    for (const std::string& warning : session.warnings) sayLine(warning);
+  Json json = jsonOf(evaluation);
+  std::vector<ConfidentAnswer> answers;
+  for (const EvaluatedGrasp& one : evaluation.grasps)
+    answers.push_back({one.verdict.confidence, one.verdict.label == samples.y[one.sample]});
+  json.set("calibration_error", calibrationError(answers))
+      .set("coverage_curve", coverageJson(coverageCurve(answers)))
+      .set("verdicts", verdictsJson(evaluation, table, samples));
+  printObject(json);
+  return codeFor(table);
+}
+
+}  // namespace
+
+int evaluateCommand(const Words& words) {
+  std::vector<OptionSpec> options = {
+      {"set", "SET", "diameter, first4, moments, study, best (default) or session"},
+      {"protocol", "P", "S (default): stratified shuffles; B: five contiguous blocks per class"},
+      {"splits", "N", "of protocol S, default 10"},
+      {"seed", "N", "of protocol S, default 0"},
+      {"confidence", "", "calibrate probabilities too: adds their error and the coverage curve"},
+      {"weights", "", "adds how much the classifier rests on each feature"},
+      {"learning-curve", "", "adds accuracy against grasps per class that teach"},
+      {"eliminate", "", "adds recursive feature elimination"},
+      {"model", "M.json", "examine this model instead (protocol X)"},
+      {"adapt", "K", "the first K grasps of each class and session adapt it and don't count"},
+      {"session-offset",
+       "WHICH",
+       "model (default: what adapt stored), none (summed over), batch, or mm"},
+      {"json", "", "JSON is what it prints anyway"}};
+  for (OptionSpec& one : pipelineOptionSpecs()) options.insert(options.begin() + 1, std::move(one));
+  const CommandLine given(
+      {.synopsis =
+           "palpate evaluate PATH [--set SET] [--lda N] [--classifier NAME] [--protocol S|B] "
+           "..\n       palpate evaluate --model M.json PATH [--adapt K] [--session-offset "
+           "model|none|batch|MM]",
+       .purpose =
+           "How well grasps are recognised, as JSON. PATH: a folder with a folder of recordings "
+           "per "
+           "class.\n\nWithout --model by cross-validation: everything (scaling, discriminant "
+           "analysis, classifier) is fitted to\nthe training part of each split alone. Default "
+           "classifier: svm with C = 100, of the set best gauss, as train\ntakes; default no "
+           "discriminant analysis. Both protocols stay within the recordings: how it will be on\n"
+           "another day they don't tell.\n\nWith --model: the model on other recordings; "
+           "candidates "
+           "are all its classes, unknown counts as wrong.\nGrasps more than 8 hours apart are "
+           "different sessions, each with an offset of its own.",
+       .options = options,
+       .example = "palpate evaluate recordings --set study --lda 14 --splits 50",
+       .fewestWords = 1,
+       .mostWords = 1},
+      words);
+  if (given.helpShown()) return kDone;
+  if (given.has("model")) return withModel(given);
+  for (const char* option : {"adapt", "session-offset"})
+    if (given.has(option)) throw UsageError(std::string("--") + option + " needs --model");
+  return crossValidation(given);
+}
+
+}  // namespace palpate::commands

@@ -1,0 +1,87 @@
+// palpate features PATH...: what recognition knows of the grasps in recordings, as CSV.
+#include <cstdio>
+#include <filesystem>
+
+#include "palpate/core/number_text.h"
+#include "palpate/core/one_line.h"
+#include "palpate/core/text_table.h"
+#include "palpate/recognition/feature_table.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+#include "gui/interruption.h"
+
+namespace palpate::commands {
+namespace {
+
+void say(const std::string& message) {
+  std::fprintf(stderr, "palpate: %s\n", oneLine(message).c_str());
+}
+
+FeatureTable gather(const CommandLine& given, const GatherOptions& options) {
+  gui::Interruption interruption;
+  ProgressLine line("features", given.quiet());
+  const Progress show = line.callback();
+  return gatherFeatures(
+      {given.words().begin(), given.words().end()}, options, [&](double fraction) {
+        if (interruption.came(0)) return false;
+        return !show || show(fraction);
+      });
+}
+
+std::vector<std::string> cellsOf(const FeatureRow& row) {
+  std::vector<std::string> cells = {row.className,
+                                    row.file.string(),
+                                    std::to_string(row.begin),
+                                    std::to_string(row.end),
+                                    std::to_string(row.initialFrame),
+                                    std::to_string(row.endFrame)};
+  for (const double value : row.values) cells.push_back(numberText(value));
+  return cells;
+}
+
+}  // namespace
+
+int featuresCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate features PATH... [--set study|best|session]",
+       .purpose =
+           "Prints the features of every grasp as a row of CSV: class, file, first and last frame "
+           "(both inclusive),\nthe frames at which it begins and ends for the features, then the "
+           "features. PATH is a folder with a folder\nper class (class = its name with _ as "
+           "blank), or a recording (no class).\n\n"
+           "  best     what holds on another day: contact geometry and force on the load plateau\n"
+           "  study    the 54 numbers of the study, to compare with it\n"
+           "  session  best, with joint angles at rest: remembers the pose in which a thing was "
+           "presented; of no\n           use on another day\n\n"
+           "A grasp: both distal pads of the pinch (matrices 1 and 5) touch for more than 20 "
+           "frames "
+           "in a row. A grasp\nwithout features (no joint angles, pads that don't face each other) "
+           "and a recording without a grasp are\nsaid on standard error; then the exit code is 3.",
+       .options = {{"set", "SET", "study, best (default) or session"}},
+       .example = "palpate features recordings --set best > features.csv",
+       .fewestWords = 1},
+      words);
+  if (given.helpShown()) return kDone;
+  GatherOptions options;
+  const auto set = given.choice("set", {"study", "best", "session"});
+  if (set) options.set = *featureSetNamed(*set);
+  const FeatureTable table = gather(given, options);
+
+  if (options.set == FeatureSet::kSession && !given.quiet()) say(std::string(sessionSetWarning()));
+  for (const std::string& trouble : table.troubles) say(trouble);
+  if (table.rows.empty()) {
+    say("no grasp with features in " + std::to_string(table.numFiles) +
+        (table.numFiles == 1 ? " recording" : " recordings"));
+    return kFailed;
+  }
+  StandardOutput out;
+  std::vector<std::string> header = {"class", "file", "begin", "end", "initial_frame", "end_frame"};
+  header.insert(header.end(), table.names.begin(), table.names.end());
+  out.write(csvLine(header));
+  for (const FeatureRow& row : table.rows) out.write(csvLine(cellsOf(row)));
+  out.finish();
+  return table.troubles.empty() ? kDone : kPartlyDone;
+}
+
+}  // namespace palpate::commands

@@ -1,0 +1,97 @@
+#include "commands/recognition_work.h"
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/one_line.h"
+
+#include "commands/calibrate_commands.h"
+#include "gui/interruption.h"
+
+namespace palpate::commands {
+
+void sayLine(const std::string& message) {
+  std::fprintf(stderr, "palpate: %s\n", oneLine(message).c_str());
+}
+
+void runInterruptibly(const CommandLine& given,
+                      const std::string& label,
+                      const std::function<void(const Progress&)>& work) {
+  gui::Interruption interruption;
+  ProgressLine line(label, given.quiet());
+  const Progress show = line.callback();
+  work([&](double fraction) {
+    if (interruption.came(0)) return false;
+    return !show || show(fraction);
+  });
+}
+
+FeatureTable gatherTable(const CommandLine& given,
+                         const std::vector<std::filesystem::path>& paths,
+                         FeatureSet set) {
+  FeatureTable table;
+  GatherOptions options;
+  options.set = set;
+  runInterruptibly(given, "features", [&](const Progress& progress) {
+    table = gatherFeatures(paths, options, progress);
+  });
+  for (const std::string& trouble : table.troubles) sayLine(trouble);
+  if (table.rows.empty())
+    throw Error("no grasp with features in " + std::to_string(table.numFiles) +
+                (table.numFiles == 1 ? " recording" : " recordings") + ": nothing to work with");
+  return table;
+}
+
+std::vector<std::int64_t> timesOf(const FeatureTable& table) {
+  std::vector<std::int64_t> times;
+  for (const FeatureRow& row : table.rows) times.push_back(row.timeUs);
+  return times;
+}
+
+void sayNotes(const CommandLine& given, FeatureSet set, const SampleSet& samples) {
+  if (given.quiet()) return;
+  if (set == FeatureSet::kSession) sayLine(std::string(sessionSetWarning()));
+  for (const std::string& note : learningNotes(samples)) sayLine(note);
+}
+
+std::vector<OptionSpec> pipelineOptionSpecs() {
+  return {{"classifier", "NAME", "svm, qda, lda or gauss"},
+          {"lda", "N", "components of a discriminant analysis before it (not for gauss)"},
+          {"c", "C", "cost of the svm, default 100"},
+          {"shrinkage",
+           "S",
+           "of the discriminant analysis: 0..1, default 0, or auto (Ledoit and Wolf)"}};
+}
+
+void takePipelineOptions(const CommandLine& given, PipelineOptions& options) {
+  if (const auto name = given.choice("classifier", {"svm", "qda", "lda", "gauss"}))
+    options.classifier = *classifierNamed(*name);
+  if (const auto count = given.integer("lda", 1, 10000))
+    options.components = static_cast<std::size_t>(*count);
+  if (const auto cost = given.number("c", 1e-6, 1e9)) options.svm.c = *cost;
+  if (const auto text = given.text("shrinkage")) {
+    const auto share = parseDouble(*text);
+    if (*text == "auto")
+      options.discriminant.shrinkage.reset();
+    else if (share && *share >= 0.0 && *share <= 1.0)
+      options.discriminant.shrinkage = *share;
+    else
+      throw UsageError("--shrinkage takes a number from 0 to 1, or auto");
+  }
+  if (options.components && options.classifier == ClassifierKind::kGauss)
+    throw UsageError("gauss takes no --lda: choose --classifier svm, qda or lda");
+}
+
+int codeFor(const FeatureTable& table) { return table.troubles.empty() ? kDone : kPartlyDone; }
+
+void printObject(const Json& json) {
+  StandardOutput out;
+  out.write(json.text() + "\n");
+  out.finish();
+}
+
+std::string utcNow() { return nowText(); }
+
+}  // namespace palpate::commands

@@ -1,0 +1,47 @@
+// What train, evaluate, adapt and classify share: gathering features with progress and Ctrl-C, saying what went wrong.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "palpate/core/json.h"
+#include "palpate/core/progress.h"
+#include "palpate/recognition/classifier_pipeline.h"
+#include "palpate/recognition/feature_table.h"
+#include "palpate/recognition/sample_set.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+
+namespace palpate::commands {
+
+// One line on standard error.
+void sayLine(const std::string& message);
+
+// Runs `work` with a progress line; Ctrl-C cancels it (Cancelled).
+void runInterruptibly(const CommandLine& given,
+                      const std::string& label,
+                      const std::function<void(const Progress&)>& work);
+
+// The features of recordings; says what troubles there were. Throws Error when no grasp is found.
+FeatureTable gatherTable(const CommandLine& given,
+                         const std::vector<std::filesystem::path>& paths,
+                         FeatureSet set);
+std::vector<std::int64_t> timesOf(const FeatureTable& table);
+// Says sessionSetWarning() and what learningNotes() has.
+void sayNotes(const CommandLine& given, FeatureSet set, const SampleSet& samples);
+
+// --classifier, --lda, --c, --shrinkage; what isn't given is left as it is in `options`. Throws UsageError.
+void takePipelineOptions(const CommandLine& given, PipelineOptions& options);
+std::vector<OptionSpec> pipelineOptionSpecs();
+
+// kPartlyDone where something was left out, else kDone.
+int codeFor(const FeatureTable& table);
+// To standard output.
+void printObject(const Json& json);
+std::string utcNow();
+
+}  // namespace palpate::commands

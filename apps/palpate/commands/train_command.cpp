@@ -1,0 +1,119 @@
+// palpate train PATH -o MODEL.json: a model of the objects in a folder.
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/recognition/model_search.h"
+#include "palpate/recognition/trained_model.h"
+
+#include "commands/recognition_work.h"
+
+namespace palpate::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+// `best` is there for other days, and only gauss carries over to one: what is more accurate within the recordings
+// doesn't count against that. Everything else is chosen by cross-validation.
+ModelSearchOptions searchGiven(const CommandLine& given, FeatureSet set) {
+  ModelSearchOptions search;
+  PipelineOptions told;
+  told.classifier =
+      set == FeatureSet::kBest && !given.has("lda") ? ClassifierKind::kGauss : ClassifierKind::kSvm;
+  takePipelineOptions(given, told);
+  if (given.has("classifier") || told.classifier == ClassifierKind::kGauss)
+    search.classifier = told.classifier;
+  search.components = told.components;
+  if (given.has("c")) search.costs = {told.svm.c};
+  return search;
+}
+
+Json reportOf(const TrainedModel& model,
+              const fs::path& out,
+              const std::vector<std::string>& notes) {
+  Json classes = Json::array(), said = Json::array();
+  for (const std::string& name : model.classes) {
+    std::size_t grasps = 0;
+    for (const ModelInput& input : model.inputs)
+      grasps += input.className == name ? input.grasps : 0;
+    classes.push(Json::object().set("name", name).set("grasps", grasps));
+  }
+  for (const std::string& note : notes) said.push(note);
+  return Json::object()
+      .set("model", out.string())
+      .set("set", featureSetName(model.set))
+      .set("classifier", classifierName(model.pipeline.classifier))
+      .set("carries_over_to_another_day", model.carriesOver())
+      .set("classes", std::move(classes))
+      .set("features", model.features.size())
+      .set("validation", model.validation)
+      .set("options", model.options)
+      .set("notes", std::move(said));
+}
+
+}  // namespace
+
+int trainCommand(const Words& words) {
+  std::vector<OptionSpec> options = {{"output,o", "MODEL.json", "write the model there"},
+                                     {"set", "SET", "best (default), study or session"},
+                                     {"force", "", "replace MODEL.json"},
+                                     {"json", "", "JSON is what it prints anyway"}};
+  for (OptionSpec& one : pipelineOptionSpecs()) options.insert(options.end() - 2, std::move(one));
+  const CommandLine given(
+      {.synopsis = "palpate train PATH -o MODEL.json [--set best|study|session] [--lda N] "
+                   "[--classifier svm|qda|lda|gauss]",
+       .purpose =
+           "Trains a model of the objects in a folder (a folder of recordings per class) and "
+           "prints a "
+           "report as JSON.\nWhat isn't given is chosen by cross-validation over contiguous "
+           "blocks; "
+           "of the set best it is gauss, the one\nclassifier that carries over to another day "
+           "(--session-offset, adapt).",
+       .options = options,
+       .example = "palpate train recordings -o objects.json",
+       .fewestWords = 1,
+       .mostWords = 1},
+      words);
+  if (given.helpShown()) return kDone;
+  const auto out = given.text("output");
+  if (!out) throw UsageError("-o MODEL.json is missing: where the model goes");
+  const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
+  const FeatureSet set =
+      *featureSetNamed(given.choice("set", {"best", "study", "session"}).value_or("best"));
+  const ModelSearchOptions search = searchGiven(given, set);
+  requireWritable(*out, overwrite);
+
+  const FeatureTable table = gatherTable(given, {given.words().front()}, set);
+  const SampleSet samples = samplesOf(table);
+  requireLearnable(samples);
+  sayNotes(given, set, samples);
+  const std::vector<PipelineOptions> grid = modelGrid(samples, search);
+  if (grid.empty()) throw UsageError("gauss takes no --lda: choose --classifier svm, qda or lda");
+  ModelSearchReport found;
+  TrainedModel model;
+  runInterruptibly(given, "choosing", [&](const Progress& progress) {
+    if (grid.size() > 1) found = searchModel(samples, search, progress);
+  });
+  PipelineOptions chosen =
+      found.candidates.empty() ? grid.front() : found.candidates[found.chosen].options;
+  if (given.text("shrinkage")) {
+    PipelineOptions told = chosen;
+    told.components.reset();
+    takePipelineOptions(given, told);
+    chosen.discriminant = told.discriminant;
+  }
+  runInterruptibly(given, "training", [&](const Progress& progress) {
+    model = trainModel(samples, set, table.sensor, chosen, progress);
+    model.inputs = inputsOf(table, progress);
+  });
+  model.programVersion = PALPATE_VERSION;
+  model.madeAt = utcNow();
+  model.options = jsonOf(chosen).set("path", given.words().front());
+  if (!found.candidates.empty()) model.options.set("chosen_from", jsonOf(found));
+  saveModel(model, *out, overwrite);
+  printObject(reportOf(model, *out, learningNotes(samples)));
+  return codeFor(table);
+}
+
+}  // namespace palpate::commands

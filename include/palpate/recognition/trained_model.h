@@ -1,0 +1,100 @@
+// A trained model: the classifier with all that it was made from, and what is known of today. A JSON file with format
+// version, program version, options, and the SHA-256 of every input.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <palpate/core/json.h>
+#include <palpate/core/output_file.h>
+#include <palpate/core/progress.h>
+#include <palpate/recognition/classifier_pipeline.h>
+#include <palpate/recognition/feature_table.h>
+#include <palpate/recognition/sample_set.h>
+#include <palpate/recognition/session_offset.h>
+
+namespace palpate {
+
+// A recording a model learnt from.
+struct ModelInput {
+  std::string file;
+  std::string sha256;
+  std::string className;
+  std::size_t grasps = 0;
+  std::int64_t firstUs = 0, lastUs = 0;  // host times of its first and last grasp [us since 1970]
+};
+
+// What a model says of one grasp.
+struct Verdict {
+  static constexpr int kUnknown = -1;
+  int label = kUnknown;      // class, or kUnknown: nothing that was learnt
+  double confidence = 0.0;   // probability of the best class, were it one of the known ones
+  bool sure = false;         // right 95 times in 100; never without an offset that can be trusted
+  std::vector<int> ranking;  // all classes, best first, whether known or not
+  std::vector<double> p;     // of each class of the ranking
+  double novelty = 0.0;      // how far from everything that was learnt; the larger the stranger
+};
+
+struct TrainedModel {
+  static constexpr int kFormatVersion = 1;
+
+  std::string programVersion;
+  std::string madeAt;  // UTC, ISO 8601; may be empty
+  std::string sensor;  // FeatureTable::sensor
+  FeatureSet set = FeatureSet::kBest;
+  std::vector<std::string> features, classes;
+  ClassifierPipeline pipeline;  // calibrated
+  // Of a classifier that isn't gauss: sure from this confidence on (above 1: never), unknown from this novelty on.
+  double sureConfidence = 2.0;
+  double mostNovelty = 0.0;
+  SessionOffset offset = noOffset();  // what `adapt` stored; none in a fresh model
+  std::vector<ModelInput> inputs, adaptedFrom;
+  Json options = Json::object();     // of the command that made it
+  Json validation = Json::object();  // how well it did on blocks of its own recordings
+
+  // Whether it knows a session offset, and can adapt: gauss.
+  bool carriesOver() const noexcept { return pipeline.day.has_value(); }
+  // Whether a time lies within half a day of what it learnt from (or was adapted by): the same session, as far as one can tell.
+  bool sameSession(std::int64_t timeUs) const noexcept;
+};
+
+// Classes and their number of grasps, by file: hashes every file. Throws FileError, Cancelled.
+std::vector<ModelInput> inputsOf(const FeatureTable& table, const Progress& progress = {});
+
+// Fits a model and what it takes to be sure: the pipeline's blocks calibrate (5 where none are given). What it is made of
+// (inputs, options, versions) is the caller's to add. Throws as ClassifierPipeline::of(), Cancelled.
+TrainedModel trainModel(const SampleSet& samples,
+                        FeatureSet set,
+                        const std::string& sensor,
+                        PipelineOptions options,
+                        const Progress& progress = {});
+
+// Verdicts on rows of features. `offset` is of no use to a classifier that doesn't carry over. Sure with: an offset that
+// can be trusted, or `sameSession` and no offset. Throws std::invalid_argument (another number of features).
+std::vector<Verdict> classifyRows(const TrainedModel& model,
+                                  const Eigen::MatrixXd& x,
+                                  const SessionOffset& offset,
+                                  bool sameSession);
+
+// Throws Error naming what doesn't agree between a model and the features it is to judge: another sensor, another set of
+// features (of another version).
+void requireFits(const TrainedModel& model, const FeatureTable& table);
+
+// Labelled grasps of today: the offset from them on top of what is known, and their components. Throws Error when the model
+// doesn't carry over.
+void adaptModel(TrainedModel& model, const SampleSet& today);
+
+Json jsonOf(const TrainedModel& model);
+// Throws Error naming what is missing, damaged, or of a later format.
+TrainedModel trainedModelFrom(const Json& json);
+// Throws FileError, FormatError (no model, damaged; names what).
+TrainedModel loadModel(const std::filesystem::path& path);
+// Throws FileError.
+void saveModel(const TrainedModel& model,
+               const std::filesystem::path& path,
+               Overwrite overwrite = Overwrite::kRefuse);
+
+}  // namespace palpate

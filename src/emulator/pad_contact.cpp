@@ -1,0 +1,70 @@
+#include "emulator/pad_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpate {
+namespace {
+
+constexpr double kDeepestMm = 8.0;  // no rubber is thicker
+constexpr double kReachMm = 8.0;    // surfaces are bent: slack of the quick check
+constexpr double kFacing = 0.0;     // normals of pads that meet look at each other
+
+double radiusMm(const MatrixLayout& matrix) {
+  return std::hypot(matrix.rows * matrix.pitchMm, matrix.columns * matrix.pitchMm) / 2.0;
+}
+
+bool mayMeet(const GeometryDescription& hand, const HandPose& pose, std::size_t a, std::size_t b) {
+  const MatrixLayout &first = hand.layout.matrix(a), &second = hand.layout.matrix(b);
+  const Eigen::Vector3d apart = pose.positionMm(a, first.rows / 2, first.columns / 2) -
+                                pose.positionMm(b, second.rows / 2, second.columns / 2);
+  const double reach = radiusMm(first) + radiusMm(second) + kReachMm;
+  return apart.squaredNorm() < reach * reach;
+}
+
+}  // namespace
+
+double depthBehindPad(const GeometryDescription& hand,
+                      const HandPose& pose,
+                      std::size_t matrix,
+                      const Eigen::Vector3d& pointMm) {
+  const SensorSurface& surface = hand.surfaces.at(matrix);
+  const MatrixLayout& layout = hand.layout.matrix(matrix);
+  const Eigen::Vector3d at =
+      pose.baseFromLink(surface.finger, surface.link).inverse(Eigen::Isometry) * pointMm;
+  const double column = (at.z() - surface.column0Mm) / layout.pitchMm;
+  double row = (surface.row0Mm - at.x()) / layout.pitchMm;
+  if (surface.bendRow && row < *surface.bendRow) {
+    const double sine = (*surface.bendRow - row) * layout.pitchMm / surface.radiusMm;
+    if (sine >= 1.0) return 0.0;
+    row = *surface.bendRow - std::asin(sine) * surface.radiusMm / layout.pitchMm;
+  }
+  if (column < -0.5 || column > layout.columns - 0.5 || row < -0.5 || row > layout.rows - 0.5)
+    return 0.0;
+  const SurfaceRow there = surfaceRow(surface, layout.pitchMm, row);
+  const double depth = (there.yMm - at.y()) * there.normalY;
+  return depth > 0.0 && depth < kDeepestMm ? depth : 0.0;
+}
+
+void findPadContacts(
+    const HandPose& pose,
+    const std::function<void(std::size_t matrix, int y, int x, double depthMm)>& touch) {
+  const GeometryDescription& hand = pose.description();
+  const std::size_t count = hand.surfaces.size();
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = 0; b < count; ++b) {
+      if (hand.surfaces[a].finger == hand.surfaces[b].finger || !mayMeet(hand, pose, a, b))
+        continue;
+      const MatrixLayout& layout = hand.layout.matrix(a);
+      const Eigen::Vector3d facing = pose.rotation(b).col(1);
+      std::size_t place = hand.layout.offset(a);
+      for (int y = 0; y < layout.rows; ++y)
+        for (int x = 0; x < layout.columns; ++x, ++place) {
+          if (!layout.exists(y, x) || pose.normals()[place].dot(facing) >= kFacing) continue;
+          const double depth = depthBehindPad(hand, pose, b, pose.positionsMm()[place]);
+          if (depth > 0.0) touch(a, y, x, depth);
+        }
+    }
+}
+
+}  // namespace palpate

@@ -1,0 +1,183 @@
+// The file form of the model and the offset of a session.
+#include <cmath>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/recognition/day_model.h"
+#include "palpate/recognition/session_offset.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kFormat = 1;
+
+Json jsonOf(const Eigen::VectorXd& vector) {
+  Json out = Json::array();
+  for (const double value : vector) out.push(value);
+  return out;
+}
+
+Json jsonOf(const Eigen::MatrixXd& matrix) {
+  Json out = Json::array();
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row)
+    out.push(jsonOf(Eigen::VectorXd(matrix.row(row).transpose())));
+  return out;
+}
+
+Json jsonOf(const std::vector<std::string>& texts) {
+  Json out = Json::array();
+  for (const std::string& text : texts) out.push(text);
+  return out;
+}
+
+Json jsonOf(const DayBell& bell) {
+  return Json::object().set("mean", jsonOf(bell.mean)).set("scatter", jsonOf(bell.scatter));
+}
+
+Json needed(const Json& json, const char* key) {
+  if (!json.isObject() || !json.contains(key))
+    throw Error(std::string("a damaged model: '") + key + "' is missing");
+  return json.at(key);
+}
+
+double numberIn(const Json& json, const char* key) {
+  const Json value = needed(json, key);
+  if (!value.isNumber() || !std::isfinite(value.asDouble()))
+    throw Error(std::string("a damaged model: '") + key + "' is no number");
+  return value.asDouble();
+}
+
+std::size_t countIn(const Json& json, const char* key) {
+  const double value = numberIn(json, key);
+  if (!(value >= 0.0 && value <= 1e9 && value == std::floor(value)))
+    throw Error(std::string("a damaged model: '") + key + "' is no number of things");
+  return static_cast<std::size_t>(value);
+}
+
+Eigen::VectorXd vectorIn(const Json& array, const char* key) {
+  if (!array.isArray()) throw Error(std::string("a damaged model: '") + key + "' is no list");
+  Eigen::VectorXd out(static_cast<Eigen::Index>(array.size()));
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    const Json value = array.at(i);
+    if (!value.isNumber())
+      throw Error(std::string("a damaged model: '") + key + "' holds what is no number");
+    out[static_cast<Eigen::Index>(i)] = value.asDouble();
+  }
+  return out;
+}
+
+Eigen::MatrixXd matrixIn(const Json& json, const char* key) {
+  const Json array = needed(json, key);
+  if (!array.isArray() || array.size() == 0)
+    throw Error(std::string("a damaged model: '") + key + "' is no matrix");
+  const auto size = static_cast<Eigen::Index>(array.size());
+  Eigen::MatrixXd out(size, size);
+  for (Eigen::Index row = 0; row < size; ++row) {
+    const Eigen::VectorXd values = vectorIn(array.at(static_cast<std::size_t>(row)), key);
+    if (values.size() != size)
+      throw Error(std::string("a damaged model: '") + key + "' is no square matrix");
+    out.row(row) = values.transpose();
+  }
+  return out;
+}
+
+std::vector<std::string> textsIn(const Json& json, const char* key) {
+  const Json array = needed(json, key);
+  if (!array.isArray()) throw Error(std::string("a damaged model: '") + key + "' is no list");
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < array.size(); ++i) out.push_back(array.at(i).asString());
+  return out;
+}
+
+DayBell bellIn(const Json& json) {
+  return {vectorIn(needed(json, "mean"), "mean"), matrixIn(json, "scatter")};
+}
+
+}  // namespace
+
+Json dayModelJson(const DayModel& model) {
+  const DayModelData& data = model.data();
+  Json bells = Json::array(), today = Json::array();
+  for (const DayBell& bell : data.bells) bells.push(jsonOf(bell));
+  for (const TodayComponent& component : data.today)
+    today.push(
+        jsonOf(component.bell).set("class", component.classIndex).set("count", component.count));
+  Json out = Json::object();
+  out.set("format", kFormat);
+  out.set("features", jsonOf(data.features)).set("classes", jsonOf(data.classes));
+  if (data.sizeColumn) out.set("size_column", *data.sizeColumn);
+  out.set("degrees_of_freedom", data.degreesOfFreedom);
+  out.set("new_scatter", data.newScatter).set("seen_today", data.seenToday);
+  out.set("bells", bells).set("pooled", jsonOf(data.pooled));
+  out.set("background", jsonOf(data.background)).set("today", today);
+  return out;
+}
+
+DayModel dayModelFrom(const Json& json) {
+  if (numberIn(json, "format") != static_cast<double>(kFormat))
+    throw Error("a model of another version of the program");
+  DayModelData data;
+  data.features = textsIn(json, "features");
+  data.classes = textsIn(json, "classes");
+  if (json.contains("size_column")) data.sizeColumn = countIn(json, "size_column");
+  data.degreesOfFreedom = numberIn(json, "degrees_of_freedom");
+  data.newScatter = numberIn(json, "new_scatter");
+  data.seenToday = numberIn(json, "seen_today");
+  data.pooled = matrixIn(json, "pooled");
+  data.background = bellIn(needed(json, "background"));
+  const Json bells = needed(json, "bells"), today = needed(json, "today");
+  if (!bells.isArray() || !today.isArray())
+    throw Error("a damaged model: 'bells' or 'today' is no list");
+  for (std::size_t i = 0; i < bells.size(); ++i) data.bells.push_back(bellIn(bells.at(i)));
+  for (std::size_t i = 0; i < today.size(); ++i) {
+    TodayComponent component;
+    component.classIndex = countIn(today.at(i), "class");
+    component.count = countIn(today.at(i), "count");
+    component.bell = bellIn(today.at(i));
+    data.today.push_back(std::move(component));
+  }
+  return DayModel(std::move(data));
+}
+
+Json sessionOffsetJson(const SessionOffset& offset) {
+  Json out = Json::object();
+  out.set("mm", offset.mm).set("sd_mm", offset.sdMm);
+  out.set("origin", offsetOriginName(offset.origin));
+  out.set("grasps", offset.grasps).set("objects", offset.objects).set("trusted", offset.trusted);
+  Json grid = Json::array(), probability = Json::array();
+  for (const double mm : offset.gridMm) grid.push(mm);
+  for (const double p : offset.probability) probability.push(p);
+  return out.set("grid_mm", grid).set("probability", probability);
+}
+
+SessionOffset sessionOffsetFrom(const Json& json) {
+  SessionOffset out;
+  out.mm = numberIn(json, "mm");
+  out.sdMm = numberIn(json, "sd_mm");
+  const std::string origin = needed(json, "origin").asString();
+  bool known = false;
+  for (const OffsetOrigin one : {OffsetOrigin::kNone,
+                                 OffsetOrigin::kUnknown,
+                                 OffsetOrigin::kGiven,
+                                 OffsetOrigin::kBatch,
+                                 OffsetOrigin::kReferences,
+                                 OffsetOrigin::kEmptyHand})
+    if (offsetOriginName(one) == origin) {
+      out.origin = one;
+      known = true;
+    }
+  if (!known) throw Error("a damaged model: an offset of origin '" + origin + "'");
+  out.grasps = countIn(json, "grasps");
+  out.objects = countIn(json, "objects");
+  out.trusted = needed(json, "trusted").asBool();
+  const Eigen::VectorXd grid = vectorIn(needed(json, "grid_mm"), "grid_mm");
+  const Eigen::VectorXd probability = vectorIn(needed(json, "probability"), "probability");
+  if (grid.size() == 0 || grid.size() != probability.size() || !(probability.minCoeff() >= 0.0) ||
+      !(std::abs(probability.sum() - 1.0) < 1e-6))
+    throw Error("a damaged model: the distribution of the offset");
+  out.gridMm.assign(grid.begin(), grid.end());
+  out.probability.assign(probability.begin(), probability.end());
+  return out;
+}
+
+}  // namespace palpate

@@ -1,0 +1,123 @@
+#include "palpate/recognition/empty_hand.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/recognition/day_features.h"
+#include "palpate/recognition/grasp_features.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kCountsOfFoamMm = 1000.0;
+
+double numberIn(const Json& json, const char* key) {
+  const Json value = json.at(key);
+  if (!value.isNumber() || !std::isfinite(value.asDouble()))
+    throw Error(std::string("a damaged zero of the empty hand: '") + key + "'");
+  return value.asDouble();
+}
+
+}  // namespace
+
+void EmptyHandOptions::validate() const {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(std::string("EmptyHandOptions: ") + what);
+  };
+  require(foamMm >= 0.0 && std::isfinite(foamMm), "foamMm must be >= 0");
+  require(foamRelativeSd >= 0.0 && std::isfinite(foamRelativeSd), "foamRelativeSd must be >= 0");
+  require(touchSdMm > 0.0 && std::isfinite(touchSdMm), "touchSdMm must be > 0");
+  require(mostMm > 0.0 && std::isfinite(mostMm), "mostMm must be > 0");
+}
+
+EmptyHandZero emptyHandZero(const Profile& profile,
+                            const PinchHand& hand,
+                            const EmptyHandOptions& options,
+                            const Progress& progress) {
+  options.validate();
+  EmptyHandZero out;
+  out.trouble = hand.mismatch(profile);
+  if (!out.trouble.empty()) return out;
+  PinchHand pinch = hand;  // its own two pads only
+  pinch.otherPads.clear();
+  std::vector<double> zeros;
+  for (const GraspSegment& touch : findPinches(profile, pinch, progress)) {
+    const DayFeatures found = dayFeatures(profile, touch, pinch);
+    if (!found.trouble.empty()) {
+      ++out.leftOut;
+      out.trouble = found.trouble;
+      continue;
+    }
+    double foam = 0.0;
+    for (const PlateauPad& pad : found.pads)
+      foam += options.foamMm * std::sqrt(std::exp(pad.lnPeak) / kCountsOfFoamMm);
+    const double zero = found.distanceMm + foam;
+    if (std::abs(zero) > options.mostMm) {
+      ++out.leftOut;
+      out.trouble = "the pads seem to be " + fixedText(zero, 1) +
+                    " mm apart while they touch: the hand isn't empty, or its joints are far off";
+      continue;
+    }
+    zeros.push_back(zero);
+    out.foamMm += foam;
+  }
+  out.touches = zeros.size();
+  if (zeros.empty()) {
+    if (out.trouble.empty())
+      out.trouble = "no touch: the pads never touch for more than 20 frames in a row";
+    return out;
+  }
+  out.trouble.clear();
+  const auto count = static_cast<double>(zeros.size());
+  out.foamMm /= count;
+  for (const double zero : zeros) out.mm += zero / count;
+  double squares = 0.0;
+  for (const double zero : zeros) squares += (zero - out.mm) * (zero - out.mm);
+  // A few touches say little about their own scatter: it is never taken for less than what is known of touches.
+  const double scatter = zeros.size() > 1 ? std::sqrt(squares / (count - 1.0)) : 0.0;
+  out.sdMm = std::max(scatter, options.touchSdMm) / std::sqrt(count);
+  return out;
+}
+
+SessionOffset emptyHandOffset(const EmptyHandZero& today,
+                              const EmptyHandZero& training,
+                              const EmptyHandOptions& options,
+                              const SessionOffsetOptions& grid) {
+  options.validate();
+  for (const EmptyHandZero* zero : {&today, &training})
+    if (!zero->trouble.empty() || zero->touches == 0)
+      throw std::invalid_argument("emptyHandOffset: a zero that isn't there");
+  const double foamSd = options.foamRelativeSd * (today.foamMm - training.foamMm);
+  SessionOffset out = measuredOffset(
+      today.mm - training.mm,
+      std::sqrt(today.sdMm * today.sdMm + training.sdMm * training.sdMm + foamSd * foamSd),
+      OffsetOrigin::kEmptyHand,
+      grid);
+  out.grasps = today.touches;
+  return out;
+}
+
+Json emptyHandZeroJson(const EmptyHandZero& zero) {
+  return Json::object()
+      .set("mm", zero.mm)
+      .set("sd_mm", zero.sdMm)
+      .set("foam_mm", zero.foamMm)
+      .set("touches", zero.touches);
+}
+
+EmptyHandZero emptyHandZeroFrom(const Json& json) {
+  EmptyHandZero out;
+  out.mm = numberIn(json, "mm");
+  out.sdMm = numberIn(json, "sd_mm");
+  out.foamMm = numberIn(json, "foam_mm");
+  const double touches = numberIn(json, "touches");
+  if (!(out.sdMm > 0.0) || !(touches >= 1.0 && touches <= 1e6))
+    throw Error("a damaged zero of the empty hand: its error or its touches");
+  out.touches = static_cast<std::size_t>(touches);
+  return out;
+}
+
+}  // namespace palpate

@@ -1,0 +1,158 @@
+#include "palpate/recognition/feature_table.h"
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/parallel.h"
+#include "palpate/recording/recording.h"
+#include "palpate/recording/recording_folder.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+struct Source {
+  fs::path file;
+  std::string className;
+};
+
+// What came of one recording.
+struct Gathered {
+  std::vector<FeatureRow> rows;
+  std::vector<std::string> troubles;
+  std::string sensor;
+  bool failed = false;
+  std::size_t failedGrasps = 0;
+};
+
+std::string spanText(const GraspFeatures& grasp) {
+  return "grasp " + std::to_string(grasp.begin) + ".." + std::to_string(grasp.end);
+}
+
+Gathered gather(const Source& source, const GatherOptions& options) {
+  Gathered out;
+  const auto say = [&](const std::string& what) {
+    out.troubles.push_back(source.file.string() + ": " + what);
+  };
+  try {
+    const Profile profile = openRecording(source.file);
+    RecordingFeatures found = recordingFeatures(profile, options.set, options.hand);
+    if (!found.trouble.empty()) say(found.trouble);
+    out.sensor = sensorText(profile.layout());
+    for (GraspFeatures& grasp : found.grasps) {
+      if (!grasp.trouble.empty()) {
+        say(spanText(grasp) + ": " + grasp.trouble);
+        ++out.failedGrasps;
+        continue;
+      }
+      out.rows.push_back({.className = source.className,
+                          .file = source.file,
+                          .begin = grasp.begin,
+                          .end = grasp.end,
+                          .initialFrame = grasp.initialFrame,
+                          .endFrame = grasp.endFrame,
+                          .timeUs = profile.frameTimeUs(grasp.begin),
+                          .values = std::move(grasp.values)});
+    }
+  } catch (const Error& error) {
+    out.troubles.emplace_back(error.what());  // names the file
+    out.failed = true;
+  }
+  return out;
+}
+
+fs::path withoutSlash(const fs::path& folder) {
+  return folder.has_filename() ? folder : folder.parent_path();
+}
+
+// Adds the recordings of a folder; what can't be looked into is said.
+void addFolder(const fs::path& folder,
+               std::vector<Source>& sources,
+               std::vector<std::string>& troubles) {
+  RecordingFolder found = recordingsBelow(folder);
+  if (found.files.empty() && found.troubles.empty())
+    troubles.push_back(folder.string() +
+                       ": no recording (.palpate, .dsa) lies in this folder or below it");
+  std::move(found.troubles.begin(), found.troubles.end(), std::back_inserter(troubles));
+  for (const fs::path& file : found.files) {
+    const fs::path rest = file.lexically_relative(folder);
+    const bool inClass = !rest.empty() && std::next(rest.begin()) != rest.end();
+    sources.push_back({file, inClass ? classOfFolder(*rest.begin()) : classOfFolder(folder)});
+  }
+}
+
+}  // namespace
+
+std::optional<std::size_t> FeatureTable::column(std::string_view name) const noexcept {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+std::vector<std::string> FeatureTable::classes() const {
+  std::set<std::string> all;
+  for (const FeatureRow& row : rows)
+    if (!row.className.empty()) all.insert(row.className);
+  return {all.begin(), all.end()};
+}
+
+std::string sensorText(const SensorLayout& layout) {
+  std::string text;
+  for (const MatrixLayout& matrix : layout.matrices())
+    text += (text.empty() ? "" : ", ") + std::to_string(matrix.columns) + "x" +
+            std::to_string(matrix.rows) + " " + fixedText(matrix.pitchMm, 2) + " mm";
+  return text;
+}
+
+std::string classOfFolder(const fs::path& folder) {
+  std::error_code ignored;
+  fs::path named = withoutSlash(folder);
+  if (named.filename() == "." || named.filename() == ".." || named.empty())
+    named = withoutSlash(fs::weakly_canonical(folder, ignored));
+  std::string name = named.filename().string();
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+FeatureTable gatherFeatures(const std::vector<fs::path>& paths,
+                            const GatherOptions& options,
+                            const Progress& progress) {
+  options.hand.validate();
+  FeatureTable table;
+  table.set = options.set;
+  table.names = featureNames(options.set, options.hand);
+  std::vector<Source> sources;
+  for (const fs::path& path : paths) {
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) {
+      addFolder(path, sources, table.troubles);
+    } else if (fs::exists(path, ignored)) {
+      sources.push_back({path, {}});
+    } else {
+      throw FileError(path, "no such file or folder");
+    }
+  }
+  table.numFiles = sources.size();
+  std::vector<Gathered> gathered(sources.size());
+  forEachInParallel(
+      sources.size(),
+      [&](std::size_t i) { gathered[i] = gather(sources[i], options); },
+      progress,
+      options.threads);
+
+  for (std::size_t i = 0; i < gathered.size(); ++i) {
+    Gathered& of = gathered[i];
+    table.failedFiles += of.failed ? 1 : 0;
+    table.failedGrasps += of.failedGrasps;
+    std::move(of.troubles.begin(), of.troubles.end(), std::back_inserter(table.troubles));
+    if (!of.rows.empty() && table.sensor.empty()) table.sensor = of.sensor;
+    std::move(of.rows.begin(), of.rows.end(), std::back_inserter(table.rows));
+  }
+  return table;
+}
+
+}  // namespace palpate

@@ -1,0 +1,214 @@
+#include "palpate/recognition/model_evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kFarthestMm = 20.0;
+
+Json intervalJson(std::size_t part, std::size_t whole) {
+  const ShareInterval interval = wilsonInterval(part, whole);
+  return Json::array().push(interval.low).push(interval.high);
+}
+
+Json share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? Json() : Json(static_cast<double>(part) / static_cast<double>(whole));
+}
+
+// The first so many in time of each class.
+std::vector<std::size_t> firstOfClasses(const std::vector<std::size_t>& session,
+                                        const SampleSet& samples,
+                                        std::size_t perClass) {
+  std::vector<std::size_t> taken(samples.numClasses(), 0), first;
+  for (const std::size_t i : session)
+    if (taken[static_cast<std::size_t>(samples.y[i])]++ < perClass) first.push_back(i);
+  return first;
+}
+
+// What a session is judged with when some of its grasps are labelled.
+SessionUse adaptedUse(const TrainedModel& adapted,
+                      const Eigen::MatrixXd& x,
+                      const OffsetChoice& choice) {
+  SessionUse use;
+  use.offset = adapted.offset;
+  if (choice.kind == OffsetChoice::Kind::kBatch)
+    use.offset = offsetFromBatch(*adapted.pipeline.day, x, adapted.offset);
+  if (choice.kind == OffsetChoice::Kind::kGiven) use.offset = givenOffset(choice.mm);
+  if (!use.offset.trusted) use.warnings.push_back("nothing is sure: " + use.offset.text());
+  return use;
+}
+
+Json offsetJson(const SessionOffset& offset) {
+  return Json::object()
+      .set("mm", offset.mm)
+      .set("sd_mm", offset.sdMm)
+      .set("origin", offsetOriginName(offset.origin))
+      .set("grasps", offset.grasps)
+      .set("objects", offset.objects)
+      .set("trusted", offset.trusted);
+}
+
+}  // namespace
+
+OffsetChoice OffsetChoice::from(const std::string& text) {
+  if (text == "model") return {Kind::kModel, 0.0};
+  if (text == "none") return {Kind::kNone, 0.0};
+  if (text == "batch") return {Kind::kBatch, 0.0};
+  const auto mm = parseDouble(text);
+  if (!mm || std::abs(*mm) > kFarthestMm)
+    throw std::invalid_argument(
+        "'" + text + "' is neither model, none, batch nor a number of mm from -20 to 20");
+  return {Kind::kGiven, *mm};
+}
+
+SessionUse sessionFor(const TrainedModel& model,
+                      const Eigen::MatrixXd& x,
+                      const std::vector<std::int64_t>& timesUs,
+                      const OffsetChoice& choice) {
+  SessionUse use;
+  use.sameSession =
+      !timesUs.empty() && std::all_of(timesUs.begin(), timesUs.end(), [&](std::int64_t timeUs) {
+        return model.sameSession(timeUs);
+      });
+  if (!model.carriesOver()) {
+    if (choice.kind == OffsetChoice::Kind::kBatch || choice.kind == OffsetChoice::Kind::kGiven)
+      throw Error("a model of classifier " +
+                  std::string(classifierName(model.pipeline.classifier)) +
+                  " knows no session offset: train one with --classifier gauss");
+    if (!use.sameSession)
+      use.warnings.emplace_back(
+          "nothing is sure: these grasps are not of the session the model was trained in");
+    return use;
+  }
+  switch (choice.kind) {
+    case OffsetChoice::Kind::kModel:
+      use.offset = model.offset;
+      if (use.offset.origin != OffsetOrigin::kNone && use.offset.trusted && !use.sameSession) {
+        use.offset.trusted = false;
+        use.warnings.emplace_back(
+            "nothing is sure: the model was adapted in another session; adapt it anew, or "
+            "--session-offset batch");
+      } else if (use.offset.origin == OffsetOrigin::kNone && !use.sameSession) {
+        use.warnings.emplace_back(
+            "nothing is sure: another session than that of the training, and its offset isn't "
+            "known; adapt the model, or --session-offset batch");
+      } else if (use.offset.origin != OffsetOrigin::kNone && !use.offset.trusted) {
+        use.warnings.push_back("nothing is sure: " + use.offset.text());
+      }
+      break;
+    case OffsetChoice::Kind::kNone:
+      use.offset = unknownOffset();
+      break;
+    case OffsetChoice::Kind::kBatch:
+      use.offset = x.rows() == 0 ? unknownOffset() : offsetFromBatch(*model.pipeline.day, x);
+      if (!use.offset.trusted)
+        use.warnings.push_back("nothing is sure: the offset rests on " +
+                               std::to_string(use.offset.objects) +
+                               (use.offset.objects == 1 ? " object" : " objects") +
+                               " (two different ones and a small error are needed)");
+      break;
+    case OffsetChoice::Kind::kGiven:
+      use.offset = givenOffset(choice.mm);
+      break;
+  }
+  return use;
+}
+
+std::vector<std::vector<std::size_t>> sessionsOf(const std::vector<std::int64_t>& timesUs,
+                                                 double pauseS) {
+  std::vector<std::size_t> order(timesUs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return timesUs[a] < timesUs[b];
+  });
+  std::vector<std::vector<std::size_t>> sessions;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool paused =
+        k > 0 && static_cast<double>(timesUs[order[k]] - timesUs[order[k - 1]]) > pauseS * 1e6;
+    if (k == 0 || paused) sessions.emplace_back();
+    sessions.back().push_back(order[k]);
+  }
+  return sessions;
+}
+
+ModelEvaluation evaluateModel(const TrainedModel& model,
+                              const SampleSet& samples,
+                              const std::vector<std::int64_t>& timesUs,
+                              const EvaluationOptions& options) {
+  samples.validate();
+  if (timesUs.size() != samples.numSamples() || samples.classes != model.classes)
+    throw std::invalid_argument("evaluateModel: times or classes don't belong to the samples");
+  ModelEvaluation evaluation(model.classes);
+  for (const std::vector<std::size_t>& session : sessionsOf(timesUs)) {
+    const std::vector<std::size_t> labelled =
+        firstOfClasses(session, samples, options.adaptPerClass);
+    std::vector<std::size_t> rest;
+    for (const std::size_t i : session)
+      if (std::find(labelled.begin(), labelled.end(), i) == labelled.end()) rest.push_back(i);
+    evaluation.adapted.insert(evaluation.adapted.end(), labelled.begin(), labelled.end());
+    const Eigen::MatrixXd x = samples.rows(rest).x;
+    std::vector<std::int64_t> times;
+    for (const std::size_t i : rest) times.push_back(timesUs[i]);
+    std::vector<Verdict> verdicts;
+    if (labelled.empty()) {
+      evaluation.sessions.push_back(sessionFor(model, x, times, options.offset));
+      const SessionUse& use = evaluation.sessions.back();
+      verdicts = classifyRows(model, x, use.offset, use.sameSession);
+    } else {
+      TrainedModel adapted = model;
+      adaptModel(adapted, samples.rows(labelled));
+      evaluation.sessions.push_back(adaptedUse(adapted, x, options.offset));
+      verdicts = classifyRows(adapted, x, evaluation.sessions.back().offset, false);
+    }
+    for (std::size_t k = 0; k < rest.size(); ++k) {
+      const int truth = samples.y[rest[k]];
+      Verdict& verdict = verdicts[k];
+      evaluation.confusion.add(truth, verdict.label);
+      const auto top = verdict.ranking.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(
+                                                     3, verdict.ranking.size()));
+      evaluation.top3 += std::find(verdict.ranking.begin(), top, truth) != top ? 1 : 0;
+      evaluation.sure += verdict.sure ? 1 : 0;
+      evaluation.sureRight += verdict.sure && verdict.label == truth ? 1 : 0;
+      evaluation.grasps.push_back({rest[k], evaluation.sessions.size() - 1, std::move(verdict)});
+    }
+  }
+  if (evaluation.grasps.empty())
+    throw Error("no grasp is left to examine: all " + std::to_string(samples.numSamples()) +
+                " adapt the model");
+  return evaluation;
+}
+
+Json jsonOf(const ModelEvaluation& evaluation) {
+  const std::size_t all = evaluation.confusion.total(), right = evaluation.confusion.right();
+  const Json confusion = evaluation.confusion.confusionJson();
+  Json sessions = Json::array(), warnings = Json::array();
+  for (const SessionUse& session : evaluation.sessions) {
+    sessions.push(offsetJson(session.offset));
+    for (const std::string& warning : session.warnings) warnings.push(warning);
+  }
+  return Json::object()
+      .set("accuracy", evaluation.confusion.accuracy())
+      .set("interval", intervalJson(right, all))
+      .set("grasps", all)
+      .set("right", right)
+      .set("top3", share(evaluation.top3, all))
+      .set("coverage", share(evaluation.sure, all))
+      .set("accuracy_when_sure", share(evaluation.sureRight, evaluation.sure))
+      .set("interval_when_sure", intervalJson(evaluation.sureRight, evaluation.sure))
+      .set("adapted_by", evaluation.adapted.size())
+      .set("sessions", std::move(sessions))
+      .set("warnings", std::move(warnings))
+      .set("classes", evaluation.confusion.classesJson())
+      .set("confusion", confusion.at("counts"))
+      .set("confusion_labels", confusion.at("labels"));
+}
+
+}  // namespace palpate

@@ -1,0 +1,130 @@
+// The trained model as a file.
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/recognition/trained_model.h"
+
+#include "json_numbers.h"
+
+namespace palpate {
+namespace {
+namespace js = json_numbers;
+namespace fs = std::filesystem;
+
+constexpr const char* kKind = "palpate recognition model";
+
+Json jsonOf(const std::vector<ModelInput>& inputs) {
+  Json list = Json::array();
+  for (const ModelInput& input : inputs)
+    list.push(Json::object()
+                  .set("file", input.file)
+                  .set("sha256", input.sha256)
+                  .set("class", input.className)
+                  .set("grasps", input.grasps)
+                  .set("first_us", input.firstUs)
+                  .set("last_us", input.lastUs));
+  return list;
+}
+
+std::vector<ModelInput> inputsFrom(const Json& json, std::string_view key) {
+  const Json list = js::member(json, key);
+  if (!list.isArray()) throw Error("model: '" + std::string(key) + "' is no list");
+  std::vector<ModelInput> inputs;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Json one = list.at(i);
+    inputs.push_back({js::text(one, "file"),
+                      js::text(one, "sha256"),
+                      js::text(one, "class"),
+                      js::count(one, "grasps"),
+                      static_cast<std::int64_t>(js::number(one, "first_us")),
+                      static_cast<std::int64_t>(js::number(one, "last_us"))});
+  }
+  return inputs;
+}
+
+void requireAgreement(const TrainedModel& model) {
+  const ClassifierPipeline& pipeline = model.pipeline;
+  const auto features = static_cast<std::size_t>(
+      pipeline.day ? pipeline.day->numFeatures()
+                   : static_cast<std::size_t>(pipeline.standardisation.mean.size()));
+  if (features != model.features.size() || pipeline.numClasses != model.classes.size())
+    throw Error("model: its classifier has other classes or features than it names");
+  if (pipeline.day && (pipeline.day->data().features != model.features ||
+                       pipeline.day->data().classes != model.classes))
+    throw Error("model: its classifier names other classes or features");
+  if (!pipeline.calibrated) throw Error("model: its probabilities aren't calibrated");
+}
+
+}  // namespace
+
+Json jsonOf(const TrainedModel& model) {
+  return Json::object()
+      .set("kind", kKind)
+      .set("format_version", TrainedModel::kFormatVersion)
+      .set("program_version", model.programVersion)
+      .set("made_at", model.madeAt)
+      .set("sensor", model.sensor)
+      .set("feature_set", featureSetName(model.set))
+      .set("features", js::of(model.features))
+      .set("classes", js::of(model.classes))
+      .set("options", model.options)
+      .set("validation", model.validation)
+      .set("sure_confidence", model.sureConfidence)
+      .set("most_novelty", model.mostNovelty)
+      .set("session_offset", sessionOffsetJson(model.offset))
+      .set("inputs", jsonOf(model.inputs))
+      .set("adapted_from", jsonOf(model.adaptedFrom))
+      .set("pipeline", jsonOf(model.pipeline));
+}
+
+TrainedModel trainedModelFrom(const Json& json) {
+  if (!json.isObject() || !json.at("kind").isString() || json.at("kind").asString() != kKind)
+    throw Error("this is no recognition model of palpate");
+  const std::size_t version = js::count(json, "format_version");
+  if (version != TrainedModel::kFormatVersion)
+    throw Error("model: its format version is " + std::to_string(version) +
+                ", this program reads " + std::to_string(TrainedModel::kFormatVersion) +
+                ": train it anew, or update palpate");
+  TrainedModel model;
+  model.programVersion = js::text(json, "program_version");
+  model.madeAt = js::text(json, "made_at");
+  model.sensor = js::text(json, "sensor");
+  const std::string set = js::text(json, "feature_set");
+  const auto known = featureSetNamed(set);
+  if (!known) throw Error("model: its feature set '" + set + "' isn't known to this version");
+  model.set = *known;
+  model.features = js::texts(json, "features");
+  model.classes = js::texts(json, "classes");
+  model.options = js::member(json, "options");
+  model.validation = js::member(json, "validation");
+  model.sureConfidence = js::number(json, "sure_confidence");
+  model.mostNovelty = js::number(json, "most_novelty");
+  model.offset = sessionOffsetFrom(js::member(json, "session_offset"));
+  model.inputs = inputsFrom(json, "inputs");
+  model.adaptedFrom = inputsFrom(json, "adapted_from");
+  model.pipeline = pipelineFrom(js::member(json, "pipeline"));
+  requireAgreement(model);
+  return model;
+}
+
+TrainedModel loadModel(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::error_code ignored;
+  if (!in || fs::is_directory(path, ignored)) throw FileError(path, "can't be opened");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  try {
+    return trainedModelFrom(Json::parse(text));
+  } catch (const Error& error) {
+    throw FormatError(path, error.what());
+  }
+}
+
+void saveModel(const TrainedModel& model, const fs::path& path, Overwrite overwrite) {
+  OutputFile file(path, overwrite);
+  file.write(jsonOf(model).text(-1) + "\n");
+  file.commit();
+}
+
+}  // namespace palpate

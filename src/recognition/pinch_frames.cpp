@@ -1,0 +1,106 @@
+#include "recognition/pinch_frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "palpate/kinematics/joint_range.h"
+
+namespace palpate {
+namespace {
+
+std::string inFrame(std::size_t frame) { return " in frame " + std::to_string(frame); }
+
+}  // namespace
+
+PadLoad padLoad(const ConstMatrixMap& values, double pitchMm) {
+  PadLoad load;
+  if (!(values.maxCoeff() > 0.0F)) return load;  // most pads, most of the time
+  double x = 0.0, y = 0.0;
+  const float* value = values.data();
+  for (Eigen::Index row = 0; row < values.rows(); ++row) {
+    double sum = 0.0;
+    for (Eigen::Index column = 0; column < values.cols(); ++column, ++value) {
+      if (!(*value > 0.0F)) continue;
+      const auto counts = static_cast<double>(*value);
+      sum += counts;
+      x += counts * static_cast<double>(column);
+      load.largest = std::max(load.largest, counts);
+    }
+    load.sum += sum;
+    y += sum * static_cast<double>(row);
+  }
+  if (load.sum > 0.0) {
+    load.xMm = x / load.sum * pitchMm;
+    load.yMm = y / load.sum * pitchMm;
+  }
+  return load;
+}
+
+PinchFrames readPinch(const Profile& profile,
+                      const GraspSegment& grasp,
+                      const PinchHand& hand,
+                      bool allMatrices) {
+  if (grasp.begin > grasp.end || grasp.end >= profile.numFrames())
+    throw std::out_of_range("features: there are no frames " + std::to_string(grasp.begin) + ".." +
+                            std::to_string(grasp.end));
+  PinchFrames out;
+  out.begin = grasp.begin;
+  const std::size_t count = grasp.end - grasp.begin + 1;
+  out.trouble = hand.mismatch(profile);
+  if (out.trouble.empty() && count < kFewestPinchFrames)
+    out.trouble = "half a grasp: " + std::to_string(count) + " frames, of at least " +
+                  std::to_string(kFewestPinchFrames);
+  if (out.trouble.empty() && profile.numAngles() == 0) out.trouble = "no joint angles";
+  if (!out.trouble.empty()) return out;
+
+  const SensorLayout& layout = profile.layout();
+  out.anglesDeg.reserve(count);
+  out.loads.reserve(count);
+  TactileFrame frame;
+  for (std::size_t i = grasp.begin; i <= grasp.end && out.trouble.empty(); ++i) {
+    profile.readFrame(i, frame);
+    const TactileFrame& values = frame;
+    auto& loads = out.loads.emplace_back(layout.numMatrices());
+    for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
+      const bool isPad = m == hand.pads[0] || m == hand.pads[1];
+      if (!isPad && !allMatrices) continue;
+      const ConstMatrixMap matrix = values.matrix(m);
+      if (!matrix.allFinite()) out.trouble = "values that are no numbers" + inFrame(i);
+      loads[m] = padLoad(matrix, layout.matrix(m).pitchMm);
+      if (isPad && !(loads[m].sum > 0.0) && out.trouble.empty())
+        out.trouble = "matrix " + std::to_string(m) + " doesn't touch" + inFrame(i);
+    }
+    const auto angles = profile.anglesAtFrame(i);
+    out.anglesDeg.push_back(angles ? angles->deg : std::vector<double>{});
+    if (!out.trouble.empty()) break;
+    if (out.anglesDeg.back().size() != hand.effectiveGeometry->description().numAxes ||
+        !std::all_of(out.anglesDeg.back().begin(), out.anglesDeg.back().end(), [](double deg) {
+          return std::isfinite(deg);
+        }))
+      out.trouble = "joint angles that are missing or no numbers" + inFrame(i);
+  }
+  return out;
+}
+
+std::optional<GraspSegment> longestTouch(const Profile& profile,
+                                         const GraspSegment& grasp,
+                                         const std::array<std::size_t, 2>& pads) {
+  std::size_t longest = 0, run = 0, end = 0;
+  TactileFrame frame;
+  for (std::size_t i = grasp.begin; i <= grasp.end; ++i) {
+    profile.readFrame(i, frame);
+    const TactileFrame& values = frame;
+    const bool both = (values.matrix(pads[0]).array() > 0.0F).any() &&
+                      (values.matrix(pads[1]).array() > 0.0F).any();
+    run = both ? run + 1 : 0;
+    if (run > longest) {
+      longest = run;
+      end = i;
+    }
+  }
+  if (longest < kFewestPinchFrames) return std::nullopt;
+  return GraspSegment{.begin = end + 1 - longest, .end = end, .fingers = {}};
+}
+
+}  // namespace palpate

@@ -1,0 +1,378 @@
+#include "palpate/recognition/session_offset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+#include "palpate/core/number_text.h"
+#include "palpate/recognition/day_features.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+double lnSumExp(const Eigen::VectorXd& values) {
+  const double largest = values.maxCoeff();
+  if (!std::isfinite(largest)) return largest;
+  return largest + std::log((values.array() - largest).exp().sum());
+}
+
+// ln of the distribution.
+Eigen::VectorXd lnOf(const SessionOffset& offset) {
+  Eigen::VectorXd out(static_cast<Eigen::Index>(offset.probability.size()));
+  for (std::size_t i = 0; i < offset.probability.size(); ++i)
+    out[static_cast<Eigen::Index>(i)] =
+        offset.probability[i] > 0.0 ? std::log(offset.probability[i]) : kNever;
+  return out;
+}
+
+void setDistribution(SessionOffset& offset, const Eigen::VectorXd& ln) {
+  const double total = lnSumExp(ln);
+  offset.probability.clear();
+  for (const double value : ln) offset.probability.push_back(std::exp(value - total));
+  offset.mm = 0.0;
+  for (std::size_t i = 0; i < offset.gridMm.size(); ++i)
+    offset.mm += offset.probability[i] * offset.gridMm[i];
+  double variance = 0.0;
+  for (std::size_t i = 0; i < offset.gridMm.size(); ++i)
+    variance +=
+        offset.probability[i] * (offset.gridMm[i] - offset.mm) * (offset.gridMm[i] - offset.mm);
+  offset.sdMm = std::sqrt(variance);
+}
+
+SessionOffset bellOffset(double mm, double sdMm, const SessionOffsetOptions& options) {
+  SessionOffset out;
+  const auto steps = static_cast<int>(std::lround(options.reachMm / options.stepMm));
+  Eigen::VectorXd ln(2 * steps + 1);
+  for (int i = -steps; i <= steps; ++i) {
+    out.gridMm.push_back(i * options.stepMm);
+    const double away = (out.gridMm.back() - mm) / sdMm;
+    ln[i + steps] = -0.5 * away * away;
+  }
+  setDistribution(out, ln);
+  return out;
+}
+
+SessionOffset oneValue(double mm, OffsetOrigin origin) {
+  SessionOffset out;
+  out.mm = mm;
+  out.origin = origin;
+  out.gridMm = {mm};
+  out.probability = {1.0};
+  return out;
+}
+
+// ln p(x | class, offset): one column per place of the grid, one row per class.
+Eigen::MatrixXd overGrid(const DayModel& model,
+                         const Eigen::VectorXd& x,
+                         const SessionOffset& offset) {
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(model.numClasses()),
+                      static_cast<Eigen::Index>(offset.gridMm.size()));
+  for (std::size_t i = 0; i < offset.gridMm.size(); ++i)
+    out.col(static_cast<Eigen::Index>(i)) = model.logLikelihoods(x, offset.gridMm[i]);
+  return out;
+}
+
+// Distance of two classes in everything but size, as grasps of one class scatter, today and on another day.
+class ShapeDistance {
+ public:
+  explicit ShapeDistance(const DayModel& model) : model_(model) {
+    for (std::size_t f = 0; f < model.numFeatures(); ++f)
+      if (f != model.data().sizeColumn) columns_.push_back(static_cast<Eigen::Index>(f));
+    Eigen::MatrixXd scatter =
+        Eigen::MatrixXd::Zero(model.data().pooled.rows(), model.data().pooled.cols());
+    for (const DayBell& bell : model.data().bells) scatter += bell.scatter;
+    scatter /= static_cast<double>(model.numClasses());
+    scatter_.compute(scatter(columns_, columns_));
+  }
+  double operator()(std::size_t a, std::size_t b) const {
+    if (columns_.empty()) return 0.0;
+    const Eigen::VectorXd apart =
+        (model_.data().bells[a].mean - model_.data().bells[b].mean)(columns_);
+    return std::sqrt(apart.dot(scatter_.solve(apart)));
+  }
+
+ private:
+  const DayModel& model_;
+  std::vector<Eigen::Index> columns_;
+  Eigen::LDLT<Eigen::MatrixXd> scatter_;
+};
+
+// Different objects: classes that were told with certainty in enough grasps, and can't be taken for one another by a wrong
+// offset.
+std::size_t objectsIn(const DayModel& model,
+                      const std::vector<std::pair<std::size_t, double>>& told,
+                      const SessionOffsetOptions& options) {
+  std::vector<std::size_t> times(model.numClasses(), 0);
+  for (const auto& [best, probability] : told)
+    if (probability >= options.objectProbability) ++times[best];
+  // One stray grasp among many is no object.
+  constexpr double kStray = 0.15;
+  const auto needed = static_cast<std::size_t>(
+      std::clamp(std::ceil(kStray * static_cast<double>(told.size())), 1.0, 2.0));
+  const auto column = model.data().sizeColumn;
+  const auto sizeOf = [&](std::size_t c) {
+    return column ? distanceOfSizeZ(model.data().bells[c].mean[static_cast<Eigen::Index>(*column)])
+                  : 0.0;
+  };
+  const ShapeDistance shapeDistance(model);
+  std::vector<std::size_t> different;
+  for (std::size_t c = 0; c < times.size(); ++c)
+    if (times[c] >= needed &&
+        std::all_of(different.begin(), different.end(), [&](std::size_t other) {
+          return std::abs(sizeOf(c) - sizeOf(other)) > options.objectGapMm ||
+                 shapeDistance(c, other) > options.objectDistance;
+        }))
+      different.push_back(c);
+  return different.size();
+}
+
+void setTrust(SessionOffset& offset, const SessionOffsetOptions& options) {
+  offset.trusted =
+      offset.sdMm <= options.largestSdMm &&
+      (offset.objects >= options.fewestObjects || offset.origin == OffsetOrigin::kEmptyHand);
+}
+
+void requireColumns(const DayModel& model, const Eigen::MatrixXd& x) {
+  if (static_cast<std::size_t>(x.cols()) != model.numFeatures())
+    throw std::invalid_argument("session offset: " + std::to_string(x.cols()) + " values for " +
+                                std::to_string(model.numFeatures()) + " features");
+}
+
+// What is already known for certain stays so.
+bool isFixed(const SessionOffset& before) { return before.gridMm.size() < 2; }
+
+}  // namespace
+
+std::string_view offsetOriginName(OffsetOrigin origin) noexcept {
+  switch (origin) {
+    case OffsetOrigin::kNone:
+      return "none";
+    case OffsetOrigin::kUnknown:
+      return "unknown";
+    case OffsetOrigin::kGiven:
+      return "given";
+    case OffsetOrigin::kBatch:
+      return "batch";
+    case OffsetOrigin::kReferences:
+      return "references";
+    default:
+      return "empty_hand";
+  }
+}
+
+void SessionOffsetOptions::validate() const {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(std::string("SessionOffsetOptions: ") + what);
+  };
+  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+  require(positive(priorSdMm), "priorSdMm must be > 0");
+  require(positive(reachMm) && reachMm <= 100.0, "reachMm must be above 0, up to 100");
+  require(positive(stepMm) && stepMm <= reachMm && reachMm / stepMm <= 10000.0,
+          "stepMm must be above 0, up to reachMm");
+  require(batchWeight >= 0.0 && batchWeight <= 1.0, "batchWeight must be 0..1");
+  require(positive(floorNats), "floorNats must be > 0");
+  require(positive(mostReferences), "mostReferences must be > 0");
+  require(objectGapMm >= 0.0 && std::isfinite(objectGapMm), "objectGapMm must be >= 0");
+  require(positive(objectDistance), "objectDistance must be > 0");
+  require(objectProbability >= 0.0 && objectProbability <= 1.0, "objectProbability must be 0..1");
+  require(positive(largestSdMm), "largestSdMm must be > 0");
+}
+
+void VerdictOptions::validate() const {
+  if (!std::isfinite(leastKnown))
+    throw std::invalid_argument("VerdictOptions: leastKnown must be a number");
+  if (!(sureProbability >= 0.5 && sureProbability <= 1.0))
+    throw std::invalid_argument("VerdictOptions: sureProbability must be 0.5..1");
+}
+
+std::string SessionOffset::text() const {
+  if (origin == OffsetOrigin::kNone)
+    return "no session offset: the hand is taken to read as it did in training";
+  if (origin == OffsetOrigin::kUnknown)
+    return "the session offset is not known (+- " + fixedText(sdMm, 1) + " mm)";
+  std::string out = "today the hand reads " + fixedText(std::abs(mm), 1) + " mm " +
+                    (mm < 0.0 ? "small" : "large") + " (";
+  if (sdMm > 0.0) out += "+- " + fixedText(sdMm, 1) + " mm, ";
+  if (origin == OffsetOrigin::kGiven) return out + "given)";
+  if (origin == OffsetOrigin::kEmptyHand && objects == 0) return out + "from the empty hand)";
+  return out + "from " + std::to_string(objects) + (objects == 1 ? " object" : " objects") + ")" +
+         (trusted ? "" : "; that is not enough to be sure of anything");
+}
+
+SessionOffset noOffset() { return oneValue(0.0, OffsetOrigin::kNone); }
+
+SessionOffset unknownOffset(const SessionOffsetOptions& options) {
+  options.validate();
+  SessionOffset out = bellOffset(0.0, options.priorSdMm, options);
+  out.origin = OffsetOrigin::kUnknown;
+  return out;
+}
+
+SessionOffset givenOffset(double mm, double sdMm) {
+  if (!std::isfinite(mm) || !(sdMm >= 0.0 && std::isfinite(sdMm)))
+    throw std::invalid_argument("givenOffset: a value that is no number, or an error below 0");
+  if (sdMm == 0.0) {
+    SessionOffset out = oneValue(mm, OffsetOrigin::kGiven);
+    out.trusted = true;
+    return out;
+  }
+  return measuredOffset(mm, sdMm, OffsetOrigin::kGiven);
+}
+
+SessionOffset measuredOffset(double mm,
+                             double sdMm,
+                             OffsetOrigin origin,
+                             const SessionOffsetOptions& options) {
+  options.validate();
+  if (!std::isfinite(mm) || !(sdMm > 0.0 && std::isfinite(sdMm)))
+    throw std::invalid_argument(
+        "measuredOffset: a value that is no number, or an error not above 0");
+  // Far away, or finer than the grid: one that fits.
+  SessionOffsetOptions grid = options;
+  grid.reachMm = std::max(options.reachMm, std::min(100.0, std::abs(mm) + 4.0 * sdMm));
+  grid.stepMm = std::max(grid.reachMm / 10000.0, std::min(options.stepMm, sdMm / 2.0));
+  SessionOffset out = bellOffset(mm, sdMm, grid);
+  out.mm = mm;
+  out.sdMm = sdMm;
+  out.origin = origin;
+  out.trusted = sdMm <= options.largestSdMm &&
+                (origin == OffsetOrigin::kEmptyHand || origin == OffsetOrigin::kGiven);
+  return out;
+}
+
+SessionOffset offsetFromBatch(const DayModel& model,
+                              const Eigen::MatrixXd& x,
+                              const SessionOffset& before,
+                              const SessionOffsetOptions& options) {
+  options.validate();
+  requireColumns(model, x);
+  SessionOffset out = before;
+  const Eigen::VectorXd known = lnOf(before);
+  Eigen::VectorXd ln = known;
+  std::vector<Eigen::MatrixXd> all;
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    all.push_back(overGrid(model, x.row(i).transpose(), before));
+    Eigen::VectorXd speaks(known.size());
+    for (Eigen::Index o = 0; o < known.size(); ++o)
+      speaks[o] = lnSumExp(all.back().col(o)) - std::log(static_cast<double>(model.numClasses()));
+    const double best = speaks.maxCoeff();
+    ln += options.batchWeight * speaks.cwiseMax(best - options.floorNats);
+  }
+  if (!isFixed(before)) {
+    setDistribution(out, ln);
+    if (out.origin != OffsetOrigin::kEmptyHand && out.origin != OffsetOrigin::kReferences)
+      out.origin = OffsetOrigin::kBatch;
+  }
+  // What was told with what is known now.
+  const Eigen::VectorXd now = lnOf(out);
+  std::vector<std::pair<std::size_t, double>> told;
+  for (const Eigen::MatrixXd& likelihoods : all) {
+    Eigen::VectorXd scores(likelihoods.rows());
+    for (Eigen::Index c = 0; c < scores.size(); ++c)
+      scores[c] = lnSumExp(likelihoods.row(c).transpose() + now);
+    Eigen::Index best = 0;
+    const double largest = scores.maxCoeff(&best);
+    told.emplace_back(static_cast<std::size_t>(best), std::exp(largest - lnSumExp(scores)));
+  }
+  out.grasps = before.grasps + told.size();
+  out.objects = std::max(before.objects, objectsIn(model, told, options));
+  if (!isFixed(before)) setTrust(out, options);
+  return out;
+}
+
+SessionOffset offsetFromReferences(const DayModel& model,
+                                   const Eigen::MatrixXd& x,
+                                   const std::vector<int>& y,
+                                   const SessionOffset& before,
+                                   const SessionOffsetOptions& options) {
+  options.validate();
+  requireColumns(model, x);
+  if (static_cast<std::size_t>(x.rows()) != y.size())
+    throw std::invalid_argument("session offset: " + std::to_string(x.rows()) + " grasps with " +
+                                std::to_string(y.size()) + " labels");
+  SessionOffset out = before;
+  Eigen::VectorXd ln = lnOf(before);
+  std::vector<std::pair<std::size_t, double>> told;
+  for (std::size_t c = 0; c < model.numClasses(); ++c) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(ln.size());
+    double count = 0.0;
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      if (y[i] != static_cast<int>(c)) continue;
+      const Eigen::MatrixXd likelihoods =
+          overGrid(model, x.row(static_cast<Eigen::Index>(i)).transpose(), before);
+      sum += likelihoods.row(static_cast<Eigen::Index>(c)).transpose();
+      count += 1.0;
+      told.emplace_back(c, 1.0);
+    }
+    if (count > 0.0) ln += sum / count * std::min(count, options.mostReferences);
+  }
+  if (told.size() != y.size())
+    throw std::invalid_argument("session offset: a label that is no class of the model");
+  if (told.empty()) return out;
+  if (!isFixed(before)) {
+    setDistribution(out, ln);
+    out.origin = OffsetOrigin::kReferences;
+  }
+  out.grasps = before.grasps + told.size();
+  // Labels are certain: a single grasp of an object is one.
+  std::sort(told.begin(), told.end());
+  told.erase(std::unique(told.begin(), told.end()), told.end());
+  SessionOffsetOptions each = options;
+  each.objectProbability = 0.0;
+  std::vector<std::pair<std::size_t, double>> twice = told;
+  twice.insert(twice.end(), told.begin(), told.end());
+  out.objects = std::max(before.objects, objectsIn(model, twice, each));
+  if (!isFixed(before)) setTrust(out, options);
+  return out;
+}
+
+DayVerdict judge(const DayModel& model,
+                 const Eigen::VectorXd& x,
+                 const SessionOffset& offset,
+                 const VerdictOptions& options) {
+  options.validate();
+  if (offset.gridMm.empty() || offset.gridMm.size() != offset.probability.size())
+    throw std::invalid_argument("judge: an offset without a distribution");
+  const Eigen::VectorXd ln = lnOf(offset);
+  const Eigen::MatrixXd likelihoods = overGrid(model, x, offset);
+  Eigen::VectorXd scores(likelihoods.rows());
+  for (Eigen::Index c = 0; c < scores.size(); ++c)
+    scores[c] = lnSumExp(likelihoods.row(c).transpose() + ln);
+  Eigen::VectorXd background(ln.size());
+  for (std::size_t i = 0; i < offset.gridMm.size(); ++i)
+    background[static_cast<Eigen::Index>(i)] =
+        model.logBackground(x, offset.gridMm[i]) + ln[static_cast<Eigen::Index>(i)];
+
+  DayVerdict out;
+  out.knownness = scores.maxCoeff() - lnSumExp(background);
+  out.unknown = !(out.knownness >= options.leastKnown);
+  const Eigen::VectorXd weighed = scores + model.logPrior();
+  out.probability = (weighed.array() - lnSumExp(weighed)).exp();
+  out.ranking.resize(static_cast<std::size_t>(scores.size()));
+  std::iota(out.ranking.begin(), out.ranking.end(), std::size_t{0});
+  std::stable_sort(out.ranking.begin(), out.ranking.end(), [&](std::size_t a, std::size_t b) {
+    return weighed[static_cast<Eigen::Index>(a)] > weighed[static_cast<Eigen::Index>(b)];
+  });
+  out.sure =
+      offset.trusted && !out.unknown && out.probability.maxCoeff() >= options.sureProbability;
+  return out;
+}
+
+std::vector<DayVerdict> judgeAll(const DayModel& model,
+                                 const Eigen::MatrixXd& x,
+                                 const SessionOffset& offset,
+                                 const VerdictOptions& options) {
+  std::vector<DayVerdict> out;
+  for (Eigen::Index i = 0; i < x.rows(); ++i)
+    out.push_back(judge(model, x.row(i).transpose(), offset, options));
+  return out;
+}
+
+}  // namespace palpate

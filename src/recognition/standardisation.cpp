@@ -1,0 +1,44 @@
+#include "palpate/recognition/standardisation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace palpate {
+namespace {
+
+constexpr double kConstant = 1e-12;  // an sd below this share of the magnitude is rounding
+
+void requireFeatures(Eigen::Index given, Eigen::Index fitted) {
+  if (given != fitted)
+    throw std::invalid_argument("Standardisation: " + std::to_string(given) +
+                                " features, fitted to " + std::to_string(fitted));
+}
+
+}  // namespace
+
+Standardisation Standardisation::of(const Eigen::MatrixXd& x) {
+  if (x.rows() == 0) throw std::invalid_argument("Standardisation: no sample");
+  Standardisation fitted;
+  fitted.mean = x.colwise().mean().transpose();
+  fitted.scale.resize(x.cols());
+  for (Eigen::Index column = 0; column < x.cols(); ++column) {
+    const double sd = std::sqrt((x.col(column).array() - fitted.mean[column]).square().mean());
+    const double largest = x.col(column).cwiseAbs().maxCoeff();
+    fitted.scale[column] = sd > kConstant * largest ? 1.0 / sd : 0.0;
+  }
+  return fitted;
+}
+
+Eigen::MatrixXd Standardisation::apply(const Eigen::MatrixXd& x) const {
+  requireFeatures(x.cols(), mean.size());
+  return (x.rowwise() - mean.transpose()) * scale.asDiagonal();
+}
+
+Eigen::VectorXd Standardisation::applyRow(const Eigen::VectorXd& row) const {
+  requireFeatures(row.size(), mean.size());
+  return (row - mean).cwiseProduct(scale);
+}
+
+}  // namespace palpate

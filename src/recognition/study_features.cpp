@@ -1,0 +1,166 @@
+#include "palpate/recognition/study_features.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "palpate/kinematics/bounding_sphere.h"
+#include "palpate/recognition/chebyshev_moments.h"
+
+#include "recognition/pinch_frames.h"
+
+namespace palpate {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t kTail = 10;  // frames at the end that the end frame is chosen from
+constexpr std::size_t kHead = 10;  // frames at the begin that the initial frame is chosen from
+constexpr int kOrder = 4;
+
+double impressionMm(const std::vector<PadLoad>& loads, const PinchHand& hand) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 2; ++i) sum += loads[hand.pads[i]].largest / hand.largestCounts[i];
+  return sum;
+}
+
+// D_k of the frames of a grasp: the diameter of the smallest sphere around the centroids of all matrices that touch.
+class Diameters {
+ public:
+  Diameters(const PinchFrames& frames, const PinchHand& hand) : frames_(frames), hand_(hand) {}
+
+  // The exact value, or any value above `enough` where it is certain to be above.
+  double at(std::size_t k, double enough = std::numeric_limits<double>::infinity()) {
+    const auto& loads = frames_.loads[k];
+    hand_.studyGeometry->pose(frames_.anglesDeg[k], pose_);
+    const auto pointOf = [&](std::size_t m) {
+      return pose_.pointMm(m, loads[m].xMm, loads[m].yMm);
+    };
+    points_ = {pointOf(hand_.pads[0]), pointOf(hand_.pads[1])};
+    const double apart = (points_[0] - points_[1]).norm();
+    const double impression = impressionMm(loads, hand_);
+    for (std::size_t m = 0; m < loads.size(); ++m)
+      if (m != hand_.pads[0] && m != hand_.pads[1] && loads[m].sum > 0.0)
+        points_.push_back(pointOf(m));
+    // Any sphere around two points is at least as large as they are apart.
+    if (points_.size() == 2 || apart + impression > enough) return apart + impression;
+    return 2.0 * boundingSphere(points_)->radiusMm + impression;
+  }
+
+ private:
+  const PinchFrames& frames_;
+  const PinchHand& hand_;
+  HandPose pose_;
+  std::vector<Vector3d> points_;
+};
+
+// The two of the last frames whose diameters are nearest to their median (which lies in the middle between them), less one.
+std::array<std::size_t, 2> endFrames(const std::array<double, kTail>& diameters,
+                                     std::size_t count) {
+  std::array<std::pair<double, std::size_t>, kTail> tail;
+  for (std::size_t i = 0; i < kTail; ++i) tail[i] = {diameters[i], i};
+  std::sort(tail.begin(), tail.end());
+  const auto [first, last] = std::minmax(tail[kTail / 2 - 1].second, tail[kTail / 2].second);
+  return {count - 1 - kTail + first, count - 1 - kTail + last};
+}
+
+// D'_k: the distance of two points that stay where they are on the pads.
+double distanceAt(const PinchFrames& frames,
+                  const PinchHand& hand,
+                  std::size_t k,
+                  const std::vector<PadLoad>& at,
+                  HandPose& pose) {
+  hand.studyGeometry->pose(frames.anglesDeg[k], pose);
+  std::array<Vector3d, 2> points;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const PadLoad& load = at[hand.pads[i]];
+    points[i] = pose.pointMm(hand.pads[i], load.xMm, load.yMm);
+  }
+  return (points[0] - points[1]).norm() + impressionMm(frames.loads[k], hand);
+}
+
+double standardDeviation(const Eigen::MatrixXd& picture) {
+  double sum = 0.0, count = 0.0, squares = 0.0;
+  for (const double value : picture.reshaped()) {
+    if (!(value > 0.0)) continue;
+    sum += value;
+    count += 1.0;
+  }
+  if (count == 0.0) return 0.0;
+  const double mean = sum / count;
+  for (const double value : picture.reshaped())
+    if (value > 0.0) squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / count);
+}
+
+Eigen::MatrixXd pictureOf(const TactileFrame& frame, std::size_t pad, const PinchHand& hand) {
+  const ConstMatrixMap values = frame.matrix(pad);
+  const int left = (hand.pictureSize - static_cast<int>(values.cols())) / 2;
+  return inSquare(values.cast<double>() / hand.fullScaleCounts, hand.pictureSize, 0, left);
+}
+
+}  // namespace
+
+std::vector<std::string> studyFeatureNames(const PinchHand& hand) {
+  std::vector<std::string> names = {"diameter", "compressibility"};
+  for (const std::size_t pad : hand.pads) names.push_back("std_" + std::to_string(pad));
+  for (const std::size_t pad : hand.pads)
+    for (int p = 0; p <= kOrder; ++p)
+      for (int q = 0; q <= kOrder; ++q)
+        names.push_back("m" + std::to_string(pad) + "_T" + std::to_string(p) + std::to_string(q));
+  return names;
+}
+
+StudyFeatures studyFeatures(const Profile& profile,
+                            const GraspSegment& grasp,
+                            const PinchHand& hand,
+                            std::optional<std::size_t> endFrame) {
+  if (endFrame && (*endFrame < grasp.begin || *endFrame > grasp.end))
+    throw std::invalid_argument("studyFeatures: end frame " + std::to_string(*endFrame) +
+                                " outside of the grasp");
+  StudyFeatures out;
+  const PinchFrames frames = readPinch(profile, grasp, hand, true);
+  out.trouble = frames.trouble;
+  if (!out.trouble.empty()) return out;
+
+  const std::size_t count = frames.loads.size();
+  Diameters diameters(frames, hand);
+  std::array<double, kTail> last{};  // diameters of the last frames
+  for (std::size_t i = 0; i < kTail; ++i) last[i] = diameters.at(count - kTail + i);
+  const auto ends = endFrames(last, count);
+  const std::size_t end = endFrame ? *endFrame - grasp.begin : ends[0];
+  out.endFrame = grasp.begin + end;
+  out.otherEndFrame = grasp.begin + ends[1];
+
+  double diameter = *std::min_element(last.begin(), last.end());
+  for (std::size_t k = 0; k < count - kTail; ++k)
+    diameter = std::min(diameter, diameters.at(k, diameter));
+
+  HandPose pose;
+  std::size_t initial = 0;
+  double widest = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < kHead; ++k) {
+    const double distance = distanceAt(frames, hand, k, frames.loads[end], pose);
+    if (distance > widest) initial = k;
+    widest = std::max(widest, distance);
+  }
+  out.initialFrame = grasp.begin + initial;
+  out.values = {diameter, widest - distanceAt(frames, hand, end, frames.loads[end], pose)};
+
+  const TactileFrame frame = profile.frame(out.endFrame);
+  const ChebyshevPolynomials polynomials(hand.pictureSize, kOrder);
+  std::vector<double> moments;
+  for (const std::size_t pad : hand.pads) {
+    const Eigen::MatrixXd picture = pictureOf(frame, pad, hand);
+    out.values.push_back(standardDeviation(picture));
+    const auto found = chebyshevInvariants(picture, polynomials, PictureAngle::kStudy);
+    for (int p = 0; p <= kOrder; ++p)
+      for (int q = 0; q <= kOrder; ++q) moments.push_back(found.moments(p, q));
+  }
+  out.values.insert(out.values.end(), moments.begin(), moments.end());
+  return out;
+}
+
+}  // namespace palpate

@@ -1,0 +1,161 @@
+#include "palpate/recognition/trained_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/hash.h"
+#include "palpate/recognition/cross_validation.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kHalfDayUs = 12LL * 3600 * 1'000'000;
+constexpr std::size_t kBlocks = 5;
+constexpr double kKnownShare = 0.99;  // of known grasps that aren't called unknown
+
+bool within(const std::vector<ModelInput>& inputs, std::int64_t timeUs) {
+  return std::any_of(inputs.begin(), inputs.end(), [&](const ModelInput& input) {
+    return timeUs >= input.firstUs - kHalfDayUs && timeUs <= input.lastUs + kHalfDayUs;
+  });
+}
+
+// From grasps that did not teach: from which confidence on it is sure, from which novelty on unknown.
+void setThresholds(const SampleSet& samples, const ValidationReport& report, TrainedModel& model) {
+  std::vector<ConfidentAnswer> answers;
+  std::vector<double> novelty;
+  for (const ExaminedSample& one : report.examined) {
+    answers.push_back({one.confidence, one.called == samples.y[one.sample]});
+    novelty.push_back(one.novelty);
+  }
+  std::sort(novelty.begin(), novelty.end());
+  const auto last = static_cast<std::size_t>(kKnownShare * static_cast<double>(novelty.size() - 1));
+  model.mostNovelty = novelty[last];
+  model.sureConfidence = sureThreshold(answers);
+}
+
+Json validationJson(const ValidationReport& report) {
+  return Json::object()
+      .set("protocol", "B")
+      .set("accuracy_mean", report.accuracyMean)
+      .set("accuracy_sd", report.accuracySd)
+      .set("top3", report.top3)
+      .set("grasps", report.examined.size());
+}
+
+Verdict verdictOf(const DayVerdict& day) {
+  Verdict verdict;
+  for (const std::size_t c : day.ranking) {
+    verdict.ranking.push_back(static_cast<int>(c));
+    verdict.p.push_back(day.probability[static_cast<Eigen::Index>(c)]);
+  }
+  verdict.label = day.unknown ? Verdict::kUnknown : verdict.ranking.front();
+  verdict.confidence = verdict.p.front();
+  verdict.sure = day.sure;
+  verdict.novelty = -day.knownness;
+  return verdict;
+}
+
+}  // namespace
+
+bool TrainedModel::sameSession(std::int64_t timeUs) const noexcept {
+  return within(inputs, timeUs) || within(adaptedFrom, timeUs);
+}
+
+std::vector<ModelInput> inputsOf(const FeatureTable& table, const Progress& progress) {
+  std::vector<ModelInput> inputs;
+  std::map<std::string, std::size_t> place;
+  for (const FeatureRow& row : table.rows) {
+    const std::string name = row.file.string();
+    const auto [at, isNew] = place.emplace(name, inputs.size());
+    if (isNew) inputs.push_back({name, "", row.className, 0, row.timeUs, row.timeUs});
+    ModelInput& input = inputs[at->second];
+    ++input.grasps;
+    input.firstUs = std::min(input.firstUs, row.timeUs);
+    input.lastUs = std::max(input.lastUs, row.timeUs);
+  }
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (progress && !progress(static_cast<double>(i) / static_cast<double>(inputs.size())))
+      throw Cancelled();
+    inputs[i].sha256 = sha256OfFile(inputs[i].file);
+  }
+  return inputs;
+}
+
+TrainedModel trainModel(const SampleSet& samples,
+                        FeatureSet set,
+                        const std::string& sensor,
+                        PipelineOptions options,
+                        const Progress& progress) {
+  if (options.calibrationBlocks == 0) options.calibrationBlocks = kBlocks;
+  TrainedModel model;
+  model.sensor = sensor;
+  model.set = set;
+  model.features = samples.features;
+  model.classes = samples.classes;
+  model.pipeline = ClassifierPipeline::of(samples, options);
+  // Too few grasps for blocks: a model all the same, but one that is never sure.
+  const auto splits = blockSplits(samples.y, options.calibrationBlocks);
+  const auto reports = splits.empty() ? std::vector<ValidationReport>()
+                                      : crossValidateAll(samples, {options}, splits, 0, progress);
+  if (reports.empty() || reports.front().examined.empty()) {
+    model.mostNovelty = 1e9;
+    return model;
+  }
+  setThresholds(samples, reports.front(), model);
+  model.validation = validationJson(reports.front());
+  return model;
+}
+
+std::vector<Verdict> classifyRows(const TrainedModel& model,
+                                  const Eigen::MatrixXd& x,
+                                  const SessionOffset& offset,
+                                  bool sameSession) {
+  std::vector<Verdict> verdicts;
+  if (x.rows() == 0) return verdicts;
+  if (model.pipeline.day) {
+    SessionOffset used = offset;
+    if (used.origin == OffsetOrigin::kNone && sameSession) used.trusted = true;
+    for (const DayVerdict& day : judgeAll(*model.pipeline.day, x, used))
+      verdicts.push_back(verdictOf(day));
+    return verdicts;
+  }
+  const Eigen::MatrixXd p = model.pipeline.probabilities(x);
+  const Eigen::VectorXd novelty = model.pipeline.noveltyOf(x);
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    Verdict verdict;
+    verdict.ranking = rankedClasses(p.row(i).transpose());
+    for (const int c : verdict.ranking) verdict.p.push_back(p(i, c));
+    verdict.novelty = novelty[i];
+    verdict.confidence = verdict.p.front();
+    const bool known = novelty[i] <= model.mostNovelty;
+    verdict.label = known ? verdict.ranking.front() : Verdict::kUnknown;
+    verdict.sure = known && sameSession && verdict.confidence >= model.sureConfidence;
+    verdicts.push_back(std::move(verdict));
+  }
+  return verdicts;
+}
+
+void requireFits(const TrainedModel& model, const FeatureTable& table) {
+  if (!table.sensor.empty() && table.sensor != model.sensor)
+    throw Error("the model was trained on another sensor: " + model.sensor + "; this one has " +
+                table.sensor);
+  if (table.names != model.features)
+    throw Error("the model's features aren't those that this version computes for the set '" +
+                std::string(featureSetName(model.set)) + "': train it anew");
+}
+
+void adaptModel(TrainedModel& model, const SampleSet& today) {
+  if (!model.pipeline.day)
+    throw Error("a model of classifier " + std::string(classifierName(model.pipeline.classifier)) +
+                " can't adapt to a day: train one with --classifier gauss");
+  if (today.numSamples() == 0) throw Error("there is no grasp to adapt to");
+  DayModel& day = *model.pipeline.day;
+  model.offset = offsetFromReferences(day, today.x, today.y);
+  day.addToday(today.x, today.y, model.offset.mm);
+}
+
+}  // namespace palpate

@@ -1,0 +1,70 @@
+// Folders of recordings as train, evaluate, adapt and classify take them: made-up grasps of things that differ in size.
+#pragma once
+
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "palpate/model/profile_builder.h"
+#include "palpate/recording/recording.h"
+
+#include "commands/palpate_program.h"
+#include "recognition/pinch_profile.h"
+
+namespace palpate::testing {
+
+constexpr std::int64_t kOneDayUs = 24LL * 3600 * 1'000'000;
+
+// One recording with so many grasps of a thing of `gapMm`: sizes scatter by .3 mm, forces by 5 %.
+inline void saveGrasps(const std::filesystem::path& path,
+                       double gapMm,
+                       int grasps,
+                       unsigned seed,
+                       std::int64_t startUs = kPinchStartUs) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  ProfileBuilder builder(sdh2().layout);
+  std::int64_t nowUs = startUs;
+  const auto add = [&](double gap, double force) {
+    TactileFrame frame(sdh2().layout);
+    if (force > 0.0)
+      for (int y = 8; y < 12; ++y)
+        for (int x = 1; x < 5; ++x) {
+          const double near = 1.0 / (1.0 + (y - 10) * (y - 10) + (x - 2) * (x - 2));
+          frame.matrix(1)(y, x) = static_cast<float>(std::round(1500.0 * force * near));
+          frame.matrix(5)(y, 5 - x) = static_cast<float>(std::round(600.0 * force * near));
+        }
+    builder.addFrame(nowUs, frame.values);
+    builder.addAngles(nowUs, anglesForGap(gap));
+    nowUs += kPinchPeriodUs;
+  };
+  for (int g = 0; g < grasps; ++g) {
+    const double gap = gapMm + 0.3 * normal(random), force = 1.0 + 0.05 * normal(random);
+    for (int i = 0; i < 10; ++i) add(gap + 10.0 - i, 0.0);
+    for (int i = 0; i < 30; ++i)
+      add(gap, force * std::min(1.0, 0.2 + 0.1 * i) + 0.01 * normal(random));
+    for (int i = 0; i < 5; ++i) add(gap + 10.0, 0.0);
+  }
+  std::filesystem::create_directories(path.parent_path());
+  saveRecording(builder.finish({}), {}, path);
+}
+
+struct MadeThing {
+  const char* folder;
+  double gapMm;
+};
+constexpr MadeThing kThings[] = {
+    {"pen", 8.0}, {"small_box", 16.0}, {"golf_ball", 24.0}, {"bottle", 32.0}};
+
+// A folder per thing, read `offsetMm` too wide.
+inline void saveThings(const std::filesystem::path& folder,
+                       int grasps,
+                       unsigned seed,
+                       double offsetMm = 0.0,
+                       std::int64_t startUs = kPinchStartUs) {
+  for (const MadeThing& thing : kThings)
+    saveGrasps(folder / thing.folder / "a.dsa", thing.gapMm + offsetMm, grasps, ++seed, startUs);
+}
+
+}  // namespace palpate::testing

@@ -1,0 +1,126 @@
+#include "palpate/recognition/empty_hand.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "palpate/core/error.h"
+#include "palpate/emulator/simulated_recording.h"
+#include "palpate/recognition/day_features.h"
+#include "palpate/recognition/grasp_features.h"
+
+#include "recognition/pinch_profile.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+using testing::pinchProfile;
+using testing::PinchStep;
+
+// The pads of an empty hand touch `touches` times for 30 frames, each with 1000 counts; the joints say `gapMm`.
+Profile touches(int count, double gapMm, double stepMm = 0.0) {
+  std::vector<PinchStep> steps(10, {gapMm + 10.0});
+  for (int i = 0; i < count; ++i) {
+    steps.insert(steps.end(), 30, {gapMm + i * stepMm, 1000.0F, 1000.0F});
+    steps.insert(steps.end(), 10, {gapMm + 10.0});
+  }
+  return pinchProfile(steps);
+}
+
+TEST(EmptyHand, WhatTheJointsSayWhileThePadsTouchIsTheZero) {
+  const EmptyHandZero zero = emptyHandZero(touches(1, -3.0));
+  ASSERT_EQ(zero.trouble, "");
+  EXPECT_NEAR(zero.foamMm, 1.6, 1e-9) << "0.8 mm on each side";
+  EXPECT_NEAR(zero.mm, -3.0 + 1.6, 1e-6);
+  EXPECT_EQ(zero.touches, 1u);
+  EXPECT_NEAR(zero.sdMm, 0.25, 1e-12);
+  // Several: their mean; their own scatter where it is larger than what is known of touches.
+  const EmptyHandZero three = emptyHandZero(touches(3, -3.0, 1.0));
+  EXPECT_NEAR(three.mm, -2.0 + 1.6, 1e-6);
+  EXPECT_NEAR(three.sdMm, 1.0 / std::sqrt(3.0), 1e-6);
+}
+
+TEST(EmptyHand, TheDifferenceOfTwoDaysIsTheOffset) {
+  const SessionOffset offset =
+      emptyHandOffset(emptyHandZero(touches(2, -5.0)), emptyHandZero(touches(2, -1.0)));
+  EXPECT_NEAR(offset.mm, -4.0, 1e-6);
+  EXPECT_NEAR(offset.sdMm, 0.25, 1e-9) << "two times .25 / sqrt 2";
+  EXPECT_EQ(offset.origin, OffsetOrigin::kEmptyHand);
+  EXPECT_TRUE(offset.trusted);
+  // Pressed harder than in training, the foam's error comes in: half of .8 * 2 (sqrt 2 - 1).
+  EmptyHandZero harder = emptyHandZero(touches(2, -5.0));
+  harder.foamMm = 1.6 * std::sqrt(2.0);
+  const double foam = 0.5 * 1.6 * (std::sqrt(2.0) - 1.0);
+  EXPECT_NEAR(
+      emptyHandOffset(harder, emptyHandZero(touches(2, -1.0))).sdMm, std::hypot(0.25, foam), 1e-9);
+}
+
+TEST(EmptyHand, WhatIsNoTouchIsSaid) {
+  EXPECT_EQ(emptyHandZero(touches(0, 0.0)).trouble,
+            "no touch: the pads never touch for more than 20 frames in a row");
+  EXPECT_EQ(emptyHandZero(touches(1, 30.0)).trouble,
+            "the pads seem to be 31.6 mm apart while they touch: the hand isn't empty, or its "
+            "joints are far off");
+  EXPECT_EQ(emptyHandZero(pinchProfile({30, {0.0, 100.0F, 100.0F}}, false)).trouble,
+            "no joint angles");
+  EXPECT_NE(emptyHandZero(testing::otherSensorProfile(30)).trouble, "");
+  EXPECT_THROW(emptyHandOffset(EmptyHandZero{}, emptyHandZero(touches(1, 0.0))),
+               std::invalid_argument);
+  EXPECT_THROW(emptyHandZero(touches(1, 0.0), sdh2PinchHand(), {}, [](double) { return false; }),
+               Cancelled);
+  EmptyHandOptions options;
+  options.touchSdMm = 0.0;
+  EXPECT_THROW(options.validate(), std::invalid_argument);
+}
+
+TEST(EmptyHand, TravelsThroughAFile) {
+  const EmptyHandZero zero = emptyHandZero(touches(2, -3.0, 0.1));
+  const EmptyHandZero back = emptyHandZeroFrom(Json::parse(emptyHandZeroJson(zero).text()));
+  EXPECT_EQ(back.mm, zero.mm);
+  EXPECT_EQ(back.sdMm, zero.sdMm);
+  EXPECT_EQ(back.foamMm, zero.foamMm);
+  EXPECT_EQ(back.touches, zero.touches);
+  EXPECT_THROW(emptyHandZeroFrom(Json::object()), Error);
+  EXPECT_THROW(emptyHandZeroFrom(emptyHandZeroJson(zero).set("sd_mm", 0.0)), Error);
+}
+
+// The emulated hand, whose joints are referenced wrongly today: one touch of the empty hand tells by how much its sizes are off.
+TEST(EmptyHand, OneTouchOfTheEmulatedHandTellsTheOffsetOfTheDay) {
+  Scene empty, pinch;
+  empty.preshape = "pinch-empty";
+  empty.script = {{0.5, GraspAction{std::nullopt, 1.0, 20.0}}};
+  SceneObject cylinder;
+  cylinder.shape = {ShapeKind::kCylinder, {40.0, 40.0, 120.0}};
+  cylinder.positionMm = {19.05, 0.0, 150.0};
+  pinch.objects = {cylinder};
+  pinch.preshape = "pinch-parallel";
+  pinch.script = {{0.5, GraspAction{std::nullopt, 1.0, 20.0}}};
+  const auto sizeOf = [&](const SimulatedRecordingOptions& day) {
+    const Profile profile = simulateRecording(pinch, day);
+    const auto grasps = findPinches(profile);
+    EXPECT_EQ(grasps.size(), 1u);
+    return grasps.empty() ? 0.0 : dayFeatures(profile, grasps[0]).distanceMm;
+  };
+  SimulatedRecordingOptions training;
+  training.durationS = 9.0;
+  const EmptyHandZero before = emptyHandZero(simulateRecording(empty, training));
+  ASSERT_EQ(before.trouble, "");
+  const double trueMm = sizeOf(training);
+  for (const double errorDeg : {-1.5, 0.8}) {
+    SimulatedRecordingOptions today = training;
+    today.hand.seed = 9;
+    today.hand.zeroErrorDeg = {0, errorDeg, 0, 0, 0, errorDeg, 0};
+    const EmptyHandZero zero = emptyHandZero(simulateRecording(empty, today));
+    ASSERT_EQ(zero.trouble, "");
+    const SessionOffset offset = emptyHandOffset(zero, before);
+    const double offMm = sizeOf(today) - trueMm;
+    EXPECT_GT(std::abs(offMm), 1.5) << "the day differs";
+    EXPECT_NEAR(offset.mm, offMm, 0.8) << errorDeg;
+    EXPECT_TRUE(offset.trusted);
+  }
+}
+
+}  // namespace
+}  // namespace palpate

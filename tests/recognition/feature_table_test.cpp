@@ -1,0 +1,115 @@
+#include "palpate/recognition/feature_table.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "palpate/core/error.h"
+#include "palpate/recording/recording.h"
+
+#include "recognition/pinch_profile.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+namespace fs = std::filesystem;
+
+using testing::pinchProfile;
+using testing::PinchStep;
+using testing::TemporaryFolder;
+
+void saveGrasps(const fs::path& path, int grasps, bool withAngles = true) {
+  std::vector<PinchStep> steps(10, {60.0});
+  for (int i = 0; i < grasps; ++i) {
+    steps.insert(steps.end(), 30, {50.0 + i, 1000.0F, 400.0F});
+    steps.insert(steps.end(), 10, {60.0});
+  }
+  fs::create_directories(path.parent_path());
+  saveRecording(pinchProfile(steps, withAngles), {}, path);
+}
+
+TEST(FeatureTable, ClassesAreTheNamesOfFolders) {
+  const TemporaryFolder folder;
+  saveGrasps(folder / "all/golf_ball/b.dsa", 2);
+  saveGrasps(folder / "all/golf_ball/deeper/a.palpate", 1);
+  saveGrasps(folder / "all/pen/a.dsa", 1);
+  saveGrasps(folder / "all/alone.dsa", 1);
+  const FeatureTable table = gatherFeatures({folder / "all"});
+  EXPECT_EQ(table.troubles, std::vector<std::string>{});
+  EXPECT_EQ(table.numFiles, 4u);
+  ASSERT_EQ(table.rows.size(), 5u);
+  EXPECT_EQ(table.rows[0].className, "all");
+  EXPECT_EQ(table.rows[0].file, folder / "all/alone.dsa");
+  EXPECT_EQ(table.rows[1].className, "golf ball");
+  EXPECT_EQ(table.rows[2].begin, 50u) << "the second of one file";
+  EXPECT_GT(table.rows[2].timeUs, table.rows[1].timeUs);
+  EXPECT_EQ(table.rows[3].className, "golf ball");
+  EXPECT_EQ(table.rows[4].className, "pen");
+  EXPECT_EQ(table.classes(), (std::vector<std::string>{"all", "golf ball", "pen"}));
+  EXPECT_EQ(table.column("size_z"), 0u);
+  EXPECT_FALSE(table.column("nothing").has_value());
+  EXPECT_EQ(table.sensor, sensorText(*sdh2().layout));
+  // A file alone has no class; a folder of a class is its class.
+  EXPECT_EQ(gatherFeatures({folder / "all/pen/a.dsa"}).rows[0].className, "");
+  EXPECT_EQ(gatherFeatures({folder / "all/golf_ball/"}).classes(),
+            (std::vector<std::string>{"deeper", "golf ball"}));
+}
+
+TEST(FeatureTable, DoesNotDependOnThreads) {
+  const TemporaryFolder folder;
+  for (int i = 0; i < 6; ++i) saveGrasps(folder / ("c/f" + std::to_string(i) + ".dsa"), 1 + i % 2);
+  const auto valuesWith = [&](std::size_t threads) {
+    std::vector<std::vector<double>> values;
+    for (const FeatureRow& row :
+         gatherFeatures({folder.path()}, {.set = FeatureSet::kStudy, .threads = threads}).rows)
+      values.push_back(row.values);
+    return values;
+  };
+  EXPECT_EQ(valuesWith(1), valuesWith(4));
+  EXPECT_EQ(valuesWith(1).size(), 9u);
+}
+
+TEST(FeatureTable, OneBadFileDoesNotStopTheOthers) {
+  const TemporaryFolder folder;
+  saveGrasps(folder / "x/good.dsa", 1);
+  saveGrasps(folder / "x/empty.dsa", 0);
+  saveGrasps(folder / "x/noangles.dsa", 1, false);
+  testing::writeFile(folder / "x/bad.dsa", "no recording");
+  const FeatureTable table = gatherFeatures({folder / "x"});
+  ASSERT_EQ(table.rows.size(), 1u);
+  EXPECT_EQ(table.rows[0].file, folder / "x/good.dsa");
+  EXPECT_EQ(table.numFiles, 4u);
+  EXPECT_EQ(table.failedFiles, 1u);
+  EXPECT_EQ(table.failedGrasps, 1u);
+  ASSERT_EQ(table.troubles.size(), 3u);
+  EXPECT_NE(table.troubles[0].find("bad.dsa"), std::string::npos);
+  EXPECT_NE(table.troubles[1].find("empty.dsa: no grasp"), std::string::npos);
+  EXPECT_NE(table.troubles[2].find("noangles.dsa: grasp 10..39: no joint angles"),
+            std::string::npos);
+}
+
+TEST(FeatureTable, NothingThereIsSaid) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(gatherFeatures({folder / "missing"}), FileError);
+  fs::create_directories(folder / "hollow");
+  const FeatureTable table = gatherFeatures({folder / "hollow"});
+  EXPECT_TRUE(table.rows.empty());
+  ASSERT_EQ(table.troubles.size(), 1u);
+  EXPECT_EQ(table.sensor, "");
+}
+
+TEST(FeatureTable, CanBeCancelled) {
+  const TemporaryFolder folder;
+  saveGrasps(folder / "x/a.dsa", 1);
+  EXPECT_THROW(gatherFeatures({folder / "x"}, {}, [](double) { return false; }), Cancelled);
+}
+
+TEST(FeatureTable, NamesOfClasses) {
+  EXPECT_EQ(classOfFolder("a/golf_ball"), "golf ball");
+  EXPECT_EQ(classOfFolder("a/ping-pong_ball/"), "ping-pong ball");
+  EXPECT_EQ(classOfFolder("."), classOfFolder(fs::current_path()));
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,112 @@
+#include "palpate/recognition/grasp_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "palpate/core/error.h"
+#include "palpate/recognition/day_features.h"
+#include "palpate/recognition/study_features.h"
+
+#include "recognition/pinch_profile.h"
+
+namespace palpate {
+namespace {
+
+using testing::pinchProfile;
+using testing::PinchStep;
+
+constexpr FeatureSet kSets[] = {FeatureSet::kStudy, FeatureSet::kBest, FeatureSet::kSession};
+
+// Two grasps of 30 frames with 10 empty frames before, between and behind.
+Profile twoGrasps() {
+  std::vector<PinchStep> steps(10, {60.0});
+  for (int grasp = 0; grasp < 2; ++grasp) {
+    steps.insert(steps.end(), 30, {50.0 - 10.0 * grasp, 1000.0F, 400.0F});
+    steps.insert(steps.end(), 10, {60.0});
+  }
+  return pinchProfile(steps);
+}
+
+TEST(GraspFeatures, SetsHaveNames) {
+  for (const FeatureSet set : kSets) {
+    EXPECT_EQ(featureSetNamed(featureSetName(set)), set);
+    const auto names = featureNames(set);
+    EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size())
+        << "each once";
+  }
+  EXPECT_FALSE(featureSetNamed("everything").has_value());
+  EXPECT_EQ(featureNames(FeatureSet::kStudy), studyFeatureNames());
+  EXPECT_EQ(featureNames(FeatureSet::kBest), dayFeatureNames());
+  const auto session = featureNames(FeatureSet::kSession);
+  EXPECT_TRUE(std::equal(dayFeatureNames().begin(), dayFeatureNames().end(), session.begin()));
+  for (const char* angle : {"angle_1", "angle_2", "angle_5", "angle_6"})
+    EXPECT_EQ(std::count(session.begin(), session.end(), angle), 1);
+  EXPECT_NE(sessionSetWarning().find("remembers the pose"), std::string_view::npos);
+}
+
+TEST(GraspFeatures, EveryGraspOfARecordingHasARow) {
+  const Profile profile = twoGrasps();
+  for (const FeatureSet set : kSets) {
+    const RecordingFeatures found = recordingFeatures(profile, set);
+    EXPECT_EQ(found.trouble, "");
+    ASSERT_EQ(found.grasps.size(), 2u);
+    EXPECT_EQ(found.grasps[0].begin, 10u);
+    EXPECT_EQ(found.grasps[0].end, 39u);
+    EXPECT_EQ(found.grasps[1].begin, 50u);
+    for (const GraspFeatures& grasp : found.grasps) {
+      EXPECT_EQ(grasp.trouble, "");
+      EXPECT_EQ(grasp.values.size(), featureNames(set).size());
+      EXPECT_TRUE(std::all_of(
+          grasp.values.begin(), grasp.values.end(), [](double v) { return std::isfinite(v); }));
+      EXPECT_GE(grasp.initialFrame, grasp.begin);
+      EXPECT_LE(grasp.endFrame, grasp.end);
+    }
+    EXPECT_EQ(graspFeatures(profile, {.begin = 50, .end = 79, .fingers = {}}, set),
+              found.grasps[1]);
+  }
+}
+
+TEST(GraspFeatures, OfASessionHoldTheAnglesAtRest) {
+  const Profile profile = twoGrasps();
+  const auto names = featureNames(FeatureSet::kSession);
+  const auto at =
+      static_cast<std::size_t>(std::find(names.begin(), names.end(), "angle_1") - names.begin());
+  const auto found = recordingFeatures(profile, FeatureSet::kSession);
+  EXPECT_EQ(found.grasps[0].values[at], testing::anglesForGap(50.0)[1]);
+  EXPECT_EQ(found.grasps[1].values[at + 3], testing::anglesForGap(40.0)[6]);
+}
+
+TEST(GraspFeatures, WhatIsNoGraspIsSaid) {
+  const std::vector<PinchStep> apart(60, {60.0});
+  for (const FeatureSet set : kSets) {
+    EXPECT_EQ(recordingFeatures(pinchProfile(apart), set).trouble,
+              "no grasp: matrices 1 and 5 never touch together for more than 20 frames in a row");
+    EXPECT_EQ(recordingFeatures(testing::otherSensorProfile(40), set).trouble,
+              "a recording of another sensor: its matrices are not those of the hand");
+    const auto without = recordingFeatures(pinchProfile({40, {50.0, 100.0F, 100.0F}}, false), set);
+    EXPECT_EQ(without.trouble, "");
+    ASSERT_EQ(without.grasps.size(), 1u);
+    EXPECT_EQ(without.grasps[0].trouble, "no joint angles");
+    EXPECT_TRUE(without.grasps[0].values.empty());
+  }
+}
+
+TEST(GraspFeatures, PadsAreTheHands) {
+  PinchHand swapped = sdh2PinchHand();
+  swapped.pads = {1, 3};
+  EXPECT_NE(
+      recordingFeatures(twoGrasps(), FeatureSet::kBest, swapped).trouble.find("matrices 1 and 3"),
+      std::string::npos);
+  EXPECT_EQ(featureNames(FeatureSet::kStudy, swapped)[3], "std_3");
+}
+
+TEST(GraspFeatures, CanBeCancelled) {
+  EXPECT_THROW(findPinches(twoGrasps(), sdh2PinchHand(), [](double) { return false; }), Cancelled);
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,221 @@
+#include "palpate/recognition/trained_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "palpate/core/error.h"
+#include "palpate/recognition/day_features.h"
+
+#include "recognition/golden_samples.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+using testing::clouds;
+using testing::TemporaryFolder;
+
+constexpr std::int64_t kHourUs = 3600LL * 1'000'000;
+
+// Grasps of things of 20, 30, .. mm, told by size (sd .5 mm) and one more feature, read with an offset.
+SampleSet things(int classes, int perClass, double offsetMm, std::uint64_t seed) {
+  SampleSet samples = clouds(classes, perClass, 2, 0.0, seed);
+  samples.features = {"size_z", "ln_sum"};
+  for (Eigen::Index i = 0; i < samples.x.rows(); ++i) {
+    const int c = samples.y[static_cast<std::size_t>(i)];
+    samples.x(i, 0) = sizeZ(20.0 + 10.0 * c + 0.5 * samples.x(i, 0) + offsetMm);
+    samples.x(i, 1) = 8.0 + 0.3 * (c % 3) + 0.1 * samples.x(i, 1);
+  }
+  return samples;
+}
+
+TrainedModel modelOf(const SampleSet& samples, ClassifierKind kind) {
+  PipelineOptions options;
+  options.classifier = kind;
+  TrainedModel model = trainModel(samples, FeatureSet::kBest, "a sensor", options);
+  model.inputs = {{"a.dsa", "00", "class 0", 3, 100 * kHourUs, 101 * kHourUs}};
+  return model;
+}
+
+double shareRight(const std::vector<Verdict>& verdicts, const std::vector<int>& y) {
+  double right = 0.0;
+  for (std::size_t i = 0; i < y.size(); ++i) right += verdicts[i].label == y[i] ? 1.0 : 0.0;
+  return right / static_cast<double>(y.size());
+}
+
+TEST(TrainedModel, IsSureInItsOwnSessionOnly) {
+  const SampleSet train = things(5, 20, 0.0, 1), test = things(5, 20, 0.0, 2);
+  for (const ClassifierKind kind : {ClassifierKind::kGauss, ClassifierKind::kSvm}) {
+    const TrainedModel model = modelOf(train, kind);
+    const auto here = classifyRows(model, test.x, noOffset(), true);
+    EXPECT_GE(shareRight(here, test.y), 0.93) << "a few of a hundred known ones are called unknown";
+    EXPECT_GT(std::count_if(here.begin(), here.end(), [](const Verdict& v) { return v.sure; }), 50)
+        << classifierName(kind);
+    for (const Verdict& verdict : classifyRows(model, test.x, noOffset(), false))
+      EXPECT_FALSE(verdict.sure);
+    for (const Verdict& verdict : here) {
+      EXPECT_EQ(verdict.ranking.size(), 5u);
+      EXPECT_TRUE(std::is_sorted(verdict.p.rbegin(), verdict.p.rend()));
+      EXPECT_EQ(verdict.confidence, verdict.p.front());
+    }
+  }
+}
+
+TEST(TrainedModel, CallsWhatItNeverFeltUnknown) {
+  const SampleSet train = things(5, 20, 0.0, 1);
+  Eigen::MatrixXd strange(1, 2);
+  strange << sizeZ(35.0), 20.0;
+  for (const ClassifierKind kind :
+       {ClassifierKind::kGauss, ClassifierKind::kSvm, ClassifierKind::kQda}) {
+    const auto verdict = classifyRows(modelOf(train, kind), strange, noOffset(), true).front();
+    EXPECT_EQ(verdict.label, Verdict::kUnknown) << classifierName(kind);
+    EXPECT_FALSE(verdict.sure);
+    EXPECT_GE(verdict.ranking.size(), 3u)
+        << "the likeliest of the known ones are told all the same";
+  }
+}
+
+TEST(TrainedModel, KnowsItsSessionByTime) {
+  const TrainedModel model = modelOf(things(3, 5, 0.0, 1), ClassifierKind::kGauss);
+  EXPECT_TRUE(model.sameSession(100 * kHourUs));
+  EXPECT_TRUE(model.sameSession(112 * kHourUs));
+  EXPECT_FALSE(model.sameSession(114 * kHourUs));
+  EXPECT_FALSE(model.sameSession(87 * kHourUs));
+}
+
+// The hand reads 5 mm too wide today: half the way to the next object.
+TEST(TrainedModel, AdaptsByLabelledGrasps) {
+  const TrainedModel fresh = modelOf(things(6, 20, 0.0, 1), ClassifierKind::kGauss);
+  const SampleSet today = things(6, 10, 5.0, 3);
+  TrainedModel adapted = fresh;
+  std::vector<std::size_t> first;
+  for (std::size_t c = 0; c < 3; ++c) first.push_back(10 * c);
+  adaptModel(adapted, today.rows(first));
+  EXPECT_NEAR(adapted.offset.mm, 5.0, 0.8);
+  EXPECT_EQ(adapted.offset.origin, OffsetOrigin::kReferences);
+  EXPECT_TRUE(adapted.offset.trusted);
+  EXPECT_LT(shareRight(classifyRows(fresh, today.x, noOffset(), false), today.y), 0.8);
+  EXPECT_GT(shareRight(classifyRows(adapted, today.x, adapted.offset, false), today.y), 0.95);
+}
+
+TEST(TrainedModel, OneThatCantAdaptSaysSo) {
+  TrainedModel model = modelOf(things(4, 8, 0.0, 1), ClassifierKind::kSvm);
+  EXPECT_FALSE(model.carriesOver());
+  try {
+    adaptModel(model, things(4, 2, 1.0, 2));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("gauss"), std::string::npos);
+  }
+  TrainedModel gauss = modelOf(things(4, 8, 0.0, 1), ClassifierKind::kGauss);
+  EXPECT_THROW(adaptModel(gauss, things(4, 2, 1.0, 2).rows({})), Error);
+}
+
+TEST(TrainedModel, TooFewGraspsMakeAModelThatIsNeverSure) {
+  SampleSet samples = things(3, 2, 0.0, 1);
+  for (const ClassifierKind kind :
+       {ClassifierKind::kGauss, ClassifierKind::kSvm, ClassifierKind::kLda}) {
+    const TrainedModel model = modelOf(samples, kind);
+    EXPECT_EQ(classifyRows(model, samples.x, noOffset(), true).size(), 6u);
+    EXPECT_GT(model.sureConfidence, 1.0) << classifierName(kind);
+  }
+}
+
+TEST(TrainedModel, ComesBackFromItsFile) {
+  const TemporaryFolder folder;
+  const SampleSet train = things(4, 12, 0.0, 1), test = things(4, 4, 2.0, 2);
+  for (const ClassifierKind kind :
+       {ClassifierKind::kGauss, ClassifierKind::kSvm, ClassifierKind::kQda}) {
+    TrainedModel model = modelOf(train, kind);
+    model.programVersion = "1.2.3";
+    if (model.carriesOver()) adaptModel(model, things(4, 2, 2.0, 5));
+    model.adaptedFrom = model.inputs;
+    const auto path = folder / (std::string(classifierName(kind)) + ".json");
+    saveModel(model, path);
+    const TrainedModel back = loadModel(path);
+    EXPECT_EQ(back.classes, model.classes);
+    EXPECT_EQ(back.sensor, "a sensor");
+    EXPECT_EQ(back.programVersion, "1.2.3");
+    EXPECT_EQ(back.offset.mm, model.offset.mm);
+    EXPECT_EQ(back.inputs.front().lastUs, model.inputs.front().lastUs);
+    const auto a = classifyRows(model, test.x, model.offset, true);
+    const auto b = classifyRows(back, test.x, back.offset, true);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_EQ(a[i].label, b[i].label);
+      EXPECT_EQ(a[i].p, b[i].p);
+      EXPECT_EQ(a[i].sure, b[i].sure);
+    }
+    EXPECT_THROW(saveModel(model, path), FileError) << "never overwrites unasked";
+  }
+}
+
+std::string refusalOf(const Json& json) {
+  try {
+    trainedModelFrom(json);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(TrainedModel, RefusesDamagedFilesAndOtherVersions) {
+  const Json whole = jsonOf(modelOf(things(3, 6, 0.0, 1), ClassifierKind::kGauss));
+  ASSERT_EQ(refusalOf(whole), "");
+  for (const std::string& key : whole.keys()) {
+    Json damaged = Json::object();
+    for (const std::string& other : whole.keys())
+      if (other != key) damaged.set(other, whole.at(other));
+    EXPECT_NE(refusalOf(damaged), "") << key;
+  }
+  Json later = whole;
+  later.set("format_version", 2);
+  EXPECT_NE(refusalOf(later).find("version is 2"), std::string::npos) << refusalOf(later);
+  Json renamed = whole;
+  renamed.set("classes", Json::array().push("a").push("b").push("c"));
+  EXPECT_NE(refusalOf(renamed), "");
+  Json fewer = whole;
+  fewer.set("features", Json::array().push("size_z"));
+  EXPECT_NE(refusalOf(fewer), "");
+
+  const TemporaryFolder folder;
+  testing::writeFile(folder / "cut.json", whole.text().substr(0, 500));
+  EXPECT_THROW(loadModel(folder / "cut.json"), FormatError);
+  testing::writeFile(folder / "other.json", "{\"kind\":\"calibration\"}");
+  EXPECT_THROW(loadModel(folder / "other.json"), FormatError);
+  EXPECT_THROW(loadModel(folder / "missing.json"), FileError);
+  EXPECT_THROW(loadModel(folder.path()), FileError);
+}
+
+TEST(TrainedModel, RefusesAnotherSensorAndOtherFeatures) {
+  const TrainedModel model = modelOf(things(3, 6, 0.0, 1), ClassifierKind::kGauss);
+  FeatureTable table;
+  table.names = model.features;
+  table.sensor = "a sensor";
+  EXPECT_NO_THROW(requireFits(model, table));
+  table.sensor = "another";
+  EXPECT_THROW(requireFits(model, table), Error);
+  table.sensor = "a sensor";
+  table.names = {"size_z"};
+  EXPECT_THROW(requireFits(model, table), Error);
+}
+
+TEST(TrainedModel, HashesEveryInputOnce) {
+  const TemporaryFolder folder;
+  testing::writeFile(folder / "x.dsa", "abc");
+  FeatureTable table;
+  table.rows.resize(2);
+  table.rows[0] = {"pen", folder / "x.dsa", 5, 9, 5, 9, 7, {1.0}};
+  table.rows[1] = {"pen", folder / "x.dsa", 1, 3, 1, 3, 4, {1.0}};
+  const auto inputs = inputsOf(table);
+  ASSERT_EQ(inputs.size(), 1u);
+  EXPECT_EQ(inputs[0].grasps, 2u);
+  EXPECT_EQ(inputs[0].firstUs, 4);
+  EXPECT_EQ(inputs[0].lastUs, 7);
+  // FIPS 180-2, appendix B.1
+  EXPECT_EQ(inputs[0].sha256, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_THROW(inputsOf(table, [](double) { return false; }), Cancelled);
+}
+
+}  // namespace
+}  // namespace palpate
