@@ -33,7 +33,7 @@ std::string spanText(const GraspFeatures& grasp) {
   return "grasp " + std::to_string(grasp.begin) + ".." + std::to_string(grasp.end);
 }
 
-Gathered gather(const Source& source, const GatherOptions& options) {
+Gathered gather(const Source& source, const FeatureGatherOptions& options) {
   Gathered out;
   const auto say = [&](const std::string& what) {
     out.troubles.push_back(source.file.string() + ": " + what);
@@ -119,7 +119,7 @@ std::string classOfFolder(const fs::path& folder) {
 }
 
 FeatureTable gatherFeatures(const std::vector<fs::path>& paths,
-                            const GatherOptions& options,
+                            const FeatureGatherOptions& options,
                             const Progress& progress) {
   options.hand.validate();
   FeatureTable table;

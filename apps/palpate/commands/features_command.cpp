@@ -18,7 +18,7 @@ void say(const std::string& message) {
   std::fprintf(stderr, "palpate: %s\n", oneLine(message).c_str());
 }
 
-FeatureTable gather(const CommandLine& given, const GatherOptions& options) {
+FeatureTable gather(const CommandLine& given, const FeatureGatherOptions& options) {
   gui::Interruption interruption;
   ProgressLine line("features", given.quiet());
   const Progress show = line.callback();
@@ -63,7 +63,7 @@ int featuresCommand(const Words& words) {
        .fewestWords = 1},
       words);
   if (given.helpShown()) return kDone;
-  GatherOptions options;
+  FeatureGatherOptions options;
   const auto set = given.choice("set", {"study", "best", "session"});
   if (set) options.set = *featureSetNamed(*set);
   const FeatureTable table = gather(given, options);

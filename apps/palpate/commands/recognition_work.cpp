@@ -32,7 +32,7 @@ FeatureTable gatherTable(const CommandLine& given,
                          const std::vector<std::filesystem::path>& paths,
                          FeatureSet set) {
   FeatureTable table;
-  GatherOptions options;
+  FeatureGatherOptions options;
   options.set = set;
   runInterruptibly(given, "features", [&](const Progress& progress) {
     table = gatherFeatures(paths, options, progress);

@@ -178,6 +178,9 @@ Actions::Actions(QWidget* window) : window_(window) {
   connectHand = make("Hand", "&Connect…", {key("Ctrl+K")});
   tryEmulated = make("Hand", "Try the &emulated hand", {key("Ctrl+Shift+D")});
   disconnectHand = make("Hand", "&Disconnect", {key("Ctrl+Shift+K")});
+  whatIsIt = make("Hand", "&What is it?", {key("Q")});
+  whatIsIt->setToolTip("Recognises the selected grasp, or what is held (Q)");
+  showMode = make("Hand", "The answer on the whole &screen", {key("Shift+Q")});
   live = make("Hand", "Show &live", {key("F6")}, true);
   live->setToolTip("Back to what is connected (F6)");
   hold = make("Hand", "&Hold the live picture", {key("P")}, true);

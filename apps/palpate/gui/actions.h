@@ -97,6 +97,8 @@ struct Actions {
   QAction* connectHand;
   QAction* tryEmulated;
   QAction* disconnectHand;
+  QAction* whatIsIt;  // recognition of the selection, or of what is held
+  QAction* showMode;  // its answer on the whole screen
   QAction* live;  // checked: what is connected is shown, not a recording
   QAction* hold;
   QAction* record;

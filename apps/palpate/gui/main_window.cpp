@@ -19,6 +19,7 @@
 #include "gui/link_panel.h"
 #include "gui/live_chart.h"
 #include "gui/main_window_calibrate.h"
+#include "gui/main_window_recognise.h"
 #include "gui/main_window_slip.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
@@ -63,7 +64,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   setAcceptDrops(true);
   setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
   buildParts(surroundings);
-  buildDocks();
+  buildDocks(surroundings);
   connectOpening();
   connectFileActions();
   connectPlayback();
@@ -95,6 +96,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   playback_.setSpeed(view_.speed);
   playback_.setLoop(view_.loop);
   playback_.setSkipGaps(view_.skipGaps);
+  recognise_->connectAll();
   applyTheme();
   applyView();
   setPlace(Place::kStart);
@@ -105,6 +107,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
 }
 
 MainWindow::~MainWindow() {
+  recognise_->leave();
   hand_->setHand(nullptr, nullptr);
   liveChart_->setHistory(nullptr, 0);
   calibrate_->leave();
@@ -176,7 +179,7 @@ void MainWindow::buildParts(const WindowSurroundings& surroundings) {
   statusBar()->addWidget(status_, 1);
 }
 
-void MainWindow::buildDocks() {
+void MainWindow::buildDocks(const WindowSurroundings& surroundings) {
   inspect_ = new InspectPanel(this);
   timelineHeader_ = new TimelineHeader(
       {actions_.zoomSelection, actions_.addLabel, actions_.crop, actions_.dropSelection}, this);
@@ -199,6 +202,7 @@ void MainWindow::buildDocks() {
   calibrate_ = new CalibrateView(*this);
   slip_ = new SlipView(*this);
   buildLibrary();
+  recognise_ = new RecogniseView(*this, surroundings.dataFolder);
   setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
   setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);

@@ -173,7 +173,7 @@ class MainWindow : public QMainWindow {
   // Where the window is: with each place its own layout of docks.
   enum class Place { kStart, kRecording, kLive };
   void buildParts(const WindowSurroundings& surroundings);
-  void buildDocks();
+  void buildDocks(const WindowSurroundings& surroundings);
   void connectOpening();
   void connectFileActions();
   void askAndOpen();
@@ -352,12 +352,11 @@ class MainWindow : public QMainWindow {
   Theme recordingTheme_ = Theme::kDark;
   const SignalHistory* shownHistory_ = nullptr;  // of the source that is shown; never looked into
 
-  bool compareWanted_ = false;          // as soon as two recordings are open
-  std::filesystem::path comparedPath_;  // being opened to be B
-  bool compareSeeks_ = false;           // the playback follows, and isn't followed
-  QByteArray layoutBeforeCompare_;      // of docks
-  QStackedWidget* stack_ = nullptr;
-  QStackedWidget* centre_ = nullptr;  // matrices, or the comparison
+  bool compareWanted_ = false;                           // as soon as two recordings are open
+  std::filesystem::path comparedPath_;                   // being opened to be B
+  bool compareSeeks_ = false;                            // the playback follows, and isn't followed
+  QByteArray layoutBeforeCompare_;                       // of docks
+  QStackedWidget *stack_ = nullptr, *centre_ = nullptr;  // centre: matrices, or the comparison
   ComparePanel* compare_ = nullptr;
   MessageBanner* banner_ = nullptr;
   OpeningStrip *opening_ = nullptr, *exporting_ = nullptr, *working_ = nullptr;
@@ -393,6 +392,8 @@ class MainWindow : public QMainWindow {
   Dock* logDock_ = nullptr;
   MessageBanner* alarmStrip_ = nullptr;
   OfferStrip* offer_ = nullptr;
+  class RecogniseView;  // main_window_recognise.h
+  RecogniseView* recognise_ = nullptr;
   std::unique_ptr<WindowMenus> menus_;
 };
 

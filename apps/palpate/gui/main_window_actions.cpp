@@ -6,7 +6,7 @@
 #include "gui/inspect_panel.h"
 #include "gui/keys_dialog.h"
 #include "gui/live_chart.h"
-#include "gui/main_window.h"
+#include "gui/main_window_recognise.h"
 #include "gui/matrices_panel.h"
 #include "gui/next_choice.h"
 #include "gui/playback_bar.h"
@@ -102,7 +102,9 @@ void MainWindow::connectViewActions() {
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->show();
   });
-  on(actions_.dismiss, [this] { dismiss(); });
+  on(actions_.dismiss, [this] {
+    if (!recognise_->cancel()) dismiss();
+  });
   const auto last = actions_.plots.size() - 1;
   for (qsizetype i = 0; i <= last; ++i)
     on(actions_.plots[i], [this, i, last](bool checked) {

@@ -1,6 +1,6 @@
 // The main window's Spectrum dock: whose spectra it shows, on the timeline's axis of time.
 #include "gui/dock.h"
-#include "gui/main_window.h"
+#include "gui/main_window_recognise.h"
 #include "gui/matrices_panel.h"
 #include "gui/spectrum_panel.h"
 #include "gui/take_away.h"
@@ -28,6 +28,7 @@ void MainWindow::placeSpectrum() {
   splitDockWidget(timelineDock_, spectrumDock_, Qt::Vertical);
   splitDockWidget(spectrumDock_, timelineDock_, Qt::Vertical);
   spectrumDock_->hide();
+  recognise_->place();
 }
 
 void MainWindow::connectSpectrum() {

@@ -11,6 +11,7 @@
 #include "gui/inspect_panel.h"
 #include "gui/live_chart.h"
 #include "gui/main_window_calibrate.h"
+#include "gui/main_window_recognise.h"
 #include "gui/main_window_slip.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
@@ -168,6 +169,7 @@ void MainWindow::connectTakeAway() {
   takeAway_->add(calibrate_->exported());
   takeAway_->add(slip_->exported());
   takeAway_->add(inspectExport());
+  takeAway_->add(recognise_->exported());
   connect(actions_.exportPicture, &QAction::triggered, takeAway_.get(), &TakeAway::exportNow);
   connect(actions_.exportAgain, &QAction::triggered, takeAway_.get(), &TakeAway::repeatLast);
   connect(actions_.copyPicture, &QAction::triggered, takeAway_.get(), &TakeAway::copyPicture);

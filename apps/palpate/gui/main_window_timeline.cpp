@@ -10,6 +10,7 @@
 #include "gui/captions.h"
 #include "gui/inspect_panel.h"
 #include "gui/main_window_calibrate.h"
+#include "gui/main_window_recognise.h"
 #include "gui/main_window_slip.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
@@ -129,6 +130,7 @@ void MainWindow::showCurves() {
   const std::vector<PlottedCurve> curves = curvesNow();
   timelineHeader_->setCurves(curves, resolved(view_.theme));
   timelineHeader_->setPlain(liveShown_);
+  recognise_->show();
   showSpectrum();
   calibrate_->show();
   slip_->show();

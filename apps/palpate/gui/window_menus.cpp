@@ -102,6 +102,8 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   QMenu* hand = window.menuBar()->addMenu("H&and");
   hand->addActions({actions.connectHand, actions.tryEmulated, actions.disconnectHand});
   hand->addSeparator();
+  hand->addActions({actions.whatIsIt, actions.showMode});
+  hand->addSeparator();
   hand->addActions({actions.live, actions.hold});
   hand->addSeparator();
   hand->addActions({actions.record, actions.recordingSettings, actions.openRecorded});

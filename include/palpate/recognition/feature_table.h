@@ -52,7 +52,7 @@ std::string sensorText(const SensorLayout& layout);
 // "golf_ball": "golf ball".
 std::string classOfFolder(const std::filesystem::path& folder);
 
-struct GatherOptions {
+struct FeatureGatherOptions {
   FeatureSet set = FeatureSet::kBest;
   PinchHand hand = sdh2PinchHand();
   std::size_t threads =
@@ -62,7 +62,7 @@ struct GatherOptions {
 // Paths: folders (as above) and recordings. One bad file doesn't stop the others. Throws Cancelled; FileError when a path
 // isn't there.
 FeatureTable gatherFeatures(const std::vector<std::filesystem::path>& paths,
-                            const GatherOptions& options = {},
+                            const FeatureGatherOptions& options = {},
                             const Progress& progress = {});
 
 }  // namespace palpate

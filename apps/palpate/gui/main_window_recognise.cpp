@@ -1,0 +1,210 @@
+#include "gui/main_window_recognise.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "gui/answer_view.h"
+#include "gui/ask_page.h"
+#include "gui/captions.h"
+#include "gui/dock.h"
+#include "gui/recognise_panel.h"
+#include "gui/show_window.h"
+#include "gui/timeline_chart.h"
+#include "gui/timeline_panel.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kUsualWidth = 430;  // [px]
+constexpr int kHearingMs = 50;
+constexpr int kAskAgainRounds = 10;  // by itself: twice a second
+constexpr double kSteadyS = 0.8;     // held so long before it is asked by itself
+constexpr std::size_t kWaitingItems = 2048;
+
+}  // namespace
+
+MainWindow::RecogniseView::RecogniseView(MainWindow& window,
+                                         const std::filesystem::path& dataFolder)
+    : QObject(&window), window_(window) {
+  panel_ = new RecognisePanel(window.settings_, dataFolder, &window);
+  dock_ = new Dock("Recognise", panel_, &panel_->header(), &window);
+  dock_->toggleViewAction()->setShortcut(QKeySequence("Ctrl+Shift+I"));
+  window.docks_.append(dock_);
+}
+
+void MainWindow::RecogniseView::place() {
+  window_.addDockWidget(Qt::RightDockWidgetArea, dock_);
+  window_.tabifyDockWidget(window_.inspectDock_, dock_);
+  dock_->hide();
+}
+
+void MainWindow::RecogniseView::connectAll() {
+  MainWindow& window = window_;
+  connect(&panel_->desk(), &RecogniseDesk::said, &window, &MainWindow::flash);
+  connect(&panel_->ask(), &AskPage::asked, this, &RecogniseView::ask);
+  connect(&panel_->ask(), &AskPage::showAsked, this, &RecogniseView::showFull);
+  connect(window.actions_.whatIsIt, &QAction::triggered, this, [this] {
+    if (!dock_->isVisible() && !full_) {
+      dock_->show();
+      dock_->raise();
+      makeRoom();
+    }
+    panel_->showPage("Ask");
+    ask();
+  });
+  connect(window.actions_.showMode, &QAction::triggered, this, &RecogniseView::showFull);
+  connect(dock_->toggleViewAction(), &QAction::triggered, this, [this](bool shown) {
+    if (!shown) return;
+    dock_->raise();
+    makeRoom();
+  });
+  // However it is shown, its model is looked for.
+  connect(dock_, &QDockWidget::visibilityChanged, this, [this](bool seen) {
+    if (seen) show();
+  });
+  connect(&window.live_, &LiveController::came, this, [this] { listen(true); });
+  connect(&window.live_, &LiveController::leaving, this, [this] { listen(false); });
+  connect(&hearing_, &QTimer::timeout, this, &RecogniseView::hear);
+  hearing_.setInterval(kHearingMs);
+}
+
+void MainWindow::RecogniseView::makeRoom() {
+  QTimer::singleShot(0, this, [this] {
+    if (dock_->isFloating() || dock_->width() >= kUsualWidth) return;
+    window_.resizeDocks({dock_}, {kUsualWidth}, Qt::Horizontal);
+  });
+}
+
+void MainWindow::RecogniseView::show() {
+  panel_->setTheme(resolved(window_.view_.theme));
+  if (!dock_->isVisible() && !full_) return;
+  const LiveSource* source = window_.live_.source();
+  panel_->desk().setEmulated(window_.liveShown_ && source && source->emulated);
+  panel_->ask().setLive(window_.liveShown_ && source, collector_ && collector_->touched());
+}
+
+void MainWindow::RecogniseView::ask() {
+  show();
+  if (window_.liveShown_ && window_.live_.source())
+    askOfHand();
+  else
+    askOfRecording();
+}
+
+// The selection; else the grasp under the cursor; else the only one.
+void MainWindow::RecogniseView::askOfRecording() {
+  RecogniseDesk& desk = panel_->desk();
+  const OpenedRecordingPtr& recording = window_.current_;
+  if (!recording) return desk.sayTrouble("Open a recording, or connect a hand.");
+  if (recording->profile.numFrames() == 0) return desk.sayTrouble("This recording holds no frame.");
+  const QString name = QString::fromStdString(recording->path.filename().string());
+  const auto question = [&](double fromS, double toS) {
+    const auto frames = recording->framesWithin(fromS, toS);
+    if (!frames) return desk.sayTrouble("No frame is selected.");
+    desk.ask({recording->profile,
+              frames,
+              name + ", " + figure(fromS, 2) + " – " + figure(toS, 2) + " s"});
+  };
+  if (const auto& selection = window_.timeline_->selection())
+    return question(selection->fromS, selection->toS);
+  const auto frame = static_cast<std::size_t>(window_.playback_.frame());
+  const std::vector<GraspSegment>& grasps = window_.graspsOf(recording);
+  const auto at = std::find_if(grasps.begin(), grasps.end(), [&](const GraspSegment& grasp) {
+    return frame >= grasp.begin && frame <= grasp.end;
+  });
+  const auto* chosen = at != grasps.end() ? &*at : grasps.size() == 1 ? &grasps.front() : nullptr;
+  if (!chosen)
+    return desk.sayTrouble(grasps.empty()
+                               ? "There is no grasp in this recording."
+                               : "No grasp is chosen: select one in the timeline (N), or put the "
+                                 "cursor into one.");
+  question(recording->timeAt(chosen->begin), recording->timeAt(chosen->end));
+}
+
+// What is held now; else the last grasp.
+void MainWindow::RecogniseView::askOfHand() {
+  hear();
+  RecogniseDesk& desk = panel_->desk();
+  if (!collector_) return desk.sayTrouble("No hand is connected.");
+  sinceAsked_ = 0;
+  if (auto held = collector_->now()) return desk.ask({std::move(*held), std::nullopt, "held now"});
+  if (collector_->touched()) return desk.sayTrouble("Held too short yet: ask again in a second.");
+  if (lastGrasp_) return desk.ask({*lastGrasp_, std::nullopt, "the last grasp"});
+  desk.sayTrouble("Nothing is held, and nothing was.");
+}
+
+void MainWindow::RecogniseView::listen(bool on) {
+  hearing_.stop();
+  feed_.reset();
+  collector_.reset();
+  lastGrasp_.reset();
+  LiveSource* source = window_.live_.source();
+  if (!on || !source) return;
+  FeedOptions options;
+  options.tactileItems = options.motionItems = kWaitingItems;
+  feed_ = source->session->subscribe("recognition", options);
+  collector_ = std::make_unique<GraspCollector>(source->session->device().hand());
+  hearing_.start();
+}
+
+void MainWindow::RecogniseView::hear() {
+  if (!feed_) return;
+  items_.clear();
+  feed_->take(items_);
+  for (CaptureItem& item : items_) {
+    if (auto* frame = std::get_if<SharedFrame>(&item))
+      collector_->addFrame(std::move(*frame));
+    else if (auto* angles = std::get_if<JointAngles>(&item))
+      collector_->addAngles(std::move(*angles));
+  }
+  items_.clear();
+  for (Profile& ended : collector_->takeEnded()) lastGrasp_ = std::move(ended);
+  ++sinceAsked_;
+  if (!window_.liveShown_ || (!dock_->isVisible() && !full_)) return;
+  panel_->ask().setLive(true, collector_->touched());
+  if ((panel_->ask().byItself() || full_) && sinceAsked_ >= kAskAgainRounds &&
+      collector_->touchedS() >= kSteadyS && !panel_->desk().busy())
+    askOfHand();
+}
+
+void MainWindow::RecogniseView::showFull() {
+  if (full_) {
+    full_->close();
+    return;
+  }
+  full_ = new ShowWindow(panel_->desk(), resolved(window_.view_.theme), &window_);
+  connect(full_, &ShowWindow::asked, this, &RecogniseView::ask);
+  full_->showFullScreen();
+  show();
+}
+
+bool MainWindow::RecogniseView::cancel() { return panel_->cancel(); }
+
+void MainWindow::RecogniseView::leave() {
+  hearing_.stop();
+  feed_.reset();
+  delete full_;
+  delete dock_;
+}
+
+ExportedView MainWindow::RecogniseView::exported() {
+  ExportedView view;
+  view.name = "Recognise";
+  view.widget = panel_;
+  view.isThere = [this] {
+    return panel_->isVisible() && !panel_->desk().answer().name().isEmpty();
+  };
+  view.fileName = [] { return QString("recognised"); };
+  view.paint = [this](QPainter& painter, const PictureLook& look) {
+    const RecognitionAnswer& answer = panel_->desk().answer();
+    paintAnswer(painter,
+                QRectF(QPointF(0, 0), look.size).adjusted(24, 24, -24, -24),
+                answer,
+                panel_->desk().photos().photo(answer.name()),
+                look.forPrint ? Theme::kLight : resolved(window_.view_.theme),
+                look.textUnits > 0 ? look.textUnits : 16);
+  };
+  return view;
+}
+
+}  // namespace palpate::gui

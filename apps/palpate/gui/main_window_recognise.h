@@ -1,0 +1,53 @@
+// The main window's Recognise dock: what it is asked about (the selection, what is held), and what it does to the window.
+#pragma once
+
+#include <QPointer>
+#include <QTimer>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <palpate/recognition/grasp_collector.h>
+
+#include "gui/main_window.h"
+
+namespace palpate::gui {
+
+class RecognisePanel;
+class ShowWindow;
+
+class MainWindow::RecogniseView : public QObject {
+ public:
+  // Adds the dock to the window's.
+  RecogniseView(MainWindow& window, const std::filesystem::path& dataFolder);
+  void place();       // where it is by default, hidden
+  void connectAll();  // once all parts are there
+  void show();        // another recording, another look
+  bool cancel();
+  ExportedView exported();
+  void leave();  // the window goes
+
+ private:
+  void ask();
+  void askOfRecording();
+  void askOfHand();
+  void listen(bool on);
+  void hear();
+  void showFull();
+  void makeRoom();
+
+  MainWindow& window_;
+  RecognisePanel* panel_;
+  Dock* dock_;
+  QPointer<ShowWindow> full_;
+  // Of what is connected.
+  std::shared_ptr<CaptureFeed> feed_;
+  std::unique_ptr<GraspCollector> collector_;
+  std::vector<CaptureItem> items_;
+  std::optional<Profile> lastGrasp_;
+  QTimer hearing_;
+  int sinceAsked_ = 0;  // rounds
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,72 @@
+// A day with a model: the grasps that were made, what a person said of them, the zero of the empty hand, and the session offset
+// that follows from all that; verdicts are given with it.
+//
+// What is known best counts: a value that a person gives; else the zero of the empty hand and the grasps that were named, one on
+// top of the other; else, and on top of a zero, the day's unlabelled grasps where they are chosen; else what the model says.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <palpate/recognition/empty_hand.h>
+#include <palpate/recognition/model_evaluation.h>
+#include <palpate/recognition/trained_model.h>
+
+namespace palpate {
+
+// The zero of the empty hand on the day of training that a model keeps; nothing: none. Throws Error (damaged).
+std::optional<EmptyHandZero> trainingZero(const TrainedModel& model);
+void keepTrainingZero(TrainedModel& model, const EmptyHandZero& zero);
+
+class RecognitionDay {
+ public:
+  struct Grasp {
+    std::vector<double> values;  // features, as the model's
+    std::int64_t timeUs = 0;     // host time of its begin
+    std::optional<int> told;     // class a person named
+  };
+
+  explicit RecognitionDay(TrainedModel model);
+  const TrainedModel& model() const noexcept { return model_; }
+
+  // Its place among the day's; the same one again (same time) keeps its place. A grasp of more than 8 hours before or after
+  // the last one begins another day: what was known of the last one is forgotten. Throws std::invalid_argument (another number of
+  // features).
+  std::size_t add(std::vector<double> values, std::int64_t timeUs);
+  const std::vector<Grasp>& grasps() const noexcept { return grasps_; }
+  // Throw std::out_of_range; Error: the model can't adapt.
+  void tell(std::size_t grasp, std::optional<int> classIndex);
+  std::size_t numTold() const noexcept;
+  // Throws Error: trouble in it, or the model keeps no zero of its own to compare with.
+  void setZero(const EmptyHandZero& today);
+  bool hasZero() const noexcept { return zero_.has_value(); }
+  void choose(const OffsetChoice& choice);  // throws Error: the model knows no offset
+  const OffsetChoice& choice() const noexcept { return choice_; }
+  void forget();  // grasps, names, zero
+
+  const SessionOffset& offset() const noexcept { return offset_; }
+  // Why nothing is sure, one line; empty: it may be.
+  const std::string& unsure() const noexcept { return unsure_; }
+  // Of a grasp that needn't be one of the day's. Throws std::invalid_argument.
+  Verdict judge(const std::vector<double>& values, std::int64_t timeUs) const;
+  // The model with all that is known of today: to be saved.
+  TrainedModel adapted() const;
+
+ private:
+  void renew();
+  Eigen::MatrixXd rows(bool toldOnly) const;
+
+  TrainedModel model_;
+  std::vector<Grasp> grasps_;
+  std::optional<SessionOffset> zero_;
+  OffsetChoice choice_;
+  TrainedModel today_;  // the model with today's components
+  SessionOffset offset_ = noOffset();
+  bool sameSession_ = false;
+  std::string unsure_;
+};
+
+}  // namespace palpate

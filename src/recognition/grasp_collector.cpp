@@ -1,0 +1,178 @@
+#include "palpate/recognition/grasp_collector.h"
+
+#include <algorithm>
+#include <bitset>
+#include <stdexcept>
+#include <utility>
+
+#include "palpate/model/profile_builder.h"
+#include "palpate/recording/crop.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kMostFingers = 8;
+constexpr double kUsPerS = 1e6;
+constexpr std::size_t kAnglesWithoutFrames = 2000;
+
+}  // namespace
+
+void GraspCollectorOptions::validate() const {
+  if (fewestFingers < 1 || fewestFingers > kMostFingers)
+    throw std::invalid_argument("fewestFingers must lie in 1..8");
+  if (framesAfter < bridgedFrames)
+    throw std::invalid_argument("framesAfter must be bridgedFrames or more");
+  if (mostFrames <= moreThanFrames)
+    throw std::invalid_argument("mostFrames must be more than moreThanFrames");
+}
+
+GraspCollector::GraspCollector(HandDescription hand, GraspCollectorOptions options)
+    : hand_(std::move(hand)), options_(options) {
+  options_.validate();
+}
+
+void GraspCollector::reset() {
+  gaps_.reset();
+  frames_.clear();
+  angles_.clear();
+  contactFrames_ = without_ = 0;
+}
+
+double GraspCollector::touchedS() const noexcept {
+  return contactFrames_ == 0 ? 0.0 : static_cast<double>(lastTouchUs_ - contactUs_) / kUsPerS;
+}
+
+bool GraspCollector::contactIn(const TactileFrame& frame) const {
+  std::bitset<kMostFingers> fingers;
+  for (std::size_t m = 0; m < hand_.layout->numMatrices(); ++m) {
+    const auto finger = m < hand_.matrices.size()
+                            ? static_cast<std::size_t>(std::max(0, hand_.matrices[m].finger))
+                            : m;
+    if (fingers[finger % kMostFingers]) continue;
+    if ((frame.matrix(m).array() > 0.0F).any()) fingers.set(finger % kMostFingers);
+  }
+  return fingers.count() >= options_.fewestFingers;
+}
+
+void GraspCollector::addFrame(std::shared_ptr<const TactileFrame> frame) {
+  if (!frame || frame->values.size() != static_cast<std::size_t>(hand_.layout->numPlaces())) return;
+  if (!frames_.empty() && frame->hostUs <= frames_.back()->hostUs) return;
+  if (gaps_.afterGap(frame->hostUs)) {
+    finish();
+    frames_.clear();
+  }
+  const bool contact = contactIn(*frame);
+  if (contactFrames_ == 0) {
+    frames_.push_back(frame);
+    if (contact) {
+      contactFrames_ = 1;
+      without_ = 0;
+      contactUs_ = lastTouchUs_ = frame->hostUs;
+    } else if (frames_.size() > options_.framesBefore) {
+      frames_.pop_front();
+      trimAngles();
+    }
+    return;
+  }
+  // Another contact, so soon that the last one's end isn't over.
+  if (contact && without_ > options_.bridgedFrames) {
+    finish();
+    frames_.push_back(frame);
+    contactFrames_ = 1;
+    without_ = 0;
+    contactUs_ = lastTouchUs_ = frame->hostUs;
+    return;
+  }
+  without_ = contact ? 0 : without_ + 1;
+  if (contact) lastTouchUs_ = frame->hostUs;
+  ++contactFrames_;
+  if (contactFrames_ <= options_.mostFrames) frames_.push_back(frame);
+  if (without_ >= options_.framesAfter) finish();
+}
+
+void GraspCollector::addAngles(JointAngles angles) {
+  if (!angles_.empty() &&
+      (angles.hostUs <= angles_.back().hostUs || angles.deg.size() != angles_.back().deg.size()))
+    return;
+  angles_.push_back(std::move(angles));
+  if (frames_.empty() && angles_.size() > kAnglesWithoutFrames) angles_.pop_front();
+}
+
+// The last ones at or before the first frame stay: they are its.
+void GraspCollector::trimAngles() {
+  if (frames_.empty()) return;
+  while (angles_.size() > 1 && angles_[1].hostUs <= frames_.front()->hostUs) angles_.pop_front();
+}
+
+Profile GraspCollector::clip() const {
+  ProfileBuilder builder(hand_.layout);
+  for (const auto& frame : frames_) builder.addFrame(frame->hostUs, frame->values, frame->deviceMs);
+  for (const JointAngles& sample : angles_)
+    if (sample.hostUs <= frames_.back()->hostUs) builder.addAngles(sample.hostUs, sample.deg);
+  ProfileInfo info;
+  info.format = "palpate";
+  return builder.finish(info);
+}
+
+std::optional<Profile> GraspCollector::now() const {
+  if (contactFrames_ <= options_.moreThanFrames || without_ > options_.bridgedFrames)
+    return std::nullopt;
+  return clip();
+}
+
+void GraspCollector::finish() {
+  if (contactFrames_ == 0) return;
+  if (contactFrames_ > options_.moreThanFrames + without_) ended_.push_back(clip());
+  contactFrames_ = without_ = 0;
+  while (frames_.size() > options_.framesBefore) frames_.pop_front();
+  trimAngles();
+}
+
+std::vector<Profile> GraspCollector::takeEnded() { return std::exchange(ended_, {}); }
+
+ChosenGrasp graspWithin(const Profile& profile,
+                        std::size_t first,
+                        std::size_t last,
+                        FeatureSet set,
+                        const PinchHand& hand,
+                        const Progress& progress) {
+  if (first > last || last >= profile.numFrames())
+    throw std::out_of_range("frames " + std::to_string(first) + " to " + std::to_string(last) +
+                            " of " + std::to_string(profile.numFrames()));
+  ChosenGrasp out;
+  out.timeUs = profile.frameTimeUs(first);
+  out.features.trouble = hand.mismatch(profile);
+  if (!out.features.trouble.empty()) return out;
+  const bool part = first > 0 || last + 1 < profile.numFrames();
+  const Profile seen = part ? cropped(profile, first, last, progress) : profile;
+  const auto length = [](const GraspSegment& grasp) { return grasp.end - grasp.begin; };
+  const std::vector<GraspSegment> found = findPinches(seen, hand, progress);
+  const auto longest = std::max_element(
+      found.begin(), found.end(), [&](auto& a, auto& b) { return length(a) < length(b); });
+  if (longest == found.end()) {
+    out.features.trouble = "no grasp: matrices " + std::to_string(hand.pads[0]) + " and " +
+                           std::to_string(hand.pads[1]) +
+                           " never touch together for more than 20 frames in a row";
+    return out;
+  }
+  out.features = graspFeatures(seen, *longest, set, hand);
+  out.quality = longest->quality;
+  out.timeUs = seen.frameTimeUs(longest->begin);
+  for (std::size_t* frame :
+       {&out.features.begin, &out.features.end, &out.features.initialFrame, &out.features.endFrame})
+    *frame += first;
+  return out;
+}
+
+ChosenGrasp graspOf(const Profile& profile,
+                    FeatureSet set,
+                    const PinchHand& hand,
+                    const Progress& progress) {
+  if (profile.numFrames() > 0)
+    return graspWithin(profile, 0, profile.numFrames() - 1, set, hand, progress);
+  ChosenGrasp out;
+  out.features.trouble = "no frame";
+  return out;
+}
+
+}  // namespace palpate

@@ -1,0 +1,159 @@
+#include "palpate/recognition/recognition_day.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace {
+
+constexpr const char* kZeroKey = "empty_hand_zero";  // of the model's options
+constexpr std::int64_t kPauseUs = 8LL * 3600 * 1'000'000;
+
+}  // namespace
+
+std::optional<EmptyHandZero> trainingZero(const TrainedModel& model) {
+  if (!model.options.contains(kZeroKey)) return std::nullopt;
+  return emptyHandZeroFrom(model.options.at(kZeroKey));
+}
+
+void keepTrainingZero(TrainedModel& model, const EmptyHandZero& zero) {
+  model.options.set(kZeroKey, emptyHandZeroJson(zero));
+}
+
+RecognitionDay::RecognitionDay(TrainedModel model) : model_(std::move(model)), today_(model_) {
+  renew();
+}
+
+std::size_t RecognitionDay::add(std::vector<double> values, std::int64_t timeUs) {
+  if (values.size() != model_.features.size())
+    throw std::invalid_argument("a grasp has " + std::to_string(values.size()) +
+                                " features, the model " + std::to_string(model_.features.size()));
+  if (!grasps_.empty() && std::abs(timeUs - grasps_.back().timeUs) > kPauseUs) forget();
+  const auto same = std::find_if(
+      grasps_.begin(), grasps_.end(), [&](const Grasp& grasp) { return grasp.timeUs == timeUs; });
+  const auto place = static_cast<std::size_t>(same - grasps_.begin());
+  if (same == grasps_.end())
+    grasps_.push_back({std::move(values), timeUs, std::nullopt});
+  else
+    same->values = std::move(values);
+  renew();
+  return place;
+}
+
+void RecognitionDay::tell(std::size_t grasp, std::optional<int> classIndex) {
+  if (!model_.carriesOver()) throw Error("this model can't adapt to a day");
+  if (classIndex &&
+      (*classIndex < 0 || static_cast<std::size_t>(*classIndex) >= model_.classes.size()))
+    throw std::out_of_range("class " + std::to_string(*classIndex));
+  grasps_.at(grasp).told = classIndex;
+  renew();
+}
+
+std::size_t RecognitionDay::numTold() const noexcept {
+  return static_cast<std::size_t>(std::count_if(
+      grasps_.begin(), grasps_.end(), [](const Grasp& grasp) { return grasp.told.has_value(); }));
+}
+
+void RecognitionDay::setZero(const EmptyHandZero& today) {
+  if (!model_.carriesOver()) throw Error("this model can't adapt to a day");
+  if (!today.trouble.empty()) throw Error(today.trouble);
+  const auto training = trainingZero(model_);
+  if (!training)
+    throw Error(
+        "the model keeps no zero of its own to compare with: it takes one touch of the empty hand "
+        "on the day of training");
+  zero_ = emptyHandOffset(today, *training);
+  renew();
+}
+
+void RecognitionDay::choose(const OffsetChoice& choice) {
+  if (!model_.carriesOver() &&
+      (choice.kind == OffsetChoice::Kind::kBatch || choice.kind == OffsetChoice::Kind::kGiven))
+    throw Error("this model knows no session offset");
+  choice_ = choice;
+  renew();
+}
+
+void RecognitionDay::forget() {
+  grasps_.clear();
+  zero_.reset();
+  renew();
+}
+
+Eigen::MatrixXd RecognitionDay::rows(bool toldOnly) const {
+  Eigen::MatrixXd x(static_cast<Eigen::Index>(toldOnly ? numTold() : grasps_.size()),
+                    static_cast<Eigen::Index>(model_.features.size()));
+  Eigen::Index i = 0;
+  for (const Grasp& grasp : grasps_)
+    if (!toldOnly || grasp.told)
+      x.row(i++) = Eigen::Map<const Eigen::RowVectorXd>(grasp.values.data(), x.cols());
+  return x;
+}
+
+void RecognitionDay::renew() {
+  today_ = model_;
+  std::vector<std::int64_t> times;
+  for (const Grasp& grasp : grasps_) times.push_back(grasp.timeUs);
+  const bool known = zero_.has_value() || numTold() > 0;
+  const bool batch = choice_.kind == OffsetChoice::Kind::kBatch;
+  const bool given = choice_.kind == OffsetChoice::Kind::kGiven;
+  const SessionUse use =
+      sessionFor(model_, rows(false), times, known && batch ? OffsetChoice() : choice_);
+  sameSession_ = use.sameSession;
+  offset_ = use.offset;
+  if (known && !given) {
+    offset_ = zero_.value_or(unknownOffset());
+    DayModel& day = *today_.pipeline.day;
+    if (numTold() > 0) {
+      std::vector<int> y;
+      for (const Grasp& grasp : grasps_)
+        if (grasp.told) y.push_back(*grasp.told);
+      const Eigen::MatrixXd x = rows(true);
+      offset_ = offsetFromReferences(day, x, y, offset_);
+      day.addToday(x, y, offset_.mm);
+    }
+    if (batch && grasps_.size() > numTold())
+      offset_ = offsetFromBatch(*today_.pipeline.day, rows(false), offset_);
+  }
+  today_.offset = offset_;
+  const bool assumed = offset_.origin == OffsetOrigin::kNone;
+  unsure_.clear();
+  if (!model_.carriesOver() && !sameSession_ && !grasps_.empty())
+    unsure_ = "another session than that of the training: nothing is sure with this model";
+  else if (model_.carriesOver() && assumed && !sameSession_ && !grasps_.empty())
+    unsure_ = "another session than that of the training: nothing is sure before today is known";
+  else if (model_.carriesOver() && !assumed && !offset_.trusted)
+    unsure_ = offset_.objects < 2 && offset_.grasps > 0
+                  ? "nothing is sure: what is known of today rests on a single object"
+                  : "nothing is sure before more is known of today";
+}
+
+Verdict RecognitionDay::judge(const std::vector<double>& values, std::int64_t timeUs) const {
+  if (values.size() != model_.features.size())
+    throw std::invalid_argument("a grasp has " + std::to_string(values.size()) +
+                                " features, the model " + std::to_string(model_.features.size()));
+  const Eigen::MatrixXd x =
+      Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  const bool same = grasps_.empty() ? model_.sameSession(timeUs) : sameSession_;
+  return classifyRows(today_, x, offset_, same).front();
+}
+
+TrainedModel RecognitionDay::adapted() const {
+  TrainedModel model = today_;
+  for (const Grasp& grasp : grasps_)
+    if (grasp.told) {
+      ModelInput input;
+      input.file = "of the day";
+      input.className = model.classes[static_cast<std::size_t>(*grasp.told)];
+      input.grasps = 1;
+      input.firstUs = input.lastUs = grasp.timeUs;
+      model.adaptedFrom.push_back(std::move(input));
+    }
+  return model;
+}
+
+}  // namespace palpate
