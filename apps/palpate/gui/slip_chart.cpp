@@ -138,6 +138,7 @@ void SlipChart::style() {
   degrees->grid()->setVisible(true);
   const bool low = height() < 2 * 190;  // each has half of it
   yAxis->setLabel(low ? "taxels" : "since reference in taxels");
+  for (QCPAxis* axis : {yAxis, degrees}) axis->ticker()->setTickCount(low ? 2 : 4);
   degrees->setLabel(low ? "deg" : "rotation in deg");
   const QColor color = matrixColor(matrix_, theme_);
   for (QCPGraph* each : {shift_, turn_}) each->setPen(QPen(color, 1.5));

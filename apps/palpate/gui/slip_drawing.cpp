@@ -72,8 +72,9 @@ void paintArrow(QPainter& painter,
 }
 
 QString signedFigure(float value) {
-  return (value < 0.0F ? QString("−") : QString("+")) +
-         figure(std::abs(static_cast<double>(value)), 2);
+  const QString size = figure(std::abs(static_cast<double>(value)), 2);
+  if (size == figure(0.0, 2)) return size;
+  return (value < 0.0F ? "−" : "+") + size;
 }
 
 int footLines(const QRectF& area) { return area.height() < kLow ? kFootLines / 2 : kFootLines; }
