@@ -129,7 +129,8 @@ TEST_F(WindowLayoutTest, DocksCloseByTheirButton) {
                          "Calibrate",
                          "Slip",
                          "Library",
-                         "Log"}));
+                         "Log",
+                         "Recognise"}));
 }
 
 }  // namespace

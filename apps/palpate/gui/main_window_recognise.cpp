@@ -6,11 +6,15 @@
 #include "gui/answer_view.h"
 #include "gui/ask_page.h"
 #include "gui/captions.h"
+#include "gui/check_page.h"
 #include "gui/dock.h"
+#include "gui/message_banner.h"
 #include "gui/recognise_panel.h"
 #include "gui/show_window.h"
+#include "gui/teach_page.h"
 #include "gui/timeline_chart.h"
 #include "gui/timeline_panel.h"
+#include "gui/today_page.h"
 
 namespace palpate::gui {
 namespace {
@@ -20,6 +24,11 @@ constexpr int kHearingMs = 50;
 constexpr int kAskAgainRounds = 10;  // by itself: twice a second
 constexpr double kSteadyS = 0.8;     // held so long before it is asked by itself
 constexpr std::size_t kWaitingItems = 2048;
+constexpr double kAirS = 1.0;  // about a grasp that is shown
+constexpr double kZeroDegPerS = 8.0, kZeroOpenDegPerS = 20.0;
+constexpr int kZeroLimitCounts = 600;
+constexpr double kZeroHoldS = 1.5;
+constexpr double kZeroOpenS = 10.0;
 
 }  // namespace
 
@@ -40,7 +49,14 @@ void MainWindow::RecogniseView::place() {
 
 void MainWindow::RecogniseView::connectAll() {
   MainWindow& window = window_;
-  connect(&panel_->desk(), &RecogniseDesk::said, &window, &MainWindow::flash);
+  connect(panel_, &RecognisePanel::said, &window, &MainWindow::flash);
+  connect(panel_, &RecognisePanel::failed, &window, [&window](const QString& message) {
+    window.banner_->showMessage(message);
+  });
+  connect(&panel_->today(), &TodayPage::zeroAsked, this, &RecogniseView::beginZero);
+  connect(&panel_->check(), &CheckPage::graspAsked, this, &RecogniseView::showGrasp);
+  connect(&window, &MainWindow::recordingShown, this, &RecogniseView::showWanted);
+  panel_->teach().zeroNow = [this] { return zero_; };
   connect(&panel_->ask(), &AskPage::asked, this, &RecogniseView::ask);
   connect(&panel_->ask(), &AskPage::showAsked, this, &RecogniseView::showFull);
   connect(window.actions_.whatIsIt, &QAction::triggered, this, [this] {
@@ -81,6 +97,10 @@ void MainWindow::RecogniseView::show() {
   const LiveSource* source = window_.live_.source();
   panel_->desk().setEmulated(window_.liveShown_ && source && source->emulated);
   panel_->ask().setLive(window_.liveShown_ && source, collector_ && collector_->touched());
+  panel_->teach().setLive(source != nullptr);
+  if (!source || !source->control)
+    panel_->today().setZeroPossible(source ? "A replay can't be moved." : "No hand is connected.",
+                                    false);
 }
 
 void MainWindow::RecogniseView::ask() {
@@ -138,6 +158,8 @@ void MainWindow::RecogniseView::listen(bool on) {
   feed_.reset();
   collector_.reset();
   lastGrasp_.reset();
+  zeroStep_ = Zero::kNone;
+  if (!on) panel_->teach().setLive(false);
   LiveSource* source = window_.live_.source();
   if (!on || !source) return;
   FeedOptions options;
@@ -158,7 +180,8 @@ void MainWindow::RecogniseView::hear() {
       collector_->addAngles(std::move(*angles));
   }
   items_.clear();
-  for (Profile& ended : collector_->takeEnded()) lastGrasp_ = std::move(ended);
+  for (Profile& ended : collector_->takeEnded()) takeEnded(std::move(ended));
+  goOnWithZero();
   ++sinceAsked_;
   if (!window_.liveShown_ || (!dock_->isVisible() && !full_)) return;
   panel_->ask().setLive(true, collector_->touched());
@@ -178,7 +201,105 @@ void MainWindow::RecogniseView::showFull() {
   show();
 }
 
-bool MainWindow::RecogniseView::cancel() { return panel_->cancel(); }
+void MainWindow::RecogniseView::takeEnded(Profile grasp) {
+  if (zeroStep_ == Zero::kNone) {
+    panel_->teach().take(grasp);
+    lastGrasp_ = std::move(grasp);
+    return;
+  }
+  if (zeroStep_ != Zero::kOpening) return endZero("the pads let go of each other");
+  const EmptyHandZero zero = emptyHandZero(grasp);
+  if (!zero.trouble.empty()) return endZero(QString::fromStdString(zero.trouble));
+  zeroStep_ = Zero::kNone;
+  zero_ = zero;
+  window_.flash("the empty hand reads " + figure(zero.mm, 1) + " ± " + figure(zero.sdMm, 1) +
+                " mm");
+  panel_->desk().changeDay([&](RecognitionDay& day) { day.setZero(zero); });
+}
+
+void MainWindow::RecogniseView::beginZero() {
+  LiveSource* source = window_.live_.source();
+  if (!source || !source->control) return;
+  if (collector_->touched()) return window_.flash("the hand isn't empty: something touches it");
+  try {
+    source->control->grasp({.mode = GraspMode::kReactive,
+                            .preshape = "pinch-empty",
+                            .startRatio = 0.0,
+                            .closeRatio = 1.0,
+                            .velocityDegPerS = kZeroDegPerS,
+                            .limitCounts = kZeroLimitCounts});
+  } catch (const std::exception& error) {
+    return window_.flash(error.what());
+  }
+  zeroStep_ = Zero::kClosing;
+  zeroSinceUs_ = source->session->nowUs();
+}
+
+void MainWindow::RecogniseView::endZero(const QString& trouble) {
+  zeroStep_ = Zero::kNone;
+  window_.flash("no zero: " + trouble);
+}
+
+void MainWindow::RecogniseView::goOnWithZero() {
+  LiveSource* source = window_.live_.source();
+  if (!source || !source->control) return;
+  const GraspStatus status = source->control->status();
+  panel_->today().setZeroPossible(QString::fromStdString(status.cannotReact),
+                                  zeroStep_ != Zero::kNone);
+  if (zeroStep_ == Zero::kNone) return;
+  const std::int64_t nowUs = source->session->nowUs();
+  const double seconds = static_cast<double>(nowUs - zeroSinceUs_) / 1e6;
+  const bool ended = status.phase == GraspPhase::kIdle && status.last;
+  const auto next = [&](Zero step) {
+    zeroStep_ = step;
+    zeroSinceUs_ = nowUs;
+  };
+  if (zeroStep_ == Zero::kClosing) {
+    if (!ended || status.last->beginUs < zeroSinceUs_) return;
+    const GraspOutcome outcome = status.last->outcome;
+    if (outcome != GraspOutcome::kLimitReached && outcome != GraspOutcome::kFinished)
+      return endZero(QString::fromStdString(status.last->text));
+    return next(Zero::kHolding);
+  }
+  if (seconds < kZeroHoldS) return;
+  if (zeroStep_ == Zero::kOpening)
+    return seconds > kZeroOpenS ? endZero("the pads didn't touch, or don't let go") : void();
+  try {
+    source->control->preshape("pinch-empty", kZeroOpenDegPerS);
+  } catch (const std::exception& error) {
+    return endZero(error.what());
+  }
+  next(Zero::kOpening);
+}
+
+void MainWindow::RecogniseView::showGrasp(const std::filesystem::path& file,
+                                          std::size_t begin,
+                                          std::size_t end) {
+  wanted_ = Wanted{file, begin, end};
+  const auto& open = window_.recordings_;
+  const auto at = std::find_if(
+      open.begin(), open.end(), [&](const auto& recording) { return recording->path == file; });
+  if (at == open.end()) return window_.openFiles({file});
+  if (*at == window_.current_ && !window_.liveShown_) return showWanted();
+  window_.showRecording(*at);
+}
+
+void MainWindow::RecogniseView::showWanted() {
+  const OpenedRecordingPtr& recording = window_.current_;
+  if (!wanted_ || !recording || recording->path != wanted_->file) return;
+  const Wanted wanted = *std::exchange(wanted_, std::nullopt);
+  if (wanted.end >= recording->profile.numFrames()) return;  // another one by now
+  const TimeSpan span{recording->timeAt(wanted.begin), recording->timeAt(wanted.end)};
+  window_.timeline_->showSpan({span.fromS - kAirS, span.toS + kAirS});
+  window_.timeline_->setSelection(span);
+  window_.playback_.seekSeconds(span.fromS);
+}
+
+bool MainWindow::RecogniseView::cancel() {
+  // The key stops the hand, too.
+  if (zeroStep_ != Zero::kNone) endZero("given up");
+  return panel_->cancel();
+}
 
 void MainWindow::RecogniseView::leave() {
   hearing_.stop();
@@ -192,10 +313,13 @@ ExportedView MainWindow::RecogniseView::exported() {
   view.name = "Recognise";
   view.widget = panel_;
   view.isThere = [this] {
-    return panel_->isVisible() && !panel_->desk().answer().name().isEmpty();
+    return panel_->isVisible() &&
+           (panel_->check().shown() || !panel_->desk().answer().name().isEmpty());
   };
   view.fileName = [] { return QString("recognised"); };
+  view.tables = [this] { return panel_->check().tables(); };
   view.paint = [this](QPainter& painter, const PictureLook& look) {
+    if (panel_->check().shown()) return panel_->check().paint(painter, look);
     const RecognitionAnswer& answer = panel_->desk().answer();
     paintAnswer(painter,
                 QRectF(QPointF(0, 0), look.size).adjusted(24, 24, -24, -24),

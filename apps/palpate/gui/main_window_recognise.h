@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include <palpate/recognition/empty_hand.h>
 #include <palpate/recognition/grasp_collector.h>
 
 #include "gui/main_window.h"
@@ -36,6 +37,14 @@ class MainWindow::RecogniseView : public QObject {
   void hear();
   void showFull();
   void makeRoom();
+  void takeEnded(Profile grasp);
+  // The zero of the empty hand: close until the pads touch, hold, open.
+  void beginZero();
+  void goOnWithZero();
+  void endZero(const QString& trouble);
+  // A grasp of a recording that may have to be opened first.
+  void showGrasp(const std::filesystem::path& file, std::size_t begin, std::size_t end);
+  void showWanted();
 
   MainWindow& window_;
   RecognisePanel* panel_;
@@ -48,6 +57,15 @@ class MainWindow::RecogniseView : public QObject {
   std::optional<Profile> lastGrasp_;
   QTimer hearing_;
   int sinceAsked_ = 0;  // rounds
+  enum class Zero { kNone, kClosing, kHolding, kOpening };
+  Zero zeroStep_ = Zero::kNone;
+  std::int64_t zeroSinceUs_ = 0;       // of the step, host time
+  std::optional<EmptyHandZero> zero_;  // of today
+  struct Wanted {
+    std::filesystem::path file;
+    std::size_t begin = 0, end = 0;
+  };
+  std::optional<Wanted> wanted_;
 };
 
 }  // namespace palpate::gui

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "gui/recognise_desk.h"
+#include "gui/teaching_desk.h"
 #include "gui/theme.h"
 
 class QButtonGroup;
@@ -15,6 +16,10 @@ class QStackedWidget;
 namespace palpate::gui {
 
 class AskPage;
+class CheckPage;
+class OpeningStrip;
+class TeachPage;
+class TodayPage;
 
 class RecognisePanel : public QWidget {
   Q_OBJECT
@@ -27,13 +32,24 @@ class RecognisePanel : public QWidget {
   void setTheme(Theme theme);
 
   RecogniseDesk& desk() noexcept { return *desk_; }
+  TeachingDesk& teaching() noexcept { return *teaching_; }
   AskPage& ask() noexcept { return *ask_; }
+  TodayPage& today() noexcept { return *today_; }
+  TeachPage& teach() noexcept { return *teach_; }
+  CheckPage& check() noexcept { return *check_; }
   QStringList pageNames() const;
   void showPage(const QString& name);  // one of pageNames(); another is ignored
   QString pageName() const;
   bool cancel();
   void settle();
   QSize sizeHint() const override { return {430, 560}; }
+
+ signals:
+  void said(const QString& text);
+  void failed(const QString& message);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
 
  private:
   void add(QWidget* page, const QString& name, const QString& tip);
@@ -44,7 +60,12 @@ class RecognisePanel : public QWidget {
   QWidget* header_;
   QButtonGroup* chooser_;
   QStackedWidget* pages_;
+  TeachingDesk* teaching_;
+  OpeningStrip* strip_;
   AskPage* ask_;
+  TodayPage* today_;
+  TeachPage* teach_;
+  CheckPage* check_;
 };
 
 }  // namespace palpate::gui

@@ -34,8 +34,6 @@ fs::path objectFolder(const fs::path& folder, const QString& object) {
   return folder / fileNamePart(object.toStdString());
 }
 
-QString objectOf(const fs::path& folder) { return QString::fromStdString(classOfFolder(folder)); }
-
 // "objects": beside it "objects_taken_out".
 fs::path takenOutFolder(const fs::path& folder) {
   return folder.parent_path() / (folder.filename().string() + "_taken_out");
@@ -162,8 +160,7 @@ void TeachingDesk::save(std::size_t index) {
           label.tUs = label.t1Us = timeUs;
           label.kind = "label";
           label.text = object.toStdString();
-          saveRecording(
-              profile, std::vector{label}, written->path, Overwrite::kRefuse, progress);
+          saveRecording(profile, std::vector{label}, written->path, Overwrite::kRefuse, progress);
         } catch (const Cancelled&) {
           throw;
         } catch (const std::exception& error) {
@@ -174,8 +171,8 @@ void TeachingDesk::save(std::size_t index) {
         if (index >= clips_.size()) return;
         TaughtClip& saved = clips_[index];
         saved.trouble = written->trouble;
-        saved.state = written->trouble.isEmpty() ? TaughtClip::State::kAccepted
-                                                 : TaughtClip::State::kFailed;
+        saved.state =
+            written->trouble.isEmpty() ? TaughtClip::State::kAccepted : TaughtClip::State::kFailed;
         if (written->trouble.isEmpty()) saved.path = written->path;
         emit clipsChanged();
         emit folderChanged();
@@ -193,8 +190,7 @@ void TeachingDesk::takeOut(std::size_t index) {
   TaughtClip& clip = clips_.at(index);
   if (clip.state != TaughtClip::State::kAccepted) return;
   try {
-    const fs::path place =
-        takenOutFolder(folder_) / objectFolder(folder_, clip.object).filename();
+    const fs::path place = takenOutFolder(folder_) / objectFolder(folder_, clip.object).filename();
     fs::create_directories(place);
     const fs::path to = freePlace(place / clip.path.filename());
     fs::rename(clip.path, to);
@@ -231,8 +227,8 @@ void TeachingDesk::train(const fs::path& out, const std::optional<EmptyHandZero>
         made->table = gather(folder, part(0.0, 0.5));
         const SampleSet samples = samplesOf(*made->table);
         requireLearnable(samples);
-        made->model = trainModel(
-            samples, FeatureSet::kBest, made->table->sensor, gauss(), part(0.5, 0.9));
+        made->model =
+            trainModel(samples, FeatureSet::kBest, made->table->sensor, gauss(), part(0.5, 0.9));
         made->model.inputs = inputsOf(*made->table, part(0.9, 1.0));
         made->model.programVersion = PALPATE_VERSION;
         made->model.madeAt = utcText(systemClock().wallUs());
@@ -252,9 +248,8 @@ void TeachingDesk::check(bool blocks) {
   job_.start(
       "cross-validation",
       [this, made, folder = folder_](const Progress& progress) {
-        made->table = gather(folder, [&](double fraction) {
-          return !progress || progress(0.6 * fraction);
-        });
+        made->table =
+            gather(folder, [&](double fraction) { return !progress || progress(0.6 * fraction); });
         made->samples = samplesOf(*made->table);
         requireLearnable(made->samples);
         const auto splits = made->blocks ? blockSplits(made->samples.y, kBlocks)
