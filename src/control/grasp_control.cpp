@@ -125,7 +125,7 @@ void GraspControl::heedAnswers() {
   try {
     const CommandAnswer answer = asked.answer.get();
     if (asked.isStop)
-      machine_.onStopTaken();
+      machine_.onStopTaken(nowUs);
     else
       machine_.onMoveTaken(answer.durationS, nowUs);
   } catch (const DeviceError& error) {
@@ -162,6 +162,10 @@ std::string GraspControl::motionProblem() const {
 }
 
 void GraspControl::report() {
+  for (const GraspNote& note : machine_.takeNotes()) {
+    session_.note(noteEvent(machine_.running(), note, session_.nowUs()));
+    tell(machine_.phase(), note.text);
+  }
   if (auto ended = machine_.takeReport()) {
     ended->endUs = session_.nowUs();
     asked_.reset();
@@ -201,7 +205,7 @@ void GraspControl::grasp(const GraspRequest& request) {
       request.validate();
       if (const std::string why = motionProblem(); !why.empty())
         throw DeviceError(DeviceFault::kRefused, "grasp", "refused: the hand can't move: " + why);
-      if (request.mode == GraspMode::kReactive && settingsPending())
+      if (request.mode != GraspMode::kPlain && settingsPending())
         throw DeviceError(
             DeviceFault::kRefused,
             "grasp",

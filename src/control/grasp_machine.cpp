@@ -39,6 +39,12 @@ std::string_view nameOf(GraspPhase phase) {
       return "closing";
     case GraspPhase::kStopping:
       return "stopping";
+    case GraspPhase::kSettling:
+      return "settling";
+    case GraspPhase::kHolding:
+      return "holding";
+    case GraspPhase::kLoosening:
+      return "loosening";
   }
   return "idle";
 }
@@ -55,10 +61,12 @@ std::string GraspMachine::placeOf(const TaxelPeak& peak) const {
 void GraspMachine::begin(const GraspRequest& request, std::int64_t monoUs, std::int64_t hostUs) {
   request.validate();
   if (active()) refuse("refused: the hand is " + std::string(nameOf(phase_)) + "; stop it first");
-  if (request.mode == GraspMode::kReactive) {
+  if (request.mode != GraspMode::kPlain) {
     if (!stream_.alive(monoUs)) {
       const auto silence = stream_.silenceUs(monoUs);
-      refuse("refused: a reactive grasp needs tactile frames, and " +
+      refuse("refused: a " +
+             std::string(request.mode == GraspMode::kSlip ? "slip-aware" : "reactive") +
+             " grasp needs tactile frames, and " +
              (silence ? "none has come for " + millisecondsText(*silence) + " ms"
                       : std::string("none has come yet")));
     }
@@ -73,7 +81,13 @@ void GraspMachine::begin(const GraspRequest& request, std::int64_t monoUs, std::
   if (request.startRatio) motionTo(request, *request.startRatio, hand_);
   motionTo(request, request.closeRatio, hand_);
   report_ = report;
+  report_.limitCounts = limit_ = request.limitCounts;
   stops_ = 0;
+  next_ = Next::kEnd;
+  held_ = testing_ = tested_ = false;
+  endUs_ = 0;
+  notes_.clear();
+  grip_.reset();
   if (request.startRatio)
     move(*request.startRatio, GraspPhase::kPreshaping, monoUs);
   else
@@ -92,9 +106,14 @@ void GraspMachine::move(double closeRatio, GraspPhase phase, std::int64_t monoUs
 void GraspMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) {
   const auto silence = stream_.frame(frame.hostUs, monoUs);
   peak_ = taxelPeak(frame);
+  if (active() && isSlipAware()) grip_.onFrame(frame);
+  if (holds()) return onHoldingFrame(monoUs);
   if (!moves() || !underTactileControl()) return;
-  if (peak_.counts > static_cast<float>(report_.request.limitCounts)) {
+  if (phase_ == GraspPhase::kLoosening && !silence) return onLooseningFrame(monoUs);
+  if (phase_ != GraspPhase::kLoosening && peak_.counts > static_cast<float>(limit_)) {
     report_.peak = peak_;
+    if (isSlipAware() && phase_ == GraspPhase::kClosing)
+      return pause(Next::kSettle, "limit reached: " + placeOf(peak_), monoUs);
     halt(GraspOutcome::kLimitReached, "limit reached: " + placeOf(peak_), monoUs);
   } else if (silence) {
     halt(GraspOutcome::kStreamDead,
@@ -135,6 +154,9 @@ void GraspMachine::motionEnded(const std::vector<int>& states, std::int64_t mono
   }
   if (phase_ == GraspPhase::kPreshaping && axes.empty())
     return move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
+  // A slip-aware grasp goes on with what it got hold of.
+  if (isSlipAware() && phase_ != GraspPhase::kPreshaping && grip_.touches())
+    return pause(Next::kSettle, "closed as far as it goes", monoUs);
   const std::string text = axes.empty() ? "finished: at its target" : "finished: held: " + axes;
   // Where it is held the motors go on pushing. Nobody watches the taxels after this, so they must not.
   if (!axes.empty() && underTactileControl())
@@ -146,6 +168,7 @@ void GraspMachine::halt(GraspOutcome outcome, const std::string& text, std::int6
   report_.outcome = outcome;
   report_.text = text;
   phase_ = GraspPhase::kStopping;
+  next_ = Next::kEnd;
   command_ = StopMotion{};  // instead of a motion that wasn't taken yet
   sentUs_ = monoUs;
   ++stops_;
@@ -159,8 +182,11 @@ void GraspMachine::end(GraspOutcome outcome, const std::string& text) {
   ended_ = report_;
 }
 
-void GraspMachine::onStopTaken() {
-  if (phase_ == GraspPhase::kStopping) end(report_.outcome, report_.text);
+void GraspMachine::onStopTaken(std::int64_t monoUs) {
+  if (phase_ != GraspPhase::kStopping) return;
+  if (next_ == Next::kSettle) return settle(monoUs);
+  if (next_ == Next::kClose) return move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
+  end(report_.outcome, report_.text);
 }
 
 void GraspMachine::onCommandFailed(const std::string& why, bool sent, std::int64_t monoUs) {
@@ -180,9 +206,15 @@ void GraspMachine::onMotionPortGone(const std::string& why) {
 void GraspMachine::onTactilePortGone(const std::string& why, std::int64_t monoUs) {
   if (moves() && underTactileControl())
     halt(GraspOutcome::kStreamDead, "stopped: the tactile port is gone: " + why, monoUs);
+  else if (holds())
+    end(GraspOutcome::kStreamDead,
+        "the tactile port is gone: " + why + "; the hand holds, nobody watches");
 }
 
 void GraspMachine::stop(std::int64_t monoUs) {
+  if (holds() || (phase_ == GraspPhase::kStopping && next_ != Next::kEnd))
+    return halt(
+        GraspOutcome::kStopped, "stopped by the user: the hand holds, nobody watches", monoUs);
   if (moves()) halt(GraspOutcome::kStopped, "stopped by the user", monoUs);
 }
 
@@ -200,6 +232,7 @@ void GraspMachine::onTime(std::int64_t monoUs) {
     ++stops_;
     return;
   }
+  if (holds()) return onHoldingTime(monoUs);
   if (!moves()) return;
   if (underTactileControl() && monoUs > stream_.deadAtUs())
     return halt(GraspOutcome::kStreamDead,
@@ -215,6 +248,7 @@ void GraspMachine::onTime(std::int64_t monoUs) {
 
 std::optional<std::int64_t> GraspMachine::nextUs() const {
   if (phase_ == GraspPhase::kStopping) return sentUs_ + kStopAgainUs;
+  if (holds()) return holdingNextUs();
   if (!moves()) return std::nullopt;
   return underTactileControl() ? std::min(patienceUs_, stream_.deadAtUs() + 1) : patienceUs_;
 }

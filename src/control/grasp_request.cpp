@@ -22,13 +22,24 @@ Json parameters(const GraspRequest& request) {
   json.set("mode", nameOf(request.mode)).set("preshape", request.preshape);
   if (request.startRatio) json.set("start", *request.startRatio);
   json.set("close", request.closeRatio).set("velocity_deg_per_s", request.velocityDegPerS);
-  if (request.mode == GraspMode::kReactive) json.set("limit_counts", request.limitCounts);
+  if (request.mode != GraspMode::kPlain) json.set("limit_counts", request.limitCounts);
+  if (request.mode == GraspMode::kSlip) {
+    const HoldingOptions& holding = request.holding;
+    json.set("raise_counts", holding.raiseCounts)
+        .set("most_limit_counts", holding.mostLimitCounts)
+        .set("settle_s", holding.settleS)
+        .set("calm_s", holding.calmS);
+    if (holding.holdS > 0.0) json.set("hold_s", holding.holdS);
+    if (holding.loosen) json.set("loosen", true);
+    if (holding.weightN > 0.0) json.set("weight_n", holding.weightN);
+  }
   return json;
 }
 
 }  // namespace
 
 std::string_view nameOf(GraspMode mode) {
+  if (mode == GraspMode::kSlip) return "slip";
   return mode == GraspMode::kReactive ? "reactive" : "plain";
 }
 
@@ -61,8 +72,20 @@ void GraspRequest::validate() const {
   if (startRatio) requireRange("start ratio", *startRatio, 0.0, 1.0, "");
   requireRange("close ratio", closeRatio, 0.0, 1.0, "");
   requireRange("velocity", velocityDegPerS, kSlowestGraspDegPerS, kFastestGraspDegPerS, " deg/s");
-  if (mode == GraspMode::kReactive)
+  if (mode != GraspMode::kPlain)
     requireRange("limit", limitCounts, kLeastGraspLimitCounts, kMostGraspLimitCounts, " counts");
+  if (mode == GraspMode::kSlip) holding.validate(limitCounts);
+}
+
+void HoldingOptions::validate(int limitCounts) const {
+  requireRange("hold time", holdS, 0.0, 86'400.0, " s");
+  requireRange("settle time", settleS, 0.0, 60.0, " s");
+  requireRange("rest time", restS, 0.0, 60.0, " s");
+  requireRange("rise of the limit", raiseCounts, 1, kMostGraspLimitCounts, " counts");
+  requireRange("highest limit", mostLimitCounts, limitCounts, kMostGraspLimitCounts, " counts");
+  requireRange("calm time", calmS, 0.01, 86'400.0, " s");
+  requireRange("weight", weightN, 0.0, 1000.0, " N");
+  requireRange("force per count", newtonsPerCount, 0.0, 1.0, " N");
 }
 
 MoveJoints motionTo(const GraspRequest& request, double closeRatio, const HandDescription& hand) {
@@ -77,7 +100,7 @@ MoveJoints motionTo(const GraspRequest& request, double closeRatio, const HandDe
     requireRange(is.name.c_str(), move.targetDeg[axis], is.minimumDeg, is.maximumDeg, " deg");
     move.velocityDegPerS.push_back(std::min(request.velocityDegPerS, is.maximumVelocityDegPerS));
   }
-  move.ramp = request.mode == GraspMode::kReactive;
+  move.ramp = request.mode != GraspMode::kPlain;
   return move;
 }
 
@@ -86,8 +109,10 @@ std::string describe(const GraspRequest& request) {
   if (request.startRatio) text += ", from " + numberText(*request.startRatio);
   text += std::string(request.startRatio ? " to " : ", to ") + numberText(request.closeRatio) +
           ", " + numberText(request.velocityDegPerS) + " deg/s";
-  if (request.mode == GraspMode::kReactive)
+  if (request.mode != GraspMode::kPlain)
     text += ", limit " + std::to_string(request.limitCounts) + " counts";
+  if (request.mode == GraspMode::kSlip)
+    text += ", up to " + std::to_string(request.holding.mostLimitCounts);
   return text;
 }
 
@@ -111,10 +136,29 @@ RecordingEvent endEvent(const GraspReport& report) {
         .set("y", report.peak.row)
         .set("counts", static_cast<double>(report.peak.counts));
   }
+  if (report.request.mode == GraspMode::kSlip) {
+    json.set("last_limit_counts", report.limitCounts).set("slips", report.slips);
+    if (report.countsAtSlip) json.set("counts_at_slip", *report.countsAtSlip);
+    if (report.friction) json.set("friction", *report.friction);
+  }
   if (!report.heldAxes.empty()) {
     Json held = Json::array();
     for (const int axis : report.heldAxes) held.push(axis);
     json.set("held_axes", held);
+  }
+  event.json = json.text(-1);
+  return event;
+}
+
+RecordingEvent noteEvent(const GraspReport& report, const GraspNote& note, std::int64_t hostUs) {
+  Json json = Json::object();
+  json.set("mode", nameOf(report.request.mode))
+      .set("action", note.action)
+      .set("limit_counts", note.limitCounts);
+  RecordingEvent event{hostUs, hostUs, "grasp", {}, note.text, {}};
+  if (note.matrix) {
+    event.matrix = static_cast<int>(*note.matrix);
+    json.set("matrix", *note.matrix);
   }
   event.json = json.text(-1);
   return event;

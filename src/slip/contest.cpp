@@ -81,6 +81,7 @@ LoadFieldResult fitLoadField(const KeyFrame& key,
   const float silent = std::min(least, key.leastCounts());
   const auto saturated = static_cast<float>(options.saturationCounts);
   const Weighing weigh(options, kBlindPart * key.leastCounts());
+  const float* then = key.smoothed().data();
   const auto cx = static_cast<float>(key.centerX());
   const auto cy = static_cast<float>(key.centerY());
   const auto load = static_cast<double>(frame.cwiseMax(0.0F).sum());
@@ -92,13 +93,15 @@ LoadFieldResult fitLoadField(const KeyFrame& key,
     squares = 0.0F;
     for (int y = 0, i = 0; y < layout.rows; ++y)
       for (int x = 0; x < layout.columns; ++x, ++i) {
+        float measured = frame.data()[i];
+        // Silent before and after: what the key is filled with there says nothing.
+        if (!(measured > 0.0F) && !(then[i] > 0.0F)) continue;
         if (masked && !layout.enabled(y, x)) continue;
         const KeyFrame::Sample sample = key.at(static_cast<float>(x), static_cast<float>(y));
         const Eigen::Vector3f slope(sample.value,
                                     sample.value * (static_cast<float>(x) - cx),
                                     sample.value * (static_cast<float>(y) - cy));
         const float model = std::max(0.0F, slope.dot(field));
-        float measured = frame.data()[i];
         if (!(measured > 0.0F)) {
           if (model <= silent) continue;
           measured = silent;

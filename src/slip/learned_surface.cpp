@@ -215,7 +215,7 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
       const float slopeY = 2.0F * gain * (across * weightsX).sum();
       const float turn = slopeX * (sy - cy) - slopeY * (sx - cx);
       const float unsureMotion =
-          square(slopeX * sdX) + square(slopeY * sdY) + square(turn * sdAngle);
+          square(slopeX * sdX) + square(slopeY * sdY) + 4.0F * square(turn * sdAngle);
       const float all =
           variance + noise2 + relative2 * square(measured) + kMotionCounts * unsureMotion;
       const float residual = measured - model;

@@ -170,7 +170,7 @@ class NccMethod final : public TranslationMethod {
   }
 
   bool gaussianPeak(int x, int y, double& offX, double& offY) {
-    const auto along = [this](float before, float peak, float behind, double& off) {
+    const auto along = [](float before, float peak, float behind, double& off) {
       if (before <= 0.0F || behind <= 0.0F) return false;
       const double low = std::log(static_cast<double>(before));
       const double middle = std::log(static_cast<double>(peak));

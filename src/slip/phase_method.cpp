@@ -205,8 +205,10 @@ class PhaseMethod final : public TranslationMethod {
     Peak best{center.x, center.y, -1e30};
     for (int j = 0; j < places; ++j) {
       const double x = center.x + (j - n) * step;
+      if (std::abs(x) > columns_ - 0.5) continue;  // the transform repeats itself behind
       fillWave(x, halfX_, sizeX_);
       for (int i = 0; i < places; ++i) {
+        if (std::abs(center.y + (i - n) * step) > rows_ - 0.5) continue;
         const float* real = alongReal_.data() + i * halfX_;
         const float* imaginary = alongImaginary_.data() + i * halfX_;
         float sum = 0.0F;

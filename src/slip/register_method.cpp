@@ -158,6 +158,7 @@ class RegisterMethod final : public TranslationMethod {
       return;
     }
     motion_ = result.motion;
+    reading.untold = result.untold;
     reading.valid = stepPossible;
     if (stepPossible) {
       reading.dx = motion_.dx - before.dx;

@@ -144,6 +144,36 @@ inline Normal normalOf(const Pass& pass) {
   return normal;
 }
 
+// Which directions the normal equations don't tell, and what holds the motion along them.
+inline Untold untoldOf(const Normal& normal, double sdTaxels, Eigen::Matrix2f& held) {
+  constexpr float kFirm = 1e6F;
+  const Eigen::LLT<Normal> solver(normal);
+  if (solver.info() != Eigen::Success) return {};
+  Normal unit = Normal::Identity();
+  solver.solveInPlace(unit);
+  const float xx = unit(0, 0);
+  const float yy = unit(1, 1);
+  const float xy = unit(0, 1);
+  const auto most = static_cast<float>(sdTaxels * sdTaxels);
+  if (xx + yy <= most) return {};
+  const float root = std::hypot(0.5F * (xx - yy), xy);
+  const float angle = 0.5F * std::atan2(2.0F * xy, xx - yy);  // of the larger variance
+  const Eigen::Vector2f along(std::cos(angle), std::sin(angle));
+  const Eigen::Vector2f across(-along.y(), along.x());
+  Untold untold;
+  if (0.5F * (xx + yy) + root > most) {
+    held += kFirm * along * along.transpose();
+    untold.count = 1;
+    untold.x = static_cast<double>(along.x());
+    untold.y = static_cast<double>(along.y());
+  }
+  if (0.5F * (xx + yy) - root > most) {
+    held += kFirm * across * across.transpose();
+    untold.count = 2;
+  }
+  return untold;
+}
+
 // Gauss-Newton from `start`; `least` is the frame's smallest active value (0: nothing is active).
 template <typename Surface>
 RegistrationResult registerTo(const Surface& surface,
@@ -161,6 +191,7 @@ RegistrationResult registerTo(const Surface& surface,
   const float anglePrior =
       1.0F / static_cast<float>(std::pow(options.anglePriorDeg * static_cast<double>(kRadians), 2));
   const float gainPrior = 1.0F / static_cast<float>(std::pow(options.gainPrior * start.gain, 2));
+  Eigen::Matrix2f held = Eigen::Matrix2f::Zero();
   const auto limit = static_cast<float>(options.convergedTaxels);
   for (int i = 0; i < options.passes; ++i) {
     const Pass pass = passOver(surface, contact, frame, at, options);
@@ -171,7 +202,7 @@ RegistrationResult registerTo(const Surface& surface,
     result.chi2 = static_cast<double>(pass.sums[14]) / pass.taxels;
     Normal normal = normalOf(pass);
     Unknowns right(pass.sums[10], pass.sums[11], pass.sums[12], pass.sums[13]);
-    normal(0, 0) += 1e-3F;  // a motion that nothing tells is none
+    normal(0, 0) += 1e-3F;
     normal(1, 1) += 1e-3F;
     normal(2, 2) += anglePrior;
     right(2) += anglePrior * (from.angle - at.angle);
@@ -183,6 +214,9 @@ RegistrationResult registerTo(const Surface& surface,
       normal(2, 2) = 1.0F;
       right(2) = 0.0F;
     }
+    if (i == 0) result.untold = untoldOf(normal, options.untoldTaxels, held);
+    normal.topLeftCorner<2, 2>() += held;
+    right.head<2>() += held * Eigen::Vector2f(from.dx - at.dx, from.dy - at.dy);
     const Eigen::LLT<Normal> solver(normal);
     if (solver.info() != Eigen::Success) break;
     Unknowns step = solver.solve(right);

@@ -41,6 +41,7 @@ void RegistrationOptions::validate() const {
   check(saturationCounts > 0.0, "saturationCounts", saturationCounts);
   check(anglePriorDeg > 0.0, "anglePriorDeg", anglePriorDeg);
   check(leastTurning >= 0.0 && leastTurning <= 0.5, "leastTurning", leastTurning);
+  check(untoldTaxels > 0.0, "untoldTaxels", untoldTaxels);
   check(gainPrior > 0.0, "gainPrior", gainPrior);
   check(leastOverlap >= 0.0 && leastOverlap <= 1.0, "leastOverlap", leastOverlap);
 }

@@ -9,12 +9,14 @@
 
 #include "palpate/core/error.h"
 #include "palpate/slip/slip_bound.h"
+#include "palpate/slip/slip_detector.h"
 #include "palpate/slip/slip_tracker.h"
 
 namespace palpate {
 namespace {
 
-constexpr int kFrames = 100;  // after the first
+constexpr std::int64_t kFrameUs = 31'500;  // of a frame, where a method looks at stamps
+constexpr int kFrames = 100;               // after the first
 constexpr int kEdgeFrames = 10;
 constexpr double kEdgeTaxels = 1.5;
 constexpr int kTiltFrames = 12;
@@ -239,10 +241,27 @@ void SlipAccuracyOptions::validate() const {
                                 ", not 1..1000");
 }
 
+namespace {
+
+SlipReader beginContest(const MatrixLayout& layout) {
+  SlipDetectorOptions options;
+  options.reference = SlipReference::kFirst;
+  auto detector = std::make_shared<SlipDetector>(layout, options);
+  return [detector, timeUs = std::int64_t{0}](const ConstMatrixMap& frame) mutable {
+    timeUs += kFrameUs;
+    return detector->update(frame, timeUs).motion;
+  };
+}
+
+}  // namespace
+
 std::vector<MeasuredMethod> measuredMethods() {
   std::vector<MeasuredMethod> methods;
   for (const SlipMethod method : slipMethods()) {
-    if (method == SlipMethod::kContest) continue;
+    if (method == SlipMethod::kContest) {
+      methods.push_back({std::string(nameOf(method)), &beginContest});
+      continue;
+    }
     methods.push_back({std::string(nameOf(method)), [method](const MatrixLayout& layout) {
                          SlipTrackerOptions options;
                          options.method = method;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kCentroidPart =
     1.3;  // the centroid loses motion where a contact reaches over an edge
+constexpr double kStillMoves = 0.5;  // of the middle window's threshold
 constexpr double kUndecided = 0.5;
 constexpr double kFarSlack = 0.3;  // [taxels]
 constexpr double kSds = 2.0;
@@ -43,8 +44,13 @@ void SlipRuleOptions::validate() const {
 SlipRule::SlipRule(const SlipRuleOptions& options) : options_(options) { options_.validate(); }
 
 bool SlipRule::counts(const SlipEvidence& evidence, std::size_t window) const {
-  return evidence.computable && evidence.windows[window].filled &&
-         evidence.contactAge > kWindowFrames[window] + options_.settled[window];
+  if (!evidence.computable || !evidence.windows[window].filled ||
+      evidence.contactAge <= kWindowFrames[window] + options_.settled[window])
+    return false;
+  // The long window remembers a slip long after its end.
+  const WindowEvidence& middle = evidence.windows[kMiddleWindow];
+  return window != kLongWindow || !middle.filled ||
+         kCentroidPart * shiftOf(middle) > kStillMoves * threshold(kMiddleWindow);
 }
 
 double SlipRule::threshold(std::size_t window) const {

@@ -130,6 +130,9 @@ const SlipMotion& SlipTracker::update(const ConstMatrixMap& frame, bool afterGap
   motion_.refDy = reading.refDy;
   motion_.residual = reading.residual;
   motion_.gain = reading.gain;
+  motion_.untold = reading.untold.count;
+  motion_.untoldX = reading.untold.x;
+  motion_.untoldY = reading.untold.y;
   motion_.newKey = reading.newKey;
   const double unseen = unseenPart(frame);
   if (measurable)

@@ -40,6 +40,7 @@ SlipWindows::SlipWindows(const MatrixLayout& layout, const SlipWindowsOptions& o
 void SlipWindows::reset() {
   gaps_.reset();
   numKept_ = 0;
+  std::fill(current_.begin(), current_.end(), 0.0F);
   evidence_ = {};
   moments_ = {};
   afterGap_ = false;
@@ -59,8 +60,7 @@ const SlipEvidence& SlipWindows::add(const ConstMatrixMap& frame,
     const float value = frame.data()[i];
     current_[i] = std::isfinite(value) && value > 0.0F ? value : 0.0F;
   }
-  const ConstMatrixMap now(current_.data(), layout_.rows, layout_.columns);
-  moments_ = contactMoments(now);
+  moments_ = contactMoments(this->frame());
   const std::size_t ageBefore = evidence_.contactAge;
   evidence_ = {};
   evidence_.computable =
@@ -104,10 +104,7 @@ void SlipWindows::compete(SlipWindow which) {
   const std::array<RigidMotion, 2> starts = {
       RigidMotion{.dx = window.centroidX, .dy = window.centroidY, .gain = gain}, RigidMotion{}};
   const bool far = std::abs(window.centroidX) + std::abs(window.centroidY) > kLongWay;
-  window.contest = contest(key_,
-                           ConstMatrixMap(current_.data(), layout_.rows, layout_.columns),
-                           std::span(starts).first(far ? 2 : 1),
-                           options_.contest);
+  window.contest = contest(key_, frame(), std::span(starts).first(far ? 2 : 1), options_.contest);
 }
 
 }  // namespace palpate

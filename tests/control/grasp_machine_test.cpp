@@ -143,7 +143,7 @@ TEST(GraspMachine, ReactiveGraspStopsAtTheFirstTaxelOverTheLimit) {
     bench.frame(201.0F, matrix, 7, 4);
     EXPECT_EQ(bench.machine.phase(), GraspPhase::kStopping);
     EXPECT_TRUE(bench.takeStop());
-    bench.machine.onStopTaken();
+    bench.machine.onStopTaken(bench.us);
     const auto report = bench.machine.takeReport();
     ASSERT_TRUE(report.has_value());
     EXPECT_EQ(report->outcome, GraspOutcome::kLimitReached);
@@ -237,7 +237,7 @@ TEST(GraspMachine, ADeadStreamStopsAReactiveGrasp) {
   bench.us += 1;
   bench.machine.onTime(bench.us);
   EXPECT_TRUE(bench.takeStop());
-  bench.machine.onStopTaken();
+  bench.machine.onStopTaken(bench.us);
   EXPECT_EQ(bench.machine.takeReport()->outcome, GraspOutcome::kStreamDead);
 }
 
@@ -264,7 +264,7 @@ TEST(GraspMachine, TheUserStopsAtAnyMoment) {
   bench.take();
   bench.machine.stop(bench.us);
   EXPECT_TRUE(bench.takeStop());
-  bench.machine.onStopTaken();
+  bench.machine.onStopTaken(bench.us);
   EXPECT_EQ(bench.machine.takeReport()->outcome, GraspOutcome::kStopped);
   bench.machine.stop(bench.us);  // nothing runs: nothing is said
   EXPECT_FALSE(bench.machine.active());
@@ -296,7 +296,7 @@ TEST(GraspMachine, AHandThatRefusesIsStopped) {
   EXPECT_TRUE(bench.takeStop());
   bench.machine.onCommandFailed("no answer", true, bench.us);  // the stop: goes out again later
   EXPECT_TRUE(bench.machine.active());
-  bench.machine.onStopTaken();
+  bench.machine.onStopTaken(bench.us);
   const auto report = bench.machine.takeReport();
   EXPECT_EQ(report->outcome, GraspOutcome::kFailed);
   EXPECT_NE(report->text.find("E29"), std::string::npos);
@@ -341,7 +341,7 @@ TEST(GraspMachine, HeldFingersOfAReactiveGraspDoNotGoOnPushing) {
   bench.take(5.0);
   bench.machine.onAxisStates(kHeld, bench.us);
   EXPECT_TRUE(bench.takeStop());
-  bench.machine.onStopTaken();
+  bench.machine.onStopTaken(bench.us);
   EXPECT_EQ(bench.machine.takeReport()->outcome, GraspOutcome::kFinished);
 }
 

@@ -91,8 +91,13 @@ class HandDockTest : public ::testing::Test {
 
 TEST_F(HandDockTest, WithoutAHandItSaysSoAndOffersNothing) {
   EXPECT_EQ(state(), "No hand is connected.");
-  for (const char* name :
-       {"openHand", "graspHand", "reactiveGrasp", "relaxHand", "stopHand", "resetSettings"})
+  for (const char* name : {"openHand",
+                           "graspHand",
+                           "reactiveGrasp",
+                           "slipAwareGrasp",
+                           "relaxHand",
+                           "stopHand",
+                           "resetSettings"})
     EXPECT_FALSE(isEnabled(name)) << name;
   EXPECT_EQ(find<QPushButton>("graspHand")->toolTip(), "No hand is connected");
   EXPECT_EQ(find<ValueSlider>("threshold2")->field()->text(), "–");
@@ -138,6 +143,24 @@ TEST_F(HandDockTest, StopStops) {
   click("stopHand");
   EXPECT_TRUE(await([&] { return state() == "stopped by the user"; }));
   EXPECT_FALSE(bench_->handMoves());
+}
+
+TEST_F(HandDockTest, ASlipAwareGraspClosesUnderWatchAndIsStopped) {
+  connectTo(stillHand());
+  type("limit", "2500");
+  ASSERT_TRUE(await([&] { return isEnabled("slipAwareGrasp"); }));
+  EXPECT_TRUE(find<QPushButton>("slipAwareGrasp")->toolTip().contains("when it slips"));
+  click("slipAwareGrasp");
+  ASSERT_TRUE(bench_->awaitMotion());
+  const auto request = bench_->control->status().request;
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->mode, GraspMode::kSlip);
+  EXPECT_EQ(request->limitCounts, 2500);
+  EXPECT_EQ(request->holding.mostLimitCounts, 2500) << "never below where it begins";
+  EXPECT_FALSE(request->holding.loosen) << "a loaded hand isn't opened";
+  EXPECT_TRUE(await([&] { return !isEnabled("slipAwareGrasp"); }));
+  click("stopHand");
+  EXPECT_TRUE(await([&] { return state() == "stopped by the user"; }));
 }
 
 // From a field, from a menu that is open, from another window.

@@ -5,6 +5,7 @@
 #include <palpate/model/profile_builder.h>
 
 #include "gui/message_banner.h"
+#include "slip_fixture.h"
 
 namespace palpate::gui {
 namespace {
@@ -51,6 +52,7 @@ MainWindow& WindowTest::start() {
     }
     if (name.starts_with("empty")) return profileWithStamps({});
     if (name.starts_with("rich")) return synthesize({.durationS = 4.0, .grasps = 1});
+    if (name.starts_with("slip")) return movingContact();
     while (name.starts_with("slow"))
       if (!progress(0.5)) throw Cancelled();
     throw FormatError(path, "is not a recording: <b>no frames</b>", 17);

@@ -127,6 +127,7 @@ TEST_F(WindowLayoutTest, DocksCloseByTheirButton) {
                          "Filter",
                          "Spectrum",
                          "Calibrate",
+                         "Slip",
                          "Library",
                          "Log",
                          "Recognise"}));

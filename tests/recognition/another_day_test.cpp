@@ -1,5 +1,5 @@
 // The claims of recognition on another day, on the real recordings: 571 grasps of 36 classes of September 2014, and 42 of
-// three of these objects 11 weeks later (protocol X). Nothing was tuned on the later ones' labels.
+// three of these objects 11 weeks later (protocol X). Neither is a clean test: docs/recognition.md says what was chosen on what.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -54,6 +54,21 @@ TEST(CrossValidation, ShrinkageAndTheQuadraticRuleHoldOnRealGrasps) {
   EXPECT_GT(meanOfSeeds(all, options), 0.97);
 }
 
+// Every object left out of the training in turn, against known ones that did not teach: strangers are farther away.
+TEST(CrossValidation, StrangersAreTold) {
+  const auto folder = goldenFolder();
+  PALPATE_NEED(folder);
+  const SampleSet all = goldenSamples(*folder);
+  PipelineOptions options = ldaAndSvm(14);
+  options.calibrationBlocks = 2;  // the distance doesn't depend on it
+  std::vector<double> strange, known;
+  for (const ExaminedSample& one : crossValidate(all, options, leaveClassOutSplits(all.y)).examined)
+    strange.push_back(one.novelty);
+  for (const ExaminedSample& one : crossValidate(all, options, blockSplits(all.y)).examined)
+    known.push_back(one.novelty);
+  EXPECT_GT(auroc(strange, known), 0.92);
+}
+
 TEST(CrossValidation, DoesNotDependOnTheNumberOfThreads) {
   const SampleSet samples = clouds(5, 12, 4, 3.0, 1);
   PipelineOptions options;

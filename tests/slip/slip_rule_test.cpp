@@ -40,6 +40,18 @@ TEST(SlipRule, TheOthersWantTwoFramesInARow) {
   }
 }
 
+// Half of the middle threshold is 0.3 taxel, 0.231 of the centroid.
+TEST(SlipRule, TheLongWindowForgetsWhatIsOver) {
+  SlipRule rule;
+  SlipEvidence evidence = shifted(kLongWindow, 2.0);
+  evidence.windows[kMiddleWindow] = shifted(kMiddleWindow, 0.22).windows[kMiddleWindow];
+  rule.decide(evidence);
+  EXPECT_FALSE(rule.decide(evidence).alarm);
+  evidence.windows[kMiddleWindow] = shifted(kMiddleWindow, 0.24).windows[kMiddleWindow];
+  rule.decide(evidence);
+  EXPECT_TRUE(rule.decide(evidence).alarm);
+}
+
 TEST(SlipRule, TheContestWeighs) {
   SlipRule rule;
   EXPECT_FALSE(rule.decide(shifted(kShortWindow, 0.6, 0.5)).alarm);

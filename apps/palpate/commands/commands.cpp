@@ -144,6 +144,7 @@ const std::vector<Command>& allCommands() {
       {"recover", "saves what can be saved of a damaged or unfinished recording", &recoverCommand},
       {"render", "a picture of one frame: PNG, SVG or PDF", &renderCommand},
       {"signals", "characteristic signals of each matrix as CSV", &signalsCommand},
+      {"slip", "how contacts move on every matrix, and whether that is slip, as CSV", &slipCommand},
       {"slip-benchmark",
        "how well every method measures slip, against synthetic truth, as JSON",
        &slipBenchmarkCommand},

@@ -44,6 +44,7 @@ int recoverCommand(const Words& words);
 int renderCommand(const Words& words);
 int signalsCommand(const Words& words);
 int slipBenchmarkCommand(const Words& words);
+int slipCommand(const Words& words);
 int spectrumCommand(const Words& words);
 int synthesizeCommand(const Words& words);
 int trainCommand(const Words& words);

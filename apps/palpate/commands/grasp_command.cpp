@@ -1,4 +1,5 @@
 // palpate grasp --sdh PORT [--dsa PORT] --preshape NAME ..: moves a hand, and says what it does.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -28,16 +29,30 @@ CommandSpec spec() {
       .purpose =
           "Moves a hand. 'plain' goes to the preshape at close ratio R (0 open .. 1 closed, "
           "default 0.5), whatever\nis felt. 'reactive' opens to the preshape, then closes to R "
-          "(default 1) until the first taxel is over\nN counts. Ctrl-C stops the hand. A line "
+          "(default 1) until the first taxel is over\nN counts. 'slip' does the same, then holds: "
+          "it closes again, to a limit raised by "
+          "300 counts, when what it\nholds slips, until Ctrl-C or for S seconds. Ctrl-C stops the "
+          "hand. A line "
           "per state: seconds, state, text. The hand stays powered and holds.\nNAME: parallel, "
-          "cylindrical, centrical, spherical, pinch-parallel, pinch-tilted, pinch-empty, calibration.",
+          "cylindrical, centrical, spherical, pinch-parallel, pinch-tilted, pinch-empty, "
+          "calibration.",
       .options = {{"sdh", "PORT", "motion controller"},
-                  {"dsa", "PORT", "tactile controller; 'reactive' needs it"},
+                  {"dsa", "PORT", "tactile controller; 'reactive' and 'slip' need it"},
                   {"preshape", "NAME", "how the fingers stand"},
                   {"close", "R", "close ratio, 0..1"},
                   {"velocity", "V", "of the joints, 1..100 deg/s, default 10"},
-                  {"mode", "plain|reactive", "default plain"},
-                  {"limit", "N", "of 'reactive', 3..3600 counts, default 200"},
+                  {"mode", "plain|reactive|slip", "default plain"},
+                  {"limit", "N", "of 'reactive' and 'slip', 3..3600 counts, default 200"},
+                  {"most", "N", "of 'slip': the limit rises up to N counts, default 2200"},
+                  {"hold", "S", "of 'slip': ends after S seconds; the hand goes on holding"},
+                  {"calm",
+                   "S",
+                   "of 'slip': after S seconds without slip the limit falls again, default 5"},
+                  {"loosen", "", "of 'slip': the hand may open slowly to a limit that fell"},
+                  {"object-mass",
+                   "KG",
+                   "of 'slip': opens slowly once, until it slips, and tells the friction"},
+                  {"newtons-per-count", "F", "of a calibration, for the friction"},
                   {"wait", "S", "give up when the hand doesn't answer for S seconds, default 15"}},
       .example =
           "palpate grasp --sdh /dev/ttyUSB1 --dsa /dev/ttyUSB0 --preshape centrical "
@@ -45,11 +60,28 @@ CommandSpec spec() {
       .mostWords = 0};
 }
 
+void holdingOf(const CommandLine& given, GraspRequest& request) {
+  for (const char* option : {"most", "hold", "calm", "loosen", "object-mass", "newtons-per-count"})
+    if (given.has(option) && request.mode != GraspMode::kSlip)
+      throw UsageError("--" + std::string(option) + " belongs to --mode slip");
+  constexpr double kGravity = 9.81;  // [m/s^2]
+  HoldingOptions& holding = request.holding;
+  const int most = std::max(holding.mostLimitCounts, request.limitCounts);
+  holding.mostLimitCounts = static_cast<int>(
+      given.integer("most", request.limitCounts, kMostGraspLimitCounts).value_or(most));
+  holding.holdS = given.number("hold", 0.1, 86'400.0).value_or(0.0);
+  holding.calmS = given.number("calm", 0.1, 86'400.0).value_or(holding.calmS);
+  holding.loosen = given.has("loosen");
+  holding.weightN = kGravity * given.number("object-mass", 0.001, 100.0).value_or(0.0);
+  holding.newtonsPerCount = given.number("newtons-per-count", 1e-9, 1.0).value_or(0.0);
+}
+
 GraspRequest requestOf(const CommandLine& given) {
   GraspRequest request;
-  const bool reactive = given.choice("mode", {"plain", "reactive"}).value_or("plain") == "reactive";
-  if (reactive) {
-    request.mode = GraspMode::kReactive;
+  const std::string mode = given.choice("mode", {"plain", "reactive", "slip"}).value_or("plain");
+  const bool feels = mode != "plain";
+  if (feels) {
+    request.mode = mode == "slip" ? GraspMode::kSlip : GraspMode::kReactive;
     request.startRatio = 0.0;
     request.closeRatio = 1.0;
   }
@@ -64,8 +96,9 @@ GraspRequest requestOf(const CommandLine& given) {
   request.velocityDegPerS = given.number("velocity", kSlowestGraspDegPerS, kFastestGraspDegPerS)
                                 .value_or(request.velocityDegPerS);
   const auto limit = given.integer("limit", kLeastGraspLimitCounts, kMostGraspLimitCounts);
-  if (limit && !reactive) throw UsageError("--limit belongs to --mode reactive");
+  if (limit && !feels) throw UsageError("--limit belongs to --mode reactive and slip");
   request.limitCounts = static_cast<int>(limit.value_or(request.limitCounts));
+  holdingOf(given, request);
   return request;
 }
 
@@ -98,7 +131,7 @@ void awaitHand(const GraspControl& control,
   while (true) {
     const GraspStatus status = control.status();
     const std::string& why =
-        request.mode == GraspMode::kReactive ? status.cannotReact : status.cannotMove;
+        request.mode == GraspMode::kPlain ? status.cannotMove : status.cannotReact;
     if (why.empty()) return;
     if (systemClock().monotonicUs() > endUs) throw Error("the hand can't grasp: " + why);
     if (interruption.came(kLookMs)) throw Error("interrupted before anything was moved");
@@ -110,7 +143,10 @@ GraspReport follow(GraspControl& control, const StateLines& lines, Interruption&
     if (interruption.came(kLookMs)) control.stop();
     for (const GraspChange& change : control.takeChanges()) {
       if (!change.report) {
-        lines.show(nameOf(change.phase));
+        // What happened in a phase, or that it begins.
+        const std::string_view phase = nameOf(change.phase);
+        const bool begins = change.text.compare(0, phase.size(), phase) == 0;
+        lines.show(phase, begins ? std::string() : change.text);
         continue;
       }
       lines.show(nameOf(change.report->outcome), change.text);
@@ -125,6 +161,8 @@ int exitCodeOf(const GraspReport& report) {
     case GraspOutcome::kLimitReached:
       return kDone;
     case GraspOutcome::kStopped:
+      // To hold until somebody ends it is what was asked for.
+      if (report.held && report.request.holding.holdS == 0.0) return kDone;
       std::fputs("palpate: stopped before the grasp was done\n", stderr);
       return kPartlyDone;
     default:
@@ -142,8 +180,9 @@ int graspCommand(const Words& words) {
   ports.sdhPort = given.text("sdh").value_or("");
   ports.dsaPort = given.text("dsa").value_or("");
   if (ports.sdhPort.empty()) throw UsageError("grasp needs --sdh PORT");
-  if (ports.dsaPort.empty() && request.mode == GraspMode::kReactive)
-    throw UsageError("--mode reactive needs --dsa PORT: it stops by what the fingers feel");
+  if (ports.dsaPort.empty() && request.mode != GraspMode::kPlain)
+    throw UsageError("--mode " + std::string(nameOf(request.mode)) +
+                     " needs --dsa PORT: it stops by what the fingers feel");
   const double waitS = given.number("wait", 0.1, 1e6).value_or(15.0);
   const StateLines lines(given.quiet());
   Interruption interruption;

@@ -4,6 +4,7 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/slip_alarms.h"
 
 namespace palpate::commands {
 namespace {
@@ -41,7 +42,11 @@ int slipBenchmarkCommand(const Words& words) {
                     "disc, bar, flat-ellipse, two-blobs, gaussian, elliptic-gaussian; "
                     "default all"},
                    {"seed", "N", "of noise and places, default 1"},
-                   {"trials", "N", "contacts per shape, default 8"}},
+                   {"trials", "N", "contacts per shape, default 8"},
+                   {"recordings",
+                    "FOLDER",
+                    "also scores alarms on real recordings: FOLDER/slip-detection slips, "
+                    "FOLDER/grasps_by_class doesn't"}},
        .example = "palpate slip-benchmark --noise 20",
        .mostWords = 0},
       words);
@@ -79,6 +84,8 @@ int slipBenchmarkCommand(const Words& words) {
   json.set("noise_sd", options.noiseSd)
       .set("seed", static_cast<std::int64_t>(options.seed))
       .set("methods", methods);
+  if (const auto folder = given.text("recordings"))
+    json.set("alarms", slipAlarms(*folder, given.quiet()));
   StandardOutput out;
   out.write(json.text() + "\n");
   out.finish();

@@ -135,6 +135,7 @@ Actions::Actions(QWidget* window) : window_(window) {
   contacts = make(space, "&Contacts: centroids, axes, directions", {key("K")}, true);
   wire = make(space, "&Wire frame", {key("W")}, true);
   axes = make(space, "&Axes of the hand's base", {key("X")}, true);
+  slipArrows = make(space, "&Slip: how contacts and object move", {key("Shift+K")}, true);
   fitHand = make(space, "All of it in the &picture", {key("E")});
   resetHand = make(space, "&Back to the first view", {key("Shift+E")});
   nearer = make(space, "&Nearer", {key("PgUp")});
@@ -154,6 +155,8 @@ Actions::Actions(QWidget* window) : window_(window) {
   setKind(orbits, "Ctrl+arrows", "Turn it");
   setKind(pans, "Ctrl+Shift+arrows", "Move it");
   setKind(onlys.mid(1), "Alt+1 .. Alt+9", "One matrix alone");
+  slipReference = make("View", "Slip is measured &from here", {key("O")});
+  slipReference->setToolTip("The frame that is shown becomes the reference of slip (O)");
   compare = make("View", "Com&pare two recordings…", {key("Ctrl+Shift+C")}, true);
   fullScreen = make("View", "&Full screen", {key("F11")}, true);
   resetLayout = make("View", "&Reset layout", {key("Ctrl+Shift+R")});

@@ -68,6 +68,7 @@ struct Actions {
   QAction* contacts;
   QAction* wire;
   QAction* axes;
+  QAction* slipArrows;
   QAction* fitHand;
   QAction* resetHand;
   QAction* nearer;
@@ -75,6 +76,7 @@ struct Actions {
   QList<QAction*> orbits;  // left, right, up, down
   QList<QAction*> pans;    // the same
   QList<QAction*> onlys;   // the whole hand, then one matrix alone
+  QAction* slipReference;  // slip is measured from the frame that is shown
   QAction* compare;        // checked: two recordings are compared
   QAction* fullScreen;
   QAction* resetLayout;

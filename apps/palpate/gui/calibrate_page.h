@@ -1,4 +1,4 @@
-// A page of the dock Calibrate: something that is computed of a recording beside the window, only while the page is
+// A page of the dock Calibrate, or the dock Slip: something that is computed of a recording beside the window, only while the page is
 // seen, with progress and a way to give it up; and what stands there when there is nothing to show.
 #pragma once
 

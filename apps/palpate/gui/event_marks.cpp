@@ -3,9 +3,11 @@
 #include <QStringList>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 
 #include <palpate/core/json.h>
+#include <palpate/slip/slip_series.h>
 
 #include "gui/captions.h"
 
@@ -34,6 +36,7 @@ EventLane laneOf(const std::string& kind) {
   if (kind == kSegmentKind) return EventLane::kGrasps;
   if (kind == kLabelKind || kind == "mark") return EventLane::kLabels;
   if (kind == kNoteKind) return EventLane::kNotes;
+  if (kind == "slip") return EventLane::kSlips;  // was seen while it was recorded
   return kind == "gap" ? EventLane::kGaps : EventLane::kOthers;
 }
 
@@ -98,6 +101,8 @@ QString nameOf(EventLane lane) {
       return "grasps";
     case EventLane::kSteps:
       return "steps";
+    case EventLane::kSlips:
+      return "slip";
     case EventLane::kGaps:
       return "gaps";
     case EventLane::kLabels:
@@ -161,6 +166,38 @@ void addSteps(const StepReport& report,
                      (found.usable() ? "" : ", not to be calibrated with");
     marks.push_back(std::move(mark));
   }
+  sortMarks(marks);
+}
+
+void addSlips(const SlipSeries& series,
+              const OpenedRecording& recording,
+              std::vector<EventMark>& marks) {
+  const HandDescription& hand = recording.profile.hand();
+  EventMark* last = nullptr;
+  QStringList names;
+  std::vector<EventMark> bars;
+  bars.reserve(series.slips.size());
+  for (const SlipSegment& slip : series.slips) {
+    const double fromS = recording.timeAt(slip.begin), toS = recording.timeAt(slip.end);
+    // Matrices that slip at the same time share a bar.
+    if (last == nullptr || fromS > last->toS) {
+      last = &bars.emplace_back();
+      last->lane = EventLane::kSlips;
+      last->fromS = fromS;
+      names.clear();
+    } else {
+      last->detail += "\n";
+    }
+    last->toS = std::max(last->toS, toS);
+    const QString name = QString::fromStdString(hand.matrices.at(slip.matrix).shortName);
+    if (!names.contains(name)) names.append(name);
+    last->text = names.join(", ");
+    last->detail += "slip of " + QString::fromStdString(hand.matrixName(slip.matrix)) +
+                    " (found)\n" + spanText(fromS, toS) + "\npath " + figure(slip.pathTaxels, 2) +
+                    " taxels, turned " + figure(slip.rotationDeg, 1) + "°, confidence " +
+                    figure(slip.confidence, 2);
+  }
+  std::move(bars.begin(), bars.end(), std::back_inserter(marks));
   sortMarks(marks);
 }
 

@@ -15,11 +15,16 @@
 
 #include "gui/opened_recording.h"
 
+namespace palpate {
+struct SlipSeries;
+}
+
 namespace palpate::gui {
 
-enum class EventLane { kGrasps, kSteps, kGaps, kLabels, kNotes, kOthers };
+enum class EventLane { kGrasps, kSteps, kSlips, kGaps, kLabels, kNotes, kOthers };
 inline constexpr std::array kAllEventLanes = {EventLane::kGrasps,
                                               EventLane::kSteps,
+                                              EventLane::kSlips,
                                               EventLane::kGaps,
                                               EventLane::kLabels,
                                               EventLane::kNotes,
@@ -51,6 +56,11 @@ std::vector<EventMark> marksOf(const OpenedRecording& recording,
 
 // Loading steps that were found (dock Calibrate), among the others in their order.
 void addSteps(const StepReport& report,
+              const OpenedRecording& recording,
+              std::vector<EventMark>& marks);
+
+// Slip that was found (dock Slip), likewise: matrices that slip together share a bar.
+void addSlips(const SlipSeries& series,
               const OpenedRecording& recording,
               std::vector<EventMark>& marks);
 

@@ -103,6 +103,8 @@ QColor EventRows::colorOf(const EventMark& mark) const {
       return matrixColor(0, theme_);
     case EventLane::kSteps:
       return matrixColor(3, theme_);
+    case EventLane::kSlips:
+      return colors.danger;
     case EventLane::kGaps:
       return colors.warning;
     case EventLane::kLabels:
@@ -138,7 +140,7 @@ void EventRows::paintMark(QPainter& painter, std::size_t index) const {
       room = std::min(room, pixelOf(other.fromS) - bar.right() - 2 * kTextRoom);
   const int narrowest = fontMetrics().averageCharWidth() * 3;
   if (mark.lane == EventLane::kGrasps || mark.lane == EventLane::kSteps ||
-      mark.lane == EventLane::kGaps || room < narrowest)
+      mark.lane == EventLane::kSlips || mark.lane == EventLane::kGaps || room < narrowest)
     return;
   const QRectF place(bar.right() + kTextRoom, bar.top(), room, bar.height());
   painter.drawText(place,

@@ -13,6 +13,7 @@ namespace {
 constexpr int kDetailRole = Qt::UserRole + 1;
 constexpr int kWarningRole = Qt::UserRole + 2;
 constexpr int kPadding = 6;          // [px] beside a figure
+constexpr int kIcon = 16;            // [px] side of an icon
 constexpr int kAir = 5;              // [px] above and below
 constexpr double kNarrowest = 0.85;  // of a column's width
 constexpr int kLastLeast = 64;       // [px] of the last column
@@ -36,10 +37,14 @@ class FigureDelegate : public QStyledItemDelegate {
     const QRect room = option.rect.adjusted(kPadding, kAir - 1, -kPadding, -kAir);
     const int line = option.fontMetrics.height();
     const int side = index.data(Qt::TextAlignmentRole).toInt() & Qt::AlignHorizontal_Mask;
+    const auto icon = index.data(Qt::DecorationRole).value<QIcon>();
+    const int aside = icon.isNull() ? 0 : kIcon + kPadding;
+    if (!icon.isNull())
+      icon.paint(painter, QRect(room.left(), room.center().y() - kIcon / 2, kIcon, kIcon));
     const auto draw = [&](const QString& words, int top) {
-      painter->drawText(QRect(room.left(), top, room.width(), line),
+      painter->drawText(QRect(room.left() + aside, top, room.width() - aside, line),
                         side | Qt::AlignVCenter,
-                        option.fontMetrics.elidedText(words, Qt::ElideRight, room.width()));
+                        option.fontMetrics.elidedText(words, Qt::ElideRight, room.width() - aside));
     };
     const int top = detail.isEmpty() ? room.center().y() - line / 2 : room.top();
     painter->setFont(option.font);
@@ -105,6 +110,7 @@ void FiguresTable::setRows(const std::vector<std::vector<FigureCell>>& rows) {
       item->setData(kDetailRole, cell.detail);
       item->setData(kWarningRole, cell.warning);
       item->setToolTip(cell.tip);
+      item->setIcon(cell.icon);
     }
   if (!sameCount) updateGeometry();
 }

@@ -1,6 +1,7 @@
 // A small table of figures: right-aligned, below each one its interval or what else belongs to it, in a quieter colour.
 #pragma once
 
+#include <QIcon>
 #include <QTableWidget>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct FigureCell {
   QString detail = {};  // second line
   QString tip = {};
   bool warning = false;  // needs a look
+  QIcon icon = {};       // before the text
 };
 
 struct FigureColumn {

@@ -67,7 +67,9 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
       {kLeastGraspLimitCounts, kMostGraspLimitCounts, kMostGraspLimitCounts, 1.0, 0, "counts"},
       this);
   limit_->setObjectName("limit");
-  limit_->setToolTip("A reactive grasp stops at the first taxel above; an SDH-2 saturates at 3560");
+  limit_->setToolTip(
+      "A reactive grasp stops at the first taxel above, a slip-aware one begins there; an SDH-2 "
+      "saturates at 3560");
   limit_->showValue(remembered(
       settings, kLimit, kLeastGraspLimitCounts, kMostGraspLimitCounts, usual.limitCounts));
 
@@ -89,11 +91,19 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   open_->setToolTip("To the open hand of this preshape");
   grasp_ = button("Grasp", "graspHand", this);
   reactive_ = button("Reactive", "reactiveGrasp", this);
+  slipAware_ = button("Slip-aware", "slipAwareGrasp", this);
   relax_ = button("Relax", "relaxHand", this);
   relax_->setToolTip("Motors off: fingers can be moved by hand, what is held may fall");
-  auto* buttons = new QHBoxLayout;
+  auto* grasps = new QHBoxLayout;
+  grasps->setSpacing(6);
+  for (QPushButton* each : {grasp_, reactive_, slipAware_}) grasps->addWidget(each, 1);
+  auto* others = new QHBoxLayout;
+  others->setSpacing(6);
+  for (QPushButton* each : {open_, relax_}) others->addWidget(each, 1);
+  auto* buttons = new QVBoxLayout;
   buttons->setSpacing(6);
-  for (QPushButton* each : {open_, grasp_, reactive_, relax_}) buttons->addWidget(each, 1);
+  buttons->addLayout(grasps);
+  buttons->addLayout(others);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(10);
@@ -107,6 +117,7 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   });
   connect(grasp_, &QPushButton::clicked, this, [this] { begin(request(GraspMode::kPlain)); });
   connect(reactive_, &QPushButton::clicked, this, [this] { begin(request(GraspMode::kReactive)); });
+  connect(slipAware_, &QPushButton::clicked, this, [this] { begin(request(GraspMode::kSlip)); });
   connect(relax_, &QPushButton::clicked, this, [this] {
     if (control_) control_->relax();
   });
@@ -127,9 +138,11 @@ GraspRequest GraspPanel::request(GraspMode mode) const {
   GraspRequest request;
   request.mode = mode;
   request.preshape = preshape_->currentData().toString().toStdString();
-  request.closeRatio = mode == GraspMode::kReactive ? 1.0 : close_->value();
+  request.closeRatio = mode == GraspMode::kPlain ? close_->value() : 1.0;
   request.velocityDegPerS = velocity_->value();
   request.limitCounts = static_cast<int>(limit_->value());
+  // A limit that is chosen above the usual highest one stays where it is.
+  request.holding.mostLimitCounts = std::max(request.holding.mostLimitCounts, request.limitCounts);
   return request;
 }
 
@@ -172,6 +185,13 @@ void GraspPanel::showStatus(const GraspStatus& status) {
       !idle      ? busy
       : canReact ? "Closes until the first taxel is over the limit"
                  : why(status.cannotReact));
+  set(slipAware_,
+      canReact && idle,
+      !idle ? busy
+      : canReact
+          ? "Closes to the limit and holds: when it slips, closes again to a higher one. Ends "
+            "by Stop; what is held stays held"
+          : why(status.cannotReact));
 }
 
 }  // namespace palpate::gui

@@ -42,6 +42,7 @@ class GraspPanel : public QWidget {
   QPushButton* open_;
   QPushButton* grasp_;
   QPushButton* reactive_;
+  QPushButton* slipAware_;
   QPushButton* relax_;
 };
 

@@ -113,6 +113,7 @@ std::shared_ptr<const HandGeometry> geometryOf(const HandDescription& hand) {
 void HandDrawing::setHand(const HandDescription& hand) {
   hand_ = hand;
   geometry_ = geometryOf(hand);
+  slip_.clear();
   bodies_.clear();
   moment_ = {};
   onHand_.clear();
@@ -129,6 +130,7 @@ void HandDrawing::clear() {
   geometry_.reset();
   bodies_.clear();
   moment_ = {};
+  slip_.clear();
   selection_ = {};
 }
 
@@ -252,6 +254,7 @@ void HandDrawing::fill(HandScene& scene, const HandLook& wanted, const HandCamer
   if (look.axes && !flat) addAxes(scene, look);
   if (flat) return;
   if (look.contacts) addContacts(scene, look);
+  if (look.slip) addSlip(scene, look);
   addSphere(scene, look, camera);
 }
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <palpate/kinematics/contact_geometry.h>
@@ -19,6 +20,19 @@
 #include "gui/taxel_patches.h"
 
 namespace palpate::gui {
+
+// How the contact of a matrix moved lately, in taxels: x right, y down.
+struct HandSlip {
+  std::size_t matrix = 0;
+  double x = 0.0;  // where it is
+  double y = 0.0;
+  double dx = 0.0;  // what it moved by
+  double dy = 0.0;
+  std::optional<double> turnDeg = {};  // clockwise on the screen
+  bool slipping = false;
+  bool operator==(const HandSlip&) const = default;
+};
+inline constexpr float kSlipEnlarged = 3.0F;  // of arrows
 
 // A hand at one moment.
 struct HandMoment {
@@ -39,6 +53,9 @@ class HandDrawing {
   // The angles of a frame and what touches there. Angles that are no numbers, or too few, are none.
   void setMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg);
   void setSelection(const TaxelSelection& selection) { selection_ = selection; }
+  // Of the moment; empty: not known.
+  void setSlip(std::vector<HandSlip> slip) { slip_ = std::move(slip); }
+  const std::vector<HandSlip>& slip() const noexcept { return slip_; }
   const HandMoment& moment() const noexcept { return moment_; }
   bool posed() const noexcept { return !moment_.anglesDeg.empty(); }
   const HandPose& pose() const noexcept { return pose_; }
@@ -64,6 +81,7 @@ class HandDrawing {
   void addSphere(HandScene& scene, const HandLook& look, const HandCamera& camera) const;
   void addContacts(HandScene& scene, const HandLook& look) const;
   void addAxes(HandScene& scene, const HandLook& look) const;
+  void addSlip(HandScene& scene, const HandLook& look) const;
   bool isShown(const HandBody& body, const HandLook& look) const;
   const Sphere* sphereOf(const HandLook& look) const;
 
@@ -74,6 +92,7 @@ class HandDrawing {
   HandPose pose_;
   TaxelPatches onHand_, flat_;
   TaxelSelection selection_;
+  std::vector<HandSlip> slip_;
 };
 
 // The geometry of a hand that is known; nothing for others. One for the whole program.

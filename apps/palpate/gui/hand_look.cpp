@@ -65,6 +65,7 @@ HandLook loadHandLook(const QSettings& settings) {
   look.normals = flag(settings, "normals", look.normals);
   look.wire = flag(settings, "wire", look.wire);
   look.contacts = flag(settings, "contacts", look.contacts);
+  look.slip = flag(settings, "slip", look.slip);
   look.axes = flag(settings, "axes", look.axes);
   return look;
 }
@@ -79,6 +80,7 @@ void saveHandLook(const HandLook& look, QSettings& settings) {
   put("normals", look.normals);
   put("wire", look.wire);
   put("contacts", look.contacts);
+  put("slip", look.slip);
   put("axes", look.axes);
 }
 

@@ -38,6 +38,7 @@ struct HandLook {
   bool normals = false;
   bool wire = false;     // the links as a wire frame
   bool contacts = true;  // centroids, principal axes and mean normals of the contacts
+  bool slip = true;      // how the contacts and the object move, where the dock Slip measures it
   bool axes = false;     // of the hand's base frame
   std::optional<std::size_t> only = {};  // one matrix alone; not remembered
   // Shared with the heat maps.

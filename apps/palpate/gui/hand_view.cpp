@@ -333,6 +333,12 @@ void HandView::setHover(std::optional<TaxelPlace> place) {
   emit hovered(hoverText());
 }
 
+void HandView::setSlip(std::vector<HandSlip> slip) {
+  if (slip == drawing_.slip()) return;
+  drawing_.setSlip(std::move(slip));
+  drawAnew();
+}
+
 void HandView::setPressure(std::shared_ptr<const PressureFrame> pressure) {
   pressure_ = std::move(pressure);
   if (hover_) emit hovered(hoverText());

@@ -57,6 +57,8 @@ class HandView : public QWidget {
   void zoomBy(double factor);
   // "finger 0 distal · x 3, y 5 · 812 counts"; empty beside the taxels.
   QString hoverText() const;
+  // How the contacts move; empty: not known.
+  void setSlip(std::vector<HandSlip> slip);
   void setPressure(std::shared_ptr<const PressureFrame> pressure);  // as MatricesView has it
   // What is seen, for a picture of its own: `page` gives size and colours.
   HandPictureOptions pictureOptions(const MatricesPictureOptions& page) const;

@@ -94,6 +94,9 @@ std::unique_ptr<LiveSource> openSource(const Connection& connection,
                                                   settingsOf(*source->session, connection));
   source->pressure = pressure.get();
   stages.push_back(std::move(pressure));
+  auto slip = std::make_unique<SlipStage>();
+  source->slip = slip.get();
+  stages.push_back(std::move(slip));
   ChainOptions options;
   options.onResults = [history = source->history.get()](const LiveResults& results) {
     history->add(results);

@@ -13,6 +13,7 @@
 #include <palpate/live/pressure_stage.h>
 #include <palpate/live/processing_chain.h>
 #include <palpate/live/signal_history.h>
+#include <palpate/live/slip_stage.h>
 
 #include "gui/connection.h"
 
@@ -35,6 +36,7 @@ struct LiveSource {
   std::unique_ptr<ProcessingChain> chain;
   FilterStage* filters = nullptr;         // of the chain, the first stage
   PressureStage* pressure = nullptr;      // of the chain
+  SlipStage* slip = nullptr;              // of the chain
   std::unique_ptr<GraspControl> control;  // null: a replay, which nobody can move
 };
 

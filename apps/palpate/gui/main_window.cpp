@@ -20,6 +20,7 @@
 #include "gui/live_chart.h"
 #include "gui/main_window_calibrate.h"
 #include "gui/main_window_recognise.h"
+#include "gui/main_window_slip.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
 #include "gui/offer_strip.h"
@@ -80,6 +81,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   connectFilter(surroundings.recipe);
   connectSpectrum();
   calibrate_->connectAll();
+  slip_->connectAll();
 
   askForRecordings = [this] {
     return QFileDialog::getOpenFileNames(this,
@@ -109,6 +111,7 @@ MainWindow::~MainWindow() {
   hand_->setHand(nullptr, nullptr);
   liveChart_->setHistory(nullptr, 0);
   calibrate_->leave();
+  slip_->leave();
   delete libraryDock_;  // they hold on to settings and log, which go before other children
   delete logDock_;
 }
@@ -131,6 +134,7 @@ void MainWindow::buildParts(const WindowSurroundings& surroundings) {
   matrices_ = new MatricesPanel(actions_.interpolated, actions_.values, page);
   handPanel_ = new HandPanel({actions_.normals,
                               actions_.contacts,
+                              actions_.slipArrows,
                               actions_.sphereOfCentroids,
                               actions_.wire,
                               actions_.axes},
@@ -196,6 +200,7 @@ void MainWindow::buildDocks(const WindowSurroundings& surroundings) {
   buildFilter();
   buildSpectrum();
   calibrate_ = new CalibrateView(*this);
+  slip_ = new SlipView(*this);
   buildLibrary();
   recognise_ = new RecogniseView(*this, surroundings.dataFolder);
   setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);

@@ -375,10 +375,8 @@ class MainWindow : public QMainWindow {
   HandDock* hand_ = nullptr;
   StatusStrip* status_ = nullptr;
   QList<Dock*> docks_;
-  Dock* inspectDock_ = nullptr;
-  Dock* timelineDock_ = nullptr;
-  Dock* handDock_ = nullptr;
-  Dock* linkDock_ = nullptr;
+  Dock *inspectDock_ = nullptr, *timelineDock_ = nullptr;
+  Dock *handDock_ = nullptr, *linkDock_ = nullptr;
   LinkPanel* link_ = nullptr;
   FilterPanel* filter_ = nullptr;
   Dock* filterDock_ = nullptr;
@@ -388,6 +386,8 @@ class MainWindow : public QMainWindow {
   Dock* spectrumDock_ = nullptr;
   class CalibrateView;  // main_window_calibrate.h
   CalibrateView* calibrate_ = nullptr;
+  class SlipView;  // main_window_slip.h
+  SlipView* slip_ = nullptr;
   LogPanel* log_ = nullptr;
   Dock* logDock_ = nullptr;
   MessageBanner* alarmStrip_ = nullptr;

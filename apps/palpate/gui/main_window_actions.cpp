@@ -157,4 +157,9 @@ void MainWindow::connectChoices() {
   });
 }
 
+void MainWindow::toggleFullScreen(bool on) {
+  setWindowState(on ? windowState() | Qt::WindowFullScreen : windowState() & ~Qt::WindowFullScreen);
+  actions_.fullScreen->setChecked(on);
+}
+
 }  // namespace palpate::gui

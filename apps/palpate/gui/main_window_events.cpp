@@ -7,6 +7,7 @@
 #include <palpate/recording/event_store.h>
 
 #include "gui/main_window_calibrate.h"
+#include "gui/main_window_slip.h"
 #include "gui/message_banner.h"
 #include "gui/timeline_panel.h"
 
@@ -127,6 +128,7 @@ void MainWindow::showEvents() {
   if (EventEditor* editor = events()) {
     marks = marksOf(*current_, editor->events(), graspsOf(current_));
     calibrate_->addSteps(marks);
+    slip_->addSlips(marks);
   }
   rows.setMarks(std::move(marks));
   enableEventActions();

@@ -42,6 +42,8 @@ void MainWindow::connectHandView() {
   on(actions_.contacts,
      [this](bool yes) { changeHand([=](HandLook& look) { look.contacts = yes; }); });
   on(actions_.wire, [this](bool yes) { changeHand([=](HandLook& look) { look.wire = yes; }); });
+  on(actions_.slipArrows,
+     [this](bool yes) { changeHand([=](HandLook& look) { look.slip = yes; }); });
   on(actions_.axes, [this](bool yes) { changeHand([=](HandLook& look) { look.axes = yes; }); });
   on(actions_.fitHand, [&view] { view.fit(); });
   on(actions_.resetHand, [&view] { view.resetCamera(); });
@@ -105,6 +107,7 @@ void MainWindow::showHandLook() {
   actions_.normals->setChecked(look.normals);
   actions_.contacts->setChecked(look.contacts);
   actions_.wire->setChecked(look.wire);
+  actions_.slipArrows->setChecked(look.slip);
   actions_.axes->setChecked(look.axes);
   const HandDescription* hand = matrices_->hand();
   const std::size_t count = hand ? hand->layout->numMatrices() : 0;

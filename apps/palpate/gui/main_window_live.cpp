@@ -15,6 +15,7 @@
 #include "gui/link_panel.h"
 #include "gui/live_chart.h"
 #include "gui/main_window_calibrate.h"
+#include "gui/main_window_slip.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
 #include "gui/offer_strip.h"
@@ -92,6 +93,7 @@ void MainWindow::connectLive() {
     }
     inspect_->showLive(results);
     calibrate_->showLive(results);
+    slip_->showLive(results);
     if (!handPanel_->isHidden())
       handPanel_->showLive(*results.frame,
                            results.angles ? results.angles->deg : std::vector<double>());

@@ -12,6 +12,7 @@
 #include "gui/live_chart.h"
 #include "gui/main_window_calibrate.h"
 #include "gui/main_window_recognise.h"
+#include "gui/main_window_slip.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
 #include "gui/opening_strip.h"
@@ -166,6 +167,7 @@ void MainWindow::connectTakeAway() {
   takeAway_->add(timelineExport());
   takeAway_->add(spectrumExport());
   takeAway_->add(calibrate_->exported());
+  takeAway_->add(slip_->exported());
   takeAway_->add(inspectExport());
   takeAway_->add(recognise_->exported());
   connect(actions_.exportPicture, &QAction::triggered, takeAway_.get(), &TakeAway::exportNow);

@@ -11,6 +11,7 @@
 #include "gui/inspect_panel.h"
 #include "gui/main_window_calibrate.h"
 #include "gui/main_window_recognise.h"
+#include "gui/main_window_slip.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
 #include "gui/opening_strip.h"
@@ -132,6 +133,7 @@ void MainWindow::showCurves() {
   recognise_->show();
   showSpectrum();
   calibrate_->show();
+  slip_->show();
   if (liveShown_) return;
   timeline_->setCurves(curves);
   showReading();

@@ -21,6 +21,7 @@
 #include "gui/live_chart.h"
 #include "gui/log_panel.h"
 #include "gui/main_window_calibrate.h"
+#include "gui/main_window_slip.h"
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
 #include "gui/offer_strip.h"
@@ -247,6 +248,7 @@ void MainWindow::placeDocks(Place place) {
   }
   placeSpectrum();
   calibrate_->place();
+  slip_->place();
   inspectDock_->raise();
 }
 
@@ -303,17 +305,12 @@ void MainWindow::dismiss() {
   if (opener_.busy()) return opener_.cancel();
   if (takeAway_->busy()) return takeAway_->cancel();
   if (job_.busy()) return job_.cancel();
-  if (spectrum_->cancel() || calibrate_->cancel()) return;
+  if (spectrum_->cancel() || calibrate_->cancel() || slip_->cancel()) return;
   if (live_.state() == LiveController::State::kConnecting) return live_.end();
   if (!matrices_->view().selection().empty()) return matrices_->view().clearSelection();
   if (timeline_->selection() && !liveShown_) return timeline_->setSelection(std::nullopt);
   if (compareShown()) return showCompare(false);
   if (isFullScreen()) toggleFullScreen(false);
-}
-
-void MainWindow::toggleFullScreen(bool on) {
-  setWindowState(on ? windowState() | Qt::WindowFullScreen : windowState() & ~Qt::WindowFullScreen);
-  actions_.fullScreen->setChecked(on);
 }
 
 MatricesPictureOptions MainWindow::exportOptions() const {
@@ -343,6 +340,7 @@ void MainWindow::showDock(const QString& name) {
     dock->raise();
     if (dock == spectrumDock_) makeRoomForSpectrum();
     calibrate_->makeRoomFor(dock);
+    slip_->makeRoomFor(dock);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "gui/hand_panel.h"
 #include "gui/main_window.h"
 #include "gui/picture_export.h"
+#include "gui/slip_panel.h"
 #include "gui/spectrum_panel.h"
 #include "gui/timeline_panel.h"
 #include "gui/workbench.h"
@@ -158,6 +159,7 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   window.timelinePanel().chart().storeBefore().waitForFirstLook();
   window.spectrum().settle();
   calibration(window).settle();
+  window.findChild<SlipPanel*>("SlipPanel")->settle();
   // Layout requests and queued replots come one after the other.
   constexpr int kRounds = 5;
   for (int i = 0; i < kRounds; ++i) QCoreApplication::processEvents();

@@ -74,7 +74,8 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   QMenu* space = view->addMenu("Hand in s&pace");
   space->addActions({actions.nextTaxelShape, actions.nextSphere, actions.sphereOfCentroids});
   space->addSeparator();
-  space->addActions({actions.normals, actions.contacts, actions.wire, actions.axes});
+  space->addActions(
+      {actions.normals, actions.contacts, actions.slipArrows, actions.wire, actions.axes});
   space->addSeparator();
   space->addActions({actions.fitHand, actions.resetHand, actions.nearer, actions.further});
   QMenu* turn = space->addMenu("&Turn and move");
@@ -90,7 +91,7 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   view->addAction(actions.chooseCurves);
   view->addActions({actions.zoomIn, actions.zoomOut, actions.fit});
   view->addSeparator();
-  view->addAction(actions.compare);
+  view->addActions({actions.slipReference, actions.compare});
   view->addActions(toggles);
   view->addAction(actions.resetLayout);
   view->addSeparator();

@@ -3,14 +3,20 @@
 //
 //   idle --begin--> preshaping --> closing --> idle        (preshaping only with a start ratio)
 //                        `------------`--> stopping --> idle
+// A slip-aware grasp goes on from its first stop (and ends, from anywhere, as the others do):
+//
+//   closing --limit--> stopping --> settling --> holding --slips--> closing (limit raised) ..
+//                                      ^            `--told to open--> loosening --> stopping --'
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <palpate/control/grasp_request.h>
+#include <palpate/control/grip_watch.h>
 #include <palpate/control/stream_watch.h>
 #include <palpate/device/device.h>
 #include <palpate/model/hand_description.h>
@@ -18,12 +24,13 @@
 
 namespace palpate {
 
-enum class GraspPhase { kIdle, kPreshaping, kClosing, kStopping };
-std::string_view nameOf(GraspPhase phase);  // "idle", "preshaping", "closing", "stopping"
+enum class GraspPhase { kIdle, kPreshaping, kClosing, kStopping, kSettling, kHolding, kLoosening };
+// "idle", "preshaping", "closing", "stopping", "settling", "holding", "loosening"
+std::string_view nameOf(GraspPhase phase);
 
 class GraspMachine {
  public:
-  explicit GraspMachine(HandDescription hand) : hand_(std::move(hand)) {}
+  explicit GraspMachine(HandDescription hand) : hand_(std::move(hand)), grip_(hand_) {}
 
   // Begins a grasp; then takeCommand() has the first motion. Throws std::invalid_argument (request) and
   // DeviceError, kRefused (a grasp runs; a reactive one without a living tactile stream, or with a taxel
@@ -35,7 +42,7 @@ class GraspMachine {
   // The hand took the motion that was sent, and announced its duration [s] ..
   void onMoveTaken(double durationS, std::int64_t monoUs);
   // .. or the stop; ..
-  void onStopTaken();
+  void onStopTaken(std::int64_t monoUs);
   // .. or the command failed: `why` is one line. Not sent: the hand knows nothing of it.
   void onCommandFailed(const std::string& why, bool sent, std::int64_t monoUs);
   // Device::axisStates(): ends a motion when none moves.
@@ -51,6 +58,8 @@ class GraspMachine {
 
   // What is to be sent now, once: a MoveJoints or a StopMotion.
   std::optional<DeviceCommand> takeCommand();
+  // What a slip-aware grasp has to tell since the last call.
+  std::vector<GraspNote> takeNotes() { return std::exchange(notes_, {}); }
   // The report of a grasp that has ended, once; endUs is the caller's to fill in.
   std::optional<GraspReport> takeReport();
 
@@ -58,7 +67,7 @@ class GraspMachine {
   bool active() const noexcept { return phase_ != GraspPhase::kIdle; }
   // Fingers move under tactile control: nobody may change what a count means.
   bool underTactileControl() const noexcept {
-    return active() && report_.request.mode == GraspMode::kReactive;
+    return active() && report_.request.mode != GraspMode::kPlain;
   }
   const GraspReport& running() const noexcept { return report_; }
   const StreamWatch& stream() const noexcept { return stream_; }
@@ -70,8 +79,25 @@ class GraspMachine {
   void end(GraspOutcome outcome, const std::string& text);
   void motionEnded(const std::vector<int>& states, std::int64_t monoUs);
   bool moves() const noexcept {
-    return phase_ == GraspPhase::kPreshaping || phase_ == GraspPhase::kClosing;
+    return phase_ == GraspPhase::kPreshaping || phase_ == GraspPhase::kClosing ||
+           phase_ == GraspPhase::kLoosening;
   }
+  // Of a slip-aware grasp (grasp_machine_slip.cpp).
+  enum class Next { kEnd, kSettle, kClose };  // when a stop was taken
+  bool holds() const noexcept {
+    return phase_ == GraspPhase::kSettling || phase_ == GraspPhase::kHolding;
+  }
+  bool isSlipAware() const noexcept { return report_.request.mode == GraspMode::kSlip; }
+  void note(const char* action, const std::string& text, std::optional<std::size_t> matrix = {});
+  void pause(Next next, const std::string& text, std::int64_t monoUs);
+  void settle(std::int64_t monoUs);
+  void onHoldingFrame(std::int64_t monoUs);
+  void onLooseningFrame(std::int64_t monoUs);
+  void onHoldingTime(std::int64_t monoUs);
+  void answerSlip(const GripSlip& slip, std::int64_t monoUs);
+  void loosen(const char* action, const std::string& text, std::int64_t monoUs);
+  void foundFriction(const GripSlip& slip);
+  std::int64_t holdingNextUs() const;
   std::string placeOf(const TaxelPeak& peak) const;
   void refuse(const std::string& why) const;
 
@@ -88,6 +114,17 @@ class GraspMachine {
   std::int64_t announcedUs_ = 0;  // end of the motion by the hand's announcement
   std::int64_t patienceUs_ = 0;   // then it is given up
   int stops_ = 0;
+
+  GripWatch grip_;
+  std::vector<GraspNote> notes_;
+  Next next_ = Next::kEnd;
+  int limit_ = 0;               // now [counts]
+  bool held_ = false;           // it has held before: the rest is shorter
+  bool testing_ = false;        // loosening looks for friction
+  bool tested_ = false;         // it was looked for
+  std::int64_t settledUs_ = 0;  // end of the rest, or of loosening
+  std::int64_t calmUs_ = 0;     // the last slip, or change of the limit
+  std::int64_t endUs_ = 0;      // of holding; 0: open
 };
 
 }  // namespace palpate

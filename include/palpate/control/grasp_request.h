@@ -16,13 +16,38 @@ namespace palpate {
 enum class GraspMode {
   kPlain,     // to the close ratio, whatever is felt
   kReactive,  // closes until the first taxel of any matrix is over the limit; needs a tactile stream
+  kSlip,  // closes as a reactive grasp, then holds: closes again to a higher limit when what is held slips
 };
-std::string_view nameOf(GraspMode mode);  // "plain", "reactive"
+std::string_view nameOf(GraspMode mode);  // "plain", "reactive", "slip"
 
 constexpr double kSlowestGraspDegPerS = 1.0;
 constexpr double kFastestGraspDegPerS = 100.0;
 constexpr int kLeastGraspLimitCounts = 3;
 constexpr int kMostGraspLimitCounts = 3600;  // an SDH-2 saturates at about 3560
+
+constexpr int kMostSlipLimitCounts = 2200;
+
+// How a slip-aware grasp holds on.
+struct HoldingOptions {
+  double holdS =
+      0.0;  // ends by itself after so long, the hand goes on holding [s], 0: when told; at most a day
+  double settleS = 0.5;                        // rest before the first references [s], 0..60
+  double restS = 0.05;                         // and after closing again [s], 0..60
+  int raiseCounts = 300;                       // the limit rises by so much at a slip, 1..3600 ..
+  int mostLimitCounts = kMostSlipLimitCounts;  // .. up to this, limitCounts..3600
+  // After so long without slip the limit falls again by as much as it rose, down to where it began [s], > 0.
+  double calmS = 5.0;
+  // The hand may then open, slowly and watched, until no taxel is over the lower limit. Not unless told: it is loaded.
+  bool loosen = false;
+  // Of the object; with it the hand is told to open slowly once, until the object slips, and to catch it: what it
+  // felt then tells friction [N], 0: not known.
+  double weightN = 0.0;
+  double newtonsPerCount =
+      0.0;  // normal force per count of all taxels, of a calibration; 0: not known, no friction
+
+  void validate(
+      int limitCounts) const;  // throws std::invalid_argument naming field, value and range
+};
 
 struct GraspRequest {
   GraspMode mode = GraspMode::kPlain;
@@ -32,7 +57,9 @@ struct GraspRequest {
   std::optional<double> startRatio = {};
   double closeRatio = 0.5;        // 0 (open) .. 1 (closed); a reactive grasp goes to 1 at most
   double velocityDegPerS = 10.0;  // 1..100; axes that are slower go as fast as they can [deg/s]
-  int limitCounts = 200;          // of a reactive grasp: stop above, 3..3600 [counts]
+  // Of a reactive grasp: stop above, 3..3600 [counts]; of a slip-aware one the first limit.
+  int limitCounts = 200;
+  HoldingOptions holding = {};  // of a slip-aware grasp
 
   // Throws std::invalid_argument naming field, value and range: no byte may be sent.
   void validate() const;
@@ -65,9 +92,24 @@ struct GraspReport {
   std::int64_t endUs = 0;     //
   TaxelPeak peak;             // of kLimitReached: the largest taxel of the frame that crossed it
   std::vector<int> heldAxes;  // of kFinished: axes that something holds short of their target
+  // Of a slip-aware grasp:
+  bool held = false;    // it came to hold
+  int limitCounts = 0;  // the last limit
+  int slips = 0;        // that were answered, or couldn't be any more
+  // Of the opening until it slipped: all taxels together in that moment [counts], and friction = weight / normal force.
+  std::optional<double> countsAtSlip = {};
+  std::optional<double> friction = {};
 };
 // As an event of kind "grasp" in a recording: parameters, and at the end the outcome, as JSON.
 RecordingEvent beginEvent(const GraspReport& report);
 RecordingEvent endEvent(const GraspReport& report);
+// What a slip-aware grasp did meanwhile, also as events "grasp".
+struct GraspNote {
+  std::string action;  // "holding", "slip", "regrasp", "lower", "loosen", "friction", "at_limit"
+  std::string text;    // one line for a person
+  std::optional<std::size_t> matrix = {};
+  int limitCounts = 0;
+};
+RecordingEvent noteEvent(const GraspReport& report, const GraspNote& note, std::int64_t hostUs);
 
 }  // namespace palpate

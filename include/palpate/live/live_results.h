@@ -10,6 +10,7 @@
 #include <palpate/capture/capture_feed.h>
 #include <palpate/filter/characteristic_signals.h>
 #include <palpate/model/hand_state.h>
+#include <palpate/slip/slip_detector.h>
 
 namespace palpate {
 
@@ -37,6 +38,8 @@ struct LiveResults {
   TaxelPeak peak;
   // Of the pressure stage, where a calibration is chosen; else null.
   std::shared_ptr<const PressureFrame> pressure;
+  // Of the slip stage: one per matrix.
+  std::vector<SlipVerdict> slip;
 };
 
 }  // namespace palpate

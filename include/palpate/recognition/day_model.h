@@ -20,8 +20,8 @@
 
 namespace palpate {
 
-// Defaults were chosen on the September recordings alone: last thirds held out, and sessions simulated from them
-// (docs/recognition.md).
+// Defaults were chosen on the last thirds of the September recordings and sessions simulated from them, the sds of a day taken
+// over from earlier work (docs/recognition.md says what that means for the figures).
 struct DayModelOptions {
   double ownPart = 0.5;           // 0..1
   double offDiagonal = 1.0;       // 0..1

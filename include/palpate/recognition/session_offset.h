@@ -107,7 +107,7 @@ struct DayVerdict {
 };
 
 struct VerdictOptions {
-  double leastKnown = 2.0;        // [ln]; 2 % of known grasps lie below, 2 of 3 unknown ones
+  double leastKnown = 1.0;        // [ln]; 1 % of known grasps lie below, 60 % of unknown ones
   double sureProbability = 0.97;  // of the best class, 0.5..1
 
   void validate() const;

@@ -29,10 +29,20 @@ struct RegistrationOptions {
   double anglePriorDeg =
       6.0;  // sd of the turn from the start; what the shape says of it overrules [deg], > 0
   double leastTurning = 0.06;  // KeyFrame::turning() below which the angle is held, 0..0.5
+  // A direction along which the motion's sd is larger is not told by this contact (a bar along itself): the motion
+  // along it is held at the start [taxels], > 0.
+  double untoldTaxels = 0.15;
   double gainPrior = 0.7;      // sd of ln gain from the start, > 0
   double leastOverlap = 0.25;  // of the key's load that must lie inside, 0..1
 
   void validate() const;  // throws std::invalid_argument naming the field
+};
+
+// Directions along which the contact doesn't tell its motion.
+struct Untold {
+  int count = 0;   // 0: it tells all, 1: none along (x, y), 2: none at all
+  double x = 0.0;  // unit vector
+  double y = 0.0;
 };
 
 struct RegistrationResult {
@@ -45,6 +55,7 @@ struct RegistrationResult {
   double sdX = 0.0;
   double sdY = 0.0;
   double sdAngleDeg = 0.0;
+  Untold untold;  // held at the start along these
 };
 
 // `frame`: of the key's matrix, as it came: it is smoothed as the key was, into `scratch` (rows x columns; allocated

@@ -24,7 +24,7 @@ struct MeasuredMethod {
   std::string name;
   std::function<SlipReader(const MatrixLayout&)> begin;  // a new stream
 };
-// All methods that a SlipTracker has. Others may be added to such a list.
+// All methods of SlipTracker, and contest. Others may be added to such a list.
 std::vector<MeasuredMethod> measuredMethods();
 
 struct SlipAccuracyOptions {

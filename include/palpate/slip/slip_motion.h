@@ -29,6 +29,11 @@ struct SlipMotion {
   // 0..1, a score: how much of the load speaks for the reading (centroid: what isn't saturated or at an edge of the
   // matrix, where the contact may go on unseen; ncc, phase: the correlation; register: overlap over the misfit).
   double confidence = 0.0;
+  // register: directions along which the contact looks the same, as a bar along itself: no motion is seen there, and 0
+  // is given. 0: all is seen, 1: none along (untoldX, untoldY), 2: none at all.
+  int untold = 0;
+  double untoldX = 0.0;
+  double untoldY = 0.0;
   double gain = 1.0;  // register: load against the key frame
 
   bool touched = false;   // first frame of a contact

@@ -7,7 +7,7 @@
 //   m > accumulated + allowance         middle window, whatever P: a tilt of the load saturates, slip goes on
 //   |angle| - 2 sd > rotation + ..      middle window, P > 0.5: it turns
 // allowance = rise max(0, ln(load / load before)) + joints [deg] x 0.1 taxel. Windows that reach into the first frames of a
-// contact don't count. One contest per frame is enough: of the window that is nearest to its threshold.
+// contact don't count, nor does the long one where the middle one sees less than half of its threshold: there nothing moves any more. One contest per frame is enough: of the window that is nearest to its threshold.
 #pragma once
 
 #include <array>

@@ -39,6 +39,8 @@ class SlipWindows {
   void reset();
 
   const SlipEvidence& evidence() const noexcept { return evidence_; }
+  // The last frame, what isn't a number or below 0 as 0; all 0 before the first.
+  ConstMatrixMap frame() const { return {current_.data(), layout_.rows, layout_.columns}; }
   const ContactMoments& moments() const noexcept { return moments_; }  // of the last frame
   bool afterGap() const noexcept { return afterGap_; }  // the last frame came after one
 

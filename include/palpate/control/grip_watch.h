@@ -1,0 +1,60 @@
+// Whether what a hand holds slips: looks at all matrices that carry load, frame by frame, against references that are taken
+// when the grasp has come to rest.
+//
+// A matrix counts when it has three active taxels, 400 counts and a reading that is believed. It slips when the contact moved by
+// more than 0.20 taxel per frame in two frames in a row, or by more than 0.3 taxel or 5 degrees since the reference: less than an
+// alarm asks for (1.0), since what slips out of a grasp leaves its imprint behind, and a false one costs no more than force.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <palpate/model/hand_description.h>
+#include <palpate/slip/slip_tracker.h>
+
+namespace palpate {
+
+struct GripWatchOptions {
+  SlipMethod method = SlipMethod::kRegister;
+  double stepTaxels = 0.20;      // per frame, > 0
+  double referenceTaxels = 0.3;  // since the reference, > 0
+  double turnDeg = 5.0;          // since the reference [deg], > 0
+  int fewestTaxels = 3;          // a matrix with fewer says nothing, 2..
+  double leastCounts = 400.0;    // nor one with less in sum, >= 0
+  double leastConfidence = 0.3;  // nor a reading below, 0..1
+
+  void validate() const;  // throws std::invalid_argument naming the field
+};
+
+struct GripSlip {
+  std::size_t matrix = 0;  // that slips most, by its thresholds
+  SlipMotion motion;
+  std::string why;  // "finger 0 distal: 1.12 taxels since the reference"
+};
+
+class GripWatch {
+ public:
+  // Throws std::invalid_argument.
+  explicit GripWatch(const HandDescription& hand, const GripWatchOptions& options = {});
+
+  void onFrame(const TactileFrame& frame);
+  // The newest frame is how things should stay.
+  void setReference();
+  void reset();
+
+  // By the newest frame, against the reference; nothing: no reference, or nothing slips.
+  std::optional<GripSlip> slip() const;
+  double sumCounts() const noexcept { return sum_; }  // of all taxels of the newest frame
+  bool touches() const noexcept { return sum_ > 0.0; }
+
+ private:
+  HandDescription hand_;
+  GripWatchOptions options_;
+  SensorSlipTracker tracker_;
+  std::vector<int> fast_;  // frames in a row with too large a step, per matrix
+  bool referenced_ = false;
+  double sum_ = 0.0;
+};
+
+}  // namespace palpate

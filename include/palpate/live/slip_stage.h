@@ -1,0 +1,67 @@
+// The stage that tells slip: how the contact of every matrix moves, and whether that is slip.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include <palpate/live/stage.h>
+#include <palpate/model/gap_detector.h>
+#include <palpate/slip/slip_detector.h>
+
+namespace palpate {
+
+// Live the vector is that of `centroid`, the alarm that of the contest, the reference taken when a contact rests.
+SlipDetectorOptions liveSlipOptions();
+
+// Fills LiveResults::slip. When the alarm of a matrix is raised, and when it ends, an event "slip" goes out: a mark when it begins, a
+// span (with path and turn as JSON) when it ends. Other settings of the sensor, and missing frames, begin anew.
+// Everything but the calls of a Stage may be called from any thread; it holds from the next frame on.
+class SlipStage final : public Stage {
+ public:
+  // Throws std::invalid_argument.
+  explicit SlipStage(const SlipDetectorOptions& options = liveSlipOptions());
+
+  // All begins anew. Throws std::invalid_argument.
+  void setOptions(const SlipDetectorOptions& options);
+  SlipDetectorOptions options() const;
+  // The next frame is the reference, of one matrix or of all; the one behind it is the first to be read against it.
+  void setReference(std::optional<std::size_t> matrix = {});
+  void clearReference();
+  // Switched off, a matrix says nothing but watches on; on again it speaks at once.
+  void setOn(std::size_t matrix, bool on);
+
+  void reset() override;
+  void onFrame(LiveResults& results, std::vector<RecordingEvent>& out) override;
+  void onEvent(const RecordingEvent& event) override;
+
+ private:
+  struct Slipping {
+    std::int64_t sinceUs = 0;
+    double pathTaxels = 0.0;
+    double dx = 0.0, dy = 0.0, turnDeg = 0.0;
+  };
+  struct Wish {
+    std::optional<std::size_t> matrix;
+    bool clear = false;
+  };
+  void obey(const SensorLayout& layout);
+  void tell(std::size_t matrix,
+            const SlipVerdict& verdict,
+            std::int64_t hostUs,
+            std::vector<RecordingEvent>& out);
+
+  std::vector<SlipDetector> detectors_;
+  std::vector<std::optional<Slipping>> slipping_;
+  std::vector<Wish> due_;  // references for this frame
+  std::vector<double> jointsDeg_;
+
+  mutable std::mutex mutex_;  // of what follows
+  SlipDetectorOptions options_;
+  bool changed_ = true;
+  std::vector<Wish> wishes_;
+  std::vector<bool> off_;
+};
+
+}  // namespace palpate

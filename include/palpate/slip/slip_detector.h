@@ -1,0 +1,104 @@
+// Watches one matrix: how its contact moves, and whether that is slip.
+//
+// The vector comes from one of the methods of SlipTracker, or from `contest`: the motion of `register`, weighed by P(moved) of the
+// reference and the frame (contest.h) until it is certain: P > 0.9 over 0.35 taxel in two frames, or an alarm. From then on it is the motion
+// itself, until the next reference.
+// The alarm comes from the contest of three windows (slip_rule.h), whatever gives the vector; or, plain, from thresholds on the
+// vector: |step| > 0.20 or |since reference| > 1.0 taxel along an axis, as the prior program had it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include <palpate/slip/slip_motion.h>
+#include <palpate/slip/slip_state.h>
+#include <palpate/slip/slip_tracker.h>
+#include <palpate/slip/slip_windows.h>
+
+namespace palpate {
+
+enum class SlipReference {
+  kFirst,  // the first frame with an active taxel, kept whatever comes
+  kRest,  // each contact anew: the first frame in which it rests; and again when it rests after a slip
+  kGiven,  // none until setReference()
+};
+
+struct SlipDetectorOptions {
+  SlipMethod method = SlipMethod::kContest;
+  SlipReference reference = SlipReference::kRest;
+  bool contestAlarm = true;   // false: plain thresholds
+  SlipRuleOptions rule = {};  // its thresholds are the plain ones, too
+  SlipWindowsOptions windows = {};
+  SlipTrackerOptions tracker = {};  // `method` and `firstContactIsReference` are set from above
+
+  void validate() const;  // throws std::invalid_argument naming the field
+};
+
+struct SlipVerdict {
+  SlipMotion motion;  // valid false: nothing is known of this frame's motion
+  SlipLamp lamp = SlipLamp::kNotComputable;
+  SlipState state = SlipState::kInvalid;
+  bool slipping = false;  // held until it is calm again: translation or, with the contest, turning
+  bool alarm = false;     // of this frame alone
+  bool turning = false;
+  // Of the contest that decides in this frame; nothing: none was needed or possible. The least residual of both explanations.
+  std::optional<double> pMoved;
+  double residual = 0.0;
+  double confidence = 0.0;    // in the state, 0..1: a score
+  bool newReference = false;  // this frame became the reference by itself
+};
+
+class SlipDetector {
+ public:
+  // Throws std::invalid_argument.
+  explicit SlipDetector(const MatrixLayout& layout, const SlipDetectorOptions& options = {});
+
+  // The next frame; stamps ascending [us]. `jointsDeg`: the joint angles that belong to it, or none. Throws
+  // std::invalid_argument for another size.
+  const SlipVerdict& update(const ConstMatrixMap& frame,
+                            std::int64_t timeUs,
+                            std::span<const double> jointsDeg = {});
+  // The newest frame becomes the reference (without contact in it: the next one with contact).
+  void setReference();
+  void clearReference();
+  void reset();
+  // Switched off it says nothing, but goes on watching.
+  void setOn(bool on) noexcept { on_ = on; }
+
+  const SlipVerdict& last() const noexcept { return verdict_; }
+  // Whether the shape of the contact at the reference tells motion from a tilt of the load, per axis.
+  const ShapeCondition& condition() const noexcept { return condition_; }
+  const SlipDetectorOptions& options() const noexcept { return options_; }
+
+ private:
+  void weigh(const SlipMotion& moved);
+  void decideByContest(const SlipEvidence& evidence);
+  void decidePlainly();
+  void holdAlarm(bool raised, bool calm);
+  bool rests(const SlipEvidence& evidence) const;
+  bool keepReference();
+
+  MatrixLayout layout_;
+  SlipDetectorOptions options_;
+  SlipTracker tracker_;
+  SlipWindows windows_;
+  SlipRule rule_;
+  KeyFrame reference_;
+  ShapeCondition condition_;
+  SlipVerdict verdict_;
+  std::optional<ContestResult> referenceContest_;
+  bool on_ = true;
+  bool hasReference_ = false;
+  bool wantsReference_ = false;
+  bool slipped_ = false;  // since the reference was taken
+  int certain_ = 0;       // frames in which P was sure
+  bool latched_ = false;
+  int calm_ = 0;
+  std::size_t looks_ = 0;
+  double lastWeighedX_ = 0.0, lastWeighedY_ = 0.0;
+  bool lastWeighed_ = false;
+};
+
+}  // namespace palpate

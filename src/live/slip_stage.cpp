@@ -1,0 +1,133 @@
+#include "palpate/live/slip_stage.h"
+
+#include <cmath>
+
+#include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+std::string textOf(double pathTaxels, double turnDeg) {
+  return "slip: " + fixedText(pathTaxels, 2) + " taxels, " + fixedText(turnDeg, 1) + " degrees";
+}
+
+}  // namespace
+
+SlipDetectorOptions liveSlipOptions() {
+  SlipDetectorOptions options;
+  options.method = SlipMethod::kCentroid;
+  options.reference = SlipReference::kRest;
+  return options;
+}
+
+SlipStage::SlipStage(const SlipDetectorOptions& options) : options_(options) {
+  options_.validate();
+}
+
+void SlipStage::setOptions(const SlipDetectorOptions& options) {
+  options.validate();
+  const std::lock_guard lock(mutex_);
+  options_ = options;
+  changed_ = true;
+}
+
+SlipDetectorOptions SlipStage::options() const {
+  const std::lock_guard lock(mutex_);
+  return options_;
+}
+
+void SlipStage::setReference(std::optional<std::size_t> matrix) {
+  const std::lock_guard lock(mutex_);
+  wishes_.push_back({matrix, false});
+}
+
+void SlipStage::clearReference() {
+  const std::lock_guard lock(mutex_);
+  wishes_.push_back({{}, true});
+}
+
+void SlipStage::setOn(std::size_t matrix, bool on) {
+  const std::lock_guard lock(mutex_);
+  if (off_.size() <= matrix) off_.resize(matrix + 1, false);
+  off_[matrix] = !on;
+}
+
+void SlipStage::reset() {
+  for (SlipDetector& detector : detectors_) detector.reset();
+  slipping_.assign(slipping_.size(), std::nullopt);
+}
+
+// Counts mean something else now: what was the reference isn't any more.
+void SlipStage::onEvent(const RecordingEvent& event) {
+  if (event.kind == "settings") reset();
+}
+
+void SlipStage::obey(const SensorLayout& layout) {
+  const std::lock_guard lock(mutex_);
+  if (changed_ || detectors_.size() != layout.numMatrices()) {
+    detectors_.clear();
+    for (const MatrixLayout& matrix : layout.matrices()) detectors_.emplace_back(matrix, options_);
+    slipping_.assign(detectors_.size(), std::nullopt);
+    changed_ = false;
+  }
+  for (std::size_t m = 0; m < detectors_.size(); ++m)
+    detectors_[m].setOn(m >= off_.size() || !off_[m]);
+  due_.swap(wishes_);
+  wishes_.clear();
+}
+
+void SlipStage::onFrame(LiveResults& results, std::vector<RecordingEvent>& out) {
+  const TactileFrame& frame = *results.frame;
+  obey(*frame.layout);
+  jointsDeg_.clear();
+  if (results.angles) jointsDeg_.assign(results.angles->deg.begin(), results.angles->deg.end());
+  results.slip.resize(detectors_.size());
+  for (std::size_t m = 0; m < detectors_.size(); ++m) {
+    results.slip[m] = detectors_[m].update(frame.matrix(m), frame.hostUs, jointsDeg_);
+    for (const Wish& wish : due_) {
+      if (wish.matrix && *wish.matrix != m) continue;
+      if (wish.clear)
+        detectors_[m].clearReference();
+      else
+        detectors_[m].setReference();
+      results.slip[m] = detectors_[m].last();
+    }
+    tell(m, results.slip[m], frame.hostUs, out);
+  }
+  due_.clear();
+}
+
+void SlipStage::tell(std::size_t matrix,
+                     const SlipVerdict& verdict,
+                     std::int64_t hostUs,
+                     std::vector<RecordingEvent>& out) {
+  auto& slip = slipping_[matrix];
+  const int number = static_cast<int>(matrix);
+  if (verdict.slipping && !slip) {
+    slip = Slipping{.sinceUs = hostUs};
+    out.push_back({hostUs, hostUs, "slip", number, "slip begins", {}});
+  }
+  if (!slip) return;
+  if (verdict.motion.valid) {
+    slip->dx += verdict.motion.dx;
+    slip->dy += verdict.motion.dy;
+    slip->pathTaxels += std::hypot(verdict.motion.dx, verdict.motion.dy);
+  }
+  if (verdict.motion.rotation.valid) slip->turnDeg += verdict.motion.rotation.rotationDeg;
+  if (verdict.slipping) return;
+  Json json = Json::object();
+  json.set("dx_taxels", slip->dx)
+      .set("dy_taxels", slip->dy)
+      .set("path_taxels", slip->pathTaxels)
+      .set("turn_deg", slip->turnDeg);
+  out.push_back({slip->sinceUs,
+                 hostUs,
+                 "slip",
+                 number,
+                 textOf(slip->pathTaxels, slip->turnDeg),
+                 json.text(-1)});
+  slip.reset();
+}
+
+}  // namespace palpate

@@ -1,0 +1,130 @@
+#include "palpate/slip/object_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <Eigen/SVD>
+
+namespace palpate {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180.0;
+constexpr double kLeastSingular = 1e-3;  // of the largest
+
+}  // namespace
+
+SlipArrow slipArrow(const HandPose& pose,
+                    std::size_t matrix,
+                    double pitchMm,
+                    double x,
+                    double y,
+                    double dx,
+                    double dy,
+                    std::optional<double> turnDeg,
+                    double weight) {
+  if (!std::isfinite(dx) || !std::isfinite(dy) || !(pitchMm > 0.0) || !(weight > 0.0) ||
+      !std::isfinite(weight) || (turnDeg && !std::isfinite(*turnDeg)))
+    throw std::invalid_argument("slipArrow: motion, pitch or weight is no such number");
+  const Eigen::Isometry3d surface = pose.baseFromSurface(matrix, x * pitchMm, y * pitchMm);
+  SlipArrow arrow;
+  arrow.matrix = matrix;
+  arrow.originMm = surface.translation();
+  arrow.alongX = surface.linear().col(0);
+  arrow.alongY =
+      -surface.linear().col(1);  // its Y points to the fingertip, rows rise towards the palm
+  arrow.normal = surface.linear().col(2);
+  arrow.vectorMm = pitchMm * (dx * arrow.alongX + dy * arrow.alongY);
+  if (turnDeg) arrow.turnRad = -*turnDeg * kRadians;
+  arrow.weight = weight;
+  return arrow;
+}
+
+std::vector<SlipArrow> slipArrows(const HandPose& pose,
+                                  const SensorLayout& layout,
+                                  std::span<const SlipMotion> motions,
+                                  bool sinceReference) {
+  std::vector<SlipArrow> arrows;
+  for (std::size_t m = 0; m < motions.size() && m < layout.numMatrices(); ++m) {
+    const SlipMotion& motion = motions[m];
+    if (!(sinceReference ? motion.refValid : motion.valid)) continue;
+    const SlipRotation& rotation = motion.rotation;
+    const bool turns = sinceReference ? rotation.refValid : rotation.valid;
+    std::optional<double> turnDeg;
+    if (turns) turnDeg = sinceReference ? rotation.refRotationDeg : rotation.rotationDeg;
+    arrows.push_back(slipArrow(pose,
+                               m,
+                               layout.matrix(m).pitchMm,
+                               motion.x,
+                               motion.y,
+                               sinceReference ? motion.refDx : motion.dx,
+                               sinceReference ? motion.refDy : motion.dy,
+                               turnDeg));
+  }
+  return arrows;
+}
+
+ObjectMotion objectMotion(std::span<const SlipArrow> arrows) {
+  ObjectMotion motion;
+  motion.contacts = arrows.size();
+  if (arrows.empty()) return motion;
+  for (const SlipArrow& arrow : arrows) {
+    if (!arrow.originMm.allFinite() || !arrow.vectorMm.allFinite() || !(arrow.weight > 0.0) ||
+        !std::isfinite(arrow.weight))
+      throw std::invalid_argument("objectMotion: an arrow isn't finite, or has no weight");
+    motion.centerMm += arrow.originMm / static_cast<double>(arrows.size());
+  }
+  double distance = 0.0;
+  for (const SlipArrow& arrow : arrows)
+    distance += (arrow.originMm - motion.centerMm).norm() / static_cast<double>(arrows.size());
+  const double scale = distance > 1e-6 ? distance : 1.0;  // makes turns comparable to ways [mm]
+
+  std::vector<Eigen::Matrix<double, 1, 6>> rows;
+  std::vector<double> right;
+  const auto add = [&](const SlipArrow& arrow, const Eigen::Vector3d& tangent) {
+    const Eigen::Vector3d lever = (arrow.originMm - motion.centerMm).cross(tangent) / scale;
+    const double root = std::sqrt(arrow.weight);
+    Eigen::Matrix<double, 1, 6> row;
+    row << tangent.transpose(), lever.transpose();
+    rows.push_back(root * row);
+    right.push_back(root * tangent.dot(arrow.vectorMm));
+  };
+  double weights = 0.0;
+  for (const SlipArrow& arrow : arrows) {
+    add(arrow, arrow.alongX);
+    add(arrow, arrow.alongY);
+    weights += 2.0 * arrow.weight;
+  }
+  const std::size_t tangents = rows.size();
+  for (const SlipArrow& arrow : arrows)
+    if (arrow.turnRad) {
+      // As a way at the mean distance of the contacts.
+      const double root = std::sqrt(arrow.weight);
+      Eigen::Matrix<double, 1, 6> row;
+      row << 0.0, 0.0, 0.0, arrow.normal.transpose();
+      rows.push_back(root * row);
+      right.push_back(root * scale * *arrow.turnRad);
+    }
+
+  const auto numRows = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd system(numRows, 6);
+  Eigen::VectorXd known(numRows);
+  for (Eigen::Index i = 0; i < numRows; ++i) {
+    system.row(i) = rows[static_cast<std::size_t>(i)];
+    known(i) = right[static_cast<std::size_t>(i)];
+  }
+  Eigen::JacobiSVD<Eigen::MatrixXd> solver(system, Eigen::ComputeThinU | Eigen::ComputeFullV);
+  solver.setThreshold(kLeastSingular);
+  motion.rank = static_cast<int>(solver.rank());
+  const Eigen::VectorXd solved = solver.solve(known);
+  motion.translationMm = solved.head<3>();
+  motion.rotationRad = solved.tail<3>() / scale;
+  const Eigen::VectorXd residual =
+      (system * solved - known).head(static_cast<Eigen::Index>(tangents));
+  motion.residualMm = std::sqrt(residual.squaredNorm() / weights);
+  for (int i = motion.rank; i < 6; ++i) motion.unknown.emplace_back(solver.matrixV().col(i));
+  return motion;
+}
+
+}  // namespace palpate

@@ -1,0 +1,52 @@
+#include "palpate/slip/sensor_slip_detector.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace palpate {
+
+SensorSlipDetector::SensorSlipDetector(const SensorLayout& layout,
+                                       const SlipDetectorOptions& options)
+    : verdicts_(layout.numMatrices()) {
+  detectors_.reserve(layout.numMatrices());
+  for (const MatrixLayout& matrix : layout.matrices()) detectors_.emplace_back(matrix, options);
+}
+
+const std::vector<SlipVerdict>& SensorSlipDetector::update(const TactileFrame& frame,
+                                                           std::span<const double> jointsDeg) {
+  if (!frame.layout || frame.layout->numMatrices() != detectors_.size())
+    throw std::invalid_argument("SensorSlipDetector: the frame has another layout");
+  for (std::size_t m = 0; m < detectors_.size(); ++m)
+    verdicts_[m] = detectors_[m].update(frame.matrix(m), frame.hostUs, jointsDeg);
+  return verdicts_;
+}
+
+void SensorSlipDetector::collect() {
+  for (std::size_t m = 0; m < detectors_.size(); ++m) verdicts_[m] = detectors_[m].last();
+}
+
+void SensorSlipDetector::setReference() {
+  for (SlipDetector& detector : detectors_) detector.setReference();
+  collect();
+}
+
+void SensorSlipDetector::clearReference() {
+  for (SlipDetector& detector : detectors_) detector.clearReference();
+  collect();
+}
+
+void SensorSlipDetector::reset() {
+  for (SlipDetector& detector : detectors_) detector.reset();
+  collect();
+}
+
+void SensorSlipDetector::setOn(bool on) noexcept {
+  for (SlipDetector& detector : detectors_) detector.setOn(on);
+}
+
+bool SensorSlipDetector::slipping() const noexcept {
+  return std::any_of(
+      verdicts_.begin(), verdicts_.end(), [](const SlipVerdict& one) { return one.slipping; });
+}
+
+}  // namespace palpate

@@ -1,0 +1,257 @@
+#include "palpate/slip/slip_detector.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace palpate {
+namespace {
+
+constexpr double kReading =
+    2.0;  // the reading trusts the contest this much more than the alarm does
+constexpr double kDoubtFrom = 3.0;  // ShapeCondition
+constexpr double kDoubt = 4.0;
+constexpr double kSureP = 0.9;
+constexpr double kSureTaxels = 0.35;
+constexpr int kSureFrames = 2;
+constexpr double kModelInvalid = 60.0;  // residual above which neither explanation is believed
+constexpr int kCalmFrames = 3;
+constexpr double kCalmPart = 0.5;       // of a window's threshold
+constexpr double kPlainCalmPart = 0.8;  // of a plain threshold
+constexpr double kCentroidPart = 1.3;   // as in slip_rule.h
+constexpr std::size_t kTurnLook = 3;    // frames between looks at the angle where nothing shifts
+constexpr std::size_t kRestAge = 15;
+constexpr double kRestTaxels = 0.1;
+constexpr double kRestLoad = 0.05;  // ln
+
+SlipTrackerOptions trackerOptions(const SlipDetectorOptions& options) {
+  SlipTrackerOptions tracker = options.tracker;
+  tracker.method = options.method == SlipMethod::kContest ? SlipMethod::kRegister : options.method;
+  tracker.firstContactIsReference = options.reference == SlipReference::kFirst;
+  return tracker;
+}
+
+double shift(const WindowEvidence& window) {
+  return std::hypot(window.centroidX, window.centroidY);
+}
+
+}  // namespace
+
+void SlipDetectorOptions::validate() const {
+  rule.validate();
+  windows.validate();
+  trackerOptions(*this).validate();
+}
+
+SlipDetector::SlipDetector(const MatrixLayout& layout, const SlipDetectorOptions& options)
+    : layout_(layout),
+      options_(options),
+      tracker_(layout, trackerOptions(options)),
+      windows_(layout, options.windows),
+      rule_(options.rule),
+      reference_(layout) {
+  reset();
+}
+
+void SlipDetector::reset() {
+  clearReference();
+  tracker_.reset();  // last: it may wait for its first contact
+  windows_.reset();
+  rule_.reset();
+  verdict_ = {};
+  wantsReference_ = options_.reference == SlipReference::kFirst;
+  calm_ = 0;
+  looks_ = 0;
+}
+
+void SlipDetector::clearReference() {
+  tracker_.clearReference();
+  reference_.clear();
+  condition_ = {.x = kWorstCondition, .y = kWorstCondition};
+  referenceContest_.reset();
+  hasReference_ = wantsReference_ = slipped_ = latched_ = lastWeighed_ = false;
+  certain_ = 0;
+}
+
+void SlipDetector::setReference() {
+  clearReference();
+  tracker_.setReference();
+  wantsReference_ = !keepReference();
+}
+
+// The contest's own copy of the reference.
+bool SlipDetector::keepReference() {
+  if (!reference_.set(windows_.frame())) return false;
+  hasReference_ = true;
+  wantsReference_ = false;
+  condition_ = shapeCondition(reference_, options_.windows.contest.registration);
+  return true;
+}
+
+const SlipVerdict& SlipDetector::update(const ConstMatrixMap& frame,
+                                        std::int64_t timeUs,
+                                        std::span<const double> jointsDeg) {
+  const SlipEvidence& evidence = windows_.add(frame, timeUs, jointsDeg);
+  const bool wasSlipping = verdict_.slipping;
+  const SlipMotion motion = tracker_.update(windows_.frame(), windows_.afterGap());
+  verdict_ = {};
+  verdict_.motion = motion;
+  verdict_.slipping = wasSlipping;
+  const bool lost = motion.active == 0 || motion.afterGap;
+  if (lost && options_.reference == SlipReference::kRest) clearReference();
+  if (wantsReference_) keepReference();
+  if (options_.method == SlipMethod::kContest) weigh(motion);
+  if (options_.contestAlarm)
+    decideByContest(evidence);
+  else
+    decidePlainly();
+  if (lost) verdict_.slipping = false;
+  if (verdict_.slipping) slipped_ = true;
+  if (options_.reference == SlipReference::kRest && rests(evidence)) {
+    const bool again = slipped_;
+    if (!hasReference_ || again) {
+      setReference();
+      verdict_.newReference = true;
+      verdict_.motion.refValid = true;
+      verdict_.motion.refDx = verdict_.motion.refDy = 0.0;
+      lastWeighed_ = options_.method == SlipMethod::kContest;
+      lastWeighedX_ = lastWeighedY_ = 0.0;
+    }
+  }
+  if (!on_) {
+    verdict_.lamp = SlipLamp::kOff;
+    verdict_.slipping = verdict_.alarm = verdict_.turning = false;
+  }
+  return verdict_;
+}
+
+bool SlipDetector::rests(const SlipEvidence& evidence) const {
+  const WindowEvidence& middle = evidence.windows[kMiddleWindow];
+  return evidence.computable && evidence.contactAge >= kRestAge && middle.filled &&
+         !verdict_.slipping && std::abs(middle.logLoadRatio) < kRestLoad &&
+         shift(middle) < kRestTaxels;
+}
+
+// The motion of `register`, as far as the contest of reference and frame believes in it.
+void SlipDetector::weigh(const SlipMotion& moved) {
+  referenceContest_.reset();
+  SlipMotion& motion = verdict_.motion;
+  if (!hasReference_ || !moved.refValid) {
+    lastWeighed_ = false;
+    return;
+  }
+  double weight = 1.0;
+  if (!latched_) {
+    double p = 1.0;
+    const RigidMotion start{.dx = moved.refDx,
+                            .dy = moved.refDy,
+                            .angleDeg = moved.rotation.refValid ? moved.rotation.refRotationDeg : 0,
+                            .gain = moved.sum / reference_.sum()};
+    referenceContest_ =
+        contest(reference_, windows_.frame(), std::span(&start, 1), options_.windows.contest);
+    if (referenceContest_->computed) {
+      p = referenceContest_->pMoved;
+      // The less the shape can tell, the more it must say.
+      const double doubt = std::max(1.0, std::max(condition_.x, condition_.y) / kDoubtFrom);
+      const double odds = std::pow(p / std::max(1.0 - p, 1e-9), kReading) / std::pow(doubt, kDoubt);
+      weight = odds / (1.0 + odds);
+    }
+    const double shifted =
+        kCentroidPart * std::hypot(moved.x - reference_.centerX(), moved.y - reference_.centerY());
+    const double sure = std::min(shifted, std::hypot(moved.refDx, moved.refDy));
+    certain_ = p > kSureP && sure > kSureTaxels ? certain_ + 1 : 0;
+    latched_ = certain_ >= kSureFrames;
+    if (latched_) weight = 1.0;
+  }
+  motion.refDx = weight * moved.refDx;
+  motion.refDy = weight * moved.refDy;
+  if (motion.valid && lastWeighed_) {
+    motion.dx = motion.refDx - lastWeighedX_;
+    motion.dy = motion.refDy - lastWeighedY_;
+  }
+  lastWeighedX_ = motion.refDx;
+  lastWeighedY_ = motion.refDy;
+  lastWeighed_ = true;
+}
+
+void SlipDetector::holdAlarm(bool raised, bool calm) {
+  verdict_.alarm = raised;
+  if (raised) {
+    verdict_.slipping = true;
+    calm_ = 0;
+  } else if (verdict_.slipping) {
+    calm_ = calm ? calm_ + 1 : 0;
+    if (calm_ >= kCalmFrames) verdict_.slipping = false;
+  }
+  verdict_.lamp = verdict_.slipping ? SlipLamp::kSlipping : SlipLamp::kReady;
+}
+
+void SlipDetector::decideByContest(const SlipEvidence& seen) {
+  const auto asked = rule_.asksFor(seen);
+  if (asked)
+    windows_.compete(*asked);
+  else if (rule_.canTurn(seen) && ++looks_ % kTurnLook == 0)
+    windows_.compete(kMiddleWindow);
+  const SlipEvidence& evidence = windows_.evidence();
+  const RuleOutcome outcome = rule_.decide(evidence);
+  if (!evidence.computable || !outcome.leading) {
+    // Too little, or too short a time.
+    verdict_.slipping = verdict_.slipping && evidence.computable;
+    verdict_.state = SlipState::kInvalid;
+    verdict_.lamp = SlipLamp::kNotComputable;
+    return;
+  }
+  verdict_.turning = outcome.turning;
+  const bool calm = kCentroidPart * shift(evidence.windows[kShortWindow]) <
+                        kCalmPart * options_.rule.shortSteps * options_.rule.stepTaxels &&
+                    kCentroidPart * shift(evidence.windows[kMiddleWindow]) <
+                        kCalmPart * options_.rule.middleSteps * options_.rule.stepTaxels;
+  holdAlarm(outcome.alarm || outcome.turning, calm);
+  if (outcome.alarm && hasReference_) latched_ = true;
+
+  const ContestResult* deciding = asked ? &evidence.windows[*asked].contest : nullptr;
+  if (!deciding && referenceContest_) deciding = &*referenceContest_;
+  if (deciding && deciding->computed) {
+    verdict_.pMoved = deciding->pMoved;
+    verdict_.residual = std::min(deciding->stillResidual, deciding->movedResidual);
+  }
+  if (verdict_.slipping) {
+    verdict_.state = SlipState::kSlip;
+    verdict_.confidence = std::max(0.5, verdict_.pMoved.value_or(0.5));
+  } else if (outcome.reach < 1.0) {
+    verdict_.state = SlipState::kStill;
+    verdict_.confidence = 1.0 - 0.5 * outcome.reach;
+  } else if (outcome.allowedReach < 1.0) {
+    verdict_.state = SlipState::kLoading;
+    verdict_.confidence = 1.0 - 0.5 * outcome.allowedReach;
+  } else if (!verdict_.pMoved || verdict_.residual > kModelInvalid) {
+    verdict_.state = SlipState::kInvalid;
+  } else if (*verdict_.pMoved < kSurelyStill) {
+    verdict_.state = SlipState::kLoadShift;
+    verdict_.confidence = 1.0 - *verdict_.pMoved;
+  } else if (*verdict_.pMoved > kSurelyMoved) {
+    verdict_.state = SlipState::kSlip;
+    verdict_.confidence = *verdict_.pMoved;
+  } else {
+    verdict_.state = SlipState::kAmbiguous;
+    verdict_.confidence = 0.5;
+  }
+}
+
+void SlipDetector::decidePlainly() {
+  const SlipMotion& motion = verdict_.motion;
+  if (!motion.valid && !motion.refValid) {
+    verdict_.slipping = false;
+    return;
+  }
+  const double step = std::max(std::abs(motion.dx), std::abs(motion.dy));
+  const double whole = std::max(std::abs(motion.refDx), std::abs(motion.refDy));
+  const double reach =
+      std::max(step / options_.rule.stepTaxels, whole / options_.rule.referenceTaxels);
+  holdAlarm(reach > 1.0, reach < kPlainCalmPart);
+  verdict_.state = verdict_.slipping ? SlipState::kSlip : SlipState::kStill;
+  verdict_.residual = motion.residual;
+  verdict_.confidence = motion.confidence;
+}
+
+}  // namespace palpate

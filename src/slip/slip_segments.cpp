@@ -1,0 +1,99 @@
+#include "palpate/slip/slip_segments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+
+void passSlip(const Profile& profile,
+              const SlipPassOptions& options,
+              const SlipSink& sink,
+              const Progress& progress) {
+  const bool given = options.detector.reference == SlipReference::kGiven;
+  if (given && options.referenceFrame >= profile.numFrames())
+    throw std::invalid_argument("passSlip: referenceFrame is " +
+                                std::to_string(options.referenceFrame) + " of " +
+                                std::to_string(profile.numFrames()));
+  SensorSlipDetector detector(profile.layout(), options.detector);
+  TactileFrame frame;
+  std::vector<double> jointsDeg;
+  std::optional<std::size_t> sample;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    if (progress && !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
+      throw Cancelled();
+    profile.readFrame(i, frame);
+    if (const auto angles = profile.angleSampleAt(frame.hostUs); angles != sample) {
+      sample = angles;
+      jointsDeg = profile.angles(*angles).deg;
+    }
+    detector.update(frame, jointsDeg);
+    if (given && i == options.referenceFrame) detector.setReference();
+    sink(i, frame.hostUs, detector.last());
+  }
+}
+
+SlipSegmenter::SlipSegmenter(std::size_t numMatrices, std::size_t bridgedFrames)
+    : open_(numMatrices), bridgedFrames_(bridgedFrames) {}
+
+void SlipSegmenter::add(std::size_t frame,
+                        std::int64_t timeUs,
+                        const std::vector<SlipVerdict>& verdicts) {
+  for (std::size_t m = 0; m < open_.size() && m < verdicts.size(); ++m) {
+    const SlipVerdict& verdict = verdicts[m];
+    Open& open = open_[m];
+    if (open.segment && (frame > open.segment->end + bridgedFrames_ + 1 ||
+                         verdict.motion.afterGap || verdict.motion.active == 0)) {
+      closed_.push_back(*open.segment);
+      open = {};
+    }
+    const double step =
+        verdict.motion.valid ? std::hypot(verdict.motion.dx, verdict.motion.dy) : 0.0;
+    const double turn = verdict.motion.rotation.valid ? verdict.motion.rotation.rotationDeg : 0.0;
+    if (!verdict.slipping) {
+      open.pendingPath += open.segment ? step : 0.0;
+      open.pendingTurn += open.segment ? turn : 0.0;
+      continue;
+    }
+    if (!open.segment)
+      open.segment = SlipSegment{
+          .begin = frame, .end = frame, .beginUs = timeUs, .endUs = timeUs, .matrix = m};
+    SlipSegment& segment = *open.segment;
+    segment.end = frame;
+    segment.endUs = timeUs;
+    segment.pathTaxels += open.pendingPath + step;
+    segment.rotationDeg += open.pendingTurn + turn;
+    segment.confidence = std::max(segment.confidence, verdict.confidence);
+    open.pendingPath = open.pendingTurn = 0.0;
+  }
+}
+
+std::vector<SlipSegment> SlipSegmenter::segments() const {
+  std::vector<SlipSegment> all = closed_;
+  for (const Open& open : open_)
+    if (open.segment) all.push_back(*open.segment);
+  std::sort(all.begin(), all.end(), [](const SlipSegment& a, const SlipSegment& b) {
+    return std::tie(a.begin, a.matrix) < std::tie(b.begin, b.matrix);
+  });
+  return all;
+}
+
+std::vector<SlipSegment> findSlips(const Profile& profile,
+                                   const SlipSegmentOptions& options,
+                                   const Progress& progress) {
+  SlipSegmenter segmenter(profile.layout().numMatrices(), options.bridgedFrames);
+  passSlip(
+      profile,
+      options.pass,
+      [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipVerdict>& verdicts) {
+        segmenter.add(frame, timeUs, verdicts);
+      },
+      progress);
+  return segmenter.segments();
+}
+
+}  // namespace palpate

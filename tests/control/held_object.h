@@ -1,0 +1,100 @@
+// An emulated hand in its body alone (no port, no thread), driven by a grasp machine: time passes as fast as it can be
+// computed, and every run is the same.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "palpate/control/grasp_machine.h"
+#include "palpate/emulator/physical_hand.h"
+
+#include "testing/testing.h"
+
+namespace palpate::testing {
+
+class HeldObject {
+ public:
+  static constexpr double kPeriodS = 0.0315;
+
+  explicit HeldObject(const Scene& scene) : hand_(scene), machine_(hand_.hand()) {
+    counts_.resize(hand_.hand().layout->numPlaces());
+    run(1.0);  // the machine knows its stream then
+  }
+
+  GraspMachine& machine() { return machine_; }
+  PhysicalHand& hand() { return hand_; }
+  double timeS() const { return timeS_; }
+  std::int64_t us() const { return static_cast<std::int64_t>(std::llround(timeS_ * 1e6)); }
+  const std::vector<GraspNote>& notes() const { return notes_; }
+  int actions(const std::string& action) const {
+    int found = 0;
+    for (const GraspNote& note : notes_) found += note.action == action ? 1 : 0;
+    return found;
+  }
+  double farthestSlip() const {  // of any matrix, now [taxels]
+    double farthest = 0.0;
+    for (const MatrixTruth& truth : hand_.truth())
+      if (truth.contact)
+        farthest = std::max(farthest, std::hypot(truth.slipXTaxels, truth.slipYTaxels));
+    return farthest;
+  }
+  int contacts() const {
+    int found = 0;
+    for (const MatrixTruth& truth : hand_.truth()) found += truth.contact ? 1 : 0;
+    return found;
+  }
+
+  void begin(const GraspRequest& request) { machine_.begin(request, us(), us()); }
+  // Lets time pass; until `enough` is true after a frame, too.
+  bool run(double seconds, const std::function<bool()>& enough = {}) {
+    const double endS = timeS_ + seconds;
+    while (timeS_ < endS) {
+      timeS_ += kPeriodS;
+      hand_.advanceTo(timeS_);
+      hand_.scan(counts_);
+      TactileFrame frame(hand_.hand().layout);
+      frame.hostUs = 1'700'000'000'000'000 + us();
+      for (std::size_t i = 0; i < counts_.size(); ++i)
+        frame.values[i] = static_cast<float>(counts_[i]);
+      machine_.onFrame(frame, us());
+      obey();
+      std::vector<int> states;
+      for (const AxisState state : hand_.joints().states())
+        states.push_back(static_cast<int>(state));
+      machine_.onAxisStates(states, us());
+      machine_.onTime(us());
+      obey();
+      for (GraspNote& note : machine_.takeNotes()) notes_.push_back(std::move(note));
+      if (enough && enough()) return true;
+    }
+    return !enough;
+  }
+
+ private:
+  void obey() {
+    while (auto command = machine_.takeCommand()) {
+      JointMotion& joints = hand_.joints();
+      if (const auto* move = std::get_if<MoveJoints>(&*command)) {
+        joints.setTargets(move->targetDeg);
+        joints.setVelocities(move->velocityDegPerS);
+        joints.setProfile(move->ramp ? VelocityProfile::kRamp : VelocityProfile::kSinSquare);
+        machine_.onMoveTaken(joints.startMotion(), us());
+      } else {
+        joints.stop();
+        machine_.onStopTaken(us());
+      }
+    }
+  }
+
+  PhysicalHand hand_;
+  GraspMachine machine_;
+  std::vector<std::uint16_t> counts_;
+  std::vector<GraspNote> notes_;
+  double timeS_ = 0.0;
+};
+
+}  // namespace palpate::testing

@@ -1,0 +1,203 @@
+// Slip-aware grasps of the emulated hand: what it holds is pulled at, and stays.
+#include <algorithm>
+
+#include "palpate/core/error.h"
+#include "palpate/core/json.h"
+
+#include "control/held_object.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+using testing::HeldObject;
+
+Scene sceneOf(const std::string& name) {
+  Scene scene = loadScene(name, testing::dataFolder() / "scenes");
+  scene.script.clear();
+  return scene;
+}
+
+// Pulls at the object from `atS` on, ever more.
+void pull(Scene& scene, double atS, const Eigen::Vector3d& forceN, double growsS) {
+  LoadObject load;
+  load.forceN = forceN;
+  load.durationS = growsS;
+  scene.script.push_back({atS, load});
+}
+
+GraspRequest slipAware(const std::string& preshape, int limit) {
+  GraspRequest request;
+  request.mode = GraspMode::kSlip;
+  request.preshape = preshape;
+  request.closeRatio = 1.0;
+  request.velocityDegPerS = 25.0;
+  request.limitCounts = limit;
+  return request;
+}
+
+TEST(SlipGrasp, HoldsWhatRestsAndMovesNothing) {
+  HeldObject held(sceneOf("bottle"));
+  GraspRequest request = slipAware("cylindrical", 400);
+  request.velocityDegPerS = 8.0;
+  held.begin(request);
+  ASSERT_TRUE(held.run(8.0, [&] { return held.machine().phase() == GraspPhase::kHolding; }));
+  const std::uint64_t orders = held.hand().joints().orders();
+  held.run(4.0);
+  EXPECT_EQ(held.machine().phase(), GraspPhase::kHolding);
+  EXPECT_EQ(held.machine().running().slips, 0);
+  EXPECT_EQ(held.hand().joints().orders(), orders);
+  EXPECT_EQ(held.actions("holding"), 1);
+}
+
+struct Pulled {
+  int contacts = 0;
+  int slips = 0;
+  int limit = 0;
+  GraspPhase phase = GraspPhase::kIdle;
+  std::string log;
+};
+
+// A smooth handle is pulled out of a pinch, harder and harder, until the pull ends.
+Pulled pullTheHandle(GraspMode mode, const HoldingOptions& holding = {}) {
+  Scene scene = sceneOf("slipping_handle");
+  pull(scene, 8.0, {0.0, 0.0, 12.5}, 6.0);
+  pull(scene, 17.0, {0.0, 0.0, 0.0}, 0.2);
+  HeldObject held(scene);
+  GraspRequest request = slipAware("pinch-parallel", 400);
+  request.mode = mode;
+  request.velocityDegPerS = 8.0;
+  request.holding = holding;
+  held.begin(request);
+  held.run(22.0);
+  Pulled pulled{held.contacts(),
+                held.machine().running().slips,
+                held.machine().running().limitCounts,
+                held.machine().phase(),
+                {}};
+  for (const GraspNote& note : held.notes()) pulled.log += note.action + ": " + note.text + "\n";
+  return pulled;
+}
+
+TEST(SlipGrasp, ClosesAgainUponWhatSlipsAndItStays) {
+  EXPECT_EQ(pullTheHandle(GraspMode::kReactive).contacts, 0);  // it is lost
+  const Pulled aware = pullTheHandle(GraspMode::kSlip);
+  EXPECT_EQ(aware.contacts, 2) << aware.log;
+  EXPECT_EQ(aware.phase, GraspPhase::kHolding) << aware.log;
+  EXPECT_GE(aware.slips, 2) << aware.log;
+  EXPECT_GT(aware.limit, 400) << aware.log;
+  EXPECT_LE(aware.limit, kMostSlipLimitCounts) << aware.log;
+}
+
+TEST(SlipGrasp, LowersItsLimitWhenNothingSlipsAndOpensOnlyWhenTold) {
+  HoldingOptions holding;
+  holding.calmS = 1.0;
+  const Pulled quiet = pullTheHandle(GraspMode::kSlip, holding);
+  EXPECT_NE(quiet.log.find("lower: nothing slips"), std::string::npos) << quiet.log;
+  EXPECT_EQ(quiet.log.find("loosen"), std::string::npos) << quiet.log;
+  EXPECT_EQ(quiet.contacts, 2) << quiet.log;
+}
+
+TEST(SlipGrasp, LooksForFrictionWhenTheWeightIsGiven) {
+  HeldObject held(sceneOf("slipping_handle"));
+  GraspRequest request = slipAware("pinch-parallel", 400);
+  request.velocityDegPerS = 8.0;
+  request.holding.calmS = 1.0;
+  request.holding.weightN = 0.15 * 9.81;
+  request.holding.newtonsPerCount = 0.0007;
+  held.begin(request);
+  held.run(25.0);
+  EXPECT_EQ(held.machine().phase(), GraspPhase::kHolding);
+  EXPECT_EQ(held.contacts(), 2);           // it was caught, or never let go
+  EXPECT_GE(held.actions("friction"), 2);  // began, and what came of it
+  const GraspReport& report = held.machine().running();
+  if (report.countsAtSlip) {
+    ASSERT_TRUE(report.friction.has_value());
+    EXPECT_NEAR(*report.friction, 0.15 * 9.81 / (0.0007 * *report.countsAtSlip), 1e-9);
+  }
+}
+
+TEST(SlipGrasp, EndsWhereItStands) {
+  HeldObject held(sceneOf("bottle"));
+  GraspRequest request = slipAware("cylindrical", 400);
+  request.velocityDegPerS = 8.0;
+  held.begin(request);
+  ASSERT_TRUE(held.run(8.0, [&] { return held.machine().phase() == GraspPhase::kHolding; }));
+  EXPECT_TRUE(held.machine().underTactileControl());
+  const std::vector<double> angles = held.hand().joints().angles();
+  held.machine().stop(held.us());
+  held.run(0.1);
+  EXPECT_FALSE(held.machine().active());
+  const auto report = held.machine().takeReport();
+  ASSERT_TRUE(report.has_value());
+  EXPECT_EQ(report->outcome, GraspOutcome::kStopped);
+  EXPECT_TRUE(report->held);
+  held.run(1.0);
+  for (std::size_t axis = 0; axis < angles.size(); ++axis)
+    EXPECT_NEAR(held.hand().joints().angles()[axis], angles[axis], 1e-6);
+}
+
+TEST(SlipGrasp, ADeadStreamEndsItWithoutAMotion) {
+  HeldObject held(sceneOf("bottle"));
+  GraspRequest request = slipAware("cylindrical", 400);
+  request.velocityDegPerS = 8.0;
+  held.begin(request);
+  ASSERT_TRUE(held.run(8.0, [&] { return held.machine().phase() == GraspPhase::kHolding; }));
+  held.machine().onTime(held.us() + 200'000);
+  EXPECT_FALSE(held.machine().active());
+  EXPECT_EQ(held.machine().takeReport()->outcome, GraspOutcome::kStreamDead);
+  EXPECT_FALSE(held.machine().takeCommand().has_value());
+}
+
+TEST(SlipGrasp, HoldsForAsLongAsItWasAsked) {
+  HeldObject held(sceneOf("bottle"));
+  GraspRequest request = slipAware("cylindrical", 400);
+  request.velocityDegPerS = 8.0;
+  request.holding.holdS = 2.0;
+  held.begin(request);
+  ASSERT_TRUE(held.run(12.0, [&] { return !held.machine().active(); }));
+  const auto report = held.machine().takeReport();
+  EXPECT_EQ(report->outcome, GraspOutcome::kFinished);
+  EXPECT_NE(report->text.find("held for 2 s, 0 slips"), std::string::npos) << report->text;
+}
+
+TEST(SlipGrasp, NothingIsThereToHold) {
+  HeldObject held(sceneOf("empty"));
+  held.begin(slipAware("centrical", 400));
+  ASSERT_TRUE(held.run(20.0, [&] { return !held.machine().active(); }));
+  EXPECT_EQ(held.machine().takeReport()->outcome, GraspOutcome::kFinished);
+}
+
+TEST(SlipGrasp, RefusesWhatItCantDo) {
+  GraspRequest request = slipAware("centrical", 400);
+  request.holding.mostLimitCounts = 300;
+  EXPECT_THROW(request.validate(), std::invalid_argument);
+  request = slipAware("centrical", 400);
+  request.holding.calmS = 0.0;
+  EXPECT_THROW(request.validate(), std::invalid_argument);
+  // Without a living stream nothing is begun.
+  GraspMachine machine(sdh2());
+  EXPECT_THROW(machine.begin(slipAware("centrical", 400), 1'000'000, 0), DeviceError);
+  EXPECT_FALSE(machine.takeCommand().has_value());
+}
+
+TEST(SlipGrasp, ItsEventsTellWhatHappened) {
+  GraspReport report;
+  report.request = slipAware("centrical", 400);
+  const RecordingEvent slip =
+      noteEvent(report, {"slip", "slips: finger 0 distal", 1, 700}, 1'400'000'000'000'000);
+  EXPECT_EQ(slip.kind, "grasp");
+  EXPECT_EQ(slip.matrix, 1);
+  EXPECT_EQ(Json::parse(slip.json).at("action").asString(), "slip");
+  EXPECT_EQ(Json::parse(slip.json).at("limit_counts").asInteger(), 700);
+  report.outcome = GraspOutcome::kFinished;
+  report.slips = 3;
+  report.limitCounts = 1300;
+  const Json end = Json::parse(endEvent(report).json);
+  EXPECT_EQ(end.at("mode").asString(), "slip");
+  EXPECT_EQ(end.at("slips").asInteger(), 3);
+  EXPECT_EQ(end.at("last_limit_counts").asInteger(), 1300);
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,115 @@
+#include "palpate/live/slip_stage.h"
+
+#include <memory>
+#include <stdexcept>
+
+#include "palpate/core/json.h"
+#include "palpate/live/processing_chain.h"
+#include "palpate/model/hand_description.h"
+#include "palpate/model/profile_builder.h"
+#include "palpate/slip/synthetic_slip.h"
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+// 3 s of rest on matrix 3, then a slip by 0.25 taxel per frame over 12 frames, then rest again.
+Profile slipOnce() {
+  SyntheticSensor sensor;
+  sensor.layout = sdh2().layout->matrix(3);
+  SyntheticSlip slip(sensor, 5);
+  SyntheticContact contact;
+  contact.shape = SlipShape::kFlatEllipse;
+  contact.y = 4.0;
+  ProfileBuilder builder(sdh2().layout);
+  for (int i = 0; i < 200; ++i) {
+    if (i >= 95 && i < 107) contact.y += 0.25;
+    TactileFrame frame(sdh2().layout);
+    slip.read(contact, frame.matrix(3));
+    builder.addFrame(1'400'000'000'000'000 + 31'500 * i, frame.values);
+  }
+  return builder.finish({});
+}
+
+struct Found {
+  std::vector<std::vector<SlipVerdict>> verdicts;
+  std::vector<RecordingEvent> events;
+};
+
+Found processed(const Profile& profile,
+                const std::function<void(SlipStage&)>& prepare = {},
+                const std::function<void(SlipStage&, std::size_t)>& before = {}) {
+  auto stage = std::make_unique<SlipStage>();
+  SlipStage& slip = *stage;
+  if (prepare) prepare(slip);
+  std::vector<std::unique_ptr<Stage>> stages;
+  stages.push_back(std::move(stage));
+  Found found;
+  ChainOptions options;
+  options.onResults = [&](const LiveResults& results) {
+    found.verdicts.push_back(results.slip);
+    if (before) before(slip, found.verdicts.size());
+  };
+  options.onEvent = [&](const RecordingEvent& event) { found.events.push_back(event); };
+  ProcessingChain(std::move(stages), options).runOver(profile);
+  return found;
+}
+
+TEST(SlipStage, ShowsTheVectorOfEveryMatrixAndTellsOfSlip) {
+  const Profile profile = slipOnce();
+  const Found found = processed(profile);
+  ASSERT_EQ(found.verdicts.size(), 200U);
+  ASSERT_EQ(found.verdicts[50].size(), 6U);
+  EXPECT_EQ(found.verdicts[50][0].motion.active, 0);
+  EXPECT_TRUE(found.verdicts[50][3].motion.valid);
+  EXPECT_FALSE(found.verdicts[90][3].slipping);
+  EXPECT_NEAR(found.verdicts[100][3].motion.dy, 0.25, 0.1);
+  EXPECT_TRUE(found.verdicts[104][3].slipping);
+  EXPECT_FALSE(found.verdicts[199][3].slipping);
+  ASSERT_EQ(found.events.size(), 2U);
+  const RecordingEvent& begins = found.events[0];
+  EXPECT_EQ(begins.kind, "slip");
+  EXPECT_EQ(begins.matrix, 3);
+  EXPECT_EQ(begins.tUs, begins.t1Us);
+  EXPECT_GE(begins.tUs, profile.frameTimeUs(95));
+  EXPECT_LE(begins.tUs, profile.frameTimeUs(104));
+  const RecordingEvent& ends = found.events[1];
+  EXPECT_EQ(ends.tUs, begins.tUs);
+  EXPECT_GT(ends.t1Us, profile.frameTimeUs(106));
+  EXPECT_GT(Json::parse(ends.json).at("dy_taxels").asDouble(), 1.0);
+}
+
+TEST(SlipStage, MatricesCanBeSwitchedOff) {
+  const Found found = processed(slipOnce(), [](SlipStage& stage) { stage.setOn(3, false); });
+  EXPECT_TRUE(found.events.empty());
+  EXPECT_EQ(found.verdicts[104][3].lamp, SlipLamp::kOff);
+}
+
+TEST(SlipStage, ReferenceIsTakenFromTheNextFrame) {
+  const Found found = processed(slipOnce(), {}, [](SlipStage& stage, std::size_t frames) {
+    if (frames == 101) stage.setReference(3);
+  });
+  EXPECT_NEAR(found.verdicts[102][3].motion.refDy, 0.25, 0.12);
+  EXPECT_NEAR(found.verdicts[103][3].motion.refDy, 0.5, 0.15);
+}
+
+TEST(SlipStage, OtherOptionsBeginAnew) {
+  const Found found = processed(slipOnce(), {}, [](SlipStage& stage, std::size_t frames) {
+    if (frames != 50) return;
+    SlipDetectorOptions options = stage.options();
+    options.method = SlipMethod::kRegister;
+    stage.setOptions(options);
+  });
+  EXPECT_TRUE(found.verdicts[49][3].motion.valid);
+  EXPECT_FALSE(found.verdicts[50][3].motion.valid);
+  EXPECT_TRUE(found.verdicts[51][3].motion.valid);
+  SlipStage stage;
+  EXPECT_EQ(stage.options().method, SlipMethod::kCentroid);
+  SlipDetectorOptions wrong;
+  wrong.tracker.saturationCounts = -1.0;
+  EXPECT_THROW(stage.setOptions(wrong), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace palpate

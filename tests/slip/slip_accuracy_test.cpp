@@ -1,0 +1,101 @@
+#include "palpate/slip/slip_accuracy.h"
+
+#include <cmath>
+#include <memory>
+
+#include "palpate/core/error.h"
+#include "palpate/slip/slip_method.h"
+
+#include "slip_scene.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+const MethodAccuracy& named(const std::vector<MethodAccuracy>& all, const std::string& name) {
+  for (const MethodAccuracy& one : all)
+    if (one.name == name) return one;
+  throw std::out_of_range(name);
+}
+
+MeasuredMethod onlyRegister() {
+  for (const MeasuredMethod& method : measuredMethods())
+    if (method.name == "register") return method;
+  throw std::out_of_range("register");
+}
+
+// The targets, by what docs/slip.md says was reached.
+TEST(SlipAccuracy, RegisterIsNearTheBound) {
+  for (const auto& [noise, most] : {std::pair{5.0, 1.35}, {20.0, 1.2}}) {
+    SlipAccuracyOptions options;
+    options.noiseSd = noise;
+    const auto results = measureSlipAccuracy({onlyRegister()}, options);
+    const SlipAccuracy& all = results.at(0).all;
+    EXPECT_LT(all.rmse / all.crb, most) << noise;
+    EXPECT_GT(all.rmse / all.crb, 0.9) << noise;  // a bound that is beaten is wrong
+    EXPECT_LT(all.drift100, 0.025) << noise;
+    EXPECT_LT(all.driftDeg100, noise > 10.0 ? 0.95 : 0.6) << noise;
+    EXPECT_LT(all.edge, 0.1) << noise;
+    EXPECT_LT(std::abs(all.bias), 0.001) << noise;
+    EXPECT_NEAR(all.gainX, 1.0, 0.01) << noise;
+    EXPECT_NEAR(all.gainY, 1.0, 0.01) << noise;
+    EXPECT_EQ(all.invalid, 0);
+    EXPECT_EQ(results.at(0).shapes.size(), 6U);
+  }
+}
+
+TEST(SlipAccuracy, JudgesByTheTruth) {
+  // One that always says (0.05, 0): wrong by that where nothing moves along x on average.
+  const MeasuredMethod fixed{"fixed", [](const MatrixLayout&) {
+                               return [](const ConstMatrixMap&) {
+                                 SlipMotion motion;
+                                 motion.x = 2.5;
+                                 motion.y = 6.5;
+                                 motion.valid = true;
+                                 motion.refValid = true;
+                                 motion.dx = 0.05;
+                                 return motion;
+                               };
+                             }};
+  // And one that never knows.
+  const MeasuredMethod silent{"silent", [](const MatrixLayout&) {
+                                return [](const ConstMatrixMap&) { return SlipMotion{}; };
+                              }};
+  SlipAccuracyOptions options;
+  options.shapes = {SlipShape::kGaussian};
+  options.trials = 4;
+  const auto results = measureSlipAccuracy({fixed, silent}, options);
+  const SlipAccuracy& wrong = results.at(0).all;
+  // The steps themselves: 0.6 * 0.13 / sqrt 2 along x and 1.2 * 0.09 / sqrt 2 along y (rms), uncorrelated with 0.05.
+  const double x2 = std::pow(0.6 * 0.13, 2) / 2.0 + 0.05 * 0.05;
+  const double y2 = std::pow(1.2 * 0.09, 2) / 2.0;
+  EXPECT_NEAR(wrong.rmse, std::sqrt((x2 + y2) / 2.0), 0.01);
+  EXPECT_NEAR(wrong.gainY, 0.0, 1e-12);
+  EXPECT_NEAR(wrong.edge, 1.5, 1e-12);
+  EXPECT_NEAR(wrong.tilt, 0.0, 1e-12);
+  EXPECT_EQ(wrong.invalid, 0);
+  EXPECT_EQ(wrong.steps, 400);
+  EXPECT_EQ(results.at(1).all.invalid, 400);
+  EXPECT_EQ(results.at(1).all.rmse, 0.0);
+}
+
+TEST(SlipAccuracy, IsReproducibleAndCanBeCancelled) {
+  SlipAccuracyOptions options;
+  options.trials = 1;
+  options.shapes = {SlipShape::kBar};
+  const auto first = measureSlipAccuracy(measuredMethods(), options);
+  const auto second = measureSlipAccuracy(measuredMethods(), options);
+  ASSERT_EQ(first.size(), slipMethods().size());
+  for (std::size_t i = 0; i < first.size(); ++i)
+    EXPECT_EQ(first[i].all.rmse, second[i].all.rmse) << first[i].name;
+  options.seed = 2;
+  EXPECT_NE(named(measureSlipAccuracy(measuredMethods(), options), "centroid").all.rmse,
+            named(first, "centroid").all.rmse);
+  EXPECT_THROW(measureSlipAccuracy(measuredMethods(), options, [](double) { return false; }),
+               Cancelled);
+  options.trials = 0;
+  EXPECT_THROW(measureSlipAccuracy({}, options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace palpate

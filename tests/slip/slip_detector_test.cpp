@@ -1,0 +1,256 @@
+#include "palpate/slip/slip_detector.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "palpate/slip/synthetic_slip.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kFrameUs = 31'500;
+
+struct Watch {
+  explicit Watch(const SlipDetectorOptions& options = {},
+                 std::int64_t frameUs = kFrameUs,
+                 const SyntheticSensor& sensor = {})
+      : slip(sensor, 1),
+        detector(sensor.layout, options),
+        values(MatrixValues::Zero(sensor.layout.rows, sensor.layout.columns)),
+        stepUs(frameUs) {}
+  const SlipVerdict& read(const SyntheticContact& contact) {
+    slip.read(contact, MatrixMap(values.data(), values.rows(), values.cols()));
+    return next();
+  }
+  const SlipVerdict& nothing() {
+    values.setZero();
+    return next();
+  }
+  const SlipVerdict& next() {
+    timeUs += stepUs;
+    return detector.update(ConstMatrixMap(values.data(), values.rows(), values.cols()), timeUs);
+  }
+  void rest(int frames, const SyntheticContact& contact = {}) {
+    for (int i = 0; i < frames; ++i) read(contact);
+  }
+
+  SyntheticSlip slip;
+  SlipDetector detector;
+  MatrixValues values;
+  std::int64_t stepUs;
+  std::int64_t timeUs = 1'400'000'000'000'000;
+};
+
+TEST(SlipDetector, IsReadyOnceAContactSettledAndStill) {
+  Watch watch;
+  EXPECT_EQ(watch.nothing().lamp, SlipLamp::kNotComputable);
+  EXPECT_EQ(watch.read({}).state, SlipState::kInvalid);
+  watch.rest(40);
+  const SlipVerdict& verdict = watch.detector.last();
+  EXPECT_EQ(verdict.lamp, SlipLamp::kReady);
+  EXPECT_EQ(verdict.state, SlipState::kStill);
+  EXPECT_GT(verdict.confidence, 0.8);
+  EXPECT_TRUE(verdict.motion.refValid);
+  EXPECT_NEAR(verdict.motion.refDx, 0.0, 0.02);
+}
+
+TEST(SlipDetector, FlagsSlipWithinThreeFramesAndHoldsIt) {
+  Watch watch;
+  watch.rest(40);
+  int first = -1;
+  for (int i = 1; i <= 8; ++i) {
+    const SlipVerdict& verdict = watch.read({.y = 6.5 + 0.2 * i});
+    if (verdict.slipping && first < 0) first = i;
+    if (first > 0) {
+      EXPECT_TRUE(verdict.slipping) << i;
+      EXPECT_EQ(verdict.lamp, SlipLamp::kSlipping);
+      EXPECT_EQ(verdict.state, SlipState::kSlip);
+    }
+  }
+  EXPECT_GE(first, 1);
+  EXPECT_LE(first, 3);
+  EXPECT_NEAR(watch.detector.last().motion.refDy, 1.6, 0.1);
+  // It stops: calm again after the windows passed, and a reference is taken anew.
+  bool again = false;
+  for (int i = 0; i < 40; ++i) again |= watch.read({.y = 8.1}).newReference;
+  EXPECT_TRUE(again);
+  EXPECT_FALSE(watch.detector.last().slipping);
+  EXPECT_NEAR(watch.detector.last().motion.refDy, 0.0, 0.05);
+}
+
+TEST(SlipDetector, StepsAddUpToTheWay) {
+  SlipDetectorOptions options;
+  options.reference = SlipReference::kFirst;
+  Watch watch(options);
+  watch.rest(30);
+  double way = 0.0;
+  const double before = watch.detector.last().motion.refDx;
+  for (int i = 1; i <= 20; ++i) way += watch.read({.x = 2.5 + 0.05 * i}).motion.dx;
+  EXPECT_NEAR(way, watch.detector.last().motion.refDx - before, 1e-9);
+  EXPECT_NEAR(way, 1.0, 0.1);
+}
+
+TEST(SlipDetector, CallsATiltALoadShiftNotSlip) {
+  SlipDetectorOptions options;
+  options.rule.stepTaxels = 0.1;  // so that the shift of the centroid, 0.23 taxel, would be enough
+  Watch watch(options);
+  watch.rest(40, {.shape = SlipShape::kBar});
+  std::set<SlipState> states;
+  for (int i = 1; i <= 30; ++i) {
+    const SlipVerdict& verdict =
+        watch.read({.shape = SlipShape::kBar, .tiltY = 0.4 * std::min(1.0, i / 3.0)});
+    states.insert(verdict.state);
+    EXPECT_FALSE(verdict.slipping);
+    EXPECT_LT(std::hypot(verdict.motion.refDx, verdict.motion.refDy), 0.1) << i;
+  }
+  EXPECT_TRUE(states.contains(SlipState::kLoadShift));
+}
+
+TEST(SlipDetector, CallsAShiftOfARisingLoadLoading) {
+  Watch watch;
+  watch.rest(40);
+  std::set<SlipState> states;
+  for (int i = 1; i <= 4; ++i) {  // 30 % per frame more, and 0.15 taxel
+    const SlipVerdict& verdict =
+        watch.read({.y = 6.5 + 0.15 * i, .peakCounts = 1500.0 * std::pow(1.2, i)});
+    states.insert(verdict.state);
+    EXPECT_FALSE(verdict.slipping);
+  }
+  EXPECT_TRUE(states.contains(SlipState::kLoading));
+}
+
+TEST(SlipDetector, ForgetsWhenContactIsLostAndRegained) {
+  Watch watch;
+  watch.rest(40);
+  EXPECT_EQ(watch.nothing().lamp, SlipLamp::kNotComputable);
+  const SlipVerdict& back = watch.read({.y = 9.0});
+  EXPECT_FALSE(back.motion.valid);
+  EXPECT_FALSE(back.motion.refValid);
+  EXPECT_FALSE(back.slipping);
+  for (int i = 0; i < 40; ++i) EXPECT_FALSE(watch.read({.y = 9.0}).slipping);
+  EXPECT_TRUE(watch.detector.last().motion.refValid);
+  EXPECT_NEAR(watch.detector.last().motion.refDy, 0.0, 0.05);
+}
+
+TEST(SlipDetector, AGapIsNoSlip) {
+  Watch watch;
+  watch.rest(40);
+  watch.timeUs += 147'000'000;
+  const SlipVerdict& verdict = watch.read({.y = 8.5});
+  EXPECT_TRUE(verdict.motion.afterGap);
+  EXPECT_FALSE(verdict.motion.valid);
+  EXPECT_FALSE(verdict.slipping);
+  EXPECT_EQ(verdict.lamp, SlipLamp::kNotComputable);
+}
+
+// 6 taxels per second is slip at any rate: 0.02 per frame at 300 Hz; at 0.3 Hz, 0.2 per frame are.
+TEST(SlipDetector, WatchesAtAnyRate) {
+  for (const auto& [rateHz, step] :
+       {std::pair{0.3, 0.2}, {3.0, 0.2}, {31.7, 0.2}, {74.0, 0.081}, {300.0, 0.02}}) {
+    Watch watch({}, static_cast<std::int64_t>(1e6 / rateHz));
+    watch.rest(rateHz > 50.0 ? static_cast<int>(1.5 * rateHz) : 40);
+    EXPECT_EQ(watch.detector.last().lamp, SlipLamp::kReady) << rateHz;
+    int first = -1;
+    for (int i = 1; i * step <= 2.0; ++i)
+      if (watch.read({.y = 6.5 + step * i}).slipping && first < 0) first = i;
+    ASSERT_GT(first, 0) << rateHz;
+    EXPECT_LE(first, rateHz > 50.0 ? static_cast<int>(0.12 * rateHz) : 3) << rateHz;
+  }
+}
+
+TEST(SlipDetector, KnowsNothingOfTooLittle) {
+  Watch watch;
+  for (int i = 0; i < 60; ++i) {
+    watch.values.setZero();
+    watch.values(i % 14, 2) = 2000.0F;  // a single taxel that jumps
+    const SlipVerdict& verdict = watch.next();
+    EXPECT_FALSE(verdict.motion.valid);
+    EXPECT_EQ(verdict.state, SlipState::kInvalid);
+    EXPECT_FALSE(verdict.slipping);
+  }
+}
+
+TEST(SlipDetector, StandsSaturatedMaskedAndBrokenTaxels) {
+  SyntheticSensor sensor;
+  sensor.layout.staticMask[static_cast<std::size_t>(6 * 6 + 2)] = 0;
+  sensor.layout.dynamicMask[static_cast<std::size_t>(8 * 6 + 3)] = 0;
+  Watch watch({}, kFrameUs, sensor);
+  for (int i = 0; i < 60; ++i) {
+    const SlipVerdict& verdict = watch.read({.peakCounts = 9000.0});
+    EXPECT_FALSE(verdict.slipping) << i;
+  }
+  EXPECT_GT(watch.detector.last().motion.saturated, 0);
+  watch.values(5, 2) = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(std::isfinite(watch.next().motion.refDx));
+}
+
+TEST(SlipDetector, SeveralBlobsMoveAsOne) {
+  Watch watch;
+  watch.rest(40, {.shape = SlipShape::kTwoBlobs});
+  bool slipping = false;
+  for (int i = 1; i <= 4; ++i)
+    slipping |= watch.read({.shape = SlipShape::kTwoBlobs, .y = 6.5 + 0.2 * i}).slipping;
+  EXPECT_TRUE(slipping);
+}
+
+TEST(SlipDetector, SeesItTurn) {
+  Watch watch;
+  watch.rest(40, {.shape = SlipShape::kBar});
+  bool turning = false;
+  for (int i = 1; i <= 12; ++i)
+    turning |= watch.read({.shape = SlipShape::kBar, .angleDeg = 1.5 * i}).turning;
+  EXPECT_TRUE(turning);
+  EXPECT_NEAR(watch.detector.last().motion.rotation.refRotationDeg, 18.0, 2.0);
+}
+
+TEST(SlipDetector, PlainThresholdsAreThoseOfTheStudy) {
+  SlipDetectorOptions options;
+  options.method = SlipMethod::kCentroid;
+  options.reference = SlipReference::kFirst;
+  options.contestAlarm = false;
+  Watch watch(options);
+  watch.rest(10);
+  EXPECT_EQ(watch.detector.last().state, SlipState::kStill);
+  EXPECT_FALSE(watch.detector.last().pMoved);
+  EXPECT_TRUE(watch.read({.y = 6.8}).slipping);  // a step of 0.3
+  for (int i = 0; i < 4; ++i) watch.read({.y = 6.8});
+  EXPECT_FALSE(watch.detector.last().slipping);
+  bool slipping = false;  // 0.1 per frame, until it is over 1 in all
+  for (int i = 1; i <= 9; ++i) slipping |= watch.read({.y = 6.8 + 0.1 * i}).slipping;
+  EXPECT_TRUE(slipping);
+}
+
+TEST(SlipDetector, ReferencesAreAsAskedFor) {
+  SlipDetectorOptions options;
+  options.reference = SlipReference::kGiven;
+  Watch watch(options);
+  watch.rest(30);
+  EXPECT_FALSE(watch.detector.last().motion.refValid);
+  watch.detector.setReference();
+  for (int i = 1; i <= 10; ++i) watch.read({.y = 6.5 + 0.1 * i});
+  EXPECT_NEAR(watch.detector.last().motion.refDy, 1.0, 0.1);
+  watch.detector.clearReference();
+  EXPECT_FALSE(watch.read({.y = 7.5}).motion.refValid);
+}
+
+TEST(SlipDetector, SwitchedOffSaysNothing) {
+  Watch watch;
+  watch.detector.setOn(false);
+  watch.rest(40);
+  for (int i = 1; i <= 5; ++i) EXPECT_FALSE(watch.read({.y = 6.5 + 0.3 * i}).slipping);
+  EXPECT_EQ(watch.detector.last().lamp, SlipLamp::kOff);
+}
+
+TEST(SlipDetector, RefusesOtherSizes) {
+  Watch watch;
+  const MatrixValues other = MatrixValues::Zero(13, 6);
+  EXPECT_THROW(watch.detector.update(ConstMatrixMap(other.data(), 13, 6), 0),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace palpate

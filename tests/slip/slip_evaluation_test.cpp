@@ -1,0 +1,72 @@
+#include "palpate/slip/slip_evaluation.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "palpate/model/hand_description.h"
+#include "palpate/model/profile_builder.h"
+#include "palpate/recording/recording.h"
+#include "palpate/slip/synthetic_slip.h"
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+// Matrix 1: rests at 4.5 until frame 50, then moves by `step` per frame for 10 frames.
+Profile moving(double step) {
+  ProfileBuilder builder(sdh2().layout);
+  SyntheticSensor sensor;
+  sensor.layout = sdh2().layout->matrix(1);
+  SyntheticSlip slip(sensor, 1);
+  std::int64_t nowUs = 1'400'000'000'000'000;
+  for (int i = 0; i < 90; ++i) {
+    TactileFrame frame(sdh2().layout);
+    slip.read({.y = 4.5 + step * std::clamp(i - 50, 0, 10)}, frame.matrix(1));
+    builder.addFrame(nowUs += 40'000, frame.values);
+  }
+  return builder.finish({});
+}
+
+// 0.2 per frame: more than 1 taxel within 10 frames from frame 56 to 64; 0.2 away from the place of frame 46 at 52.
+TEST(LabelSlips, GoesByTheRule) {
+  const auto labels = labelSlips(moving(0.2));
+  ASSERT_EQ(labels.size(), 1U);
+  EXPECT_EQ(labels[0].matrix, 1U);
+  EXPECT_NEAR(static_cast<double>(labels[0].onset), 52.0, 1.0);
+  EXPECT_NEAR(static_cast<double>(labels[0].end), 64.0, 1.0);
+  EXPECT_TRUE(labelSlips(moving(0.09)).empty());
+}
+
+TEST(SlipEvaluation, CountsHoursAlarmsAndDelays) {
+  SlipEvaluation evaluation;
+  evaluation.addSlip(moving(0.2));
+  evaluation.addHold(moving(0.0));
+  evaluation.addHold(moving(0.2));  // said to hold, and slips: a false alarm
+  const SlipScore score = evaluation.score({}, false);
+  EXPECT_EQ(score.slips, 1U);
+  EXPECT_EQ(score.found, 1U);
+  ASSERT_EQ(score.delaysFrames.size(), 1U);
+  EXPECT_LE(score.delaysFrames[0], 2);
+  EXPECT_EQ(score.falseAlarms[kSettledContact], 1U);
+  EXPECT_NEAR(score.matrixHours[kAllContact], 2 * 90 * 0.04 / 3600.0, 1e-9);
+  EXPECT_NEAR(score.matrixHours[kSettledContact], 2 * 76 * 0.04 / 3600.0, 1e-9);
+  EXPECT_NEAR(score.perHour(kSettledContact), 3600.0 / (2 * 76 * 0.04), 1e-6);
+  EXPECT_EQ(evaluation.score({}, false, 0).falseAlarms[kAllContact], 0U);
+  EXPECT_EQ(evaluation.score({}, false, 1).falseAlarms[kAllContact], 1U);
+  EXPECT_EQ(evaluation.report().alarms.size(), 6U);
+}
+
+TEST(SlipEvaluation, OfNothingIsEmpty) {
+  const SlipEvaluationReport report = SlipEvaluation().report();
+  for (const ScoredAlarm& alarm : report.alarms) {
+    EXPECT_EQ(alarm.score.perHour(kAllContact), 0.0);
+    EXPECT_EQ(alarm.score.foundPart(), 0.0);
+  }
+  EXPECT_EQ(slipGrid().size(), 72U);
+}
+
+}  // namespace
+}  // namespace palpate

@@ -1,0 +1,107 @@
+#include "palpate/slip/slip_segments.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "palpate/core/error.h"
+#include "palpate/model/hand_description.h"
+#include "palpate/model/profile_builder.h"
+#include "palpate/slip/synthetic_slip.h"
+
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+
+SlipVerdict verdictOf(bool slipping, double dx = 0.0) {
+  SlipVerdict verdict;
+  verdict.slipping = slipping;
+  verdict.motion.active = 9;
+  verdict.motion.valid = true;
+  verdict.motion.dx = dx;
+  verdict.confidence = 0.7;
+  return verdict;
+}
+
+TEST(SlipSegmenter, BridgesShortPausesAndAddsTheWay) {
+  SlipSegmenter segmenter(1, 2);
+  const std::string pattern = "..##..###...#..";  // 2 between: one; 3 between: two
+  for (std::size_t i = 0; i < pattern.size(); ++i)
+    segmenter.add(i, static_cast<std::int64_t>(i) * 1000, {verdictOf(pattern[i] == '#', 0.5)});
+  const auto segments = segmenter.segments();
+  ASSERT_EQ(segments.size(), 2U);
+  EXPECT_EQ(segments[0].begin, 2U);
+  EXPECT_EQ(segments[0].end, 8U);
+  EXPECT_EQ(segments[0].endUs, 8000);
+  EXPECT_DOUBLE_EQ(segments[0].pathTaxels, 3.5);  // seven frames
+  EXPECT_DOUBLE_EQ(segments[0].confidence, 0.7);
+  EXPECT_EQ(segments[1].begin, 12U);
+  EXPECT_EQ(segments[1].end, 12U);
+}
+
+TEST(SlipSegmenter, LostContactEndsASegment) {
+  SlipSegmenter segmenter(2, 5);
+  segmenter.add(0, 0, {verdictOf(true), verdictOf(false)});
+  SlipVerdict lost;
+  segmenter.add(1, 1, {lost, verdictOf(true)});
+  segmenter.add(2, 2, {verdictOf(true), verdictOf(true)});
+  const auto segments = segmenter.segments();
+  ASSERT_EQ(segments.size(), 3U);
+  EXPECT_EQ(segments[0].matrix, 0U);
+  EXPECT_EQ(segments[1].matrix, 1U);
+  EXPECT_EQ(segments[1].end, 2U);
+  EXPECT_EQ(segments[2].begin, 2U);
+}
+
+// Matrix 1 slips by 2 taxels between frames 50 and 60, matrix 3 rests.
+Profile slipping() {
+  ProfileBuilder builder(sdh2().layout);
+  SyntheticSensor sensor;
+  sensor.layout = sdh2().layout->matrix(1);
+  SyntheticSlip slip(sensor, 1);
+  std::int64_t nowUs = 1'400'000'000'000'000;
+  for (int i = 0; i < 90; ++i) {
+    TactileFrame frame(sdh2().layout);
+    slip.read({.y = 4.5 + 0.2 * std::clamp(i - 50, 0, 10)}, frame.matrix(1));
+    slip.read({}, frame.matrix(3));
+    builder.addFrame(nowUs += 31'500, frame.values);
+  }
+  return builder.finish({});
+}
+
+TEST(FindSlips, FindsTheSlipOfAProfile) {
+  const auto segments = findSlips(slipping());
+  ASSERT_EQ(segments.size(), 1U);
+  EXPECT_EQ(segments[0].matrix, 1U);
+  EXPECT_GE(segments[0].begin, 51U);
+  EXPECT_LE(segments[0].begin, 53U);
+  EXPECT_GE(segments[0].end, 60U);
+  EXPECT_LE(segments[0].end, 75U);
+  EXPECT_GT(segments[0].pathTaxels, 1.2);
+  EXPECT_LT(segments[0].pathTaxels, 2.4);
+}
+
+TEST(PassSlip, TakesTheFrameThatIsGivenAsReference) {
+  SlipPassOptions options;
+  options.detector.reference = SlipReference::kGiven;
+  options.referenceFrame = 45;
+  double before = -1.0, at = -1.0, after = 0.0;
+  passSlip(slipping(), options, [&](std::size_t i, std::int64_t, const auto& verdicts) {
+    if (i == 44) before = verdicts[1].motion.refValid ? 1.0 : 0.0;
+    if (i == 45) at = verdicts[1].motion.refDy;
+    if (i == 89) after = verdicts[1].motion.refDy;
+  });
+  EXPECT_EQ(before, 0.0);
+  EXPECT_EQ(at, 0.0);
+  EXPECT_NEAR(after, 2.0, 0.1);
+  options.referenceFrame = 90;
+  EXPECT_THROW(passSlip(slipping(), options, [](auto, auto, const auto&) {}),
+               std::invalid_argument);
+  EXPECT_THROW(findSlips(slipping(), {}, [](double) { return false; }), Cancelled);
+}
+
+}  // namespace
+}  // namespace palpate
