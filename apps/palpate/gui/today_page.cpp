@@ -145,6 +145,7 @@ void TodayPage::showDay() {
     QString unsure = QString::fromStdString(day->unsure());
     if (!unsure.isEmpty()) unsure[0] = unsure[0].toUpper();
     unsure_->setText(unsure);
+    unsure_->setVisible(!unsure.isEmpty());
     const QSignalBlocker first(source_), second(typed_);
     for (std::size_t i = 0; i < kKinds.size(); ++i)
       if (kKinds[i] == day->choice().kind) source_->setCurrentIndex(static_cast<int>(i));
