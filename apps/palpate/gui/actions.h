@@ -99,7 +99,7 @@ struct Actions {
   QAction* disconnectHand;
   QAction* whatIsIt;  // recognition of the selection, or of what is held
   QAction* showMode;  // its answer on the whole screen
-  QAction* live;  // checked: what is connected is shown, not a recording
+  QAction* live;      // checked: what is connected is shown, not a recording
   QAction* hold;
   QAction* record;
   QAction* recordingSettings;
