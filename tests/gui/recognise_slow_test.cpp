@@ -1,4 +1,8 @@
 // What the emulated hand grasps by itself, named while it is held: the model that comes with the program.
+#include <QPushButton>
+#include <QTest>
+
+#include "gui/today_page.h"
 #include "recognise_fixture.h"
 
 namespace palpate::gui {
@@ -18,6 +22,32 @@ TEST_F(RecogniseSlowTest, AnUnknownShapeIsCalledUnknown) {
           "hand": {"preshape": "pinch-parallel"},
           "script": [{"at_s": 1.5, "grasp": {"velocity_deg_per_s": 30}}, {"at_s": 9, "release": {}}]})");
   EXPECT_EQ(heldName((folder_ / "cone.json").string()), "unknown");
+}
+
+// The empty hand closes until its pads touch, holds, and would open: not after a stop.
+TEST_F(RecogniseSlowTest, NothingMovesAfterAStopWhileTheZeroIsTaken) {
+  const auto await = [](const std::function<bool()>& condition) {
+    return QTest::qWaitFor(condition, 40'000);
+  };
+  Connection connection;
+  connection.kind = Connection::Kind::kEmulated;
+  connection.scene = "empty";
+  window().connectTo(connection);
+  const auto status = [&] { return window().live().source()->control->status(); };
+  ASSERT_TRUE(await([&] { return window().liveShown() && status().cannotReact.empty(); }));
+  const auto ask = [&] { emit window().findChild<TodayPage*>()->zeroAsked(); };
+  const auto closed = [&] {
+    return status().phase == GraspPhase::kIdle && status().last &&
+           status().last->outcome == GraspOutcome::kLimitReached;
+  };
+  ask();
+  ASSERT_TRUE(await([&] { return status().phase == GraspPhase::kClosing; }));
+  ASSERT_TRUE(await(closed)) << status().last->text;
+  QTest::mouseClick(find<QPushButton>("stopHand"), Qt::LeftButton);
+  const std::int64_t endedUs = status().last->endUs;
+  QTest::qWait(4000);  // longer than it would have held
+  EXPECT_EQ(status().phase, GraspPhase::kIdle);
+  EXPECT_EQ(status().last->endUs, endedUs) << "it moved after a stop";
 }
 
 }  // namespace

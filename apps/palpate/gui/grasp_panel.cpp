@@ -120,6 +120,7 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   connect(slipAware_, &QPushButton::clicked, this, [this] { begin(request(GraspMode::kSlip)); });
   connect(relax_, &QPushButton::clicked, this, [this] {
     if (control_) control_->relax();
+    emit asked();
   });
   connect(preshape_, &QComboBox::currentIndexChanged, this, &GraspPanel::remember);
   for (ValueSlider* each : {close_, velocity_, limit_})

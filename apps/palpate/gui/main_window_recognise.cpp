@@ -8,6 +8,8 @@
 #include "gui/captions.h"
 #include "gui/check_page.h"
 #include "gui/dock.h"
+#include "gui/grasp_panel.h"
+#include "gui/hand_dock.h"
 #include "gui/message_banner.h"
 #include "gui/recognise_panel.h"
 #include "gui/show_window.h"
@@ -54,6 +56,12 @@ void MainWindow::RecogniseView::connectAll() {
     window.banner_->showMessage(message);
   });
   connect(&panel_->today(), &TodayPage::zeroAsked, this, &RecogniseView::beginZero);
+  // After a stop, or anything else that is asked of the hand, nothing of a zero moves it any more.
+  const auto giveUpZero = [this] {
+    if (zeroStep_ != Zero::kNone) endZero("given up");
+  };
+  connect(window.hand_, &HandDock::stopPressed, this, giveUpZero);
+  connect(window.hand_->findChild<GraspPanel*>(), &GraspPanel::asked, this, giveUpZero);
   connect(&panel_->check(), &CheckPage::graspAsked, this, &RecogniseView::showGrasp);
   connect(&window, &MainWindow::recordingShown, this, &RecogniseView::showWanted);
   panel_->teach().zeroNow = [this] { return zero_; };
