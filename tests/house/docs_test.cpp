@@ -161,6 +161,24 @@ TEST(Manual, PicturesAreShownAndSmall) {
   EXPECT_LE(all, kAll);
 }
 
+TEST(Manual, KindsOfEventsAreInTheFormat) {
+  const std::string& page = pages().at("docs/palpate_format.md");
+  std::string rows;
+  for (const std::string& line : sectionOf(page, "Events")) {
+    const auto cells = cellsOf(line);
+    if (cells.size() > 1) rows += cells[0] + "\n";
+  }
+  std::set<std::string> kinds;
+  for (const SourceFile& file : cppFiles({"src", "apps"}))
+    for (const std::string& kind :
+         matches(file.text, "(?:\\bevent(?:Now)?\\(\\s*|\\.kind = |[uU]s, )\"([a-z_]+)\"(?=[,;])"))
+      kinds.insert(kind);
+  EXPECT_GT(kinds.size(), 6u);
+  for (const std::string& kind : kinds)
+    EXPECT_NE(rows.find("`" + kind + "`"), std::string::npos)
+        << "docs/palpate_format.md lacks events of kind " << kind;
+}
+
 TEST_F(Docs, CommandsAndOptionsInPagesExist) {
   std::size_t calls = 0;
   for (const auto& [name, text] : pages())
