@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QDialog>
 #include <QPushButton>
+#include <QTimer>
 #include <QVBoxLayout>
 #include <QWidget>
 
@@ -35,7 +36,7 @@ class ScreenshotPressesTest : public ::testing::Test {
   }
   std::string failure(const char* what) {
     try {
-      runAndPress(window_, {{what, 0.0}}, 60.0);  // doesn't wait for the end
+      runAndPress(window_, {{what, 0.0}}, 60.0, 0.0);  // doesn't wait for the end
     } catch (const Error& error) {
       return error.what();
     }
@@ -64,6 +65,14 @@ TEST_F(ScreenshotPressesTest, SaysWhatCannotBePressed) {
   for (const char* what : {"Ctrl+J", "Nothing", "Hidden", "Chosen", ""})
     EXPECT_NE(failure(what).find("'" + std::string(what) + "'"), std::string::npos) << what;
   EXPECT_TRUE(pressed_.isEmpty());
+}
+
+TEST_F(ScreenshotPressesTest, WaitsForWhatCannotBePressedYet) {
+  auto* late = window_.findChildren<QPushButton*>().last();
+  ASSERT_EQ(late->text(), "Hidden");
+  QTimer::singleShot(50, late, [late] { late->show(); });
+  runAndPress(window_, {{"Hidden", 0.0}, {"Check", 0.01}}, 0.02);
+  EXPECT_EQ(pressed_, QStringList({"Hidden", "&Check…"}));
 }
 
 TEST_F(ScreenshotPressesTest, ADialogueThatOpensIsThePictureAndGetsTheNextPresses) {

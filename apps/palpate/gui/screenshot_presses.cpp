@@ -3,9 +3,12 @@
 #include <QAbstractButton>
 #include <QAction>
 #include <QApplication>
+#include <QElapsedTimer>
 #include <QEventLoop>
 #include <QTimer>
 #include <QWidget>
+#include <algorithm>
+#include <functional>
 #include <optional>
 
 #include <palpate/core/error.h>
@@ -15,6 +18,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kMsPerS = 1000.0;
+constexpr int kLookMs = 10;
 
 // A dialogue or another window in front of `window` that is open; null: none.
 QWidget* openBefore(const QWidget& window) {
@@ -72,28 +76,48 @@ ScreenshotPress parsedPress(const std::string& text) {
   return {text.substr(0, at), *seconds};
 }
 
-QImage runAndPress(QWidget& window, const std::vector<ScreenshotPress>& presses, double forS) {
+QImage runAndPress(QWidget& window,
+                   std::vector<ScreenshotPress> presses,
+                   double forS,
+                   double patienceS) {
+  std::stable_sort(presses.begin(), presses.end(), [](const auto& one, const auto& other) {
+    return one.atS < other.atS;
+  });
   QEventLoop loop;
-  QImage dialogue;
+  QElapsedTimer since;
+  since.start();
+  std::size_t done = 0;
+  double waitingS = 0.0;  // how much later than asked the last press was: the end waits as long
   std::optional<std::string> failure;
-  // A dialogue runs a loop of its own inside this one: everything happens by timers, and it is closed at the end.
-  const auto end = [&] {
-    if (QWidget* open = openBefore(window)) {
+  QImage dialogue;
+  QObject context;  // no timer outlives this call
+  // A dialogue runs a loop of its own inside a press: the next look is asked for before it, and the end closes it.
+  std::function<void()> look = [&] {
+    QTimer::singleShot(kLookMs, &context, look);
+    const double nowS = static_cast<double>(since.elapsed()) / kMsPerS;
+    QWidget* open = openBefore(window);
+    if (!failure && done < presses.size()) {
+      if (nowS < presses[done].atS + waitingS) return;
+      // It counts as pressed from here on: a dialogue that it opens doesn't return.
+      const ScreenshotPress wanted = presses[done++];
+      const double lateS = nowS - wanted.atS;
+      if (press(open ? *open : window, wanted.what)) {
+        waitingS = std::max(waitingS, lateS);
+        return;
+      }
+      --done;
+      if (lateS - waitingS < patienceS) return;
+      failure = wanted.what;
+    } else if (!failure && nowS < forS + waitingS) {
+      return;
+    }
+    if (open) {
       dialogue = open->grab().toImage();
       open->close();
     }
     loop.quit();
   };
-  QObject context;  // no timer outlives this call
-  for (const ScreenshotPress& each : presses)
-    QTimer::singleShot(static_cast<int>(each.atS * kMsPerS), &context, [&, each] {
-      if (failure) return;
-      const QWidget* open = openBefore(window);
-      if (press(open ? *open : window, each.what)) return;
-      failure = each.what;
-      end();
-    });
-  QTimer::singleShot(static_cast<int>(forS * kMsPerS), &context, end);
+  QTimer::singleShot(0, &context, look);
   loop.exec();
   if (failure)
     throw Error(

@@ -18,8 +18,12 @@ struct ScreenshotPress {
 ScreenshotPress parsedPress(const std::string& text);
 
 // Runs the event loop for `forS` seconds and presses each at its moment, in what has the keyboard then: an open dialogue,
-// else the window. Returns the picture of the dialogue that is open in the end (it is closed), or a null image.
+// else the window. What can't be pressed yet is waited for, up to `patienceS`; all that follows is that much later.
+// Returns the picture of the dialogue that is open in the end (it is closed), or a null image.
 // Throws Error naming what is neither the key of an action that can be used, nor the words of a visible button.
-QImage runAndPress(QWidget& window, const std::vector<ScreenshotPress>& presses, double forS);
+QImage runAndPress(QWidget& window,
+                   std::vector<ScreenshotPress> presses,
+                   double forS,
+                   double patienceS = 30.0);
 
 }  // namespace palpate::gui
