@@ -21,7 +21,8 @@ class Scripts : public ::testing::Test {
     for (const char* name : {"scripts", "cmake"}) {
       fs::create_directories(checkout_ / name);
       for (const auto& entry : fs::directory_iterator(projectFolder() / name))
-        fs::copy_file(entry.path(), checkout_ / name / entry.path().filename());
+        if (entry.is_regular_file())
+          fs::copy_file(entry.path(), checkout_ / name / entry.path().filename());
     }
     writeFile(checkout_ / "CMakePresets.json", "{}");
     writeFile(checkout_ / "cmake/debian-packages.txt", "# a comment\nfirst  # why\n\nsecond\n");
