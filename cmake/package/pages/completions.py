@@ -162,7 +162,7 @@ _palpate_ports() {
 # ---- fish ----
 
 def fish_files(endings):
-    return "(__fish_complete_suffix " + " ".join("." + ending for ending in endings) + ")"
+    return "(__palpate_files " + " ".join(endings) + ")"
 
 
 def fish_option(condition, option):
@@ -191,17 +191,24 @@ def fish(program):
 set -g __palpate_commands {names}
 # The words given so far begin with these, or (without any) with no command.
 function __palpate_in
-    set -l given (commandline -opc)[2..-1]
-    if test (count $argv) -eq 0
+    set -l given (commandline -opc)
+    set -e given[1]
+    set -l depth (count $argv)
+    if test $depth -eq 0
         not contains -- "$given[1]" $__palpate_commands
         return
     end
-    test (count $given) -ge (count $argv); and test "$given[1..(count $argv)]" = "$argv"
+    test (count $given) -ge $depth; and test "$given[1..$depth]" = "$argv"
 end
+# The next word is the one right behind these.
 function __palpate_first
-    test (count (commandline -opc)) -eq (math 1 + (count $argv)); and begin
-        test (count $argv) -eq 0; or __palpate_in $argv
-    end
+    test (count (commandline -opc)) -eq (math 1 + (count $argv)); or return
+    test (count $argv) -eq 0; or __palpate_in $argv
+end
+# Folders, and files with these endings in any case.
+function __palpate_files
+    set -l endings (string join '|' -- $argv)
+    string match -ri -- "^.*(?:/|\\.(?:$endings))\$" (complete -C "__palpate_any_file "(commandline -ct))
 end
 complete -c palpate -f
 complete -c palpate -n __palpate_first -l version -d 'version of the program'"""]
