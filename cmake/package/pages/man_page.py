@@ -122,6 +122,7 @@ def man_page(program, date):
     usage = program.window.usage[0].split(" | ")
     out += synopsis(usage + ["palpate COMMAND .."])
     out += [BEFORE.strip(), ".SH OPTIONS OF THE WINDOW"] + option_lines(own_options(program.window))
+    out += [".TP", r"\fB\-\-version\fR", "print the version of the program"]
     out += [".SH COMMANDS"]
     for command in program.commands:
         out += [".TP", f"\\fB{escaped(command.name)}\\fR", escaped(command.summary)]
