@@ -120,6 +120,14 @@ TEST_F(Pages, ManualHasEveryCommandWithItsOptionsAndNoOther) {
     EXPECT_NE(manual.find(every), std::string::npos) << every;
 }
 
+// The program breaks long texts into lines, even within a word (emulate_command.cpp has this one).
+TEST_F(Pages, ManualHasTextsInOnePiece) {
+  const std::string manual = page("palpate.1");
+  EXPECT_NE(manual.find("crc=RATE,drop=RATE,insert=RATE,stall=S@AT,unplug=S@AT,junk_start=BYTES,"),
+            std::string::npos);
+  EXPECT_NE(manual.find("the picture or movie, or the folder of a series"), std::string::npos);
+}
+
 TEST_F(Pages, ManualIsSetWithoutComplaint) {
   if (!fs::exists("/usr/bin/man")) GTEST_SKIP() << "man-db isn't installed";
   const ProgramResult result = runProgram(

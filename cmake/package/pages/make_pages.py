@@ -29,4 +29,7 @@ def main():
         (out / name).write_text(text, encoding="utf-8")
 
 
-main()
+try:
+    main()
+except ValueError as error:
+    sys.exit(f"make_pages: {error}")

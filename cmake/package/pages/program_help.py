@@ -78,7 +78,7 @@ def join(lines, width):
 
 
 def options(lines):
-    start = r"  (?:-(\w) \[ --([\w-]+) \]|--([\w-]+))(?: (\S+))?"
+    start = r"  (?:-(\w) \[ --([\w-]+) \]|--([\w-]+))(?: (\S.*?))?"
     found, pending = [], None
     column = None
     for line in lines:                                  # every text begins in the same column
@@ -157,10 +157,17 @@ def positional(command):
 
 
 def read_command(program, name, summary, words):
+    try:
+        return take_apart(program, name, summary, words)
+    except (ValueError, IndexError, StopIteration) as error:
+        raise ValueError(f"palpate {' '.join(words)} --help can't be taken apart: {error}") from error
+
+
+def take_apart(program, name, summary, words):
     command = Command(name, summary)
     lines = run(program, *words, "--help").splitlines()
     if not lines or not lines[0].startswith("Usage: "):
-        raise ValueError(f"palpate {name} --help doesn't begin with 'Usage:'")
+        raise ValueError("it doesn't begin with 'Usage:'")
     at = 0
     while lines[at].strip():
         command.usage.append(lines[at].removeprefix("Usage: ").strip())
