@@ -17,7 +17,8 @@ void bindSteps(pybind11::module_& module);        // fit_step, calibrate_step, .
 void bindCalibration(pybind11::module_& module);  // Calibration, calibrate_pressure, ..
 void bindMoments(pybind11::module_& module);      // chebyshev_moments, ..
 void bindFeatures(pybind11::module_& module);     // grasps, features, Features
-void bindModels(pybind11::module_& module);       // Model, train, evaluate
+void bindModels(pybind11::module_& module);       // Model
+void bindTraining(pybind11::module_& module);     // train, evaluate
 void bindEmulator(pybind11::module_& module);     // synthesize, emulate, ..
 
 }  // namespace palpate::python

@@ -43,12 +43,13 @@ PYBIND11_MODULE(palpate, module) {
   bindFilters(module);
   bindSignals(module);
   bindKinematics(module);
-  // bindContact(module);
+  bindContact(module);
   bindSlip(module);
   bindSteps(module);
-  // bindCalibration(module);
-  // bindMoments(module);
-  // bindFeatures(module);
-  // bindModels(module);
-  // bindEmulator(module);
+  bindCalibration(module);
+  bindMoments(module);
+  bindFeatures(module);
+  bindModels(module);
+  bindTraining(module);
+  bindEmulator(module);
 }
