@@ -14,12 +14,15 @@ namespace palpate::python {
 namespace py = pybind11;
 namespace {
 
-using Times = py::array_t<std::int64_t, py::array::c_style>;
+using Times = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 using Values = py::array_t<float, py::array::c_style | py::array::forcecast>;
 
 std::vector<std::int64_t> timesUsOf(const py::object& given, const char* name) {
-  const auto array = Times::ensure(given);
-  if (!array) {
+  const auto any = py::array::ensure(given);
+  const bool whole =
+      any && (any.size() == 0 || any.dtype().kind() == 'i' || any.dtype().kind() == 'u');
+  const auto array = whole ? Times::ensure(any) : Times();
+  if (!whole || !array) {
     PyErr_Clear();
     throw py::type_error(std::string(name) + " takes whole milliseconds (integers)");
   }

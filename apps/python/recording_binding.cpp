@@ -1,10 +1,12 @@
 // palpate.load(), verify(), recover(), events() and what else a recording says.
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_details.h"
 #include "palpate/recording/recording_meta.h"
@@ -112,6 +114,39 @@ py::dict details(const fs::path& path) {
   return result;
 }
 
+py::dict info(const Profile& profile) {
+  const TimingReport timing = timingOf(profile);
+  double largest = 0.0;
+  std::size_t saturated = 0;
+  unlocked([&](const Progress& progress) {
+    TactileFrame frame;
+    const std::size_t count = profile.numFrames();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!progress(static_cast<double>(i) / static_cast<double>(count))) throw Cancelled();
+      profile.readFrame(i, frame);
+      const float peak = *std::max_element(frame.values.begin(), frame.values.end());
+      largest = i == 0 ? static_cast<double>(peak) : std::max(largest, static_cast<double>(peak));
+      saturated += peak >= profile.hand().saturationCounts ? 1 : 0;
+    }
+  });
+  py::dict result;
+  result["format"] = profile.info().format;
+  result["value_type"] = profile.info().valueType == ValueType::kCounts ? "counts" : "float";
+  result["frames"] = profile.numFrames();
+  result["duration_s"] = timing.durationS;
+  result["rate_hz"] = timing.rateHz;
+  result["mean_rate_hz"] = timing.meanRateHz;
+  result["gaps"] = timing.gaps.size();
+  result["temperatures"] = profile.numTemperatures();
+  result["joint_angles"] = profile.numAngles();
+  result["max_value"] = largest;
+  result["saturated_frames"] = saturated;
+  result["serial"] = profile.info().serial;
+  result["hand"] = profile.hand().name;
+  result["warnings"] = profile.info().warnings;
+  return result;
+}
+
 py::dict seconds(const fs::path& path) {
   const std::vector<SecondSummary> rows =
       unlocked([&](const Progress&) { return readSeconds(path); });
@@ -135,6 +170,12 @@ void bindRecordings(py::module_& module) {
              py::arg("path"),
              "Reads a recording (.dsa or .palpate; told by its content). OSError when it can't be "
              "read, ValueError when it is damaged or no recording.");
+  module.def("info",
+             &info,
+             py::arg("profile"),
+             "What is in it: dict format, value_type, frames, duration_s [s], rate_hz (from the "
+             "median interval), mean_rate_hz [Hz], gaps (their number), temperatures, joint_angles "
+             "(samples), max_value, saturated_frames, serial, hand, warnings.");
   module.def("verify",
              &verify,
              py::arg("path"),
