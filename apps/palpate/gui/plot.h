@@ -9,6 +9,7 @@
 #include <QPaintEngine>
 #include <QTimer>
 #include <QWidget>
+
 #include <QtPrintSupport/QPrintEngine>
 #include <QtPrintSupport/QPrinter>
 
