@@ -36,7 +36,8 @@ DatagramSender::~DatagramSender() { ::close(socket_); }
 
 bool DatagramSender::send(std::string_view bytes) noexcept {
   const ssize_t taken = ::send(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
-  stats_.heard = taken >= 0;
+  stats_.heard = taken >= 0 && lastTaken_;
+  lastTaken_ = taken >= 0;
   ++(taken >= 0 ? stats_.sent : stats_.dropped);
   return taken >= 0;
 }

@@ -11,7 +11,8 @@ struct DatagramStats {
   std::uint64_t sent =
       0;  // the system took them; whether somebody listens is known only when nobody does
   std::uint64_t dropped = 0;  // nobody listens, no room, or too long
-  bool heard = false;         // nothing was said against the last one: somebody may be listening
+  bool heard =
+      false;  // the last two were taken: the system tells of one that nobody heard with the next one
 };
 
 // Not thread-safe.
@@ -34,6 +35,7 @@ class DatagramSender {
  private:
   std::uint16_t port_;
   int socket_ = -1;
+  bool lastTaken_ = false;
   DatagramStats stats_;
 };
 
