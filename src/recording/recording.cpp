@@ -11,6 +11,7 @@
 #include "palpate/recording/palpate_salvage.h"
 #include "palpate/recording/palpate_writer.h"
 #include "palpate/recording/table_export.h"
+#include "palpate/recording/tactile_sensor_json.h"
 
 #include "recording/event_notes.h"
 #include "recording/message_text.h"
@@ -158,7 +159,8 @@ RecordingForm formOf(const std::filesystem::path& path) {
   if (ending == ".palpate") return RecordingForm::kPalpate;
   if (ending == ".csv") return RecordingForm::kCsv;
   if (ending == ".npz") return RecordingForm::kNpz;
-  throw FileError(path, "its name must end in .dsa, .palpate, .csv or .npz");
+  if (ending == ".jsonl") return RecordingForm::kJsonLines;
+  throw FileError(path, "its name must end in .dsa, .palpate, .csv, .npz or .jsonl");
 }
 
 EventsReport readEvents(const std::filesystem::path& path) {
@@ -189,6 +191,8 @@ void saveRecording(const Profile& profile,
       return writeCsv(profile, path, overwrite, progress);
     case RecordingForm::kNpz:
       return writeNpz(profile, events, path, overwrite, progress);
+    case RecordingForm::kJsonLines:
+      return writeTactileSensorLines(profile, path, overwrite, progress);
   }
 }
 

@@ -111,13 +111,14 @@ int convertCommand(const Words& words) {
       {.synopsis = "palpate convert IN OUT [--from N --to M] | FOLDER OUTFOLDER --to-form FORM",
        .purpose =
            "Converts a recording; the ending of OUT chooses the form: .dsa, .palpate, .csv "
-           "(with\nOUT.angles.csv and OUT.temperatures.csv beside it) or .npz (for NumPy). "
+           "(with\nOUT.angles.csv and OUT.temperatures.csv beside it), .npz (for NumPy) or .jsonl "
+           "(frames as\nschunk_sdh/TactileSensor). "
            "Of a FOLDER every recording\nbelow it, into OUTFOLDER under the same names with "
            "the ending of FORM, a line per file; one that\nfails doesn't stop the others: exit "
            "code 3.",
        .options = {{"from", "N", "first frame, default 0"},
                    {"to", "M", "last frame (inclusive), default the last one"},
-                   {"to-form", "FORM", "of a folder: dsa, palpate, csv or npz"},
+                   {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz or jsonl"},
                    {"force", "", "replace OUT, or files in OUTFOLDER"}},
        .example = "palpate convert foam_ball.dsa grasp3.palpate --from 700 --to 1400",
        .fewestWords = 2,
@@ -126,7 +127,7 @@ int convertCommand(const Words& words) {
   if (given.helpShown()) return kDone;
   const std::string& in = given.words()[0];
   const std::string& out = given.words()[1];
-  const auto form = given.choice("to-form", {"dsa", "palpate", "csv", "npz"});
+  const auto form = given.choice("to-form", {"dsa", "palpate", "csv", "npz", "jsonl"});
   std::error_code ignored;
   const bool isFolder = fs::is_directory(in, ignored);
   if (isFolder && !form)

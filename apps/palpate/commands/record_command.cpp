@@ -19,6 +19,8 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/live_streams.h"
+#include "commands/remote_recording.h"
 #include "gui/interruption.h"
 
 namespace palpate::commands {
@@ -81,7 +83,7 @@ fs::path outputPath(const CommandLine& given) {
 
 RecordingOptions recordingOptions(const CommandLine& given) {
   RecordingOptions options;
-  options.path = outputPath(given);
+  if (!given.has("remote")) options.path = outputPath(given);
   options.preTriggerS = 0.0;
   options.stopAfterS = given.number("duration", 0.05, 1e7);
   for (const char* key : {"operator", "object", "run", "notes"})
@@ -165,15 +167,18 @@ std::string lineText(const RecordingReport& report, const DeviceStatus& device) 
 
 int recordCommand(const Words& words) {
   const CommandLine given(
-      {.synopsis = "palpate record --dsa PORT [--sdh PORT] -o OUT.palpate [--duration S] ..",
+      {.synopsis =
+           "palpate record --dsa PORT [--sdh PORT] -o OUT.palpate [--duration S] [--remote] ..",
        .purpose =
            "Records a hand until Ctrl-C, or for S seconds from the first frame. What came is on "
            "disk within\n150 ms; OUT is written from the first frame on and never replaced. PORT: "
            "a "
            "serial device, a\n/dev/serial/by-id name, a pty, or tcp:HOST:PORT. OUT may hold "
            "{date}, "
-           "{time}, {operator},\n{object}, {run} (next free number). Exit code 3: something is "
-           "missing in the recording.",
+           "{time}, {operator},\n{object}, {run} (next free number). With --remote nothing is "
+           "recorded "
+           "until it is asked for; OUT is\nthen a folder, or the template of names in one. Exit "
+           "code 3: something is missing in a recording.",
        .options = {{"dsa", "PORT", "tactile controller"},
                    {"sdh", "PORT", "motion controller: angles and temperatures"},
                    {"output,o", "OUT.palpate", "where to record"},
@@ -185,6 +190,10 @@ int recordCommand(const Words& words) {
                    {"notes", "TEXT", "whatever else"},
                    {"split-minutes", "M", "a new file after M minutes: NAME_002.palpate, .."},
                    {"split-mb", "N", "a new file at about N MB"},
+                   remoteOption(),
+                   socketOption(),
+                   {"to", "STREAM", "signals or tactile, live to other programs: 'stream --help'"},
+                   {"calibration", "C.json", "with --to signals: pressures and forces, too"},
                    {"json", "", "report as JSON"}},
        .example = "palpate record --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1 -o grasp.palpate",
        .mostWords = 0},
@@ -197,9 +206,15 @@ int recordCommand(const Words& words) {
   hand.dsaPort = *dsa;
   hand.sdhPort = given.text("sdh").value_or("");
   const double firstFrameS = given.number("wait", 0.1, 1e6).value_or(15.0);
+  if (given.has("socket") && !given.has("remote")) throw UsageError("--socket goes with --remote");
   RecordingOptions options = recordingOptions(given);
+  const std::vector<StreamTarget> targets = streamTargetsOf(given, "to");
+  const auto calibration = streamCalibrationOf(given);
   Interruption interruption;  // until the file is finished
   CaptureSession session(std::make_unique<LiveHand>(std::move(hand)));
+  std::unique_ptr<LiveStreams> streams;
+  if (!targets.empty()) streams = std::make_unique<LiveStreams>(session, targets, calibration);
+  if (given.has("remote")) return recordRemotely(given, session, interruption, std::move(options));
   session.startRecording(std::move(options));
   recordUntilDone(session, interruption, firstFrameS, given.quiet());
   const LinkHealth health = session.health();

@@ -11,6 +11,7 @@
 #include "commands/filter_options.h"
 #include "commands/hand_options.h"
 #include "commands/picture_size.h"
+#include "commands/remote_recording.h"
 #include "gui/gl_probe.h"
 #include "gui/workbench.h"
 
@@ -105,6 +106,8 @@ int workbenchCommand(const Words& words) {
             {"angles", "A0,..,A6", "joint angles [deg] assumed for recordings that have none"},
             {"filter", "SPEC", "look through a filter, as median:size=3; may be repeated"},
             {"recipe", "R.json", "look through a recipe of filters"},
+            remoteOption(),
+            socketOption(),
             {"force", "", "with --screenshot: replace OUT.png"}},
        .example = "palpate foam_ball.dsa"},
       words);
@@ -115,11 +118,14 @@ int workbenchCommand(const Words& words) {
     if (given.has(option)) throw UsageError("--" + std::string(option) + " goes with --screenshot");
   if (given.has("demo") && !given.words().empty())
     throw UsageError("give FILE or --demo, not both");
+  if (given.has("socket") && !given.has("remote")) throw UsageError("--socket goes with --remote");
   if (given.has("gl") && given.has("no-gl")) throw UsageError("give --gl or --no-gl, not both");
   const auto assumed = anglesOf(given);
   const auto filters = filtersOf(given);
   if (!hasDisplay())
     throw Error("no display: run it on a desktop, or use a command ('palpate --help' lists them)");
+  std::optional<std::filesystem::path> remote;  // before the usual folder is a made-up one
+  if (given.has("remote")) remote = remoteSocketOf(given);
   const RuntimeFolder runtime;
   gui::WorkbenchOptions options;
   options.files.assign(given.words().begin(), given.words().end());
@@ -130,6 +136,7 @@ int workbenchCommand(const Words& words) {
                                       : gui::OpenGlChoice::kFast;
   options.assumedAnglesDeg = assumed.value_or(std::vector<double>());
   options.recipe = filters;
+  options.remote = remote;
   std::string name = "palpate";
   char* arguments[] = {name.data(), nullptr};
   int count = 1;

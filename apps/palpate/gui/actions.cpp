@@ -192,6 +192,12 @@ Actions::Actions(QWidget* window) : window_(window) {
     labels.append(
         make("Hand", "Mark " + QString::number(digit), {QKeySequence(QString::number(digit))}));
   muteAlarms = make("Hand", "Alarms are &silent", {key("Ctrl+Shift+M")}, true);
+  streamSignals = make("Hand", "Stream signals to &PlotJuggler", {}, true);
+  streamSignals->setToolTip("A datagram of JSON per frame, to this machine only");
+  streamTactile = make("Hand", "Stream all &taxels (ROS TactileSensor)", {}, true);
+  streamTactile->setToolTip("A datagram of JSON per frame, to this machine only");
+  remoteControl = make("Hand", "&Remote control", {}, true);
+  remoteControl->setToolTip("Programs of yours may start, stop and label recordings");
   scanOnly = make("Hand", "Scan &only the chosen taxels", {});
   scanWithout = make("Hand", "&Leave the chosen taxels out", {});
   scanAlso = make("Hand", "Scan the chosen taxels, &too", {});

@@ -107,7 +107,10 @@ struct Actions {
   QAction* mark;
   QList<QAction*> labels;  // of the digit keys 0..9
   QAction* muteAlarms;
-  QAction* scanOnly;  // masks, from the taxels that are chosen
+  QAction* streamSignals;  // other programs; off in a new window
+  QAction* streamTactile;
+  QAction* remoteControl;  // data(): its socket; none: the usual one
+  QAction* scanOnly;       // masks, from the taxels that are chosen
   QAction* scanWithout;
   QAction* scanAlso;
   QAction* scanAll;

@@ -118,6 +118,8 @@ LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
   connect(sound_, &QCheckBox::toggled, this, [this](bool on) { emit mutedChanged(!on); });
   facts_ = new FactsView(this);
   facts_->setObjectName("linkFacts");
+  others_ = new FactsView(this);
+  others_->setObjectName("otherPrograms");
   log_ = new QPlainTextEdit(this);
   log_->setObjectName("linkLog");
   log_->setReadOnly(true);
@@ -144,6 +146,9 @@ LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
   top->addWidget(sectionHeading("Link", content));
   top->addWidget(facts_);
   top->addSpacing(4);
+  othersHeading_ = sectionHeading("Other programs", content);
+  top->addWidget(othersHeading_);
+  top->addWidget(others_);
   top->addWidget(sectionHeading("What happened", content));
   top->addWidget(log_, 1);
   auto* area = new QScrollArea(this);
@@ -155,6 +160,7 @@ LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(area);
+  showOtherPrograms({});
   clear();
 }
 
@@ -212,6 +218,19 @@ void LinkPanel::showAlarms(const QStringList& alarms) {
                          ";");
 }
 
+void LinkPanel::showOtherPrograms(std::vector<Fact> facts) {
+  othersHeading_->setVisible(!facts.empty());
+  others_->setVisible(!facts.empty());
+  if (facts.size() != others_->facts().size())
+    others_->setFacts(std::move(facts));
+  else
+    for (std::size_t i = 0; i < facts.size(); ++i)
+      if (facts[i].name == others_->facts()[i].name)
+        others_->setValue(i, facts[i].value);
+      else
+        return others_->setFacts(std::move(facts));
+}
+
 void LinkPanel::addEvent(const RecordingEvent& event) {
   log(QString::fromStdString(event.kind) +
       (event.text.empty() ? QString() : ": " + QString::fromStdString(event.text)));
@@ -227,6 +246,7 @@ void LinkPanel::setMuted(bool muted) { sound_->setChecked(!muted); }
 void LinkPanel::setTheme(Theme theme) {
   theme_ = theme;
   facts_->setTheme(theme);
+  others_->setTheme(theme);
   const QString alarms = alarms_->text();
   showAlarms(alarms == "none" ? QStringList() : alarms.split('\n'));
   showCheck();

@@ -30,6 +30,8 @@ class LinkPanel : public QWidget {
   void clear();
   void showHealth(const LinkHealth& health, const std::optional<BeforeRun>& check);
   void showAlarms(const QStringList& alarms);
+  // What is open to other programs; empty: nothing, and nothing of it is seen.
+  void showOtherPrograms(std::vector<Fact> facts);
   void addEvent(const RecordingEvent& event);
   // A line of the window's own: "connected to ..".
   void log(const QString& line);
@@ -48,6 +50,8 @@ class LinkPanel : public QWidget {
   QLabel* alarms_;
   QCheckBox* sound_;
   FactsView* facts_;
+  QLabel* othersHeading_;
+  FactsView* others_;
   QPlainTextEdit* log_;
   std::optional<BeforeRun> lastCheck_;
   bool recording_ = false;

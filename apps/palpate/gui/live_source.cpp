@@ -98,8 +98,12 @@ std::unique_ptr<LiveSource> openSource(const Connection& connection,
   source->slip = slip.get();
   stages.push_back(std::move(slip));
   ChainOptions options;
-  options.onResults = [history = source->history.get()](const LiveResults& results) {
+  source->stream =
+      std::make_unique<LiveStream>([session = source->session.get()] { return session->health(); });
+  options.onResults = [history = source->history.get(),
+                       stream = source->stream.get()](const LiveResults& results) {
     history->add(results);
+    stream->send(results);
   };
   options.onEvent = [session = source->session.get()](const RecordingEvent& event) {
     session->note(event);

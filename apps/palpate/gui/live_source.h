@@ -9,6 +9,7 @@
 #include <palpate/control/grasp_control.h>
 #include <palpate/core/progress.h>
 #include <palpate/emulator/emulated_hand.h>
+#include <palpate/interop/live_stream.h>
 #include <palpate/live/filter_stage.h>
 #include <palpate/live/pressure_stage.h>
 #include <palpate/live/processing_chain.h>
@@ -33,6 +34,7 @@ struct LiveSource {
   std::unique_ptr<EmulatedHand> emulated;  // of an emulated hand
   std::unique_ptr<CaptureSession> session;
   std::unique_ptr<SignalHistory> history;
+  std::unique_ptr<LiveStream> stream;  // to other programs; off
   std::unique_ptr<ProcessingChain> chain;
   FilterStage* filters = nullptr;         // of the chain, the first stage
   PressureStage* pressure = nullptr;      // of the chain

@@ -19,6 +19,7 @@
 #include "gui/matrices_panel.h"
 #include "gui/message_banner.h"
 #include "gui/offer_strip.h"
+#include "gui/other_programs.h"
 #include "gui/status_strip.h"
 
 namespace palpate::gui {
@@ -37,6 +38,25 @@ std::vector<Fact> factsOf(const Connection& connection,
   add("motion firmware", device.motionFirmware);
   facts.push_back({"calibration", calibration});
   return facts;
+}
+
+// It lives as long as `live`.
+void connectOtherPrograms(const Actions& actions,
+                          LiveController& live,
+                          QSettings& settings,
+                          LinkPanel& link,
+                          MessageBanner& banner,
+                          std::function<RecordingSettings()> recordingSettings) {
+  auto* others = new OtherPrograms({actions, live, settings, std::move(recordingSettings)}, &live);
+  QObject::connect(others, &OtherPrograms::changed, &link, [others, &link] {
+    link.showOtherPrograms(others->facts());
+  });
+  QObject::connect(others, &OtherPrograms::logged, &link, &LinkPanel::log);
+  QObject::connect(others, &OtherPrograms::failed, &banner, [&banner, &link](const QString& why) {
+    banner.showMessage(why);
+    link.log(why);
+  });
+  link.showOtherPrograms(others->facts());
 }
 
 }  // namespace
@@ -151,6 +171,8 @@ void MainWindow::connectLive() {
     settings_.setValue("live/window_s", seconds);
   });
   connectScanActions();
+  connectOtherPrograms(
+      actions_, live_, settings_, *link_, *banner_, [this] { return recordingSettings_; });
 }
 
 void MainWindow::connectTo(const Connection& connection) {
@@ -363,6 +385,8 @@ void MainWindow::updateLiveStatus() {
       "saturated " + QString::number(health.frames.saturatedFrames)};
   now.notice = noticeNow();
   now.right = describe(live_.connection());
+  if (const QString open = OtherPrograms::shortText(actions_); !open.isEmpty())
+    now.right = open + " · " + now.right;
   status_->setStatus(now);
 }
 

@@ -39,18 +39,6 @@ QString summaryOf(const RecordingReport& report) {
   return text;
 }
 
-RecordingOptions optionsOf(const RecordingSettings& settings) {
-  RecordingOptions options;
-  options.path = nextPath(settings, systemClock().wallUs());
-  const auto note = [&](const char* key, const QString& value) {
-    if (!value.isEmpty()) options.meta[key] = value.toStdString();
-  };
-  note("operator", settings.operatorName);
-  note("object", settings.object);
-  note("notes", settings.notes);
-  return options;
-}
-
 }  // namespace
 
 void MainWindow::connectRecording() {
@@ -163,7 +151,9 @@ void MainWindow::toggleRecording() {
     useRecordingSettings();
   }
   offer_->dismiss();
-  live_.startRecording([settings = recordingSettings_] { return optionsOf(settings); });
+  live_.startRecording([settings = recordingSettings_] {
+    return recordingOptions(settings, nextPath(settings, systemClock().wallUs()));
+  });
   showRecordingState();
 }
 

@@ -124,6 +124,18 @@ fs::path nextPath(const RecordingSettings& recording, std::int64_t nowUs) {
   }
 }
 
+RecordingOptions recordingOptions(const RecordingSettings& recording, const fs::path& path) {
+  RecordingOptions options;
+  options.path = path;
+  const auto note = [&](const char* key, const QString& value) {
+    if (!value.isEmpty()) options.meta[key] = value.toStdString();
+  };
+  note("operator", recording.operatorName);
+  note("object", recording.object);
+  note("notes", recording.notes);
+  return options;
+}
+
 NextRecording previewNextPath(const RecordingSettings& recording, std::int64_t nowUs) {
   NextRecording next;
   const fs::path folder = folderOf(recording);

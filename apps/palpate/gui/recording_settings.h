@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <filesystem>
 
+#include <palpate/capture/recorder.h>
+
 namespace palpate::gui {
 
 struct RecordingSettings {
@@ -43,5 +45,9 @@ struct NextRecording {
   QString problem;  // one line; empty: none
 };
 NextRecording previewNextPath(const RecordingSettings& recording, std::int64_t nowUs);
+
+// A recording at `path` that says what the operator said.
+RecordingOptions recordingOptions(const RecordingSettings& recording,
+                                  const std::filesystem::path& path);
 
 }  // namespace palpate::gui

@@ -116,6 +116,9 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   scanned->addActions({actions.scanOnly, actions.scanWithout, actions.scanAlso, actions.scanAll});
   scanned->addSeparator();
   scanned->addAction(actions.chooseNone);
+  QMenu* others = hand->addMenu("Other &programs");
+  others->setToolTipsVisible(true);
+  others->addActions({actions.streamSignals, actions.streamTactile, actions.remoteControl});
   hand->addAction(actions.muteAlarms);
 
   QMenu* playback = window.menuBar()->addMenu("&Playback");

@@ -33,6 +33,11 @@ int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options) {
                  [&window](const QString& why) {
                    if (why.isEmpty()) window.handPanel().view().useOpenGl();
                  });
+  if (options.remote) {
+    QAction* remote = window.actionList().remoteControl;
+    remote->setData(QString::fromStdString(options.remote->string()));
+    remote->setChecked(true);
+  }
   // The window is on screen before the first file is read.
   if (options.demo)
     window.openDemo();

@@ -24,6 +24,8 @@ struct WorkbenchOptions {
   OpenGlChoice openGl = OpenGlChoice::kFast;  // for the hand in space
   std::vector<double> assumedAnglesDeg = {};  // of recordings without joint angles; empty: none
   std::optional<Recipe> recipe = {};          // to look through; nothing: what was there last
+  // Remote control is on, at this socket; nothing: off until it is switched on.
+  std::optional<std::filesystem::path> remote = {};
 };
 
 // Shows the window and runs the event loop until it is closed. Returns the exit code. A QApplication

@@ -25,8 +25,8 @@ struct VerifyReport {
 VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& progress = {});
 
 // The forms a recording can be saved in.
-enum class RecordingForm { kDsa, kPalpate, kCsv, kNpz };
-// By the ending of a name: .dsa, .palpate, .csv, .npz, in small or capital letters. Throws FileError
+enum class RecordingForm { kDsa, kPalpate, kCsv, kNpz, kJsonLines };
+// By the ending of a name: .dsa, .palpate, .csv, .npz, .jsonl, in small or capital letters. Throws FileError
 // naming them all.
 RecordingForm formOf(const std::filesystem::path& path);
 
@@ -38,7 +38,7 @@ EventsReport readEvents(const std::filesystem::path& path);
 void requireOther(const std::filesystem::path& in, const std::filesystem::path& out);
 
 // Saves a profile in the form of PATH's ending: whole or not at all. Events go into a .palpate, into
-// the sidecar of a .dsa, into `meta` of an .npz; a .csv has no place for them. Throws FileError,
+// the sidecar of a .dsa, into `meta` of an .npz; a .csv or .jsonl has no place for them. Throws FileError,
 // Cancelled.
 void saveRecording(const Profile& profile,
                    std::span<const RecordingEvent> events,

@@ -1,0 +1,70 @@
+// palpate remote: asks a running palpate that is remote-controlled, and prints its answer.
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+#include "palpate/core/error.h"
+#include "palpate/core/json.h"
+#include "palpate/core/one_line.h"
+#include "palpate/interop/remote_client.h"
+#include "palpate/interop/remote_server.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+
+namespace palpate::commands {
+namespace {
+
+constexpr double kUsualWaitS = 60.0;  // a stop waits for the disk
+constexpr double kMsPerS = 1000.0;
+
+std::string requestOf(const CommandLine& given) {
+  std::string request;
+  for (const std::string& word : given.words()) request += (request.empty() ? "" : " ") + word;
+  const ReadRequest read = readRequest(request);
+  if (!read.request) throw UsageError(read.refusal.message);
+  return request;
+}
+
+// A recording that isn't whole is said so, though it was stopped as asked.
+bool isPart(const Json& answer) {
+  return answer.contains("complete") && !answer.at("complete").asBool();
+}
+
+}  // namespace
+
+int remoteCommand(const Words& words) {
+  const CommandLine given(
+      {.synopsis = "palpate remote [--socket PATH] REQUEST [TEXT]",
+       .purpose = "Asks a palpate on this machine that was started with --remote (or where Remote "
+                  "control is "
+                  "switched\non), waits until it is done, and prints the answer as a line of JSON. "
+                  "REQUEST: "
+                  "status, start [NAME]\n(done when frames are on disk), stop (when the file is "
+                  "closed), label "
+                  "TEXT, mark, file [TEMPLATE],\nset KEY [TEXT] (operator, object, run, notes), "
+                  "help. Exit "
+                  "code 1: it was refused; 3: stopped, but\nsomething is missing in the recording.",
+       .options = {{"socket", "PATH", "where it listens; default $XDG_RUNTIME_DIR/palpate-remote"},
+                   {"wait", "S", "give up without an answer after so many seconds, default 60"}},
+       .example = "palpate remote start pen_{run}",
+       .fewestWords = 1},
+      words);
+  if (given.helpShown()) return kDone;
+  const std::string request = requestOf(given);
+  const double waitS = given.number("wait", 0.01, 1e5).value_or(kUsualWaitS);
+  const auto socket = given.text("socket");
+  RemoteClient client(socket ? std::filesystem::path(*socket) : usualRemoteSocket());
+  const std::string line =
+      client.ask(request, std::chrono::milliseconds(static_cast<std::int64_t>(waitS * kMsPerS)));
+  const Json answer = Json::parse(line);
+  std::printf("%s\n", oneLine(line).c_str());
+  const std::string message = answer.contains("message") ? answer.at("message").asString() : "";
+  if (!answer.at("ok").asBool())
+    throw Error("refused (" + answer.at("error").asString() + "): " + message);
+  if (!isPart(answer)) return kDone;
+  std::fprintf(stderr, "palpate: %s\n", oneLine(message).c_str());
+  return kPartlyDone;
+}
+
+}  // namespace palpate::commands

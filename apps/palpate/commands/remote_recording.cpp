@@ -1,0 +1,94 @@
+#include "commands/remote_recording.h"
+
+#include <atomic>
+#include <cstdio>
+#include <string>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/one_line.h"
+#include "palpate/interop/remote_file.h"
+#include "palpate/interop/remote_recorder.h"
+#include "palpate/interop/remote_server.h"
+
+#include "commands/commands.h"
+
+namespace palpate::commands {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr int kLookMs = 100;
+
+RemoteRecorderOptions optionsOf(const CommandLine& given, RecordingOptions each) {
+  RemoteRecorderOptions options;
+  const fs::path out(given.text("output").value());
+  std::error_code ignored;
+  if (fs::is_directory(out, ignored)) {
+    options.folder = out;
+  } else {
+    options.folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
+    options.nameTemplate = out.filename().string();
+    if (const std::string problem = problemOfRemoteName(options.nameTemplate); !problem.empty())
+      throw UsageError("-o: " + problem);
+  }
+  options.limits.firstFrameS = given.number("wait", 0.1, 1e6).value_or(options.limits.firstFrameS);
+  options.recording = std::move(each);
+  return options;
+}
+
+void say(const RecordingReport& report, bool json) {
+  const RemoteAnswer answer = stopAnswer(report);
+  std::string line;
+  if (json)
+    line = answerLine(answer, "stop");
+  else if (!answer.ok())
+    line = "nothing was recorded: " + oneLine(answer.message);
+  else
+    line = oneLine(report.paths.front().string()) + ": " + std::to_string(report.frames) +
+           " frames in " + fixedText(report.durationS, 1) + " s, " +
+           std::to_string(report.lost + report.refused) + " lost" +
+           (report.message.empty() ? "" : "; " + oneLine(report.message));
+  std::printf("%s\n", line.c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+OptionSpec remoteOption() {
+  return {"remote", "", "others start and stop recordings: 'palpate remote --help'"};
+}
+
+OptionSpec socketOption() {
+  return {
+      "socket", "PATH", "with --remote: where to listen; default $XDG_RUNTIME_DIR/palpate-remote"};
+}
+
+fs::path remoteSocketOf(const CommandLine& given) {
+  const auto named = given.text("socket");
+  return named ? fs::path(*named) : usualRemoteSocket();
+}
+
+int recordRemotely(const CommandLine& given,
+                   CaptureSession& session,
+                   gui::Interruption& interruption,
+                   RecordingOptions each) {
+  RemoteRecorderOptions options = optionsOf(given, std::move(each));
+  std::atomic<bool> whole = true;
+  options.onFinished = [&](const RecordingReport& report) {
+    if (!report.complete && !report.paths.empty()) whole = false;
+    if (given.has("json") || !given.quiet()) say(report, given.has("json"));
+  };
+  session.start();
+  {
+    RemoteRecorder recorder(session, std::move(options));
+    const RemoteServer server(remoteSocketOf(given), recorder);
+    std::printf("remote=%s\n", oneLine(server.socket().string()).c_str());
+    std::fflush(stdout);
+    while (!interruption.came(kLookMs)) {
+    }
+  }
+  session.stop();
+  return whole ? kDone : kPartlyDone;
+}
+
+}  // namespace palpate::commands

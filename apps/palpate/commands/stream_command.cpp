@@ -1,0 +1,204 @@
+// palpate stream: what a hand feels, live to other programs: datagrams to this machine, or lines on standard output.
+#include <atomic>
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include <unistd.h>
+
+#include "palpate/capture/replay.h"
+#include "palpate/core/error.h"
+#include "palpate/core/one_line.h"
+#include "palpate/device/live_hand.h"
+#include "palpate/recording/recording.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+#include "commands/live_streams.h"
+#include "gui/interruption.h"
+
+namespace palpate::commands {
+namespace {
+using gui::Interruption;
+
+constexpr int kLookMs = 50;
+
+// Lines for whoever reads standard output. What can't be written ends the work, not the processing thread.
+class Lines {
+ public:
+  Lines(StreamKind kind, bool live) : kind_(kind), live_(live) {}
+
+  void write(const LiveResults& results, const LinkHealth* link) {
+    if (failed_) return;
+    std::string text;
+    appendStreamed(text, kind_, results, sequence_++, link);
+    try {
+      output_.write(text + "\n");
+      if (live_) output_.finish();
+    } catch (const OutputError& error) {
+      failure_ = error.what();
+      failed_ = true;
+    }
+  }
+  bool failed() const { return failed_; }
+  // Throws OutputError.
+  void finish() {
+    if (failed_) throw OutputError(failure_);
+    output_.finish();
+  }
+
+ private:
+  const StreamKind kind_;
+  const bool live_;
+  StandardOutput output_;
+  std::uint64_t sequence_ = 0;
+  std::string failure_;
+  std::atomic<bool> failed_ = false;
+};
+
+CommandSpec spec() {
+  return {
+      .synopsis = "palpate stream (--dsa PORT [--sdh PORT] | FILE) [--to STREAM].. [--lines]",
+      .purpose =
+          "What a hand feels, live to other programs on this machine: a JSON object per frame, as "
+          "UDP\ndatagrams to 127.0.0.1 or as lines on standard output. STREAM: signals (default; "
+          "for PlotJuggler,\nport 9870) or tactile (all taxels as schunk_sdh/TactileSensor, port "
+          "9871), with another port as\nsignals:9999. FILE: a recording, played in its own time "
+          "(with --lines at once). Runs until Ctrl-C.",
+      .options = {{"dsa", "PORT", "tactile controller"},
+                  {"sdh", "PORT", "motion controller: angles and temperatures"},
+                  {"to", "STREAM", "what to send, and where to; may be repeated"},
+                  {"lines", "", "lines on standard output instead of datagrams"},
+                  {"calibration", "C.json", "pressures and forces, too"},
+                  {"duration", "S", "stop after so many seconds"}},
+      .example = "palpate stream --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1",
+      .mostWords = 1};
+}
+
+std::unique_ptr<Device> deviceOf(const CommandLine& given) {
+  if (!given.words().empty()) {
+    ProgressLine progress("reading " + given.words()[0], given.quiet());
+    Profile profile = openRecording(given.words()[0], progress.callback());
+    if (profile.numFrames() == 0) throw Error(given.words()[0] + ": has no frames");
+    return std::make_unique<Replay>(std::move(profile), ReplayOptions{});
+  }
+  LiveHandOptions hand;
+  hand.dsaPort = given.text("dsa").value();
+  hand.sdhPort = given.text("sdh").value_or("");
+  return std::make_unique<LiveHand>(std::move(hand));
+}
+
+// Until the source is at its end, time is over, a signal comes, or `over` says so.
+void runSession(const CommandLine& given,
+                CaptureSession& session,
+                Interruption& interruption,
+                const std::function<bool()>& over) {
+  const double durationS = given.number("duration", 0.05, 1e7).value_or(1e9);
+  const std::int64_t beginUs = systemClock().monotonicUs();
+  session.start();
+  const auto* replay = dynamic_cast<const Replay*>(&session.device());
+  while (!interruption.came(kLookMs)) {
+    if (replay && replay->finished()) return;
+    if (over()) return;
+    if (static_cast<double>(systemClock().monotonicUs() - beginUs) >= durationS * 1e6) return;
+  }
+}
+
+void requireFrames(const CaptureSession& session, const CommandLine& given) {
+  const LinkHealth health = session.health();
+  if (health.frames.frames > 0) return;
+  const std::string& why = health.device.tactile.message;
+  throw Error(given.text("dsa").value_or("") + ": no frame came" +
+              (why.empty() ? std::string("; is the hand switched on, and this its tactile port?")
+                           : ": " + why));
+}
+
+int streamDatagrams(const CommandLine& given, std::vector<StreamTarget> targets) {
+  if (targets.empty()) targets.push_back(streamTargetOf("signals", "to"));
+  const auto calibration = streamCalibrationOf(given);
+  Interruption interruption;
+  CaptureSession session(deviceOf(given));
+  LiveStreams streams(session, targets, calibration);
+  runSession(given, session, interruption, [&] { return !streams.failure().empty(); });
+  requireFrames(session, given);
+  session.stop();
+  if (const std::string failure = streams.failure(); !failure.empty()) throw Error(failure);
+  if (!given.quiet())
+    for (const std::string& line : streams.lines()) std::printf("%s\n", line.c_str());
+  return kDone;
+}
+
+// The whole recording, as fast as it goes.
+int streamLinesOf(const CommandLine& given, const std::string& file, StreamKind kind) {
+  const Profile profile = openRecording(file);
+  const EventsReport events = readEvents(file);
+  Lines lines(kind, false);
+  ChainOptions options;
+  options.onResults = [&lines](const LiveResults& results) { lines.write(results, nullptr); };
+  const HandDescription hand =
+      describeHand(profile.layout(),
+                   profile.numAngles() > 0 ? profile.angles(0).deg.size() : 0,
+                   profile.numTemperatures() > 0 ? profile.temperatures(0).degC.size() : 0);
+  ProcessingChain chain(streamedStages(nullptr, hand, streamCalibrationOf(given)),
+                        std::move(options));
+  Interruption interruption;
+  try {
+    chain.runOver(
+        profile, events.events, [&](double) { return !interruption.came(0) && !lines.failed(); });
+  } catch (const Cancelled&) {
+    lines.finish();
+    return kPartlyDone;
+  }
+  lines.finish();
+  return kDone;
+}
+
+int streamLines(const CommandLine& given, const std::vector<StreamTarget>& targets) {
+  if (targets.size() > 1) throw UsageError("--lines writes one stream: give one --to");
+  if (!targets.empty() && given.text("to")->find(':') != std::string::npos)
+    throw UsageError("--lines goes to standard output: no port");
+  const StreamKind kind = targets.empty() ? StreamKind::kSignals : targets.front().kind;
+  if (!given.words().empty()) return streamLinesOf(given, given.words()[0], kind);
+  Interruption interruption;
+  CaptureSession session(deviceOf(given));
+  Lines lines(kind, true);
+  ChainOptions options;
+  options.onResults = [&](const LiveResults& results) {
+    const LinkHealth health = session.health();
+    lines.write(results, &health);
+  };
+  ProcessingChain chain(
+      streamedStages(&session, session.device().hand(), streamCalibrationOf(given)),
+      std::move(options));
+  chain.connect(session);
+  chain.start();
+  runSession(
+      given, session, interruption, [&] { return lines.failed() || !chain.failure().empty(); });
+  if (!lines.failed()) requireFrames(session, given);
+  session.stop();
+  chain.stop();
+  lines.finish();
+  if (const std::string failure = chain.failure(); !failure.empty()) throw Error(failure);
+  const ChainStats stats = chain.stats();
+  if (stats.skipped == 0) return kDone;
+  std::fprintf(stderr,
+               "palpate: %llu frames were skipped: whoever reads is too slow\n",
+               static_cast<unsigned long long>(stats.skipped));
+  return kPartlyDone;
+}
+
+}  // namespace
+
+int streamCommand(const Words& words) {
+  const CommandLine given(spec(), words);
+  if (given.helpShown()) return kDone;
+  if (given.words().empty() != given.has("dsa"))
+    throw UsageError("stream needs --dsa PORT or a recording, not both");
+  if (given.has("sdh") && !given.has("dsa")) throw UsageError("--sdh goes with --dsa");
+  const std::vector<StreamTarget> targets = streamTargetsOf(given, "to");
+  return given.has("lines") ? streamLines(given, targets) : streamDatagrams(given, targets);
+}
+
+}  // namespace palpate::commands

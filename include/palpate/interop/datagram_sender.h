@@ -1,0 +1,42 @@
+// Sends datagrams to a UDP port of this machine: 127.0.0.1 and nowhere else. Never waits: what can't be sent at once is
+// dropped and counted.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace palpate {
+
+struct DatagramStats {
+  std::uint64_t sent =
+      0;  // the system took them; whether somebody listens is known only when nobody does
+  std::uint64_t dropped = 0;  // nobody listens, no room, or too long
+  bool heard =
+      false;  // the last two were taken: the system tells of one that nobody heard with the next one
+};
+
+// Not thread-safe.
+class DatagramSender {
+ public:
+  static constexpr std::size_t kMostBytes = 65'507;  // that UDP carries
+
+  // Throws std::invalid_argument (port 0), DeviceError (the system has no socket left).
+  explicit DatagramSender(std::uint16_t port);
+  ~DatagramSender();
+  DatagramSender(const DatagramSender&) = delete;
+  DatagramSender& operator=(const DatagramSender&) = delete;
+
+  // Whether the system took it. A datagram behind one that nobody heard is tried all the same: a listener may come at
+  // any time.
+  bool send(std::string_view bytes) noexcept;
+  std::uint16_t port() const noexcept { return port_; }
+  const DatagramStats& stats() const noexcept { return stats_; }
+
+ private:
+  std::uint16_t port_;
+  int socket_ = -1;
+  bool lastTaken_ = false;
+  DatagramStats stats_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,69 @@
+// Streams of what live processing finds, for other programs on this machine: off until switched on, to 127.0.0.1 alone,
+// one datagram per frame and stream. Nothing ever waits for a receiver.
+//
+//   ProcessingChain --results--> LiveStream --UDP--> PlotJuggler (signals), whoever reads TactileSensor (taxels)
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include <palpate/capture/link_health.h>
+#include <palpate/interop/datagram_sender.h>
+#include <palpate/live/live_results.h>
+
+namespace palpate {
+
+enum class StreamKind {
+  kSignals,  // signal_json.h, to PlotJuggler's port
+  kTactile,  // recording/tactile_sensor_json.h
+};
+inline constexpr std::array kAllStreamKinds = {StreamKind::kSignals, StreamKind::kTactile};
+constexpr std::uint16_t usualPort(StreamKind kind) {
+  return kind == StreamKind::kSignals ? 9870 : 9871;
+}
+
+// Appends what a stream says of a frame, without a line end.
+void appendStreamed(std::string& out,
+                    StreamKind kind,
+                    const LiveResults& results,
+                    std::uint64_t sequence,
+                    const LinkHealth* link);
+
+// Every member may be called from any thread.
+class LiveStream {
+ public:
+  // Asked on the processing thread, four times a second while signals are sent; may be empty.
+  using AskLink = std::function<LinkHealth()>;
+  explicit LiveStream(AskLink askLink = {}) : askLink_(std::move(askLink)) {}
+
+  // From the next frame on; counts begin anew. Throws std::invalid_argument (port 0), DeviceError.
+  void switchOn(StreamKind kind, std::uint16_t port);
+  void switchOff(StreamKind kind);
+  bool on(StreamKind kind) const;
+  // Nothing: it is off.
+  std::optional<DatagramStats> stats(StreamKind kind) const;
+
+  // Sends what is switched on.
+  void send(const LiveResults& results);
+
+ private:
+  struct Stream {
+    std::unique_ptr<DatagramSender> sender;  // null: off
+    std::uint64_t sequence = 0;
+  };
+  const LinkHealth* linkAt(std::int64_t hostUs);
+
+  const AskLink askLink_;
+  mutable std::mutex mutex_;
+  std::array<Stream, kAllStreamKinds.size()> streams_;
+  std::optional<LinkHealth> link_;
+  std::int64_t askedUs_ = 0;  // stamp of the frame at which link_ was asked for
+  std::string text_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,45 @@
+#include "palpate/interop/datagram_sender.h"
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+
+DatagramSender::DatagramSender(std::uint16_t port) : port_(port) {
+  if (port == 0) throw std::invalid_argument("DatagramSender: port must be 1..65535");
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  // Connected, the system tells of datagrams that nobody took.
+  if (socket_ >= 0 &&
+      ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
+    return;
+  const int error = errno;
+  if (socket_ >= 0) ::close(socket_);
+  throw DeviceError(DeviceFault::kGone,
+                    "udp:127.0.0.1:" + std::to_string(port),
+                    std::string("can't send: ") + std::strerror(error));
+}
+
+DatagramSender::~DatagramSender() { ::close(socket_); }
+
+bool DatagramSender::send(std::string_view bytes) noexcept {
+  const ssize_t taken = ::send(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  stats_.heard = taken >= 0 && lastTaken_;
+  lastTaken_ = taken >= 0;
+  ++(taken >= 0 ? stats_.sent : stats_.dropped);
+  return taken >= 0;
+}
+
+}  // namespace palpate

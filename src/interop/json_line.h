@@ -1,0 +1,75 @@
+// Writes one JSON object on one line, piece by piece, without a tree in memory: for what is said hundreds of times a
+// second. Keys are ours and need no escaping.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+
+class JsonLine {
+ public:
+  explicit JsonLine(std::string& out) : out_(out) { out_ += '{'; }
+
+  void begin(std::string_view key) {
+    name(key);
+    out_ += '{';
+    first_ = true;
+  }
+  void end() {
+    out_ += '}';
+    first_ = false;
+  }
+  // NaN and infinities have no place in JSON: the key is left out.
+  void number(std::string_view key, double value) {
+    if (!std::isfinite(value)) return;
+    name(key);
+    appendNumber(out_, value);
+  }
+  void integer(std::string_view key, std::int64_t value) {
+    name(key);
+    appendNumber(out_, value);
+  }
+  void flag(std::string_view key, bool value) { integer(key, value ? 1 : 0); }
+  // Without quotes or backslashes in it.
+  void word(std::string_view key, std::string_view value) {
+    name(key);
+    out_ += '"';
+    out_ += value;
+    out_ += '"';
+  }
+  // As many numbers; one that is none becomes null, so that the others keep their places.
+  template <typename Values>
+  void numbers(std::string_view key, const Values& values) {
+    name(key);
+    out_ += '[';
+    bool first = true;
+    for (const double value : values) {
+      if (!first) out_ += ',';
+      first = false;
+      if (std::isfinite(value))
+        appendNumber(out_, value);
+      else
+        out_ += "null";
+    }
+    out_ += ']';
+  }
+
+ private:
+  void name(std::string_view key) {
+    if (!first_) out_ += ',';
+    first_ = false;
+    out_ += '"';
+    out_ += key;
+    out_ += "\":";
+  }
+
+  std::string& out_;
+  bool first_ = true;
+};
+
+}  // namespace palpate

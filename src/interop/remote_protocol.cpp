@@ -1,0 +1,138 @@
+#include "palpate/interop/remote_protocol.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "palpate/core/one_line.h"
+
+namespace palpate {
+namespace {
+using Verb = RemoteRequest::Verb;
+
+constexpr std::string_view kBlanks = " \t";
+constexpr std::size_t kMostQuoted = 60;  // of what a stranger wrote, in an answer
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+bool hasText(Verb verb) {
+  return verb == Verb::kStart || verb == Verb::kLabel || verb == Verb::kFile || verb == Verb::kSet;
+}
+
+ReadRequest refuse(std::string code, std::string why) {
+  return {std::nullopt, RemoteAnswer::refused(std::move(code), std::move(why))};
+}
+
+std::string quoted(std::string_view text) {
+  return "'" + oneLine(beginningOf(text, kMostQuoted)) + "'";
+}
+
+}  // namespace
+
+std::string_view nameOf(Verb verb) noexcept {
+  switch (verb) {
+    case Verb::kStatus:
+      return "status";
+    case Verb::kStart:
+      return "start";
+    case Verb::kStop:
+      return "stop";
+    case Verb::kLabel:
+      return "label";
+    case Verb::kMark:
+      return "mark";
+    case Verb::kFile:
+      return "file";
+    case Verb::kSet:
+      return "set";
+    case Verb::kHelp:
+      return "help";
+  }
+  return {};
+}
+
+const std::vector<Verb>& allRemoteVerbs() {
+  static const std::vector<Verb> all{Verb::kStatus,
+                                     Verb::kStart,
+                                     Verb::kStop,
+                                     Verb::kLabel,
+                                     Verb::kMark,
+                                     Verb::kFile,
+                                     Verb::kSet,
+                                     Verb::kHelp};
+  return all;
+}
+
+RemoteAnswer RemoteAnswer::refused(std::string code, std::string why) {
+  RemoteAnswer answer;
+  answer.error = std::move(code);
+  answer.message = std::move(why);
+  return answer;
+}
+
+std::string answerLine(const RemoteAnswer& answer, std::string_view command) {
+  Json json = Json::object().set("ok", answer.ok());
+  if (!command.empty()) json.set("command", command);
+  if (!answer.ok()) json.set("error", answer.error);
+  if (!answer.message.empty()) json.set("message", oneLine(answer.message));
+  for (const std::string& key : answer.fields.keys()) json.set(key, answer.fields.at(key));
+  return json.text(-1);
+}
+
+ReadRequest readRequest(std::string_view line) {
+  if (line.size() > kMostRequestBytes)
+    return refuse("too_long",
+                  "a request has at most " + std::to_string(kMostRequestBytes) + " bytes");
+  // Whatever oneLine() would change is no text: control characters, bytes that are no UTF-8. Tabs are blanks.
+  std::string plain(line);
+  std::replace(plain.begin(), plain.end(), '\t', ' ');
+  if (oneLine(plain) != plain)
+    return refuse("malformed", "a request is one line of UTF-8 without control characters");
+  const std::string_view text = trimmed(plain);
+  if (text.empty()) return refuse("malformed", "an empty request; 'help' lists what can be asked");
+  const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
+  const auto& verbs = allRemoteVerbs();
+  const auto verb =
+      std::find_if(verbs.begin(), verbs.end(), [&](Verb each) { return nameOf(each) == word; });
+  if (verb == verbs.end())
+    return refuse("unknown", quoted(word) + " is no request; 'help' lists what can be asked");
+  RemoteRequest request{*verb, std::string(trimmed(text.substr(word.size())))};
+  if (!request.text.empty() && !hasText(*verb))
+    return refuse("malformed", std::string(word) + " takes no text");
+  if (request.text.empty() && *verb == Verb::kLabel)
+    return refuse("malformed", "label needs its text: label TEXT");
+  if (*verb == Verb::kSet && !settingFrom(request.text))
+    return refuse("malformed",
+                  "set operator TEXT, object, run or notes; without TEXT it is forgotten");
+  return {std::move(request), {}};
+}
+
+std::optional<RequestLines::Line> RequestLines::next() {
+  const auto end = pending_.find('\n');
+  if (end == std::string::npos) {
+    if (pending_.size() > kMostRequestBytes + 1) {  // a CR may stand before the end
+      pending_.clear();
+      skipping_ = true;
+    }
+    return std::nullopt;
+  }
+  Line line{pending_.substr(0, end), false};
+  pending_.erase(0, end + 1);
+  if (line.text.ends_with('\r')) line.text.pop_back();
+  if (std::exchange(skipping_, false) || line.text.size() > kMostRequestBytes)
+    line = {std::string(), true};
+  return line;
+}
+
+std::optional<RemoteSetting> settingFrom(std::string_view text) {
+  constexpr std::array<std::string_view, 4> kKeys = {"operator", "object", "run", "notes"};
+  const std::string_view key = text.substr(0, text.find_first_of(kBlanks));
+  if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) return std::nullopt;
+  return RemoteSetting{std::string(key), std::string(trimmed(text.substr(key.size())))};
+}
+
+}  // namespace palpate

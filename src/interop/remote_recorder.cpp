@@ -1,0 +1,292 @@
+#include "palpate/interop/remote_recorder.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/time.h"
+#include "palpate/interop/remote_file.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+using SteadyTime = std::chrono::steady_clock;
+using Verb = RemoteRequest::Verb;
+
+constexpr std::chrono::milliseconds kStartRound{5};    // while the first commit is waited for
+constexpr std::chrono::milliseconds kUsualRound{200};  // a recording may end by itself
+constexpr std::int64_t kUsPerMs = 1000;
+
+enum class State { kIdle, kStarting, kRecording, kStopping };
+
+std::string_view nameOf(State state) {
+  switch (state) {
+    case State::kIdle:
+      return "idle";
+    case State::kStarting:
+      return "starting";
+    case State::kRecording:
+      return "recording";
+    case State::kStopping:
+      return "stopping";
+  }
+  return {};
+}
+
+}  // namespace
+
+struct RemoteRecorder::Impl {
+  struct Job {
+    RemoteRequest request;
+    Done done;
+  };
+
+  Impl(CaptureSession& theSession, RemoteRecorderOptions given)
+      : session(theSession),
+        options(std::move(given)),
+        nameTemplate(options.nameTemplate),
+        meta(options.recording.meta) {
+    if (const std::string problem = problemOfRemoteName(nameTemplate); !problem.empty())
+      throw std::invalid_argument("RemoteRecorderOptions: nameTemplate: " + problem);
+    std::error_code ignored;
+    if (!fs::is_directory(options.folder, ignored))
+      throw FileError(options.folder, "is no folder: make it first");
+  }
+
+  // On the server's thread.
+
+  RemoteAnswer status() const {
+    const LinkHealth health = session.health();
+    const std::lock_guard lock(mutex);
+    RemoteAnswer answer;
+    answer.fields.set("state", nameOf(state));
+    if (state != State::kIdle) setRecorderFacts(answer.fields, health.recorder);
+    setLinkFacts(answer.fields, health);
+    answer.fields.set("folder", options.folder.string()).set("next_file", nextFile());
+    const auto freeBytes = freeBytesOf(options.folder);
+    answer.fields.set("free_bytes",
+                      freeBytes ? Json(static_cast<std::int64_t>(*freeBytes)) : Json());
+    return answer;
+  }
+
+  // Of a start without a name; null when there is none to be had.
+  Json nextFile() const {
+    try {
+      return Json(pathOf(nameTemplate).filename().string());
+    } catch (const std::exception&) {
+      return {};
+    }
+  }
+
+  fs::path pathOf(const std::string& name) const {
+    const auto text = [this](const char* key) {
+      const auto found = meta.find(key);
+      return found == meta.end() ? std::string() : found->second;
+    };
+    return remoteRecordingPath(
+        options.folder, name, {systemClock().wallUs(), text("operator"), text("object")});
+  }
+
+  RemoteAnswer note(const std::string& text) {
+    if (current() != State::kRecording || !session.recording())
+      return RemoteAnswer::refused("not_recording", "nothing is being recorded: start first");
+    RecordingEvent event;
+    event.tUs = event.t1Us = session.nowUs();
+    event.kind = text.empty() ? "mark" : "label";
+    event.text = text;
+    session.note(event);
+    RemoteAnswer answer;
+    answer.fields.set("time_ms", event.tUs / kUsPerMs);
+    return answer;
+  }
+
+  RemoteAnswer name(const std::string& text) {
+    const std::lock_guard lock(mutex);
+    if (!text.empty()) {
+      if (const std::string problem = problemOfRemoteName(text); !problem.empty())
+        return RemoteAnswer::refused("file_name", problem);
+      nameTemplate = text;
+    }
+    RemoteAnswer answer;
+    answer.fields.set("template", nameTemplate).set("next_file", nextFile());
+    return answer;
+  }
+
+  RemoteAnswer set(const std::string& text) {
+    const auto setting = settingFrom(text);
+    if (!setting) return RemoteAnswer::refused("malformed", "set operator, object, run or notes");
+    const std::lock_guard lock(mutex);
+    if (setting->value.empty())
+      meta.erase(setting->key);
+    else
+      meta[setting->key] = setting->value;
+    RemoteAnswer answer;
+    answer.fields.set(setting->key, setting->value);
+    return answer;
+  }
+
+  void hand(const RemoteRequest& request, Done done) {
+    const std::lock_guard lock(mutex);
+    jobs.push_back({request, std::move(done)});
+    wake.notify_one();
+  }
+
+  // On the own thread.
+
+  void run(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      std::optional<Job> job;
+      {
+        std::unique_lock lock(mutex);
+        wake.wait_for(
+            lock, stop, starting ? kStartRound : kUsualRound, [this] { return !jobs.empty(); });
+        if (!jobs.empty()) {
+          job = std::move(jobs.front());
+          jobs.pop_front();
+        }
+      }
+      if (job && job->request.verb == Verb::kStart)
+        start(job->request.text, std::move(job->done));
+      else if (job)
+        stopRecording(job->done);
+      look();
+    }
+    if (starting) starting->done(RemoteAnswer::refused("shutting_down", "remote control ends"));
+    if (current() != State::kIdle) finish();
+  }
+
+  State current() const {
+    const std::lock_guard lock(mutex);
+    return state;
+  }
+  void become(State next) {
+    const std::lock_guard lock(mutex);
+    state = next;
+  }
+
+  void start(const std::string& text, const Done& done) {
+    if (starting) return done(RemoteAnswer::refused("busy", "a recording is being started"));
+    if (current() == State::kRecording) {
+      RemoteAnswer answer =
+          RemoteAnswer::refused("already_recording", "a recording runs: stop it first");
+      answer.fields.set("file", session.recorderStatus().path.string());
+      return done(answer);
+    }
+    if (const auto refusal = noHand(session.health(), options.limits)) return done(*refusal);
+    if (const auto refusal = noSpace(freeBytesOf(options.folder))) return done(*refusal);
+    RecordingOptions recording = options.recording;
+    try {
+      {
+        const std::lock_guard lock(mutex);
+        recording.path = pathOf(text.empty() ? nameTemplate : text);
+        recording.meta = meta;
+      }
+      std::error_code ignored;
+      if (fs::exists(fs::symlink_status(recording.path, ignored)))
+        return done(RemoteAnswer::refused(
+            "file_exists",
+            recording.path.string() + " exists already; a recording is never replaced"));
+      session.startRecording(std::move(recording));
+    } catch (const std::invalid_argument& problem) {
+      return done(RemoteAnswer::refused("file_name", problem.what()));
+    } catch (const FileError& error) {
+      return done(RemoteAnswer::refused("folder", error.what()));
+    } catch (const std::exception& error) {
+      return done(RemoteAnswer::refused("failed", error.what()));
+    }
+    starting = Starting{done, SteadyTime::now()};
+    endedByItself.reset();
+    become(State::kStarting);
+  }
+
+  void stopRecording(const Done& done) {
+    if (starting) {
+      starting->done(RemoteAnswer::refused("stopped", "it was stopped before a frame was on disk"));
+      starting.reset();
+    } else if (endedByItself) {
+      return done(stopAnswer(*std::exchange(endedByItself, std::nullopt)));
+    } else if (current() == State::kIdle) {
+      return done(RemoteAnswer::refused("not_recording", "nothing is being recorded"));
+    }
+    done(stopAnswer(finish()));
+  }
+
+  // Closes the file, however long the disk takes.
+  RecordingReport finish() {
+    become(State::kStopping);
+    const RecordingReport report = session.stopRecording();
+    become(State::kIdle);
+    if (options.onFinished) options.onFinished(report);
+    return report;
+  }
+
+  void look() {
+    if (!starting) {
+      if (current() == State::kRecording && !session.recording()) endedByItself = finish();
+      return;
+    }
+    const double waitedS =
+        std::chrono::duration<double>(SteadyTime::now() - starting->sinceMono).count();
+    // In this order: what is on disk stays true when it ends in between.
+    const bool recording = session.recording();
+    const auto verdict = startVerdict(session.recorderStatus(), recording, waitedS, options.limits);
+    if (!verdict) return;
+    const Done done = std::exchange(starting, std::nullopt)->done;
+    if (verdict->ok())
+      become(State::kRecording);
+    else
+      finish();
+    done(*verdict);
+  }
+
+  struct Starting {
+    Done done;
+    SteadyTime::time_point sinceMono;
+  };
+
+  CaptureSession& session;
+  const RemoteRecorderOptions options;
+  std::optional<Starting> starting;              // the own thread alone, as the next
+  std::optional<RecordingReport> endedByItself;  // and no stop has asked for it yet
+  mutable std::mutex mutex;                      // of what follows
+  std::condition_variable_any wake;
+  std::deque<Job> jobs;
+  State state = State::kIdle;
+  std::string nameTemplate;
+  std::map<std::string, std::string> meta;
+  std::jthread thread;
+};
+
+RemoteRecorder::RemoteRecorder(CaptureSession& session, RemoteRecorderOptions options)
+    : impl_(std::make_unique<Impl>(session, std::move(options))) {
+  impl_->thread =
+      std::jthread([impl = impl_.get()](const std::stop_token& stop) { impl->run(stop); });
+}
+
+RemoteRecorder::~RemoteRecorder() = default;
+
+void RemoteRecorder::carryOut(const RemoteRequest& request, Done done) {
+  switch (request.verb) {
+    case Verb::kStart:
+    case Verb::kStop:
+      return impl_->hand(request, std::move(done));
+    case Verb::kLabel:
+      return done(impl_->note(request.text));
+    case Verb::kMark:
+      return done(impl_->note({}));
+    case Verb::kFile:
+      return done(impl_->name(request.text));
+    case Verb::kSet:
+      return done(impl_->set(request.text));
+    case Verb::kStatus:
+    case Verb::kHelp:  // which the server answers itself
+      return done(impl_->status());
+  }
+}
+
+}  // namespace palpate

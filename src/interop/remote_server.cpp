@@ -1,0 +1,308 @@
+#include "palpate/interop/remote_server.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <list>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "palpate/core/error.h"
+
+#include "interop/remote_socket.h"
+
+namespace palpate {
+namespace {
+using SteadyTime = std::chrono::steady_clock;
+using Verb = RemoteRequest::Verb;
+
+constexpr std::size_t kReadBytes = 4096;
+constexpr int kRestMs = 100;  // when the system has no descriptor left
+
+// Where answers wait for the server's thread, whoever gives them and whenever.
+class AnswerBox {
+ public:
+  struct Item {
+    std::uint64_t client = 0;
+    RemoteAnswer answer;
+  };
+  AnswerBox() : wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    if (wake_.get() < 0) throw Error("remote control: the system has no descriptor left");
+  }
+  void put(std::uint64_t client, RemoteAnswer answer) {
+    const std::lock_guard lock(mutex_);
+    items_.push_back({client, std::move(answer)});
+    ring();
+  }
+  std::vector<Item> take() {
+    const std::lock_guard lock(mutex_);
+    std::uint64_t rung = 0;
+    [[maybe_unused]] const ssize_t read = ::read(wake_.get(), &rung, sizeof rung);
+    return std::exchange(items_, {});
+  }
+  void ring() {
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const ssize_t written = ::write(wake_.get(), &one, sizeof one);
+  }
+  int descriptor() const noexcept { return wake_.get(); }
+
+ private:
+  Descriptor wake_;
+  std::mutex mutex_;
+  std::vector<Item> items_;
+};
+
+// An answer is given once; where all who could give it are gone, that is the answer.
+class Promise {
+ public:
+  Promise(std::weak_ptr<AnswerBox> box, std::uint64_t client)
+      : box_(std::move(box)), client_(client) {}
+  ~Promise() { keep(RemoteAnswer::refused("failed", "nobody carried it out")); }
+  Promise(const Promise&) = delete;
+  Promise& operator=(const Promise&) = delete;
+  void keep(RemoteAnswer answer) {
+    if (kept_.exchange(true)) return;
+    if (const auto box = box_.lock()) box->put(client_, std::move(answer));
+  }
+
+ private:
+  std::weak_ptr<AnswerBox> box_;
+  std::uint64_t client_;
+  std::atomic<bool> kept_ = false;
+};
+
+struct Client {
+  Descriptor socket;
+  std::uint64_t id = 0;
+  RequestLines lines;
+  std::string out;                       // of the last answer, what isn't sent yet
+  std::optional<RemoteRequest> pending;  // its answer is awaited
+  bool ended = false;                    // sends nothing more
+  SteadyTime::time_point active = SteadyTime::now();
+
+  bool reads() const { return !ended && !pending && out.empty(); }
+};
+
+}  // namespace
+
+std::filesystem::path usualRemoteSocket() {
+  const char* folder = std::getenv("XDG_RUNTIME_DIR");
+  if (!folder || *folder == '\0')
+    throw Error("XDG_RUNTIME_DIR is not set: name the socket with --socket PATH");
+  return std::filesystem::path(folder) / "palpate-remote";
+}
+
+struct RemoteServer::Impl {
+  Impl(std::filesystem::path path, RemoteTarget& who, RemoteServerOptions given)
+      : target(who), options(std::move(given)), listener(std::move(path)) {}
+
+  void run(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      await();
+      for (AnswerBox::Item& item : box->take()) deliver(item);
+      const std::lock_guard lock(mutex);
+      stats.clients = clients.size();
+    }
+    for (Client& client : clients)
+      if (client.pending) {
+        client.out += answerLine(RemoteAnswer::refused("shutting_down", "remote control ends"),
+                                 nameOf(client.pending->verb)) +
+                      "\n";
+        write(client);
+      }
+    clients.clear();
+  }
+
+  void await() {
+    std::vector<pollfd> waiting{{box->descriptor(), POLLIN, 0},
+                                {resting ? -1 : listener.descriptor(), POLLIN, 0}};
+    for (const Client& client : clients)
+      waiting.push_back(
+          {client.socket.get(),
+           static_cast<short>((client.reads() ? POLLIN : 0) | (client.out.empty() ? 0 : POLLOUT)),
+           0});
+    ::poll(waiting.data(), waiting.size(), resting ? kRestMs : -1);
+    resting = false;
+    std::size_t next = 2;
+    for (auto client = clients.begin(); client != clients.end(); ++next)
+      client = serve(*client, waiting[next].revents) ? std::next(client) : clients.erase(client);
+    if (waiting[1].revents != 0) accept();
+  }
+
+  // False: it is done with.
+  bool serve(Client& client, short events) {
+    if ((events & POLLOUT) != 0 && !write(client)) return false;
+    if ((events & POLLIN) != 0 && !read(client)) return false;
+    if ((events & (POLLHUP | POLLERR | POLLNVAL)) != 0 && (events & POLLIN) == 0) return false;
+    return heed(client);
+  }
+
+  bool read(Client& client) const {
+    std::array<char, kReadBytes> bytes{};
+    const ssize_t n = ::recv(client.socket.get(), bytes.data(), bytes.size(), 0);
+    if (n < 0) return errno == EAGAIN || errno == EINTR;
+    client.active = SteadyTime::now();
+    client.ended = n == 0;
+    client.lines.push({bytes.data(), static_cast<std::size_t>(n)});
+    return true;
+  }
+
+  static bool write(Client& client) {
+    const ssize_t n = ::send(
+        client.socket.get(), client.out.data(), client.out.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+    if (n < 0) return errno == EAGAIN || errno == EINTR;
+    client.active = SteadyTime::now();
+    client.out.erase(0, static_cast<std::size_t>(n));
+    return true;
+  }
+
+  // Takes requests until one must be waited for; false: the client is done with.
+  bool heed(Client& client) {
+    while (!client.pending && client.out.empty()) {
+      const auto line = client.lines.next();
+      if (!line) return !client.ended;
+      const ReadRequest read = line->tooLong ? readRequest(std::string(kMostRequestBytes + 1, 'x'))
+                                             : readRequest(line->text);
+      if (!read.request) {
+        const std::lock_guard lock(mutex);
+        ++stats.refused;
+      }
+      if (!read.request) {
+        if (!answer(client, read.refusal, {})) return false;
+      } else if (read.request->verb == Verb::kHelp) {
+        if (!answer(client, help(), nameOf(Verb::kHelp))) return false;
+      } else {
+        ask(client, *read.request);
+      }
+    }
+    return true;
+  }
+
+  void ask(Client& client, const RemoteRequest& request) {
+    {
+      const std::lock_guard lock(mutex);
+      ++stats.requests;
+    }
+    client.pending = request;
+    const auto promise = std::make_shared<Promise>(box, client.id);
+    try {
+      target.carryOut(request,
+                      [promise](RemoteAnswer answer) { promise->keep(std::move(answer)); });
+    } catch (const std::exception& failure) {
+      promise->keep(RemoteAnswer::refused("failed", failure.what()));
+    }
+  }
+
+  static RemoteAnswer help() {
+    Json verbs = Json::array();
+    for (const Verb verb : allRemoteVerbs()) verbs.push(nameOf(verb));
+    RemoteAnswer answer;
+    answer.fields.set("requests", verbs).set("protocol", 1);
+    return answer;
+  }
+
+  static bool answer(Client& client, const RemoteAnswer& answer, std::string_view command) {
+    client.out += answerLine(answer, command) + "\n";
+    return write(client);
+  }
+
+  void deliver(const AnswerBox::Item& item) {
+    const auto client = std::find_if(
+        clients.begin(), clients.end(), [&](const Client& each) { return each.id == item.client; });
+    if (client == clients.end() || !client->pending) return;  // it has gone meanwhile
+    const RemoteRequest request = *std::exchange(client->pending, std::nullopt);
+    if (options.onAnswer && request.verb != Verb::kStatus) options.onAnswer(request, item.answer);
+    if (!answer(*client, item.answer, nameOf(request.verb)) || !heed(*client))
+      clients.erase(client);
+  }
+
+  void accept() {
+    Descriptor socket = listener.accept();
+    if (socket.get() < 0) {
+      resting = errno == EMFILE || errno == ENFILE || errno == ENOMEM || errno == ENOBUFS;
+      if (errno == EACCES) turnAway();
+      return;
+    }
+    if (clients.size() >= options.mostClients && !makeRoom()) {
+      Client stranger;
+      stranger.socket = std::move(socket);
+      answer(stranger, RemoteAnswer::refused("busy", "too many clients: close one"), {});
+      return turnAway();
+    }
+    Client client;
+    client.socket = std::move(socket);
+    client.id = ++lastId;
+    clients.push_back(std::move(client));
+    const std::lock_guard lock(mutex);
+    ++stats.accepted;
+  }
+
+  void turnAway() {
+    const std::lock_guard lock(mutex);
+    ++stats.turnedAway;
+  }
+
+  // The one that has been silent for longest goes, if that is long enough.
+  bool makeRoom() {
+    const auto limit = SteadyTime::now() - std::chrono::duration<double>(options.idleS);
+    auto longest = clients.end();
+    for (auto each = clients.begin(); each != clients.end(); ++each)
+      if (!each->pending && each->active < limit &&
+          (longest == clients.end() || each->active < longest->active))
+        longest = each;
+    if (longest == clients.end()) return false;
+    clients.erase(longest);
+    return true;
+  }
+
+  RemoteTarget& target;
+  const RemoteServerOptions options;
+  const ListeningSocket listener;
+  const std::shared_ptr<AnswerBox> box = std::make_shared<AnswerBox>();
+  std::list<Client> clients;  // the server's thread alone, as what follows
+  std::uint64_t lastId = 0;
+  bool resting = false;
+  mutable std::mutex mutex;  // of stats
+  RemoteServerStats stats;
+  std::jthread thread;
+};
+
+RemoteServer::RemoteServer(std::filesystem::path socket,
+                           RemoteTarget& target,
+                           RemoteServerOptions options) {
+  if (options.mostClients < 1 || options.mostClients > 1000)
+    throw std::invalid_argument("RemoteServerOptions: mostClients must be 1..1000");
+  if (!(options.idleS >= 0.0))
+    throw std::invalid_argument("RemoteServerOptions: idleS must be >= 0");
+  impl_ = std::make_unique<Impl>(std::move(socket), target, std::move(options));
+  impl_->thread =
+      std::jthread([impl = impl_.get()](const std::stop_token& stop) { impl->run(stop); });
+}
+
+RemoteServer::~RemoteServer() {
+  impl_->thread.request_stop();
+  impl_->box->ring();
+  impl_->thread.join();
+}
+
+const std::filesystem::path& RemoteServer::socket() const noexcept {
+  return impl_->listener.path();
+}
+
+RemoteServerStats RemoteServer::stats() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->stats;
+}
+
+}  // namespace palpate

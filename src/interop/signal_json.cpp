@@ -1,0 +1,103 @@
+#include "palpate/interop/signal_json.h"
+
+#include "palpate/calibration/pressure_map.h"
+#include "palpate/slip/slip_state.h"
+
+#include "interop/json_line.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kUsPerS = 1e6;
+
+void addSignals(JsonLine& json, const CharacteristicSignals& signals) {
+  json.number("mean", signals.mean);
+  json.number("filtered_mean", signals.filteredMean);
+  json.number("min", signals.minimum);
+  json.number("max", signals.maximum);
+  json.number("sum", signals.sum);
+  json.integer("active", signals.active);
+  json.number("area_mm2", signals.areaMm2);
+}
+
+void addSlip(JsonLine& json, const SlipVerdict& slip) {
+  json.begin("slip");
+  json.word("state", nameOf(slip.state));
+  json.flag("slipping", slip.slipping);
+  if (slip.lamp == SlipLamp::kReady || slip.lamp == SlipLamp::kSlipping)
+    json.number("confidence", slip.confidence);
+  if (slip.motion.valid) {
+    json.number("dx", slip.motion.dx);
+    json.number("dy", slip.motion.dy);
+  }
+  if (slip.motion.refValid) {
+    json.number("ref_dx", slip.motion.refDx);
+    json.number("ref_dy", slip.motion.refDy);
+  }
+  const SlipRotation& rotation = slip.motion.rotation;
+  if (rotation.valid) json.number("rotation_deg", rotation.rotationDeg);
+  if (rotation.refValid) json.number("ref_rotation_deg", rotation.refRotationDeg);
+  if (slip.pMoved) json.number("p_moved", *slip.pMoved);
+  json.end();
+}
+
+void addMatrix(JsonLine& json, const LiveResults& results, std::size_t matrix) {
+  json.begin("m" + std::to_string(matrix));
+  addSignals(json, results.matrixSignals[matrix]);
+  if (results.pressure && matrix < results.pressure->matrices.size()) {
+    const MatrixPressure& pressure = results.pressure->matrices[matrix];
+    json.number("pressure_kpa", pressure.kpa);
+    json.number("force_n", pressure.forceN);
+    json.number("force_sd_n", pressure.sdForceN);
+    json.flag("in_range", pressure.inRange);
+  }
+  if (matrix < results.slip.size()) addSlip(json, results.slip[matrix]);
+  json.end();
+}
+
+void addLink(JsonLine& json, const LinkHealth& link) {
+  json.begin("link");
+  json.number("rate_hz", link.frames.rateHz);
+  if (link.frames.ageMs) json.number("age_ms", *link.frames.ageMs);
+  json.integer("lost", static_cast<std::int64_t>(link.lost));
+  json.integer("bad_checksums", static_cast<std::int64_t>(link.badChecksums));
+  json.integer("saturated_frames", static_cast<std::int64_t>(link.frames.saturatedFrames));
+  json.integer("queue", static_cast<std::int64_t>(link.queues.tactile.depth));
+  if (link.diskHours) json.number("disk_h", *link.diskHours);
+  json.flag("recording", link.recorder.state == RecorderStatus::State::kRecording);
+  json.integer("recorded_frames", link.recorder.frames);
+  json.integer("frames_on_disk", link.recorder.framesOnDisk);
+  json.integer("alarms", static_cast<std::int64_t>(link.alarms.size()));
+  json.end();
+}
+
+}  // namespace
+
+void appendSignalJson(std::string& out,
+                      const LiveResults& results,
+                      std::uint64_t sequence,
+                      const LinkHealth* link) {
+  JsonLine json(out);
+  json.number("t", static_cast<double>(results.frame->hostUs) / kUsPerS);
+  json.integer("sequence", static_cast<std::int64_t>(sequence));
+  if (results.frame->deviceMs) json.integer("device_ms", *results.frame->deviceMs);
+  for (std::size_t m = 0; m < results.matrixSignals.size(); ++m) addMatrix(json, results, m);
+  if (!results.matrixSignals.empty()) {
+    json.begin("whole");
+    addSignals(json, results.wholeSignals);
+    if (results.pressure) json.number("force_n", results.pressure->forceN);
+    json.end();
+    json.begin("peak");
+    json.integer("matrix", static_cast<std::int64_t>(results.peak.matrix));
+    json.integer("y", results.peak.row);
+    json.integer("x", results.peak.column);
+    json.number("counts", static_cast<double>(results.peak.counts));
+    json.end();
+  }
+  if (results.angles) json.numbers("angles_deg", results.angles->deg);
+  if (results.temperatures) json.numbers("temperatures_degc", results.temperatures->degC);
+  if (link) addLink(json, *link);
+  json.end();
+}
+
+}  // namespace palpate

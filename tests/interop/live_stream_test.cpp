@@ -1,0 +1,73 @@
+#include "palpate/interop/live_stream.h"
+
+#include <stdexcept>
+
+#include "palpate/core/json.h"
+
+#include "interop/sample_results.h"
+#include "interop/udp_receiver.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+using testing::sampleResults;
+using testing::UdpReceiver;
+
+TEST(LiveStream, IsOffUntilItIsSwitchedOn) {
+  UdpReceiver receiver;
+  LiveStream stream;
+  stream.send(sampleResults());
+  EXPECT_FALSE(stream.on(StreamKind::kSignals));
+  EXPECT_FALSE(stream.stats(StreamKind::kTactile));
+  stream.switchOn(StreamKind::kSignals, receiver.port());
+  stream.send(sampleResults(2'000'000));
+  EXPECT_EQ(Json::parse(receiver.receive().value()).at("t").asDouble(), 2.0);  // the only one
+  stream.switchOff(StreamKind::kSignals);
+  stream.send(sampleResults(3'000'000));
+  EXPECT_FALSE(stream.on(StreamKind::kSignals));
+  EXPECT_FALSE(receiver.receive(50));
+}
+
+TEST(LiveStream, EachStreamHasItsPortAndCounts) {
+  UdpReceiver signalReceiver, tactileReceiver;
+  LiveStream stream;
+  stream.switchOn(StreamKind::kSignals, signalReceiver.port());
+  stream.switchOn(StreamKind::kTactile, tactileReceiver.port());
+  for (int i = 0; i < 3; ++i) stream.send(sampleResults());
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(Json::parse(signalReceiver.receive().value()).at("sequence").asInteger(), i);
+    const Json message = Json::parse(tactileReceiver.receive().value());
+    EXPECT_EQ(message.at("header").at("seq").asInteger(), i);
+    EXPECT_EQ(message.at("tactile_matrix").at(1).at("tactile_array").at(6 * 8 + 2).asInteger(),
+              300);
+  }
+  EXPECT_EQ(stream.stats(StreamKind::kSignals)->sent, 3u);
+  EXPECT_EQ(stream.stats(StreamKind::kTactile)->sent, 3u);
+}
+
+TEST(LiveStream, AsksForTheLinkFourTimesASecondAtMost) {
+  UdpReceiver receiver;
+  int asked = 0;
+  LiveStream stream([&asked] {
+    LinkHealth health;
+    health.lost = static_cast<std::uint64_t>(++asked);
+    return health;
+  });
+  stream.send(sampleResults());
+  EXPECT_EQ(asked, 0);  // off
+  stream.switchOn(StreamKind::kSignals, receiver.port());
+  for (int i = 0; i < 100; ++i) stream.send(sampleResults(1'000'000 + i * 10'000));  // 1 s
+  EXPECT_EQ(asked, 4);
+  EXPECT_EQ(Json::parse(receiver.receive().value()).at("link").at("lost").asInteger(), 1);
+  stream.send(sampleResults(5));  // another source, another time
+  EXPECT_EQ(asked, 5);
+}
+
+TEST(LiveStream, RefusesPortZero) {
+  LiveStream stream;
+  EXPECT_THROW(stream.switchOn(StreamKind::kSignals, 0), std::invalid_argument);
+  EXPECT_FALSE(stream.on(StreamKind::kSignals));
+}
+
+}  // namespace
+}  // namespace palpate

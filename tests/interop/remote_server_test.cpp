@@ -1,0 +1,295 @@
+#include "palpate/interop/remote_server.h"
+
+#include <cstdlib>
+#include <list>
+#include <mutex>
+#include <random>
+#include <stdexcept>
+
+#include <sys/stat.h>
+
+#include "palpate/core/error.h"
+#include "palpate/interop/remote_client.h"
+
+#include "interop/raw_client.h"
+#include "testing/process_facts.h"
+#include "testing/testing.h"
+
+namespace palpate {
+namespace {
+namespace fs = std::filesystem;
+using namespace testing;
+using namespace std::chrono_literals;
+using Verb = RemoteRequest::Verb;
+
+// Answers at once; a start only when the test says so.
+class FakeTarget : public RemoteTarget {
+ public:
+  void carryOut(const RemoteRequest& request, Done done) override {
+    if (request.verb == Verb::kStart) {
+      const std::lock_guard lock(mutex_);
+      waiting_.push_back(std::move(done));
+      return;
+    }
+    if (request.verb == Verb::kMark) throw std::runtime_error("the pen is dry");
+    RemoteAnswer answer;
+    answer.fields.set("text", request.text);
+    done(answer);
+    done(RemoteAnswer::refused("failed", "a second answer"));  // which nobody gets
+  }
+  std::size_t waiting() {
+    const std::lock_guard lock(mutex_);
+    return waiting_.size();
+  }
+  void answerOne() {
+    const std::lock_guard lock(mutex_);
+    waiting_.front()({});
+    waiting_.pop_front();
+  }
+  void forgetAll() {
+    const std::lock_guard lock(mutex_);
+    waiting_.clear();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::list<Done> waiting_;
+};
+
+class RemoteServerTest : public ::testing::Test {
+ protected:
+  void serve(RemoteServerOptions options = {}) {
+    server_ = std::make_unique<RemoteServer>(socket(), target_, std::move(options));
+  }
+  fs::path socket() const { return folder_ / "s"; }
+  Json ask(const std::string& request) {
+    return Json::parse(RemoteClient(socket()).ask(request, 5000ms));
+  }
+
+  const TemporaryFolder folder_;
+  FakeTarget target_;
+  std::unique_ptr<RemoteServer> server_;
+};
+
+TEST_F(RemoteServerTest, AsksTheTargetAndAnswers) {
+  serve();
+  RemoteClient client(socket());
+  const Json label = Json::parse(client.ask("label hello there", 5000ms));
+  EXPECT_TRUE(label.at("ok").asBool());
+  EXPECT_EQ(label.at("command").asString(), "label");
+  EXPECT_EQ(label.at("text").asString(), "hello there");
+  EXPECT_EQ(Json::parse(client.ask("dance", 5000ms)).at("error").asString(), "unknown");
+  EXPECT_EQ(Json::parse(client.ask("mark", 5000ms)).at("message").asString(), "the pen is dry");
+  EXPECT_EQ(Json::parse(client.ask("help", 5000ms)).at("requests").size(), 8u);
+  EXPECT_EQ(server_->stats().requests, 2u);
+  EXPECT_EQ(server_->stats().refused, 1u);
+  EXPECT_THROW(client.ask("a\nb", 5000ms), std::invalid_argument);
+}
+
+TEST_F(RemoteServerTest, TheSocketIsItsOwnersAloneAndGoesWithTheServer) {
+  serve();
+  struct stat found {};
+  ASSERT_EQ(::lstat(socket().c_str(), &found), 0);
+  EXPECT_TRUE(S_ISSOCK(found.st_mode));
+  EXPECT_EQ(found.st_mode & 0777U, 0600U);
+  server_.reset();
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
+  EXPECT_THROW(RemoteClient{socket()}, FileError);
+}
+
+TEST_F(RemoteServerTest, TwoDoNotShareASocket) {
+  serve();
+  EXPECT_THROW(RemoteServer(socket(), target_), FileError);
+  EXPECT_TRUE(ask("status").at("ok").asBool());  // the first one goes on
+}
+
+TEST_F(RemoteServerTest, WhatAKilledProgramLeftIsTakenAway) {
+  {
+    const int left = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strncpy(address.sun_path, socket().c_str(), sizeof address.sun_path - 1);
+    ASSERT_EQ(::bind(left, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    ::close(left);
+  }
+  ASSERT_TRUE(fs::exists(socket()));
+  serve();
+  EXPECT_TRUE(ask("status").at("ok").asBool());
+}
+
+TEST_F(RemoteServerTest, NothingElseIsTakenAway) {
+  writeFile(socket(), "precious");
+  EXPECT_THROW(serve(), FileError);
+  EXPECT_EQ(readFile(socket()), "precious");
+  EXPECT_THROW(RemoteServer(folder_ / "no" / "s", target_), FileError);
+  EXPECT_THROW(RemoteServer(folder_ / std::string(200, 'x'), target_), FileError);
+  EXPECT_THROW(RemoteServer(folder_ / "t", target_, {.mostClients = 0}), std::invalid_argument);
+}
+
+TEST_F(RemoteServerTest, OnlyTheOneWhoAskedWaitsForAnAnswer) {
+  serve();
+  const RawClient first(socket());
+  first.send("start a\n");
+  ASSERT_TRUE(soon([&] { return target_.waiting() == 1; }));
+  EXPECT_TRUE(ask("status").at("ok").asBool());
+  RawClient second(socket());
+  second.send("start b\nlabel later\n");
+  ASSERT_TRUE(soon([&] { return target_.waiting() == 2; }));
+  EXPECT_FALSE(second.line(50));  // answers come in the order of requests
+  target_.answerOne();
+  target_.answerOne();
+  EXPECT_EQ(Json::parse(second.line().value()).at("command").asString(), "start");
+  EXPECT_EQ(Json::parse(second.line().value()).at("text").asString(), "later");
+}
+
+TEST_F(RemoteServerTest, AClientThatDiesIsForgottenWhateverItWaitedFor) {
+  serve();
+  for (int i = 0; i < 50; ++i) {
+    RawClient client(socket());
+    client.send("start a\n");
+    ASSERT_TRUE(soon([&] { return target_.waiting() == 1; }));
+    client.close();
+    ASSERT_TRUE(soon([&] { return server_->stats().clients == 0; }));
+    target_.answerOne();  // to nobody
+  }
+  EXPECT_TRUE(ask("status").at("ok").asBool());
+}
+
+TEST_F(RemoteServerTest, AClientThatHangsHoldsNobodyUp) {
+  serve();
+  const RawClient half(socket());
+  half.send("stat");  // and never goes on
+  const RawClient deaf(socket());
+  std::string flood;
+  for (int i = 0; i < 1000; ++i) flood += "status\n";
+  // It never reads an answer: soon nothing more is taken from it.
+  const std::size_t enough = 64U << 20U;
+  std::size_t taken = 0;
+  for (std::size_t now = 1; now > 0 && taken < enough; taken += now) now = deaf.send(flood, 50);
+  EXPECT_LT(taken, enough);
+  EXPECT_TRUE(ask("status").at("ok").asBool());
+}
+
+TEST_F(RemoteServerTest, AFarTooLongLineIsSaidAndSkipped) {
+  serve();
+  RawClient client(socket());
+  const std::string piece(4096, 'x');
+  for (int i = 0; i < 1000; ++i) {
+    std::size_t sent = 0;
+    ASSERT_TRUE(soon([&] {
+      sent += client.send(std::string_view(piece).substr(sent));
+      return sent == piece.size();
+    }));
+  }
+  client.send("\nstatus\n");
+  EXPECT_EQ(Json::parse(client.line().value()).at("error").asString(), "too_long");
+  EXPECT_EQ(Json::parse(client.line().value()).at("command").asString(), "status");
+}
+
+TEST_F(RemoteServerTest, AClientThatOnlyEndsSendingGetsItsAnswer) {
+  serve();
+  RawClient client(socket());
+  client.send("start a\nlabel b\n");
+  client.endSending();
+  ASSERT_TRUE(soon([&] { return target_.waiting() == 1; }));
+  target_.answerOne();
+  EXPECT_EQ(Json::parse(client.line().value()).at("command").asString(), "start");
+  EXPECT_EQ(Json::parse(client.line().value()).at("command").asString(), "label");
+  EXPECT_TRUE(client.ended());
+}
+
+TEST_F(RemoteServerTest, TooManyClientsAreToldSo) {
+  serve({.mostClients = 3});
+  std::list<RawClient> clients;
+  for (int i = 0; i < 3; ++i) {
+    clients.emplace_back(socket());
+    clients.back().send("status\n");
+    ASSERT_TRUE(clients.back().line());
+  }
+  RawClient fourth(socket());
+  EXPECT_EQ(Json::parse(fourth.line().value()).at("error").asString(), "busy");
+  EXPECT_TRUE(fourth.ended());
+  EXPECT_EQ(server_->stats().turnedAway, 1u);
+  clients.pop_front();
+  ASSERT_TRUE(soon([&] { return server_->stats().clients == 2; }));
+  EXPECT_TRUE(ask("status").at("ok").asBool());
+}
+
+TEST_F(RemoteServerTest, TheOneSilentForLongestMakesRoom) {
+  serve({.mostClients = 2, .idleS = 0.0});
+  RawClient old(socket());
+  old.send("status\n");
+  ASSERT_TRUE(old.line());
+  RawClient busy(socket());
+  busy.send("start a\n");  // is waiting: not silent
+  ASSERT_TRUE(soon([&] { return target_.waiting() == 1; }));
+  EXPECT_TRUE(ask("status").at("ok").asBool());
+  EXPECT_TRUE(old.ended());
+  target_.answerOne();
+  EXPECT_TRUE(busy.line());
+}
+
+TEST_F(RemoteServerTest, ARequestThatNobodyAnswersFails) {
+  serve();
+  RawClient client(socket());
+  client.send("start a\n");
+  ASSERT_TRUE(soon([&] { return target_.waiting() == 1; }));
+  target_.forgetAll();
+  EXPECT_EQ(Json::parse(client.line().value()).at("error").asString(), "failed");
+}
+
+TEST_F(RemoteServerTest, WhoWaitsIsToldThatItEnds) {
+  serve();
+  RawClient client(socket());
+  client.send("start a\n");
+  ASSERT_TRUE(soon([&] { return target_.waiting() == 1; }));
+  server_.reset();
+  EXPECT_EQ(Json::parse(client.line().value()).at("error").asString(), "shutting_down");
+  EXPECT_TRUE(client.ended());
+  target_.answerOne();  // to nobody
+}
+
+TEST_F(RemoteServerTest, TellsWhatWasAskedButNotEveryStatus) {
+  std::mutex mutex;
+  std::vector<std::string> told;
+  serve({.onAnswer = [&](const RemoteRequest& request, const RemoteAnswer& answer) {
+    const std::lock_guard lock(mutex);
+    told.push_back(std::string(nameOf(request.verb)) + (answer.ok() ? " ok" : " refused"));
+  }});
+  ask("status");
+  ask("label x");
+  ask("mark");
+  const std::lock_guard lock(mutex);
+  EXPECT_EQ(told, (std::vector<std::string>{"label ok", "mark refused"}));
+}
+
+TEST_F(RemoteServerTest, NoiseIsSurvivedAndNothingLeaks) {
+  serve();
+  EXPECT_TRUE(ask("status").at("ok").asBool());
+  const ProcessFacts before = leastProcessFacts();
+  std::mt19937 random(11);
+  for (int i = 0; i < 300; ++i) {
+    const RawClient client(socket());
+    std::string noise(random() % 6000, '\0');
+    for (char& c : noise) c = static_cast<char>(random() % 256);
+    client.send(noise);
+  }
+  ASSERT_TRUE(soon([&] { return server_->stats().clients == 0; }));
+  EXPECT_TRUE(ask("status").at("ok").asBool());
+  ASSERT_TRUE(soon([&] { return server_->stats().clients == 0; }));
+  EXPECT_LE(leastProcessFacts().descriptors, before.descriptors);
+  EXPECT_LE(leastProcessFacts().threads, before.threads);
+}
+
+TEST(UsualRemoteSocket, LiesInTheRuntimeFolder) {
+  const char* before = std::getenv("XDG_RUNTIME_DIR");
+  const std::string kept = before ? before : "";
+  ::setenv("XDG_RUNTIME_DIR", "/run/user/7", 1);
+  EXPECT_EQ(usualRemoteSocket(), "/run/user/7/palpate-remote");
+  ::unsetenv("XDG_RUNTIME_DIR");
+  EXPECT_THROW(usualRemoteSocket(), Error);
+  if (before) ::setenv("XDG_RUNTIME_DIR", kept.c_str(), 1);
+}
+
+}  // namespace
+}  // namespace palpate
