@@ -67,4 +67,29 @@ inline void saveThings(const std::filesystem::path& folder,
     saveGrasps(folder / thing.folder / "a.dsa", thing.gapMm + offsetMm, grasps, ++seed, startUs);
 }
 
+// The pads of the empty hand touch, and the joints say `gapMm`; the same again `touches` times.
+inline void saveTouches(const std::filesystem::path& path,
+                        double gapMm,
+                        int touches = 2,
+                        std::int64_t startUs = kPinchStartUs) {
+  saveGrasps(path, gapMm, touches, 7, startUs);
+}
+
+// A model of the four things, of the day on which all of these recordings begin if nothing else is said.
+class ModelFolder : public ::testing::Test {
+ protected:
+  static constexpr std::int64_t kLaterUs = kPinchStartUs + 70 * kOneDayUs;
+  void SetUp() override {
+    saveThings(folder_ / "all", 10, 1);
+    saveTouches(folder_ / "touch.dsa", -1.0);
+    ASSERT_EQ(
+        palpate(
+            {"train", folder_ / "all", "-o", model(), "--empty-hand-zero", folder_ / "touch.dsa"})
+            .exitCode,
+        0);
+  }
+  std::string model() const { return folder_ / "m.json"; }
+  TemporaryFolder folder_;
+};
+
 }  // namespace palpate::testing
