@@ -113,6 +113,7 @@ TrainedModel trainedModelFrom(const Json& json) {
   model.classes = js::texts(json, "classes");
   model.options = js::member(json, "options");
   model.validation = js::member(json, "validation");
+  if (!model.options.isObject()) throw Error("model: 'options' is no object");
   model.sureConfidence = js::number(json, "sure_confidence");
   model.mostNovelty = js::number(json, "most_novelty");
   model.offset = sessionOffsetFrom(js::member(json, "session_offset"));

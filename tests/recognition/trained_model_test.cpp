@@ -249,6 +249,9 @@ TEST(TrainedModel, RefusesDamagedFilesAndOtherVersions) {
   Json renamed = whole;
   renamed.set("classes", Json::array().push("a").push("b").push("c"));
   EXPECT_NE(refusalOf(renamed), "");
+  Json bare = whole;
+  bare.set("options", Json());
+  EXPECT_NE(refusalOf(bare), "");
   Json fewer = whole;
   fewer.set("features", Json::array().push("size_z"));
   EXPECT_NE(refusalOf(fewer), "");
