@@ -21,6 +21,14 @@ double numberIn(const Json& json, const char* key) {
   return value.asDouble();
 }
 
+std::string textIn(const Json& json, const char* key) {
+  if (!json.contains(key)) return {};
+  const Json value = json.at(key);
+  if (!value.isString())
+    throw Error(std::string("a damaged zero of the empty hand: '") + key + "'");
+  return value.asString();
+}
+
 }  // namespace
 
 void EmptyHandOptions::validate() const {
@@ -30,6 +38,7 @@ void EmptyHandOptions::validate() const {
   require(foamMm >= 0.0 && std::isfinite(foamMm), "foamMm must be >= 0");
   require(foamRelativeSd >= 0.0 && std::isfinite(foamRelativeSd), "foamRelativeSd must be >= 0");
   require(touchSdMm > 0.0 && std::isfinite(touchSdMm), "touchSdMm must be > 0");
+  require(transferPart >= 0.0 && std::isfinite(transferPart), "transferPart must be >= 0");
   require(mostMm > 0.0 && std::isfinite(mostMm), "mostMm must be > 0");
 }
 
@@ -61,6 +70,7 @@ EmptyHandZero emptyHandZero(const Profile& profile,
                     " mm apart while they touch: the hand isn't empty, or its joints are far off";
       continue;
     }
+    if (zeros.empty()) out.timeUs = profile.frameTimeUs(touch.begin);
     zeros.push_back(zero);
     out.foamMm += foam;
   }
@@ -90,14 +100,22 @@ SessionOffset emptyHandOffset(const EmptyHandZero& today,
   for (const EmptyHandZero* zero : {&today, &training})
     if (!zero->trouble.empty() || zero->touches == 0)
       throw std::invalid_argument("emptyHandOffset: a zero that isn't there");
+  const double mm = today.mm - training.mm;
   const double foamSd = options.foamRelativeSd * (today.foamMm - training.foamMm);
-  SessionOffset out = measuredOffset(
-      today.mm - training.mm,
-      std::sqrt(today.sdMm * today.sdMm + training.sdMm * training.sdMm + foamSd * foamSd),
-      OffsetOrigin::kEmptyHand,
-      grid);
+  const double transferSd = options.transferPart * mm;
+  SessionOffset out =
+      measuredOffset(mm,
+                     std::sqrt(today.sdMm * today.sdMm + training.sdMm * training.sdMm +
+                               foamSd * foamSd + transferSd * transferSd),
+                     OffsetOrigin::kEmptyHand,
+                     grid);
   out.grasps = today.touches;
   return out;
+}
+
+std::string EmptyHandZero::text() const {
+  return fixedText(mm, 1) + " mm (+- " + fixedText(sdMm, 1) + " mm, " + std::to_string(touches) +
+         (touches == 1 ? " touch" : " touches") + (origin.empty() ? "" : ", " + origin) + ")";
 }
 
 Json emptyHandZeroJson(const EmptyHandZero& zero) {
@@ -105,7 +123,10 @@ Json emptyHandZeroJson(const EmptyHandZero& zero) {
       .set("mm", zero.mm)
       .set("sd_mm", zero.sdMm)
       .set("foam_mm", zero.foamMm)
-      .set("touches", zero.touches);
+      .set("touches", zero.touches)
+      .set("time_us", zero.timeUs)
+      .set("origin", zero.origin)
+      .set("sha256", zero.sha256);
 }
 
 EmptyHandZero emptyHandZeroFrom(const Json& json) {
@@ -117,6 +138,10 @@ EmptyHandZero emptyHandZeroFrom(const Json& json) {
   if (!(out.sdMm > 0.0) || !(touches >= 1.0 && touches <= 1e6))
     throw Error("a damaged zero of the empty hand: its error or its touches");
   out.touches = static_cast<std::size_t>(touches);
+  // Those of models of format 1 don't say where they are from.
+  if (json.contains("time_us")) out.timeUs = static_cast<std::int64_t>(numberIn(json, "time_us"));
+  out.origin = textIn(json, "origin");
+  out.sha256 = textIn(json, "sha256");
   return out;
 }
 

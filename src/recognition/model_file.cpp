@@ -44,6 +44,18 @@ std::vector<ModelInput> inputsFrom(const Json& json, std::string_view key) {
   return inputs;
 }
 
+constexpr const char* kZeroInOptions = "empty_hand_zero";  // where format 1 had it
+
+Json jsonOf(const std::optional<EmptyHandZero>& zero) {
+  return zero ? emptyHandZeroJson(*zero) : Json();
+}
+
+std::optional<EmptyHandZero> zeroFrom(const Json& json, std::string_view key) {
+  const Json zero = js::member(json, key);
+  if (zero.isNull()) return std::nullopt;
+  return emptyHandZeroFrom(zero);
+}
+
 void requireAgreement(const TrainedModel& model) {
   const ClassifierPipeline& pipeline = model.pipeline;
   const auto features = static_cast<std::size_t>(
@@ -74,6 +86,8 @@ Json jsonOf(const TrainedModel& model) {
       .set("sure_confidence", model.sureConfidence)
       .set("most_novelty", model.mostNovelty)
       .set("session_offset", sessionOffsetJson(model.offset))
+      .set("training_zero", jsonOf(model.trainingZero))
+      .set("today_zero", jsonOf(model.todayZero))
       .set("inputs", jsonOf(model.inputs))
       .set("adapted_from", jsonOf(model.adaptedFrom))
       .set("pipeline", jsonOf(model.pipeline));
@@ -83,9 +97,9 @@ TrainedModel trainedModelFrom(const Json& json) {
   if (!json.isObject() || !json.at("kind").isString() || json.at("kind").asString() != kKind)
     throw Error("this is no recognition model of palpate");
   const std::size_t version = js::count(json, "format_version");
-  if (version != TrainedModel::kFormatVersion)
+  if (version < 1 || version > TrainedModel::kFormatVersion)
     throw Error("model: its format version is " + std::to_string(version) +
-                ", this program reads " + std::to_string(TrainedModel::kFormatVersion) +
+                ", this program reads up to " + std::to_string(TrainedModel::kFormatVersion) +
                 ": train it anew, or update palpate");
   TrainedModel model;
   model.programVersion = js::text(json, "program_version");
@@ -99,9 +113,16 @@ TrainedModel trainedModelFrom(const Json& json) {
   model.classes = js::texts(json, "classes");
   model.options = js::member(json, "options");
   model.validation = js::member(json, "validation");
+  if (!model.options.isObject()) throw Error("model: 'options' is no object");
   model.sureConfidence = js::number(json, "sure_confidence");
   model.mostNovelty = js::number(json, "most_novelty");
   model.offset = sessionOffsetFrom(js::member(json, "session_offset"));
+  if (version >= 2) {
+    model.trainingZero = zeroFrom(json, "training_zero");
+    model.todayZero = zeroFrom(json, "today_zero");
+  } else if (model.options.isObject() && model.options.contains(kZeroInOptions)) {
+    model.trainingZero = emptyHandZeroFrom(model.options.at(kZeroInOptions));
+  }
   model.inputs = inputsFrom(json, "inputs");
   model.adaptedFrom = inputsFrom(json, "adapted_from");
   model.pipeline = pipelineFrom(js::member(json, "pipeline"));

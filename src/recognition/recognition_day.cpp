@@ -10,19 +10,9 @@
 namespace palpate {
 namespace {
 
-constexpr const char* kZeroKey = "empty_hand_zero";  // of the model's options
 constexpr std::int64_t kPauseUs = 8LL * 3600 * 1'000'000;
 
 }  // namespace
-
-std::optional<EmptyHandZero> trainingZero(const TrainedModel& model) {
-  if (!model.options.contains(kZeroKey)) return std::nullopt;
-  return emptyHandZeroFrom(model.options.at(kZeroKey));
-}
-
-void keepTrainingZero(TrainedModel& model, const EmptyHandZero& zero) {
-  model.options.set(kZeroKey, emptyHandZeroJson(zero));
-}
 
 RecognitionDay::RecognitionDay(TrainedModel model) : model_(std::move(model)), today_(model_) {
   renew();
@@ -59,14 +49,8 @@ std::size_t RecognitionDay::numTold() const noexcept {
 }
 
 void RecognitionDay::setZero(const EmptyHandZero& today) {
-  if (!model_.carriesOver()) throw Error("this model can't adapt to a day");
-  if (!today.trouble.empty()) throw Error(today.trouble);
-  const auto training = trainingZero(model_);
-  if (!training)
-    throw Error(
-        "the model keeps no zero of its own to compare with: it takes one touch of the empty hand "
-        "on the day of training");
-  zero_ = emptyHandOffset(today, *training);
+  zeroOffset_ = offsetOfEmptyHand(model_, today);
+  zero_ = today;
   renew();
 }
 
@@ -81,6 +65,7 @@ void RecognitionDay::choose(const OffsetChoice& choice) {
 void RecognitionDay::forget() {
   grasps_.clear();
   zero_.reset();
+  zeroOffset_.reset();
   renew();
 }
 
@@ -98,7 +83,7 @@ void RecognitionDay::renew() {
   today_ = model_;
   std::vector<std::int64_t> times;
   for (const Grasp& grasp : grasps_) times.push_back(grasp.timeUs);
-  const bool known = zero_.has_value() || numTold() > 0;
+  const bool known = zeroOffset_.has_value() || numTold() > 0;
   const bool batch = choice_.kind == OffsetChoice::Kind::kBatch;
   const bool given = choice_.kind == OffsetChoice::Kind::kGiven;
   const SessionUse use =
@@ -106,7 +91,7 @@ void RecognitionDay::renew() {
   sameSession_ = use.sameSession;
   offset_ = use.offset;
   if (known && !given) {
-    offset_ = zero_.value_or(unknownOffset());
+    offset_ = zeroOffset_.value_or(unknownOffset());
     DayModel& day = *today_.pipeline.day;
     if (numTold() > 0) {
       std::vector<int> y;
@@ -119,6 +104,7 @@ void RecognitionDay::renew() {
     if (batch && grasps_.size() > numTold())
       offset_ = offsetFromBatch(*today_.pipeline.day, rows(false), offset_);
   }
+  if (zero_ && !given) today_.todayZero = zero_;
   today_.offset = offset_;
   const bool assumed = offset_.origin == OffsetOrigin::kNone;
   unsure_.clear();

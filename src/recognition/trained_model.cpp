@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -46,6 +47,12 @@ Json validationJson(const ValidationReport& report) {
       .set("grasps", report.examined.size());
 }
 
+void requireCarriesOver(const TrainedModel& model) {
+  if (!model.carriesOver())
+    throw Error("a model of classifier " + std::string(classifierName(model.pipeline.classifier)) +
+                " can't adapt to a day: train one with --classifier gauss");
+}
+
 Verdict verdictOf(const DayVerdict& day) {
   Verdict verdict;
   for (const std::size_t c : day.ranking) {
@@ -62,7 +69,9 @@ Verdict verdictOf(const DayVerdict& day) {
 }  // namespace
 
 bool TrainedModel::sameSession(std::int64_t timeUs) const noexcept {
-  return within(inputs, timeUs) || within(adaptedFrom, timeUs);
+  if (offset.origin == OffsetOrigin::kNone) return within(inputs, timeUs);
+  return within(adaptedFrom, timeUs) ||
+         (todayZero && std::abs(timeUs - todayZero->timeUs) <= kHalfDayUs);
 }
 
 std::vector<ModelInput> inputsOf(const FeatureTable& table, const Progress& progress) {
@@ -148,14 +157,37 @@ void requireFits(const TrainedModel& model, const FeatureTable& table) {
                 std::string(featureSetName(model.set)) + "': train it anew");
 }
 
-void adaptModel(TrainedModel& model, const SampleSet& today) {
-  if (!model.pipeline.day)
-    throw Error("a model of classifier " + std::string(classifierName(model.pipeline.classifier)) +
-                " can't adapt to a day: train one with --classifier gauss");
+void adaptModel(TrainedModel& model, const SampleSet& today, const SessionOffset& before) {
+  requireCarriesOver(model);
   if (today.numSamples() == 0) throw Error("there is no grasp to adapt to");
   DayModel& day = *model.pipeline.day;
-  model.offset = offsetFromReferences(day, today.x, today.y);
+  model.offset = offsetFromReferences(day, today.x, today.y, before);
   day.addToday(today.x, today.y, model.offset.mm);
+}
+
+SessionOffset offsetOfEmptyHand(const TrainedModel& model, const EmptyHandZero& today) {
+  requireCarriesOver(model);
+  if (!today.trouble.empty()) throw Error(today.trouble);
+  if (!model.trainingZero)
+    throw Error(
+        "the model keeps no zero of its own to compare with: it takes one touch of the empty hand "
+        "on the day of training (palpate train --empty-hand-zero, or Zero before Train)");
+  return emptyHandOffset(today, *model.trainingZero);
+}
+
+void forgetToday(TrainedModel& model) {
+  model.offset = noOffset();
+  model.todayZero.reset();
+  model.adaptedFrom.clear();
+  if (!model.pipeline.day) return;
+  DayModelData data = model.pipeline.day->data();
+  data.today.clear();
+  model.pipeline.day = DayModel(std::move(data));
+}
+
+void adaptToEmptyHand(TrainedModel& model, const EmptyHandZero& today) {
+  model.offset = offsetOfEmptyHand(model, today);
+  model.todayZero = today;
 }
 
 }  // namespace palpate

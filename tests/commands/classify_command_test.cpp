@@ -6,22 +6,12 @@ namespace palpate {
 namespace {
 
 using testing::expectOneLineError;
-using testing::kOneDayUs;
-using testing::kPinchStartUs;
 using testing::palpate;
 using testing::saveGrasps;
 using testing::saveThings;
-using testing::TemporaryFolder;
 
-constexpr std::int64_t kLaterUs = kPinchStartUs + 70 * kOneDayUs;
-
-class ClassifyCommand : public ::testing::Test {
+class ClassifyCommand : public testing::ModelFolder {
  protected:
-  void SetUp() override {
-    saveThings(folder_ / "all", 10, 1);
-    ASSERT_EQ(palpate({"train", folder_ / "all", "-o", model()}).exitCode, 0);
-  }
-  std::string model() const { return folder_ / "m.json"; }
   Json classify(std::vector<std::string> more, std::string* said = nullptr) const {
     more.insert(more.begin(), {"classify", model(), "--json"});
     const auto result = palpate(more);
@@ -29,7 +19,6 @@ class ClassifyCommand : public ::testing::Test {
     if (said) *said = result.err;
     return Json::parse(result.out);
   }
-  TemporaryFolder folder_;
 };
 
 TEST_F(ClassifyCommand, NamesWhatWasGrasped) {
@@ -99,7 +88,7 @@ TEST_F(ClassifyCommand, SaysWhatItCant) {
   testing::writeFile(folder_ / "bad.dsa", "no recording");
   EXPECT_EQ(palpate({"classify", model(), folder_ / "t.dsa", folder_ / "bad.dsa"}).exitCode, 3);
   std::string later = testing::readFile(model());
-  const std::string version = "\"format_version\":1";
+  const std::string version = "\"format_version\":2";
   ASSERT_NE(later.find(version), std::string::npos);
   later.replace(later.find(version), version.size(), "\"format_version\":9");
   testing::writeFile(folder_ / "later.json", later);

@@ -113,5 +113,48 @@ TEST(EvaluateCommand, RefusesWhatDoesNotGoTogether) {
   expectOneLineError(palpate({"evaluate", folder / "nowhere"}), 1, {"nowhere"});
 }
 
+TEST(EvaluateCommand, InterruptedItSaysNothingHalf) {
+  const TemporaryFolder folder;
+  saveThings(folder / "all", 10, 1);
+  testing::BackgroundProgram program(PALPATE_PROGRAM,
+                                     {"evaluate", folder / "all", "--splits", "100000"});
+  EXPECT_EQ(testing::interruptAtWork(program), 1);
+  EXPECT_EQ(program.err(), "palpate: cancelled\n");
+  EXPECT_EQ(program.out(), "");
+}
+
+// Four things 8 mm apart, each a stranger to the other three in turn; 70 days later all read 3 mm too wide.
+TEST(EvaluateCommand, TellsHowWellUnknownObjectsAreTold) {
+  const TemporaryFolder folder;
+  saveThings(folder / "all", 12, 1);
+  saveThings(folder / "later", 6, 60, 3.0, testing::kPinchStartUs + 70 * testing::kOneDayUs);
+  const auto result =
+      palpate({"evaluate", folder / "all", "--unknown", "--later", folder / "later"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const Json unknown = Json::parse(result.out).at("unknown");
+  EXPECT_GT(unknown.at("auroc").asDouble(), 0.95);
+  EXPECT_EQ(unknown.at("unknown_grasps").asInteger(), 48);
+  EXPECT_EQ(unknown.at("classes").size(), 4u);
+  const Json later = unknown.at("another_day");
+  EXPECT_EQ(later.at("sessions").asInteger(), 1);
+  EXPECT_GT(later.at("offset_known").at("auroc").asDouble(), 0.9);
+  EXPECT_EQ(later.at("offset_from_batch").at("known_grasps").asInteger(), 24);
+  EXPECT_TRUE(later.at("offset_unknown").at("auroc").isNumber());
+  const auto svm =
+      palpate({"evaluate", folder / "all", "--unknown", "--classifier", "svm", "--lda", "2", "-q"});
+  EXPECT_EQ(svm.exitCode, 0) << svm.err;
+  expectOneLineError(
+      palpate({"evaluate", folder / "all", "--later", folder / "later"}), 2, {"--unknown"});
+  expectOneLineError(palpate({"evaluate",
+                              folder / "all",
+                              "--unknown",
+                              "--later",
+                              folder / "later",
+                              "--classifier",
+                              "svm"}),
+                     2,
+                     {"gauss"});
+}
+
 }  // namespace
 }  // namespace palpate

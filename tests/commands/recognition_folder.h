@@ -1,9 +1,13 @@
 // Folders of recordings as train, evaluate, adapt and classify take them: made-up grasps of things that differ in size.
 #pragma once
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "palpate/model/profile_builder.h"
@@ -11,6 +15,7 @@
 
 #include "commands/palpate_program.h"
 #include "recognition/pinch_profile.h"
+#include "testing/background_program.h"
 
 namespace palpate::testing {
 
@@ -66,5 +71,46 @@ inline void saveThings(const std::filesystem::path& folder,
   for (const MadeThing& thing : kThings)
     saveGrasps(folder / thing.folder / "a.dsa", thing.gapMm + offsetMm, grasps, ++seed, startUs);
 }
+
+// Ctrl-C as soon as the program listens for it (a caught signal of its status), at whatever it is. Its exit code.
+inline int interruptAtWork(BackgroundProgram& program) {
+  const auto listens = [&] {
+    std::ifstream status("/proc/" + std::to_string(program.pid()) + "/status");
+    for (std::string line; std::getline(status, line);)
+      if (line.rfind("SigCgt:", 0) == 0)
+        return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1U) != 0;
+    return false;
+  };
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!listens() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  program.signal(SIGINT);
+  return program.wait();
+}
+
+// The pads of the empty hand touch, and the joints say `gapMm`; the same again `touches` times.
+inline void saveTouches(const std::filesystem::path& path,
+                        double gapMm,
+                        int touches = 2,
+                        std::int64_t startUs = kPinchStartUs) {
+  saveGrasps(path, gapMm, touches, 7, startUs);
+}
+
+// A model of the four things, of the day on which all of these recordings begin if nothing else is said.
+class ModelFolder : public ::testing::Test {
+ protected:
+  static constexpr std::int64_t kLaterUs = kPinchStartUs + 70 * kOneDayUs;
+  void SetUp() override {
+    saveThings(folder_ / "all", 10, 1);
+    saveTouches(folder_ / "touch.dsa", -1.0);
+    ASSERT_EQ(
+        palpate(
+            {"train", folder_ / "all", "-o", model(), "--empty-hand-zero", folder_ / "touch.dsa"})
+            .exitCode,
+        0);
+  }
+  std::string model() const { return folder_ / "m.json"; }
+  TemporaryFolder folder_;
+};
 
 }  // namespace palpate::testing

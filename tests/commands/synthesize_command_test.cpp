@@ -1,3 +1,6 @@
+#include <numbers>
+
+#include "palpate/recognition/empty_hand.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/palpate_program.h"
@@ -54,6 +57,28 @@ TEST(SynthesizeCommand, MadeTheRecordingInData) {
             0);
   EXPECT_EQ(testing::readFile(folder / "demo.dsa"),
             testing::readFile(testing::dataFolder() / "demo_grasps.dsa"));
+}
+
+// The fingertips of an empty hand stop each other; what the joints say then is the hand's error.
+TEST(SynthesizeCommand, TheEmptyHandOfAnotherDayTouchesAtOtherAngles) {
+  const testing::TemporaryFolder folder;
+  const auto make = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"synthesize", "--scene", "empty_touch", "-o", folder / name};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(palpate(words).exitCode, 0);
+    return openRecording(folder / name);
+  };
+  const Profile first = make("first.dsa", {});
+  const Profile later = make("later.dsa", {"--zero-error", "-1", "--days-later", "3"});
+  EXPECT_EQ(later.frameTimeUs(0) - first.frameTimeUs(0), 3 * 24 * 3600 * 1'000'000LL);
+  const EmptyHandZero a = emptyHandZero(first), b = emptyHandZero(later);
+  ASSERT_EQ(a.trouble, "");
+  ASSERT_EQ(b.trouble, "");
+  // Both proximal joints at about 150 mm from the pads: 2 x 150 mm x 1 deg, less what their lean takes.
+  EXPECT_LT(b.mm - a.mm, -3.0);
+  EXPECT_GT(b.mm - a.mm, -2.0 * 150.0 * std::numbers::pi / 180.0);
+  expectOneLineError(
+      palpate({"synthesize", "-o", "x.dsa", "--zero-error", "1"}), 2, {"--zero-error", "--scene"});
 }
 
 }  // namespace

@@ -107,5 +107,50 @@ TEST(TrainCommand, ABadFileDoesNotStopTheOthers) {
   EXPECT_EQ(loadModel(folder / "m.json").inputs.size(), 4u);
 }
 
+TEST(TrainCommand, InterruptedItLeavesNoModel) {
+  const TemporaryFolder folder;
+  saveThings(folder / "all", 60, 1);
+  testing::writeFile(folder / "kept.json", "precious");
+  for (const char* out : {"m.json", "kept.json"}) {
+    testing::BackgroundProgram program(PALPATE_PROGRAM,
+                                       {"train",
+                                        folder / "all",
+                                        "--set",
+                                        "study",
+                                        "--classifier",
+                                        "svm",
+                                        "--force",
+                                        "-o",
+                                        folder / out});
+    EXPECT_EQ(testing::interruptAtWork(program), 1) << program.out();
+    EXPECT_EQ(program.err(), "palpate: cancelled\n");
+    EXPECT_EQ(program.out(), "");
+  }
+  EXPECT_EQ(testing::readFile(folder / "kept.json"), "precious");
+  std::size_t entries = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    ++entries;
+  EXPECT_EQ(entries, 2u) << "half a model, or a temporary file";
+}
+
+TEST(TrainCommand, KeepsTheZeroOfTheEmptyHand) {
+  const TemporaryFolder folder;
+  saveThings(folder / "all", 6, 1);
+  testing::saveTouches(folder / "touch.dsa", -1.0, 3);
+  const auto result = palpate({"train",
+                               folder / "all",
+                               "-o",
+                               folder / "m.json",
+                               "--empty-hand-zero",
+                               folder / "touch.dsa"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(Json::parse(result.out).at("empty_hand_zero").at("touches").asInteger(), 3);
+  const TrainedModel model = loadModel(folder / "m.json");
+  ASSERT_TRUE(model.trainingZero);
+  EXPECT_EQ(model.trainingZero->origin, "touch.dsa");
+  EXPECT_EQ(model.trainingZero->sha256, sha256OfFile(folder / "touch.dsa"));
+  EXPECT_FALSE(model.todayZero);
+}
+
 }  // namespace
 }  // namespace palpate

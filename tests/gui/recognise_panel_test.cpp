@@ -205,5 +205,57 @@ TEST_F(RecognisePanelTest, APhotoIsFoundByItsName) {
   EXPECT_TRUE(shelf.photo("pen").isNull());
 }
 
+// A photo beside the grasps that teach is drawn with the answer.
+TEST_F(RecognisePanelTest, ThePhotoOfTheFolderIsDrawn) {
+  const auto folder = teach({"ball", "pen"}, 3);
+  panel_->teaching().setFolder(folder);
+  settle();
+  panel_->teach().askForPlace = [&](const QString&) { return folder_ / "mine.json"; };
+  find<QPushButton>("teachTrain")->click();
+  settle();
+  panel_->show();
+  panel_->showPage("Ask");
+  auto* view = find<AnswerView>("answerView");
+  const QColor paint(255, 0, 255);  // of nothing else
+  const auto painted = [&] {
+    panel_->desk().changeDay([](RecognitionDay& day) { day.choose({}); });
+    panel_->desk().ask({graspsOf("pen", 1), std::nullopt, ""});
+    settle();
+    EXPECT_EQ(panel_->desk().answer().name(), "pen");
+    const QImage image = view->grab().toImage();
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) count += image.pixelColor(x, y) == paint ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(painted(), 0);
+  QImage photo(200, 150, QImage::Format_RGB32);
+  photo.fill(paint);
+  ASSERT_TRUE(photo.save(QString::fromStdString((folder / "pen" / "pen.png").string())));
+  panel_->desk().setPhotoFolder(folder);  // looked for anew
+  EXPECT_GT(painted(), 500);
+}
+
+TEST_F(RecognisePanelTest, EscGivesUpTrainingAndLeavesNoModel) {
+  panel_->teaching().setFolder(teach({"ball", "pen"}, 3));
+  settle();
+  const auto out = folder_ / "mine.json";
+  panel_->teach().askForPlace = [&](const QString&) { return out; };
+  find<QPushButton>("teachTrain")->click();
+  ASSERT_TRUE(panel_->teaching().busy());
+  EXPECT_TRUE(panel_->cancel()) << "what Esc does";
+  settle();
+  EXPECT_FALSE(panel_->teaching().busy());
+  EXPECT_FALSE(std::filesystem::exists(out));
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+    EXPECT_NE(entry.path().extension(), ".json") << "half a model";
+  EXPECT_EQ(panel_->desk().model(), nullptr);
+  EXPECT_FALSE(panel_->cancel()) << "nothing is left to give up";
+  // And it goes when it is asked again.
+  find<QPushButton>("teachTrain")->click();
+  settle();
+  EXPECT_TRUE(std::filesystem::exists(out));
+}
+
 }  // namespace
 }  // namespace palpate::gui

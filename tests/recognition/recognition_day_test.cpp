@@ -103,9 +103,9 @@ TEST(RecognitionDay, TheZeroOfTheEmptyHandGivesTheOffset) {
   RecognitionDay without(model());
   EXPECT_THROW(without.setZero(today), Error) << "nothing to compare with";
   TrainedModel kept = model();
-  keepTrainingZero(kept, training);
+  kept.trainingZero = training;
   kept = trainedModelFrom(Json::parse(jsonOf(kept).text()));  // through a file
-  ASSERT_TRUE(trainingZero(kept));
+  ASSERT_TRUE(kept.trainingZero);
   RecognitionDay day(kept);
   day.setZero(today);
   EXPECT_NEAR(day.offset().mm, -4.0, 0.1);

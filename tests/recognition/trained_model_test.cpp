@@ -150,6 +150,81 @@ TEST(TrainedModel, ComesBackFromItsFile) {
   }
 }
 
+EmptyHandZero zeroOf(double mm, std::int64_t timeUs) {
+  EmptyHandZero zero;
+  zero.mm = mm;
+  zero.sdMm = 0.2;
+  zero.touches = 2;
+  zero.timeUs = timeUs;
+  zero.origin = "touch.dsa";
+  return zero;
+}
+
+// The hand reads 5 mm too wide today, half the way to the next object: no label is needed.
+TEST(TrainedModel, AdaptsByTheTouchOfTheEmptyHand) {
+  TrainedModel model = modelOf(things(6, 20, 0.0, 1), ClassifierKind::kGauss);
+  const SampleSet today = things(6, 10, 5.0, 3);
+  EXPECT_THROW(adaptToEmptyHand(model, zeroOf(4.0, 900 * kHourUs)), Error) << "none of training";
+  model.trainingZero = zeroOf(-1.0, 100 * kHourUs);
+  EmptyHandZero bad = zeroOf(4.0, 900 * kHourUs);
+  bad.trouble = "no touch";
+  EXPECT_THROW(adaptToEmptyHand(model, bad), Error);
+  adaptToEmptyHand(model, zeroOf(4.0, 900 * kHourUs));
+  EXPECT_NEAR(model.offset.mm, 5.0, 1e-9);
+  EXPECT_EQ(model.offset.origin, OffsetOrigin::kEmptyHand);
+  EXPECT_TRUE(model.offset.trusted);
+  EXPECT_GT(shareRight(classifyRows(model, today.x, model.offset, true), today.y), 0.95);
+  // It is of that day, and of no other, not even the day of training.
+  EXPECT_TRUE(model.sameSession(905 * kHourUs));
+  EXPECT_FALSE(model.sameSession(100 * kHourUs));
+  // Labelled grasps narrow what it leaves open.
+  TrainedModel both = model;
+  adaptModel(both, today.rows(std::vector<std::size_t>{0}), both.offset);
+  EXPECT_LT(both.offset.sdMm, model.offset.sdMm);
+  EXPECT_NEAR(both.offset.mm, 5.0, 0.8);
+  forgetToday(both);
+  EXPECT_EQ(both.offset.origin, OffsetOrigin::kNone);
+  EXPECT_FALSE(both.todayZero);
+  EXPECT_TRUE(both.trainingZero) << "its own it keeps";
+  EXPECT_TRUE(both.pipeline.day->data().today.empty());
+  EXPECT_TRUE(both.sameSession(100 * kHourUs));
+  TrainedModel svm = modelOf(things(4, 8, 0.0, 1), ClassifierKind::kSvm);
+  svm.trainingZero = zeroOf(-1.0, 100 * kHourUs);
+  EXPECT_THROW(adaptToEmptyHand(svm, zeroOf(4.0, 900 * kHourUs)), Error);
+}
+
+TEST(TrainedModel, ZerosTravelWithItAndModelsOfFormat1AreRead) {
+  TrainedModel model = modelOf(things(4, 12, 0.0, 1), ClassifierKind::kGauss);
+  model.trainingZero = zeroOf(-1.0, 100 * kHourUs);
+  adaptToEmptyHand(model, zeroOf(2.0, 900 * kHourUs));
+  const TrainedModel back = trainedModelFrom(Json::parse(jsonOf(model).text()));
+  ASSERT_TRUE(back.trainingZero && back.todayZero);
+  EXPECT_EQ(back.trainingZero->mm, -1.0);
+  EXPECT_EQ(back.todayZero->mm, 2.0);
+  EXPECT_EQ(back.todayZero->origin, "touch.dsa");
+  EXPECT_EQ(back.offset.mm, model.offset.mm);
+  EXPECT_EQ(back.offset.gridMm, model.offset.gridMm);
+  // Format 1 kept the zero of training among the options, if at all.
+  const Json now = jsonOf(model);
+  Json old = Json::object();
+  for (const std::string& key : now.keys())
+    if (key != "training_zero" && key != "today_zero") old.set(key, now.at(key));
+  old.set("format_version", 1);
+  EXPECT_FALSE(trainedModelFrom(old).trainingZero);
+  old.set(
+      "options",
+      Json::object().set(
+          "empty_hand_zero",
+          Json::object().set("mm", -2.0).set("sd_mm", 0.3).set("foam_mm", 1.5).set("touches", 1)));
+  const TrainedModel read = trainedModelFrom(old);
+  ASSERT_TRUE(read.trainingZero);
+  EXPECT_EQ(read.trainingZero->mm, -2.0);
+  EXPECT_FALSE(read.todayZero);
+  Json damaged = now;
+  damaged.set("training_zero", Json::object().set("mm", -2.0));
+  EXPECT_THROW(trainedModelFrom(damaged), Error);
+}
+
 std::string refusalOf(const Json& json) {
   try {
     trainedModelFrom(json);
@@ -169,11 +244,14 @@ TEST(TrainedModel, RefusesDamagedFilesAndOtherVersions) {
     EXPECT_NE(refusalOf(damaged), "") << key;
   }
   Json later = whole;
-  later.set("format_version", 2);
-  EXPECT_NE(refusalOf(later).find("version is 2"), std::string::npos) << refusalOf(later);
+  later.set("format_version", 3);
+  EXPECT_NE(refusalOf(later).find("version is 3"), std::string::npos) << refusalOf(later);
   Json renamed = whole;
   renamed.set("classes", Json::array().push("a").push("b").push("c"));
   EXPECT_NE(refusalOf(renamed), "");
+  Json bare = whole;
+  bare.set("options", Json());
+  EXPECT_NE(refusalOf(bare), "");
   Json fewer = whole;
   fewer.set("features", Json::array().push("size_z"));
   EXPECT_NE(refusalOf(fewer), "");

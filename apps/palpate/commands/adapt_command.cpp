@@ -1,5 +1,8 @@
-// palpate adapt MODEL.json PATH -o MODEL2.json: today's labelled grasps, and the offset they tell.
+// palpate adapt MODEL.json [PATH] -o MODEL2.json: the session offset of today, from the touch of the empty hand and labelled grasps.
 #include <filesystem>
+#include <iterator>
+#include <optional>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/recognition/trained_model.h"
@@ -7,60 +10,88 @@
 #include "commands/recognition_work.h"
 
 namespace palpate::commands {
+namespace {
+
+// What the model stored of another day is nothing of today's.
+void forgetAnotherDay(TrainedModel& model, std::int64_t todayUs) {
+  if (model.offset.origin != OffsetOrigin::kNone && !model.sameSession(todayUs)) forgetToday(model);
+}
+
+// Returns what was left out of the grasps: an exit code.
+int adaptByGrasps(const CommandLine& given,
+                  const std::optional<EmptyHandZero>& zero,
+                  TrainedModel& model,
+                  Json& classes) {
+  const FeatureTable table = gatherTable(given, {given.words()[1]}, model.set);
+  requireFits(model, table);
+  if (zero) requireSameDay(*zero, table);
+  const SampleSet today = samplesOf(table, model.classes);
+  forgetAnotherDay(model, table.rows.front().timeUs);
+  adaptModel(
+      model, today, model.offset.origin == OffsetOrigin::kNone ? unknownOffset() : model.offset);
+  runInterruptibly(given, "hashing", [&](const Progress& progress) {
+    std::vector<ModelInput> inputs = inputsOf(table, progress);
+    std::move(inputs.begin(), inputs.end(), std::back_inserter(model.adaptedFrom));
+  });
+  const std::vector<std::size_t> counts = today.counts();
+  for (std::size_t c = 0; c < counts.size(); ++c)
+    if (counts[c] > 0)
+      classes.push(Json::object().set("name", today.classes[c]).set("grasps", counts[c]));
+  return codeFor(table);
+}
+
+}  // namespace
 
 int adaptCommand(const Words& words) {
   const CommandLine given(
-      {.synopsis = "palpate adapt MODEL.json PATH -o MODEL2.json",
+      {.synopsis = "palpate adapt MODEL.json [PATH] [--empty-hand-zero FILE] -o MODEL2.json",
        .purpose =
-           "Adapts a model to today by labelled grasps: estimates the session offset (by how much "
-           "the hand reads sizes\nwrong today), and adds what the objects feel like today. PATH: a "
-           "folder with a folder of recordings per class;\nthe classes are some of the model's. "
-           "One "
-           "grasp of each object at hand is nearly all the gain; two different\nobjects are the "
-           "least for verdicts that may be called sure. Prints the offset and the classes as JSON.",
+           "Adapts a model to today: estimates the session offset (by how much the hand reads "
+           "sizes wrong today), and\nstores it with its error and origin. From either or both "
+           "of:\n\n"
+           "  FILE  a recording in which the empty hand closes until its pads touch (palpate grasp "
+           "--preshape pinch-empty\n        --mode reactive): no object, no label. Needs a model "
+           "that was trained with such a touch of its own day.\n"
+           "  PATH  a folder with a folder of recordings per class, some of the model's: labelled "
+           "grasps, which also tell\n        what the objects feel like today. One grasp of each "
+           "object at hand is nearly all the gain; two\n        different objects are the least "
+           "for verdicts that may be called sure.\n\n"
+           "What the model stored of the same day is kept, of another day forgotten. Prints the "
+           "offset and the classes as\nJSON.",
        .options = {{"output,o", "MODEL2.json", "write the adapted model there"},
+                   zeroOptionSpec(),
                    {"force", "", "replace MODEL2.json"},
                    {"json", "", "JSON is what it prints anyway"}},
-       .example = "palpate adapt objects.json today -o objects_today.json",
-       .fewestWords = 2,
+       .example = "palpate adapt objects.json --empty-hand-zero touch.dsa -o objects_today.json",
+       .fewestWords = 1,
        .mostWords = 2},
       words);
   if (given.helpShown()) return kDone;
   const auto out = given.text("output");
   if (!out) throw UsageError("-o MODEL2.json is missing: where the adapted model goes");
+  const bool grasps = given.words().size() > 1;
+  if (!grasps && !given.has("empty-hand-zero"))
+    throw UsageError("nothing to adapt by: a PATH with labelled grasps, or --empty-hand-zero FILE");
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
   TrainedModel model = loadModel(given.words().front());
   requireWritable(*out, overwrite);
-  const FeatureTable table = gatherTable(given, {given.words()[1]}, model.set);
-  requireFits(model, table);
-  const SampleSet today = samplesOf(table, model.classes);
-  adaptModel(model, today);
-  runInterruptibly(given, "hashing", [&](const Progress& progress) {
-    model.adaptedFrom = inputsOf(table, progress);
-  });
+  const auto zero = zeroGiven(given);
+  if (zero) {
+    forgetAnotherDay(model, zero->timeUs);
+    adaptToEmptyHand(model, *zero);
+  }
+  Json classes = Json::array();
+  const int code = grasps ? adaptByGrasps(given, zero, model, classes) : kDone;
   model.programVersion = PALPATE_VERSION;
   model.madeAt = utcNow();
   saveModel(model, *out, overwrite);
   if (!model.offset.trusted) sayLine("nothing will be sure with it: " + model.offset.text());
-
-  Json classes = Json::array();
-  const std::vector<std::size_t> counts = today.counts();
-  for (std::size_t c = 0; c < counts.size(); ++c)
-    if (counts[c] > 0)
-      classes.push(Json::object().set("name", today.classes[c]).set("grasps", counts[c]));
   printObject(Json::object()
                   .set("model", *out)
-                  .set("session_offset",
-                       Json::object()
-                           .set("mm", model.offset.mm)
-                           .set("sd_mm", model.offset.sdMm)
-                           .set("origin", offsetOriginName(model.offset.origin))
-                           .set("grasps", model.offset.grasps)
-                           .set("objects", model.offset.objects)
-                           .set("trusted", model.offset.trusted))
+                  .set("session_offset", offsetJson(model.offset, model.todayZero))
                   .set("text", model.offset.text())
                   .set("classes", std::move(classes)));
-  return codeFor(table);
+  return code;
 }
 
 }  // namespace palpate::commands

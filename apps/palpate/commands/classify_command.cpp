@@ -50,7 +50,12 @@ void printTable(const TrainedModel& model,
               fixedText(verdict.p[k], 2);
     out.write(line + "\n");
   }
-  if (model.carriesOver()) out.write(use.offset.text() + "\n");
+  if (model.carriesOver()) {
+    const bool byZero = use.offset.origin == OffsetOrigin::kEmptyHand && model.todayZero;
+    out.write(use.offset.text() +
+              (byZero ? "; zero of the empty hand: " + model.todayZero->text() : std::string()) +
+              "\n");
+  }
   out.finish();
 }
 
@@ -108,12 +113,10 @@ int classifyCommand(const Words& words) {
   printObject(Json::object()
                   .set("grasps", std::move(grasps))
                   .set("session_offset",
-                       Json::object()
-                           .set("mm", use.offset.mm)
-                           .set("sd_mm", use.offset.sdMm)
-                           .set("origin", offsetOriginName(use.offset.origin))
-                           .set("objects", use.offset.objects)
-                           .set("trusted", use.offset.trusted))
+                       offsetJson(use.offset,
+                                  choice.kind == OffsetChoice::Kind::kModel
+                                      ? model.todayZero
+                                      : std::optional<EmptyHandZero>()))
                   .set("warnings", std::move(warnings)));
   return codeFor(table);
 }

@@ -6,6 +6,7 @@
 #include "palpate/recognition/cross_validation.h"
 #include "palpate/recognition/model_evaluation.h"
 #include "palpate/recognition/model_search.h"
+#include "palpate/recognition/unknown_objects.h"
 
 #include "commands/recognition_work.h"
 
@@ -93,6 +94,33 @@ std::vector<std::size_t> curveSizes(const SampleSet& samples) {
   return sizes;
 }
 
+// Strangers of the same day; with --later also of another, by what is known of its offset.
+Json unknownJson(const CommandLine& given,
+                 const SampleSet& samples,
+                 const PipelineOptions& options,
+                 FeatureSet set) {
+  const auto later = given.text("later");
+  FeatureTable other;
+  if (later) other = gatherTable(given, {*later}, set);
+  Json json;
+  runInterruptibly(given, "unknown objects", [&](const Progress& progress) {
+    json = jsonOf(unknownWithin(samples, options, kBlocks, progress));
+    if (!later) return;
+    const SampleSet day = samplesOf(other, samples.classes);
+    const auto sessions = sessionsOf(timesOf(other));
+    const auto with = [&](StrangerOffset offset) {
+      return jsonOf(unknownOnAnotherDay(samples, day, sessions, offset, progress));
+    };
+    json.set("another_day",
+             Json::object()
+                 .set("sessions", sessions.size())
+                 .set("offset_known", with(StrangerOffset::kKnown))
+                 .set("offset_from_batch", with(StrangerOffset::kBatch))
+                 .set("offset_unknown", with(StrangerOffset::kUnknown)));
+  });
+  return json;
+}
+
 int crossValidation(const CommandLine& given) {
   const SetChoice choice = setGiven(given);
   PipelineOptions options;
@@ -103,6 +131,10 @@ int crossValidation(const CommandLine& given) {
   const auto numSplits = static_cast<std::size_t>(given.integer("splits", 1, 100000).value_or(10));
   const auto seed = static_cast<std::uint64_t>(given.integer("seed", 0, 1'000'000'000).value_or(0));
   if (given.has("confidence")) options.calibrationBlocks = kBlocks;
+
+  if (given.has("later") && !given.has("unknown")) throw UsageError("--later goes with --unknown");
+  if (given.has("later") && options.classifier != ClassifierKind::kGauss)
+    throw UsageError("--later needs --classifier gauss, the one that knows another day's offset");
 
   const FeatureTable table = gatherTable(given, {given.words().front()}, choice.set);
   SampleSet samples = samplesOf(table);
@@ -141,6 +173,7 @@ int crossValidation(const CommandLine& given) {
   if (given.has("weights")) json.set("weights", weightsJson(samples, options));
   if (given.has("learning-curve")) json.set("learning_curve", curveJson(curve));
   if (given.has("eliminate")) json.set("elimination", eliminationJson(samples, steps));
+  if (given.has("unknown")) json.set("unknown", unknownJson(given, samples, options, choice.set));
   printObject(json);
   return codeFor(table);
 }
@@ -170,8 +203,16 @@ Json verdictsJson(const ModelEvaluation& evaluation,
 }
 
 int withModel(const CommandLine& given) {
-  for (const char* option :
-       {"set", "lda", "classifier", "protocol", "splits", "seed", "c", "shrinkage"})
+  for (const char* option : {"set",
+                             "lda",
+                             "classifier",
+                             "protocol",
+                             "splits",
+                             "seed",
+                             "c",
+                             "shrinkage",
+                             "unknown",
+                             "later"})
     if (given.has(option))
       throw UsageError(std::string("--") + option + " doesn't go with --model, which has its own");
   EvaluationOptions options;
@@ -211,6 +252,8 @@ int evaluateCommand(const Words& words) {
       {"weights", "", "adds how much the classifier rests on each feature"},
       {"learning-curve", "", "adds accuracy against grasps per class that teach"},
       {"eliminate", "", "adds recursive feature elimination"},
+      {"unknown", "", "adds how well unknown objects are told: each class left out in turn"},
+      {"later", "PATH2", "with --unknown: the same on these grasps of another day (gauss)"},
       {"model", "M.json", "examine this model instead (protocol X)"},
       {"adapt", "K", "the first K grasps of each class and session adapt it and don't count"},
       {"session-offset",

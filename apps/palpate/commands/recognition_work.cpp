@@ -1,11 +1,15 @@
 #include "commands/recognition_work.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/core/hash.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/one_line.h"
+#include "palpate/recording/recording.h"
 
 #include "commands/calibrate_commands.h"
 #include "gui/interruption.h"
@@ -48,6 +52,48 @@ std::vector<std::int64_t> timesOf(const FeatureTable& table) {
   std::vector<std::int64_t> times;
   for (const FeatureRow& row : table.rows) times.push_back(row.timeUs);
   return times;
+}
+
+OptionSpec zeroOptionSpec() {
+  return {"empty-hand-zero",
+          "FILE",
+          "recording of the empty hand that closes until its pads touch, of the same day"};
+}
+
+std::optional<EmptyHandZero> zeroGiven(const CommandLine& given) {
+  const auto path = given.text("empty-hand-zero");
+  if (!path) return std::nullopt;
+  EmptyHandZero zero;
+  runInterruptibly(given, "empty hand", [&](const Progress& progress) {
+    zero = emptyHandZero(openRecording(*path), sdh2PinchHand(), {}, progress);
+    zero.sha256 = sha256OfFile(*path);
+  });
+  if (!zero.trouble.empty()) throw FileError(*path, "no zero of the empty hand: " + zero.trouble);
+  zero.origin = std::filesystem::path(*path).filename().string();
+  if (!given.quiet()) sayLine("the empty hand's zero: " + zero.text());
+  return zero;
+}
+
+void requireSameDay(const EmptyHandZero& zero, const FeatureTable& table) {
+  constexpr std::int64_t kHalfDayUs = 12LL * 3600 * 1'000'000;
+  if (std::none_of(table.rows.begin(), table.rows.end(), [&](const FeatureRow& row) {
+        return std::abs(row.timeUs - zero.timeUs) <= kHalfDayUs;
+      }))
+    throw Error(zero.origin +
+                ": the empty hand was closed on another day than the objects, and says nothing of "
+                "them");
+}
+
+Json offsetJson(const SessionOffset& offset, const std::optional<EmptyHandZero>& today) {
+  Json json = Json::object()
+                  .set("mm", offset.mm)
+                  .set("sd_mm", offset.sdMm)
+                  .set("origin", offsetOriginName(offset.origin))
+                  .set("grasps", offset.grasps)
+                  .set("objects", offset.objects)
+                  .set("trusted", offset.trusted);
+  if (today) json.set("empty_hand", emptyHandZeroJson(*today));
+  return json;
 }
 
 void sayNotes(const CommandLine& given, FeatureSet set, const SampleSet& samples) {

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "palpate/core/json.h"
 #include "palpate/core/progress.h"
 #include "palpate/recognition/classifier_pipeline.h"
+#include "palpate/recognition/empty_hand.h"
 #include "palpate/recognition/feature_table.h"
 #include "palpate/recognition/sample_set.h"
 
@@ -31,6 +33,14 @@ FeatureTable gatherTable(const CommandLine& given,
                          const std::vector<std::filesystem::path>& paths,
                          FeatureSet set);
 std::vector<std::int64_t> timesOf(const FeatureTable& table);
+// --empty-hand-zero: the zero of a recording in which the empty hand closes until its pads touch; nothing: not asked for. Throws
+// Error: there is no touch in it.
+std::optional<EmptyHandZero> zeroGiven(const CommandLine& given);
+OptionSpec zeroOptionSpec();
+// Throws Error: it was taken more than half a day from all of these grasps, and says nothing of them.
+void requireSameDay(const EmptyHandZero& zero, const FeatureTable& table);
+// What the offset is, {mm, sd_mm, origin, grasps, objects, trusted}; `today`: the zero it rests on, where it does.
+Json offsetJson(const SessionOffset& offset, const std::optional<EmptyHandZero>& today = {});
 // Says sessionSetWarning() and what learningNotes() has.
 void sayNotes(const CommandLine& given, FeatureSet set, const SampleSet& samples);
 

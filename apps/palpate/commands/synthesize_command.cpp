@@ -14,6 +14,7 @@
 namespace palpate::commands {
 namespace {
 
+constexpr std::int64_t kDayUs = 24LL * 3600 * 1'000'000;
 constexpr double kFramesPerGrasp = 12.0;  // at least: SyntheticOptions::validate
 
 Profile fromScene(const CommandLine& given, const std::string& name, const Progress& progress) {
@@ -23,6 +24,9 @@ Profile fromScene(const CommandLine& given, const std::string& name, const Progr
   options.frameIntervalS =
       1.0 / given.number("rate", 0.1, 1000.0).value_or(1.0 / options.frameIntervalS);
   options.hand.seed = static_cast<std::uint64_t>(given.integer("seed", 0, UINT32_MAX).value_or(1));
+  if (const auto error = given.number("zero-error", -5.0, 5.0))
+    options.hand.zeroErrorDeg = {0.0, *error, 0.0, *error, 0.0, *error, 0.0};  // proximal joints
+  options.startUs += kDayUs * given.integer("days-later", 0, 36'500).value_or(0);
   const auto runs = given.integer("grasps", 1, 1000);
   if (!runs) return simulateRecording(scene, options, progress);
   return simulateGrasps(scene, static_cast<int>(*runs), {}, options, progress);
@@ -53,7 +57,10 @@ int synthesizeCommand(const Words& words) {
                   "frames. The\nrecording in data/ was made by it.\n\n"
                   "With --scene the emulated hand plays a scene (palpate emulate --scene), without "
                   "ports and without\nwaiting; with --grasps N it plays it N times, each time with "
-                  "the objects a little differently placed.",
+                  "the objects a little differently placed.\n--zero-error lets its joints stand "
+                  "elsewhere than they say, as "
+                  "those of a hand that was referenced anew:\nthe scene empty_touch with the same "
+                  "error is the touch of the empty hand that tells (palpate adapt).",
        .options = {{"output,o", "OUT.dsa", "where to write it"},
                    {"scene", "NAME", "of data/scenes, or a JSON file"},
                    {"duration", "S", "length [s] (of a scene: of each run), default 12"},
@@ -62,6 +69,10 @@ int synthesizeCommand(const Words& words) {
                    {"peak", "COUNTS", "value under the middle of the contact, default 1800"},
                    {"noise", "SD", "standard deviation of the noise [counts], default 0"},
                    {"seed", "N", "of the noise, default 1"},
+                   {"zero-error",
+                    "DEG",
+                    "of a scene: error of the proximal joints' zero, default 0"},
+                   {"days-later", "N", "of a scene: host time so many days later, default 0"},
                    {"force", "", "replace OUT.dsa"}},
        .example = "palpate synthesize -o grasps.dsa --grasps 4 --noise 8",
        .mostWords = 0},
@@ -75,6 +86,8 @@ int synthesizeCommand(const Words& words) {
   for (const char* name : {"peak", "noise"})
     if (scene && given.has(name))
       throw UsageError(std::string("--") + name + " does not go with --scene");
+  for (const char* name : {"zero-error", "days-later"})
+    if (!scene && given.has(name)) throw UsageError(std::string("--") + name + " needs --scene");
   ProgressLine progress("making " + *out, given.quiet());
   const Profile profile =
       scene ? fromScene(given, *scene, progress.callback()) : fromOptions(given);

@@ -45,6 +45,7 @@ Json reportOf(const TrainedModel& model,
       .set("set", featureSetName(model.set))
       .set("classifier", classifierName(model.pipeline.classifier))
       .set("carries_over_to_another_day", model.carriesOver())
+      .set("empty_hand_zero", model.trainingZero ? emptyHandZeroJson(*model.trainingZero) : Json())
       .set("classes", std::move(classes))
       .set("features", model.features.size())
       .set("validation", model.validation)
@@ -57,19 +58,22 @@ Json reportOf(const TrainedModel& model,
 int trainCommand(const Words& words) {
   std::vector<OptionSpec> options = {{"output,o", "MODEL.json", "write the model there"},
                                      {"set", "SET", "best (default), study or session"},
+                                     zeroOptionSpec(),
                                      {"force", "", "replace MODEL.json"},
                                      {"json", "", "JSON is what it prints anyway"}};
-  for (OptionSpec& one : pipelineOptionSpecs()) options.insert(options.end() - 2, std::move(one));
+  for (OptionSpec& one : pipelineOptionSpecs()) options.insert(options.end() - 3, std::move(one));
   const CommandLine given(
-      {.synopsis = "palpate train PATH -o MODEL.json [--set best|study|session] [--lda N] "
-                   "[--classifier svm|qda|lda|gauss]",
+      {.synopsis =
+           "palpate train PATH -o MODEL.json [--set best|study|session] [--lda N] "
+           "[--classifier svm|qda|lda|gauss]\n                     [--empty-hand-zero FILE]",
        .purpose =
            "Trains a model of the objects in a folder (a folder of recordings per class) and "
            "prints a "
            "report as JSON.\nWhat isn't given is chosen by cross-validation over contiguous "
            "blocks; "
            "of the set best it is gauss, the one\nclassifier that carries over to another day "
-           "(--session-offset, adapt).",
+           "(--session-offset, adapt). With the empty hand's zero of the day of training, `adapt` "
+           "takes that of another\nday instead of labelled grasps.",
        .options = options,
        .example = "palpate train recordings -o objects.json",
        .fewestWords = 1,
@@ -85,6 +89,8 @@ int trainCommand(const Words& words) {
   requireWritable(*out, overwrite);
 
   const FeatureTable table = gatherTable(given, {given.words().front()}, set);
+  const auto zero = zeroGiven(given);
+  if (zero) requireSameDay(*zero, table);
   const SampleSet samples = samplesOf(table);
   requireLearnable(samples);
   sayNotes(given, set, samples);
@@ -109,6 +115,7 @@ int trainCommand(const Words& words) {
   });
   model.programVersion = PALPATE_VERSION;
   model.madeAt = utcNow();
+  model.trainingZero = zero;
   model.options = jsonOf(chosen).set("path", given.words().front());
   if (!found.candidates.empty()) model.options.set("chosen_from", jsonOf(found));
   saveModel(model, *out, overwrite);

@@ -1,9 +1,6 @@
 #include "gui/calibrate_panel.h"
 
-#include <QButtonGroup>
-#include <QHBoxLayout>
 #include <QStackedWidget>
-#include <QToolButton>
 #include <QVBoxLayout>
 
 #include "gui/force_page.h"
@@ -13,27 +10,16 @@
 #include "gui/tare_page.h"
 
 namespace palpate::gui {
-namespace {
-
-constexpr const char* kPageKey = "calibrate/page";
-
-}  // namespace
 
 CalibratePanel::CalibratePanel(QSettings& settings, QWidget* parent)
-    : QWidget(parent), settings_(settings) {
+    : PagedPanel(settings, "calibrate", parent) {
   setObjectName("CalibratePanel");
-  header_ = new QWidget(this);
-  auto* row = new QHBoxLayout(header_);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(4);
-  row->addStretch(1);
-  chooser_ = new QButtonGroup(this);
-  pages_ = new QStackedWidget(this);
-  steps_ = new StepPage(pages_);
-  pressure_ = new PressurePage(pages_);
-  noise_ = new NoisePage(pages_);
-  tare_ = new TarePage(pages_);
-  force_ = new ForcePage(settings, pages_);
+  QWidget* parentOfPages = &pages();
+  steps_ = new StepPage(parentOfPages);
+  pressure_ = new PressurePage(parentOfPages);
+  noise_ = new NoisePage(parentOfPages);
+  tare_ = new TarePage(parentOfPages);
+  force_ = new ForcePage(settings, parentOfPages);
   add(steps_, "Steps", "Responses to loads that are put on: gain, drift, time constants");
   add(pressure_,
       "Pressure",
@@ -43,66 +29,38 @@ CalibratePanel::CalibratePanel(QSettings& settings, QWidget* parent)
   add(force_, "Force", "Kilopascals and newtons of this recording");
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
-  column->addWidget(pages_);
-  connect(chooser_, &QButtonGroup::idToggled, this, [this](int page, bool on) {
-    if (!on) return;
-    pages_->setCurrentIndex(page);
-    settings_.setValue(kPageKey, pageName());
-  });
-  const QString last = settings.value(kPageKey).toString();
-  showPage(pageNames().contains(last) ? last : pageNames().front());
+  column->addWidget(parentOfPages);
+  showLastPage();
 }
 
 void CalibratePanel::add(CalibratePage* page, const QString& name, const QString& tip) {
-  auto* button = new QToolButton(header_);
-  button->setText(name);
-  button->setToolTip(tip);
-  button->setObjectName("calibrate" + name);
-  button->setCheckable(true);
-  button->setFocusPolicy(Qt::TabFocus);
-  chooser_->addButton(button, pages_->addWidget(page));
-  header_->layout()->addWidget(button);
+  addPage(page, name, tip);
   connect(page, &CalibratePage::said, this, &CalibratePanel::said);
 }
 
 void CalibratePanel::setSource(const OpenedRecordingPtr& recording, bool live) {
-  for (int i = 0; i < pages_->count(); ++i)
-    static_cast<CalibratePage*>(pages_->widget(i))->setSource(recording, live);
+  for (int i = 0; i < pages().count(); ++i)
+    static_cast<CalibratePage*>(pages().widget(i))->setSource(recording, live);
 }
 
 void CalibratePanel::setTheme(Theme theme) {
   if (theme == theme_) return;
   theme_ = theme;
-  for (int i = 0; i < pages_->count(); ++i)
-    static_cast<CalibratePage*>(pages_->widget(i))->setTheme(theme);
+  for (int i = 0; i < pages().count(); ++i)
+    static_cast<CalibratePage*>(pages().widget(i))->setTheme(theme);
 }
 
 void CalibratePanel::setPosition(double seconds) {
-  for (int i = 0; i < pages_->count(); ++i)
-    static_cast<CalibratePage*>(pages_->widget(i))->setPosition(seconds);
+  for (int i = 0; i < pages().count(); ++i)
+    static_cast<CalibratePage*>(pages().widget(i))->setPosition(seconds);
 }
 
 bool CalibratePanel::cancel() { return page().cancel(); }
 
 void CalibratePanel::settle() { page().settle(); }
 
-QStringList CalibratePanel::pageNames() const {
-  QStringList names;
-  for (const QAbstractButton* button : chooser_->buttons()) names.append(button->text());
-  return names;
-}
-
-void CalibratePanel::showPage(const QString& name) {
-  for (QAbstractButton* button : chooser_->buttons())
-    if (button->text() == name) button->setChecked(true);
-}
-
 CalibratePage& CalibratePanel::page() const {
-  return *static_cast<CalibratePage*>(pages_->currentWidget());
-}
-
-QString CalibratePanel::pageName() const {
-  return chooser_->button(pages_->currentIndex())->text();
+  return *static_cast<CalibratePage*>(pages().currentWidget());
 }
 
 }  // namespace palpate::gui

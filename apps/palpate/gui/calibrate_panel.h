@@ -1,14 +1,10 @@
 // The content of the dock Calibrate: one page at a time of what leads from counts to kilopascals and newtons.
 #pragma once
 
-#include <QSettings>
-#include <QWidget>
 #include <optional>
 
 #include "gui/calibrate_page.h"
-
-class QButtonGroup;
-class QStackedWidget;
+#include "gui/paged_panel.h"
 
 namespace palpate::gui {
 
@@ -18,12 +14,10 @@ class PressurePage;
 class StepPage;
 class TarePage;
 
-class CalibratePanel : public QWidget {
+class CalibratePanel : public PagedPanel {
   Q_OBJECT
  public:
   explicit CalibratePanel(QSettings& settings, QWidget* parent = nullptr);
-  // The chooser of pages, for the dock's title row.
-  QWidget& header() noexcept { return *header_; }
 
   void setSource(const OpenedRecordingPtr& recording, bool live);
   void setTheme(Theme theme);
@@ -36,10 +30,7 @@ class CalibratePanel : public QWidget {
   NoisePage& noise() noexcept { return *noise_; }
   TarePage& tare() noexcept { return *tare_; }
   ForcePage& force() noexcept { return *force_; }
-  QStringList pageNames() const;
-  void showPage(const QString& name);  // one of pageNames(); another is ignored
-  CalibratePage& page() const;         // that is seen
-  QString pageName() const;            // its name
+  CalibratePage& page() const;  // that is seen
   QSize sizeHint() const override { return {640, 560}; }
 
  signals:
@@ -48,11 +39,7 @@ class CalibratePanel : public QWidget {
  private:
   void add(CalibratePage* page, const QString& name, const QString& tip);
 
-  QSettings& settings_;
   std::optional<Theme> theme_;
-  QWidget* header_;
-  QButtonGroup* chooser_;
-  QStackedWidget* pages_;
   StepPage* steps_;
   PressurePage* pressure_;
   NoisePage* noise_;

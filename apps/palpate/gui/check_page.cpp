@@ -133,16 +133,28 @@ CheckPage::CheckPage(TeachingDesk& desk, QWidget* parent) : QWidget(parent), des
     check_->setEnabled(!desk_.folder().empty());
   });
   connect(confusion_, &ConfusionView::cellChosen, this, &CheckPage::listCell);
+  // The only one is what was meant.
+  connect(confusion_, &ConfusionView::cellClicked, this, [this] {
+    if (listed_.size() == 1) openGrasp(0);
+  });
+  connect(confusion_, &ConfusionView::cellOpened, this, [this](int truth, int called) {
+    listCell(truth, called);
+    openGrasp(0);
+  });
   connect(back_, &QPushButton::clicked, this, [this] {
     confusion_->choose(std::nullopt);
     listObjects();
   });
   connect(grasps_, &QTableWidget::cellClicked, this, [this](int row, int) {
-    const FeatureRow& grasp =
-        desk_.checked()->table->rows.at(listed_.at(static_cast<std::size_t>(row)));
-    emit graspAsked(grasp.file, grasp.begin, grasp.end);
+    openGrasp(static_cast<std::size_t>(row));
   });
   showCheck();
+}
+
+void CheckPage::openGrasp(std::size_t row) {
+  if (row >= listed_.size()) return;
+  const FeatureRow& grasp = desk_.checked()->table->rows.at(listed_[row]);
+  emit graspAsked(grasp.file, grasp.begin, grasp.end);
 }
 
 bool CheckPage::shown() const { return isVisible() && pages_->currentWidget() != empty_; }
@@ -184,7 +196,9 @@ void CheckPage::listObjects() {
                     {.text = figure(one.f, 2)},
                     {.text = QString::number(one.support)}});
   objects_->setRows(rows);
-  caption_->setText("A click on a cell lists its grasps.");
+  caption_->setText(
+      "A click on a cell lists its grasps, a double click opens the first. Ctrl and wheel: "
+      "larger, smaller.");
   back_->hide();
   listed_.clear();
   lists_->setCurrentWidget(objects_);

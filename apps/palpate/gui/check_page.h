@@ -41,6 +41,7 @@ class CheckPage : public QWidget {
   void showCheck();
   void listObjects();
   void listCell(int truth, int called);
+  void openGrasp(std::size_t row);  // of those that are listed
 
   TeachingDesk& desk_;
   QComboBox* protocol_;

@@ -4,227 +4,252 @@
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
+#include <QScrollBar>
 #include <QToolTip>
+#include <QWheelEvent>
 #include <algorithm>
+#include <cmath>
 
 namespace palpate::gui {
 namespace {
 
-constexpr double kMostNames = 0.38;  // of the width
-constexpr double kLargestCell = 44.0;
-constexpr double kLeastCellForText = 13.0;
+using Cell = ConfusionCell;
+
+constexpr double kZoomStep = 1.15;
 constexpr double kAir = 4.0;
 
-struct Grid {
-  int rows = 0, columns = 0;  // the last column may be "unknown"
-  bool unknown = false;
-  QRectF cells;
-  double side = 0.0;
-};
-
-Grid gridOf(const ConfusionMatrix& matrix, const QRectF& area, const QFontMetricsF& metrics) {
-  Grid grid;
-  grid.rows = static_cast<int>(matrix.classes().size());
-  for (int i = 0; i < grid.rows; ++i)
-    grid.unknown = grid.unknown || matrix.at(i, ConfusionMatrix::kUnknown) > 0;
-  grid.columns = grid.rows + (grid.unknown ? 1 : 0);
-  double names = 0.0;
-  for (const std::string& name : matrix.classes())
-    names = std::max(names, metrics.horizontalAdvance(QString::fromStdString(name)));
-  names = std::min(names + 2 * kAir, kMostNames * area.width());
-  const double above = names + metrics.height();
-  grid.side = std::min({(area.width() - names) / grid.columns,
-                        (area.height() - above - kAir) / grid.rows,
-                        kLargestCell});
-  grid.side = std::max(grid.side, 3.0);
-  grid.cells = QRectF(
-      area.left() + names, area.top() + above, grid.side * grid.columns, grid.side * grid.rows);
-  return grid;
-}
-
-int calledOf(const Grid& grid, int column) {
-  return column < grid.rows ? column : ConfusionMatrix::kUnknown;
-}
-
-QString nameOf(const ConfusionMatrix& matrix, int index) {
-  return index == ConfusionMatrix::kUnknown
-             ? QString("unknown")
-             : QString::fromStdString(matrix.classes()[static_cast<std::size_t>(index)]);
-}
-
-QColor mixed(const QColor& from, const QColor& to, double part) {
-  const auto mix = [part](int a, int b) { return static_cast<int>(a + part * (b - a)); };
-  return {mix(from.red(), to.red()), mix(from.green(), to.green()), mix(from.blue(), to.blue())};
+QRectF areaOf(const QWidget& viewport) {
+  return QRectF(viewport.rect()).adjusted(kAir, kAir, -kAir, -kAir);
 }
 
 }  // namespace
 
-void paintConfusion(QPainter& painter,
-                    const QRectF& area,
-                    const ConfusionMatrix& matrix,
-                    Theme theme,
-                    std::optional<std::pair<int, int>> chosen) {
-  const ThemeColors& colors = colorsOf(theme);
-  const QFontMetricsF metrics(painter.font());
-  const Grid grid = gridOf(matrix, area, metrics);
-  if (grid.rows == 0) return;
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing, false);
-  const double namesWidth = grid.cells.left() - area.left() - 2 * kAir;
-  // Names overlap where the cells are lower than text: every second one, ..
-  const int every = std::max(1, static_cast<int>(metrics.height() * 0.9 / grid.side + 0.99));
-  painter.setPen(colors.muted);
-  painter.drawText(QRectF(area.left(), area.top(), namesWidth + kAir, metrics.height()),
-                   Qt::AlignRight,
-                   metrics.elidedText("was ↓  called →", Qt::ElideRight, namesWidth));
-  for (int i = 0; i < grid.rows; i += every) {
-    painter.setPen(colors.text);
-    painter.drawText(QRectF(area.left(),
-                            grid.cells.top() + i * grid.side - metrics.height(),
-                            namesWidth + kAir,
-                            grid.side + 2 * metrics.height()),
-                     Qt::AlignRight | Qt::AlignVCenter,
-                     metrics.elidedText(nameOf(matrix, i), Qt::ElideRight, namesWidth));
-  }
-  for (int i = 0; i < grid.columns; i += every) {
-    painter.save();
-    painter.translate(grid.cells.left() + (i + 0.5) * grid.side, grid.cells.top() - kAir);
-    painter.rotate(-90.0);
-    const int called = calledOf(grid, i);
-    painter.setPen(called == ConfusionMatrix::kUnknown ? colors.muted : colors.text);
-    painter.drawText(QRectF(0.0, -metrics.height(), namesWidth, 2 * metrics.height()),
-                     Qt::AlignLeft | Qt::AlignVCenter,
-                     metrics.elidedText(nameOf(matrix, called), Qt::ElideRight, namesWidth));
-    painter.restore();
-  }
-  for (int y = 0; y < grid.rows; ++y) {
-    double support = 0.0;
-    for (int x = 0; x < grid.columns; ++x)
-      support += static_cast<double>(matrix.at(y, calledOf(grid, x)));
-    for (int x = 0; x < grid.columns; ++x) {
-      const int called = calledOf(grid, x);
-      const std::size_t count = matrix.at(y, called);
-      const double share = support > 0.0 ? static_cast<double>(count) / support : 0.0;
-      const QRectF cell(grid.cells.left() + x * grid.side,
-                        grid.cells.top() + y * grid.side,
-                        grid.side - 1.0,
-                        grid.side - 1.0);
-      const bool right = called == y;
-      // A single mistake is to be seen.
-      const double tone = count == 0 ? 0.0 : std::max(share, right ? 0.25 : 0.75);
-      const QColor ground = mixed(colors.taxel, right ? colors.accent : colors.warning, tone);
-      painter.fillRect(cell, ground);
-      if (count > 0 && grid.side >= kLeastCellForText) {
-        painter.setPen(tone > 0.5 ? colors.window : colors.text);
-        QFont small = painter.font();
-        painter.save();
-        small.setPixelSize(
-            std::min(QFontInfo(small).pixelSize(), static_cast<int>(grid.side * 0.6)));
-        painter.setFont(small);
-        painter.drawText(cell, Qt::AlignCenter, QString::number(count));
-        painter.restore();
-      }
-      if (chosen && *chosen == std::pair(y, called)) {
-        painter.setPen(QPen(colors.text, 2.0));
-        painter.setBrush(Qt::NoBrush);
-        painter.drawRect(cell.adjusted(1, 1, -1, -1));
-      }
-    }
-  }
-  painter.restore();
-}
-
-ConfusionView::ConfusionView(QWidget* parent) : QWidget(parent) {
+ConfusionView::ConfusionView(QWidget* parent) : QAbstractScrollArea(parent) {
   setFocusPolicy(Qt::StrongFocus);
+  setFrameShape(QFrame::NoFrame);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+  viewport()->setAutoFillBackground(false);
+  viewport()->setMouseTracking(true);
 }
 
 void ConfusionView::setMatrix(std::optional<ConfusionMatrix> matrix) {
   matrix_ = std::move(matrix);
   chosen_.reset();
-  update();
+  hovered_.reset();
+  side_.reset();
+  layOut();
 }
 
 void ConfusionView::setTheme(Theme theme) {
   theme_ = theme;
-  update();
+  viewport()->update();
 }
 
-void ConfusionView::choose(std::optional<std::pair<int, int>> cell) {
+void ConfusionView::choose(std::optional<Cell> cell) {
   chosen_ = cell;
-  update();
+  if (cell) reveal(*cell);
+  viewport()->update();
   if (cell) emit cellChosen(cell->first, cell->second);
 }
 
-void ConfusionView::paintEvent(QPaintEvent*) {
-  QPainter painter(this);
-  if (matrix_)
-    paintConfusion(
-        painter, QRectF(rect()).adjusted(kAir, kAir, -kAir, -kAir), *matrix_, theme_, chosen_);
+double ConfusionView::side() const {
+  if (!matrix_) return 0.0;
+  const double fits = confusionGrid(*matrix_, areaOf(*viewport()), font()).side;
+  return side_ ? std::clamp(*side_, std::min(fits, kReadableConfusionSide), kLargestConfusionSide)
+               : std::max(fits, kReadableConfusionSide);
 }
 
-std::optional<std::pair<int, int>> ConfusionView::cellAt(const QPointF& at) const {
+void ConfusionView::setSide(std::optional<double> side) {
+  side_ = side;
+  if (side_) side_ = this->side();
+  layOut();
+  if (chosen_) reveal(*chosen_);
+}
+
+void ConfusionView::showAll() { setSide(kSmallestConfusionSide); }
+
+QRectF ConfusionView::rectOf(const Cell& cell) const {
+  if (!matrix_) return {};
+  const ConfusionGrid grid =
+      confusionGrid(*matrix_,
+                    areaOf(*viewport()),
+                    font(),
+                    side(),
+                    QPointF(horizontalScrollBar()->value(), verticalScrollBar()->value()));
+  return grid.rectOf(cell).intersected(grid.window);
+}
+
+void ConfusionView::layOut() {
+  // Bars take room from each other: twice settles it.
+  for (int round = 0; round < 2; ++round) {
+    int wide = 0, high = 0, width = 0, height = 0;
+    if (matrix_ && !matrix_->classes().empty()) {
+      const ConfusionGrid grid = confusionGrid(*matrix_, areaOf(*viewport()), font(), side());
+      width = static_cast<int>(grid.window.width());
+      height = static_cast<int>(grid.window.height());
+      const auto rest = [](double whole, double seen) {
+        return std::max(0, static_cast<int>(std::ceil(whole - seen - 0.01)));
+      };
+      wide = rest(grid.wholeWidth(), grid.window.width());
+      high = rest(grid.wholeHeight(), grid.window.height());
+      horizontalScrollBar()->setSingleStep(std::max(1, static_cast<int>(grid.side)));
+      verticalScrollBar()->setSingleStep(std::max(1, static_cast<int>(grid.side)));
+    }
+    horizontalScrollBar()->setRange(0, wide);
+    horizontalScrollBar()->setPageStep(std::max(1, width));
+    verticalScrollBar()->setRange(0, high);
+    verticalScrollBar()->setPageStep(std::max(1, height));
+  }
+  viewport()->update();
+}
+
+void ConfusionView::reveal(const Cell& cell) {
+  if (!matrix_) return;
+  const ConfusionGrid grid = confusionGrid(*matrix_, areaOf(*viewport()), font(), side());
+  const auto into = [&](QScrollBar* bar, int index, double room) {
+    const double from = index * grid.side, to = from + grid.side;
+    if (from < bar->value()) bar->setValue(static_cast<int>(from));
+    if (to > bar->value() + room) bar->setValue(static_cast<int>(std::ceil(to - room)));
+  };
+  into(horizontalScrollBar(), grid.columnOf(cell.second), grid.window.width());
+  into(verticalScrollBar(), cell.first, grid.window.height());
+}
+
+void ConfusionView::paintEvent(QPaintEvent*) {
+  if (!matrix_) return;
+  QPainter painter(viewport());
+  painter.setFont(font());
+  const QRectF area = areaOf(*viewport());
+  const ConfusionGrid grid =
+      confusionGrid(*matrix_,
+                    area,
+                    font(),
+                    side(),
+                    QPointF(horizontalScrollBar()->value(), verticalScrollBar()->value()));
+  paintConfusion(painter, area, grid, *matrix_, theme_, {chosen_, hovered_ ? hovered_ : chosen_});
+}
+
+void ConfusionView::resizeEvent(QResizeEvent*) { layOut(); }
+
+void ConfusionView::scrollContentsBy(int, int) { viewport()->update(); }
+
+std::optional<Cell> ConfusionView::cellAt(const QPointF& at) const {
   if (!matrix_) return std::nullopt;
-  const Grid grid =
-      gridOf(*matrix_, QRectF(rect()).adjusted(kAir, kAir, -kAir, -kAir), QFontMetricsF(font()));
-  if (!grid.cells.contains(at)) return std::nullopt;
-  const int x =
-      std::min(static_cast<int>((at.x() - grid.cells.left()) / grid.side), grid.columns - 1);
-  const int y = std::min(static_cast<int>((at.y() - grid.cells.top()) / grid.side), grid.rows - 1);
-  return std::pair(y, calledOf(grid, x));
+  const ConfusionGrid grid =
+      confusionGrid(*matrix_,
+                    areaOf(*viewport()),
+                    font(),
+                    side(),
+                    QPointF(horizontalScrollBar()->value(), verticalScrollBar()->value()));
+  if (!grid.window.contains(at) || grid.rows == 0) return std::nullopt;
+  const int column =
+      std::clamp(static_cast<int>((at.x() - grid.origin.x()) / grid.side), 0, grid.columns - 1);
+  const int row =
+      std::clamp(static_cast<int>((at.y() - grid.origin.y()) / grid.side), 0, grid.rows - 1);
+  return Cell(row, grid.calledOf(column));
 }
 
 void ConfusionView::mousePressEvent(QMouseEvent* event) {
-  if (const auto cell = cellAt(event->position())) choose(cell);
+  const auto cell = cellAt(event->position());
+  if (!cell || event->button() != Qt::LeftButton) return;
+  choose(cell);
+  emit cellClicked(cell->first, cell->second);
+}
+
+void ConfusionView::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (const auto cell = cellAt(event->position())) emit cellOpened(cell->first, cell->second);
+}
+
+void ConfusionView::mouseMoveEvent(QMouseEvent* event) {
+  const auto cell = cellAt(event->position());
+  if (cell == hovered_) return;
+  hovered_ = cell;
+  viewport()->update();
+}
+
+void ConfusionView::wheelEvent(QWheelEvent* event) {
+  if (!(event->modifiers() & Qt::ControlModifier)) return QAbstractScrollArea::wheelEvent(event);
+  setSide(side() * std::pow(kZoomStep, event->angleDelta().y() / 120.0));
+  event->accept();
+}
+
+void ConfusionView::moveChosen(int columns, int rows) {
+  const ConfusionGrid grid = confusionGrid(*matrix_, areaOf(*viewport()), font(), side());
+  if (grid.rows == 0) return;
+  const Cell from = chosen_.value_or(Cell(0, 0));
+  hovered_.reset();
+  const int row = std::clamp(from.first + (chosen_ ? rows : 0), 0, grid.rows - 1);
+  const int column =
+      std::clamp(grid.columnOf(from.second) + (chosen_ ? columns : 0), 0, grid.columns - 1);
+  choose(Cell(row, grid.calledOf(column)));
 }
 
 void ConfusionView::keyPressEvent(QKeyEvent* event) {
   if (!matrix_) return QWidget::keyPressEvent(event);
-  const Grid grid = gridOf(*matrix_, QRectF(rect()), QFontMetricsF(font()));
-  int y = chosen_ ? chosen_->first : 0;
-  int x = !chosen_ ? 0 : chosen_->second == ConfusionMatrix::kUnknown ? grid.rows : chosen_->second;
   switch (event->key()) {
     case Qt::Key_Left:
-      --x;
-      break;
+      return moveChosen(-1, 0);
     case Qt::Key_Right:
-      ++x;
-      break;
+      return moveChosen(1, 0);
     case Qt::Key_Up:
-      --y;
-      break;
+      return moveChosen(0, -1);
     case Qt::Key_Down:
-      ++y;
-      break;
+      return moveChosen(0, 1);
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+      if (chosen_) emit cellOpened(chosen_->first, chosen_->second);
+      return;
+    case Qt::Key_Plus:
+      return setSide(side() * kZoomStep);
+    case Qt::Key_Minus:
+      return setSide(side() / kZoomStep);
+    case Qt::Key_0:
+      return showAll();
     default:
       return QWidget::keyPressEvent(event);
   }
-  choose(std::pair(std::clamp(y, 0, grid.rows - 1),
-                   calledOf(grid, std::clamp(x, 0, grid.columns - 1))));
 }
 
 bool ConfusionView::event(QEvent* event) {
   // Keys that move in it play nothing back.
   if (event->type() == QEvent::ShortcutOverride) {
-    const int key = static_cast<QKeyEvent*>(event)->key();
-    if (key == Qt::Key_Left || key == Qt::Key_Right || key == Qt::Key_Up || key == Qt::Key_Down) {
-      event->accept();
-      return true;
+    switch (static_cast<QKeyEvent*>(event)->key()) {
+      case Qt::Key_Left:
+      case Qt::Key_Right:
+      case Qt::Key_Up:
+      case Qt::Key_Down:
+      case Qt::Key_Return:
+      case Qt::Key_Enter:
+      case Qt::Key_Plus:
+      case Qt::Key_Minus:
+      case Qt::Key_0:
+        event->accept();
+        return true;
+      default:
+        break;
     }
+  }
+  return QAbstractScrollArea::event(event);
+}
+
+bool ConfusionView::viewportEvent(QEvent* event) {
+  if (event->type() == QEvent::Leave && hovered_) {
+    hovered_.reset();
+    viewport()->update();
   }
   if (event->type() == QEvent::ToolTip) {
     const auto* help = static_cast<QHelpEvent*>(event);
     if (const auto cell = cellAt(help->pos()))
       QToolTip::showText(help->globalPos(),
-                         nameOf(*matrix_, cell->first) + " called " +
-                             nameOf(*matrix_, cell->second) + ": " +
+                         confusionName(*matrix_, cell->first) + " called " +
+                             confusionName(*matrix_, cell->second) + ": " +
                              QString::number(matrix_->at(cell->first, cell->second)),
                          this);
     else
       QToolTip::hideText();
     return true;
   }
-  return QWidget::event(event);
+  return QAbstractScrollArea::viewportEvent(event);
 }
 
 }  // namespace palpate::gui

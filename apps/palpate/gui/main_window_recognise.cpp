@@ -167,6 +167,7 @@ void MainWindow::RecogniseView::listen(bool on) {
   collector_.reset();
   lastGrasp_.reset();
   zeroStep_ = Zero::kNone;
+  zero_.reset();
   if (!on) panel_->teach().setLive(false);
   LiveSource* source = window_.live_.source();
   if (!on || !source) return;
@@ -216,7 +217,8 @@ void MainWindow::RecogniseView::takeEnded(Profile grasp) {
     return;
   }
   if (zeroStep_ != Zero::kOpening) return endZero("the pads let go of each other");
-  const EmptyHandZero zero = emptyHandZero(grasp);
+  EmptyHandZero zero = emptyHandZero(grasp);
+  zero.origin = "the connected hand";
   if (!zero.trouble.empty()) return endZero(QString::fromStdString(zero.trouble));
   zeroStep_ = Zero::kNone;
   zero_ = zero;

@@ -34,7 +34,11 @@ std::filesystem::path photoOf(const QString& name,
 }
 
 void PhotoShelf::setFolders(std::vector<std::filesystem::path> folders) {
-  if (folders == folders_) return;
+  if (folders == folders_) {
+    // What wasn't there may have come.
+    std::erase_if(read_, [](const auto& one) { return one.second.isNull(); });
+    return;
+  }
   folders_ = std::move(folders);
   read_.clear();
 }

@@ -1,9 +1,6 @@
 #include "gui/recognise_panel.h"
 
-#include <QButtonGroup>
-#include <QHBoxLayout>
 #include <QStackedWidget>
-#include <QToolButton>
 #include <QVBoxLayout>
 
 #include "gui/ask_page.h"
@@ -13,40 +10,28 @@
 #include "gui/today_page.h"
 
 namespace palpate::gui {
-namespace {
-
-constexpr const char* kPageKey = "recognise/page";
-
-}  // namespace
 
 RecognisePanel::RecognisePanel(QSettings& settings,
                                const std::filesystem::path& dataFolder,
                                QWidget* parent)
-    : QWidget(parent), settings_(settings) {
+    : PagedPanel(settings, "recognise", parent) {
   setObjectName("RecognisePanel");
   desk_ = new RecogniseDesk(settings, dataFolder, this);
   teaching_ = new TeachingDesk(settings, this);
-  header_ = new QWidget(this);
-  auto* row = new QHBoxLayout(header_);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(4);
-  row->addStretch(1);
-  chooser_ = new QButtonGroup(this);
-  pages_ = new QStackedWidget(this);
-  ask_ = new AskPage(*desk_, pages_);
-  today_ = new TodayPage(*desk_, pages_);
-  teach_ = new TeachPage(*teaching_, pages_);
-  check_ = new CheckPage(*teaching_, pages_);
+  ask_ = new AskPage(*desk_, &pages());
+  today_ = new TodayPage(*desk_, &pages());
+  teach_ = new TeachPage(*teaching_, &pages());
+  check_ = new CheckPage(*teaching_, &pages());
   strip_ = new OpeningStrip(this, "Working on", "recognise");
-  add(ask_, "Ask", "What is in the hand");
-  add(today_, "Today", "Adapts to how the hand is today");
-  add(teach_, "Teach", "Captures grasps of objects, and learns from them");
-  add(check_, "Check", "How well they are told apart");
+  addPage(ask_, "Ask", "What is in the hand");
+  addPage(today_, "Today", "Adapts to how the hand is today");
+  addPage(teach_, "Teach", "Captures grasps of objects, and learns from them");
+  addPage(check_, "Check", "How well they are told apart");
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addWidget(strip_);
-  column->addWidget(pages_, 1);
+  column->addWidget(&pages(), 1);
   BackgroundJob& job = teaching_->job();
   connect(&job, &BackgroundJob::started, strip_, &OpeningStrip::begin);
   connect(&job, &BackgroundJob::progressed, strip_, &OpeningStrip::setProgress);
@@ -66,24 +51,7 @@ RecognisePanel::RecognisePanel(QSettings& settings,
             emit said("trained with " + QString::number(model.classes.size()) +
                       " objects: " + path.section('/', -1));
           });
-  connect(chooser_, &QButtonGroup::idToggled, this, [this](int page, bool on) {
-    if (!on) return;
-    pages_->setCurrentIndex(page);
-    settings_.setValue(kPageKey, pageName());
-  });
-  const QString last = settings.value(kPageKey).toString();
-  showPage(pageNames().contains(last) ? last : pageNames().front());
-}
-
-void RecognisePanel::add(QWidget* page, const QString& name, const QString& tip) {
-  auto* button = new QToolButton(header_);
-  button->setText(name);
-  button->setToolTip(tip);
-  button->setObjectName("recognise" + name);
-  button->setCheckable(true);
-  button->setFocusPolicy(Qt::TabFocus);
-  chooser_->addButton(button, pages_->addWidget(page));
-  header_->layout()->addWidget(button);
+  showLastPage();
 }
 
 void RecognisePanel::setTheme(Theme theme) {
@@ -93,21 +61,6 @@ void RecognisePanel::setTheme(Theme theme) {
   today_->setTheme(theme);
   teach_->setTheme(theme);
   check_->setTheme(theme);
-}
-
-QStringList RecognisePanel::pageNames() const {
-  QStringList names;
-  for (const QAbstractButton* button : chooser_->buttons()) names.append(button->text());
-  return names;
-}
-
-void RecognisePanel::showPage(const QString& name) {
-  for (QAbstractButton* button : chooser_->buttons())
-    if (button->text() == name) button->setChecked(true);
-}
-
-QString RecognisePanel::pageName() const {
-  return chooser_->button(pages_->currentIndex())->text();
 }
 
 bool RecognisePanel::cancel() { return desk_->cancel() || teaching_->cancel(); }

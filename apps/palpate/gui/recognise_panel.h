@@ -1,17 +1,13 @@
 // The content of the dock Recognise: pages that ask what is in the hand, adapt to today, teach, and check how well it goes.
 #pragma once
 
-#include <QSettings>
-#include <QWidget>
 #include <filesystem>
 #include <optional>
 
+#include "gui/paged_panel.h"
 #include "gui/recognise_desk.h"
 #include "gui/teaching_desk.h"
 #include "gui/theme.h"
-
-class QButtonGroup;
-class QStackedWidget;
 
 namespace palpate::gui {
 
@@ -21,14 +17,12 @@ class OpeningStrip;
 class TeachPage;
 class TodayPage;
 
-class RecognisePanel : public QWidget {
+class RecognisePanel : public PagedPanel {
   Q_OBJECT
  public:
   RecognisePanel(QSettings& settings,
                  const std::filesystem::path& dataFolder,
                  QWidget* parent = nullptr);
-  // The chooser of pages, for the dock's title row.
-  QWidget& header() noexcept { return *header_; }
   void setTheme(Theme theme);
 
   RecogniseDesk& desk() noexcept { return *desk_; }
@@ -37,9 +31,6 @@ class RecognisePanel : public QWidget {
   TodayPage& today() noexcept { return *today_; }
   TeachPage& teach() noexcept { return *teach_; }
   CheckPage& check() noexcept { return *check_; }
-  QStringList pageNames() const;
-  void showPage(const QString& name);  // one of pageNames(); another is ignored
-  QString pageName() const;
   bool cancel();
   void settle();
   QSize sizeHint() const override { return {430, 560}; }
@@ -52,14 +43,8 @@ class RecognisePanel : public QWidget {
   void showEvent(QShowEvent* event) override;
 
  private:
-  void add(QWidget* page, const QString& name, const QString& tip);
-
-  QSettings& settings_;
   std::optional<Theme> theme_;
   RecogniseDesk* desk_;
-  QWidget* header_;
-  QButtonGroup* chooser_;
-  QStackedWidget* pages_;
   TeachingDesk* teaching_;
   OpeningStrip* strip_;
   AskPage* ask_;

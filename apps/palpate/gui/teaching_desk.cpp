@@ -233,7 +233,7 @@ void TeachingDesk::train(const fs::path& out, const std::optional<EmptyHandZero>
         made->model.programVersion = PALPATE_VERSION;
         made->model.madeAt = utcText(systemClock().wallUs());
         made->model.options = jsonOf(gauss()).set("path", folder.string());
-        if (zero) keepTrainingZero(made->model, *zero);
+        made->model.trainingZero = zero;
         saveModel(made->model, out, Overwrite::kReplace);
       },
       [this, made, out] {

@@ -17,10 +17,6 @@
 
 namespace palpate {
 
-// The zero of the empty hand on the day of training that a model keeps; nothing: none. Throws Error (damaged).
-std::optional<EmptyHandZero> trainingZero(const TrainedModel& model);
-void keepTrainingZero(TrainedModel& model, const EmptyHandZero& zero);
-
 class RecognitionDay {
  public:
   struct Grasp {
@@ -42,7 +38,7 @@ class RecognitionDay {
   std::size_t numTold() const noexcept;
   // Throws Error: trouble in it, or the model keeps no zero of its own to compare with.
   void setZero(const EmptyHandZero& today);
-  bool hasZero() const noexcept { return zero_.has_value(); }
+  bool hasZero() const noexcept { return zeroOffset_.has_value(); }
   void choose(const OffsetChoice& choice);  // throws Error: the model knows no offset
   const OffsetChoice& choice() const noexcept { return choice_; }
   void forget();  // grasps, names, zero
@@ -61,7 +57,8 @@ class RecognitionDay {
 
   TrainedModel model_;
   std::vector<Grasp> grasps_;
-  std::optional<SessionOffset> zero_;
+  std::optional<EmptyHandZero> zero_;
+  std::optional<SessionOffset> zeroOffset_;  // by it
   OffsetChoice choice_;
   TrainedModel today_;  // the model with today's components
   SessionOffset offset_ = noOffset();

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
 #include <palpate/recognition/classifier_pipeline.h>
+#include <palpate/recognition/empty_hand.h>
 #include <palpate/recognition/feature_table.h>
 #include <palpate/recognition/sample_set.h>
 #include <palpate/recognition/session_offset.h>
@@ -39,7 +41,7 @@ struct Verdict {
 };
 
 struct TrainedModel {
-  static constexpr int kFormatVersion = 1;
+  static constexpr int kFormatVersion = 2;  // 1 is read, too: it had no field for zeros
 
   std::string programVersion;
   std::string madeAt;  // UTC, ISO 8601; may be empty
@@ -51,13 +53,16 @@ struct TrainedModel {
   double sureConfidence = 2.0;
   double mostNovelty = 0.0;
   SessionOffset offset = noOffset();  // what `adapt` stored; none in a fresh model
+  // Of the empty hand: on the day of training, and on the day whose offset is stored.
+  std::optional<EmptyHandZero> trainingZero, todayZero;
   std::vector<ModelInput> inputs, adaptedFrom;
   Json options = Json::object();     // of the command that made it
   Json validation = Json::object();  // how well it did on blocks of its own recordings
 
   // Whether it knows a session offset, and can adapt: gauss.
   bool carriesOver() const noexcept { return pipeline.day.has_value(); }
-  // Whether a time lies within half a day of what it learnt from (or was adapted by): the same session, as far as one can tell.
+  // Whether a time lies within half a day of the day its offset is of: that of what it learnt from, or, once it is adapted,
+  // of what adapted it. The same session, as far as one can tell.
   bool sameSession(std::int64_t timeUs) const noexcept;
 };
 
@@ -83,9 +88,19 @@ std::vector<Verdict> classifyRows(const TrainedModel& model,
 // features (of another version).
 void requireFits(const TrainedModel& model, const FeatureTable& table);
 
-// Labelled grasps of today: the offset from them on top of what is known, and their components. Throws Error when the model
-// doesn't carry over.
-void adaptModel(TrainedModel& model, const SampleSet& today);
+// Labelled grasps of today: the offset from them on top of what is known of it already, and their components. Throws Error when
+// the model doesn't carry over.
+void adaptModel(TrainedModel& model,
+                const SampleSet& today,
+                const SessionOffset& before = unknownOffset());
+// The offset by a touch of the empty hand today against that of training. Throws Error: trouble in it, the model doesn't carry
+// over or keeps no zero of its own to compare with.
+SessionOffset offsetOfEmptyHand(const TrainedModel& model, const EmptyHandZero& today);
+// Stores both, besides what else is known of today. Throws as offsetOfEmptyHand().
+void adaptToEmptyHand(TrainedModel& model, const EmptyHandZero& today);
+
+// What it knew of another day than that of its training: offset, zero, components, where they came from.
+void forgetToday(TrainedModel& model);
 
 Json jsonOf(const TrainedModel& model);
 // Throws Error naming what is missing, damaged, or of a later format.

@@ -1,0 +1,164 @@
+#include "palpate/recognition/unknown_objects.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/parallel.h"
+#include "palpate/recognition/classification_report.h"
+#include "palpate/recognition/cross_validation.h"
+#include "palpate/recognition/session_offset.h"
+
+namespace palpate {
+namespace {
+
+// The classes that have samples, without one of them.
+SampleSet without(const SampleSet& samples, int taken) {
+  const std::vector<std::size_t> counts = samples.counts();
+  std::vector<int> number(samples.numClasses(), -1);
+  SampleSet rest;
+  rest.features = samples.features;
+  for (std::size_t c = 0; c < counts.size(); ++c) {
+    if (counts[c] == 0 || static_cast<int>(c) == taken) continue;
+    number[c] = static_cast<int>(rest.classes.size());
+    rest.classes.push_back(samples.classes[c]);
+  }
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < samples.y.size(); ++i)
+    if (number[static_cast<std::size_t>(samples.y[i])] >= 0) rows.push_back(i);
+  const SampleSet part = samples.rows(rows);
+  rest.x = part.x;
+  for (const int c : part.y) rest.y.push_back(number[static_cast<std::size_t>(c)]);
+  return rest;
+}
+
+constexpr int kNone = -1;
+
+std::vector<std::size_t> rowsOf(const SampleSet& samples, int wanted) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < samples.y.size(); ++i)
+    if (samples.y[i] == wanted) rows.push_back(i);
+  return rows;
+}
+
+UnknownReport reportOf(const SampleSet& samples,
+                       const std::vector<double>& known,
+                       const std::vector<std::vector<double>>& ofClass) {
+  UnknownReport report;
+  std::vector<double> unknown;
+  for (std::size_t c = 0; c < ofClass.size(); ++c) {
+    if (ofClass[c].empty()) continue;
+    unknown.insert(unknown.end(), ofClass[c].begin(), ofClass[c].end());
+    report.classes.push_back({samples.classes[c], ofClass[c].size(), auroc(ofClass[c], known)});
+  }
+  report.known = known.size();
+  report.unknown = unknown.size();
+  if (known.empty() || unknown.empty()) throw Error("unknown objects: no grasp to examine");
+  report.auroc = auroc(unknown, known);
+  return report;
+}
+
+void requireThreeClasses(const SampleSet& samples) {
+  const std::vector<std::size_t> counts = samples.counts();
+  if (std::count_if(counts.begin(), counts.end(), [](std::size_t count) { return count >= 2; }) < 3)
+    throw Error("unknown objects: three classes with two grasps each are the least");
+}
+
+SessionOffset offsetOf(const DayModel& model, const Eigen::MatrixXd& day, StrangerOffset kind) {
+  return kind == StrangerOffset::kUnknown ? unknownOffset() : offsetFromBatch(model, day);
+}
+
+}  // namespace
+
+UnknownReport unknownWithin(const SampleSet& samples,
+                            const PipelineOptions& options,
+                            std::size_t blocks,
+                            const Progress& progress) {
+  PipelineOptions used = options;
+  if (used.calibrationBlocks == 0) used.calibrationBlocks = 2;  // the distance doesn't depend on it
+  used.validate();
+  requireThreeClasses(samples);
+  constexpr double kKnownPart = 0.15;  // of the work
+  const auto part = [&](double from, double to) {
+    return progress ? Progress([&progress, from, to](double fraction) {
+      return progress(from + (to - from) * fraction);
+    })
+                    : Progress();
+  };
+  const SampleSet present = without(samples, kNone);
+  std::vector<double> known;
+  for (const ExaminedSample& one :
+       crossValidate(present, used, blockSplits(present.y, blocks), 0, part(0.0, kKnownPart))
+           .examined)
+    known.push_back(one.novelty);
+  std::vector<std::vector<double>> ofClass(present.numClasses());
+  forEachInParallel(
+      ofClass.size(),
+      [&](std::size_t c) {
+        const auto pipeline = ClassifierPipeline::of(without(present, static_cast<int>(c)), used);
+        const Eigen::VectorXd novelty =
+            pipeline.noveltyOf(present.rows(rowsOf(present, static_cast<int>(c))).x);
+        ofClass[c].assign(novelty.begin(), novelty.end());
+      },
+      part(kKnownPart, 1.0));
+  return reportOf(present, known, ofClass);
+}
+
+UnknownReport unknownOnAnotherDay(const SampleSet& training,
+                                  const SampleSet& later,
+                                  const std::vector<std::vector<std::size_t>>& sessions,
+                                  StrangerOffset offset,
+                                  const Progress& progress) {
+  if (later.classes != training.classes || later.features != training.features)
+    throw Error("unknown objects: the other day has other classes or features than the training");
+  requireThreeClasses(training);
+  PipelineOptions options;
+  options.classifier = ClassifierKind::kGauss;
+  const auto modelOf = [&](int taken) {
+    return *ClassifierPipeline::of(without(training, taken), options).day;
+  };
+  const DayModel whole = modelOf(kNone);
+  std::vector<double> known;
+  std::vector<std::vector<double>> ofClass(later.numClasses());
+  const auto strangeness = [](const DayModel& model,
+                              const Eigen::MatrixXd& x,
+                              const SessionOffset& with,
+                              std::vector<double>& out) {
+    for (const DayVerdict& verdict : judgeAll(model, x, with)) out.push_back(-verdict.knownness);
+  };
+  std::vector<std::pair<std::size_t, int>> strangers;
+  for (std::size_t s = 0; s < sessions.size(); ++s)
+    for (std::size_t c = 0; c < later.numClasses(); ++c)
+      if (!rowsOf(later.rows(sessions[s]), static_cast<int>(c)).empty())
+        strangers.emplace_back(s, static_cast<int>(c));
+  for (const auto& session : sessions) {
+    const Eigen::MatrixXd x = later.rows(session).x;
+    strangeness(whole, x, offsetOf(whole, x, offset), known);
+  }
+  for (std::size_t k = 0; k < strangers.size(); ++k) {
+    if (progress && !progress(static_cast<double>(k) / static_cast<double>(strangers.size())))
+      throw Cancelled();
+    const auto [session, c] = strangers[k];
+    const SampleSet day = later.rows(sessions[session]);
+    const DayModel rest = modelOf(c);
+    strangeness(rest,
+                day.rows(rowsOf(day, c)).x,
+                offsetOf(offset == StrangerOffset::kKnown ? whole : rest, day.x, offset),
+                ofClass[static_cast<std::size_t>(c)]);
+  }
+  return reportOf(later, known, ofClass);
+}
+
+Json jsonOf(const UnknownReport& report) {
+  Json classes = Json::array();
+  for (const UnknownClass& one : report.classes)
+    classes.push(
+        Json::object().set("name", one.name).set("grasps", one.grasps).set("auroc", one.auroc));
+  return Json::object()
+      .set("auroc", report.auroc)
+      .set("known_grasps", report.known)
+      .set("unknown_grasps", report.unknown)
+      .set("classes", std::move(classes));
+}
+
+}  // namespace palpate
