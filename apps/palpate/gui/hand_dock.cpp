@@ -94,7 +94,6 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   auto* area = new QScrollArea(this);
   area->setWidgetResizable(true);
   area->setFrameShape(QFrame::NoFrame);
-  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   area->setFocusPolicy(Qt::NoFocus);
   auto* content = new QWidget(area);
   grasp_ = new GraspPanel(settings, content);

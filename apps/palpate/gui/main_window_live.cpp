@@ -372,9 +372,10 @@ void MainWindow::updateLiveStatus() {
   else if (live_.stale())
     now.state = live_.framesCameYet() ? "no data" : "waiting for data";
   else if (recorder.state != RecorderStatus::State::kIdle)
-    now.state = recorder.framesOnDisk >= recorder.frames
-                    ? "all frames on disk"
-                    : QString::number(recorder.frames - recorder.framesOnDisk) + " frames to write";
+    now.state =
+        recorder.framesOnDisk >= recorder.frames
+            ? "all frames on disk"
+            : "frames to write: " + QString::number(recorder.frames - recorder.framesOnDisk);
   else
     now.state = held_ ? "live · held (P goes on)" : "live";
   now.figures = {

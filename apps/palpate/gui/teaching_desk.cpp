@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <QEventLoop>
+#include <system_error>
 #include <utility>
 
 #include <palpate/capture/recording_name.h>
@@ -78,7 +79,11 @@ std::shared_ptr<const FeatureTable> TeachingDesk::gather(const fs::path& folder,
 
 void TeachingDesk::look() {
   trouble_.clear();
-  if (folder_.empty()) {
+  std::error_code none;
+  if (!folder_.empty() && !fs::is_directory(folder_, none))
+    trouble_ = "The folder isn't there (any more): choose one with Folder.";
+  if (folder_.empty() || !trouble_.isEmpty()) {
+    table_.reset();
     emit folderChanged();
     return;
   }
