@@ -231,6 +231,8 @@ void MainWindow::RecogniseView::beginZero() {
   LiveSource* source = window_.live_.source();
   if (!source || !source->control) return;
   if (collector_->touched()) return window_.flash("the hand isn't empty: something touches it");
+  // From before the command on: the grasp it begins is told from an earlier one by its time.
+  zeroSinceUs_ = source->session->nowUs();
   try {
     source->control->grasp({.mode = GraspMode::kReactive,
                             .preshape = "pinch-empty",
@@ -242,7 +244,6 @@ void MainWindow::RecogniseView::beginZero() {
     return window_.flash(error.what());
   }
   zeroStep_ = Zero::kClosing;
-  zeroSinceUs_ = source->session->nowUs();
 }
 
 void MainWindow::RecogniseView::endZero(const QString& trouble) {
