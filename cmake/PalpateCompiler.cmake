@@ -10,7 +10,10 @@ endif()
 
 find_program(PALPATE_CCACHE ccache)
 if(PALPATE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${PALPATE_CCACHE})
+  # Without the first ccache refuses what reads a precompiled header; with the second it looks into
+  # that large file once only.
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros
+      CCACHE_INODECACHE=true ${PALPATE_CCACHE})
 endif()
 
 # Linked privately by every target of ours, so that warnings are errors in our code only.
@@ -38,3 +41,35 @@ endif()
 if(PALPATE_FUZZERS)
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
+
+# palpate_precompiled(TARGET KIND) lets TARGET read cmake/precompiled/KIND.h, headers of others, in
+# compiled form: half of a build from nothing goes into reading them. Sources still name every header
+# they use: the fuzzers' build and the tests of headers do without.
+function(palpate_precompiled target kind)
+  if(PALPATE_PRECOMPILED)
+    palpate_like_precompiled(${target})
+    target_precompile_headers(${target} REUSE_FROM palpate_precompiled_${kind})
+  endif()
+endfunction()
+
+# palpate_precompile(KIND lib...) makes that form; LIBs are those whose headers are in it.
+function(palpate_precompile kind)
+  if(PALPATE_PRECOMPILED)
+    set(target palpate_precompiled_${kind})
+    add_library(${target} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled/nothing.cpp)
+    target_link_libraries(${target} PRIVATE palpate_warnings ${ARGN})
+    palpate_like_precompiled(${target})
+    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled/${kind}.h)
+  endif()
+endfunction()
+
+# Who makes the form and who reads it are compiled alike: CMake gives programs -fPIE.
+function(palpate_like_precompiled target)
+  target_compile_options(${target} PRIVATE -fPIC)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # ccache asks for the first. The warnings are false alarms in std::string (GCC bugs 105329, 105762):
+    # of a precompiled header GCC forgets that it is the system's. Without (fuzz, tsan) they stay on.
+    target_compile_options(${target} PRIVATE -fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow
+                           -Wno-stringop-overread)
+  endif()
+endfunction()

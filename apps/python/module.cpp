@@ -5,22 +5,51 @@
 
 namespace py = pybind11;
 
+namespace {
+
+void translate(std::exception_ptr pending) {
+  try {
+    if (pending) std::rethrow_exception(pending);
+  } catch (const palpate::FormatError& error) {
+    PyErr_SetString(PyExc_ValueError, error.what());
+  } catch (const palpate::FileError& error) {
+    PyErr_SetString(PyExc_OSError, error.what());
+  } catch (const py::cast_error&) {  // of a value inside an argument: a list's item, a dict's entry
+    PyErr_SetString(PyExc_TypeError, "an argument holds a value of another type than it should");
+  }
+}
+
+}  // namespace
+
 PYBIND11_MODULE(palpate, module) {
   module.doc() =
       "Palpate: recordings of robot hands that feel, as NumPy arrays.\n\n"
       "    import palpate\n"
       "    profile = palpate.load('foam_ball.dsa')\n"
-      "    profile.matrix(1).max(axis=(1, 2))   # largest value of finger 0 distal, per frame\n";
-  // what() of every failure is one line that says what, where and what to do.
-  py::register_exception<palpate::Error>(module, "Error", PyExc_RuntimeError);
-  py::register_exception_translator([](std::exception_ptr pending) {
-    try {
-      if (pending) std::rethrow_exception(pending);
-    } catch (const palpate::FormatError& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
-    } catch (const palpate::FileError& error) {
-      PyErr_SetString(PyExc_OSError, error.what());
-    }
-  });
-  palpate::python::bindProfile(module);
+      "    profile.matrix(1).max(axis=(1, 2))   # largest value of finger 0 distal, per frame\n\n"
+      "A table is a dict of arrays of the same length (pandas.DataFrame(table) takes it); a report "
+      "is a dict with the keys that the command of the same name prints. Taxels are those of the "
+      "pitch (3.4 mm), x = column, y = row, row 0 at the fingertip. Wrong values raise ValueError "
+      "or IndexError, wrong types TypeError, files OSError (can't be read or written) or "
+      "ValueError (damaged), everything else palpate.Error: one line that says what to do.";
+  module.attr("__version__") = PALPATE_VERSION;
+  py::register_exception<palpate::Error>(module, "Error", PyExc_RuntimeError).attr("__doc__") =
+      "Something can't be done: one line that says what, and what to do.";
+  py::register_exception_translator(&translate);
+  using namespace palpate::python;
+  bindProfile(module);
+  bindRecordings(module);
+  bindArrays(module);
+  bindFilters(module);
+  bindSignals(module);
+  bindKinematics(module);
+  bindContact(module);
+  bindSlip(module);
+  bindSteps(module);
+  bindCalibration(module);
+  bindMoments(module);
+  bindFeatures(module);
+  bindModels(module);
+  bindTraining(module);
+  bindEmulator(module);
 }

@@ -1,53 +1,29 @@
-// palpate.load(), palpate.Profile.
+// palpate.Profile: the data of a recording as arrays.
 #include <algorithm>
 #include <filesystem>
 #include <string>
 
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "palpate/core/error.h"
+#include "palpate/model/timing.h"
+#include "palpate/recording/crop.h"
 #include "palpate/recording/recording.h"
 
+#include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/events.h"
+#include "python/interruption.h"
 
 namespace palpate::python {
 namespace py = pybind11;
 namespace {
 
-constexpr std::int64_t kUsPerMs = 1000;
+using Stop = std::optional<std::int64_t>;
 
-using FloatArray = py::array_t<float, py::array::c_style>;
-using DoubleArray = py::array_t<double, py::array::c_style>;
-using TimeArray = py::array_t<std::int64_t, py::array::c_style>;
-
-// A Python index (negative: from the end) of one of `count` things; raises IndexError.
-std::size_t checkedIndex(const char* what, std::int64_t index, std::size_t count) {
-  const std::int64_t number = static_cast<std::int64_t>(count);
-  if (index < -number || index >= number)
-    throw py::index_error("no " + std::string(what) + " " + std::to_string(index) + ", there are " +
-                          std::to_string(count));
-  return static_cast<std::size_t>(index < 0 ? index + number : index);
-}
-
-// start and stop as NumPy slices them: negative from the end, clamped.
-std::pair<std::size_t, std::size_t> slice(std::int64_t start,
-                                          std::optional<std::int64_t> stop,
-                                          std::size_t count) {
-  const std::int64_t number = static_cast<std::int64_t>(count);
-  const auto place = [&](std::int64_t index) {
-    return std::clamp<std::int64_t>(index < 0 ? index + number : index, 0, number);
-  };
-  const std::int64_t first = place(start);
-  const std::int64_t last = std::max(first, place(stop.value_or(number)));
-  return {static_cast<std::size_t>(first), static_cast<std::size_t>(last)};
-}
-
-FloatArray frames(const Profile& profile, std::int64_t start, std::optional<std::int64_t> stop) {
-  const auto [first, last] = slice(start, stop, profile.numFrames());
-  const std::size_t width = profile.layout().numPlaces();
-  FloatArray array({last - first, width});
+FloatArray frames(const Profile& profile, std::int64_t start, Stop stop) {
+  const auto [first, last] = sliceOf(start, stop, profile.numFrames());
+  FloatArray array({last - first, profile.layout().numPlaces()});
   float* out = array.mutable_data();
   const py::gil_scoped_release unlocked;
   TactileFrame frame;
@@ -58,13 +34,10 @@ FloatArray frames(const Profile& profile, std::int64_t start, std::optional<std:
   return array;
 }
 
-FloatArray matrix(const Profile& profile,
-                  std::int64_t index,
-                  std::int64_t start,
-                  std::optional<std::int64_t> stop) {
+FloatArray matrix(const Profile& profile, std::int64_t index, std::int64_t start, Stop stop) {
   const SensorLayout& layout = profile.layout();
   const std::size_t m = checkedIndex("matrix", index, layout.numMatrices());
-  const auto [first, last] = slice(start, stop, profile.numFrames());
+  const auto [first, last] = sliceOf(start, stop, profile.numFrames());
   const MatrixLayout& shape = layout.matrix(m);
   FloatArray array({last - first,
                     static_cast<std::size_t>(shape.rows),
@@ -80,19 +53,53 @@ FloatArray matrix(const Profile& profile,
   return array;
 }
 
-template <typename TimeOf>
-TimeArray times(std::size_t count, TimeOf timeOf) {
-  TimeArray array(static_cast<py::ssize_t>(count));
-  std::int64_t* out = array.mutable_data();
-  for (std::size_t i = 0; i < count; ++i) out[i] = timeOf(i) / kUsPerMs;
+FloatArray taxel(const Profile& profile,
+                 std::int64_t index,
+                 std::int64_t x,
+                 std::int64_t y,
+                 std::int64_t start,
+                 Stop stop) {
+  const SensorLayout& layout = profile.layout();
+  const std::size_t m = checkedIndex("matrix", index, layout.numMatrices());
+  const MatrixLayout& shape = layout.matrix(m);
+  const std::size_t column = checkedIndex("column", x, static_cast<std::size_t>(shape.columns)),
+                    row = checkedIndex("row", y, static_cast<std::size_t>(shape.rows));
+  const auto [first, last] = sliceOf(start, stop, profile.numFrames());
+  FloatArray array(static_cast<py::ssize_t>(last - first));
+  float* out = array.mutable_data();
+  const std::size_t place =
+      layout.offset(m) + row * static_cast<std::size_t>(shape.columns) + column;
+  const py::gil_scoped_release unlocked;
+  TactileFrame frame;
+  for (std::size_t i = first; i < last; ++i) {
+    profile.readFrame(i, frame);
+    *out++ = frame.values[place];
+  }
   return array;
+}
+
+// Host times divided by `unitUs`.
+template <typename TimeOf>
+TimeArray times(std::size_t count, std::int64_t unitUs, const TimeOf& timeOf) {
+  return column<std::int64_t>(count, [&](std::size_t i) { return timeOf(i) / unitUs; });
+}
+
+TimeArray frameTimes(const Profile& profile, std::int64_t unitUs) {
+  return times(profile.numFrames(), unitUs, [&](std::size_t i) { return profile.frameTimeUs(i); });
+}
+
+DoubleArray secondsOf(const Profile& profile) {
+  return column<double>(profile.numFrames(), [&](std::size_t i) {
+    return static_cast<double>(profile.frameTimeUs(i) - profile.frameTimeUs(0)) / 1e6;
+  });
 }
 
 // (count, width): one row per sample.
 template <typename ValuesOf>
-DoubleArray samples(std::size_t count, std::size_t width, ValuesOf valuesOf) {
+DoubleArray samples(std::size_t count, std::size_t width, const ValuesOf& valuesOf) {
   DoubleArray array({count, width});
   double* out = array.mutable_data();
+  const py::gil_scoped_release unlocked;
   for (std::size_t i = 0; i < count; ++i) {
     const std::vector<double> values = valuesOf(i);
     out = std::copy(values.begin(), values.end(), out);
@@ -104,6 +111,11 @@ std::size_t angleWidth(const Profile& profile) {
   return profile.numAngles() > 0 ? profile.angles(0).deg.size() : profile.hand().axes.size();
 }
 
+std::size_t temperatureWidth(const Profile& profile) {
+  return profile.numTemperatures() > 0 ? profile.temperatures(0).degC.size()
+                                       : profile.hand().temperatureSensors.size();
+}
+
 DoubleArray anglesAtFrames(const Profile& profile) {
   if (profile.numAngles() == 0) throw py::value_error("this recording has no joint angles");
   return samples(profile.numFrames(), angleWidth(profile), [&](std::size_t i) {
@@ -111,23 +123,68 @@ DoubleArray anglesAtFrames(const Profile& profile) {
   });
 }
 
-DoubleArray temperatures(const Profile& profile) {
-  const std::size_t width = profile.numTemperatures() > 0
-                                ? profile.temperatures(0).degC.size()
-                                : profile.hand().temperatureSensors.size();
-  return samples(profile.numTemperatures(), width, [&](std::size_t i) {
-    return profile.temperatures(i).degC;
+DoubleArray temperaturesAtFrames(const Profile& profile) {
+  if (profile.numTemperatures() == 0) throw py::value_error("this recording has no temperatures");
+  return samples(profile.numFrames(), temperatureWidth(profile), [&](std::size_t i) {
+    return profile.temperaturesAtFrame(i)->degC;
   });
 }
 
-Profile load(const std::filesystem::path& path) {
-  const py::gil_scoped_release unlocked;
-  return openRecording(path);
+py::list matrices(const Profile& profile) {
+  py::list list;
+  for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m) {
+    const MatrixLayout& matrix = profile.layout().matrix(m);
+    const auto mask = [&](const Mask& flags) {
+      return grid<bool>(static_cast<std::size_t>(matrix.rows),
+                        static_cast<std::size_t>(matrix.columns),
+                        [&](std::size_t y, std::size_t x) {
+                          return flags[y * static_cast<std::size_t>(matrix.columns) + x] != 0;
+                        });
+    };
+    py::dict one;
+    one["index"] = m;
+    one["name"] = profile.hand().matrixName(m);
+    one["rows"] = matrix.rows;
+    one["columns"] = matrix.columns;
+    one["pitch_mm"] = matrix.pitchMm;
+    one["taxels"] = matrix.numTaxels();
+    one["enabled"] = matrix.numEnabled();
+    one["static_mask"] = mask(matrix.staticMask);
+    one["dynamic_mask"] = mask(matrix.dynamicMask);
+    list.append(one);
+  }
+  return list;
 }
 
-void save(const Profile& profile, const std::filesystem::path& path, bool force) {
-  const py::gil_scoped_release unlocked;
-  saveRecording(profile, {}, path, force ? Overwrite::kReplace : Overwrite::kRefuse);
+py::dict timing(const Profile& profile) {
+  const TimingReport report = timingOf(profile);
+  py::list gaps;
+  for (const Gap& gap : report.gaps) gaps.append(py::make_tuple(gap.frame, gap.seconds));
+  py::dict result;
+  result["duration_s"] = report.durationS;
+  result["rate_hz"] = report.rateHz;
+  result["mean_rate_hz"] = report.meanRateHz;
+  result["gaps"] = gaps;
+  return result;
+}
+
+Profile crop(const Profile& profile, std::int64_t begin, std::int64_t end) {
+  const std::size_t count = profile.numFrames();
+  const std::size_t first = checkedIndex("frame", begin, count),
+                    last = checkedIndex("frame", end, count);
+  if (first > last) throw py::value_error("begin lies behind end");
+  return unlocked(
+      [&](const Progress& progress) { return cropped(profile, first, last, progress); });
+}
+
+void save(const Profile& profile,
+          const std::filesystem::path& path,
+          const py::object& events,
+          bool force) {
+  const std::vector<RecordingEvent> noted = eventsFrom(events);
+  unlocked([&](const Progress& progress) {
+    saveRecording(profile, noted, path, force ? Overwrite::kReplace : Overwrite::kRefuse, progress);
+  });
 }
 
 std::string described(const Profile& profile) {
@@ -137,77 +194,170 @@ std::string described(const Profile& profile) {
          std::to_string(profile.numTemperatures()) + " temperature samples>";
 }
 
-}  // namespace
+using ProfileClass = py::class_<Profile>;
 
-void bindProfile(py::module_& module) {
-  py::class_<Profile>(
-      module, "Profile", "The data of one recording: three time series, each with its own stamps.")
-      .def("__len__", [](const Profile& profile) { return profile.numFrames(); })
+void bindValues(ProfileClass& profile) {
+  profile.def("__len__", [](const Profile& p) { return p.numFrames(); })
       .def("__repr__", &described)
       .def("frames",
            &frames,
            py::arg("start") = 0,
            py::arg("stop") = py::none(),
-           "All taxels of the frames start..stop (exclusive): float32 array (T, places), matrix "
-           "after matrix, row by row; counts, or what a filter made of them.")
-      .def(
-          "matrix",
-          &matrix,
-          py::arg("m"),
-          py::arg("start") = 0,
-          py::arg("stop") = py::none(),
-          "One matrix of the frames start..stop (exclusive): float32 array (T, rows, columns). Row "
-          "0 is the fingertip.")
-      .def_property_readonly(
-          "time_ms",
-          [](const Profile& p) {
-            return times(p.numFrames(), [&](std::size_t i) { return p.frameTimeUs(i); });
-          },
-          "Host time of each frame [ms since 1970]: int64 array (T,).")
+           "All taxels of the frames start..stop (exclusive): float32 (T, places), matrix after "
+           "matrix, row by row (SDH-2: 486 places); counts, or what a filter made of them.")
+      .def("matrix",
+           &matrix,
+           py::arg("m"),
+           py::arg("start") = 0,
+           py::arg("stop") = py::none(),
+           "One matrix of the frames start..stop (exclusive): float32 (T, rows, columns). Row 0 is "
+           "the fingertip.")
+      .def("taxel",
+           &taxel,
+           py::arg("m"),
+           py::arg("x"),
+           py::arg("y"),
+           py::arg("start") = 0,
+           py::arg("stop") = py::none(),
+           "One taxel of the frames start..stop (exclusive), column x, row y: float32 (T,).")
       .def_property_readonly(
           "angles",
           [](const Profile& p) {
             return samples(
                 p.numAngles(), angleWidth(p), [&](std::size_t i) { return p.angles(i).deg; });
           },
-          "Joint angles [deg]: float64 array (n, axes).")
+          "Joint angles [deg]: float64 (n, axes).")
       .def_property_readonly(
-          "angle_time_ms",
+          "temperatures",
           [](const Profile& p) {
-            return times(p.numAngles(), [&](std::size_t i) { return p.angleTimeUs(i); });
+            return samples(p.numTemperatures(), temperatureWidth(p), [&](std::size_t i) {
+              return p.temperatures(i).degC;
+            });
           },
-          "Host time of each sample of the angles [ms since 1970]: int64 array (n,).")
-      .def_property_readonly(
-          "temperatures", &temperatures, "Temperatures [deg C]: float64 array (n, sensors).")
-      .def_property_readonly(
-          "temperature_time_ms",
-          [](const Profile& p) {
-            return times(p.numTemperatures(),
-                         [&](std::size_t i) { return p.temperatureTimeUs(i); });
-          },
-          "Host time of each sample of the temperatures [ms since 1970]: int64 array (n,).")
+          "Temperatures [deg C]: float64 (n, sensors); 0: the sensor said nothing yet.")
       .def("angles_at_frames",
            &anglesAtFrames,
            "Joint angles that belong to each frame (the last sample at or before it, clamped at "
-           "both ends) [deg]: float64 array (T, axes). ValueError without angles.")
+           "both ends) [deg]: float64 (T, axes). ValueError without angles.")
+      .def("temperatures_at_frames",
+           &temperaturesAtFrames,
+           "Temperatures that belong to each frame, as angles_at_frames() [deg C]: float64 (T, "
+           "sensors). ValueError without temperatures.");
+}
+
+void bindTimes(ProfileClass& profile) {
+  profile
+      .def_property_readonly(
+          "time_ms",
+          [](const Profile& p) { return frameTimes(p, kUsPerMs); },
+          "Host time of each frame [ms since 1970]: int64 (T,).")
+      .def_property_readonly(
+          "time_us",
+          [](const Profile& p) { return frameTimes(p, 1); },
+          "The same, as exactly as it is known [us since 1970]: int64 (T,).")
+      .def_property_readonly(
+          "time_s", &secondsOf, "Time of each frame from the first one [s]: float64 (T,).")
+      .def_property_readonly(
+          "angle_time_ms",
+          [](const Profile& p) {
+            return times(p.numAngles(), kUsPerMs, [&](std::size_t i) { return p.angleTimeUs(i); });
+          },
+          "Host time of each sample of the angles [ms since 1970]: int64 (n,).")
+      .def_property_readonly(
+          "temperature_time_ms",
+          [](const Profile& p) {
+            return times(p.numTemperatures(), kUsPerMs, [&](std::size_t i) {
+              return p.temperatureTimeUs(i);
+            });
+          },
+          "Host time of each sample of the temperatures [ms since 1970]: int64 (n,).")
+      .def("timing",
+           &timing,
+           "dict duration_s [s], rate_hz (from the median interval) and mean_rate_hz [Hz] (0 with "
+           "fewer than two frames), gaps: list of (frame before it, length [s]); a gap is longer "
+           "than max(1 s, 5 median intervals).")
+      .def(
+          "frame_at",
+          [](const Profile& p, std::int64_t timeMs) {
+            return p.frameAt(timeMs * kUsPerMs + kUsPerMs - 1);
+          },
+          py::arg("time_ms"),
+          "The last frame at or before a host time [ms since 1970], clamped at both ends; None "
+          "without frames.");
+}
+
+}  // namespace
+
+void bindProfile(py::module_& module) {
+  ProfileClass profile(
+      module,
+      "Profile",
+      "The data of one recording: three time series (frames of taxels, joint angles, "
+      "temperatures), each with its own stamps. Read-only; several threads may read one. "
+      "Arrays have memory of their own: they stay when the profile is gone, and changing one "
+      "changes nothing else. From load(), from_arrays(), filter(), synthesize() ..");
+  bindValues(profile);
+  bindTimes(profile);
+  profile
+      .def_property_readonly("matrices",
+                             &matrices,
+                             "The matrices in wire order: list of dicts index, name, rows, "
+                             "columns, pitch_mm [mm], taxels, enabled (numbers of taxels that "
+                             "exist, that are scanned), static_mask, dynamic_mask (bool (rows, "
+                             "columns)).")
+      .def_property_readonly(
+          "axes",
+          [](const Profile& p) {
+            std::vector<std::string> names;
+            for (const AxisDescription& axis : p.hand().axes) names.push_back(axis.name);
+            return names;
+          },
+          "Names of the joints, in the order of `angles`.")
+      .def_property_readonly(
+          "temperature_sensors",
+          [](const Profile& p) {
+            std::vector<std::string> names;
+            for (const auto& sensor : p.hand().temperatureSensors) names.push_back(sensor.name);
+            return names;
+          },
+          "Names of the sensors, in the order of `temperatures`.")
+      .def_property_readonly(
+          "hand", [](const Profile& p) { return p.hand().name; }, "Which hand it is.")
+      .def_property_readonly(
+          "format",
+          [](const Profile& p) { return p.info().format; },
+          "Where it comes from: 'dsa', 'palpate', 'synthetic', 'arrays'.")
+      .def_property_readonly(
+          "value_type",
+          [](const Profile& p) {
+            return p.info().valueType == ValueType::kCounts ? "counts" : "float";
+          },
+          "'counts' (whole numbers) or 'float' (filtered).")
       .def_property_readonly(
           "serial", [](const Profile& p) { return p.info().serial; }, "Of the tactile controller.")
       .def_property_readonly(
+          "firmware",
+          [](const Profile& p) { return p.info().firmware; },
+          "What wrote it, as it says itself.")
+      .def_property_readonly(
           "warnings",
           [](const Profile& p) { return p.info().warnings; },
-          "Oddities found while reading that cost nothing.")
+          "Oddities found while reading that cost nothing: list of str.")
+      .def("crop",
+           &crop,
+           py::arg("begin"),
+           py::arg("end"),
+           "Frames begin..end, both inclusive, with the angles and temperatures that belong to "
+           "them, as a profile of its own. IndexError for a frame that isn't there.")
       .def("save",
            &save,
            py::arg("path"),
            py::kw_only(),
+           py::arg("events") = py::list(),
            py::arg("force") = false,
-           "Saves it in the form of the path's ending: .dsa, .palpate, .csv or .npz. OSError when "
-           "the file exists (unless force) or can't be written.");
-  module.def("load",
-             &load,
-             py::arg("path"),
-             "Reads a recording (.dsa or .palpate). OSError when it can't be read, ValueError when "
-             "it is damaged or no recording.");
+           "Saves it in the form of the path's ending: .dsa, .palpate, .csv or .npz, with events "
+           "as events() gives them. OSError when the file exists (unless force) or can't be "
+           "written.");
 }
 
 }  // namespace palpate::python

@@ -13,7 +13,7 @@
 namespace {
 
 using namespace palpate;
-using testing::Octets;
+using palpate::testing::Octets;
 
 void require(bool condition) {
   if (!condition) std::abort();
@@ -21,7 +21,7 @@ void require(bool condition) {
 
 // Returns the number of packets with that id.
 int requireWhole(const std::vector<LineMessage>& messages, int id) {
-  testing::PacketScanner scanner;
+  palpate::testing::PacketScanner scanner;
   std::size_t packets = 0;
   for (const LineMessage& message : messages) {
     Octets bytes;
@@ -33,7 +33,7 @@ int requireWhole(const std::vector<LineMessage>& messages, int id) {
   while (const auto packet = scanner.next()) {
     --packets;
     if (packet->id == id) ++wanted;
-    if (packet->id == 0) require(testing::decodeFramePayload(packet->payload).has_value());
+    if (packet->id == 0) require(palpate::testing::decodeFramePayload(packet->payload).has_value());
     require(packet->payload.size() >= 2);
   }
   require(packets == 0 && scanner.skipped == 0 && scanner.badChecksums == 0);
@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t piece = 1 + (data[0] & 0x1F);
   const std::int64_t stepUs = (data[0] >> 5) * 8000;
   auto rest = std::as_bytes(std::span(data + 1, size - 1));
-  testing::StillHand hand;
+  palpate::testing::StillHand hand;
   hand.noisy = (size & 1) != 0;
   DsaServer server(hand);
   std::int64_t nowUs = 0;
@@ -66,7 +66,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   server.quiet();
   require(!server.expectsMore());
   server.take();
-  const Octets query = testing::tactilePacket(0x01, {});
+  const Octets query = palpate::testing::tactilePacket(0x01, {});
   server.receive(std::as_bytes(std::span(query)), nowUs);
   require(requireWhole(server.take(), 0x01) == 1);
   return 0;

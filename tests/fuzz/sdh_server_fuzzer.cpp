@@ -15,7 +15,7 @@
 namespace {
 
 using namespace palpate;
-using testing::Octets;
+using palpate::testing::Octets;
 
 void require(bool condition) {
   if (!condition) std::abort();
@@ -27,7 +27,8 @@ void requireWhole(const LineMessage& message) {
   require(bytes.size() >= 3);
   if (message.checksummed) {
     require(bytes.size() == 34 && bytes[0] >= 0x80 && bytes[1] == 0x20 && bytes[2] == 7);
-    const std::uint16_t crc = testing::bitwiseChecksum(Octets(bytes.begin(), bytes.end() - 2));
+    const std::uint16_t crc =
+        palpate::testing::bitwiseChecksum(Octets(bytes.begin(), bytes.end() - 2));
     require(bytes[32] == (crc & 0xFF) && bytes[33] == crc >> 8);
     return;
   }
@@ -52,7 +53,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t piece = 1 + (data[0] & 0x1F);
   const std::int64_t stepUs = (data[0] >> 5) * 50'000;
   auto rest = std::as_bytes(std::span(data + 1, size - 1));
-  testing::StillHand hand;
+  palpate::testing::StillHand hand;
   SdhServer server(hand);
   std::int64_t nowUs = 0;
   while (!rest.empty()) {

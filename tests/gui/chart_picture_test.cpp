@@ -3,10 +3,9 @@
 #include <QImage>
 #include <QPainter>
 
-#include <qcustomplot.h>
-
 #include "gui/chart_style.h"
 #include "gui/picture_export.h"
+#include "gui/plot.h"
 #include "testing/testing.h"
 
 namespace palpate::gui {

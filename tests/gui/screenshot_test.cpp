@@ -73,6 +73,23 @@ TEST_F(ScreenshotTest, TheDemoPlaysFirst) {
   EXPECT_EQ(shot(demo).size(), QSize(1280, 800));
 }
 
+TEST_F(ScreenshotTest, WhatIsPressedAndRememberedIsSeen) {
+  const QImage usual = shot(ofDemoFile("usual.png"));
+  ScreenshotOptions with = ofDemoFile("pressed.png");
+  with.presses = {{"Ctrl+I", 0.0}};  // hides Inspect
+  const QImage pressed = shot(with);
+  EXPECT_EQ(pressed.size(), usual.size());
+  EXPECT_NE(pressed, usual);
+  with = ofDemoFile("keys.png");
+  with.presses = {{"F1", 0.0}};
+  EXPECT_NE(shot(with).size(), usual.size()) << "the dialogue alone";
+  with = ofDemoFile("settings.png");
+  testing::writeFile(folder_ / "s.ini", "[view]\nmap=viridis\n");
+  with.settings = folder_ / "s.ini";
+  EXPECT_NE(shot(with), usual);
+  EXPECT_EQ(testing::readFile(folder_ / "s.ini"), "[view]\nmap=viridis\n");
+}
+
 TEST_F(ScreenshotTest, SaysWhatIsWrong) {
   ScreenshotOptions with = ofDemoFile();
   with.frame = 99'999'999;

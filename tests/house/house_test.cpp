@@ -118,6 +118,11 @@ TEST(House, PackageListsAreWellFormed) {
       EXPECT_TRUE(seen.insert(line).second) << list << ": twice: " << line;
     }
   }
+  const std::string tools = readFile(projectFolder() / "cmake/package/debian-tools.txt");
+  for (const std::string& line : linesOf(tools)) {
+    if (line.empty() || line[0] == '#') continue;
+    EXPECT_TRUE(std::regex_match(line, std::regex("[a-z0-9.+-]+( \\[try\\])?"))) << line;
+  }
   EXPECT_TRUE(seen.contains("qt6-base-dev"));
   EXPECT_FALSE(seen.contains("libopencv-dev")) << "brings Qt 5 (docs/architecture.md)";
 }
@@ -128,6 +133,9 @@ TEST(House, ScriptsAreRunnableBash) {
                            "scripts/format",
                            "scripts/tidy",
                            "scripts/count_tests",
+                           "scripts/package",
+                           "cmake/package/trial",
+                           "cmake/package/try_package",
                            "scripts/prepare.sh",
                            ".ci/run"}) {
     const fs::path path = projectFolder() / name;

@@ -21,7 +21,8 @@ class Scripts : public ::testing::Test {
     for (const char* name : {"scripts", "cmake"}) {
       fs::create_directories(checkout_ / name);
       for (const auto& entry : fs::directory_iterator(projectFolder() / name))
-        fs::copy_file(entry.path(), checkout_ / name / entry.path().filename());
+        if (entry.is_regular_file())
+          fs::copy_file(entry.path(), checkout_ / name / entry.path().filename());
     }
     writeFile(checkout_ / "CMakePresets.json", "{}");
     writeFile(checkout_ / "cmake/debian-packages.txt", "# a comment\nfirst  # why\n\nsecond\n");
@@ -194,6 +195,61 @@ TEST_F(Scripts, SuitesInstallTheirOwnPackagesBesideTheOthers) {
       << logged();
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_EQ(result.out, "0 passed, 1 failed, 0 skipped\n");
+}
+
+class PackageScript : public Scripts {
+ protected:
+  void SetUp() override {
+    Scripts::SetUp();
+    fs::create_directories(checkout_ / "cmake/package");
+    writeFile(checkout_ / "cmake/package/debian-tools.txt", "third\nfourth [try]\n");
+    standIn("dpkg-query", "for each; do echo \"installed $each\"; done");
+    standIn("cpack", log("cpack") + "touch palpate_0.1.0-1_amd64.deb");
+    // What is unpacked: a program that works.
+    standIn("dpkg-deb",
+            "mkdir -p \"$3/usr/bin\"; printf '#!/bin/sh\\n' > \"$3/usr/bin/palpate\"; "
+            "chmod +x \"$3/usr/bin/palpate\"");
+    for (const char* tool : {"lintian", "desktop-file-validate", "appstreamcli", "xmllint"})
+      standIn(tool, log(tool));
+  }
+  const std::string package_ = "build/release/palpate_0.1.0-1_amd64.deb\n";
+};
+
+TEST_F(PackageScript, BuildsOnlyWhatIsInstalledPacksAndChecks) {
+  const ProgramResult result = call("package");
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_TRUE(result.out.ends_with(package_)) << result.out;
+  const auto lines = linesOf(logged());
+  ASSERT_EQ(lines.size(), 7u) << logged();
+  EXPECT_EQ(lines[0], "cmake --preset release -DPALPATE_TESTS=OFF -DPALPATE_BENCHMARKS=OFF");
+  EXPECT_TRUE(lines[1].ends_with("build/release palpate_installed")) << lines[1];
+  EXPECT_EQ(lines[2], "cpack -G DEB");
+  EXPECT_TRUE(lines[3].starts_with("lintian ")) << lines[3];
+}
+
+TEST_F(PackageScript, NamesNoPackageThatFailsACheck) {
+  standIn("lintian", "echo 'E: palpate: something'; exit 2");
+  const ProgramResult result = call("package");
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_NE(result.err.find("E: palpate: something"), std::string::npos) << result.err;
+}
+
+TEST_F(PackageScript, SaysWhyPackingFailed) {
+  standIn("cpack", "echo 'CPack Error: no'; exit 1");
+  const ProgramResult result = call("package");
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_NE(result.err.find("CPack Error: no"), std::string::npos) << result.err;
+}
+
+TEST_F(PackageScript, TrialTakesRootAndAFolder) {
+  EXPECT_EQ(call("package", {"--try"}).exitCode, 2);
+  EXPECT_EQ(call("package", {"--install"}).exitCode, 2);
+  standIn("id", "echo 1000");
+  const ProgramResult result = call("package", {"--try", (folder_ / "trial").string()});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_NE(result.err.find("root"), std::string::npos) << result.err;
+  EXPECT_EQ(logged(), "");
 }
 
 // Report lines as ctest 3.25 writes them.

@@ -161,9 +161,11 @@ const std::vector<Command>& allCommands() {
 fs::path dataFolder() {
   std::error_code ignored;
   if (const char* given = std::getenv("PALPATE_DATA"); given && *given) return given;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  const fs::path installed = program.parent_path().parent_path() / PALPATE_INSTALLED_DATA;
-  return fs::is_directory(installed, ignored) ? installed : fs::path(PALPATE_BUILD_DATA);
+  const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  const fs::path installed = folder.parent_path() / PALPATE_INSTALLED_DATA;
+  const fs::path built = folder / "share/palpate";  // a link that the build makes
+  return !fs::is_directory(installed, ignored) && fs::is_directory(built, ignored) ? built
+                                                                                   : installed;
 }
 
 int run(int argc, char** argv) {

@@ -34,6 +34,9 @@ int screenshot(const CommandLine& given) {
     options.frame = static_cast<std::size_t>(*frame);
   options.afterS = given.number("after", 0.0, 3600.0).value_or(0.0);
   options.docks = given.texts("dock");
+  for (const std::string& text : given.texts("press"))
+    options.presses.push_back(gui::parsedPress(text));
+  if (const auto settings = given.text("settings")) options.settings = *settings;
   options.theme = given.choice("theme", {"dark", "light"}).value_or("dark");
   options.demo = given.has("demo");
   options.dataFolder = dataFolder();
@@ -81,31 +84,35 @@ int workbenchCommand(const Words& words) {
   const CommandLine given(
       {.synopsis = "palpate [FILE...] | palpate --demo | palpate --screenshot OUT.png ..",
        .purpose = "Opens the window: on recordings, on a demonstration, or on its start page.",
-       .options = {{"demo", "", "open on the emulated hand, which grasps a ball"},
-                   {"screenshot", "OUT.png", "save a picture of the window and leave"},
-                   {"size", "WxH", "with --screenshot: size in pixels, default 1600x1000"},
-                   {"frame", "N", "with --screenshot: default the frame of largest sum"},
-                   {"after", "S", "with --screenshot: let the source play for S seconds first"},
-                   {"dock",
-                    "NAME",
-                    "with --screenshot: show this dock ('Calibrate/Noise': a page of it); may be "
-                    "repeated"},
-                   {"theme", "dark|light", "with --screenshot: default dark"},
-                   {"gl", "", "draw the hand in space with OpenGL, even by the processor"},
-                   {"no-gl", "", "draw the hand in space without OpenGL"},
-                   {"angles",
-                    "A0,..,A6",
-                    "joint angles [deg] assumed for recordings that have none"},
-                   {"filter", "SPEC", "look through a filter, as median:size=3; may be repeated"},
-                   {"recipe", "R.json", "look through a recipe of filters"},
-                   remoteOption(),
-                   socketOption(),
-                   {"force", "", "with --screenshot: replace OUT.png"}},
+       .options =
+           {{"demo", "", "open on the emulated hand, which grasps a ball"},
+            {"screenshot", "OUT.png", "save a picture of the window and leave"},
+            {"size", "WxH", "with --screenshot: size in pixels, default 1600x1000"},
+            {"frame", "N", "with --screenshot: default the frame of largest sum"},
+            {"after", "S", "with --screenshot: let the source play for S seconds first"},
+            {"dock",
+             "NAME",
+             "with --screenshot: show this dock ('Calibrate/Noise': a page of it); may be "
+             "repeated"},
+            {"press",
+             "KEY[@S]",
+             "with --screenshot: press a key of the list under F1, or a button by its words, S "
+             "seconds after the window shows what it was given; may be repeated. Where that opens "
+             "a dialogue the picture is the dialogue's"},
+            {"settings", "INI", "with --screenshot: what the window remembers; isn't changed"},
+            {"theme", "dark|light", "with --screenshot: default dark"},
+            {"gl", "", "draw the hand in space with OpenGL, even by the processor"},
+            {"no-gl", "", "draw the hand in space without OpenGL"},
+            {"angles", "A0,..,A6", "joint angles [deg] assumed for recordings that have none"},
+            {"filter", "SPEC", "look through a filter, as median:size=3; may be repeated"},
+            {"recipe", "R.json", "look through a recipe of filters"},
+            {"force", "", "with --screenshot: replace OUT.png"}},
        .example = "palpate foam_ball.dsa"},
       words);
   if (given.helpShown()) return kDone;
   if (given.has("screenshot")) return screenshot(given);
-  for (const char* option : {"size", "frame", "after", "dock", "theme", "force"})
+  for (const char* option :
+       {"size", "frame", "after", "dock", "press", "settings", "theme", "force"})
     if (given.has(option)) throw UsageError("--" + std::string(option) + " goes with --screenshot");
   if (given.has("demo") && !given.words().empty())
     throw UsageError("give FILE or --demo, not both");

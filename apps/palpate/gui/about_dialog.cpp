@@ -5,7 +5,8 @@
 #include <QVBoxLayout>
 
 #include <Eigen/Core>
-#include <qcustomplot.h>
+
+#include "gui/plot.h"
 
 namespace palpate::gui {
 

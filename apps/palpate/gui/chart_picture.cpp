@@ -7,9 +7,8 @@
 #include <cmath>
 #include <functional>
 
-#include <qcustomplot.h>
-
 #include "gui/picture_export.h"
+#include "gui/plot.h"
 #include "gui/theme.h"
 
 namespace palpate::gui {

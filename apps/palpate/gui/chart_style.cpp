@@ -1,6 +1,6 @@
 #include "gui/chart_style.h"
 
-#include <qcustomplot.h>
+#include "gui/plot.h"
 
 namespace palpate::gui {
 namespace {

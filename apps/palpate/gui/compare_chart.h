@@ -5,11 +5,10 @@
 #include <memory>
 #include <optional>
 
-#include <qcustomplot.h>
-
 #include <palpate/filter/alignment.h>
 #include <palpate/filter/profile_series.h>
 
+#include "gui/plot.h"
 #include "gui/plotted_signal.h"
 #include "gui/theme.h"
 

@@ -5,11 +5,10 @@
 #include <QString>
 #include <memory>
 
-#include <qcustomplot.h>
-
 #include <palpate/calibration/force_series.h>
 
 #include "gui/exported_view.h"
+#include "gui/plot.h"
 #include "gui/theme.h"
 
 namespace palpate::gui {

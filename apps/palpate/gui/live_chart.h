@@ -7,11 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include <qcustomplot.h>
-
 #include <palpate/live/signal_history.h>
 #include <palpate/recording/recording_event.h>
 
+#include "gui/plot.h"
 #include "gui/plotted_signal.h"
 #include "gui/theme.h"
 

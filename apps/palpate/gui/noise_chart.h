@@ -5,11 +5,10 @@
 #include <QString>
 #include <vector>
 
-#include <qcustomplot.h>
-
 #include <palpate/calibration/noise_floor.h>
 
 #include "gui/exported_view.h"
+#include "gui/plot.h"
 #include "gui/theme.h"
 
 namespace palpate::gui {

@@ -5,11 +5,10 @@
 #include <QString>
 #include <optional>
 
-#include <qcustomplot.h>
-
 #include <palpate/calibration/pressure_model.h>
 
 #include "gui/exported_view.h"
+#include "gui/plot.h"
 #include "gui/theme.h"
 
 namespace palpate::gui {

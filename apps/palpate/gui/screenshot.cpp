@@ -1,7 +1,9 @@
 #include <QEventLoop>
+#include <QFile>
 #include <QPixmap>
 #include <QTemporaryDir>
 #include <QTimer>
+#include <algorithm>
 
 #include <palpate/core/error.h>
 #include <palpate/core/output_file.h>
@@ -13,6 +15,7 @@
 #include "gui/hand_panel.h"
 #include "gui/main_window.h"
 #include "gui/picture_export.h"
+#include "gui/recognise_panel.h"
 #include "gui/slip_panel.h"
 #include "gui/spectrum_panel.h"
 #include "gui/timeline_panel.h"
@@ -58,8 +61,8 @@ void showCompare(MainWindow& window, const ScreenshotOptions& options) {
     window.playback().seekSeconds(common->toS);
 }
 
-// Connects, waits for the first frame, and lets it run.
-void runDemo(MainWindow& window, const ScreenshotOptions& options) {
+// Connects, and waits for the first frame.
+void runDemo(MainWindow& window) {
   constexpr double kPatienceS = 30.0;
   constexpr double kLookS = 0.02;
   QString failure;
@@ -72,7 +75,6 @@ void runDemo(MainWindow& window, const ScreenshotOptions& options) {
     runFor(kLookS);
   }
   QObject::disconnect(told);
-  runFor(options.afterS);
 }
 
 void goToFrame(MainWindow& window, const ScreenshotOptions& options) {
@@ -92,6 +94,42 @@ void goToFrame(MainWindow& window, const ScreenshotOptions& options) {
     playback.seekFrame(window.current()->table.frameOfLargestSum());
 }
 
+// Of a demo --after counts while it runs; of a recording it was played before: then time for what was pressed.
+QImage pressAll(MainWindow& window, const ScreenshotOptions& options) {
+  constexpr double kGraceS = 1.0;
+  double forS = options.demo ? options.afterS : 0.0;
+  for (const ScreenshotPress& press : options.presses)
+    forS = std::max(forS, press.atS + (options.demo ? 0.0 : kGraceS));
+  return forS > 0.0 ? runAndPress(window, options.presses, forS) : QImage();
+}
+
+void useSettings(const QString& to, const ScreenshotOptions& options) {
+  if (!options.settings) return;
+  if (!QFile::copy(QString::fromStdString(options.settings->string()), to))
+    throw FileError(*options.settings, "the settings can't be read");
+}
+
+CalibratePanel& calibration(const MainWindow& window) {
+  return *window.findChild<CalibratePanel*>("CalibratePanel");
+}
+
+RecognisePanel& recognition(const MainWindow& window) {
+  return *window.findChild<RecognisePanel*>();
+}
+
+void settle(MainWindow& window) {
+  window.waitForFilter();
+  window.timelinePanel().chart().store().waitForFirstLook();
+  window.timelinePanel().chart().storeBefore().waitForFirstLook();
+  window.spectrum().settle();
+  calibration(window).settle();
+  recognition(window).settle();
+  window.findChild<SlipPanel*>("SlipPanel")->settle();
+  // Layout requests and queued replots come one after the other.
+  constexpr int kRounds = 5;
+  for (int i = 0; i < kRounds; ++i) QCoreApplication::processEvents();
+}
+
 ThemeChoice themeOf(const ScreenshotOptions& options) {
   const ThemeChoice choice = themeChoiceFrom(QString::fromStdString(options.theme));
   if (choice == ThemeChoice::kSystem)
@@ -99,15 +137,11 @@ ThemeChoice themeOf(const ScreenshotOptions& options) {
   return choice;
 }
 
-CalibratePanel& calibration(const MainWindow& window) {
-  return *window.findChild<CalibratePanel*>("CalibratePanel");
-}
-
-void showPage(const MainWindow& window, const QString& page) {
-  CalibratePanel& panel = calibration(window);
+template <typename Panel>
+void showPage(Panel& panel, const QString& dock, const QString& page) {
   if (page.isEmpty()) return;
   if (!panel.pageNames().contains(page))
-    throw Error("no page '" + page.toStdString() + "' of Calibrate: there are " +
+    throw Error("no page '" + page.toStdString() + "' of " + dock.toStdString() + ": there are " +
                 panel.pageNames().join(", ").toStdString());
   panel.showPage(page);
 }
@@ -120,7 +154,9 @@ void showDocks(MainWindow& window, const ScreenshotOptions& options) {
                   window.dockNames().join(", ").toStdString());
     if (window.current() || window.liveShown()) window.showDock(name);
     // "Calibrate/Noise": one of its pages.
-    if (name == "Calibrate") showPage(window, QString::fromStdString(dock).section('/', 1));
+    const QString page = QString::fromStdString(dock).section('/', 1);
+    if (name == "Calibrate") showPage(calibration(window), name, page);
+    if (name == "Recognise") showPage(recognition(window), name, page);
   }
 }
 
@@ -136,6 +172,7 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   if (!qEnvironmentVariableIsSet("XDG_RUNTIME_DIR"))
     qputenv("XDG_RUNTIME_DIR", settings.path().toLocal8Bit());
   const auto application = makeApplication(argc, argv);
+  useSettings(settings.filePath("palpate.ini"), options);
   MainWindow window({.dataFolder = options.dataFolder,
                      .settingsPath = settings.filePath("palpate.ini"),
                      .clock = nullptr,
@@ -150,20 +187,16 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
     openAndWait(window, options);
     goToFrame(window, options);
   } else if (options.demo) {
-    runDemo(window, options);
+    runDemo(window);
   }
   if (options.comparedWith) showCompare(window, options);
   showDocks(window, options);
-  window.waitForFilter();
-  window.timelinePanel().chart().store().waitForFirstLook();
-  window.timelinePanel().chart().storeBefore().waitForFirstLook();
-  window.spectrum().settle();
-  calibration(window).settle();
-  window.findChild<SlipPanel*>("SlipPanel")->settle();
-  // Layout requests and queued replots come one after the other.
-  constexpr int kRounds = 5;
-  for (int i = 0; i < kRounds; ++i) QCoreApplication::processEvents();
-  const QImage image = window.grab().toImage();
+  QImage image = pressAll(window, options);
+  settle(window);
+  if (image.isNull()) image = window.grab().toImage();
+  // Nobody is there to be asked; a recording that was opened stays as it was.
+  window.askToEndRecording = [] { return true; };
+  window.askAboutUnsaved = [](const QString&) { return MainWindow::Unsaved::kDiscard; };
   window.close();
   writePng(options.out, image, options.force ? Overwrite::kReplace : Overwrite::kRefuse);
   return 0;

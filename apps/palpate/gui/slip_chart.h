@@ -6,11 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include <qcustomplot.h>
-
 #include <palpate/slip/slip_series.h>
 
 #include "gui/exported_view.h"
+#include "gui/plot.h"
 #include "gui/theme.h"
 
 namespace palpate::gui {

@@ -6,10 +6,9 @@
 #include <QString>
 #include <vector>
 
-#include <qcustomplot.h>
-
 #include "gui/color_map.h"
 #include "gui/exported_view.h"
+#include "gui/plot.h"
 #include "gui/spectrum_worker.h"
 #include "gui/theme.h"
 

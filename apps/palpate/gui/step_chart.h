@@ -4,11 +4,10 @@
 
 #include <QString>
 
-#include <qcustomplot.h>
-
 #include <palpate/calibration/step_report.h>
 
 #include "gui/exported_view.h"
+#include "gui/plot.h"
 #include "gui/plotted_signal.h"
 #include "gui/theme.h"
 

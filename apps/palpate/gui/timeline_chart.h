@@ -7,9 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include <qcustomplot.h>
-
 #include "gui/opened_recording.h"
+#include "gui/plot.h"
 #include "gui/plotted_curve.h"
 #include "gui/series_store.h"
 #include "gui/theme.h"

@@ -10,6 +10,8 @@
 
 #include <palpate/filter/recipe.h>
 
+#include "gui/screenshot_presses.h"
+
 namespace palpate::gui {
 
 // kFast: where a graphics card has it; kAlways: where the processor draws it, too, without asking first.
@@ -31,12 +33,15 @@ struct WorkbenchOptions {
 int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options);
 
 struct ScreenshotOptions {
-  std::filesystem::path out;         // PNG
-  QSize size{1600, 1000};            // of the window [px]
-  std::optional<std::size_t> frame;  // default: the frame of largest sum
-  double afterS = 0.0;               // let it play for so long first [s]
-  std::vector<std::string> docks;    // to show, by name; empty: the usual ones
-  std::string theme = "dark";        // "dark" or "light"
+  std::filesystem::path out;                  // PNG
+  QSize size{1600, 1000};                     // of the window [px]
+  std::optional<std::size_t> frame;           // default: the frame of largest sum
+  double afterS = 0.0;                        // let it play for so long first [s]
+  std::vector<std::string> docks;             // to show, by name; empty: the usual ones
+  std::vector<ScreenshotPress> presses = {};  // before the picture
+  std::optional<std::filesystem::path> settings =
+      {};                      // INI file the window starts with; it stays as it is
+  std::string theme = "dark";  // "dark" or "light"
   std::optional<std::filesystem::path> file;
   std::optional<std::filesystem::path> comparedWith;  // show Compare, `file` as A and this as B
   bool demo = false;
@@ -47,9 +52,9 @@ struct ScreenshotOptions {
   std::optional<Recipe> recipe = {};
 };
 
-// Shows the real window, saves its picture and closes it; the user's settings are neither used nor
-// changed. Returns the exit code 0. Throws Error (leaves included) for a recording that can't be
-// read, a frame or dock that isn't there, an unknown theme, or a file that can't be written.
+// Shows the real window, saves its picture (of the dialogue, where one is open in the end) and closes it; the user's settings
+// are neither used nor changed. Returns the exit code 0. Throws Error (leaves included) for a recording that can't be
+// read, a frame or dock that isn't there, nothing to press, an unknown theme, or a file that can't be written.
 int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options);
 
 }  // namespace palpate::gui

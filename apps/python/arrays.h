@@ -1,0 +1,88 @@
+// NumPy arrays in and out, JSON as Python has it, words for choices: what all bindings share.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include "palpate/core/json.h"
+
+namespace palpate::python {
+
+constexpr std::int64_t kUsPerMs = 1000;
+
+using DoubleArray = pybind11::array_t<double, pybind11::array::c_style>;
+using FloatArray = pybind11::array_t<float, pybind11::array::c_style>;
+using TimeArray = pybind11::array_t<std::int64_t, pybind11::array::c_style>;
+using FlagArray = pybind11::array_t<bool, pybind11::array::c_style>;
+// Arguments: any array or list of numbers.
+using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+
+// All raise ValueError naming the argument and the shape it should have.
+std::vector<double> vectorOf(const Numbers& array, const char* name);
+Eigen::MatrixXd matrixOf(const Numbers& array, const char* name);  // (rows, columns)
+// (k, 3): points as rows.
+std::vector<Eigen::Vector3d> pointsOf(const Numbers& array, const char* name);
+std::string shapeText(const pybind11::array& array);  // "(3, 4)"
+
+DoubleArray arrayOf(const Eigen::MatrixXd& matrix);
+DoubleArray arrayOf(const Eigen::VectorXd& vector);
+template <typename T>
+pybind11::array_t<T> arrayOf(const std::vector<T>& values) {
+  return pybind11::array_t<T>(static_cast<pybind11::ssize_t>(values.size()), values.data());
+}
+
+// A column of `count` values: of(i) each.
+template <typename T, typename Of>
+pybind11::array_t<T> column(std::size_t count, const Of& of) {
+  pybind11::array_t<T> array(static_cast<pybind11::ssize_t>(count));
+  T* out = array.mutable_data();
+  for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<T>(of(i));
+  return array;
+}
+// (rows, columns): of(i, j) each.
+template <typename T, typename Of>
+pybind11::array_t<T> grid(std::size_t rows, std::size_t columns, const Of& of) {
+  pybind11::array_t<T> array({rows, columns});
+  T* out = array.mutable_data();
+  for (std::size_t i = 0; i < rows; ++i)
+    for (std::size_t j = 0; j < columns; ++j) *out++ = static_cast<T>(of(i, j));
+  return array;
+}
+// Array of texts: names[codes[i]].
+pybind11::object words(const std::vector<std::string>& names, const std::vector<int>& codes);
+
+// A Python index (negative: from the end) of one of `count` things; raises IndexError.
+std::size_t checkedIndex(const char* what, std::int64_t index, std::size_t count);
+// start and stop as NumPy slices them: negative from the end, clamped.
+std::pair<std::size_t, std::size_t> sliceOf(std::int64_t start,
+                                            std::optional<std::int64_t> stop,
+                                            std::size_t count);
+
+// null, numbers, texts, lists and dicts.
+pybind11::object toPython(const Json& json);
+Json toJson(const pybind11::object& value);  // raises TypeError for what JSON hasn't
+
+// The value of a word; raises ValueError listing the known ones.
+template <typename T>
+T choice(const char* name,
+         const std::string& word,
+         std::initializer_list<std::pair<const char*, T>> known) {
+  std::string list;
+  for (const auto& [text, value] : known) {
+    if (word == text) return value;
+    list += (list.empty() ? "" : ", ") + std::string(text);
+  }
+  throw std::invalid_argument(std::string(name) + " is '" + word + "'; it is one of " + list);
+}
+
+}  // namespace palpate::python

@@ -1,0 +1,282 @@
+// palpate.grasps(), features(), Features.
+#include <filesystem>
+#include <string>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "palpate/core/error.h"
+#include "palpate/recognition/study_features.h"
+
+#include "python/arrays.h"
+#include "python/bindings.h"
+#include "python/features.h"
+#include "python/interruption.h"
+
+namespace palpate::python {
+namespace py = pybind11;
+
+FeatureSet featureSetOf(const std::string& name) {
+  return choice<FeatureSet>("set",
+                            name,
+                            {{"study", FeatureSet::kStudy},
+                             {"best", FeatureSet::kBest},
+                             {"session", FeatureSet::kSession}});
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+FeatureTable tableOf(const Profile& profile, FeatureSet set, const Progress& progress) {
+  FeatureTable table;
+  table.set = set;
+  table.names = featureNames(set);
+  table.numFiles = 1;
+  table.sensor = sensorText(profile.layout());
+  const RecordingFeatures found = recordingFeatures(profile, set, sdh2PinchHand(), progress);
+  if (!found.trouble.empty()) table.troubles.push_back(found.trouble);
+  for (const GraspFeatures& grasp : found.grasps) {
+    if (!grasp.trouble.empty()) {
+      table.troubles.push_back("frames " + std::to_string(grasp.begin) + " to " +
+                               std::to_string(grasp.end) + ": " + grasp.trouble);
+      ++table.failedGrasps;
+      continue;
+    }
+    FeatureRow row;
+    row.begin = grasp.begin;
+    row.end = grasp.end;
+    row.initialFrame = grasp.initialFrame;
+    row.endFrame = grasp.endFrame;
+    row.timeUs = profile.frameTimeUs(grasp.begin);
+    row.values = grasp.values;
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::vector<fs::path> pathsOf(const py::object& source) {
+  const bool one = py::isinstance<py::str>(source) || py::hasattr(source, "__fspath__");
+  if (!one && !py::isinstance<py::sequence>(source))
+    throw py::type_error("a source is a Profile, Features, a path, or a list of paths");
+  if (one) return {source.cast<fs::path>()};
+  std::vector<fs::path> paths;
+  for (const py::handle item : source) paths.push_back(item.cast<fs::path>());
+  if (paths.empty()) throw py::value_error("no path is given");
+  return paths;
+}
+
+}  // namespace
+
+FeatureTable featuresOf(const py::object& source, FeatureSet set) {
+  if (py::isinstance<FeatureTable>(source)) {
+    auto table = source.cast<FeatureTable>();
+    if (table.set != set)
+      throw Error("these are features of the set " + std::string(featureSetName(table.set)) +
+                  ", wanted is " + std::string(featureSetName(set)));
+    return table;
+  }
+  if (py::isinstance<Profile>(source)) {
+    const auto profile = source.cast<Profile>();
+    return unlocked([&](const Progress& progress) { return tableOf(profile, set, progress); });
+  }
+  const std::vector<fs::path> paths = pathsOf(source);
+  FeatureGatherOptions options;
+  options.set = set;
+  return unlocked(
+      [&](const Progress& progress) { return gatherFeatures(paths, options, progress); });
+}
+
+void requireRows(const FeatureTable& table) {
+  if (!table.rows.empty()) return;
+  throw Error("no grasp with features in " + std::to_string(table.numFiles) +
+              (table.numFiles == 1 ? " recording" : " recordings") +
+              (table.troubles.empty() ? "" : ": " + table.troubles.front()));
+}
+
+std::vector<std::int64_t> timesOf(const FeatureTable& table) {
+  std::vector<std::int64_t> times;
+  for (const FeatureRow& row : table.rows) times.push_back(row.timeUs);
+  return times;
+}
+
+Eigen::MatrixXd valuesOf(const FeatureTable& table) {
+  Eigen::MatrixXd x(static_cast<Eigen::Index>(table.rows.size()),
+                    static_cast<Eigen::Index>(table.names.size()));
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    x.row(static_cast<Eigen::Index>(i)) =
+        Eigen::Map<const Eigen::RowVectorXd>(table.rows[i].values.data(), x.cols());
+  return x;
+}
+
+namespace {
+
+py::dict grasps(const Profile& profile, const std::string& rule) {
+  GraspSegmentOptions options;
+  options.rule = choice<GraspRule>(
+      "rule", rule, {{"general", GraspRule::kGeneral}, {"study", GraspRule::kStudy}});
+  if (options.rule == GraspRule::kStudy)
+    for (const std::size_t needed : options.studyMatrices)
+      if (needed >= profile.layout().numMatrices())
+        throw py::value_error("rule 'study' looks at matrix " + std::to_string(needed) +
+                              ", which this sensor hasn't: use 'general'");
+  const std::vector<GraspSegment> found =
+      unlocked([&](const Progress& progress) { return findGrasps(profile, options, progress); });
+  const std::size_t n = found.size();
+  py::dict table;
+  table["begin"] = column<std::int64_t>(n, [&](std::size_t i) { return found[i].begin; });
+  table["end"] = column<std::int64_t>(n, [&](std::size_t i) { return found[i].end; });
+  table["begin_ms"] = column<std::int64_t>(
+      n, [&](std::size_t i) { return profile.frameTimeUs(found[i].begin) / kUsPerMs; });
+  table["end_ms"] = column<std::int64_t>(
+      n, [&](std::size_t i) { return profile.frameTimeUs(found[i].end) / kUsPerMs; });
+  py::list fingers;
+  for (const GraspSegment& grasp : found) fingers.append(py::tuple(py::cast(grasp.fingers)));
+  table["fingers"] = fingers;
+  table["quality"] = column<double>(n, [&](std::size_t i) { return found[i].quality; });
+  return table;
+}
+
+py::dict studyOf(const Profile& profile,
+                 std::int64_t begin,
+                 std::int64_t end,
+                 std::optional<std::int64_t> endFrame) {
+  GraspSegment grasp;
+  grasp.begin = checkedIndex("frame", begin, profile.numFrames());
+  grasp.end = checkedIndex("frame", end, profile.numFrames());
+  if (grasp.begin > grasp.end) throw py::value_error("begin lies behind end");
+  std::optional<std::size_t> chosen;
+  if (endFrame) chosen = checkedIndex("frame", *endFrame, profile.numFrames());
+  const StudyFeatures found = unlocked(
+      [&](const Progress&) { return studyFeatures(profile, grasp, sdh2PinchHand(), chosen); });
+  py::dict result;
+  result["trouble"] = found.trouble;
+  result["initial_frame"] = found.initialFrame;
+  result["end_frame"] = found.endFrame;
+  result["other_end_frame"] = found.otherEndFrame;
+  result["names"] = studyFeatureNames();
+  result["values"] = arrayOf(found.values);
+  return result;
+}
+
+template <typename Of>
+TimeArray wholeColumn(const FeatureTable& table, const Of& of) {
+  return column<std::int64_t>(table.rows.size(), [&](std::size_t i) { return of(table.rows[i]); });
+}
+
+void bindTable(py::module_& module) {
+  py::class_<FeatureTable>(
+      module, "Features", "The features of grasps, a row each: from features().")
+      .def("__len__", [](const FeatureTable& table) { return table.rows.size(); })
+      .def("__repr__",
+           [](const FeatureTable& table) {
+             return "<palpate.Features: " + std::to_string(table.rows.size()) + " grasps, " +
+                    std::to_string(table.names.size()) + " features, set '" +
+                    std::string(featureSetName(table.set)) + "'>";
+           })
+      .def_property_readonly(
+          "set",
+          [](const FeatureTable& table) { return std::string(featureSetName(table.set)); },
+          "'study', 'best' or 'session'.")
+      .def_property_readonly(
+          "names", [](const FeatureTable& table) { return table.names; }, "Of the features.")
+      .def_property_readonly(
+          "values",
+          [](const FeatureTable& table) { return arrayOf(valuesOf(table)); },
+          "float64 (grasps, features), finite.")
+      .def_property_readonly(
+          "classes",
+          [](const FeatureTable& table) {
+            std::vector<std::string> names;
+            for (const FeatureRow& row : table.rows) names.push_back(row.className);
+            return names;
+          },
+          "Class of each grasp ('' where it isn't known): list of str.")
+      .def_property_readonly(
+          "files",
+          [](const FeatureTable& table) {
+            std::vector<std::string> names;
+            for (const FeatureRow& row : table.rows) names.push_back(row.file.string());
+            return names;
+          },
+          "Recording of each grasp ('' of a Profile): list of str.")
+      .def_property_readonly(
+          "begin",
+          [](const FeatureTable& t) {
+            return wholeColumn(t, [](const FeatureRow& row) { return row.begin; });
+          },
+          "First frame of each grasp: int64 (grasps,).")
+      .def_property_readonly(
+          "end",
+          [](const FeatureTable& t) {
+            return wholeColumn(t, [](const FeatureRow& row) { return row.end; });
+          },
+          "Last frame of each grasp (inclusive): int64 (grasps,).")
+      .def_property_readonly(
+          "initial_frame",
+          [](const FeatureTable& t) {
+            return wholeColumn(t, [](const FeatureRow& row) { return row.initialFrame; });
+          },
+          "Frame at which it begins for the features: int64 (grasps,).")
+      .def_property_readonly(
+          "end_frame",
+          [](const FeatureTable& t) {
+            return wholeColumn(t, [](const FeatureRow& row) { return row.endFrame; });
+          },
+          "Frame at which it ends for the features: int64 (grasps,).")
+      .def_property_readonly(
+          "time_ms",
+          [](const FeatureTable& t) {
+            return wholeColumn(t, [](const FeatureRow& row) { return row.timeUs / kUsPerMs; });
+          },
+          "Host time of frame `begin` [ms since 1970]: int64 (grasps,).")
+      .def_property_readonly(
+          "troubles",
+          [](const FeatureTable& table) { return table.troubles; },
+          "A line each: files that can't be read, grasps without features, and why.")
+      .def_property_readonly(
+          "sensor", [](const FeatureTable& table) { return table.sensor; }, "Sensor of all rows.");
+}
+
+}  // namespace
+
+void bindFeatures(py::module_& module) {
+  bindTable(module);
+  module.def("grasps",
+             &grasps,
+             py::arg("profile"),
+             py::kw_only(),
+             py::arg("rule") = "general",
+             "Where the grasps are: dict of columns begin, end (frames, both inclusive), begin_ms, "
+             "end_ms [ms since 1970], fingers (list of tuples), quality (0..1). rule 'general': at "
+             "least two fingers touch for more than 20 frames and 0.6 s; 'study': matrices 1 and 5 "
+             "for more than 20 frames.");
+  module.def(
+      "features",
+      [](const py::object& source, const std::string& set) {
+        return featuresOf(source, featureSetOf(set));
+      },
+      py::arg("source"),
+      py::arg("set") = "best",
+      "The features of every pinch grasp (both distal pads touch): source is a Profile, a "
+      "recording, a folder with a folder of recordings per class ('_' in its name as blank), or a "
+      "list of these paths. set 'best': holds on another day; 'study': the study's 54; "
+      "'session': best within one session only. What can't be used is said in `troubles`.");
+  module.def(
+      "feature_names",
+      [](const std::string& set) { return featureNames(featureSetOf(set)); },
+      py::arg("set") = "best",
+      "Names of the features of a set: list of str.");
+  module.def("study_features",
+             &studyOf,
+             py::arg("profile"),
+             py::arg("begin"),
+             py::arg("end"),
+             py::kw_only(),
+             py::arg("end_frame") = py::none(),
+             "The study's 54 features of one grasp, frames begin..end (both inclusive): dict "
+             "trouble (why there are none), initial_frame, end_frame, other_end_frame (the tied "
+             "candidate), names, values (54,). end_frame: takes the picture from this frame.");
+}
+
+}  // namespace palpate::python

@@ -1,0 +1,173 @@
+// palpate.kinematics(), surface_points(), preshape(), bounding_sphere().
+#include <cmath>
+#include <string>
+
+#include <pybind11/stl.h>
+
+#include "palpate/kinematics/bounding_sphere.h"
+#include "palpate/model/preshape.h"
+
+#include "python/arrays.h"
+#include "python/bindings.h"
+#include "python/geometry.h"
+
+namespace palpate::python {
+namespace py = pybind11;
+
+GeometryDescription geometryNamed(const std::string& fingertip) {
+  return sdh2Geometry(choice<double>(
+      "fingertip",
+      fingertip,
+      {{"study", kStudyFingertipRadiusMm}, {"effective", kEffectiveFingertipRadiusMm}}));
+}
+
+namespace {
+
+// Poses: (axes,) is one, (n, axes) are n.
+struct Poses {
+  bool several = false;
+  std::vector<std::vector<double>> anglesDeg;
+};
+
+Poses posesOf(const Numbers& angles, std::size_t numAxes) {
+  Poses poses;
+  poses.several = angles.ndim() == 2;
+  const auto width = static_cast<py::ssize_t>(numAxes);
+  if ((angles.ndim() != 1 && !poses.several) || angles.shape(angles.ndim() - 1) != width)
+    throw py::value_error("angles_deg has shape " + shapeText(angles) + "; it takes (" +
+                          std::to_string(numAxes) + ",) or (n, " + std::to_string(numAxes) + ")");
+  const py::ssize_t count = poses.several ? angles.shape(0) : 1;
+  for (py::ssize_t i = 0; i < count; ++i)
+    poses.anglesDeg.emplace_back(angles.data() + i * width, angles.data() + (i + 1) * width);
+  return poses;
+}
+
+// (n, k, 3), or (k, 3) of a single pose.
+DoubleArray vectors(const Poses& poses, std::size_t k) {
+  std::vector<std::size_t> shape = {k, 3};
+  if (poses.several) shape.insert(shape.begin(), poses.anglesDeg.size());
+  return DoubleArray(shape);
+}
+
+double* put(double* out, const Eigen::Vector3d& vector) {
+  for (const double value : {vector.x(), vector.y(), vector.z()}) *out++ = value;
+  return out;
+}
+
+py::dict kinematics(const Numbers& anglesDeg, const std::string& fingertip) {
+  const HandGeometry geometry(geometryNamed(fingertip));
+  const GeometryDescription& hand = geometry.description();
+  const Poses poses = posesOf(anglesDeg, hand.numAxes);
+  const std::size_t places = hand.layout.numPlaces();
+  DoubleArray positions = vectors(poses, places), normals = vectors(poses, places);
+  double *position = positions.mutable_data(), *normal = normals.mutable_data();
+  {
+    const py::gil_scoped_release unlocked;
+    HandPose pose;
+    for (const std::vector<double>& angles : poses.anglesDeg) {
+      geometry.pose(angles, pose);
+      for (const Eigen::Vector3d& one : pose.positionsMm()) position = put(position, one);
+      for (const Eigen::Vector3d& one : pose.normals()) normal = put(normal, one);
+    }
+  }
+  std::vector<std::int64_t> matrix, x, y;
+  std::vector<std::uint8_t> exists;
+  for (std::size_t m = 0; m < hand.layout.numMatrices(); ++m)
+    for (int row = 0; row < hand.layout.matrix(m).rows; ++row)
+      for (int column = 0; column < hand.layout.matrix(m).columns; ++column) {
+        matrix.push_back(static_cast<std::int64_t>(m));
+        x.push_back(column);
+        y.push_back(row);
+        exists.push_back(hand.layout.matrix(m).exists(row, column) ? 1 : 0);
+      }
+  py::dict result;
+  result["matrix"] = arrayOf(matrix);
+  result["x"] = arrayOf(x);
+  result["y"] = arrayOf(y);
+  result["exists"] = column<bool>(places, [&](std::size_t i) { return exists[i] != 0; });
+  result["position_mm"] = positions;
+  result["normal"] = normals;
+  return result;
+}
+
+py::dict surfacePoints(const Numbers& anglesDeg,
+                       const Numbers& points,
+                       const std::string& fingertip) {
+  const HandGeometry geometry(geometryNamed(fingertip));
+  const Poses poses = posesOf(anglesDeg, geometry.description().numAxes);
+  const std::vector<Eigen::Vector3d> wanted = pointsOf(points, "points");
+  std::vector<std::size_t> matrices;
+  for (const Eigen::Vector3d& point : wanted) {
+    if (point.x() != std::floor(point.x()) || std::abs(point.x()) > 1e6)
+      throw py::value_error("the first column of points is a matrix: a whole number");
+    matrices.push_back(checkedIndex("matrix",
+                                    static_cast<std::int64_t>(point.x()),
+                                    geometry.description().layout.numMatrices()));
+  }
+  DoubleArray positions = vectors(poses, wanted.size()), normals = vectors(poses, wanted.size());
+  double *position = positions.mutable_data(), *normal = normals.mutable_data();
+  for (const std::vector<double>& angles : poses.anglesDeg) {
+    const HandPose pose = geometry.pose(angles);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      position = put(position, pose.pointMm(matrices[i], wanted[i].y(), wanted[i].z()));
+      normal = put(normal, pose.normalAt(matrices[i], wanted[i].y(), wanted[i].z()));
+    }
+  }
+  py::dict result;
+  result["position_mm"] = positions;
+  result["normal"] = normals;
+  return result;
+}
+
+py::object sphereAround(const Numbers& points) {
+  const auto sphere = boundingSphere(pointsOf(points, "points_mm"));
+  if (!sphere) return py::none();
+  return py::make_tuple(arrayOf(Eigen::VectorXd(sphere->centreMm)), sphere->radiusMm);
+}
+
+py::dict preshapes() {
+  py::dict result;
+  for (const Preshape& preshape : sdh2Preshapes()) result[py::str(preshape.name)] = preshape.title;
+  return result;
+}
+
+}  // namespace
+
+void bindKinematics(py::module_& module) {
+  module.def("kinematics",
+             &kinematics,
+             py::arg("angles_deg"),
+             py::kw_only(),
+             py::arg("fingertip") = "study",
+             "Where the taxels of an SDH-2 are: angles_deg (7,) or (n, 7) [deg]. dict matrix, x, "
+             "y, exists (486,): which taxel; position_mm (486, 3) or (n, 486, 3) [mm] in the "
+             "hand's base frame (z up from the palm), normal: unit vectors out of the sensor, of "
+             "the same shape. fingertip: radius of the bent fingertips, 'study' (58 mm) or "
+             "'effective' (48.4 mm, which makes a rigid object measure the same).");
+  module.def("surface_points",
+             &surfacePoints,
+             py::arg("angles_deg"),
+             py::arg("points"),
+             py::kw_only(),
+             py::arg("fingertip") = "study",
+             "Points of the sensors' surfaces, also between taxels: points (k, 3), rows of matrix, "
+             "x_mm, y_mm from the centre of taxel (0, 0). dict position_mm, normal (k, 3) or (n, "
+             "k, 3), as kinematics().");
+  module.def("bounding_sphere",
+             &sphereAround,
+             py::arg("points_mm"),
+             "The smallest sphere around points (n, 3) [mm]: (centre (3,), radius); None around "
+             "none.");
+  module.def(
+      "preshapes", &preshapes, "Grasp preshapes of the SDH-2: dict name -> title for people.");
+  module.def(
+      "preshape",
+      [](const std::string& name, double close) {
+        return arrayOf(sdh2Preshape(name).anglesDeg(close));
+      },
+      py::arg("name"),
+      py::arg("close") = 0.0,
+      "Joint angles of a preshape, close 0 (open) .. 1 (closed): (7,) [deg].");
+}
+
+}  // namespace palpate::python

@@ -1,0 +1,236 @@
+// palpate.Model.
+#include <array>
+#include <ctime>
+#include <filesystem>
+#include <string>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/recognition/model_evaluation.h"
+
+#include "python/arrays.h"
+#include "python/bindings.h"
+#include "python/features.h"
+#include "python/interruption.h"
+#include "python/models.h"
+
+namespace palpate::python {
+namespace py = pybind11;
+namespace {
+
+std::string utcNow() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text.data();
+}
+
+}  // namespace
+
+void sign(TrainedModel& model) {
+  model.programVersion = PALPATE_VERSION;
+  model.madeAt = utcNow();
+}
+
+std::vector<ModelInput> inputsFor(const FeatureTable& table, const Progress& progress) {
+  for (const FeatureRow& row : table.rows)
+    if (row.file.empty()) return {};
+  return inputsOf(table, progress);
+}
+
+namespace {
+
+constexpr std::size_t kTop = 5;
+
+OffsetChoice offsetOf(const py::object& offset) {
+  if (py::isinstance<py::str>(offset)) return OffsetChoice::from(offset.cast<std::string>());
+  return OffsetChoice::from(numberText(offset.cast<double>()));
+}
+
+Json offsetJson(const SessionOffset& offset) {
+  return Json::object()
+      .set("mm", offset.mm)
+      .set("sd_mm", offset.sdMm)
+      .set("origin", offsetOriginName(offset.origin))
+      .set("grasps", offset.grasps)
+      .set("objects", offset.objects)
+      .set("trusted", offset.trusted)
+      .set("text", offset.text());
+}
+
+std::string labelOf(const TrainedModel& model, int label) {
+  return label == Verdict::kUnknown ? "unknown" : model.classes[static_cast<std::size_t>(label)];
+}
+
+Json graspJson(const TrainedModel& model, const FeatureRow& row, const Verdict& verdict) {
+  Json top = Json::array();
+  for (std::size_t k = 0; k < std::min(kTop, verdict.ranking.size()); ++k)
+    top.push(
+        Json::object().set("label", labelOf(model, verdict.ranking[k])).set("p", verdict.p[k]));
+  return Json::object()
+      .set("file", row.file.string())
+      .set("begin", row.begin)
+      .set("end", row.end)
+      .set("label", labelOf(model, verdict.label))
+      .set("confidence", verdict.confidence)
+      .set("sure", verdict.sure)
+      .set("novelty", verdict.novelty)
+      .set("top", std::move(top));
+}
+
+py::object classify(const TrainedModel& model, const py::object& source, const py::object& offset) {
+  const OffsetChoice chosen = offsetOf(offset);
+  const FeatureTable table = featuresOf(source, model.set);
+  Json grasps = Json::array(), warnings = Json::array();
+  for (const std::string& trouble : table.troubles) warnings.push(trouble);
+  SessionUse use;
+  if (!table.rows.empty()) {
+    requireFits(model, table);
+    const Eigen::MatrixXd x = valuesOf(table);
+    use = sessionFor(model, x, timesOf(table), chosen);
+    for (const std::string& warning : use.warnings) warnings.push(warning);
+    const std::vector<Verdict> verdicts = classifyRows(model, x, use.offset, use.sameSession);
+    for (std::size_t i = 0; i < verdicts.size(); ++i)
+      grasps.push(graspJson(model, table.rows[i], verdicts[i]));
+  }
+  return toPython(Json::object()
+                      .set("grasps", std::move(grasps))
+                      .set("session_offset", offsetJson(use.offset))
+                      .set("warnings", std::move(warnings)));
+}
+
+py::object evaluateWith(const TrainedModel& model,
+                        const py::object& source,
+                        std::size_t adapt,
+                        const py::object& offset) {
+  EvaluationOptions options;
+  options.adaptPerClass = adapt;
+  options.offset = offsetOf(offset);
+  const FeatureTable table = featuresOf(source, model.set);
+  requireRows(table);
+  requireFits(model, table);
+  const SampleSet samples = samplesOf(table, model.classes);
+  const std::vector<std::int64_t> times = timesOf(table);
+  const ModelEvaluation evaluation =
+      unlocked([&](const Progress&) { return evaluateModel(model, samples, times, options); });
+  return toPython(jsonOf(evaluation));
+}
+
+TrainedModel adapted(const TrainedModel& model, const py::object& source) {
+  const FeatureTable table = featuresOf(source, model.set);
+  requireRows(table);
+  requireFits(model, table);
+  const SampleSet today = samplesOf(table, model.classes);
+  return unlocked([&](const Progress& progress) {
+    TrainedModel result = model;
+    adaptModel(result, today);
+    result.adaptedFrom = inputsFor(table, progress);
+    sign(result);
+    return result;
+  });
+}
+
+void bindModel(py::module_& module) {
+  py::class_<TrainedModel>(
+      module,
+      "Model",
+      "A trained model of objects: from train() or Model.load(). Never changed: "
+      "adapt() gives another one. Several threads may use one.")
+      .def_static(
+          "load",
+          [](const std::filesystem::path& path) {
+            return unlocked([&](const Progress&) { return loadModel(path); });
+          },
+          py::arg("path"),
+          "Reads a model file (JSON). OSError, ValueError (no model, damaged; names what).")
+      .def(
+          "save",
+          [](const TrainedModel& model, const std::filesystem::path& path, bool force) {
+            const py::gil_scoped_release released;
+            saveModel(model, path, force ? Overwrite::kReplace : Overwrite::kRefuse);
+          },
+          py::arg("path"),
+          py::kw_only(),
+          py::arg("force") = false,
+          "Writes it. OSError when the file exists (unless force) or can't be written.")
+      .def("classify",
+           &classify,
+           py::arg("source"),
+           py::kw_only(),
+           py::arg("session_offset") = "model",
+           "What was grasped: source as of features(), all of one day. dict grasps [{file, begin, "
+           "end, label ('unknown' is one), confidence (0..1), sure, novelty, top [{label, p}], "
+           "best first}], session_offset {mm, sd_mm [mm], origin, grasps, objects, trusted, text}, "
+           "warnings. session_offset: 'model' (what adapt() stored; 0 in a fresh model), 'none' "
+           "(summed over all), 'batch' (from these grasps), or mm. Error for another sensor.")
+      .def("evaluate",
+           &evaluateWith,
+           py::arg("source"),
+           py::kw_only(),
+           py::arg("adapt") = 0,
+           py::arg("session_offset") = "model",
+           "How well it does on recordings with known classes: dict accuracy, interval (Wilson, 95 "
+           "%), grasps, right, top3, coverage, accuracy_when_sure, sessions, classes, confusion "
+           "{labels, counts[truth][called]}, .. adapt: the first so many grasps of each class and "
+           "session adapt it and don't count.")
+      .def("adapt",
+           &adapted,
+           py::arg("source"),
+           "A model adapted to today by labelled grasps: their components, and the session offset "
+           "they tell. Error when this classifier can't (only gauss can).")
+      .def("__repr__",
+           [](const TrainedModel& m) {
+             return "<palpate.Model: " + std::to_string(m.classes.size()) + " classes, set '" +
+                    std::string(featureSetName(m.set)) + "', " +
+                    std::string(classifierName(m.pipeline.classifier)) + ">";
+           })
+      .def_property_readonly(
+          "classes", [](const TrainedModel& m) { return m.classes; }, "Names: list of str.")
+      .def_property_readonly(
+          "features",
+          [](const TrainedModel& m) { return m.features; },
+          "Names of the features it looks at: list of str.")
+      .def_property_readonly(
+          "set",
+          [](const TrainedModel& m) { return std::string(featureSetName(m.set)); },
+          "'study', 'best' or 'session'.")
+      .def_property_readonly(
+          "classifier",
+          [](const TrainedModel& m) { return std::string(classifierName(m.pipeline.classifier)); },
+          "'svm', 'qda', 'lda' or 'gauss'.")
+      .def_property_readonly(
+          "carries_over",
+          [](const TrainedModel& m) { return m.carriesOver(); },
+          "Whether it knows a session offset and can adapt: to be used on another day.")
+      .def_property_readonly(
+          "session_offset",
+          [](const TrainedModel& m) { return toPython(offsetJson(m.offset)); },
+          "What adapt() stored: dict mm, sd_mm [mm], origin, grasps, objects, trusted, text.")
+      .def_property_readonly(
+          "validation",
+          [](const TrainedModel& m) { return toPython(m.validation); },
+          "How well it did on blocks of its own recordings: dict.")
+      .def_property_readonly(
+          "options",
+          [](const TrainedModel& m) { return toPython(m.options); },
+          "What it was made with: dict.")
+      .def_property_readonly(
+          "inputs",
+          [](const TrainedModel& m) {
+            std::vector<std::string> files;
+            for (const ModelInput& input : m.inputs) files.push_back(input.file);
+            return files;
+          },
+          "Recordings it learnt from: list of str.");
+}
+
+}  // namespace
+
+void bindModels(py::module_& module) { bindModel(module); }
+
+}  // namespace palpate::python

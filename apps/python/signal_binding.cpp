@@ -1,0 +1,214 @@
+// palpate.signals(), spectrum(), strongest_taxel(), first_contact().
+#include <cmath>
+#include <string>
+
+#include <pybind11/stl.h>
+
+#include "palpate/filter/characteristic_signals.h"
+#include "palpate/filter/first_contact.h"
+#include "palpate/filter/spectrum.h"
+#include "palpate/filter/strongest_taxel.h"
+#include "palpate/model/timing.h"
+
+#include "python/arrays.h"
+#include "python/bindings.h"
+#include "python/interruption.h"
+
+namespace palpate::python {
+namespace py = pybind11;
+namespace {
+
+struct Column {
+  const char* name;
+  SignalKind kind;
+};
+constexpr Column kColumns[] = {{"mean", SignalKind::kMean},
+                               {"filtered_mean", SignalKind::kFilteredMean},
+                               {"min", SignalKind::kMinimum},
+                               {"max", SignalKind::kMaximum},
+                               {"sum", SignalKind::kSum},
+                               {"active", SignalKind::kActive},
+                               {"area_mm2", SignalKind::kArea}};
+
+// Row per frame: all matrices, then the whole hand.
+std::vector<std::vector<CharacteristicSignals>> rowsOf(const Profile& profile,
+                                                       const Progress& progress) {
+  std::vector<std::vector<CharacteristicSignals>> rows(profile.numFrames());
+  TactileFrame frame;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!progress(static_cast<double>(i) / static_cast<double>(rows.size()))) throw Cancelled();
+    profile.readFrame(i, frame);
+    allSignals(frame, rows[i]);
+  }
+  return rows;
+}
+
+// One column of the rows: all matrices, or one place of them.
+py::object columnOf(const std::vector<std::vector<CharacteristicSignals>>& rows,
+                    std::size_t numMatrices,
+                    std::optional<std::size_t> place,
+                    SignalKind kind) {
+  const bool whole = kind == SignalKind::kActive;
+  const auto value = [&](std::size_t i, std::size_t m) { return valueOf(rows[i][m], kind); };
+  if (place) {
+    const auto one = [&](std::size_t i) { return value(i, *place); };
+    return whole ? py::object(column<std::int64_t>(rows.size(), one))
+                 : py::object(column<double>(rows.size(), one));
+  }
+  return whole ? py::object(grid<std::int64_t>(rows.size(), numMatrices, value))
+               : py::object(grid<double>(rows.size(), numMatrices, value));
+}
+
+py::dict signals(const Profile& profile, const py::object& matrix) {
+  const std::size_t numMatrices = profile.layout().numMatrices();
+  std::optional<std::size_t> place;
+  if (py::isinstance<py::str>(matrix))
+    place = choice<std::size_t>("matrix", matrix.cast<std::string>(), {{"hand", numMatrices}});
+  else if (!matrix.is_none())
+    place = checkedIndex("matrix", matrix.cast<std::int64_t>(), numMatrices);
+  const auto rows = unlocked([&](const Progress& progress) { return rowsOf(profile, progress); });
+  py::dict table;
+  table["time_ms"] = column<std::int64_t>(
+      rows.size(), [&](std::size_t i) { return profile.frameTimeUs(i) / kUsPerMs; });
+  for (const Column& one : kColumns) table[one.name] = columnOf(rows, numMatrices, place, one.kind);
+  return table;
+}
+
+SpectrumOptions optionsOf(int window,
+                          std::optional<int> overlap,
+                          const std::string& detrend,
+                          const std::string& rate) {
+  SpectrumOptions options;
+  options.window = window;
+  options.overlap = overlap.value_or(window - 1);
+  options.detrend = choice<Detrend>(
+      "detrend",
+      detrend,
+      {{"mean", Detrend::kMean}, {"line", Detrend::kLine}, {"none", Detrend::kNone}});
+  options.gridRate =
+      choice<GridRate>("rate", rate, {{"mean", GridRate::kMean}, {"median", GridRate::kMedian}});
+  options.validate();
+  return options;
+}
+
+struct Segments {
+  SpectrumReport report;
+  MeanSpectrum mean;
+  std::vector<double> timeS, binHz, psd, magnitude;
+};
+
+Segments segmentsOf(const std::vector<double>& timeS,
+                    const std::vector<double>& values,
+                    const SpectrumOptions& options,
+                    const Progress& progress) {
+  Segments segments;
+  MeanSpectrumCollector collector(planSpectra(timeS, values, options));
+  segments.report = visitSpectra(
+      timeS,
+      values,
+      options,
+      [&](const SpectrumSegment& one) {
+        collector.add(one);
+        segments.timeS.push_back(one.timeS);
+        segments.binHz.push_back(one.binHz);
+        segments.psd.insert(segments.psd.end(), one.psd.begin(), one.psd.end());
+        segments.magnitude.insert(
+            segments.magnitude.end(), one.magnitude.begin(), one.magnitude.end());
+      },
+      progress);
+  segments.mean = collector.result();
+  return segments;
+}
+
+py::dict spectrum(const Numbers& timeS,
+                  const Numbers& values,
+                  int window,
+                  std::optional<int> overlap,
+                  const std::string& detrend,
+                  const std::string& rate) {
+  const SpectrumOptions options = optionsOf(window, overlap, detrend, rate);
+  const std::vector<double> times = vectorOf(timeS, "time_s"), series = vectorOf(values, "values");
+  const Segments found = unlocked(
+      [&](const Progress& progress) { return segmentsOf(times, series, options, progress); });
+  const std::size_t bins = options.numBins(), count = found.timeS.size();
+  const auto table = [&](const std::vector<double>& all) {
+    return grid<double>(
+        count, bins, [&](std::size_t i, std::size_t k) { return all[i * bins + k]; });
+  };
+  py::dict result;
+  result["time_s"] = arrayOf(found.timeS);
+  result["frequency_hz"] = column<double>(
+      bins, [&](std::size_t k) { return found.mean.binHz * static_cast<double>(k); });
+  result["bin_hz"] = arrayOf(found.binHz);
+  result["psd"] = table(found.psd);
+  result["magnitude"] = table(found.magnitude);
+  result["mean_psd"] = arrayOf(found.mean.psd);
+  result["mean_magnitude"] = arrayOf(found.mean.magnitude);
+  result["strongest_hz"] = found.mean.magnitude.empty() ? 0.0 : found.mean.strongestHz();
+  result["rate_hz"] = found.report.rateHz;
+  result["nyquist_hz"] = found.report.nyquistHz;
+  result["jitter"] = found.report.jitter;
+  result["not_finite"] = found.report.notFinite;
+  result["in_no_segment"] = found.report.inNoSegment;
+  return result;
+}
+
+py::object strongest(const Profile& profile) {
+  const auto place =
+      unlocked([&](const Progress& progress) { return strongestTaxel(profile, 4000, progress); });
+  if (!place) return py::none();
+  return py::make_tuple(place->matrix, place->x, place->y);
+}
+
+std::optional<std::size_t> contactFrame(const Profile& profile, int frames, int taxels) {
+  const FirstContactOptions options{.frames = frames, .taxels = taxels};
+  return unlocked([&](const Progress& progress) {
+    std::vector<std::size_t> gaps;
+    for (const Gap& gap : timingOf(profile).gaps) gaps.push_back(gap.frame);
+    return firstContact(profile, gaps, options, progress);
+  });
+}
+
+}  // namespace
+
+void bindSignals(py::module_& module) {
+  module.def("signals",
+             &signals,
+             py::arg("profile"),
+             py::arg("matrix") = py::none(),
+             "Characteristic signals per frame: dict time_ms (T,), mean, filtered_mean (eq. 3.2 of "
+             "the study), min, max, sum [counts], active (number of taxels > 0), area_mm2 [mm^2]: "
+             "(T, matrices); of one matrix, or 'hand' (all taxels of the whole hand), (T,). 0 "
+             "where nothing is touched.");
+  module.def("spectrum",
+             &spectrum,
+             py::arg("time_s"),
+             py::arg("values"),
+             py::kw_only(),
+             py::arg("window") = 32,
+             py::arg("overlap") = py::none(),
+             py::arg("detrend") = "mean",
+             py::arg("rate") = "mean",
+             "Short-time Fourier transform of a series: time_s (n,) [s], ascending; values (n,). "
+             "Stretches without a gap are resampled to an even grid first; Hann window. dict "
+             "time_s (S,) middles of the segments [s], frequency_hz (B,) [Hz], bin_hz (S,) of each "
+             "segment [Hz], psd (S, B) [units^2/Hz], magnitude (S, B) [units], mean_psd, "
+             "mean_magnitude (B,), strongest_hz, rate_hz, nyquist_hz [Hz] (nothing above can be "
+             "seen), jitter (sd of the intervals / mean), not_finite, in_no_segment (samples). "
+             "overlap: default window - 1; detrend: 'mean', 'line', 'none'; rate of the grid: "
+             "'mean', 'median'. A series shorter than the window has no segment.");
+  module.def("strongest_taxel",
+             &strongest,
+             py::arg("profile"),
+             "The taxel that feels most: (matrix, x, y); None where none feels anything.");
+  module.def("first_contact",
+             &contactFrame,
+             py::arg("profile"),
+             py::kw_only(),
+             py::arg("frames") = 3,
+             py::arg("taxels") = 3,
+             "The first frame of a lasting contact: the first of `frames` in a row with at least "
+             "`taxels` active taxels each; None without.");
+}
+
+}  // namespace palpate::python

@@ -1,0 +1,371 @@
+// palpate.slip(), slip_segments(), slip_benchmark(), contact_moments(), synthetic_contact().
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <pybind11/stl.h>
+
+#include "palpate/slip/contact_moments.h"
+#include "palpate/slip/contact_outline.h"
+#include "palpate/slip/principal_axis.h"
+#include "palpate/slip/slip_accuracy.h"
+#include "palpate/slip/slip_segments.h"
+#include "palpate/slip/synthetic_slip.h"
+
+#include "python/arrays.h"
+#include "python/bindings.h"
+#include "python/interruption.h"
+
+namespace palpate::python {
+namespace py = pybind11;
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// What slip() and slip_segments() are told.
+struct Request {
+  SlipPassOptions pass;
+  std::optional<std::size_t> matrix;
+};
+
+void setReference(const Profile& profile, const py::object& reference, SlipPassOptions& pass) {
+  if (py::isinstance<py::str>(reference)) {
+    pass.detector.reference =
+        choice<SlipReference>("reference",
+                              reference.cast<std::string>(),
+                              {{"first", SlipReference::kFirst}, {"rest", SlipReference::kRest}});
+    return;
+  }
+  pass.detector.reference = SlipReference::kGiven;
+  pass.referenceFrame = checkedIndex("frame", reference.cast<std::int64_t>(), profile.numFrames());
+}
+
+Request requestOf(const Profile& profile,
+                  std::optional<std::int64_t> matrix,
+                  const std::string& method,
+                  const py::object& reference,
+                  double step,
+                  double limit,
+                  double rotation) {
+  Request request;
+  if (matrix) request.matrix = checkedIndex("matrix", *matrix, profile.layout().numMatrices());
+  SlipDetectorOptions& detector = request.pass.detector;
+  const auto named = slipMethodNamed(method);
+  if (!named) {
+    std::string known;
+    for (const SlipMethod each : slipMethods())
+      known += (known.empty() ? "" : ", ") + std::string(nameOf(each));
+    throw py::value_error("method is '" + method + "'; it is one of " + known);
+  }
+  detector.method = *named;
+  detector.contestAlarm = detector.method == SlipMethod::kContest;
+  detector.rule.stepTaxels = step;
+  detector.rule.referenceTaxels = limit;
+  detector.rule.rotationDeg = rotation;
+  setReference(profile, reference, request.pass);
+  detector.validate();
+  return request;
+}
+
+struct Row {
+  std::size_t frame = 0;
+  std::int64_t timeUs = 0;
+  std::size_t matrix = 0;
+  SlipVerdict verdict;
+};
+
+py::dict tableOf(const std::vector<Row>& rows) {
+  const std::size_t n = rows.size();
+  py::dict table;
+  const auto whole = [&](const char* name, const auto& of) {
+    table[name] = column<std::int64_t>(n, [&](std::size_t i) { return of(rows[i]); });
+  };
+  const auto number = [&](const char* name, const auto& of) {
+    table[name] = column<double>(
+        n, [&](std::size_t i) { return of(rows[i].verdict.motion, rows[i].verdict); });
+  };
+  const auto flag = [&](const char* name, const auto& of) {
+    table[name] = column<bool>(n, [&](std::size_t i) { return of(rows[i].verdict); });
+  };
+  using Motion = const SlipMotion&;
+  using Verdict = const SlipVerdict&;
+  whole("frame", [](const Row& row) { return row.frame; });
+  whole("time_ms", [](const Row& row) { return row.timeUs / kUsPerMs; });
+  whole("matrix", [](const Row& row) { return row.matrix; });
+  whole("active", [](const Row& row) { return row.verdict.motion.active; });
+  number("x", [](Motion m, Verdict) { return m.x; });
+  number("y", [](Motion m, Verdict) { return m.y; });
+  flag("valid", [](Verdict v) { return v.motion.valid; });
+  number("dx", [](Motion m, Verdict) { return m.valid ? m.dx : kUnknown; });
+  number("dy", [](Motion m, Verdict) { return m.valid ? m.dy : kUnknown; });
+  number("ref_dx", [](Motion m, Verdict) { return m.valid && m.refValid ? m.refDx : kUnknown; });
+  number("ref_dy", [](Motion m, Verdict) { return m.valid && m.refValid ? m.refDy : kUnknown; });
+  flag("rotation_valid", [](Verdict v) { return v.motion.rotation.valid; });
+  number("rotation_deg",
+         [](Motion m, Verdict) { return m.rotation.valid ? m.rotation.rotationDeg : kUnknown; });
+  number("ref_rotation_deg", [](Motion m, Verdict) {
+    return m.rotation.valid && m.rotation.refValid ? m.rotation.refRotationDeg : kUnknown;
+  });
+  number("orientation_deg", [](Motion m, Verdict) { return m.rotation.axis.orientationDeg; });
+  number("eccentricity", [](Motion m, Verdict) { return m.rotation.axis.eccentricity; });
+  number("roundness", [](Motion m, Verdict) { return m.rotation.roundness; });
+  number("residual", [](Motion, Verdict v) { return v.residual; });
+  number("confidence", [](Motion, Verdict v) { return v.confidence; });
+  number("p_moved", [](Motion, Verdict v) { return v.pMoved.value_or(kUnknown); });
+  std::vector<std::string> names;
+  for (int state = 0; state <= static_cast<int>(SlipState::kSlip); ++state)
+    names.emplace_back(nameOf(static_cast<SlipState>(state)));
+  std::vector<int> states;
+  for (const Row& row : rows) states.push_back(static_cast<int>(row.verdict.state));
+  table["state"] = words(names, states);
+  flag("slipping", [](Verdict v) { return v.slipping; });
+  return table;
+}
+
+py::dict slip(const Profile& profile,
+              std::optional<std::int64_t> matrix,
+              const std::string& method,
+              const py::object& reference,
+              double step,
+              double limit,
+              double rotation) {
+  const Request request = requestOf(profile, matrix, method, reference, step, limit, rotation);
+  std::vector<Row> rows;
+  unlocked([&](const Progress& progress) {
+    const auto take =
+        [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipVerdict>& verdicts) {
+          for (std::size_t m = 0; m < verdicts.size(); ++m)
+            if (verdicts[m].motion.active > 0 && (!request.matrix || *request.matrix == m))
+              rows.push_back({frame, timeUs, m, verdicts[m]});
+        };
+    passSlip(profile, request.pass, take, progress);
+  });
+  return tableOf(rows);
+}
+
+py::dict slipSegments(const Profile& profile,
+                      std::optional<std::int64_t> matrix,
+                      const std::string& method,
+                      const py::object& reference,
+                      double step,
+                      double limit,
+                      double rotation) {
+  const Request request = requestOf(profile, matrix, method, reference, step, limit, rotation);
+  std::vector<SlipSegment> found = unlocked([&](const Progress& progress) {
+    return findSlips(profile, {.pass = request.pass}, progress);
+  });
+  if (request.matrix)
+    std::erase_if(found, [&](const SlipSegment& one) { return one.matrix != *request.matrix; });
+  const std::size_t n = found.size();
+  py::dict table;
+  const auto whole = [&](const char* name, const auto& of) {
+    table[name] = column<std::int64_t>(n, [&](std::size_t i) { return of(found[i]); });
+  };
+  whole("begin", [](const SlipSegment& s) { return s.begin; });
+  whole("end", [](const SlipSegment& s) { return s.end; });
+  whole("begin_ms", [](const SlipSegment& s) { return s.beginUs / kUsPerMs; });
+  whole("end_ms", [](const SlipSegment& s) { return s.endUs / kUsPerMs; });
+  whole("matrix", [](const SlipSegment& s) { return s.matrix; });
+  table["path_taxels"] = column<double>(n, [&](std::size_t i) { return found[i].pathTaxels; });
+  table["rotation_deg"] = column<double>(n, [&](std::size_t i) { return found[i].rotationDeg; });
+  table["confidence"] = column<double>(n, [&](std::size_t i) { return found[i].confidence; });
+  return table;
+}
+
+py::dict momentsOf(const Numbers& values) {
+  const Eigen::MatrixXd given = matrixOf(values, "values");
+  constexpr Eigen::Index kMost = 256;
+  if (given.size() == 0 || given.rows() > kMost || given.cols() > kMost)
+    throw py::value_error("values has shape " + shapeText(values) +
+                          "; it takes 1..256 rows and columns");
+  const MatrixValues matrix = given.cast<float>();
+  const ConstMatrixMap map(matrix.data(), matrix.rows(), matrix.cols());
+  const ContactMoments moments = contactMoments(map);
+  const PrincipalAxis axis = principalAxis(moments);
+  ContactOutline outline(static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols()));
+  const OutlineShape shape = outline.describe(map);
+  double squares = 0.0;
+  const double mean = moments.active > 0 ? moments.sum / moments.active : 0.0;
+  for (const float value : matrix.reshaped())
+    if (value > 0.0F)
+      squares += (static_cast<double>(value) - mean) * (static_cast<double>(value) - mean);
+  py::dict result;
+  result["active"] = moments.active;
+  result["sum"] = moments.sum;
+  result["sd"] = moments.active > 0 ? std::sqrt(squares / moments.active) : 0.0;
+  result["x"] = moments.x;
+  result["y"] = moments.y;
+  result["mu20"] = moments.mu20;
+  result["mu11"] = moments.mu11;
+  result["mu02"] = moments.mu02;
+  result["mu30"] = moments.mu30;
+  result["mu03"] = moments.mu03;
+  result["orientation_deg"] = axis.orientationDeg;
+  result["lambda1"] = axis.lambda1;
+  result["lambda2"] = axis.lambda2;
+  result["eccentricity"] = axis.eccentricity;
+  result["study_eccentricity"] = axis.studyEccentricity;
+  result["skew_x"] = axis.skewX;
+  result["skew_y"] = axis.skewY;
+  result["groups"] = shape.groups;
+  result["outline_area"] = shape.area;
+  result["outline_length"] = shape.length;
+  result["roundness"] = shape.roundness;
+  return result;
+}
+
+SlipShape shapeNamed(const std::string& name) {
+  if (const auto shape = slipShapeNamed(name)) return *shape;
+  std::string known;
+  for (const SlipShape each : slipShapes())
+    known += (known.empty() ? "" : ", ") + std::string(nameOf(each));
+  throw py::value_error("shape is '" + name + "'; it is one of " + known);
+}
+
+py::dict slipBenchmark(double noise,
+                       const std::vector<std::string>& shapes,
+                       std::uint64_t seed,
+                       int trials) {
+  SlipAccuracyOptions options;
+  options.noiseSd = noise;
+  for (const std::string& name : shapes) options.shapes.push_back(shapeNamed(name));
+  options.seed = seed;
+  options.trials = trials;
+  const auto measured = unlocked([&](const Progress& progress) {
+    return measureSlipAccuracy(measuredMethods(), options, progress);
+  });
+  py::dict methods;
+  for (const MethodAccuracy& method : measured) {
+    const SlipAccuracy& all = method.all;
+    py::dict one;
+    one["rmse"] = all.rmse;
+    one["bias"] = all.bias;
+    one["gain_x"] = all.gainX;
+    one["gain_y"] = all.gainY;
+    one["drift_100"] = all.drift100;
+    one["rmse_deg"] = all.rmseDeg;
+    one["crb"] = all.crb;
+    one["crb_deg"] = all.crbDeg;
+    one["edge"] = all.edge;
+    one["tilt"] = all.tilt;
+    one["invalid"] = all.invalid;
+    one["steps"] = all.steps;
+    one["ns_per_step"] = all.nsPerStep;
+    methods[py::str(method.name)] = one;
+  }
+  return methods;
+}
+
+FloatArray syntheticContact(const Numbers& x,
+                            const Numbers& y,
+                            const Numbers& angleDeg,
+                            const std::string& shape,
+                            double peak,
+                            double noise,
+                            std::uint64_t seed,
+                            int rows,
+                            int columns) {
+  const std::vector<double> xs = vectorOf(x, "x"), ys = vectorOf(y, "y"),
+                            angles = vectorOf(angleDeg, "angle_deg");
+  if (xs.size() != ys.size() || xs.size() != angles.size())
+    throw py::value_error("x, y and angle_deg have different lengths");
+  SyntheticSensor sensor;
+  sensor.layout = MatrixLayout::full(rows, columns, sensor.layout.pitchMm);
+  sensor.layout.validate();
+  sensor.noiseSd = noise;
+  SyntheticSlip source(sensor, seed);
+  SyntheticContact contact;
+  contact.shape = shapeNamed(shape);
+  contact.peakCounts = peak;
+  FloatArray frames({xs.size(), static_cast<std::size_t>(rows), static_cast<std::size_t>(columns)});
+  float* out = frames.mutable_data();
+  for (std::size_t i = 0; i < xs.size(); ++i, out += rows * columns) {
+    if (!std::isfinite(xs[i]) || !std::isfinite(ys[i]) || !std::isfinite(angles[i]))
+      throw py::value_error("place " + std::to_string(i) + " is no finite number");
+    contact.x = xs[i];
+    contact.y = ys[i];
+    contact.angleDeg = angles[i];
+    source.read(contact, MatrixMap(out, rows, columns));
+  }
+  return frames;
+}
+
+}  // namespace
+
+void bindSlip(py::module_& module) {
+  const SlipRuleOptions rule;
+  module.def(
+      "slip",
+      &slip,
+      py::arg("profile"),
+      py::arg("matrix") = py::none(),
+      py::arg("method") = "contest",
+      py::kw_only(),
+      py::arg("reference") = "first",
+      py::arg("step") = rule.stepTaxels,
+      py::arg("limit") = rule.referenceTaxels,
+      py::arg("rotation") = rule.rotationDeg,
+      "How contacts move over a matrix (None: over all), and whether that is slip: dict of "
+      "columns, a row per frame and matrix that is touched. Taxels (x right, y down) and deg "
+      "(from x towards y).\n\n"
+      "frame, time_ms, matrix, active: int64; x, y: centroid; valid: bool; dx, dy: motion since "
+      "the frame before, ref_dx, ref_dy: since the reference (NaN: not known); rotation_valid, "
+      "rotation_deg, ref_rotation_deg, orientation_deg; eccentricity, roundness, residual, "
+      "confidence, p_moved (NaN: no contest was needed); state: 'still', 'loading', "
+      "'load_shift', 'ambiguous', 'slip', 'invalid'; slipping: bool.\n\n"
+      "method: 'contest', 'register', 'centroid', 'alcazar', 'ncc-paraboloid', 'ncc-gauss3', "
+      "'phase', 'phase-normalized'. reference: 'first' (first frame with an active taxel), "
+      "'rest' (each contact when it rests), or a frame. step, limit [taxels], rotation [deg]: "
+      "thresholds per frame, since the reference, and of turning.");
+  module.def("slip_segments",
+             &slipSegments,
+             py::arg("profile"),
+             py::arg("matrix") = py::none(),
+             py::arg("method") = "contest",
+             py::kw_only(),
+             py::arg("reference") = "first",
+             py::arg("step") = rule.stepTaxels,
+             py::arg("limit") = rule.referenceTaxels,
+             py::arg("rotation") = rule.rotationDeg,
+             "Where it slips: dict of columns, a row per slip: begin, end (frames, both "
+             "inclusive), begin_ms, end_ms [ms since 1970], matrix, path_taxels, rotation_deg, "
+             "confidence (0..1). Arguments as of slip().");
+  module.def("contact_moments",
+             &momentsOf,
+             py::arg("values"),
+             "Moments and outline of what one matrix feels: values (rows, columns); values > 0 "
+             "count. dict active, sum, sd (population, of the active values); x, y: centroid "
+             "[taxels]; mu20, mu11, mu02, mu30, mu03 (central, per sum) [taxels^2, ^3]; "
+             "orientation_deg (0..180, from x towards y), lambda1, lambda2 [taxels^2], "
+             "eccentricity, study_eccentricity, skew_x, skew_y; groups, outline_area [taxels^2], "
+             "outline_length [taxels], roundness (1: circle) of the largest group.");
+  module.def("slip_benchmark",
+             &slipBenchmark,
+             py::kw_only(),
+             py::arg("noise") = 5.0,
+             py::arg("shapes") = std::vector<std::string>{},
+             py::arg("seed") = 1,
+             py::arg("trials") = 8,
+             "Accuracy of every method against synthetic truth, beside the Cramer-Rao bound: dict "
+             "method -> dict rmse, bias, drift_100, crb, edge, tilt [taxels], gain_x, gain_y, "
+             "rmse_deg, crb_deg [deg], invalid, steps, ns_per_step. noise: sd [counts]; shapes: "
+             "empty: all; trials: per shape.");
+  module.def("synthetic_contact",
+             &syntheticContact,
+             py::arg("x"),
+             py::arg("y"),
+             py::arg("angle_deg"),
+             py::kw_only(),
+             py::arg("shape") = "disc",
+             py::arg("peak") = 1500.0,
+             py::arg("noise") = 5.0,
+             py::arg("seed") = 1,
+             py::arg("rows") = 14,
+             py::arg("columns") = 6,
+             "What a matrix reads of a contact that moves in a known way: its centre x, y "
+             "[taxels] and angle_deg [deg] per frame, (n,) each; float32 (n, rows, columns) "
+             "[counts]. shape: 'disc', 'bar', 'flat-ellipse', 'two-blobs', 'gaussian', "
+             "'elliptic-gaussian'; peak, noise (sd) [counts].");
+}
+
+}  // namespace palpate::python

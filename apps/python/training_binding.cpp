@@ -1,0 +1,200 @@
+// palpate.train(), evaluate().
+#include <string>
+
+#include <pybind11/stl.h>
+
+#include "palpate/recognition/cross_validation.h"
+#include "palpate/recognition/model_search.h"
+
+#include "python/arrays.h"
+#include "python/bindings.h"
+#include "python/features.h"
+#include "python/interruption.h"
+#include "python/models.h"
+
+namespace palpate::python {
+namespace py = pybind11;
+namespace {
+
+constexpr std::size_t kBlocks = 5;
+
+// What train() and evaluate() are told of the pipeline; empty: left open.
+struct Wishes {
+  std::optional<ClassifierKind> classifier;
+  std::optional<std::size_t> components;
+  std::optional<double> cost;
+  std::optional<std::optional<double>> shrinkage;  // inner nothing: by Ledoit and Wolf
+};
+
+Wishes wishesOf(const std::optional<std::string>& classifier,
+                std::optional<int> lda,
+                std::optional<double> cost,
+                const py::object& shrinkage) {
+  Wishes wishes;
+  if (classifier) {
+    wishes.classifier = classifierNamed(*classifier);
+    if (!wishes.classifier)
+      throw py::value_error("classifier is '" + *classifier +
+                            "'; it is one of svm, qda, lda, gauss");
+  }
+  if (lda && *lda < 1) throw py::value_error("lda takes a number of components, at least 1");
+  if (lda) wishes.components = static_cast<std::size_t>(*lda);
+  if (cost && !(*cost >= 1e-6 && *cost <= 1e9)) throw py::value_error("c is not in 1e-6 .. 1e9");
+  wishes.cost = cost;
+  if (py::isinstance<py::str>(shrinkage)) {
+    choice<int>("shrinkage", shrinkage.cast<std::string>(), {{"auto", 0}});
+    wishes.shrinkage.emplace(std::nullopt);
+  } else if (!shrinkage.is_none()) {
+    const auto share = shrinkage.cast<double>();
+    if (!(share >= 0.0 && share <= 1.0)) throw py::value_error("shrinkage is not in 0 .. 1");
+    wishes.shrinkage.emplace(share);
+  }
+  if (wishes.components && wishes.classifier == ClassifierKind::kGauss)
+    throw py::value_error("gauss takes no lda: choose svm, qda or lda");
+  return wishes;
+}
+
+// Of the set best only gauss carries over to another day, and is taken where nothing else is wished.
+ClassifierKind classifierFor(const Wishes& wishes, FeatureSet set) {
+  if (wishes.classifier) return *wishes.classifier;
+  return set == FeatureSet::kBest && !wishes.components ? ClassifierKind::kGauss
+                                                        : ClassifierKind::kSvm;
+}
+
+void apply(const Wishes& wishes, PipelineOptions& options) {
+  if (wishes.cost) options.svm.c = *wishes.cost;
+  if (wishes.shrinkage) options.discriminant.shrinkage = *wishes.shrinkage;
+}
+
+TrainedModel train(const py::object& source,
+                   const std::string& setName,
+                   const std::optional<std::string>& classifier,
+                   std::optional<int> lda,
+                   std::optional<double> cost,
+                   const py::object& shrinkage) {
+  const FeatureSet set = featureSetOf(setName);
+  const Wishes wishes = wishesOf(classifier, lda, cost, shrinkage);
+  const FeatureTable table = featuresOf(source, set);
+  requireRows(table);
+  const SampleSet samples = samplesOf(table);
+  requireLearnable(samples);
+  ModelSearchOptions search;
+  const ClassifierKind kind = classifierFor(wishes, set);
+  if (wishes.classifier || kind == ClassifierKind::kGauss) search.classifier = kind;
+  search.components = wishes.components;
+  if (wishes.cost) search.costs = {*wishes.cost};
+  const std::vector<PipelineOptions> grid = modelGrid(samples, search);
+  if (grid.empty()) throw py::value_error("no classifier fits what was asked for");
+  return unlocked([&](const Progress& progress) {
+    ModelSearchReport found;
+    if (grid.size() > 1) found = searchModel(samples, search, progress);
+    PipelineOptions chosen =
+        found.candidates.empty() ? grid.front() : found.candidates[found.chosen].options;
+    apply(wishes, chosen);
+    TrainedModel model = trainModel(samples, set, table.sensor, chosen, progress);
+    model.inputs = inputsFor(table, progress);
+    sign(model);
+    model.options = jsonOf(chosen);
+    if (!found.candidates.empty()) model.options.set("chosen_from", jsonOf(found));
+    return model;
+  });
+}
+
+struct SetChoice {
+  FeatureSet set = FeatureSet::kBest;
+  StudyPart part = StudyPart::kAll;
+};
+
+SetChoice setNamed(const std::string& name) {
+  return choice<SetChoice>("set",
+                           name,
+                           {{"diameter", {FeatureSet::kStudy, StudyPart::kDiameter}},
+                            {"first4", {FeatureSet::kStudy, StudyPart::kFirst4}},
+                            {"moments", {FeatureSet::kStudy, StudyPart::kMoments}},
+                            {"study", {FeatureSet::kStudy, StudyPart::kAll}},
+                            {"best", {FeatureSet::kBest, StudyPart::kAll}},
+                            {"session", {FeatureSet::kSession, StudyPart::kAll}}});
+}
+
+py::object evaluate(const py::object& source,
+                    const std::string& setName,
+                    std::optional<int> lda,
+                    const std::optional<std::string>& classifier,
+                    const std::string& protocol,
+                    std::size_t numSplits,
+                    std::uint64_t seed,
+                    std::optional<double> cost,
+                    const py::object& shrinkage) {
+  const SetChoice wanted = setNamed(setName);
+  const Wishes wishes = wishesOf(classifier, lda, cost, shrinkage);
+  PipelineOptions options;
+  options.classifier = classifierFor(wishes, wanted.set);
+  options.components = wishes.components;
+  apply(wishes, options);
+  const bool blocks = choice<bool>("protocol", protocol, {{"S", false}, {"B", true}});
+  if (numSplits < 1 || numSplits > 100'000) throw py::value_error("splits is not in 1 .. 100000");
+  const FeatureTable table = featuresOf(source, wanted.set);
+  requireRows(table);
+  SampleSet samples = samplesOf(table);
+  if (wanted.part != StudyPart::kAll) samples = studyPart(samples, wanted.part);
+  requireLearnable(samples);
+  const auto splits =
+      blocks ? blockSplits(samples.y, kBlocks) : stratifiedSplits(samples.y, numSplits, seed);
+  const ValidationReport report = unlocked([&](const Progress& progress) {
+    return crossValidate(samples, options, splits, 0, progress);
+  });
+  const Json confusion = report.confusion.confusionJson();
+  py::dict result;
+  result["accuracy_mean"] = report.accuracyMean;
+  result["accuracy_sd"] = report.accuracySd;
+  result["top3"] = report.top3;
+  result["accuracies"] = arrayOf(report.accuracies);
+  result["grasps"] = samples.numSamples();
+  result["splits"] = splits.size();
+  result["pipeline"] = toPython(jsonOf(options));
+  result["classes"] = toPython(report.confusion.classesJson());
+  result["confusion"] =
+      py::module_::import("numpy").attr("array")(toPython(confusion.at("counts")));
+  result["confusion_labels"] = toPython(confusion.at("labels"));
+  return result;
+}
+
+}  // namespace
+
+void bindTraining(py::module_& module) {
+  module.def("train",
+             &train,
+             py::arg("source"),
+             py::kw_only(),
+             py::arg("set") = "best",
+             py::arg("classifier") = py::none(),
+             py::arg("lda") = py::none(),
+             py::arg("c") = py::none(),
+             py::arg("shrinkage") = py::none(),
+             "Trains a model of the objects in a folder (a folder of recordings per class), or of "
+             "Features. What isn't given is chosen by cross-validation; of the set 'best' it is "
+             "gauss, the one classifier that carries over to another day. classifier: 'svm', "
+             "'qda', 'lda', 'gauss'; lda: components of a discriminant analysis before it; c: cost "
+             "of svm; shrinkage: of the discriminant analysis, 0..1 or 'auto'. Error when nothing "
+             "can be learnt.");
+  module.def("evaluate",
+             &evaluate,
+             py::arg("source"),
+             py::kw_only(),
+             py::arg("set") = "best",
+             py::arg("lda") = py::none(),
+             py::arg("classifier") = py::none(),
+             py::arg("protocol") = "S",
+             py::arg("splits") = 10,
+             py::arg("seed") = 0,
+             py::arg("c") = py::none(),
+             py::arg("shrinkage") = py::none(),
+             "How well grasps are recognised, by cross-validation; everything is fitted to the "
+             "training part of each split. source as of train(); set also 'diameter', 'first4', "
+             "'moments' (parts of 'study'); protocol 'S': stratified shuffles (20 % examine), 'B': "
+             "five contiguous blocks per class. dict accuracy_mean, accuracy_sd, top3, accuracies "
+             "(splits,), grasps, splits, pipeline, classes [{name, precision, recall, f, "
+             "support}], confusion (classes, classes): counts [truth][called], confusion_labels.");
+}
+
+}  // namespace palpate::python

@@ -1,0 +1,89 @@
+"""The worked examples of docs/python run and make their figures: of small data that is made here, in the study's folders."""
+import os
+import subprocess
+import sys
+
+import numpy as np
+import palpate
+import pytest
+from conftest import SOURCE
+
+matplotlib = pytest.importorskip("matplotlib")
+T = 1_400_000_000_000
+
+
+def run(name, recordings, out):
+    script = SOURCE / "docs/python" / f"{name}.py"
+    done = subprocess.run([sys.executable, "-B", script, recordings, "-o", out], capture_output=True, text=True,
+                          env={**os.environ, "MPLCONFIGDIR": str(out)}, timeout=300)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def loaded(gain, seconds=6.0):
+    """A step of a load on matrix 1, with nothing before and after."""
+    t = np.arange(0, seconds, 0.032)
+    level = np.concatenate([np.zeros(8), palpate.step_response(t, gain, 5, T1=0.3, T2=0.08), np.zeros(8)])
+    frames = np.zeros((len(level), 486))
+    frames[:, 84 + 30:84 + 34] = np.round(level)[:, None]
+    frames[:, 84 + 36:84 + 40] = np.round(level)[:, None]
+    times = T + 32 * np.arange(len(level))
+    return palpate.from_arrays(times, frames, temperatures=np.full((2, 9), 25 + gain / 50),
+                               temperature_time_ms=[T, T + 1000])
+
+
+def test_calibration_figures(tmp_path):
+    for name in ("hockey_ball", "foam_ball"):
+        (tmp_path / "grasps").mkdir(exist_ok=True)
+        loaded(400).save(tmp_path / "grasps" / f"{name}.dsa")
+    for i, name in enumerate(("room", "operating", "high")):
+        folder = tmp_path / "pressure_calibration" / name
+        folder.mkdir(parents=True)
+        for k, letter in enumerate("ABC"):
+            loaded(150 + 80 * k + 20 * i).save(folder / f"{letter}1.dsa")
+    rng = np.random.default_rng(1)
+    warm = np.linspace(25, 55, 200)
+    frames = np.zeros((200, 486))
+    frames[:, [5, 124, 170, 286, 330, 448]] = np.round(40 + 0.3 * warm + rng.normal(0, 1, 200))[:, None]
+    times = T + 3000 * np.arange(200)
+    (tmp_path / "calibration_noise").mkdir()
+    palpate.from_arrays(times, frames, temperatures=np.repeat(warm[:, None], 9, axis=1),
+                        temperature_time_ms=times).save(tmp_path / "calibration_noise" / "temperature-noise.dsa")
+    said = run("calibration_figures", tmp_path, tmp_path / "out")
+    assert "no step could be fitted" not in said
+    for figure in ("3_4", "3_7", "3_12"):
+        assert (tmp_path / "out" / f"figure_{figure}.png").stat().st_size > 5000
+    rmse = [float(word) for word in said.split("figure 3.12: RMSE ")[1].split(" (")[0].split()]
+    np.testing.assert_allclose(rmse, 1.04, atol=0.2)
+
+
+def test_slip_figures(tmp_path):
+    count = 50
+    x, y = np.linspace(3.5, 2.5, count), np.linspace(5, 7, count)
+    frames = palpate.synthetic_contact(x, y, np.linspace(30, 0, count), shape="bar", noise=1, rows=13)
+    blank = [np.zeros((count, 14 - m % 2, 6)) for m in range(6)]
+    blank[1] = frames
+    (tmp_path / "slip-detection").mkdir()
+    palpate.from_arrays(T + 32 * np.arange(count), blank).save(
+        tmp_path / "slip-detection" / "slip_and_rotation_teapot_handle.dsa")
+    said = run("slip_figures", tmp_path, tmp_path / "out")
+    assert (tmp_path / "out" / "figure_5_7.png").stat().st_size > 5000
+    (line,) = [one for one in said.splitlines() if "5.7, register" in one]
+    found = [float(word.strip("(),")) for word in line.split()[3:5]]
+    np.testing.assert_allclose(found, [y[41] - y[13], x[41] - x[13]], atol=0.3)
+    (line,) = [one for one in said.splitlines() if "5.7, turn" in one]
+    assert float(line.split()[3]) == pytest.approx(-30 * 28 / 49, abs=4)
+
+
+def test_recognition_figures(tmp_path):
+    for name, peak, radius in (("pea", 900, 0.8), ("ball", 1800, 2.4), ("melon", 2600, 4.5)):
+        folder = tmp_path / "grasps_by_class" / name
+        folder.mkdir(parents=True)
+        palpate.synthesize(grasps=8, duration=30, peak=peak, radius=radius, noise=15, angle_rate=40)[0].save(
+            folder / "a.dsa")
+    said = run("recognition_figures", tmp_path, tmp_path / "out")
+    assert "of 3 classes" in said
+    for figure in ("6_14", "6_20"):
+        assert (tmp_path / "out" / f"figure_{figure}.png").stat().st_size > 5000
+    (line,) = [one for one in said.splitlines() if "table 6.1, study:" in one]
+    assert float(line.split()[3]) > 0.9

@@ -1,0 +1,104 @@
+"""Signals and spectra against NumPy's own; profiles of arrays."""
+import numpy as np
+import palpate
+import pytest
+
+T = 1_400_000_000_000
+
+
+def profile_of(*matrices, interval_ms=30):
+    count = len(matrices[0])
+    return palpate.from_arrays(T + interval_ms * np.arange(count), list(matrices), pitch_mm=2.0)
+
+
+def test_signals_are_those_of_numpy():
+    rng = np.random.default_rng(1)
+    a = rng.integers(1, 4000, (20, 5, 4)) * (rng.random((20, 5, 4)) < 0.4)
+    b = np.zeros((20, 3, 3))
+    profile = profile_of(a, b)
+    every = palpate.signals(profile)
+    assert every["mean"].shape == (20, 2)
+    np.testing.assert_array_equal(every["time_ms"], profile.time_ms)
+    active = (a > 0).sum(axis=(1, 2))
+    np.testing.assert_array_equal(every["active"][:, 0], active)
+    np.testing.assert_allclose(every["mean"][:, 0], a.sum(axis=(1, 2)) / active)
+    np.testing.assert_allclose(every["sum"][:, 0], a.sum(axis=(1, 2)))
+    np.testing.assert_allclose(every["max"][:, 0], a.max(axis=(1, 2)))
+    np.testing.assert_allclose(every["min"][:, 0], [one[one > 0].min() for one in a])
+    np.testing.assert_allclose(every["area_mm2"][:, 0], active * 4.0)
+    for name in ("mean", "filtered_mean", "min", "max", "sum", "active", "area_mm2"):
+        assert not every[name][:, 1].any()  # nothing touches it
+        np.testing.assert_array_equal(palpate.signals(profile, 0)[name], every[name][:, 0])
+    np.testing.assert_allclose(palpate.signals(profile, "hand")["mean"], a.sum(axis=(1, 2)) / active)
+
+
+def test_filtered_mean_is_equation_3_2():
+    values = np.zeros((1, 5, 5))
+    values[0, 2, 2] = 1000
+    w = np.exp(-np.array([-1, 0, 1]) ** 2 / (2 * 0.849322 ** 2))
+    w /= w.sum()
+    filtered = 1000 * np.outer(w, w)
+    assert palpate.signals(profile_of(values), 0)["filtered_mean"][0] == pytest.approx(
+        filtered.mean(), rel=1e-4)
+
+
+def test_spectrum_is_that_of_numpy():
+    t = np.arange(256) / 64.0
+    y = 5 * np.sin(2 * np.pi * 8 * t) + 3
+    found = palpate.spectrum(t, y, window=64, overlap=32)
+    assert found["rate_hz"] == pytest.approx(64) and found["nyquist_hz"] == pytest.approx(32)
+    assert found["magnitude"].shape == (7, 33) and found["frequency_hz"][8] == pytest.approx(8)
+    assert found["strongest_hz"] == pytest.approx(8)
+    np.testing.assert_allclose(found["magnitude"][:, 8], 5, rtol=1e-6)
+    window = np.hanning(65)[:-1]
+    part = y[:64] - y[:64].mean()
+    expected = np.abs(np.fft.rfft(part * window)) ** 2 * 2 / (64 * (window ** 2).sum())
+    np.testing.assert_allclose(found["psd"][0][1:-1], expected[1:-1], atol=1e-9)
+    np.testing.assert_allclose(found["time_s"], (np.arange(7) * 32 + 32) / 64)
+    short = palpate.spectrum(t[:10], y[:10])
+    assert short["psd"].shape[0] == 0
+
+
+def test_places_and_first_contact():
+    values = np.zeros((30, 6, 4))
+    assert palpate.strongest_taxel(profile_of(values)) is None
+    assert palpate.first_contact(profile_of(values)) is None
+    values[12:, 3, 1:4] = 100
+    values[12:, 3, 2] = 300
+    assert palpate.strongest_taxel(profile_of(values)) == (0, 2, 3)
+    assert palpate.first_contact(profile_of(values)) == 12
+    assert palpate.first_contact(profile_of(values), taxels=4) is None
+
+
+def test_profiles_of_arrays(tmp_path):
+    rng = np.random.default_rng(2)
+    frames = rng.integers(0, 4000, (8, 486))
+    angles, warmth = rng.normal(0, 40, (5, 7)), rng.normal(35, 1, (2, 9))
+    times = T + np.array([0, 30, 61, 90, 120, 2000, 2030, 2060])
+    profile = palpate.from_arrays(times, frames, angles=angles, angle_time_ms=T + 20 * np.arange(5),
+                                  temperatures=warmth, temperature_time_ms=[T, T + 1000], serial="AB")
+    np.testing.assert_array_equal(profile.frames(), frames)
+    np.testing.assert_array_equal(profile.time_ms, times)
+    np.testing.assert_allclose(profile.time_s, (times - T) / 1e3)
+    np.testing.assert_array_equal(profile.angles, angles)
+    np.testing.assert_array_equal(profile.temperatures_at_frames(),
+                                  warmth[[0, 0, 0, 0, 0, 1, 1, 1]])
+    np.testing.assert_array_equal(profile.taxel(1, 2, 3), profile.matrix(1)[:, 3, 2])
+    timing = profile.timing()
+    assert timing["gaps"] == [(4, pytest.approx(1.88))] and timing["duration_s"] == pytest.approx(2.06)
+    assert profile.frame_at(T + 89) == 2 and profile.frame_at(0) == 0
+    assert profile.serial == "AB" and profile.value_type == "counts" and profile.format == "arrays"
+    info = palpate.info(profile)
+    assert (info["frames"], info["gaps"], info["max_value"]) == (8, 1, frames.max())
+    part = profile.crop(2, -3)
+    np.testing.assert_array_equal(part.frames(), frames[2:6])
+    profile.save(tmp_path / "a.palpate", events=[{"t_us": T * 1000, "kind": "label", "text": "x"}])
+    np.testing.assert_array_equal(palpate.load(tmp_path / "a.palpate").frames(), frames)
+    (event,) = palpate.events(tmp_path / "a.palpate")
+    assert (event["kind"], event["text"], event["t1_us"]) == ("label", "x", T * 1000)
+    assert palpate.details(tmp_path / "a.palpate")["labels"] == ["x"]
+    assert palpate.meta(tmp_path / "a.palpate")["serial"] == "AB"
+    seconds = palpate.seconds(tmp_path / "a.palpate")
+    assert seconds["frames"].sum() == 8 * 6
+    pads = [{"rows": m["rows"], "columns": m["columns"]} for m in profile.matrices]
+    assert pads == [{"rows": 14 - m % 2, "columns": 6} for m in range(6)]

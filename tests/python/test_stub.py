@@ -1,0 +1,74 @@
+"""The type stub says what the module has: every name, argument and default; and everything is explained."""
+import ast
+
+import palpate
+import pytest
+from conftest import SOURCE
+
+TREE = ast.parse((SOURCE / "apps/python/palpate.pyi").read_text())
+CLASSES = {node.name: node for node in TREE.body if isinstance(node, ast.ClassDef)}
+
+
+def functions_of(body):
+    return {node.name: node for node in body if isinstance(node, ast.FunctionDef)}
+
+
+def public(names):
+    return {name for name in names if not name.startswith("_")}
+
+
+def arguments(node):
+    """Names, kinds and defaults; the names of *specs aside."""
+    spec = node.args
+    defaults = [ast.unparse(value) for value in spec.defaults]
+    keyword = [(one.arg, default and ast.unparse(default))
+               for one, default in zip(spec.kwonlyargs, spec.kw_defaults)]
+    return [one.arg for one in spec.args], defaults, bool(spec.vararg), keyword
+
+
+def signature(function):
+    return ast.parse(f"def {function.__doc__.splitlines()[0]}: ...").body[0]
+
+
+def test_names_are_those_of_the_module():
+    in_stub = set(CLASSES) | set(functions_of(TREE.body))
+    assert public(in_stub) == public(vars(palpate))
+
+
+@pytest.mark.parametrize("name", [n for n in CLASSES if n != "Error"])
+def test_members_are_those_of_the_class(name):
+    stubbed = functions_of(CLASSES[name].body)
+    real = getattr(palpate, name)
+    assert public(stubbed) == public(vars(real))
+    for member, node in stubbed.items():
+        decorators = {one.id for one in node.decorator_list}
+        kind = vars(real)[member]
+        assert ("property" in decorators) == isinstance(kind, property), member
+        assert ("staticmethod" in decorators) == isinstance(kind, staticmethod), member
+        if callable(getattr(real, member)) and not member.startswith("_"):
+            assert arguments(node) == arguments(signature(getattr(real, member))), member
+
+
+@pytest.mark.parametrize("name", sorted(functions_of(TREE.body)))
+def test_arguments_are_those_of_the_function(name):
+    assert arguments(functions_of(TREE.body)[name]) == arguments(signature(getattr(palpate, name)))
+
+
+def test_everything_is_explained():
+    for name in public(vars(palpate)):
+        thing = getattr(palpate, name)
+        text = thing.__doc__
+        assert text and len(text.split("\n\n", 1)[-1]) > 20, name
+        if isinstance(thing, type):
+            for member in public(vars(thing)) - {"args", "with_traceback"}:
+                doc = getattr(thing, member).__doc__
+                assert doc and len(doc.split("\n\n", 1)[-1]) > 10, f"{name}.{member}"
+
+
+def test_the_page_names_everything():
+    page = (SOURCE / "docs/python.md").read_text()
+    for name in public(vars(palpate)):
+        assert any(form in page for form in (f"{name}(", f"`{name}`", f"`palpate.{name}`")), name
+    for name, node in CLASSES.items():
+        for member in public(functions_of(node.body)):
+            assert member in page, f"{name}.{member}"
