@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <palpate/calibration/calibration.h>
 #include <palpate/capture/capture_session.h>
 #include <palpate/interop/live_stream.h>
 #include <palpate/live/processing_chain.h>
