@@ -88,7 +88,8 @@ def synopsis(lines):
     out = []
     for line in lines:
         words = re.match(r"palpate(?: [a-z][a-z-]*(?= |$))*", line)
-        head, rest = line[:words.end()], line[words.end():]
+        end = words.end() if words else 0  # a long synopsis goes on in a second line
+        head, rest = line[:end], line[end:]
         out.append(f"\\fB{escaped(head)}\\fR{escaped(rest)}")
     return [".nf"] + out + [".fi"]
 
