@@ -94,6 +94,7 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   auto* area = new QScrollArea(this);
   area->setWidgetResizable(true);
   area->setFrameShape(QFrame::NoFrame);
+  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   area->setFocusPolicy(Qt::NoFocus);
   auto* content = new QWidget(area);
   grasp_ = new GraspPanel(settings, content);
@@ -130,10 +131,15 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   column->addLayout(measured);
   column->addStretch(1);
   area->setWidget(content);
-  // Nothing is cut off at the side: there it can't be scrolled.
-  area->setMinimumWidth(content->minimumSizeHint().width() +
-                        area->verticalScrollBar()->sizeHint().width());
+  body_ = area;
   return area;
+}
+
+// Nothing is cut off at the side, where it can't be scrolled: only what is shown knows how wide it is.
+void HandDock::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  body_->setMinimumWidth(body_->widget()->minimumSizeHint().width() +
+                         body_->verticalScrollBar()->sizeHint().width());
 }
 
 void HandDock::setHand(CaptureSession* session, GraspControl* control) {

@@ -14,6 +14,7 @@
 
 class QLabel;
 class QPushButton;
+class QScrollArea;
 
 namespace palpate::gui {
 
@@ -41,6 +42,9 @@ class HandDock : public QWidget {
  signals:
   void stopPressed();
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
   QWidget* makeHead();
   QWidget* makeBody(QSettings& settings);
@@ -49,6 +53,7 @@ class HandDock : public QWidget {
   void showSamples();
   void showTemperatures(const Temperatures& temperatures);
 
+  QScrollArea* body_ = nullptr;
   CaptureSession* session_ = nullptr;
   GraspControl* control_ = nullptr;
   std::shared_ptr<CaptureFeed> feed_;
