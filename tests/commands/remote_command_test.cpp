@@ -160,9 +160,10 @@ TEST_F(RemoteCommandTest, TheWindowHasNoDoorByDefault) {
   // It has connected the emulated hand: its pseudo-terminals are open.
   ASSERT_TRUE(soon([&] {
     std::error_code gone;
-    for (fs::directory_iterator entry("/proc/" + std::to_string(program_->pid()) + "/fd", gone),
-         end;
-         !gone && entry != end;
+    const fs::path process = "/proc/" + std::to_string(program_->pid());
+    // Until then it has the files of this test.
+    if (fs::read_symlink(process / "exe", gone).filename() != "palpate") return false;
+    for (fs::directory_iterator entry(process / "fd", gone), end; !gone && entry != end;
          entry.increment(gone)) {
       std::error_code failure;
       if (fs::read_symlink(entry->path(), failure).string().starts_with("/dev/pts/")) return true;

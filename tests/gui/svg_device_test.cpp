@@ -48,6 +48,7 @@ TEST(SvgDevice, IsWellFormedAndHasRealSizes) {
     if (reader.readNext() == QXmlStreamReader::Characters) text += reader.text();
   EXPECT_FALSE(reader.hasError()) << reader.errorString().toStdString();
   EXPECT_TRUE(text.contains("a < b & c"));
+  text.remove('\n');  // where a font has a picture for the control character there are three texts
   EXPECT_TRUE(text.contains("1 < 2 & \"3\"  µ"));
 }
 
