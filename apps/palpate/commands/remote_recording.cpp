@@ -25,6 +25,8 @@ RemoteRecorderOptions optionsOf(const CommandLine& given, RecordingOptions each)
   std::error_code ignored;
   if (fs::is_directory(out, ignored)) {
     options.folder = out;
+  } else if (!out.has_filename()) {
+    throw FileError(out, "is no folder: make it first");
   } else {
     options.folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
     options.nameTemplate = out.filename().string();
