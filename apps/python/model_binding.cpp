@@ -45,8 +45,6 @@ std::vector<ModelInput> inputsFor(const FeatureTable& table, const Progress& pro
 
 namespace {
 
-constexpr std::size_t kTop = 5;
-
 OffsetChoice offsetOf(const py::object& offset) {
   if (py::isinstance<py::str>(offset)) return OffsetChoice::from(offset.cast<std::string>());
   return OffsetChoice::from(numberText(offset.cast<double>()));
@@ -63,26 +61,6 @@ Json offsetJson(const SessionOffset& offset) {
       .set("text", offset.text());
 }
 
-std::string labelOf(const TrainedModel& model, int label) {
-  return label == Verdict::kUnknown ? "unknown" : model.classes[static_cast<std::size_t>(label)];
-}
-
-Json graspJson(const TrainedModel& model, const FeatureRow& row, const Verdict& verdict) {
-  Json top = Json::array();
-  for (std::size_t k = 0; k < std::min(kTop, verdict.ranking.size()); ++k)
-    top.push(
-        Json::object().set("label", labelOf(model, verdict.ranking[k])).set("p", verdict.p[k]));
-  return Json::object()
-      .set("file", row.file.string())
-      .set("begin", row.begin)
-      .set("end", row.end)
-      .set("label", labelOf(model, verdict.label))
-      .set("confidence", verdict.confidence)
-      .set("sure", verdict.sure)
-      .set("novelty", verdict.novelty)
-      .set("top", std::move(top));
-}
-
 py::object classify(const TrainedModel& model, const py::object& source, const py::object& offset) {
   const OffsetChoice chosen = offsetOf(offset);
   const FeatureTable table = featuresOf(source, model.set);
@@ -96,7 +74,7 @@ py::object classify(const TrainedModel& model, const py::object& source, const p
     for (const std::string& warning : use.warnings) warnings.push(warning);
     const std::vector<Verdict> verdicts = classifyRows(model, x, use.offset, use.sameSession);
     for (std::size_t i = 0; i < verdicts.size(); ++i)
-      grasps.push(graspJson(model, table.rows[i], verdicts[i]));
+      grasps.push(verdictJson(model, table.rows[i], verdicts[i]));
   }
   return toPython(Json::object()
                       .set("grasps", std::move(grasps))

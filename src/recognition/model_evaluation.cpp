@@ -12,6 +12,8 @@
 namespace palpate {
 namespace {
 
+constexpr std::size_t kTop = 5;  // named with a verdict
+
 constexpr double kFarthestMm = 20.0;
 
 Json intervalJson(std::size_t part, std::size_t whole) {
@@ -209,6 +211,26 @@ Json jsonOf(const ModelEvaluation& evaluation) {
       .set("classes", evaluation.confusion.classesJson())
       .set("confusion", confusion.at("counts"))
       .set("confusion_labels", confusion.at("labels"));
+}
+
+std::string labelOf(const TrainedModel& model, int label) {
+  return label == Verdict::kUnknown ? "unknown" : model.classes[static_cast<std::size_t>(label)];
+}
+
+Json verdictJson(const TrainedModel& model, const FeatureRow& row, const Verdict& verdict) {
+  Json top = Json::array();
+  for (std::size_t k = 0; k < std::min(kTop, verdict.ranking.size()); ++k)
+    top.push(
+        Json::object().set("label", labelOf(model, verdict.ranking[k])).set("p", verdict.p[k]));
+  return Json::object()
+      .set("file", row.file.string())
+      .set("begin", row.begin)
+      .set("end", row.end)
+      .set("label", labelOf(model, verdict.label))
+      .set("confidence", verdict.confidence)
+      .set("sure", verdict.sure)
+      .set("novelty", verdict.novelty)
+      .set("top", std::move(top));
 }
 
 }  // namespace palpate

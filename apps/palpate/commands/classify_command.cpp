@@ -13,27 +13,6 @@
 namespace palpate::commands {
 namespace {
 
-constexpr std::size_t kTop = 5;
-
-std::string labelOf(const TrainedModel& model, int label) {
-  return label == Verdict::kUnknown ? "unknown" : model.classes[static_cast<std::size_t>(label)];
-}
-
-Json graspJson(const TrainedModel& model, const FeatureRow& row, const Verdict& verdict) {
-  Json top = Json::array();
-  for (std::size_t k = 0; k < std::min(kTop, verdict.ranking.size()); ++k)
-    top.push(
-        Json::object().set("label", labelOf(model, verdict.ranking[k])).set("p", verdict.p[k]));
-  return Json::object()
-      .set("file", row.file.string())
-      .set("begin", row.begin)
-      .set("end", row.end)
-      .set("label", labelOf(model, verdict.label))
-      .set("confidence", verdict.confidence)
-      .set("sure", verdict.sure)
-      .set("top", std::move(top));
-}
-
 void printTable(const TrainedModel& model,
                 const FeatureTable& table,
                 const std::vector<Verdict>& verdicts,
@@ -108,7 +87,7 @@ int classifyCommand(const Words& words) {
   }
   Json grasps = Json::array(), warnings = Json::array();
   for (std::size_t i = 0; i < verdicts.size(); ++i)
-    grasps.push(graspJson(model, table.rows[i], verdicts[i]));
+    grasps.push(verdictJson(model, table.rows[i], verdicts[i]));
   for (const std::string& warning : use.warnings) warnings.push(warning);
   printObject(Json::object()
                   .set("grasps", std::move(grasps))

@@ -79,4 +79,9 @@ ModelEvaluation evaluateModel(const TrainedModel& model,
 // accuracy, interval, top3, coverage, accuracy_when_sure, classes, confusion, .. (interfaces of `palpate evaluate --model`).
 Json jsonOf(const ModelEvaluation& evaluation);
 
+// The model's class, or "unknown".
+std::string labelOf(const TrainedModel& model, int label);
+// file, begin, end, label, confidence, sure, novelty, top: [{label, p}], the best five (interfaces of `palpate classify`).
+Json verdictJson(const TrainedModel& model, const FeatureRow& row, const Verdict& verdict);
+
 }  // namespace palpate
