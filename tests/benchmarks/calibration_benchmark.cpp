@@ -12,7 +12,7 @@
 #include "palpate/filter/characteristic_signals.h"
 #include "palpate/model/profile_builder.h"
 
-namespace palpate {
+namespace palpate::calibration_benchmark {
 namespace {
 
 constexpr double kRateHz = 31.7;
@@ -130,4 +130,4 @@ void BM_CharacteristicSignalsOfALiveFrame(benchmark::State& state) {
 BENCHMARK(BM_CharacteristicSignalsOfALiveFrame);
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::calibration_benchmark

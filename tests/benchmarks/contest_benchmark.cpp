@@ -10,7 +10,7 @@
 #include "palpate/slip/slip_detector.h"
 #include "palpate/slip/synthetic_slip.h"
 
-namespace palpate {
+namespace palpate::contest_benchmark {
 namespace {
 
 constexpr std::size_t kFrames = 200;
@@ -80,4 +80,4 @@ BENCHMARK_CAPTURE(detectorOfAMatrix, alarm_and_reading, SlipMethod::kContest)
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::contest_benchmark

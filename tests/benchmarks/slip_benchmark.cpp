@@ -9,7 +9,7 @@
 #include "palpate/slip/slip_tracker.h"
 #include "palpate/slip/synthetic_slip.h"
 
-namespace palpate {
+namespace palpate::slip_benchmark {
 namespace {
 
 // 200 frames in which a contact wanders on every matrix.
@@ -94,4 +94,4 @@ void studyConvolutionsOfSixMatrices(benchmark::State& state) {
 BENCHMARK(studyConvolutionsOfSixMatrices)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_benchmark

@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::calibration_test {
 namespace {
 
 Calibration example() {
@@ -93,4 +93,4 @@ TEST(Calibration, SaysThatALaterFormatNeedsANewerProgram) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::calibration_test

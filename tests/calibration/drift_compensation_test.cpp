@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::drift_compensation_test {
 namespace {
 
 // m = .02 K + .1 (T - 30)
@@ -76,4 +76,4 @@ TEST(DriftCompensation, LeavesTheReadingWhereDriftIsNotKnown) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::drift_compensation_test

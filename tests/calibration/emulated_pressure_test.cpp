@@ -7,7 +7,7 @@
 #include "calibration/stamped_sensor.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::emulated_pressure_test {
 namespace {
 using namespace testing;
 
@@ -45,4 +45,4 @@ TEST(EmulatedPressure, KnownWeightsAreReadBackWithinTheStatedBand) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::emulated_pressure_test

@@ -8,7 +8,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::force_series_test {
 namespace {
 
 // P = .1 K [kPa], whatever the temperature.
@@ -142,4 +142,4 @@ TEST(ReportedSettings, AreThoseOfTheRecordingAndItsChangesInOrderOfTime) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::force_series_test

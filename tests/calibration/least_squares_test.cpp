@@ -11,7 +11,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::least_squares_test {
 namespace {
 
 // One problem of NIST/ITL StRD (nonlinear regression; public domain), in tests/calibration/nist as Ceres ships it.
@@ -269,4 +269,4 @@ TEST(LeastSquares, RefusesBrokenContracts) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::least_squares_test

@@ -8,7 +8,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::loading_steps_test {
 namespace {
 
 constexpr double kFrameS = 0.032;
@@ -126,4 +126,4 @@ TEST(LoadingSteps, SignalTellsMeanSaturationAndSwitchedTaxels) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::loading_steps_test

@@ -11,7 +11,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::noise_floor_test {
 namespace {
 
 // methods.md section 4, to the digits given.
@@ -170,4 +170,4 @@ TEST(NoiseFloor, RefusesFilesThatAreNone) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::noise_floor_test

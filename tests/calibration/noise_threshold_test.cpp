@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::noise_threshold_test {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -131,4 +131,4 @@ TEST(NoiseThreshold, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::noise_threshold_test

@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::pressure_gathering_test {
 namespace {
 
 constexpr double kRateHz = 40.0;
@@ -80,4 +80,4 @@ TEST(PressureGathering, AMatrixThatIsNotThereIsSaid) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::pressure_gathering_test

@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::pressure_map_test {
 namespace {
 
 // P = 20 - .5 T + .1 K, exactly but for +-.5 kPa; no drift.
@@ -192,4 +192,4 @@ TEST(PressureMap, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::pressure_map_test

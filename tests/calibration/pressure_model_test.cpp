@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::pressure_model_test {
 namespace {
 
 // P = 30 - .6 T + .1 K exactly, but for +-.5 kPa in turn.
@@ -135,4 +135,4 @@ TEST(PressureModel, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::pressure_model_test

@@ -11,7 +11,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::pressure_reader_test {
 namespace {
 
 // P = 2 + 0.1 K, and creep of 1 % of K per second.
@@ -94,4 +94,4 @@ TEST(PressureReader, SaysWhatDoesNotGo) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::pressure_reader_test

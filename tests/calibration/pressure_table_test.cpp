@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::pressure_table_test {
 namespace {
 
 TEST(PressureTable, ReadsRowsInAnyOrderOfColumns) {
@@ -77,4 +77,4 @@ TEST(PressureTable, TheTablesTemperatureGoesFirst) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::pressure_table_test

@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::sensitivity_curve_test {
 namespace {
 
 // The study's recording: 700 g at ten sensitivities; methods.md: 589.3 s - 11.4.
@@ -68,4 +68,4 @@ TEST(SensitivityCurve, KeepsThePromiseOfItsJson) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sensitivity_curve_test

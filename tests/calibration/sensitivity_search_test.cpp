@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::sensitivity_search_test {
 namespace {
 
 // A sensor that reads gain * s - threshold, up to 3560; lets the search settle, returns how often it set.
@@ -81,4 +81,4 @@ TEST(SensitivitySearch, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sensitivity_search_test

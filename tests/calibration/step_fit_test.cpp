@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::step_fit_test {
 namespace {
 
 struct Samples {
@@ -245,4 +245,4 @@ TEST(StepFit, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::step_fit_test

@@ -5,7 +5,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::step_model_test {
 namespace {
 
 // phi(t) by integrating T^2 y'' + 2 d T y' + y = 1 from rest (study, eq. 3.1): classical Runge-Kutta.
@@ -136,4 +136,4 @@ TEST(StepModel, WithoutDriftItIsSteadyWherePhiMissesOnePerCent) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::step_model_test

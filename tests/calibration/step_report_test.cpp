@@ -11,7 +11,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::step_report_test {
 namespace {
 
 std::vector<std::vector<std::string>> csvRows(const std::filesystem::path& path) {
@@ -184,4 +184,4 @@ TEST(StepReport, KeepsThePromiseOfItsJson) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::step_report_test

@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::student_t_test {
 namespace {
 
 // Printed tables (NIST/SEMATECH e-Handbook 1.3.6.7.2, column 0.975; three decimals).
@@ -35,4 +35,4 @@ TEST(StudentT, IsLinearBetweenSmallWholeNumbersAndNaNBelowOne) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::student_t_test

@@ -11,7 +11,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::surface_test {
 namespace {
 
 // K, m, T (nearest motor, study) and P of the 24 shared steps.
@@ -186,4 +186,4 @@ TEST(Surface, SaysWhatTooFewOrCollinearPointsAllow) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::surface_test

@@ -8,7 +8,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::tare_test {
 namespace {
 
 std::shared_ptr<const SensorLayout> twoMatrices() {
@@ -105,4 +105,4 @@ TEST(Tare, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::tare_test

@@ -7,7 +7,7 @@
 #include "capture/scripted_device.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::capture_feed_test {
 namespace {
 using namespace testing;
 
@@ -145,4 +145,4 @@ TEST(CaptureFeed, needsRoomForOneItem) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::capture_feed_test

@@ -10,7 +10,7 @@
 #include "capture/scripted_device.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::capture_session_test {
 namespace {
 using namespace testing;
 
@@ -274,4 +274,4 @@ TEST(CaptureSession, marksAreInTheTimeOfTheStamps) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::capture_session_test

@@ -15,7 +15,7 @@
 #include "capture/scripted_device.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::capture_stress_test {
 namespace {
 using namespace testing;
 namespace fs = std::filesystem;
@@ -219,4 +219,4 @@ TEST(CaptureStress, startsAndStopsWhileEverythingPulls) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::capture_stress_test

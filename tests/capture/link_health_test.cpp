@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::link_health_test {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000;
@@ -225,4 +225,4 @@ TEST(CheckBeforeRun, namesTheFirstThingThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::link_health_test

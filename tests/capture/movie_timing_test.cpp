@@ -8,7 +8,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::movie_timing_test {
 namespace {
 
 using Shots = std::vector<MovieShot>;
@@ -128,4 +128,4 @@ TEST(MovieTiming, RefusesRatesAndSpeedsThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::movie_timing_test

@@ -8,7 +8,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::playback_test {
 namespace {
 
 // Frames at the given times [ms].
@@ -151,4 +151,4 @@ TEST(Playback, StandsStillWithNothingToPlay) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::playback_test

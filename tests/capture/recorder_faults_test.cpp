@@ -10,7 +10,7 @@
 #include "recording/faulty_vfs.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::recorder_faults_test {
 namespace {
 using namespace testing;
 namespace fs = std::filesystem;
@@ -307,4 +307,4 @@ TEST(RecorderFaults, afterASlowCommitTheNextOneFollowsAtOnce) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::recorder_faults_test

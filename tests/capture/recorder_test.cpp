@@ -7,7 +7,7 @@
 #include "capture/scripted_device.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::recorder_test {
 namespace {
 using namespace testing;
 namespace fs = std::filesystem;
@@ -310,4 +310,4 @@ TEST(Recorder, rateAndGapsOfTheReportAreThoseOfTheFile) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::recorder_test

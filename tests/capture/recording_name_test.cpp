@@ -8,7 +8,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::recording_name_test {
 namespace {
 namespace fs = std::filesystem;
 using testing::TemporaryFolder;
@@ -155,4 +155,4 @@ TEST_F(RecordingName, withoutRunATakenNameGetsANumber) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::recording_name_test

@@ -10,7 +10,7 @@
 #include "capture/scripted_device.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::replay_test {
 namespace {
 using namespace testing;
 
@@ -259,4 +259,4 @@ TEST(Replay, aSyntheticRecordingReplayedAndRecordedIsTheSameBitByBit) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::replay_test

@@ -5,7 +5,7 @@
 
 #include "commands/recognition_folder.h"
 
-namespace palpate {
+namespace palpate::adapt_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -170,4 +170,4 @@ TEST_F(AdaptCommand, AZeroThatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::adapt_command_test

@@ -14,7 +14,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::calibrate_command_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -325,4 +325,4 @@ TEST(CalibrateCommand, ACalibrationThatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::calibrate_command_test

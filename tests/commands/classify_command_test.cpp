@@ -2,7 +2,7 @@
 
 #include "commands/recognition_folder.h"
 
-namespace palpate {
+namespace palpate::classify_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -101,4 +101,4 @@ TEST_F(ClassifyCommand, SaysWhatItCant) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::classify_command_test

@@ -3,7 +3,7 @@
 #include "commands/commands.h"
 #include "commands/palpate_program.h"
 
-namespace palpate::commands {
+namespace palpate::commands::command_line_test {
 namespace {
 
 using palpate::testing::expectOneLineError;
@@ -110,4 +110,4 @@ TEST(Program, FullStandardOutputIsAFailure) {
 }
 
 }  // namespace
-}  // namespace palpate::commands
+}  // namespace palpate::commands::command_line_test

@@ -7,7 +7,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::compare_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -85,4 +85,4 @@ TEST_F(CompareCommandTest, ARecordingWithItselfDiffersInNothing) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::compare_command_test

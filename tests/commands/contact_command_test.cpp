@@ -11,7 +11,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::contact_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -245,4 +245,4 @@ TEST(ContactCommand, SizesOfTheGraspsOfARealRecording) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::contact_command_test

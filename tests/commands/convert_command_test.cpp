@@ -2,7 +2,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::convert_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -149,4 +149,4 @@ TEST_F(ConvertCommand, labelsComeAlong) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::convert_command_test

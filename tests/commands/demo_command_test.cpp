@@ -4,7 +4,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::demo_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,4 +68,4 @@ TEST(DemoCommand, SaysWhatFailed) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::demo_command_test

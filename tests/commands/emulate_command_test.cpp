@@ -5,7 +5,7 @@
 #include "emulator/hand_session.h"
 #include "testing/background_program.h"
 
-namespace palpate {
+namespace palpate::emulate_command_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -116,4 +116,4 @@ TEST(EmulateCommand, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::emulate_command_test

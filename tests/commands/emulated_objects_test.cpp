@@ -5,7 +5,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::emulated_objects_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -84,4 +84,4 @@ TEST(EmulatedObjects, AnUnknownShapeIsCalledUnknown) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::emulated_objects_test

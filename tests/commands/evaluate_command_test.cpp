@@ -2,7 +2,7 @@
 
 #include "commands/recognition_folder.h"
 
-namespace palpate {
+namespace palpate::evaluate_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -157,4 +157,4 @@ TEST(EvaluateCommand, TellsHowWellUnknownObjectsAreTold) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::evaluate_command_test

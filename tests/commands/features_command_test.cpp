@@ -10,7 +10,7 @@
 #include "commands/palpate_program.h"
 #include "recognition/pinch_profile.h"
 
-namespace palpate {
+namespace palpate::features_command_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -104,4 +104,4 @@ TEST(FeaturesCommand, ExplainsItself) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::features_command_test

@@ -11,7 +11,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::filter_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -197,4 +197,4 @@ TEST(FilterCommand, SignalsThemselvesAreSmoothedToo) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::filter_command_test

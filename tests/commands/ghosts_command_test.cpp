@@ -11,7 +11,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::ghosts_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -200,4 +200,4 @@ TEST(GhostsCommand, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::ghosts_command_test

@@ -7,7 +7,7 @@
 #include "control/emulated_bench.h"
 #include "testing/background_program.h"
 
-namespace palpate {
+namespace palpate::grasp_command_test {
 namespace {
 using namespace testing;
 
@@ -245,4 +245,4 @@ TEST(GraspCommand, OverTheLimitAlreadyIsRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::grasp_command_test

@@ -9,7 +9,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::grasps_command_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -187,4 +187,4 @@ TEST(GraspsCommand, FindsOneGraspInEachOfTheSharedClasses) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::grasps_command_test

@@ -6,7 +6,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::info_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -235,4 +235,4 @@ TEST(InfoCommand, TheTableOverAllSharedRecordingsHasEveryOne) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::info_command_test

@@ -1,7 +1,7 @@
 // A thousand killed recorders (reliability R1).
 #include "commands/kill_recording.h"
 
-namespace palpate::testing {
+namespace palpate::testing::kill_recording_slow_test {
 namespace {
 
 // In parts: each stays below the time a test may take.
@@ -15,4 +15,4 @@ TEST_P(KillRecordingSlow, TwoHundredAndFiftyKills) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::kill_recording_slow_test

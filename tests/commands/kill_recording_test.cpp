@@ -1,7 +1,7 @@
 // Recorders killed, short form (reliability R1).
 #include "commands/kill_recording.h"
 
-namespace palpate::testing {
+namespace palpate::testing::kill_recording_test {
 namespace {
 
 TEST(KillRecording, FilesOpenAndHoldAllButTheLastMoment) {
@@ -11,4 +11,4 @@ TEST(KillRecording, FilesOpenAndHoldAllButTheLastMoment) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::kill_recording_test

@@ -7,7 +7,7 @@
 #include "testing/program.h"
 #include "testing/testing.h"
 
-namespace palpate::testing {
+namespace palpate::testing::kinematics_command_test {
 namespace {
 
 ProgramResult run(const std::vector<std::string>& words) {
@@ -138,4 +138,4 @@ TEST(KinematicsCommand, WrongUsageIsSaidInOneLine) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::kinematics_command_test

@@ -8,7 +8,7 @@
 #include "device/fake_tactile_answers.h"
 #include "device/pty_server.h"
 
-namespace palpate {
+namespace palpate::ports_command_test {
 namespace {
 
 using testing::Bytes;
@@ -121,4 +121,4 @@ TEST(PortsCommandUsage, ExplainsItselfAndRefusesWhatItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::ports_command_test

@@ -12,7 +12,7 @@
 #include "emulator/numbered_hand.h"
 #include "testing/background_program.h"
 
-namespace palpate {
+namespace palpate::record_command_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace testing;
@@ -191,4 +191,4 @@ TEST(RecordCommand, RefusesWrongUsage) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::record_command_test

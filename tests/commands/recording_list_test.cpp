@@ -19,7 +19,7 @@
 #include "testing/background_program.h"
 #include "testing/process_facts.h"
 
-namespace palpate::commands {
+namespace palpate::commands::recording_list_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace palpate::testing;
@@ -386,4 +386,4 @@ TEST(SignalsOfAFolder, MemoryDoesNotGrowWithTheFolder) {
 }
 
 }  // namespace
-}  // namespace palpate::commands
+}  // namespace palpate::commands::recording_list_test

@@ -3,7 +3,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::recover_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -67,4 +67,4 @@ TEST_F(RecoverCommand, whereNothingIsLeftThereIsNoOutput) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::recover_command_test

@@ -14,7 +14,7 @@
 #include "interop/raw_client.h"
 #include "testing/background_program.h"
 
-namespace palpate {
+namespace palpate::remote_command_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace testing;
@@ -212,4 +212,4 @@ TEST(RemoteCommand, RefusesWrongUsage) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::remote_command_test

@@ -9,7 +9,7 @@
 #include "commands/palpate_program.h"
 #include "testing/background_program.h"
 
-namespace palpate {
+namespace palpate::render_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -208,4 +208,4 @@ TEST(RenderCommand, AnInterruptedSeriesLeavesWholePictures) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::render_command_test

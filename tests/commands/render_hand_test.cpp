@@ -10,7 +10,7 @@
 #include "commands/palpate_program.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::render_hand_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -128,4 +128,4 @@ TEST_F(RenderHandTest, ASeriesHasAPictureOfEachFrame) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::render_hand_test

@@ -7,7 +7,7 @@
 #include "testing/background_program.h"
 #include "testing/fake_ffmpeg.h"
 
-namespace palpate {
+namespace palpate::render_movie_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -101,4 +101,4 @@ TEST_F(RenderMovieTest, InterruptedItLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::render_movie_test

@@ -4,7 +4,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::signals_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -137,4 +137,4 @@ TEST(SignalsCommand, IsNumericallyTrueOnARealFrame) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::signals_command_test

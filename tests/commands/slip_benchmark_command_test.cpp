@@ -4,7 +4,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::slip_benchmark_command_test {
 namespace {
 
 using testing::palpate;
@@ -65,4 +65,4 @@ TEST(SlipBenchmarkCommand, RefusesWhatItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_benchmark_command_test

@@ -13,7 +13,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::slip_command_test {
 namespace {
 
 using testing::palpate;
@@ -172,4 +172,4 @@ TEST(SlipCommand, ReadsTheStudysRecording) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_command_test

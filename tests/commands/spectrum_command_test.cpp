@@ -10,7 +10,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::spectrum_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -185,4 +185,4 @@ TEST(SpectrumCommand, SaysWhatRealRecordingsCannotShow) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::spectrum_command_test

@@ -12,7 +12,7 @@
 #include "interop/udp_receiver.h"
 #include "testing/background_program.h"
 
-namespace palpate {
+namespace palpate::stream_command_test {
 namespace {
 using namespace testing;
 
@@ -162,4 +162,4 @@ TEST(StreamCommand, RefusesWrongUsage) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::stream_command_test

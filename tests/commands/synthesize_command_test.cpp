@@ -5,7 +5,7 @@
 
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::synthesize_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -82,4 +82,4 @@ TEST(SynthesizeCommand, TheEmptyHandOfAnotherDayTouchesAtOtherAngles) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::synthesize_command_test

@@ -6,7 +6,7 @@
 
 #include "commands/recognition_folder.h"
 
-namespace palpate {
+namespace palpate::train_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -153,4 +153,4 @@ TEST(TrainCommand, KeepsTheZeroOfTheEmptyHand) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::train_command_test

@@ -12,7 +12,7 @@
 #include "commands/palpate_program.h"
 #include "testing/background_program.h"
 
-namespace palpate {
+namespace palpate::truth_to_export_test {
 namespace {
 using testing::palpate;
 
@@ -125,4 +125,4 @@ TEST(TruthToExport, WhatTheHandFeltIsWhatIsExported) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::truth_to_export_test

@@ -1,6 +1,6 @@
 #include "commands/palpate_program.h"
 
-namespace palpate {
+namespace palpate::verify_command_test {
 namespace {
 
 using testing::palpate;
@@ -84,4 +84,4 @@ TEST_F(VerifyCommand, EverySharedRecordingIsSound) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::verify_command_test

@@ -5,7 +5,7 @@
 #include "commands/palpate_program.h"
 #include "testing/background_program.h"
 
-namespace palpate {
+namespace palpate::workbench_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -148,4 +148,4 @@ TEST(WorkbenchCommand, AskedToEndItEndsInOrder) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::workbench_command_test

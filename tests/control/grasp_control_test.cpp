@@ -14,7 +14,7 @@
 #include "control/scripted_hand.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::grasp_control_test {
 namespace {
 using testing::GraspBench;
 
@@ -286,4 +286,4 @@ TEST(GraspControl, RunsOnAThreadOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::grasp_control_test

@@ -8,7 +8,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::grasp_machine_test {
 namespace {
 
 constexpr std::int64_t kPeriodUs = 31'546;
@@ -378,4 +378,4 @@ TEST(GraspMachine, RelaxEndsWhateverRuns) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::grasp_machine_test

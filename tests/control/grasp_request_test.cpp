@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::grasp_request_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -150,4 +150,4 @@ TEST(GraspReport, IsAnEventWithParametersAndOutcome) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::grasp_request_test

@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::grip_watch_test {
 namespace {
 
 // A contact on matrix 3 of the SDH-2.
@@ -103,4 +103,4 @@ TEST(GripWatch, LittleLoadSaysNothing) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::grip_watch_test

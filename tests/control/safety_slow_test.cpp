@@ -2,7 +2,7 @@
 #include "control/stop_moments.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::safety_slow_test {
 namespace {
 
 TEST(SafetyLong, StopAtAThousandRandomMomentsIsOnTheWireWithinTwentyMilliseconds) {
@@ -10,4 +10,4 @@ TEST(SafetyLong, StopAtAThousandRandomMomentsIsOnTheWireWithinTwentyMilliseconds
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::safety_slow_test

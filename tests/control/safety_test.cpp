@@ -14,7 +14,7 @@
 #include "control/stop_moments.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::safety_test {
 namespace {
 using namespace testing;
 
@@ -322,4 +322,4 @@ TEST(Safety, StopAtRandomMomentsIsOnTheWireWithinTwentyMilliseconds) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::safety_test

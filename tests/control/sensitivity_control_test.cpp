@@ -8,7 +8,7 @@
 #include "control/scripted_hand.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::sensitivity_control_test {
 namespace {
 using namespace testing;
 
@@ -193,4 +193,4 @@ TEST(SensitivityControl, OnTheEmulatedHand) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sensitivity_control_test

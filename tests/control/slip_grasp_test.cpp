@@ -7,7 +7,7 @@
 #include "control/held_object.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::slip_grasp_test {
 namespace {
 
 using testing::HeldObject;
@@ -200,4 +200,4 @@ TEST(SlipGrasp, ItsEventsTellWhatHappened) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_grasp_test

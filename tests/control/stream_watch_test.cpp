@@ -2,7 +2,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::stream_watch_test {
 namespace {
 
 // `frames` frames, one every `periodUs`; returns the time of the last one.
@@ -73,4 +73,4 @@ TEST(StreamWatch, FollowsANewRate) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::stream_watch_test

@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::tactile_masks_test {
 namespace {
 
 // Two pads; of the first, row 0 column 0 has no taxel and row 0 column 1 isn't scanned.
@@ -64,4 +64,4 @@ TEST(TactileMasks, NeverLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::tactile_masks_test

@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::tactile_settings_test {
 namespace {
 
 TactileSettings same(double sensitivity, int counts) {
@@ -92,4 +92,4 @@ TEST(TactileSettings, TextThatIsNoneIsAnError) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::tactile_settings_test

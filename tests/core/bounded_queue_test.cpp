@@ -5,7 +5,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::bounded_queue_test {
 namespace {
 
 TEST(BoundedQueue, HandsOutInOrderAndCounts) {
@@ -62,4 +62,4 @@ TEST(BoundedQueue, RefusesToHoldNothing) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::bounded_queue_test

@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::byte_reader_test {
 namespace {
 
 template <typename... Values>
@@ -49,4 +49,4 @@ TEST(ByteReader, TakesSpansAndRefusesHugeCounts) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::byte_reader_test

@@ -2,7 +2,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::file_series_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,4 +59,4 @@ TEST(FileSeries, TheNextFreeNameCountsFromTwo) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::file_series_test

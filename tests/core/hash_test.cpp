@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::hash_test {
 namespace {
 
 // FIPS 180-4 example values.
@@ -28,4 +28,4 @@ TEST(Hash, OfFilesLongerThanOnePiece) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::hash_test

@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::json_test {
 namespace {
 
 TEST(Json, KeepsTheOrderOfKeysAndWritesShortNumbers) {
@@ -55,4 +55,4 @@ TEST(Json, NoNumberBecomesNullAndBadUtf8IsReplaced) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::json_test

@@ -5,7 +5,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::latest_value_test {
 namespace {
 
 TEST(LatestValue, GivesTheNewestOnceAndCountsWhatWasSkipped) {
@@ -41,4 +41,4 @@ TEST(LatestValue, AccountsForEveryValueBetweenThreads) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::latest_value_test

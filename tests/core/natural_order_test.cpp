@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::natural_order_test {
 namespace {
 
 TEST(NaturalOrder, numbersCountAsNumbers) {
@@ -59,4 +59,4 @@ TEST(NaturalOrder, isAnOrder) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::natural_order_test

@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::number_text_test {
 namespace {
 
 TEST(NumberText, IsTheShortestThatReadsBack) {
@@ -50,4 +50,4 @@ TEST(NumberText, IsTheSameInEveryLocale) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::number_text_test

@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::one_line_test {
 namespace {
 
 TEST(OneLine, KeepsWhatIsFitForALine) {
@@ -45,4 +45,4 @@ TEST(OneLine, ErrorsAreOneLineWhateverTheyName) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::one_line_test

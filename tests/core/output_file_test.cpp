@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::output_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -140,4 +140,4 @@ TEST(OutputFile, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::output_file_test

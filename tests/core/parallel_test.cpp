@@ -10,7 +10,7 @@
 
 #include "palpate/core/error.h"
 
-namespace palpate {
+namespace palpate::parallel_test {
 namespace {
 
 TEST(Parallel, EveryPieceIsDoneOnce) {
@@ -85,4 +85,4 @@ TEST(Parallel, TheErrorOfAPieceArrives) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::parallel_test

@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::text_table_test {
 namespace {
 
 TextTable numbers(std::size_t rows) {
@@ -80,4 +80,4 @@ TEST(TextTable, TabbedTextHasNoTabsWithinCells) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::text_table_test

@@ -2,7 +2,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::time_test {
 namespace {
 
 class FakeClock final : public Clock {
@@ -36,4 +36,4 @@ TEST(UtcText, WritesDatesLikePeople) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::time_test

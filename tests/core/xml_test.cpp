@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::xml_test {
 namespace {
 
 // Writes down what it is told.
@@ -250,4 +250,4 @@ TEST(Xml, escapesTheFiveSpecialCharacters) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::xml_test

@@ -1,7 +1,7 @@
 // A gigabyte of random bytes (reliability R9).
 #include "device/babble.h"
 
-namespace palpate::testing {
+namespace palpate::testing::babble_slow_test {
 namespace {
 
 TEST(BabbleSlow, AGigabyteOfRandomBytesTakesNoMemory) {
@@ -11,4 +11,4 @@ TEST(BabbleSlow, AGigabyteOfRandomBytesTakesNoMemory) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::babble_slow_test

@@ -1,7 +1,7 @@
 // Misbehaving controllers, short form (reliability R9).
 #include "device/babble.h"
 
-namespace palpate::testing {
+namespace palpate::testing::babble_test {
 namespace {
 
 // "Silent" within 500 ms, and what a busy machine adds.
@@ -16,4 +16,4 @@ TEST(Babble, RandomBytesTakeNoMemory) {
 TEST(Babble, OneByteASecondIsSilence) { EXPECT_LT(misbehave(Behaviour::kDripping, 0), kNoticedMs); }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::babble_test

@@ -14,7 +14,7 @@
 #include "device/pty_pair.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::byte_channel_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -337,4 +337,4 @@ TEST(ByteChannel, LeaksNoDescriptor) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::byte_channel_test

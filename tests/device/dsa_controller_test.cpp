@@ -6,7 +6,7 @@
 
 #include "device/dsa_fake.h"
 
-namespace palpate::testing {
+namespace palpate::testing::dsa_controller_test {
 namespace {
 
 class DsaControllerTest : public ::testing::Test {
@@ -213,4 +213,4 @@ TEST_F(DsaControllerTest, BabbleInsteadOfAControllerEndsInTime) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::dsa_controller_test

@@ -6,7 +6,7 @@
 
 #include "device/dsa_wire.h"
 
-namespace palpate::testing {
+namespace palpate::testing::dsa_frame_test {
 namespace {
 
 std::optional<DsaFrame> decode(const Bytes& payload, std::vector<float>& counts) {
@@ -145,4 +145,4 @@ TEST(DsaLossEstimate, FramesThatTheLineSlowsDownAreNotLost) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::dsa_frame_test

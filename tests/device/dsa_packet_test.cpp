@@ -4,7 +4,7 @@
 
 #include "device/dsa_wire.h"
 
-namespace palpate::testing {
+namespace palpate::testing::dsa_packet_test {
 namespace {
 
 struct Found {
@@ -113,4 +113,4 @@ TEST(DsaPacket, RefusesPlacesThatNoFrameCanHave) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::dsa_packet_test

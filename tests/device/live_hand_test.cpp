@@ -7,7 +7,7 @@
 #include "device/babbling_channel.h"
 #include "device/collecting_sink.h"
 
-namespace palpate::testing {
+namespace palpate::testing::live_hand_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -235,4 +235,4 @@ TEST(LiveHandOptions, AreChecked) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::live_hand_test

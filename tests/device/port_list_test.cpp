@@ -5,7 +5,7 @@
 #include "device/pty_pair.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::port_list_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,4 +76,4 @@ TEST(PortList, WhatHasNoStableNameKeepsItsOwn) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::port_list_test

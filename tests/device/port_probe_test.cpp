@@ -9,7 +9,7 @@
 #include "device/pty_server.h"
 #include "device/scripted_channel.h"
 
-namespace palpate {
+namespace palpate::port_probe_test {
 namespace {
 
 using testing::Bytes;
@@ -202,4 +202,4 @@ TEST(PortProbe, SaysWhenPortsAreSwapped) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::port_probe_test

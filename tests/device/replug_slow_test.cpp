@@ -1,7 +1,7 @@
 // 500 times unplugged and plugged in again (reliability R8).
 #include "device/replug.h"
 
-namespace palpate::testing {
+namespace palpate::testing::replug_slow_test {
 namespace {
 
 class ReplugSlow : public ::testing::TestWithParam<int> {};
@@ -15,4 +15,4 @@ TEST_P(ReplugSlow, TwoHundredAndFiftyCycles) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::replug_slow_test

@@ -1,7 +1,7 @@
 // Unplugged and plugged in again, short form (reliability R8).
 #include "device/replug.h"
 
-namespace palpate::testing {
+namespace palpate::testing::replug_test {
 namespace {
 
 TEST(Replug, TheHandIsMissedAndFoundAgain) {
@@ -12,4 +12,4 @@ TEST(Replug, TheHandIsMissedAndFoundAgain) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::replug_test

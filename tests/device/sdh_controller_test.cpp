@@ -5,7 +5,7 @@
 
 #include "device/sdh_on_a_wire.h"
 
-namespace palpate {
+namespace palpate::sdh_controller_test {
 namespace {
 
 using testing::bytesOf;
@@ -251,4 +251,4 @@ TEST_F(SdhControllerTest, AHandOfAnotherKindIsRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sdh_controller_test

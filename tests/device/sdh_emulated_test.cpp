@@ -11,7 +11,7 @@
 #include "emulator/still_hand.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::sdh_emulated_test {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
@@ -218,4 +218,4 @@ TEST(SdhEmulatedHand, SwappedPortsAreNoticedWhileTheTactileControllerStreams) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sdh_emulated_test

@@ -1,7 +1,7 @@
 // The driver of the SDH-2 on a line that loses, garbles and delays, and under a stop that can't wait.
 #include "device/sdh_on_a_wire.h"
 
-namespace palpate {
+namespace palpate::sdh_link_test {
 namespace {
 
 using testing::bytesOf;
@@ -219,4 +219,4 @@ TEST_F(SdhLinkTest, NoMotionStartsWhileAStopIsUrgent) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sdh_link_test

@@ -6,7 +6,7 @@
 
 #include "device/scripted_channel.h"
 
-namespace palpate {
+namespace palpate::sdh_protocol_test {
 namespace {
 
 using testing::Bytes;
@@ -179,4 +179,4 @@ TEST(SdhProtocol, ComparesReleases) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sdh_protocol_test

@@ -12,7 +12,7 @@
 #include "device/pty_server.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::sdh_pty_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -124,4 +124,4 @@ TEST_F(SdhPtyTest, UnpluggingIsNoticedWithin500Ms) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sdh_pty_test

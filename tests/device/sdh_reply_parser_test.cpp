@@ -7,7 +7,7 @@
 #include "device/fake_sdh_hand.h"
 #include "device/scripted_channel.h"
 
-namespace palpate {
+namespace palpate::sdh_reply_parser_test {
 namespace {
 
 using testing::Bytes;
@@ -143,4 +143,4 @@ TEST(SdhReplyParser, UnderstandsTheIndependentHand) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sdh_reply_parser_test

@@ -37,7 +37,7 @@ extern "C" int ioctl(int fd, unsigned long request, ...) noexcept {
   return static_cast<int>(result);
 }
 
-namespace palpate {
+namespace palpate::serial_port_channel_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -165,4 +165,4 @@ TEST_F(SerialPortChannelTest, LeaksNothingWhenOpeningFails) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::serial_port_channel_test

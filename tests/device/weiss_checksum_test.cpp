@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palpate {
+namespace palpate::weiss_checksum_test {
 namespace {
 
 std::uint16_t of(std::initializer_list<int> values) {
@@ -50,4 +50,4 @@ TEST(WeissChecksum, EqualsTheBitwiseFormAtEveryLength) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::weiss_checksum_test

@@ -3,7 +3,7 @@
 
 #include "device/wire_noise.h"
 
-namespace palpate::testing {
+namespace palpate::testing::wire_noise_slow_test {
 namespace {
 
 TEST(WireNoiseSlow, AMillionFramesPerRate) { expectNoiseIsSurvived(1'000'000); }
@@ -23,4 +23,4 @@ TEST(WireNoiseSlow, HowReadsAreSplitMakesNoDifference) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::wire_noise_slow_test

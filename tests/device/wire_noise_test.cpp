@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palpate::testing {
+namespace palpate::testing::wire_noise_test {
 namespace {
 
 TEST(WireNoise, NoIntactFrameIsLostAndWrongOnesAreCaught) { expectNoiseIsSurvived(20'000); }
@@ -33,4 +33,4 @@ TEST(WireNoise, HowReadsAreSplitMakesNoDifference) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::wire_noise_test

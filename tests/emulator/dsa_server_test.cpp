@@ -8,7 +8,7 @@
 #include "emulator/still_hand.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::dsa_server_test {
 namespace {
 
 using testing::DecodedFrame;
@@ -381,4 +381,4 @@ TEST_F(DsaServerTest, RefusesRatesOutOfRange) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::dsa_server_test

@@ -14,7 +14,7 @@
 #include "emulator/still_hand.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::emulated_accidents_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -381,4 +381,4 @@ TEST(EmulatedAccidents, TakesControlsFromManyThreads) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::emulated_accidents_test

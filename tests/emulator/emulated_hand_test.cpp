@@ -7,7 +7,7 @@
 #include "emulator/still_hand.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::emulated_hand_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -362,4 +362,4 @@ TEST(EmulatedHand, MovesWhileItStreams) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::emulated_hand_test

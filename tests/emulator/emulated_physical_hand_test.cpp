@@ -8,7 +8,7 @@
 #include "emulator/hand_session.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::emulated_physical_hand_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -133,4 +133,4 @@ TEST(EmulatedPhysicalHand, FeelsWhatItGrasps) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::emulated_physical_hand_test

@@ -6,7 +6,7 @@
 
 #include "emulator/line_client.h"
 
-namespace palpate {
+namespace palpate::faults_test {
 namespace {
 
 std::string refusalOf(const std::string& text) {
@@ -161,4 +161,4 @@ TEST(Faults, RefusesRatesOutOfRange) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::faults_test

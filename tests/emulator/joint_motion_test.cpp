@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palpate {
+namespace palpate::joint_motion_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -298,4 +298,4 @@ TEST(JointMotion, WrongValuesChangeNothing) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::joint_motion_test

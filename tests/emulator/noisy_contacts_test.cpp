@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::noisy_contacts_test {
 namespace {
 
 // Frames in which any taxel is active, as a share.
@@ -124,4 +124,4 @@ TEST(NoisyContacts, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::noisy_contacts_test

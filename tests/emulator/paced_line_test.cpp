@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palpate {
+namespace palpate::paced_line_test {
 namespace {
 
 LineMessage message(std::size_t bytes, std::optional<std::uint64_t> frame = {}) {
@@ -110,4 +110,4 @@ TEST(PacedLine, TakesEmptyMessagesAndTooLargeCounts) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::paced_line_test

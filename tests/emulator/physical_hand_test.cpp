@@ -13,7 +13,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::testing {
+namespace palpate::testing::physical_hand_test {
 namespace {
 
 Scene sceneOf(const std::string& name) { return loadScene(name, dataFolder() / "scenes"); }
@@ -388,4 +388,4 @@ TEST(PhysicalHand, WrongOptionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::physical_hand_test

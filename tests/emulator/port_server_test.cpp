@@ -13,7 +13,7 @@
 #include "emulator/line_client.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::port_server_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -196,4 +196,4 @@ TEST(PortServer, NamesChooseTheKind) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::port_server_test

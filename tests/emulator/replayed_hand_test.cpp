@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::replayed_hand_test {
 namespace {
 
 std::vector<std::uint16_t> scanOf(ReplayedHand& hand) {
@@ -107,4 +107,4 @@ TEST(ReplayedHand, PlaysARealRecording) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::replayed_hand_test

@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::testing {
+namespace palpate::testing::scene_test {
 namespace {
 
 std::string faultOf(const std::string& json) {
@@ -132,4 +132,4 @@ TEST(Scene, AnUnknownNameListsThoseThatExist) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::scene_test

@@ -9,7 +9,7 @@
 #include "emulator/still_hand.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::sdh_server_test {
 namespace {
 
 using testing::bitwiseChecksum;
@@ -397,4 +397,4 @@ TEST_F(SdhServerTest, RefusesOptionsThatNoControllerHas) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sdh_server_test

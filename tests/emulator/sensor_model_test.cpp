@@ -12,7 +12,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::sensor_model_test {
 namespace {
 
 constexpr std::size_t kPlaces = 486;
@@ -347,4 +347,4 @@ TEST_F(SensorModelTest, WrongSizesAreRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sensor_model_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palpate {
+namespace palpate::shape_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -60,4 +60,4 @@ TEST(Shape, NamesAreKnownOrRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::shape_test

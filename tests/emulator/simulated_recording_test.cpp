@@ -12,7 +12,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::simulated_recording_test {
 namespace {
 
 Scene emptyPinch() {
@@ -139,4 +139,4 @@ TEST(SimulatedRecording, WrongQuestionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::simulated_recording_test

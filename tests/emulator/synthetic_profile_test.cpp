@@ -8,7 +8,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::synthetic_profile_test {
 namespace {
 
 TEST(SyntheticProfile, HasTheAskedTimesAndRates) {
@@ -88,4 +88,4 @@ TEST(SyntheticProfile, RefusesNonsense) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::synthetic_profile_test

@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::testing {
+namespace palpate::testing::truth_test {
 namespace {
 
 TEST(Truth, OneRowPerMatrixAndFrame) {
@@ -41,4 +41,4 @@ TEST(Truth, AFullDiskIsSaid) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::truth_test

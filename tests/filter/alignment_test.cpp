@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::alignment_test {
 namespace {
 
 constexpr std::int64_t kStartUs = 1'400'000'000'000'000;
@@ -136,4 +136,4 @@ TEST(AlignmentOfRealGrasps, ContactsMeet) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::alignment_test

@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::bucket_series_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -100,4 +100,4 @@ TEST(BucketSeries, CanBeLookedAtWhileItGrows) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::bucket_series_test

@@ -8,7 +8,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::characteristic_signals_test {
 namespace {
 
 TEST(CharacteristicSignals, OfAMatrixComputedByHand) {
@@ -105,4 +105,4 @@ TEST(CharacteristicSignals, AllInOneAreTheSameNumbers) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::characteristic_signals_test

@@ -10,7 +10,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::curve_comparison_test {
 namespace {
 
 using Function = std::function<double(double)>;
@@ -168,4 +168,4 @@ TEST(CurveComparisonOfRealGrasps, ContactsAlignBetterThanStarts) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::curve_comparison_test

@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::filter_catalog_test {
 namespace {
 
 TEST(FilterCatalog, HasThePromisedNamesKeysAndDefaults) {
@@ -75,4 +75,4 @@ TEST(FilterCatalog, UnknownNamesListTheKnownOnes) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::filter_catalog_test

@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::filter_chain_test {
 namespace {
 
 class Collector final : public FrameSink {
@@ -223,4 +223,4 @@ TEST(FilterMemory, IsTheSumOfTheWindows) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::filter_chain_test

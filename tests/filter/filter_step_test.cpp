@@ -5,7 +5,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::filter_step_test {
 namespace {
 
 TEST(FilterStep, IsReadAndWrittenAsText) {
@@ -113,4 +113,4 @@ TEST(FilterStep, ValuesSetByHandAreCheckedToo) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::filter_step_test

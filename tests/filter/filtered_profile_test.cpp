@@ -13,7 +13,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::filtered_profile_test {
 namespace {
 
 Recipe recipeOf(const std::string& text) { return parseRecipe(std::vector<std::string>{text}); }
@@ -201,4 +201,4 @@ TEST(FilteredProfile, ServesSeveralThreads) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::filtered_profile_test

@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::first_contact_test {
 namespace {
 
 // Frames 100 ms apart with that many active taxels in row 7 on of matrix 1.
@@ -106,4 +106,4 @@ TEST(FirstContactOfRealGrasps, NothingLastsBeforeIt) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::first_contact_test

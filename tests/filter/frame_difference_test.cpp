@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::frame_difference_test {
 namespace {
 
 TactileFrame sdhFrame() { return TactileFrame(sdh2().layout); }
@@ -177,4 +177,4 @@ TEST(FramePairs, StrideApartNoneNegativeOffset) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::frame_difference_test

@@ -10,7 +10,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::frame_filter_test {
 namespace {
 
 class Collector final : public FrameSink {
@@ -239,4 +239,4 @@ TEST(SpatioTemporalFilters, AreWhatTheyAreCalled) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::frame_filter_test

@@ -11,7 +11,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::gaussian_test {
 namespace {
 
 MatrixValues randomMatrix(int rows, int columns, unsigned seed) {
@@ -111,4 +111,4 @@ TEST(Gaussian, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::gaussian_test

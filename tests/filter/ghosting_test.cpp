@@ -11,7 +11,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::ghosting_test {
 namespace {
 
 constexpr int kRows = 4, kColumns = 5;
@@ -276,4 +276,4 @@ TEST_F(GhostingTest, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::ghosting_test

@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::kalman_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -147,4 +147,4 @@ TEST(Kalman, RefusesNoisesThatAreNone) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::kalman_test

@@ -12,7 +12,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::kelvin_voigt_estimation_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -242,4 +242,4 @@ TEST(KelvinVoigtEstimation, RefusesWhatHasNoMeaningAndCanBeCancelled) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::kelvin_voigt_estimation_test

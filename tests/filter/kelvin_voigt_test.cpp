@@ -11,7 +11,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::kelvin_voigt_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -298,4 +298,4 @@ TEST(KelvinVoigt, RefusesWhatHasNoMeaning) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::kelvin_voigt_test

@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::min_max_decimation_test {
 namespace {
 
 std::vector<double> ramp(std::size_t n) {
@@ -111,4 +111,4 @@ TEST(MinMaxDecimation, RefusesBadOptions) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::min_max_decimation_test

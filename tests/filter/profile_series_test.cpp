@@ -10,7 +10,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::profile_series_test {
 namespace {
 
 using Kind = SeriesChoice::Kind;
@@ -130,4 +130,4 @@ TEST(ProfileSeries, CanBeCancelled) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::profile_series_test

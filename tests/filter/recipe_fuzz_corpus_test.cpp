@@ -1,9 +1,9 @@
 #include "fuzz/corpus_replay.h"
 
-namespace palpate {
+namespace palpate::recipe_fuzz_corpus_test {
 namespace {
 
 TEST(RecipeFuzzCorpus, Replays) { testing::expectCorpusReplays(PALPATE_FUZZ_CORPUS, 5); }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::recipe_fuzz_corpus_test

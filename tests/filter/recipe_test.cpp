@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::recipe_test {
 namespace {
 
 Recipe recipeOf(const std::vector<std::string>& texts) { return parseRecipe(texts); }
@@ -112,4 +112,4 @@ TEST(Recipe, PresetsAreSoundAndTheFirstRunsLive) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::recipe_test

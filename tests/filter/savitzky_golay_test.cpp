@@ -8,7 +8,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::savitzky_golay_test {
 namespace {
 
 using Real = long double;
@@ -154,4 +154,4 @@ TEST(SavitzkyGolay, RefusesWhatHasNoMeaning) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::savitzky_golay_test

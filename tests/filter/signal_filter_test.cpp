@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::signal_filter_test {
 namespace {
 
 Recipe recipeOf(const std::string& text) { return parseRecipe(std::vector<std::string>{text}); }
@@ -70,4 +70,4 @@ TEST(SignalFilter, RefusesFiltersOverSpace) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::signal_filter_test

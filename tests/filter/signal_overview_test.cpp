@@ -12,7 +12,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::signal_overview_test {
 namespace {
 
 // Every bucket against the frames that fall into it, all rows, all kinds.
@@ -80,4 +80,4 @@ TEST(SignalOverview, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::signal_overview_test

@@ -12,7 +12,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::spatial_filters_test {
 namespace {
 
 class Collector final : public FrameSink {
@@ -386,4 +386,4 @@ TEST(SpatialFilters, MatricesOfAnySizeAreFiltered) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::spatial_filters_test

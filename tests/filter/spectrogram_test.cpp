@@ -7,7 +7,7 @@
 #include "filter/spectra_of.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::spectrogram_test {
 namespace {
 
 using testing::evenTimes;
@@ -92,4 +92,4 @@ TEST(Spectrogram, DecibelsEndAtTheFloor) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::spectrogram_test

@@ -6,7 +6,7 @@
 #include "filter/spectra_of.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::spectrum_series_test {
 namespace {
 
 using testing::evenTimes;
@@ -146,4 +146,4 @@ TEST(SpectrumSeries, RefusesWhatHasNoMeaning) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::spectrum_series_test

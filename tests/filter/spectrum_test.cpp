@@ -7,7 +7,7 @@
 #include "filter/spectra_of.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::spectrum_test {
 namespace {
 
 using testing::evenTimes;
@@ -253,4 +253,4 @@ TEST(Spectrum, CanBeCancelled) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::spectrum_test

@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::strongest_taxel_test {
 namespace {
 
 Profile rising(std::size_t frames) {
@@ -42,4 +42,4 @@ TEST(StrongestTaxel, RefusesAndCanBeCancelled) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::strongest_taxel_test

@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::alarm_bell_test {
 namespace {
 
 constexpr std::int64_t kSecondUs = 1'000'000;
@@ -60,4 +60,4 @@ TEST_F(AlarmBellTest, MutedItIsSeenOnly) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::alarm_bell_test

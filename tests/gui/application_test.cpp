@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palpate::gui {
+namespace palpate::gui::application_test {
 namespace {
 
 TEST(Application, HasAnIconInEverySizeThatDesktopsAskFor) {
@@ -27,4 +27,4 @@ TEST(Application, IsCalledAsItsDesktopEntry) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::application_test

@@ -15,7 +15,7 @@
 #include "gui/pressure_page.h"
 #include "gui/surface_chart.h"
 
-namespace palpate::gui {
+namespace palpate::gui::calibrate_force_test {
 namespace {
 
 class CalibrateForceTest : public CalibratePanelTest {
@@ -184,4 +184,4 @@ TEST_F(CalibrateForceTest, AnAppliedFileThatIsGoneIsNamed) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::calibrate_force_test

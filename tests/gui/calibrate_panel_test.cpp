@@ -13,7 +13,7 @@
 #include "gui/step_page.h"
 #include "gui/tare_page.h"
 
-namespace palpate::gui {
+namespace palpate::gui::calibrate_panel_test {
 namespace {
 
 // Every matrix reads 10 + .5 T, by turns one more and one less, while T goes from 20 to 40 deg C.
@@ -239,4 +239,4 @@ TEST_F(CalibratePanelTest, IsSeenInBothThemes) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::calibrate_panel_test

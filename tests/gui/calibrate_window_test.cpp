@@ -13,7 +13,7 @@
 #include "gui/timeline_chart.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::calibrate_window_test {
 namespace {
 
 class CalibrateWindowTest : public WindowTest {
@@ -141,4 +141,4 @@ TEST_F(CalibrateWindowTest, FollowsTheRecordingThatIsShown) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::calibrate_window_test

@@ -8,7 +8,7 @@
 #include "gui/plot.h"
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::chart_picture_test {
 namespace {
 
 // A line from (0, 0) to (10, 10), of which 4 to 6 is seen.
@@ -141,4 +141,4 @@ TEST(InkOf, CanBeSeenOnWhite) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::chart_picture_test

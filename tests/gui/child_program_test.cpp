@@ -16,7 +16,7 @@
 #include "testing/process_facts.h"
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::child_program_test {
 namespace {
 
 std::span<const std::byte> bytesOf(const std::string& text) {
@@ -150,4 +150,4 @@ TEST(ChildProgram, WhatItLeavesBehindIsEndedWithIt) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::child_program_test

@@ -5,7 +5,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::color_map_test {
 namespace {
 
 void expectColor(QRgb color, int red, int green, int blue, int tolerance = 1) {
@@ -65,4 +65,4 @@ TEST(ColorMap, IndexIsLinearAndClamped) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::color_map_test

@@ -9,7 +9,7 @@
 #include "gui/difference_map.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::compare_painter_test {
 namespace {
 
 // CIE lightness of an opaque colour, 0..100.
@@ -198,4 +198,4 @@ TEST_F(ComparePainterTest, PlacesAreFoundInEachGroup) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::compare_painter_test

@@ -1,7 +1,7 @@
 // What a comparison shows: alignment, cursor, curves, colours, figures.
 #include "compare_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::compare_panel_test {
 namespace {
 
 using ComparePanelTest = CompareWindowFixture;
@@ -207,4 +207,4 @@ TEST_F(ComparePanelTest, MovingTheCursorIsQuick) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::compare_panel_test

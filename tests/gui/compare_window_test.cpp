@@ -1,7 +1,7 @@
 // Comparing two recordings, in the window: which ones, how it comes and goes, what is said of odd ones.
 #include "compare_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::compare_window_test {
 namespace {
 
 using CompareWindowTest = CompareWindowFixture;
@@ -174,4 +174,4 @@ TEST_F(CompareWindowTest, TheAlignmentIsRemembered) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::compare_window_test

@@ -10,7 +10,7 @@
 
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::confusion_view_test {
 namespace {
 
 ConfusionMatrix matrixOf(int classes) {
@@ -135,4 +135,4 @@ TEST_F(ConfusionViewTest, NothingAndUnknownAreShown) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::confusion_view_test

@@ -12,7 +12,7 @@
 #include "gui/scene_page.h"
 #include "gui/two_line_delegate.h"
 
-namespace palpate::gui {
+namespace palpate::gui::connect_dialog_test {
 namespace {
 
 TEST_F(ConnectDialogTest, NoPortIsTouchedUnlessThePageOfThePortsIsShown) {
@@ -192,4 +192,4 @@ TEST_F(ConnectDialogTest, BeginsWithTheLastAndKeepsTheOtherKinds) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::connect_dialog_test

@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::connection_test {
 namespace {
 
 class ConnectionTest : public ::testing::Test {
@@ -103,4 +103,4 @@ TEST(Connection, SaysWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::connection_test

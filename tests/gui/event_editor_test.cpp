@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::event_editor_test {
 namespace {
 
 RecordingEvent label(std::int64_t tUs, const std::string& text) {
@@ -105,4 +105,4 @@ TEST_F(EventEditorTest, TellsOfChanges) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::event_editor_test

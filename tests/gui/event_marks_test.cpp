@@ -4,7 +4,7 @@
 
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::event_marks_test {
 namespace {
 
 constexpr std::int64_t kStartUs = 1'400'000'000'000'000;
@@ -82,4 +82,4 @@ TEST(EventMarks, GapsAreThoseOfTheStamps) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::event_marks_test

@@ -7,7 +7,7 @@
 
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::event_rows_test {
 namespace {
 
 EventMark mark(
@@ -144,4 +144,4 @@ TEST_F(EventRowsTest, TheChosenOneStaysChosenWhenOthersCome) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::event_rows_test

@@ -12,7 +12,7 @@
 #include "gui/timeline_panel.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::events_window_test {
 namespace {
 
 // A real file: three grasps in twelve seconds.
@@ -251,4 +251,4 @@ TEST_F(EventsWindowTest, JointAnglesAndTemperaturesHaveAxesOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::events_window_test

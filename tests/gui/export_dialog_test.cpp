@@ -14,7 +14,7 @@
 #include "testing/fake_ffmpeg.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::export_dialog_test {
 namespace {
 
 // Two views: a picture of frames with a table, and a table alone.
@@ -331,4 +331,4 @@ TEST_F(ExportDialogTest, ThePreviewIsThePicture) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::export_dialog_test

@@ -2,7 +2,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::export_request_test {
 namespace {
 
 class ExportRequestTest : public ::testing::Test {
@@ -148,4 +148,4 @@ TEST_F(ExportRequestTest, ADiskThatIsTooSmallIsSaid) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::export_request_test

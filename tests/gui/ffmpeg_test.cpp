@@ -6,7 +6,7 @@
 
 #include "testing/fake_ffmpeg.h"
 
-namespace palpate::gui {
+namespace palpate::gui::ffmpeg_test {
 namespace {
 
 using testing::FakeFfmpeg;
@@ -91,4 +91,4 @@ TEST(Ffmpeg, IsFoundWhereItIs) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::ffmpeg_test

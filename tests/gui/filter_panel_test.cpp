@@ -18,7 +18,7 @@
 #include "gui/filter_list.h"
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::filter_panel_test {
 namespace {
 
 class FilterPanelTest : public ::testing::Test {
@@ -151,4 +151,4 @@ TEST_F(FilterPanelTest, RecipesArePresetsAndFiles) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::filter_panel_test

@@ -17,7 +17,7 @@
 #include "gui/timeline_panel.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::filter_window_test {
 namespace {
 
 class FilterWindowTest : public WindowTest {
@@ -214,4 +214,4 @@ TEST_F(FilterWindowTest, ARecordingMadeThroughFiltersHoldsWhatCameAndTheRecipe) 
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::filter_window_test

@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::gl_probe_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -109,4 +109,4 @@ TEST_F(GlProbeTest, WhoHasGoneIsntAnswered) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::gl_probe_test

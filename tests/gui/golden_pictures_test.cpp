@@ -12,7 +12,7 @@
 #include "gui/timeline_panel.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::golden_pictures_test {
 namespace {
 
 constexpr int kSmaller = 10;
@@ -108,4 +108,4 @@ TEST_F(GoldenPicturesTest, AnotherPictureIsTold) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::golden_pictures_test

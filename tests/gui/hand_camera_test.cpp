@@ -10,7 +10,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::hand_camera_test {
 namespace {
 
 constexpr QSizeF kSize(800.0, 600.0);
@@ -263,4 +263,4 @@ TEST(HandCamera, WhatIsNoNumberNeverSpreads) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::hand_camera_test

@@ -21,7 +21,7 @@
 #include "gui/value_slider.h"
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::hand_dock_test {
 namespace {
 using testing::EmulatedBench;
 using testing::stillHand;
@@ -376,4 +376,4 @@ TEST_F(HandDockTest, AdaptiveSensitivitySaysWhatItWaitsFor) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::hand_dock_test

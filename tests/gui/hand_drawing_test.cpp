@@ -5,7 +5,7 @@
 
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::hand_drawing_test {
 namespace {
 
 const std::vector<double> kPose = {0.0, -10.0, 20.0, -10.0, 20.0, -10.0, 20.0};
@@ -188,4 +188,4 @@ TEST_F(HandDrawingTest, WithoutAHandNothingIsDrawn) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::hand_drawing_test

@@ -14,7 +14,7 @@
 #include "sample_scene.h"
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::hand_gl_test {
 namespace {
 
 constexpr QSizeF kSize(400.0, 300.0);
@@ -215,4 +215,4 @@ TEST_F(HandGlTest, SaysWhyItCantDraw) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::hand_gl_test

@@ -12,7 +12,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::hand_mesh_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -132,4 +132,4 @@ TEST(HandMesh, AnotherHandGetsBodiesToo) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::hand_mesh_test

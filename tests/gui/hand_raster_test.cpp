@@ -10,7 +10,7 @@
 #include "sample_scene.h"
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::hand_raster_test {
 namespace {
 
 constexpr QSizeF kSize(200.0, 150.0);
@@ -388,4 +388,4 @@ TEST(HandRaster, CanBeCancelled) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::hand_raster_test

@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::hand_scene_test {
 namespace {
 
 constexpr QSizeF kSize(800.0, 600.0);
@@ -222,4 +222,4 @@ TEST_F(HandLabelsTest, OutOfSightAreNotPainted) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::hand_scene_test

@@ -11,7 +11,7 @@
 #include "gui/take_away.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::hand_view_test {
 namespace {
 
 const std::vector<double> kPose = {0.0, -10.0, 20.0, -10.0, 20.0, -10.0, 20.0};
@@ -320,4 +320,4 @@ TEST_F(HandWindowTest, CanBeTakenAway) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::hand_view_test

@@ -8,7 +8,7 @@
 #include "gui/timeline_chart.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::inspect_test {
 namespace {
 
 class InspectTest : public WindowTest {
@@ -130,4 +130,4 @@ TEST_F(InspectTest, IsEmptyAfterTheLastRecordingIsClosed) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::inspect_test

@@ -7,7 +7,7 @@
 
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::keys_dialog_test {
 namespace {
 
 class KeysDialogTest : public WindowTest {
@@ -77,4 +77,4 @@ TEST_F(KeysDialogTest, EveryMenuEntryIsAnActionOfTheWindow) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::keys_dialog_test

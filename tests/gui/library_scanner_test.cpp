@@ -11,7 +11,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::library_scanner_test {
 namespace {
 
 // A folder that hangs until it is let go.
@@ -168,4 +168,4 @@ TEST_F(LibraryScannerTest, AFailureIsSaid) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::library_scanner_test

@@ -18,7 +18,7 @@
 #include "gui/library_panel.h"
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::library_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -356,4 +356,4 @@ TEST(LibraryLength, IsReadAtAGlance) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::library_test

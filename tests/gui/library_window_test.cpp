@@ -5,7 +5,7 @@
 #include "gui/library_panel.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::library_window_test {
 namespace {
 
 class LibraryWindowTest : public WindowTest {
@@ -105,4 +105,4 @@ TEST_F(LibraryWindowTest, ResettingTheLayoutHidesIt) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::library_window_test

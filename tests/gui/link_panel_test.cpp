@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::link_panel_test {
 namespace {
 
 LinkHealth goodHealth() {
@@ -97,4 +97,4 @@ TEST(LinkPanel, SoundCanBeSwitchedOff) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::link_panel_test

@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::live_chart_test {
 namespace {
 
 constexpr std::int64_t kStartUs = 1'400'000'000'000'000;
@@ -151,4 +151,4 @@ TEST_F(LiveChartTest, WithoutASourceItIsEmpty) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::live_chart_test

@@ -10,7 +10,7 @@
 #include "control/emulated_bench.h"
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::live_controller_test {
 namespace {
 namespace fs = std::filesystem;
 using State = LiveController::State;
@@ -219,4 +219,4 @@ TEST_F(LiveControllerTest, ARecordingIsReplayedWithItsEvents) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::live_controller_test

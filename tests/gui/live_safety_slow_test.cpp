@@ -2,7 +2,7 @@
 #include "gui/stop_in_the_window.h"
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::live_safety_slow_test {
 namespace {
 
 TEST(LiveSafetyLong, EscapeAtAThousandRandomMomentsIsOnTheWireWithinTwentyMilliseconds) {
@@ -10,4 +10,4 @@ TEST(LiveSafetyLong, EscapeAtAThousandRandomMomentsIsOnTheWireWithinTwentyMillis
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::live_safety_slow_test

@@ -3,7 +3,7 @@
 #include "gui/stop_in_the_window.h"
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::live_safety_test {
 namespace {
 
 TEST(LiveSafety, EscapeAtRandomMomentsIsOnTheWireWithinTwentyMilliseconds) {
@@ -11,4 +11,4 @@ TEST(LiveSafety, EscapeAtRandomMomentsIsOnTheWireWithinTwentyMilliseconds) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::live_safety_test

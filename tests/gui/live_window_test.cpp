@@ -17,7 +17,7 @@
 #include "gui/timeline_chart.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::live_window_test {
 namespace {
 namespace fs = std::filesystem;
 using State = LiveController::State;
@@ -385,4 +385,4 @@ TEST_F(LiveWindowTest, TheDemoGraspsByItself) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::live_window_test

@@ -12,7 +12,7 @@
 #include "gui/log_panel.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::log_test {
 namespace {
 
 using Severity = LogLine::Severity;
@@ -170,4 +170,4 @@ TEST_F(WindowLogTest, IsShownByItsKey) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::log_test

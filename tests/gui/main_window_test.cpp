@@ -13,7 +13,7 @@
 #include "gui/timeline_chart.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::main_window_test {
 namespace {
 
 class MainWindowTest : public WindowTest {
@@ -348,4 +348,4 @@ TEST_F(MainWindowTest, EveryActionOfTheToolbarHasIconAndToolTip) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::main_window_test

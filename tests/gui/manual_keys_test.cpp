@@ -8,7 +8,7 @@
 #include "testing/testing.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::manual_keys_test {
 namespace {
 
 class ManualKeysTest : public WindowTest {
@@ -66,4 +66,4 @@ TEST_F(ManualKeysTest, EveryDockIsDescribedWithItsKey) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::manual_keys_test

@@ -8,7 +8,7 @@
 #include "testing/testing.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::matrices_painter_test {
 namespace {
 
 MatricesPictureOptions options() {
@@ -253,4 +253,4 @@ TEST(MatricesPainter, RefusesAFrameOfAnotherHand) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::matrices_painter_test

@@ -6,7 +6,7 @@
 
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::matrices_view_test {
 namespace {
 
 class MatricesViewTest : public ::testing::Test {
@@ -120,4 +120,4 @@ TEST_F(MatricesViewTest, WithoutAHandItIsEmpty) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::matrices_view_test

@@ -6,7 +6,7 @@
 #include "testing/fake_ffmpeg.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::movie_window_test {
 namespace {
 
 using testing::FakeFfmpeg;
@@ -112,4 +112,4 @@ TEST_F(MovieWindowTest, WhereFfmpegIsGoneAPictureIsSuggested) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::movie_window_test

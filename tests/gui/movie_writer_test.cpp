@@ -11,7 +11,7 @@
 #include "gui/ffmpeg.h"
 #include "testing/fake_ffmpeg.h"
 
-namespace palpate::gui {
+namespace palpate::gui::movie_writer_test {
 namespace {
 
 using testing::FakeFfmpeg;
@@ -238,4 +238,4 @@ TEST_F(MovieWriterTest, TheColoursArriveAtTheEnd) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::movie_writer_test

@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::offer_strip_test {
 namespace {
 
 class OfferStripTest : public ::testing::Test {
@@ -61,4 +61,4 @@ TEST_F(OfferStripTest, FileNamesAreNoMarkUp) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::offer_strip_test

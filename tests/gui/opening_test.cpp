@@ -16,7 +16,7 @@
 #include "gui/status_strip.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::opening_test {
 namespace {
 
 class OpeningTest : public WindowTest {
@@ -322,4 +322,4 @@ TEST(RealRecording, OpensAndShowsTheFrameOfTheSketch) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::opening_test

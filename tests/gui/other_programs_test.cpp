@@ -16,7 +16,7 @@
 #include "interop/udp_receiver.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::other_programs_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -224,4 +224,4 @@ TEST_F(OtherProgramsTest, AWindowThatClosesFinishesTheRecording) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::other_programs_test

@@ -8,7 +8,7 @@
 #include "testing/testing.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::picture_export_test {
 namespace {
 
 MatricesPictureOptions named() {
@@ -84,4 +84,4 @@ TEST(PictureExport, RefusesToReplaceAndToGuess) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::picture_export_test

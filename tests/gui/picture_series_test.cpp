@@ -11,7 +11,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::picture_series_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -127,4 +127,4 @@ TEST_F(PictureSeriesTest, ADiskThatTakesNoMoreIsSaid) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::picture_series_test

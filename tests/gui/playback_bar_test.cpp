@@ -6,7 +6,7 @@
 #include "gui/seek_bar.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::playback_bar_test {
 namespace {
 
 class PlaybackBarTest : public WindowTest {
@@ -128,4 +128,4 @@ TEST_F(PlaybackBarTest, FollowsThePlayback) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::playback_bar_test

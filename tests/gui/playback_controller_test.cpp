@@ -6,7 +6,7 @@
 #include "testing/testing.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::playback_controller_test {
 namespace {
 
 class PlaybackControllerTest : public ::testing::Test {
@@ -175,4 +175,4 @@ TEST_F(PlaybackControllerTest, SettingsStayWithTheNextRecording) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::playback_controller_test

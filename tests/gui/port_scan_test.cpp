@@ -17,7 +17,7 @@
 #include "fake_ports.h"
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::port_scan_test {
 namespace {
 
 constexpr int kPatienceMs = 10'000;
@@ -293,4 +293,4 @@ TEST(PortScan, CanBeDestroyedAtAnyMoment) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::port_scan_test

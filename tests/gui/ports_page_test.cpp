@@ -7,7 +7,7 @@
 #include "connect_fixture.h"
 #include "gui/two_line_delegate.h"
 
-namespace palpate::gui {
+namespace palpate::gui::ports_page_test {
 namespace {
 
 class PortsPageTest : public ConnectDialogTest {};
@@ -195,4 +195,4 @@ TEST_F(PortsPageTest, OurOwnPortIsNotAsked) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::ports_page_test

@@ -23,7 +23,7 @@
 #include "gui/timeline_panel.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::pressures_window_test {
 namespace {
 
 Calibration calibration() { return testing::linearCalibration({0.5, 150.0, false}); }
@@ -156,4 +156,4 @@ TEST_F(PressuresWindowTest, NoiseLinesLeadToHighSensitivityAndAFilterAgainstGhos
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::pressures_window_test

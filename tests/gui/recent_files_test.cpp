@@ -5,7 +5,7 @@
 #include "testing/testing.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::recent_files_test {
 namespace {
 
 class RecentFilesTest : public ::testing::Test {
@@ -66,4 +66,4 @@ TEST_F(RecentFilesTest, ForgetsOneTheMissingOrAll) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::recent_files_test

@@ -5,7 +5,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::recipe_editor_test {
 namespace {
 
 std::string textOf(const RecipeEditor& editor) { return recipeText(editor.recipe()); }
@@ -90,4 +90,4 @@ TEST(RecipeEditor, WhatDoesNotExistIsRefusedAndNothingChanges) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::recipe_editor_test

@@ -14,7 +14,7 @@
 #include "gui/today_page.h"
 #include "recognise_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::recognise_panel_test {
 namespace {
 
 using Kind = RecognitionAnswer::Kind;
@@ -258,4 +258,4 @@ TEST_F(RecognisePanelTest, EscGivesUpTrainingAndLeavesNoModel) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::recognise_panel_test

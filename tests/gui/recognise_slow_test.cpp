@@ -11,7 +11,7 @@
 #include "gui/today_page.h"
 #include "recognise_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::recognise_slow_test {
 namespace {
 
 class RecogniseSlowTest : public RecogniseWindowTest {};
@@ -159,4 +159,4 @@ TEST_F(RecogniseSlowTest, ASeriesIsCapturedWhileTheHandGrasps) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::recognise_slow_test

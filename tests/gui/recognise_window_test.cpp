@@ -11,7 +11,7 @@
 #include "gui/timeline_panel.h"
 #include "recognise_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::recognise_window_test {
 namespace {
 
 TEST_F(RecogniseWindowTest, ComesAndGoesByItsKey) {
@@ -73,4 +73,4 @@ TEST_F(RecogniseWindowTest, AGraspOfTheCheckIsOpenedAndSelected) {
 TEST_F(RecogniseWindowTest, NamesWhatTheEmulatedHandHolds) { EXPECT_EQ(heldName("pen"), "pen"); }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::recognise_window_test

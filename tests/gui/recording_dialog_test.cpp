@@ -12,7 +12,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::recording_dialog_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -228,4 +228,4 @@ TEST_F(RecordingDialogTest, ALongNameFitsIntoTheDialog) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::recording_dialog_test

@@ -8,7 +8,7 @@
 #include "testing/testing.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::recording_opener_test {
 namespace {
 
 constexpr int kPatienceMs = 10'000;
@@ -122,4 +122,4 @@ TEST(RecordingOpener, ReadsARealFile) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::recording_opener_test

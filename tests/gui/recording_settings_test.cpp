@@ -10,7 +10,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::recording_settings_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -154,4 +154,4 @@ TEST_F(RecordingSettingsTest, AFolderThatMayNotBeWrittenIsSaid) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::recording_settings_test

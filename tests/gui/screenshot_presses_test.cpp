@@ -11,7 +11,7 @@
 
 #include <palpate/core/error.h>
 
-namespace palpate::gui {
+namespace palpate::gui::screenshot_presses_test {
 namespace {
 
 class ScreenshotPressesTest : public ::testing::Test {
@@ -93,4 +93,4 @@ TEST_F(ScreenshotPressesTest, ADialogueThatOpensIsThePictureAndGetsTheNextPresse
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::screenshot_presses_test

@@ -7,7 +7,7 @@
 #include "testing/testing.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::screenshot_test {
 namespace {
 
 class ScreenshotTest : public ::testing::Test {
@@ -124,4 +124,4 @@ TEST_F(ScreenshotTest, LeavesTheUsersSettingsAlone) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::screenshot_test

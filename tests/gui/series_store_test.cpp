@@ -9,7 +9,7 @@
 
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::series_store_test {
 namespace {
 
 using Kind = SeriesChoice::Kind;
@@ -150,4 +150,4 @@ TEST_F(SeriesStoreTest, TheOverviewTellsTheExactFacts) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::series_store_test

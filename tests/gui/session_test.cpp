@@ -3,7 +3,7 @@
 #include "gui/timeline_panel.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::session_test {
 namespace {
 
 class SessionTest : public WindowTest {};
@@ -79,4 +79,4 @@ TEST_F(SessionTest, WhatIsGoneIsSaid) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::session_test

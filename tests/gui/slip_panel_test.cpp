@@ -19,7 +19,7 @@
 #include "slip_fixture.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::slip_panel_test {
 namespace {
 
 constexpr double kIntervalS = 0.032;
@@ -272,4 +272,4 @@ TEST_F(SlipPanelTest, OfWhatIsLiveTheNewestIsShown) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::slip_panel_test

@@ -14,7 +14,7 @@
 #include "slip_fixture.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::slip_window_test {
 namespace {
 
 class SlipWindowTest : public WindowTest {
@@ -166,4 +166,4 @@ TEST_F(SlipWindowTest, OfAConnectedHandItTellsWhenItSlips) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::slip_window_test

@@ -14,7 +14,7 @@
 
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::spectrum_panel_test {
 namespace {
 
 constexpr double kRateHz = 50.0;
@@ -329,4 +329,4 @@ TEST_F(SpectrumPanelTest, IsSeenInBothThemes) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::spectrum_panel_test

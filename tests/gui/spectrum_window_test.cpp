@@ -8,7 +8,7 @@
 #include "gui/timeline_chart.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::spectrum_window_test {
 namespace {
 
 class SpectrumWindowTest : public WindowTest {
@@ -145,4 +145,4 @@ TEST_F(SpectrumWindowTest, InTheUsualOneItStandsAboveTheTimeline) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::spectrum_window_test

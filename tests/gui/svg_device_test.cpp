@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::svg_device_test {
 namespace {
 
 std::string drawn(const std::function<void(QPainter&)>& paint) {
@@ -132,4 +132,4 @@ TEST(SvgDevice, ImagesAreEmbedded) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::svg_device_test

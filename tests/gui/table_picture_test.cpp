@@ -6,7 +6,7 @@
 #include "gui/picture_export.h"
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::table_picture_test {
 namespace {
 
 TablePicture table(int rows) {
@@ -68,4 +68,4 @@ TEST(TablePicture, OfNothingIsAnEmptySheet) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::table_picture_test

@@ -19,7 +19,7 @@
 #include "gui/timeline_chart.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::take_away_test {
 namespace {
 
 std::vector<std::vector<std::string>> cellsOf(const std::string& text, char separator) {
@@ -330,4 +330,4 @@ TEST_F(TakeAwayTest, MakingThePictureDoesntBlockTheWindow) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::take_away_test

@@ -7,7 +7,7 @@
 #include "gui/signal_tree.h"
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::taxel_groups_test {
 namespace {
 
 class TaxelGroupsTest : public ::testing::Test {
@@ -108,4 +108,4 @@ TEST_F(TaxelGroupsTest, WhatIsTickedIsRemembered) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::taxel_groups_test

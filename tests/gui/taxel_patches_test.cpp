@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::taxel_patches_test {
 namespace {
 
 Eigen::Vector3f facing(const TaxelPatch& patch) {
@@ -61,4 +61,4 @@ TEST(TaxelPatches, LaidFlatTheyLieLikeTheHeatMaps) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::taxel_patches_test

@@ -5,7 +5,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::termination_test {
 namespace {
 
 TEST(Termination, ASignalIsHeardInsteadOfEndingTheProgram) {
@@ -41,4 +41,4 @@ TEST(Termination, WhatWasIgnoredStaysIgnored) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::termination_test

@@ -7,7 +7,7 @@
 #include "gui/timeline_header.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::timeline_test {
 namespace {
 
 class TimelineTest : public WindowTest {
@@ -245,4 +245,4 @@ TEST_F(TimelineTest, ClosedItIsEmpty) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::timeline_test

@@ -10,7 +10,7 @@
 #include "recording/palpate_samples.h"
 #include "testing/testing.h"
 
-namespace palpate::gui {
+namespace palpate::gui::unfinished_finder_test {
 namespace {
 namespace fs = std::filesystem;
 using testing::writeSamples;
@@ -207,4 +207,4 @@ TEST_F(UnfinishedFinderTest, CanBeDestroyedWhileItWorks) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::unfinished_finder_test

@@ -9,7 +9,7 @@
 #include "recording/palpate_samples.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::unfinished_window_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -73,4 +73,4 @@ TEST_F(UnfinishedWindowTest, NothingUnfinishedNothingSaid) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::unfinished_window_test

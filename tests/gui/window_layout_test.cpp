@@ -6,7 +6,7 @@
 #include "gui/matrix_table.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::window_layout_test {
 namespace {
 
 class WindowLayoutTest : public WindowTest {
@@ -134,4 +134,4 @@ TEST_F(WindowLayoutTest, DocksCloseByTheirButton) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::window_layout_test

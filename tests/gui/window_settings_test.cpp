@@ -3,7 +3,7 @@
 #include "testing/testing.h"
 #include "window_fixture.h"
 
-namespace palpate::gui {
+namespace palpate::gui::window_settings_test {
 namespace {
 
 class WindowSettingsTest : public ::testing::Test {
@@ -65,4 +65,4 @@ TEST_F(WindowSettingsTest, LieInTheUsersConfigFolder) {
 }
 
 }  // namespace
-}  // namespace palpate::gui
+}  // namespace palpate::gui::window_settings_test

@@ -12,7 +12,7 @@
 #include "testing/program.h"
 #include "testing/testing.h"
 
-namespace palpate::testing {
+namespace palpate::testing::docs_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -263,4 +263,4 @@ TEST_F(Docs, EveryDockIsDescribed) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::docs_test

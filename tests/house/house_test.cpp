@@ -10,7 +10,7 @@
 #include "testing/program.h"
 #include "testing/testing.h"
 
-namespace palpate::testing {
+namespace palpate::testing::house_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -180,4 +180,4 @@ TEST(House, FilesAndCommandsThatPagesNameExist) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::house_test

@@ -5,7 +5,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::testing {
+namespace palpate::testing::include_rule_test {
 namespace {
 
 IncludeRules rulesOfTheHouse() {
@@ -106,4 +106,4 @@ TEST(IncludeRule, AllowsWhatTheTablesAllow) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::include_rule_test

@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::testing {
+namespace palpate::testing::program_test {
 namespace {
 
 std::string librariesOf(const std::string& program) {
@@ -34,4 +34,4 @@ TEST(Program, CoreLibraryLoadsNoQt) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::program_test

@@ -9,7 +9,7 @@
 #include "testing/program.h"
 #include "testing/testing.h"
 
-namespace palpate::testing {
+namespace palpate::testing::scripts_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -302,4 +302,4 @@ TEST_F(CountTests, NoTestIsAFailure) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::scripts_test

@@ -6,7 +6,7 @@
 #include "interop/udp_receiver.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::datagram_sender_test {
 namespace {
 using testing::UdpReceiver;
 
@@ -66,4 +66,4 @@ TEST(DatagramSender, WhatIsTooLongIsDropped) {
 TEST(DatagramSender, NeedsAPort) { EXPECT_THROW(DatagramSender(0), std::invalid_argument); }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::datagram_sender_test

@@ -8,7 +8,7 @@
 #include "interop/udp_receiver.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::live_stream_test {
 namespace {
 using testing::sampleResults;
 using testing::UdpReceiver;
@@ -70,4 +70,4 @@ TEST(LiveStream, RefusesPortZero) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::live_stream_test

@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::remote_client_test {
 namespace {
 using namespace std::chrono_literals;
 
@@ -51,4 +51,4 @@ TEST(RemoteClient, NoticesThatTheOtherEndHasGone) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::remote_client_test

@@ -2,7 +2,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::remote_facts_test {
 namespace {
 
 TEST(NoHand, FramesMustBeComing) {
@@ -89,4 +89,4 @@ TEST(LinkFacts, AreWhatTheLinkSays) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::remote_facts_test

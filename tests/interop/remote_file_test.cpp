@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::remote_file_test {
 namespace {
 namespace fs = std::filesystem;
 using testing::TemporaryFolder;
@@ -57,4 +57,4 @@ TEST(RemoteRecordingPath, NothingLeavesTheFolder) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::remote_file_test

@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::remote_protocol_test {
 namespace {
 using Verb = RemoteRequest::Verb;
 
@@ -136,4 +136,4 @@ TEST(SettingFrom, KeyAndValue) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::remote_protocol_test

@@ -17,7 +17,7 @@
 #include "interop/raw_client.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::remote_recorder_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace testing;
@@ -253,4 +253,4 @@ TEST_F(RemoteRecorderTest, RefusesOptionsThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::remote_recorder_test

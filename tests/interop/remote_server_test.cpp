@@ -15,7 +15,7 @@
 #include "testing/process_facts.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::remote_server_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace testing;
@@ -292,4 +292,4 @@ TEST(UsualRemoteSocket, LiesInTheRuntimeFolder) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::remote_server_test

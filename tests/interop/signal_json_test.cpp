@@ -8,7 +8,7 @@
 #include "interop/sample_results.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::signal_json_test {
 namespace {
 using testing::sampleResults;
 
@@ -124,4 +124,4 @@ TEST(SignalJson, SaysSlipForceAndTheHand) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::signal_json_test

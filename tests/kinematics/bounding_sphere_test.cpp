@@ -11,7 +11,7 @@
 
 #include "palpate/kinematics/hand_geometry.h"
 
-namespace palpate {
+namespace palpate::bounding_sphere_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -175,4 +175,4 @@ TEST(BoundingSphere, RefusesWhatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::bounding_sphere_test

@@ -15,7 +15,7 @@
 #include "kinematics/golden_table.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::contact_geometry_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -215,4 +215,4 @@ TEST_F(ContactOfAFrame, WrongQuestionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::contact_geometry_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palpate {
+namespace palpate::geometry_description_test {
 namespace {
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
@@ -79,4 +79,4 @@ TEST(GeometryDescription, WhatDoesNotFitIsRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::geometry_description_test

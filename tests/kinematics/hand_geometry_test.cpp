@@ -11,7 +11,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::hand_geometry_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -175,4 +175,4 @@ TEST(HandGeometry, WrongQuestionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::hand_geometry_test

@@ -10,7 +10,7 @@
 
 #include "palpate/kinematics/hand_geometry.h"
 
-namespace palpate {
+namespace palpate::hand_pose_test {
 namespace {
 
 using Eigen::Isometry3d;
@@ -182,4 +182,4 @@ TEST(HandPose, AnEmptyPoseSaysSo) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::hand_pose_test

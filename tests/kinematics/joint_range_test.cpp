@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palpate {
+namespace palpate::joint_range_test {
 namespace {
 
 // The SDH-2: axis 0 turns 0..90 degrees, the others -90..90 (manual).
@@ -34,4 +34,4 @@ TEST(JointRange, WhatIsNoPoseIsUnusable) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::joint_range_test

@@ -17,7 +17,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::object_size_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -278,4 +278,4 @@ TEST(ObjectSize, RigidObjectsDoNotGiveWay) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::object_size_test

@@ -10,7 +10,7 @@
 #include "control/emulated_bench.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::emulated_pressure_live_test {
 namespace {
 using namespace testing;
 
@@ -88,4 +88,4 @@ TEST(EmulatedPressureLive, AKnownPressureIsShownWithinItsBand) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::emulated_pressure_live_test

@@ -10,7 +10,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::filter_stage_test {
 namespace {
 
 Recipe recipeOf(const std::string& text) { return parseRecipe(std::vector<std::string>{text}); }
@@ -108,4 +108,4 @@ TEST(FilterStage, AMatrixThatIsNotThereIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::filter_stage_test

@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::live_results_test {
 namespace {
 
 TEST(TaxelPeak, FindsTheLargestTaxelOfAllMatricesAndItsPlace) {
@@ -40,4 +40,4 @@ TEST(TaxelPeak, SeesEveryTaxel) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::live_results_test

@@ -13,7 +13,7 @@
 #include "calibration/sample_calibrations.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::pressure_stage_test {
 namespace {
 
 Calibration calibration() { return testing::linearCalibration({0.5, 100.0, false}); }
@@ -140,4 +140,4 @@ TEST(PressureStage, SaysWhatIsWrongAndGoesOn) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::pressure_stage_test

@@ -16,7 +16,7 @@
 #include "capture/scripted_device.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::processing_chain_test {
 namespace {
 using testing::ScriptedSession;
 
@@ -211,4 +211,4 @@ TEST(ProcessingChain, RefusesNothingToDo) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::processing_chain_test

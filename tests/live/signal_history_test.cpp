@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::signal_history_test {
 namespace {
 
 LiveResults resultsAt(std::int64_t hostUs, double sum = 1.0) {
@@ -79,4 +79,4 @@ TEST(SignalHistory, RefusesOptionsWithoutRoom) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::signal_history_test

@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::signals_stage_test {
 namespace {
 
 TEST(SignalsStage, FillsInTheSignalsOfEveryMatrixAndThePeak) {
@@ -33,4 +33,4 @@ TEST(SignalsStage, FillsInTheSignalsOfEveryMatrixAndThePeak) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::signals_stage_test

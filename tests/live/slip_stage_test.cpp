@@ -11,7 +11,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::slip_stage_test {
 namespace {
 
 // 3 s of rest on matrix 3, then a slip by 0.25 taxel per frame over 12 frames, then rest again.
@@ -112,4 +112,4 @@ TEST(SlipStage, OtherOptionsBeginAnew) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_stage_test

@@ -9,7 +9,7 @@
 #include "capture/scripted_device.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::stage_test {
 namespace {
 using testing::ScriptedSession;
 
@@ -114,4 +114,4 @@ TEST(Stage, ThatThrowsEndsTheProcessingAndSaysWhy) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::stage_test

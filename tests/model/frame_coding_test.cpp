@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::frame_coding_test {
 namespace {
 
 std::vector<std::byte> encoded(const std::vector<float>& values, FrameCoding coding) {
@@ -74,4 +74,4 @@ TEST(FrameCoding, DamagedBytesAreRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::frame_coding_test

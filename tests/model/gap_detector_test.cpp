@@ -2,7 +2,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::gap_detector_test {
 namespace {
 
 TEST(GapDetector, FindsWhatIsLongerThanASecondAndFiveIntervals) {
@@ -32,4 +32,4 @@ TEST(GapDetector, KnowsNothingAtTheBeginning) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::gap_detector_test

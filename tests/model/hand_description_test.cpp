@@ -2,7 +2,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::hand_description_test {
 namespace {
 
 TEST(HandDescription, Sdh2HasTheSensorsOfTheSurvey) {
@@ -63,4 +63,4 @@ TEST(HandDescription, DescribesWhatItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::hand_description_test

@@ -5,7 +5,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::matrix_layout_test {
 namespace {
 
 TEST(MatrixLayout, CountsPlacesTaxelsAndEnabledOnes) {
@@ -46,4 +46,4 @@ TEST(SensorLayout, PutsMatricesOneAfterTheOther) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::matrix_layout_test

@@ -7,7 +7,7 @@
 
 #include "palpate/model/hand_description.h"
 
-namespace palpate {
+namespace palpate::preshape_test {
 namespace {
 
 using Angles = std::vector<double>;
@@ -55,4 +55,4 @@ TEST(Preshape, WhatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::preshape_test

@@ -5,7 +5,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::profile_builder_test {
 namespace {
 
 std::shared_ptr<const SensorLayout> smallLayout() {
@@ -47,4 +47,4 @@ TEST(ProfileBuilder, HandsOverWhatItHasAndStartsAnew) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::profile_builder_test

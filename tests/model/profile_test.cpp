@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::profile_test {
 namespace {
 
 std::shared_ptr<const SensorLayout> smallLayout() {
@@ -68,4 +68,4 @@ TEST(Profile, MayBeEmpty) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::profile_test

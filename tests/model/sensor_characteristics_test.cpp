@@ -4,7 +4,7 @@
 
 #include "palpate/model/hand_description.h"
 
-namespace palpate {
+namespace palpate::sensor_characteristics_test {
 namespace {
 
 TEST(SensorCharacteristics, OneOfEachMatrixWithItsPowerUpSettings) {
@@ -54,4 +54,4 @@ TEST(SensorCharacteristics, ATaxelAnswersSmoothlyFromZeroToTheStraightLine) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sensor_characteristics_test

@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::tactile_frame_test {
 namespace {
 
 TEST(TactileFrame, MatricesAreViewsRowByRow) {
@@ -35,4 +35,4 @@ TEST(TactileFrame, KnowsWhetherItHoldsCounts) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::tactile_frame_test

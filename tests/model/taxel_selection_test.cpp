@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::taxel_selection_test {
 namespace {
 
 SensorLayout smallSensor() {
@@ -79,4 +79,4 @@ TEST(TaxelSelection, KnowsItsSensor) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::taxel_selection_test

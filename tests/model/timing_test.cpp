@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::timing_test {
 namespace {
 
 Profile profileAt(const std::vector<std::int64_t>& timesMs) {
@@ -43,4 +43,4 @@ TEST(Timing, OneFrameHasNoRate) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::timing_test

@@ -12,7 +12,7 @@
 #include "testing/program.h"
 #include "testing/testing.h"
 
-namespace palpate::testing {
+namespace palpate::testing::installed_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -244,4 +244,4 @@ TEST_F(Installed, FileTypesAndIconAreWellFormed) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::installed_test

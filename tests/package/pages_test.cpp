@@ -11,7 +11,7 @@
 #include "testing/program.h"
 #include "testing/testing.h"
 
-namespace palpate::testing {
+namespace palpate::testing::pages_test {
 namespace {
 namespace fs = std::filesystem;
 using Options = std::set<std::string>;  // long names, as "--json"
@@ -239,4 +239,4 @@ TEST_F(Pages, ZshKnowsEveryCommandAndItsOptions) {
 }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::pages_test

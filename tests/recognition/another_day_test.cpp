@@ -17,7 +17,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::another_day_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -377,4 +377,4 @@ TEST_F(AnotherDay, ElevenWeeksLaterTheUnknownIsToldWhereTheOffsetIsKnown) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::another_day_test

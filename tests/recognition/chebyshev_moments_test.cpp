@@ -11,7 +11,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::chebyshev_moments_test {
 namespace {
 
 // t_p(x) as the study writes it (6.6.4): an alternating sum of falling factorials, in long double.
@@ -259,4 +259,4 @@ TEST(ChebyshevMoments, AgreeWithIndependentNumbers) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::chebyshev_moments_test

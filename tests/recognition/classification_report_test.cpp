@@ -5,7 +5,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::classification_report_test {
 namespace {
 
 // Values of Newcombe 1998, "Two-sided confidence intervals for the single proportion", Statistics in Medicine 17, table I,
@@ -107,4 +107,4 @@ TEST(ClassificationReport, AurocCountsPairs) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::classification_report_test

@@ -9,7 +9,7 @@
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::classifier_pipeline_test {
 namespace {
 
 using testing::clouds;
@@ -162,4 +162,4 @@ TEST(ClassifierPipeline, SaysWhatItCant) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::classifier_pipeline_test

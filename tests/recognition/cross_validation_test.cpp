@@ -7,7 +7,7 @@
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::cross_validation_test {
 namespace {
 
 using testing::clouds;
@@ -136,4 +136,4 @@ TEST(CrossValidation, MoreGraspsTeachMore) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::cross_validation_test

@@ -14,7 +14,7 @@
 #include "recognition/pinch_profile.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::day_features_test {
 namespace {
 
 using testing::pinchProfile;
@@ -228,4 +228,4 @@ TEST(DayFeatures, ReadWhatAnIndependentProgramFoundElevenWeeksLater) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::day_features_test

@@ -10,7 +10,7 @@
 #include "palpate/core/error.h"
 #include "palpate/recognition/day_features.h"
 
-namespace palpate {
+namespace palpate::day_model_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -181,4 +181,4 @@ TEST(DayModel, ADamagedFileIsSaid) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::day_model_test

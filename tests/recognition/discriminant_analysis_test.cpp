@@ -8,7 +8,7 @@
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::discriminant_analysis_test {
 namespace {
 
 using testing::clouds;
@@ -125,4 +125,4 @@ TEST(DiscriminantAnalysis, RefusesWhatHasNoScatter) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::discriminant_analysis_test

@@ -14,7 +14,7 @@
 #include "palpate/recognition/model_evaluation.h"
 #include "palpate/recognition/trained_model.h"
 
-namespace palpate {
+namespace palpate::empty_hand_day_test {
 namespace {
 
 constexpr int kThings = 7, kTaught = 10, kTried = 10;
@@ -158,4 +158,4 @@ TEST(EmptyHandDay, OneTouchMakesAnotherDayAsGoodAsTheFirst) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::empty_hand_day_test

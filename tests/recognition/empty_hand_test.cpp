@@ -13,7 +13,7 @@
 #include "recognition/pinch_profile.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::empty_hand_test {
 namespace {
 
 using testing::pinchProfile;
@@ -138,4 +138,4 @@ TEST(EmptyHand, OneTouchOfTheEmulatedHandTellsTheOffsetOfTheDay) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::empty_hand_test

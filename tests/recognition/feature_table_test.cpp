@@ -11,7 +11,7 @@
 #include "recognition/pinch_profile.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::feature_table_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -112,4 +112,4 @@ TEST(FeatureTable, NamesOfClasses) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::feature_table_test

@@ -7,7 +7,7 @@
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::gaussian_classifier_test {
 namespace {
 
 using testing::clouds;
@@ -78,4 +78,4 @@ TEST(GaussianClassifier, RefusesBrokenContracts) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::gaussian_classifier_test

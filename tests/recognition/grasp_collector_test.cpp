@@ -5,7 +5,7 @@
 #include "recognition/pinch_profile.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::grasp_collector_test {
 namespace {
 
 using testing::pinchProfile;
@@ -138,4 +138,4 @@ TEST(ChosenGrasp, IsTheLongestOneWithinTheFrames) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::grasp_collector_test

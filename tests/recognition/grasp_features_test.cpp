@@ -13,7 +13,7 @@
 
 #include "recognition/pinch_profile.h"
 
-namespace palpate {
+namespace palpate::grasp_features_test {
 namespace {
 
 using testing::pinchProfile;
@@ -109,4 +109,4 @@ TEST(GraspFeatures, CanBeCancelled) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::grasp_features_test

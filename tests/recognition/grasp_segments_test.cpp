@@ -15,7 +15,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::grasp_segments_test {
 namespace {
 
 constexpr std::int64_t kStepUs = 40'000;
@@ -303,4 +303,4 @@ TEST(GraspSegments, OfRealRecordingsAreThoseOfAnIndependentCount) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::grasp_segments_test

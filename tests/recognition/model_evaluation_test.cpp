@@ -11,7 +11,7 @@
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::model_evaluation_test {
 namespace {
 
 using testing::clouds;
@@ -194,4 +194,4 @@ TEST_F(OtherDay, ReachesItsTargets) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::model_evaluation_test

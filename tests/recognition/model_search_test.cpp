@@ -8,7 +8,7 @@
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::model_search_test {
 namespace {
 
 using testing::clouds;
@@ -95,4 +95,4 @@ TEST(ModelSearch, EliminationDoesNotDependOnThreads) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::model_search_test

@@ -7,7 +7,7 @@
 
 #include "recognition/pinch_profile.h"
 
-namespace palpate {
+namespace palpate::pinch_hand_test {
 namespace {
 
 TEST(PinchHand, OfTheSdh2AreItsDistalPads) {
@@ -45,4 +45,4 @@ TEST(PinchHand, WhatDoesNotFitIsRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::pinch_hand_test

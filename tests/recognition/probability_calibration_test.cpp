@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::probability_calibration_test {
 namespace {
 
 // Labels drawn by a sigmoid that is known.
@@ -87,4 +87,4 @@ TEST(ProbabilityCalibration, FindsTheExponentThatMadeTheLabels) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::probability_calibration_test

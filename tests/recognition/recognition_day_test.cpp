@@ -9,7 +9,7 @@
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::recognition_day_test {
 namespace {
 
 constexpr std::int64_t kHourUs = 3600LL * 1'000'000;
@@ -156,4 +156,4 @@ TEST(RecognitionDay, WhatDoesNotFitIsRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::recognition_day_test

@@ -8,7 +8,7 @@
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::sample_set_test {
 namespace {
 
 using testing::clouds;
@@ -97,4 +97,4 @@ TEST(SampleSet, PartsOfTheStudyAreThoseOfItsTable) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sample_set_test

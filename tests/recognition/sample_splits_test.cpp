@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::sample_splits_test {
 namespace {
 
 std::vector<int> labels(std::initializer_list<int> counts) {
@@ -104,4 +104,4 @@ TEST(SampleSplits, RefuseWhatCantBeSplit) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sample_splits_test

@@ -10,7 +10,7 @@
 #include "palpate/core/error.h"
 #include "palpate/recognition/day_features.h"
 
-namespace palpate {
+namespace palpate::session_offset_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -230,4 +230,4 @@ TEST(SessionOffset, WrongQuestionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::session_offset_test

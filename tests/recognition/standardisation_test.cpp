@@ -5,7 +5,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::standardisation_test {
 namespace {
 
 TEST(Standardisation, TakesMeanAndPopulationDeviation) {
@@ -35,4 +35,4 @@ TEST(Standardisation, RefusesOtherSizes) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::standardisation_test

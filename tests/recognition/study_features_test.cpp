@@ -15,7 +15,7 @@
 #include "recognition/pinch_profile.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::study_features_test {
 namespace {
 
 using testing::pinchProfile;
@@ -143,4 +143,4 @@ TEST(StudyFeatures, AgreeWithIndependentNumbers) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::study_features_test

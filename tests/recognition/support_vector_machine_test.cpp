@@ -14,7 +14,7 @@
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::support_vector_machine_test {
 namespace {
 
 using testing::clouds;
@@ -182,4 +182,4 @@ TEST(SupportVectorMachine, RefusesWhatHasNoPairs) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::support_vector_machine_test

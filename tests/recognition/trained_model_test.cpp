@@ -10,7 +10,7 @@
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::trained_model_test {
 namespace {
 
 using testing::clouds;
@@ -296,4 +296,4 @@ TEST(TrainedModel, HashesEveryInputOnce) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::trained_model_test

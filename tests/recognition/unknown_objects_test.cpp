@@ -10,7 +10,7 @@
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::unknown_objects_test {
 namespace {
 
 using testing::clouds;
@@ -88,4 +88,4 @@ TEST(UnknownObjects, OfTheSharedGraspsReachTheTargetOfTheDay) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::unknown_objects_test

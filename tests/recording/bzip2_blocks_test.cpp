@@ -7,7 +7,7 @@
 #include "recording/dsa_corpus.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::bzip2_blocks_test {
 namespace {
 
 std::span<const std::byte> asBytes(const std::string& text) {
@@ -89,4 +89,4 @@ TEST(Bzip2Blocks, expandNoFartherThanAllowed) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::bzip2_blocks_test

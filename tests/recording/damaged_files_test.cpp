@@ -14,7 +14,7 @@
 #include "recording/dsa_corpus.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::damaged_files_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -207,4 +207,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& of) { return of.param.name; });
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::damaged_files_test

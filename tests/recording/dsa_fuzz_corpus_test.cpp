@@ -1,9 +1,9 @@
 #include "fuzz/corpus_replay.h"
 
-namespace palpate::testing {
+namespace palpate::testing::dsa_fuzz_corpus_test {
 namespace {
 
 TEST(DsaFuzzCorpus, replaysWithoutHarm) { expectCorpusReplays(PALPATE_FUZZ_CORPUS, 15); }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::dsa_fuzz_corpus_test

@@ -9,7 +9,7 @@
 #include "recording/dsa_corpus.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::dsa_reader_test {
 namespace {
 
 using testing::compressed;
@@ -269,4 +269,4 @@ TEST(DsaReader, boundsAreOptions) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::dsa_reader_test

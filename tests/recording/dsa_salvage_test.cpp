@@ -13,7 +13,7 @@
 #include "recording/dsa_corpus.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::dsa_salvage_test {
 namespace {
 
 constexpr std::uint32_t kSeed = 11;
@@ -213,4 +213,4 @@ TEST(DsaSalvage, neverShowsAWrongValue) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::dsa_salvage_test

@@ -8,7 +8,7 @@
 #include "recording/dsa_corpus.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::dsa_writer_test {
 namespace {
 
 void expectSameData(const Profile& a, const Profile& b) {
@@ -132,4 +132,4 @@ TEST(DsaWriter, roundTripsEveryRealRecording) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::dsa_writer_test

@@ -14,7 +14,7 @@
 #include "recording/palpate_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::event_store_faults_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace testing;
@@ -167,4 +167,4 @@ TEST(EventStoreFaults, killedAtAnyMomentItHasTheOldOrTheNewOnes) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::event_store_faults_test

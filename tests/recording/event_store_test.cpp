@@ -15,7 +15,7 @@
 #include "recording/palpate_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::event_store_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace testing;
@@ -325,4 +325,4 @@ TEST(EventStoreDamage, aSidecarWithoutEventsGoes) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::event_store_test

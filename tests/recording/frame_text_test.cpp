@@ -10,7 +10,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::frame_text_test {
 namespace {
 
 std::vector<float> decoded(std::string_view text, std::size_t numValues) {
@@ -120,4 +120,4 @@ TEST(FrameText, whatIsWrittenIsReadBack) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::frame_text_test

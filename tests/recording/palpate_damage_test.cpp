@@ -6,7 +6,7 @@
 
 #include "palpate/recording/palpate_schema.h"
 
-namespace palpate {
+namespace palpate::palpate_damage_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace testing;
@@ -164,4 +164,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& of) { return of.param.name; });
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::palpate_damage_test

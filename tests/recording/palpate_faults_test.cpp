@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::palpate_faults_test {
 namespace {
 using namespace testing;
 using Fault = FaultyVfs::Fault;
@@ -79,4 +79,4 @@ TEST(PalpateFaults, killedTheMomentItsNameAppearsItOpens) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::palpate_faults_test

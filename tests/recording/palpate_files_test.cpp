@@ -9,7 +9,7 @@
 #include "recording/palpate_faults.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::palpate_files_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace testing;
@@ -147,4 +147,4 @@ TEST(PalpateFiles, aFinishedRecordingOpensFromAReadOnlyFolder) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::palpate_files_test

@@ -1,9 +1,9 @@
 #include "fuzz/corpus_replay.h"
 
-namespace palpate::testing {
+namespace palpate::testing::palpate_fuzz_corpus_test {
 namespace {
 
 TEST(PalpateFuzzCorpus, replaysWithoutHarm) { expectCorpusReplays(PALPATE_FUZZ_CORPUS, 8); }
 
 }  // namespace
-}  // namespace palpate::testing
+}  // namespace palpate::testing::palpate_fuzz_corpus_test

@@ -3,7 +3,7 @@
 #include "recording/palpate_damage.h"
 #include "recording/palpate_faults.h"
 
-namespace palpate {
+namespace palpate::palpate_long_test {
 namespace {
 using namespace testing;
 
@@ -40,4 +40,4 @@ TEST(PalpateLong, twoHundredKilledRecoveries) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::palpate_long_test

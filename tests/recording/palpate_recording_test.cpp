@@ -16,7 +16,7 @@
 #include "testing/program.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::palpate_recording_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace testing;
@@ -244,4 +244,4 @@ TEST(PalpateRecording, theWriterRefusesWhatNoReaderCouldRead) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::palpate_recording_test

@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::real_recordings_test {
 namespace {
 namespace fs = std::filesystem;
 
@@ -152,4 +152,4 @@ TEST(RealRecordings, allAreSound) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::real_recordings_test

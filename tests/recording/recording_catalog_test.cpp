@@ -11,7 +11,7 @@
 #include "recording/palpate_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::recording_catalog_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace testing;
@@ -211,4 +211,4 @@ TEST(RecordingCatalogReal, everySharedRecordingIsListedAsItIs) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::recording_catalog_test

@@ -8,7 +8,7 @@
 #include "recording/palpate_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::recording_details_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace testing;
@@ -192,4 +192,4 @@ TEST(RecordingDetails, statesHaveNames) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::recording_details_test

@@ -8,7 +8,7 @@
 #include "recording/palpate_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::recording_folder_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace testing;
@@ -86,4 +86,4 @@ TEST(RecordingFolder, canBeCancelled) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::recording_folder_test

@@ -7,7 +7,7 @@
 #include "recording/palpate_samples.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::recording_meta_test {
 namespace {
 using namespace testing;
 
@@ -42,4 +42,4 @@ TEST(RecordingMeta, NoFileOrADamagedOneIsSaid) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::recording_meta_test

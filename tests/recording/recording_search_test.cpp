@@ -5,7 +5,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::recording_search_test {
 namespace {
 
 RecordingDetails sample() {
@@ -99,4 +99,4 @@ TEST(RecordingSearch, smallLettersOfSeveralScripts) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::recording_search_test

@@ -7,7 +7,7 @@
 #include "recording/dsa_corpus.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::recording_test {
 namespace {
 
 TEST(Verify, countsASoundRecording) {
@@ -45,4 +45,4 @@ TEST(Recording, isToldByItsFirstBytesNotByItsName) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::recording_test

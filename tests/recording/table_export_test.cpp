@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::table_export_test {
 namespace {
 
 Profile twoFrames() {
@@ -54,4 +54,4 @@ TEST(NpzExport, IsAZipOfArrays) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::table_export_test

@@ -10,7 +10,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::tactile_sensor_json_test {
 namespace {
 
 Json parsed(const TactileFrame& frame, std::uint64_t sequence = 0) {
@@ -100,4 +100,4 @@ TEST(TactileSensorLines, HoldEveryFrameOfARecording) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::tactile_sensor_json_test

@@ -15,7 +15,7 @@
 #include "testing/testing.h"
 #include "testing/timely.h"
 
-namespace palpate {
+namespace palpate::unfinished_recordings_test {
 namespace {
 namespace fs = std::filesystem;
 using namespace testing;
@@ -283,4 +283,4 @@ TEST(UnfinishedRecordings, aThousandFinishedOnesTakeNoTime) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::unfinished_recordings_test

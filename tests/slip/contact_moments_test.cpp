@@ -6,7 +6,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::contact_moments_test {
 namespace {
 
 ContactMoments momentsOf(const MatrixValues& values) {
@@ -86,4 +86,4 @@ TEST(ContactMoments, LeaveOutWhatIsNoLoad) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::contact_moments_test

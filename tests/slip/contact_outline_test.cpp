@@ -9,7 +9,7 @@
 #include "slip_scene.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::contact_outline_test {
 namespace {
 
 using testing::viewOf;
@@ -86,4 +86,4 @@ TEST(ContactOutline, RefusesASizeThatNoMatrixHas) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::contact_outline_test

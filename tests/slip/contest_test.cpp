@@ -8,7 +8,7 @@
 
 #include "palpate/slip/synthetic_slip.h"
 
-namespace palpate {
+namespace palpate::contest_test {
 namespace {
 
 constexpr std::array<RigidMotion, 1> kFromRest = {RigidMotion{}};
@@ -150,4 +150,4 @@ TEST(ShapeCondition, SaysWhichShapesCannotTell) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::contest_test

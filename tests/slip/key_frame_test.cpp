@@ -5,7 +5,7 @@
 #include "slip_scene.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::key_frame_test {
 namespace {
 
 using testing::reading;
@@ -116,4 +116,4 @@ TEST(KeyFrame, RefusesWrongSettings) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::key_frame_test

@@ -5,7 +5,7 @@
 #include "slip_scene.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::learned_surface_test {
 namespace {
 
 using testing::idealReading;
@@ -122,4 +122,4 @@ TEST(LearnedSurface, NothingIsNoKey) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::learned_surface_test

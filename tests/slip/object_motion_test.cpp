@@ -9,7 +9,7 @@
 #include "palpate/kinematics/hand_geometry.h"
 #include "palpate/model/hand_description.h"
 
-namespace palpate {
+namespace palpate::object_motion_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -124,4 +124,4 @@ TEST(SlipArrows, TakeWhatIsValid) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::object_motion_test

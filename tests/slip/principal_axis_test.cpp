@@ -5,7 +5,7 @@
 #include "slip_scene.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::principal_axis_test {
 namespace {
 
 PrincipalAxis axisOf(const MatrixValues& values) {
@@ -62,4 +62,4 @@ TEST(PrincipalAxis, OfNothingOrOneTaxelIsNothing) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::principal_axis_test

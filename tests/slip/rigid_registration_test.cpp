@@ -5,7 +5,7 @@
 #include "slip_scene.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::rigid_registration_test {
 namespace {
 
 using testing::reading;
@@ -130,4 +130,4 @@ TEST(RigidRegistration, TinyMatricesDoNotHurt) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::rigid_registration_test

@@ -5,7 +5,7 @@
 #include "slip_scene.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::rotation_tracker_test {
 namespace {
 
 // Moments of a long contact that lies at an angle, without a sensor in between.
@@ -88,4 +88,4 @@ TEST(RotationTracker, TooFewTaxelsTellNothing) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::rotation_tracker_test

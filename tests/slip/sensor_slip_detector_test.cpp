@@ -8,7 +8,7 @@
 #include "palpate/model/hand_description.h"
 #include "palpate/slip/synthetic_slip.h"
 
-namespace palpate {
+namespace palpate::sensor_slip_detector_test {
 namespace {
 
 TEST(SensorSlipDetector, SaysWhichMatrixSlips) {
@@ -44,4 +44,4 @@ TEST(SensorSlipDetector, RefusesOtherLayouts) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::sensor_slip_detector_test

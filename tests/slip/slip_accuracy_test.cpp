@@ -9,7 +9,7 @@
 #include "slip_scene.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::slip_accuracy_test {
 namespace {
 
 const MethodAccuracy& named(const std::vector<MethodAccuracy>& all, const std::string& name) {
@@ -98,4 +98,4 @@ TEST(SlipAccuracy, IsReproducibleAndCanBeCancelled) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_accuracy_test

@@ -4,7 +4,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::slip_bound_test {
 namespace {
 
 TEST(SlipBound, OfAGaussianIsTheClosedForm) {
@@ -72,4 +72,4 @@ TEST(SlipBound, CensoredInformationIsTheIntegral) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_bound_test

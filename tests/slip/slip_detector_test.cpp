@@ -9,7 +9,7 @@
 
 #include "palpate/slip/synthetic_slip.h"
 
-namespace palpate {
+namespace palpate::slip_detector_test {
 namespace {
 
 constexpr std::int64_t kFrameUs = 31'500;
@@ -253,4 +253,4 @@ TEST(SlipDetector, RefusesOtherSizes) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_detector_test

@@ -12,7 +12,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::slip_evaluation_test {
 namespace {
 
 // Matrix 1: rests at 4.5 until frame 50, then moves by `step` per frame for 10 frames.
@@ -69,4 +69,4 @@ TEST(SlipEvaluation, OfNothingIsEmpty) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_evaluation_test

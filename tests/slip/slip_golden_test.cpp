@@ -14,7 +14,7 @@
 #include "slip_scene.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::slip_golden_test {
 namespace {
 
 struct Row {
@@ -149,4 +149,4 @@ TEST(SlipGolden, AgreesOnEveryRow) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_golden_test

@@ -5,7 +5,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::slip_method_test {
 namespace {
 
 TEST(SlipMethod, IsCalledAsInTheCommands) {
@@ -29,4 +29,4 @@ TEST(SlipMethod, EveryOneHasANameOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_method_test

@@ -2,7 +2,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::slip_motion_test {
 namespace {
 
 TEST(SlipMotion, IsNothingUntilItIsMeasured) {
@@ -17,4 +17,4 @@ TEST(SlipMotion, IsNothingUntilItIsMeasured) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_motion_test

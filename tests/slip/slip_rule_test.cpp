@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palpate {
+namespace palpate::slip_rule_test {
 namespace {
 
 // A contact of age 100 in which one window sees the centroid and the registration shifted by the same amount.
@@ -145,4 +145,4 @@ TEST(SlipRule, RefusesThresholdsThatAreNone) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_rule_test

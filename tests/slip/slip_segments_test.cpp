@@ -13,7 +13,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::slip_segments_test {
 namespace {
 
 SlipVerdict verdictOf(bool slipping, double dx = 0.0) {
@@ -104,4 +104,4 @@ TEST(PassSlip, TakesTheFrameThatIsGivenAsReference) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_segments_test

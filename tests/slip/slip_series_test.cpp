@@ -9,7 +9,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::slip_series_test {
 namespace {
 
 constexpr std::size_t kMatrix = 1;
@@ -143,4 +143,4 @@ TEST_F(SlipSeriesTest, AnEmptyRecordingHasNone) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_series_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palpate {
+namespace palpate::slip_state_test {
 namespace {
 
 // The words of the column `state` are a promise (docs/commands.md).
@@ -34,4 +34,4 @@ TEST(SlipLamp, HasFourFaces) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_state_test

@@ -14,7 +14,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::slip_targets_test {
 namespace {
 
 constexpr int kRest = 40;
@@ -148,4 +148,4 @@ TEST(SlipTargets, RealHoldsAreQuietAndRealSlipsFound) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_targets_test

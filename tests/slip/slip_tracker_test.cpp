@@ -6,7 +6,7 @@
 #include "slip_scene.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::slip_tracker_test {
 namespace {
 
 using testing::reading;
@@ -301,4 +301,4 @@ TEST(SensorSlipTracker, AnyRateGivesTheSameMotion) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_tracker_test

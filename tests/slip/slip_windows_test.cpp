@@ -8,7 +8,7 @@
 
 #include "palpate/slip/synthetic_slip.h"
 
-namespace palpate {
+namespace palpate::slip_windows_test {
 namespace {
 
 class Feed {
@@ -146,4 +146,4 @@ TEST(SlipWindows, RefuseOtherSizesAndOptions) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::slip_windows_test

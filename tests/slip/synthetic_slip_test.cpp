@@ -7,7 +7,7 @@
 #include "slip_scene.h"
 #include "testing/testing.h"
 
-namespace palpate {
+namespace palpate::synthetic_slip_test {
 namespace {
 
 using testing::idealReading;
@@ -140,4 +140,4 @@ TEST(SyntheticSlip, RefusesWhatCantBe) {
 }
 
 }  // namespace
-}  // namespace palpate
+}  // namespace palpate::synthetic_slip_test
