@@ -107,7 +107,7 @@ TEST(House, EveryTestIsBuilt) {
 }
 
 TEST(House, PackageListsAreWellFormed) {
-  const std::regex entry("[a-z0-9][a-z0-9+.-]+( \\[(fuzz|coverage|tidy|asan|tsan|slow)\\])?");
+  const std::regex entry("[a-z0-9][a-z0-9+.-]+( \\[(fuzz|coverage|tidy|asan|tsan|slow|fresh)\\])?");
   std::set<std::string> seen;
   for (const char* list : {"debian-packages.txt", "debian-test-packages.txt"}) {
     const std::string text = readFile(projectFolder() / "cmake" / list);
