@@ -8,6 +8,11 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
 endif()
 
+# Release: -O2; numerical rooms ask for more (palpate_thorough), what is run by people and tests for less.
+if(CMAKE_CXX_FLAGS_RELEASE STREQUAL "-O3 -DNDEBUG")
+  set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+endif()
+
 find_program(PALPATE_CCACHE ccache)
 if(PALPATE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # Without the first ccache refuses what reads a precompiled header; with the second it looks into
@@ -71,5 +76,35 @@ function(palpate_like_precompiled target)
     # of a precompiled header GCC forgets that it is the system's. Without (fuzz, tsan) they stay on.
     target_compile_options(${target} PRIVATE -fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow
                            -Wno-stringop-overread)
+  endif()
+endfunction()
+
+# palpate_unity(TARGET) compiles the sources of TARGET several at a time, so that headers are read once for
+# all of them. Names in anonymous namespaces of one folder have to differ (house/include_rule_test).
+# PALPATE_UNITY=OFF compiles each source by itself: for clang-tidy, editors, and the proof that every
+# source names what it uses (preset `separate`).
+function(palpate_unity target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PALPATE_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  if(PALPATE_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # A source that is included is taken for a header, whose types were seen by several sources.
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif()
+endfunction()
+
+# palpate_light(TARGET): no time is won by optimising what runs for milliseconds, much by compiling it fast.
+function(palpate_light target)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # Needs the whole optimiser to be right.
+    target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
+  endif()
+endfunction()
+
+# palpate_thorough(TARGET): the numerical kernels, in which the program spends its time.
+function(palpate_thorough target)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${target} PRIVATE -O3)
   endif()
 endfunction()

@@ -15,10 +15,9 @@
 #include <pybind11/pybind11.h>
 
 #include "palpate/core/json.h"
+#include "palpate/core/time.h"
 
 namespace palpate::python {
-
-constexpr std::int64_t kUsPerMs = 1000;
 
 using DoubleArray = pybind11::array_t<double, pybind11::array::c_style>;
 using FloatArray = pybind11::array_t<float, pybind11::array::c_style>;

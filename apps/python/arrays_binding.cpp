@@ -40,7 +40,7 @@ std::vector<std::int64_t> timesUsOf(const py::object& given, const char* name) {
   return us;
 }
 
-Values valuesOf(const py::handle& given, const char* name) {
+Values taxelValuesOf(const py::handle& given, const char* name) {
   const auto array = Values::ensure(given);
   if (!array) {
     PyErr_Clear();
@@ -60,7 +60,7 @@ Taxels taxelsOf(const py::object& frames, double pitchMm, std::size_t numFrames)
   if (py::isinstance<py::list>(frames) || py::isinstance<py::tuple>(frames)) {
     std::vector<MatrixLayout> matrices;
     for (const py::handle item : frames) {
-      taxels.parts.push_back(valuesOf(item, "frames"));
+      taxels.parts.push_back(taxelValuesOf(item, "frames"));
       const Values& part = taxels.parts.back();
       if (part.ndim() != 3)
         throw py::value_error("a matrix of frames has shape " + shapeText(part) +
@@ -75,7 +75,7 @@ Taxels taxelsOf(const py::object& frames, double pitchMm, std::size_t numFrames)
     taxels.layout = std::make_shared<const SensorLayout>(std::move(matrices));
   } else {
     taxels.layout = sdh2().layout;
-    taxels.parts.push_back(valuesOf(frames, "frames"));
+    taxels.parts.push_back(taxelValuesOf(frames, "frames"));
     const Values& part = taxels.parts.back();
     if (part.ndim() != 2 || static_cast<std::size_t>(part.shape(1)) != taxels.layout->numPlaces())
       throw py::value_error("frames has shape " + shapeText(part) + "; it takes (T, " +

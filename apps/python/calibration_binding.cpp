@@ -58,7 +58,7 @@ py::object calibrateTare(const Profile& profile) {
   return result;
 }
 
-std::vector<PressureTableRow> rowsOf(const py::object& table, fs::path& folder) {
+std::vector<PressureTableRow> calibrationRowsOf(const py::object& table, fs::path& folder) {
   if (py::isinstance<py::str>(table) || py::hasattr(table, "__fspath__")) {
     const auto path = table.cast<fs::path>();
     folder = path.parent_path();
@@ -90,7 +90,7 @@ Calibration calibratePressure(const py::object& table,
                               double sensitivity,
                               double threshold) {
   fs::path folder;
-  const std::vector<PressureTableRow> rows = rowsOf(table, folder);
+  const std::vector<PressureTableRow> rows = calibrationRowsOf(table, folder);
   PressureModelOptions model;
   model.study = choice<bool>("choices", choices, {{"default", false}, {"study", true}});
   model.stampAreaMm2 = area;

@@ -19,9 +19,9 @@ namespace {
 
 const Eigen::Vector3d kNowhere =
     Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kContactUnknown = std::numeric_limits<double>::quiet_NaN();
 
-struct Row {
+struct ContactRow {
   HandContact contact;
   bool posed = false;  // the joint angles are usable
 };
@@ -35,14 +35,14 @@ void requireHand(const Profile& profile, const GeometryDescription& geometry) {
   if (!same) throw py::value_error("the matrices of this recording are not those of an SDH-2");
 }
 
-std::vector<Row> rowsOf(const Profile& profile,
-                        const HandGeometry& geometry,
-                        const std::optional<std::vector<double>>& assumed,
-                        std::pair<std::size_t, std::size_t> range,
-                        const ContactOptions& options,
-                        const Progress& progress) {
+std::vector<ContactRow> contactRowsOf(const Profile& profile,
+                                      const HandGeometry& geometry,
+                                      const std::optional<std::vector<double>>& assumed,
+                                      std::pair<std::size_t, std::size_t> range,
+                                      const ContactOptions& options,
+                                      const Progress& progress) {
   const auto [first, last] = range;
-  std::vector<Row> rows(last - first);
+  std::vector<ContactRow> rows(last - first);
   TactileFrame frame;
   HandPose pose =
       geometry.pose(assumed.value_or(std::vector<double>(geometry.description().numAxes, 0.0)));
@@ -59,7 +59,7 @@ std::vector<Row> rowsOf(const Profile& profile,
       usable = checkAngles(anglesDeg, sdh2().axes).state != AnglesState::kUnusable;
       if (usable) geometry.pose(anglesDeg, pose);
     }
-    Row& row = rows[i - first];
+    ContactRow& row = rows[i - first];
     row.posed = usable;
     contactOf(frame, pose, options, row.contact);
     row.contact.activeMm = {};  // many, and not asked for
@@ -69,7 +69,7 @@ std::vector<Row> rowsOf(const Profile& profile,
 
 // (T, 3)
 template <typename Of>
-DoubleArray places(const std::vector<Row>& rows, const Of& of) {
+DoubleArray places(const std::vector<ContactRow>& rows, const Of& of) {
   return grid<double>(rows.size(), 3, [&](std::size_t i, std::size_t axis) {
     const std::optional<Eigen::Vector3d> place = of(rows[i].contact);
     return (rows[i].posed && place ? *place : kNowhere)[static_cast<Eigen::Index>(axis)];
@@ -77,32 +77,34 @@ DoubleArray places(const std::vector<Row>& rows, const Of& of) {
 }
 
 template <typename Of>
-DoubleArray radii(const std::vector<Row>& rows, const Of& of) {
+DoubleArray radii(const std::vector<ContactRow>& rows, const Of& of) {
   return column<double>(rows.size(), [&](std::size_t i) {
     const std::optional<Sphere>& sphere = of(rows[i].contact);
-    return rows[i].posed && sphere ? sphere->radiusMm : kUnknown;
+    return rows[i].posed && sphere ? sphere->radiusMm : kContactUnknown;
   });
 }
 
 // (T, matrices): of(matrix), or NaN where it isn't touched (or not posed where a pose is needed).
 template <typename Of>
-DoubleArray perMatrix(const std::vector<Row>& rows,
+DoubleArray perMatrix(const std::vector<ContactRow>& rows,
                       std::size_t numMatrices,
                       bool needsPose,
                       const Of& of) {
   return grid<double>(rows.size(), numMatrices, [&](std::size_t i, std::size_t m) {
     const MatrixContact& matrix = rows[i].contact.matrices[m];
     const bool known = matrix.numActive > 0 && (rows[i].posed || !needsPose);
-    return known ? of(matrix) : kUnknown;
+    return known ? of(matrix) : kContactUnknown;
   });
 }
 
 // (T, matrices, 3)
 template <typename Of>
-DoubleArray vectorsPerMatrix(const std::vector<Row>& rows, std::size_t numMatrices, const Of& of) {
+DoubleArray vectorsPerMatrix(const std::vector<ContactRow>& rows,
+                             std::size_t numMatrices,
+                             const Of& of) {
   DoubleArray array({rows.size(), numMatrices, std::size_t{3}});
   double* out = array.mutable_data();
-  for (const Row& row : rows)
+  for (const ContactRow& row : rows)
     for (const MatrixContact& matrix : row.contact.matrices) {
       const Eigen::Vector3d vector = row.posed && matrix.numActive > 0 ? of(matrix) : kNowhere;
       for (const double value : {vector.x(), vector.y(), vector.z()}) *out++ = value;
@@ -110,7 +112,7 @@ DoubleArray vectorsPerMatrix(const std::vector<Row>& rows, std::size_t numMatric
   return array;
 }
 
-void addMatrices(const std::vector<Row>& rows, std::size_t count, py::dict& table) {
+void addMatrices(const std::vector<ContactRow>& rows, std::size_t count, py::dict& table) {
   using Matrix = const MatrixContact&;
   table["matrix_active"] =
       grid<std::int64_t>(rows.size(), count, [&](std::size_t i, std::size_t m) {
@@ -148,8 +150,8 @@ py::dict contact(const Profile& profile,
   options.threshold = threshold;
   options.validate();
   const auto range = sliceOf(start, stop, profile.numFrames());
-  const std::vector<Row> rows = unlocked([&](const Progress& progress) {
-    return rowsOf(profile, geometry, assumed, range, options, progress);
+  const std::vector<ContactRow> rows = unlocked([&](const Progress& progress) {
+    return contactRowsOf(profile, geometry, assumed, range, options, progress);
   });
   py::dict table;
   table["frame"] =

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-FeatureTable tableOf(const Profile& profile, FeatureSet set, const Progress& progress) {
+FeatureTable featureTableOf(const Profile& profile, FeatureSet set, const Progress& progress) {
   FeatureTable table;
   table.set = set;
   table.names = featureNames(set);
@@ -78,7 +78,8 @@ FeatureTable featuresOf(const py::object& source, FeatureSet set) {
   }
   if (py::isinstance<Profile>(source)) {
     const auto profile = source.cast<Profile>();
-    return unlocked([&](const Progress& progress) { return tableOf(profile, set, progress); });
+    return unlocked(
+        [&](const Progress& progress) { return featureTableOf(profile, set, progress); });
   }
   const std::vector<fs::path> paths = pathsOf(source);
   FeatureGatherOptions options;

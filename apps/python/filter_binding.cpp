@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "palpate/core/time.h"
 #include "palpate/filter/filter_catalog.h"
 #include "palpate/filter/filter_chain.h"
 #include "palpate/filter/filtered_profile.h"
@@ -21,8 +22,6 @@
 namespace palpate::python {
 namespace py = pybind11;
 namespace {
-
-constexpr double kUsPerS = 1e6;
 
 // Of texts, and lists of texts.
 Recipe recipeOf(const py::args& specs) {

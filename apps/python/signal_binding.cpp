@@ -31,8 +31,8 @@ constexpr Column kColumns[] = {{"mean", SignalKind::kMean},
                                {"area_mm2", SignalKind::kArea}};
 
 // Row per frame: all matrices, then the whole hand.
-std::vector<std::vector<CharacteristicSignals>> rowsOf(const Profile& profile,
-                                                       const Progress& progress) {
+std::vector<std::vector<CharacteristicSignals>> signalRowsOf(const Profile& profile,
+                                                             const Progress& progress) {
   std::vector<std::vector<CharacteristicSignals>> rows(profile.numFrames());
   TactileFrame frame;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -66,7 +66,8 @@ py::dict signals(const Profile& profile, const py::object& matrix) {
     place = choice<std::size_t>("matrix", matrix.cast<std::string>(), {{"hand", numMatrices}});
   else if (!matrix.is_none())
     place = checkedIndex("matrix", matrix.cast<std::int64_t>(), numMatrices);
-  const auto rows = unlocked([&](const Progress& progress) { return rowsOf(profile, progress); });
+  const auto rows =
+      unlocked([&](const Progress& progress) { return signalRowsOf(profile, progress); });
   py::dict table;
   table["time_ms"] = column<std::int64_t>(
       rows.size(), [&](std::size_t i) { return profile.frameTimeUs(i) / kUsPerMs; });

@@ -20,7 +20,7 @@ namespace palpate::python {
 namespace py = pybind11;
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSlipUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // What slip() and slip_segments() are told.
 struct Request {
@@ -67,14 +67,14 @@ Request requestOf(const Profile& profile,
   return request;
 }
 
-struct Row {
+struct SlipRow {
   std::size_t frame = 0;
   std::int64_t timeUs = 0;
   std::size_t matrix = 0;
   SlipVerdict verdict;
 };
 
-py::dict tableOf(const std::vector<Row>& rows) {
+py::dict slipTableOf(const std::vector<SlipRow>& rows) {
   const std::size_t n = rows.size();
   py::dict table;
   const auto whole = [&](const char* name, const auto& of) {
@@ -89,34 +89,37 @@ py::dict tableOf(const std::vector<Row>& rows) {
   };
   using Motion = const SlipMotion&;
   using Verdict = const SlipVerdict&;
-  whole("frame", [](const Row& row) { return row.frame; });
-  whole("time_ms", [](const Row& row) { return row.timeUs / kUsPerMs; });
-  whole("matrix", [](const Row& row) { return row.matrix; });
-  whole("active", [](const Row& row) { return row.verdict.motion.active; });
+  whole("frame", [](const SlipRow& row) { return row.frame; });
+  whole("time_ms", [](const SlipRow& row) { return row.timeUs / kUsPerMs; });
+  whole("matrix", [](const SlipRow& row) { return row.matrix; });
+  whole("active", [](const SlipRow& row) { return row.verdict.motion.active; });
   number("x", [](Motion m, Verdict) { return m.x; });
   number("y", [](Motion m, Verdict) { return m.y; });
   flag("valid", [](Verdict v) { return v.motion.valid; });
-  number("dx", [](Motion m, Verdict) { return m.valid ? m.dx : kUnknown; });
-  number("dy", [](Motion m, Verdict) { return m.valid ? m.dy : kUnknown; });
-  number("ref_dx", [](Motion m, Verdict) { return m.valid && m.refValid ? m.refDx : kUnknown; });
-  number("ref_dy", [](Motion m, Verdict) { return m.valid && m.refValid ? m.refDy : kUnknown; });
+  number("dx", [](Motion m, Verdict) { return m.valid ? m.dx : kSlipUnknown; });
+  number("dy", [](Motion m, Verdict) { return m.valid ? m.dy : kSlipUnknown; });
+  number("ref_dx",
+         [](Motion m, Verdict) { return m.valid && m.refValid ? m.refDx : kSlipUnknown; });
+  number("ref_dy",
+         [](Motion m, Verdict) { return m.valid && m.refValid ? m.refDy : kSlipUnknown; });
   flag("rotation_valid", [](Verdict v) { return v.motion.rotation.valid; });
-  number("rotation_deg",
-         [](Motion m, Verdict) { return m.rotation.valid ? m.rotation.rotationDeg : kUnknown; });
+  number("rotation_deg", [](Motion m, Verdict) {
+    return m.rotation.valid ? m.rotation.rotationDeg : kSlipUnknown;
+  });
   number("ref_rotation_deg", [](Motion m, Verdict) {
-    return m.rotation.valid && m.rotation.refValid ? m.rotation.refRotationDeg : kUnknown;
+    return m.rotation.valid && m.rotation.refValid ? m.rotation.refRotationDeg : kSlipUnknown;
   });
   number("orientation_deg", [](Motion m, Verdict) { return m.rotation.axis.orientationDeg; });
   number("eccentricity", [](Motion m, Verdict) { return m.rotation.axis.eccentricity; });
   number("roundness", [](Motion m, Verdict) { return m.rotation.roundness; });
   number("residual", [](Motion, Verdict v) { return v.residual; });
   number("confidence", [](Motion, Verdict v) { return v.confidence; });
-  number("p_moved", [](Motion, Verdict v) { return v.pMoved.value_or(kUnknown); });
+  number("p_moved", [](Motion, Verdict v) { return v.pMoved.value_or(kSlipUnknown); });
   std::vector<std::string> names;
   for (int state = 0; state <= static_cast<int>(SlipState::kSlip); ++state)
     names.emplace_back(nameOf(static_cast<SlipState>(state)));
   std::vector<int> states;
-  for (const Row& row : rows) states.push_back(static_cast<int>(row.verdict.state));
+  for (const SlipRow& row : rows) states.push_back(static_cast<int>(row.verdict.state));
   table["state"] = words(names, states);
   flag("slipping", [](Verdict v) { return v.slipping; });
   return table;
@@ -130,7 +133,7 @@ py::dict slip(const Profile& profile,
               double limit,
               double rotation) {
   const Request request = requestOf(profile, matrix, method, reference, step, limit, rotation);
-  std::vector<Row> rows;
+  std::vector<SlipRow> rows;
   unlocked([&](const Progress& progress) {
     const auto take =
         [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipVerdict>& verdicts) {
@@ -140,7 +143,7 @@ py::dict slip(const Profile& profile,
         };
     passSlip(profile, request.pass, take, progress);
   });
-  return tableOf(rows);
+  return slipTableOf(rows);
 }
 
 py::dict slipSegments(const Profile& profile,

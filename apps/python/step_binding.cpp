@@ -25,7 +25,7 @@ StepFitOptions fitOptions(const std::string& loss, const std::string& damping) {
   return options;
 }
 
-py::dict toPython(const StepFit& fit) {
+py::dict stepToPython(const StepFit& fit) {
   const StepParameters& p = fit.parameters;
   py::dict result;
   result["K"] = p.gainCounts;
@@ -66,7 +66,7 @@ py::dict fit(const Numbers& t,
   StepFitOptions options = fitOptions(loss, damping);
   options.lossScale = lossScale;
   const std::vector<double> times = vectorOf(t, "t"), values = vectorOf(y, "y");
-  return toPython(unlocked([&](const Progress&) { return fitStep(times, values, options); }));
+  return stepToPython(unlocked([&](const Progress&) { return fitStep(times, values, options); }));
 }
 
 // By T1 and T2, or by T and d.
@@ -131,7 +131,7 @@ py::object calibrateStep(const Profile& profile,
     series = stepSignal(profile, m, options.steps.signal, progress);
     return reportSteps(profile, m, series, options);
   });
-  py::object result = python::toPython(jsonOf(report));
+  py::object result = toPython(jsonOf(report));
   for (std::size_t i = 0; i < report.steps.size(); ++i) {
     const StepSignal samples = samplesOf(series, report.steps[i].step);
     const py::object step = result["steps"][py::int_(i)];

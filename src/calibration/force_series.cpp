@@ -4,12 +4,12 @@
 #include <limits>
 
 #include "palpate/core/error.h"
+#include "palpate/core/time.h"
 
 namespace palpate {
 namespace {
 
-constexpr std::size_t kToldEvery = 1024;  // frames
-constexpr double kUsPerS = 1e6;
+constexpr std::size_t kForceSeriesToldEvery = 1024;  // frames
 constexpr double kFullScaleCounts = 4095.0;
 
 }  // namespace
@@ -72,7 +72,7 @@ ForceSeries forceSeries(const Profile& profile,
   std::optional<std::size_t> sample;
   std::vector<double> degC;
   for (std::size_t i = 0; i < numFrames; ++i) {
-    if (progress && i % kToldEvery == 0 &&
+    if (progress && i % kForceSeriesToldEvery == 0 &&
         !progress(static_cast<double>(i) / static_cast<double>(numFrames)))
       throw Cancelled();
     profile.readFrame(i, frame);

@@ -16,7 +16,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kDependent = 1e-14;
+constexpr double kLeastSquaresDependent = 1e-14;
 // Of a difference, beside the parameter; and the least size of a parameter that it is taken of.
 constexpr double kRelativeWidth = 5e-4;
 constexpr double kLeastSize = 1e-12;
@@ -87,9 +87,9 @@ class WholeProblem final : public ceres::CostFunction {
   std::size_t numParameters_;
 };
 
-void require(const LeastSquaresProblem& problem,
-             const Eigen::VectorXd& start,
-             const LeastSquaresOptions& options) {
+void requireLeastSquares(const LeastSquaresProblem& problem,
+                         const Eigen::VectorXd& start,
+                         const LeastSquaresOptions& options) {
   const auto refuse = [](const std::string& what) {
     throw std::invalid_argument("solveLeastSquares: " + what);
   };
@@ -112,7 +112,7 @@ Eigen::MatrixXd unitCovariance(Eigen::MatrixXd jacobian) {
   jacobian.array().rowwise() /= size.array();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
   const Eigen::MatrixXd r = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
-  if (!(r.diagonal().cwiseAbs().minCoeff() > kDependent)) return unknown;
+  if (!(r.diagonal().cwiseAbs().minCoeff() > kLeastSquaresDependent)) return unknown;
   const Eigen::MatrixXd inverse =
       r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(p, p));
   return (inverse * inverse.transpose()).cwiseQuotient(size.transpose() * size);
@@ -175,7 +175,7 @@ LeastSquaresReport descend(const LeastSquaresProblem& problem,
 LeastSquaresReport solveLeastSquares(const LeastSquaresProblem& problem,
                                      const Eigen::VectorXd& start,
                                      const LeastSquaresOptions& options) {
-  require(problem, start, options);
+  requireLeastSquares(problem, start, options);
   silenceCeres();
   std::vector<double> residuals(problem.numResiduals);
   if (!evaluated(problem, {start.data(), sizeOf(start)}, residuals)) {

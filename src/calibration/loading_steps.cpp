@@ -7,12 +7,12 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
 #include "palpate/model/timing.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kUsPerS = 1e6;
 // A release is seen first where it crosses releaseShare; it began a little earlier.
 constexpr std::size_t kFramesOfRelease = 2;
 

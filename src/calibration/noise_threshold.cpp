@@ -11,7 +11,7 @@
 namespace palpate {
 namespace {
 
-void require(bool good, const std::string& what) {
+void requireNoiseThreshold(bool good, const std::string& what) {
   if (!good) throw std::invalid_argument("NoiseThresholds: " + what);
 }
 
@@ -33,17 +33,19 @@ std::vector<std::optional<std::size_t>> nearestSensors(const HandDescription& ha
 }
 
 void NoiseThresholdOptions::validate() const {
-  require(sigmas >= 0.0 && sigmas <= 20.0, "sigmas must be 0..20, is " + numberText(sigmas));
-  require(sensitivity >= 0.0 && sensitivity <= 1.0,
-          "sensitivity must be 0..1, is " + numberText(sensitivity));
-  require(leastCounts >= 0 && leastCounts <= mostCounts && mostCounts <= 4095,
-          "leastCounts and mostCounts must be 0..4095, in order");
-  require(hysteresisCounts >= 1, "hysteresisCounts must be 1 or more");
-  require(leastIntervalS >= 0.0, "leastIntervalS must be 0 or more");
-  require(collapseShare >= 0.0 && collapseShare <= 1.0,
-          "collapseShare must be 0..1, is " + numberText(collapseShare));
-  require(guardWindowS > 0.0 && guardCalmS > 0.0, "guardWindowS and guardCalmS must be above 0");
-  require(guardStepCounts >= 1, "guardStepCounts must be 1 or more");
+  requireNoiseThreshold(sigmas >= 0.0 && sigmas <= 20.0,
+                        "sigmas must be 0..20, is " + numberText(sigmas));
+  requireNoiseThreshold(sensitivity >= 0.0 && sensitivity <= 1.0,
+                        "sensitivity must be 0..1, is " + numberText(sensitivity));
+  requireNoiseThreshold(leastCounts >= 0 && leastCounts <= mostCounts && mostCounts <= 4095,
+                        "leastCounts and mostCounts must be 0..4095, in order");
+  requireNoiseThreshold(hysteresisCounts >= 1, "hysteresisCounts must be 1 or more");
+  requireNoiseThreshold(leastIntervalS >= 0.0, "leastIntervalS must be 0 or more");
+  requireNoiseThreshold(collapseShare >= 0.0 && collapseShare <= 1.0,
+                        "collapseShare must be 0..1, is " + numberText(collapseShare));
+  requireNoiseThreshold(guardWindowS > 0.0 && guardCalmS > 0.0,
+                        "guardWindowS and guardCalmS must be above 0");
+  requireNoiseThreshold(guardStepCounts >= 1, "guardStepCounts must be 1 or more");
 }
 
 int noiseThreshold(const NoiseLine& line, double degC, const NoiseThresholdOptions& options) {
@@ -63,11 +65,13 @@ NoiseThresholds::NoiseThresholds(NoiseFloor floor,
       usualRateHz_(usualRateHz),
       options_(options) {
   options_.validate();
-  require(!reset_.counts.empty() && sensors_.size() == reset_.counts.size(),
-          std::to_string(sensors_.size()) + " sensors for " + std::to_string(reset_.counts.size()) +
-              " matrices");
-  require(floor_.lines.size() <= reset_.counts.size(), "more noise lines than matrices");
-  require(usualRateHz > 0.0 && std::isfinite(usualRateHz), "usualRateHz must be above 0");
+  requireNoiseThreshold(!reset_.counts.empty() && sensors_.size() == reset_.counts.size(),
+                        std::to_string(sensors_.size()) + " sensors for " +
+                            std::to_string(reset_.counts.size()) + " matrices");
+  requireNoiseThreshold(floor_.lines.size() <= reset_.counts.size(),
+                        "more noise lines than matrices");
+  requireNoiseThreshold(usualRateHz > 0.0 && std::isfinite(usualRateHz),
+                        "usualRateHz must be above 0");
 }
 
 // True when the guard moved.

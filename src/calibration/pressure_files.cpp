@@ -17,7 +17,7 @@ Json listOf(const std::vector<std::string>& texts) {
   return list;
 }
 
-std::vector<std::string> textsOf(const Json& list) {
+std::vector<std::string> pressureFilesTextsOf(const Json& list) {
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < list.size(); ++i)
     if (list.at(i).isString()) texts.push_back(list.at(i).asString());
@@ -94,7 +94,7 @@ Surface surfaceFrom(const Json& json, const std::string& where) {
   surface.numTerms = static_cast<std::size_t>(
       std::max(json.at("kept_terms").isNumber() ? json.at("kept_terms").asDouble() : 0.0, 0.0));
   surface.valid = json.at("valid").isBool() && json.at("valid").asBool();
-  surface.notes = textsOf(json.at("notes"));
+  surface.notes = pressureFilesTextsOf(json.at("notes"));
   return surface;
 }
 
@@ -129,7 +129,7 @@ PressureModel pressureModelFrom(const Json& json) {
   model.areaShare = numberAt(json, "area_share", "the model");
   model.areaShareSd = numberAt(json, "area_share_sd", "the model");
   model.steadyS = numberAt(json, "steady_s", "the model");
-  model.notes = textsOf(json.at("notes"));
+  model.notes = pressureFilesTextsOf(json.at("notes"));
   model.options.validate();
   if (!(model.areaShare > 0.0) || !(model.areaShareSd >= 0.0) || !(model.steadyS >= 0.0))
     throw Error("pressure model: area_share must be above 0, its sd and steady_s not below");

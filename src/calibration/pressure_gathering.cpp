@@ -8,7 +8,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kToldEvery = 1024;  // frames
+constexpr std::size_t kPressureGatheringToldEvery = 1024;  // frames
 
 void gatherRow(const PressureTableRow& row,
                const std::filesystem::path& folder,
@@ -46,7 +46,7 @@ std::size_t loadedMatrix(const Profile& profile, const Progress& progress) {
   std::vector<double> sums(profile.layout().numMatrices());
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (progress && i % kToldEvery == 0 &&
+    if (progress && i % kPressureGatheringToldEvery == 0 &&
         !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
       throw Cancelled();
     profile.readFrame(i, frame);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
 #include "palpate/filter/characteristic_signals.h"
 #include "palpate/filter/gaussian.h"
 
@@ -16,7 +17,6 @@ namespace {
 
 constexpr int kMostColumns = 64;
 constexpr double kNPerKpaMm2 = 1e-3;  // 1 kPa on 1 mm^2
-constexpr double kUsPerS = 1e6;
 
 // The filter is linear: the sum of the filtered matrix is a weighted sum of the counts.
 std::vector<float> filteredSumWeights(const MatrixLayout& layout) {

@@ -12,22 +12,24 @@ namespace {
 
 constexpr double kNoLimit = 2.0;
 
-void require(bool good, const std::string& what) {
+void requireSensitivitySearch(bool good, const std::string& what) {
   if (!good) throw std::invalid_argument("SensitivitySearch: " + what);
 }
 
 }  // namespace
 
 void SensitivitySearchOptions::validate() const {
-  require(least > 0.0 && least <= most && most <= 1.0,
-          "least and most must be within 0..1, in order");
-  require(resolution > 0.0, "resolution must be above 0, is " + numberText(resolution));
-  require(saturationCounts > 0.0,
-          "saturationCounts must be above 0, is " + numberText(saturationCounts));
-  require(headroom >= 0.0 && headroom <= 0.9,
-          "headroom must be 0..0.9, is " + numberText(headroom));
-  require(framesToLook >= 1, "framesToLook must be 1 or more");
-  require(loosenAfterS >= 0.0, "loosenAfterS must be 0 or more, is " + numberText(loosenAfterS));
+  requireSensitivitySearch(least > 0.0 && least <= most && most <= 1.0,
+                           "least and most must be within 0..1, in order");
+  requireSensitivitySearch(resolution > 0.0,
+                           "resolution must be above 0, is " + numberText(resolution));
+  requireSensitivitySearch(saturationCounts > 0.0,
+                           "saturationCounts must be above 0, is " + numberText(saturationCounts));
+  requireSensitivitySearch(headroom >= 0.0 && headroom <= 0.9,
+                           "headroom must be 0..0.9, is " + numberText(headroom));
+  requireSensitivitySearch(framesToLook >= 1, "framesToLook must be 1 or more");
+  requireSensitivitySearch(loosenAfterS >= 0.0,
+                           "loosenAfterS must be 0 or more, is " + numberText(loosenAfterS));
 }
 
 SensitivitySearch::SensitivitySearch(double sensitivity,
@@ -38,10 +40,11 @@ SensitivitySearch::SensitivitySearch(double sensitivity,
       sensitivity_(sensitivity),
       unsafe_(kNoLimit) {
   options_.validate();
-  require(thresholdCounts >= 0.0 && std::isfinite(thresholdCounts),
-          "thresholdCounts must be 0 or more");
-  require(sensitivity >= options_.least && sensitivity <= options_.most,
-          "sensitivity must be between least and most, is " + numberText(sensitivity));
+  requireSensitivitySearch(thresholdCounts >= 0.0 && std::isfinite(thresholdCounts),
+                           "thresholdCounts must be 0 or more");
+  requireSensitivitySearch(
+      sensitivity >= options_.least && sensitivity <= options_.most,
+      "sensitivity must be between least and most, is " + numberText(sensitivity));
 }
 
 std::optional<double> SensitivitySearch::propose(double sensitivity) {

@@ -18,7 +18,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kStepFitNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kFewestSamples = 6;  // four parameters, and something left to judge them by
 constexpr std::array<std::pair<double, double>, 4> kStartsS = {
     {{0.05, 0.02}, {0.2, 0.02}, {0.5, 0.05}, {1.0, 0.1}}};
@@ -155,11 +155,13 @@ class Fitter {
           root * Eigen::RowVector4d(shape.phi, t, p.gainCounts * third, p.gainCounts * fourth);
     }
     const Eigen::RowVector4d size = jacobian.colwise().norm();
-    if (!(size.minCoeff() > 0.0) || !size.allFinite()) return Eigen::Matrix4d::Constant(kNaN);
+    if (!(size.minCoeff() > 0.0) || !size.allFinite())
+      return Eigen::Matrix4d::Constant(kStepFitNaN);
     for (int c = 0; c < 4; ++c) jacobian.col(c) /= size[c];
     const Eigen::HouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 4>> qr(jacobian);
     const Eigen::Matrix4d r = qr.matrixQR().topRows<4>().triangularView<Eigen::Upper>();
-    if (!(r.diagonal().cwiseAbs().minCoeff() > 1e-12)) return Eigen::Matrix4d::Constant(kNaN);
+    if (!(r.diagonal().cwiseAbs().minCoeff() > 1e-12))
+      return Eigen::Matrix4d::Constant(kStepFitNaN);
     const Eigen::Matrix4d inverse =
         r.triangularView<Eigen::Upper>().solve(Eigen::Matrix4d::Identity());
     const Eigen::Matrix4d covariance = inverse * inverse.transpose();
@@ -273,7 +275,7 @@ double StepFit::sd(int parameter) const {
   if (parameter < 0 || parameter > 3)
     throw std::out_of_range("StepFit: parameters are 0..3, not " + std::to_string(parameter));
   const double variance = covariance(parameter, parameter);
-  return variance >= 0.0 ? std::sqrt(variance) : kNaN;
+  return variance >= 0.0 ? std::sqrt(variance) : kStepFitNaN;
 }
 
 double StepFit::interval95(int parameter) const {
@@ -288,7 +290,7 @@ StepFit fitStep(std::span<const double> timeS,
     throw std::invalid_argument("fitStep: " + std::to_string(timeS.size()) + " times, " +
                                 std::to_string(values.size()) + " values");
   StepFit fit;
-  fit.covariance.setConstant(kNaN);
+  fit.covariance.setConstant(kStepFitNaN);
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < timeS.size(); ++i)
     if (std::isfinite(timeS[i]) && std::isfinite(values[i]) && timeS[i] >= 0.0) order.push_back(i);

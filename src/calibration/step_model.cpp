@@ -9,8 +9,8 @@
 namespace palpate {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSettled = 0.01;  // 1 - phi where the lag is over
+constexpr double kStepModelNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kStepModelSettled = 0.01;  // 1 - phi where the lag is over
 
 // Of z^2, which may be negative (then cosh and sinh): cos z, sin z / z and (sin z / z - cos z) / z^2.
 struct Oscillation {
@@ -47,7 +47,7 @@ double firstTime(const StepParameters& p, Reached reached) {
     low = high;
     high *= 1.25;
   }
-  if (!reached(high)) return kNaN;
+  if (!reached(high)) return kStepModelNaN;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
     (reached(middle) ? high : low) = middle;
@@ -62,7 +62,7 @@ double steadyTime(const StepParameters& p) {
         firstTime(p, [&](double t) { return sign * (stepResponse(p, t) - p.gainCounts) >= 0.0; });
     if (!std::isnan(atGain)) return atGain;
   }
-  return firstTime(p, [&](double t) { return 1.0 - shapeOf(p, t).phi < kSettled; });
+  return firstTime(p, [&](double t) { return 1.0 - shapeOf(p, t).phi < kStepModelSettled; });
 }
 
 }  // namespace
@@ -76,12 +76,12 @@ StepParameters StepParameters::ofTimes(double gainCounts,
 }
 
 double StepParameters::t1S() const {
-  if (!(damping >= 1.0)) return kNaN;
+  if (!(damping >= 1.0)) return kStepModelNaN;
   return timeConstantS * (damping + std::sqrt((damping - 1.0) * (damping + 1.0)));
 }
 
 double StepParameters::t2S() const {
-  if (!(damping >= 1.0)) return kNaN;
+  if (!(damping >= 1.0)) return kStepModelNaN;
   return timeConstantS / (damping + std::sqrt((damping - 1.0) * (damping + 1.0)));
 }
 
@@ -120,8 +120,9 @@ StepCharacteristics characteristicsOf(const StepParameters& p) {
   c.inflectionCounts = stepResponse(p, c.inflectionS);
   c.tangentPerS = stepResponseRate(p, c.inflectionS);
   const bool flat = !(std::abs(c.tangentPerS) > 0.0);
-  c.deadTimeS = flat ? kNaN : c.inflectionS - c.inflectionCounts / c.tangentPerS;
-  c.tangentAtGainS = flat ? kNaN : c.inflectionS + (k - c.inflectionCounts) / c.tangentPerS;
+  c.deadTimeS = flat ? kStepModelNaN : c.inflectionS - c.inflectionCounts / c.tangentPerS;
+  c.tangentAtGainS =
+      flat ? kStepModelNaN : c.inflectionS + (k - c.inflectionCounts) / c.tangentPerS;
   c.equivalentTangentPerS = stepResponse(p, c.tangentAtGainS) / c.tangentAtGainS;
   c.steadyS = steadyTime(p);
   return c;

@@ -127,13 +127,13 @@ Json numbers(const StepFit& fit) {
   return rows;
 }
 
-Json textsOf(const std::vector<std::string>& texts) {
+Json stepReportTextsOf(const std::vector<std::string>& texts) {
   Json list = Json::array();
   for (const std::string& text : texts) list.push(text);
   return list;
 }
 
-Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+Json stepReportOrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
 Json jsonOf(const FittedStep& fitted) {
   const StepFit& fit = fitted.fit;
@@ -166,16 +166,16 @@ Json jsonOf(const FittedStep& fitted) {
     json.set("t_k_s", c.tangentAtGainS).set("equivalent_tangent_per_s", c.equivalentTangentPerS);
     json.set("steady_s", c.steadyS);
   }
-  json.set("nearest_temperature_c", orNull(fitted.nearestDegC));
-  json.set("mean_temperature_c", orNull(fitted.allSensorsDegC));
-  json.set("study_temperature_c", orNull(fitted.studyDegC));
+  json.set("nearest_temperature_c", stepReportOrNull(fitted.nearestDegC));
+  json.set("mean_temperature_c", stepReportOrNull(fitted.allSensorsDegC));
+  json.set("study_temperature_c", stepReportOrNull(fitted.studyDegC));
   json.set("active_area_mm2", fitted.activeAreaMm2);
   json.set("saturated_frames", fitted.saturatedFrames);
   json.set("switched_taxels_per_frame", fitted.switchedPerFrame);
   json.set("released", fitted.step.released);
   std::vector<std::string> notes = fitted.notes;
   notes.insert(notes.end(), fit.notes.begin(), fit.notes.end());
-  return json.set("notes", textsOf(notes));
+  return json.set("notes", stepReportTextsOf(notes));
 }
 
 }  // namespace
@@ -241,7 +241,7 @@ Json jsonOf(const StepReport& report) {
   Json steps = Json::array();
   for (const FittedStep& fitted : report.steps) steps.push(jsonOf(fitted));
   json.set("steps", std::move(steps));
-  return json.set("notes", textsOf(report.notes));
+  return json.set("notes", stepReportTextsOf(report.notes));
 }
 
 }  // namespace palpate

@@ -11,7 +11,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kSettled = 38.0;  // e^-38 is below the rounding of 1
+constexpr double kStepSearchSettled = 38.0;  // e^-38 is below the rounding of 1
 constexpr double kNear =
     1.0;  // a step beyond a factor of e says nothing about the place it leads to
 // A search that comes so near to a known minimum, and goes on towards it, finds nothing new.
@@ -195,7 +195,7 @@ StepSamples::Moments StepSamples::moments(const Eigen::Vector2d& at, StepCoordin
                          : d < 1.0 ? first / std::max(d, 1e-3)
                                    : first * (d + std::sqrt(d * d - 1.0));
   const auto settled = static_cast<std::size_t>(
-      std::upper_bound(t_.begin(), t_.end(), kSettled * slowest) - t_.begin());
+      std::upper_bound(t_.begin(), t_.end(), kStepSearchSettled * slowest) - t_.begin());
   Moments s;
   const auto add = [&s](const StepShape& shape, double t, double y, double w) {
     const double p = w * shape.phi, a = w * shape.byFirst, b = w * shape.bySecond;

@@ -17,10 +17,10 @@ namespace {
 using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSurfaceNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostTerms = 12;
 // Columns that differ by less than this share of their length say the same. Nine honest terms come to 1e-6.
-constexpr long double kDependent = 1e-8L;
+constexpr long double kSurfaceDependent = 1e-8L;
 constexpr double kWorthATerm = 1.01;
 constexpr double kHullGrowth = 1.05;
 
@@ -63,7 +63,7 @@ std::optional<Fit> fitTerms(std::span<const SurfacePoint> points,
   for (Eigen::Index k = 0; k < p; ++k) columns.col(k) /= size[k];
   const Eigen::HouseholderQR<LongMatrix> qr(columns);
   const LongMatrix r = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
-  if (!(r.diagonal().cwiseAbs().minCoeff() > kDependent)) return std::nullopt;
+  if (!(r.diagonal().cwiseAbs().minCoeff() > kSurfaceDependent)) return std::nullopt;
   const LongMatrix q = qr.householderQ() * LongMatrix::Identity(n, p);
   Fit fit;
   const LongVector scaled = r.triangularView<Eigen::Upper>().solve(q.transpose() * z);
@@ -166,7 +166,7 @@ std::vector<SurfaceTerm> surfaceTerms(int degree) {
 
 SurfaceEstimate Surface::at(double x, double t) const {
   SurfaceEstimate estimate;
-  if (!valid) return {kNaN, kNaN, kNaN, kNaN, false};
+  if (!valid) return {kSurfaceNaN, kSurfaceNaN, kSurfaceNaN, kSurfaceNaN, false};
   double basis[kMostTerms] = {};
   const auto p = static_cast<Eigen::Index>(terms.size());
   for (Eigen::Index k = 0; k < p; ++k) {
@@ -183,7 +183,7 @@ SurfaceEstimate Surface::at(double x, double t) const {
     if (basis[a] != 0.0)
       for (Eigen::Index b = 0; b < p; ++b) variance += basis[a] * covariance(a, b) * basis[b];
   estimate.sd = std::sqrt(std::max(variance, 0.0));
-  if (std::isnan(variance)) estimate.sd = kNaN;
+  if (std::isnan(variance)) estimate.sd = kSurfaceNaN;
   estimate.inRange = inHull(hull, x, t);
   return estimate;
 }
@@ -224,7 +224,7 @@ Surface fitSurface(std::span<const SurfacePoint> points,
   const double dof = n - static_cast<double>(surface.numTerms);
   surface.rmse = std::sqrt(fit->squares / n);
   surface.looRmse = std::sqrt(fit->looSquares / n);
-  surface.residualSd = dof > 0.0 ? std::sqrt(fit->squares / dof) : kNaN;
+  surface.residualSd = dof > 0.0 ? std::sqrt(fit->squares / dof) : kSurfaceNaN;
   if (!(dof > 0.0))
     surface.notes.push_back("as many terms as points: nothing is known about the error");
   std::vector<Eigen::Index> kept;

@@ -7,11 +7,11 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kUsPerS = 1e6;
 constexpr std::size_t kFewestFrames = 3;
 
 // One window of the whole recording: mean and sd per place.

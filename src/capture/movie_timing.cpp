@@ -5,12 +5,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "palpate/core/time.h"
 #include "palpate/model/timing.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kUsPerS = 1e6;
 constexpr double kShortestGapS = 1.0;
 constexpr double kGapIntervals = 5.0;
 

@@ -27,7 +27,7 @@ constexpr std::int64_t kFreeBytesUs = 1'000'000;
 constexpr std::int64_t kBlockedUs = 250'000;
 constexpr std::size_t kMostKept = 32'768;
 
-void require(bool right, const std::string& message) {
+void requireRecorder(bool right, const std::string& message) {
   if (!right) throw std::invalid_argument("Recorder: " + message);
 }
 
@@ -42,9 +42,10 @@ FeedOptions feedFor(FeedOptions options) {
 struct Recorder::Impl {
   Impl(RecorderOptions given, const Clock& theClock)
       : options(std::move(given)), clock(theClock), feed("the recorder", feedFor(options.feed)) {
-    require(options.preTriggerS >= 0.0 && options.preTriggerS <= 60.0, "preTriggerS must be 0..60");
-    require(options.commitIntervalMs >= 1.0 && options.commitIntervalMs <= 10'000.0,
-            "commitIntervalMs must be 1..10000");
+    requireRecorder(options.preTriggerS >= 0.0 && options.preTriggerS <= 60.0,
+                    "preTriggerS must be 0..60");
+    requireRecorder(options.commitIntervalMs >= 1.0 && options.commitIntervalMs <= 10'000.0,
+                    "commitIntervalMs must be 1..10000");
     if (!options.freeBytes) options.freeBytes = freeBytesOf;
   }
 

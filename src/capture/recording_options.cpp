@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kLeastBytes = 64 << 10;
 
-void require(bool right, const std::string& message) {
+void requireRecordingOptions(bool right, const std::string& message) {
   if (!right) throw std::invalid_argument("RecordingOptions: " + message);
 }
 
@@ -33,14 +33,16 @@ void requireNewFile(const fs::path& path) {
 }
 
 void RecordingOptions::validate() const {
-  require(path.extension() == ".palpate" && path.stem() != "",
-          "a recording's name must end in .palpate, not '" + path.filename().string() + "'");
+  requireRecordingOptions(
+      path.extension() == ".palpate" && path.stem() != "",
+      "a recording's name must end in .palpate, not '" + path.filename().string() + "'");
   const auto atLeast = [](const auto& value, auto least, const char* name) {
-    require(!value || *value >= least, std::string(name) + " is too small");
+    requireRecordingOptions(!value || *value >= least, std::string(name) + " is too small");
   };
-  require(preTriggerS >= 0.0 && preTriggerS <= 60.0, "preTriggerS must be 0..60");
+  requireRecordingOptions(preTriggerS >= 0.0 && preTriggerS <= 60.0, "preTriggerS must be 0..60");
   const auto finite = [](const std::optional<double>& value, const char* name) {
-    require(!value || (*value > 0.0 && *value <= 1e9), std::string(name) + " must be 0..1e9 s");
+    requireRecordingOptions(!value || (*value > 0.0 && *value <= 1e9),
+                            std::string(name) + " must be 0..1e9 s");
   };
   finite(splitS, "splitS");
   finite(stopAfterS, "stopAfterS");
@@ -49,7 +51,7 @@ void RecordingOptions::validate() const {
   atLeast(stopAfterFrames, std::int64_t{1}, "stopAfterFrames");
   atLeast(stopAfterBytes, kLeastBytes, "stopAfterBytes");
   for (const auto& [key, value] : meta)
-    require(!isReservedMeta(key), "meta '" + key + "' is the recording's own");
+    requireRecordingOptions(!isReservedMeta(key), "meta '" + key + "' is the recording's own");
 }
 
 fs::path partPath(const fs::path& path, int part) {

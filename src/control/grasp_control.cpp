@@ -20,7 +20,7 @@ constexpr std::size_t kMostChanges = 1000;
 constexpr std::size_t kWaitingFrames = 64;  // two seconds: then this thread didn't run at all
 
 template <typename Future>
-bool isReady(const Future& future) {
+bool graspControlIsReady(const Future& future) {
   return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
@@ -116,9 +116,9 @@ void GraspControl::send() {
 }
 
 void GraspControl::heedAnswers() {
-  std::erase_if(free_, [](const auto& answer) { return isReady(answer); });
-  std::erase_if(settings_, [](const auto& answer) { return isReady(answer); });
-  if (!asked_ || !isReady(asked_->answer)) return;
+  std::erase_if(free_, [](const auto& answer) { return graspControlIsReady(answer); });
+  std::erase_if(settings_, [](const auto& answer) { return graspControlIsReady(answer); });
+  if (!asked_ || !graspControlIsReady(asked_->answer)) return;
   Asked asked = std::move(*asked_);
   asked_.reset();
   const std::int64_t nowUs = clock_.monotonicUs();
@@ -259,8 +259,9 @@ void GraspControl::relax() noexcept {
 }
 
 bool GraspControl::settingsPending() const {
-  return std::any_of(
-      settings_.begin(), settings_.end(), [](const auto& answer) { return !isReady(answer); });
+  return std::any_of(settings_.begin(), settings_.end(), [](const auto& answer) {
+    return !graspControlIsReady(answer);
+  });
 }
 
 std::shared_future<CommandAnswer> GraspControl::change(const DeviceCommand& setting) {

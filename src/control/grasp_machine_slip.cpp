@@ -16,7 +16,7 @@ constexpr double kLooseningDegPerS = 1.0;
 constexpr double kLeastOfLimit = 0.25;
 constexpr double kLongestLooseningS = 20.0;
 
-std::int64_t microseconds(double seconds) { return std::llround(seconds * 1e6); }
+std::int64_t microsecondsOf(double seconds) { return std::llround(seconds * 1e6); }
 
 }  // namespace
 
@@ -37,8 +37,8 @@ void GraspMachine::settle(std::int64_t monoUs) {
   phase_ = GraspPhase::kSettling;
   command_.reset();
   const HoldingOptions& holding = report_.request.holding;
-  settledUs_ = monoUs + microseconds(held_ ? holding.restS : holding.settleS);
-  if (endUs_ == 0 && holding.holdS > 0.0) endUs_ = settledUs_ + microseconds(holding.holdS);
+  settledUs_ = monoUs + microsecondsOf(held_ ? holding.restS : holding.settleS);
+  if (endUs_ == 0 && holding.holdS > 0.0) endUs_ = settledUs_ + microsecondsOf(holding.holdS);
 }
 
 void GraspMachine::onHoldingFrame(std::int64_t monoUs) {
@@ -89,7 +89,7 @@ void GraspMachine::onHoldingTime(std::int64_t monoUs) {
                "finished: held for " + numberText(holding.holdS) + " s, " +
                    std::to_string(report_.slips) + " slips, limit " + std::to_string(limit_) +
                    " counts; the hand goes on holding");
-  if (monoUs < calmUs_ + microseconds(holding.calmS)) return;
+  if (monoUs < calmUs_ + microsecondsOf(holding.calmS)) return;
   calmUs_ = monoUs;
   if (holding.weightN > 0.0 && !tested_) {
     tested_ = testing_ = true;
@@ -110,7 +110,7 @@ void GraspMachine::loosen(const char* action, const std::string& text, std::int6
   for (double& velocity : open.velocityDegPerS) velocity = std::min(velocity, kLooseningDegPerS);
   move(0.0, GraspPhase::kLoosening, monoUs);
   command_ = std::move(open);
-  settledUs_ = monoUs + microseconds(kLongestLooseningS);
+  settledUs_ = monoUs + microsecondsOf(kLongestLooseningS);
 }
 
 void GraspMachine::onLooseningFrame(std::int64_t monoUs) {
@@ -143,7 +143,7 @@ std::int64_t GraspMachine::holdingNextUs() const {
   std::int64_t nextUs = stream_.deadAtUs() + 1;
   if (phase_ != GraspPhase::kHolding) return nextUs;
   if (endUs_ != 0) nextUs = std::min(nextUs, endUs_);
-  return std::min(nextUs, calmUs_ + microseconds(report_.request.holding.calmS));
+  return std::min(nextUs, calmUs_ + microsecondsOf(report_.request.holding.calmS));
 }
 
 }  // namespace palpate

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/time.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kUsPerS = 1e6;
 constexpr std::size_t kLeastStamps = 10;  // that tell a rate
 constexpr std::size_t kMostStamps = 64;
 constexpr double kTemperaturesWithinS = 3.0;  // else it goes without
@@ -21,7 +21,7 @@ constexpr std::int64_t kStaleUs = 1'000'000;  // no frame for so long tells no r
 // A second or two of frames: whoever calls step() so rarely misses some, and nothing else.
 constexpr FeedOptions kFeed{.tactileItems = 256, .motionItems = 256, .eventItems = 64};
 
-bool isReady(const std::shared_future<CommandAnswer>& answer) {
+bool sensitivityControlIsReady(const std::shared_future<CommandAnswer>& answer) {
   return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
@@ -100,7 +100,7 @@ void SensitivityControl::reset() {
 
 void SensitivityControl::heedAnswers() {
   for (const auto& answer : pending_) {
-    if (!isReady(answer)) continue;
+    if (!sensitivityControlIsReady(answer)) continue;
     try {
       answer.get();
     } catch (const std::exception& error) {
@@ -108,7 +108,7 @@ void SensitivityControl::heedAnswers() {
     }
   }
   const bool had = !pending_.empty();
-  std::erase_if(pending_, isReady);
+  std::erase_if(pending_, sensitivityControlIsReady);
   if (had && pending_.empty()) {
     settledFromUs_ = session_.nowUs();
     stampsUs_.clear();

@@ -17,14 +17,15 @@
 namespace palpate {
 namespace {
 
-using SteadyClock = std::chrono::steady_clock;
+using DescriptorChannelSteadyClock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kWriteLimit{1000};
 
 // Milliseconds until then for poll(): rounded up, so that it doesn't spin through the last one.
-int untilMs(SteadyClock::time_point deadline) {
-  const auto left = std::chrono::ceil<milliseconds>(deadline - SteadyClock::now()).count();
+int untilMs(DescriptorChannelSteadyClock::time_point deadline) {
+  const auto left =
+      std::chrono::ceil<milliseconds>(deadline - DescriptorChannelSteadyClock::now()).count();
   return static_cast<int>(std::clamp<std::int64_t>(left, 0, std::numeric_limits<int>::max()));
 }
 
@@ -71,7 +72,7 @@ std::size_t DescriptorChannel::take(std::span<std::byte> into, short events) {
 
 std::size_t DescriptorChannel::read(std::span<std::byte> into, milliseconds timeout) {
   if (into.empty()) return 0;
-  const auto deadline = SteadyClock::now() + std::max(timeout, milliseconds(0));
+  const auto deadline = DescriptorChannelSteadyClock::now() + std::max(timeout, milliseconds(0));
   for (;;) {
     pollfd waits[2] = {{fd_, POLLIN, 0}, {wake_.get(), POLLIN, 0}};
     const int ready = ::poll(waits, 2, untilMs(deadline));
@@ -88,12 +89,12 @@ std::size_t DescriptorChannel::read(std::span<std::byte> into, milliseconds time
       }
       if (interrupted) return 0;
     }
-    if (SteadyClock::now() >= deadline) return 0;
+    if (DescriptorChannelSteadyClock::now() >= deadline) return 0;
   }
 }
 
 void DescriptorChannel::write(std::span<const std::byte> bytes) {
-  const auto deadline = SteadyClock::now() + kWriteLimit;
+  const auto deadline = DescriptorChannelSteadyClock::now() + kWriteLimit;
   while (!bytes.empty()) {
     const ssize_t written = isSocket_ ? ::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL)
                                       : ::write(fd_, bytes.data(), bytes.size());
@@ -105,7 +106,7 @@ void DescriptorChannel::write(std::span<const std::byte> bytes) {
     pollfd waits{fd_, POLLOUT, 0};
     if (::poll(&waits, 1, untilMs(deadline)) > 0 && (waits.revents & (POLLHUP | POLLERR)) != 0)
       gone(0);
-    if (SteadyClock::now() >= deadline)
+    if (DescriptorChannelSteadyClock::now() >= deadline)
       throw DeviceError(DeviceFault::kSilent, name_, "the line takes no bytes; is the device on?");
   }
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/time.h"
 
 #include "device/dsa_records.h"
 
@@ -14,11 +15,9 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr unsigned kAcquire = 0x80;
-constexpr unsigned kRunLength = 0x01;
+constexpr unsigned kDsaControllerRunLength = 0x01;
 constexpr int kPending = 25;  // a second answer with the final code follows
-constexpr std::size_t kReadBytes = 4096;
-
-std::int64_t us(milliseconds time) { return std::int64_t{time.count()} * 1000; }
+constexpr std::size_t kDsaControllerReadBytes = 4096;
 
 unsigned errorWord(const std::vector<std::byte>& payload) {
   return std::to_integer<unsigned>(payload[0]) | std::to_integer<unsigned>(payload[1]) << 8;
@@ -82,7 +81,7 @@ DsaController::DsaController(ByteChannel& channel,
       frames_(std::move(frames)),
       clock_(clock),
       options_(std::move(options)),
-      buffer_(kReadBytes) {}
+      buffer_(kDsaControllerReadBytes) {}
 
 // --- reading --------------------------------------------------------------------------------------
 
@@ -113,7 +112,7 @@ void DsaController::flush() {
 }
 
 std::optional<DsaController::Answer> DsaController::awaitAnswer(DsaId id, milliseconds limit) {
-  const std::int64_t endUs = clock_.monotonicUs() + us(limit);
+  const std::int64_t endUs = clock_.monotonicUs() + usOf(limit);
   while (true) {
     while (!answers_.empty()) {
       Answer answer = std::move(answers_.front());
@@ -130,16 +129,16 @@ std::optional<DsaController::Answer> DsaController::awaitAnswer(DsaId id, millis
 }
 
 void DsaController::awaitSilence(milliseconds silence, milliseconds limit) {
-  const std::int64_t endUs = clock_.monotonicUs() + us(limit);
+  const std::int64_t endUs = clock_.monotonicUs() + usOf(limit);
   std::int64_t quietSinceUs = clock_.monotonicUs();
-  while (clock_.monotonicUs() - quietSinceUs < us(silence)) {
+  while (clock_.monotonicUs() - quietSinceUs < usOf(silence)) {
     if (clock_.monotonicUs() > endUs)
       throw DeviceError(DeviceFault::kProtocol,
                         channel_.name(),
                         "the tactile controller doesn't stop sending; switch it off and on");
     if (options_.giveUp && options_.giveUp())
       throw DeviceError(DeviceFault::kSilent, channel_.name(), "given up");
-    const std::int64_t leftUs = us(silence) - (clock_.monotonicUs() - quietSinceUs);
+    const std::int64_t leftUs = usOf(silence) - (clock_.monotonicUs() - quietSinceUs);
     if (poll(milliseconds(leftUs / 1000 + 1)) > 0) quietSinceUs = clock_.monotonicUs();
   }
   flush();
@@ -190,7 +189,7 @@ DsaController::Bytes DsaController::request(DsaId id,
 
 void DsaController::acquisition(bool on, int rate) {
   Bytes payload;
-  const unsigned flags = (on ? kAcquire : 0u) | (options_.runLength ? kRunLength : 0u);
+  const unsigned flags = (on ? kAcquire : 0u) | (options_.runLength ? kDsaControllerRunLength : 0u);
   payload.push_back(static_cast<std::byte>(flags));
   appendU16(payload, static_cast<unsigned>(rate));
   request(DsaId::kAcquisition, payload, 2);
@@ -211,7 +210,7 @@ void DsaController::stopStream() {
 bool DsaController::stopStreamOnce(milliseconds limit) {
   streaming_ = false;
   answers_.clear();
-  Bytes payload = {static_cast<std::byte>(options_.runLength ? kRunLength : 0u)};
+  Bytes payload = {static_cast<std::byte>(options_.runLength ? kDsaControllerRunLength : 0u)};
   appendU16(payload, 0);
   send(DsaId::kAcquisition, payload);
   const auto giveUp = std::exchange(options_.giveUp, nullptr);  // leaving: asked to give up already
@@ -234,7 +233,7 @@ void DsaController::pullFrame() {
                           " of the tactile controller can't send single frames; stream instead");
   const std::uint64_t before = framesTaken_;
   acquisition(true, 0);
-  const std::int64_t endUs = clock_.monotonicUs() + us(options_.answerTimeout);
+  const std::int64_t endUs = clock_.monotonicUs() + usOf(options_.answerTimeout);
   while (framesTaken_ == before) {
     if (clock_.monotonicUs() > endUs) failSilent("no frame came within a second of asking");
     poll(milliseconds(20));

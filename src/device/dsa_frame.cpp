@@ -8,10 +8,10 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 5;
+constexpr std::size_t kDsaFrameHeaderBytes = 5;
 constexpr std::size_t kFramingBytes = 8;  // preamble, id, size, checksum
 constexpr unsigned kRunLengthFlag = 1;
-constexpr unsigned kMaxCounts = 0x0FFF;
+constexpr unsigned kDsaFrameMaxCounts = 0x0FFF;
 
 unsigned unitAt(const std::byte* at) {
   return std::to_integer<unsigned>(at[0]) | std::to_integer<unsigned>(at[1]) << 8;
@@ -25,7 +25,7 @@ bool decodeRuns(std::span<const std::byte> units, std::span<float> counts) {
     if (run == 0 || run > counts.size() - place) return false;
     std::fill_n(counts.begin() + static_cast<std::ptrdiff_t>(place),
                 run,
-                static_cast<float>(unit & kMaxCounts));
+                static_cast<float>(unit & kDsaFrameMaxCounts));
     place += run;
   }
   return place == counts.size();
@@ -35,7 +35,7 @@ bool decodeRaw(std::span<const std::byte> taxels, std::span<float> counts) {
   if (taxels.size() != 2 * counts.size()) return false;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const unsigned value = unitAt(&taxels[2 * i]);
-    if (value > kMaxCounts) return false;
+    if (value > kDsaFrameMaxCounts) return false;
     counts[i] = static_cast<float>(value);
   }
   return true;
@@ -60,7 +60,7 @@ std::optional<DsaFrame> decodeDsaFrame(std::span<const std::byte> payload,
   if (counts.size() != layout.numPlaces())
     throw std::invalid_argument("decodeDsaFrame: room for " + std::to_string(counts.size()) +
                                 " values, the layout has " + std::to_string(layout.numPlaces()));
-  if (payload.size() < kHeaderBytes || payload.size() % 2 == 0) return std::nullopt;
+  if (payload.size() < kDsaFrameHeaderBytes || payload.size() % 2 == 0) return std::nullopt;
   const unsigned flags = std::to_integer<unsigned>(payload[4]);
   if ((flags & ~kRunLengthFlag) != 0) return std::nullopt;
   DsaFrame frame;
@@ -68,7 +68,7 @@ std::optional<DsaFrame> decodeDsaFrame(std::span<const std::byte> payload,
     frame.stampMs = frame.stampMs << 8 | std::to_integer<std::uint32_t>(payload[i - 1]);
   frame.runLength = flags == kRunLengthFlag;
   frame.packetBytes = payload.size() + kFramingBytes;
-  const auto taxels = payload.subspan(kHeaderBytes);
+  const auto taxels = payload.subspan(kDsaFrameHeaderBytes);
   if (!(frame.runLength ? decodeRuns(taxels, counts) : decodeRaw(taxels, counts)))
     return std::nullopt;
   if (checkMask && !emptyWhereNoTaxelIs(layout, counts)) return std::nullopt;

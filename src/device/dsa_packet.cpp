@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::byte kPreamble{0xAA};
 constexpr std::size_t kPreambleBytes = 3;
-constexpr std::size_t kHeaderBytes = 6;
-constexpr std::size_t kChecksumBytes = 2;
+constexpr std::size_t kDsaPacketHeaderBytes = 6;
+constexpr std::size_t kDsaPacketChecksumBytes = 2;
 constexpr std::size_t kFrameHeaderBytes = 5;  // time stamp, flags
 // Largest answer that is no frame: a descriptor string, or the echo of a loop test.
 constexpr std::size_t kLargestAnswer = 258;
@@ -75,7 +75,7 @@ std::size_t DsaPacketParser::consume(std::span<const std::byte> in, const Sink& 
       ++stats_.skippedBytes;
       continue;
     }
-    if (rest.size() < kHeaderBytes) return at;
+    if (rest.size() < kDsaPacketHeaderBytes) return at;
     const auto id = std::to_integer<std::uint8_t>(rest[3]);
     const std::size_t size = u16At(rest, 4);
     if (!plausible(id, size)) {
@@ -84,10 +84,11 @@ std::size_t DsaPacketParser::consume(std::span<const std::byte> in, const Sink& 
       ++stats_.implausible;
       continue;
     }
-    const std::size_t total = kHeaderBytes + size + kChecksumBytes;
+    const std::size_t total = kDsaPacketHeaderBytes + size + kDsaPacketChecksumBytes;
     if (rest.size() < total) return at;
-    if (weissChecksum(rest.subspan(kPreambleBytes, kHeaderBytes - kPreambleBytes + size)) !=
-        u16At(rest, kHeaderBytes + size)) {
+    if (weissChecksum(
+            rest.subspan(kPreambleBytes, kDsaPacketHeaderBytes - kPreambleBytes + size)) !=
+        u16At(rest, kDsaPacketHeaderBytes + size)) {
       ++at;
       ++stats_.skippedBytes;
       ++stats_.badChecksums;
@@ -96,7 +97,7 @@ std::size_t DsaPacketParser::consume(std::span<const std::byte> in, const Sink& 
     ++stats_.packets;
     stats_.packetBytes += total;
     at += total;
-    sink({static_cast<DsaId>(id), rest.subspan(kHeaderBytes, size)});
+    sink({static_cast<DsaId>(id), rest.subspan(kDsaPacketHeaderBytes, size)});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/time.h"
 #include "palpate/device/dsa_controller.h"
 
 #include "device/dsa_records.h"
@@ -14,12 +15,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr unsigned kRunLength = 0x01;
+constexpr unsigned kDsaSettingsRunLength = 0x01;
 constexpr unsigned kPersistent = 0x80;
 constexpr unsigned kResetToFactory = 0x01;
-constexpr int kMaxCounts = 4095;
-
-std::int64_t us(milliseconds time) { return std::int64_t{time.count()} * 1000; }
+constexpr int kDsaSettingsMaxCounts = 4095;
 
 }  // namespace
 
@@ -30,7 +29,7 @@ bool DsaController::looksLikeMotionController() {
   static constexpr std::string_view kQuestion = " \r\nver\r\n";
   channel_.write(std::as_bytes(std::span(kQuestion)));
   std::string heard;
-  const std::int64_t endUs = clock_.monotonicUs() + us(milliseconds(300));
+  const std::int64_t endUs = clock_.monotonicUs() + usOf(milliseconds(300));
   while (clock_.monotonicUs() < endUs && heard.size() < 4096) {
     const std::size_t n = channel_.read(buffer_, milliseconds(50));
     for (std::size_t i = 0; i < n; ++i) heard += static_cast<char>(buffer_[i]);
@@ -43,7 +42,7 @@ const DsaFacts& DsaController::open() {
   streaming_ = false;
   // Stop what an earlier client left running. A controller that boots is deaf: ask again.
   Bytes stop;
-  stop.push_back(static_cast<std::byte>(options_.runLength ? kRunLength : 0u));
+  stop.push_back(static_cast<std::byte>(options_.runLength ? kDsaSettingsRunLength : 0u));
   appendU16(stop, 0);
   const std::int64_t startUs = clock_.monotonicUs();
   bool probed = false;
@@ -52,14 +51,14 @@ const DsaFacts& DsaController::open() {
     send(DsaId::kAcquisition, stop);
     if (awaitAnswer(DsaId::kAcquisition, options_.stopAnswer)) break;
     ++retries_;
-    if (!probed && clock_.monotonicUs() - startUs > us(2 * options_.stopAnswer)) {
+    if (!probed && clock_.monotonicUs() - startUs > usOf(2 * options_.stopAnswer)) {
       probed = true;
       if (looksLikeMotionController())
         throw DeviceError(DeviceFault::kWrongDevice,
                           channel_.name(),
                           "the motion controller answers here: the two ports are swapped");
     }
-    if (clock_.monotonicUs() - startUs > us(options_.openTimeout))
+    if (clock_.monotonicUs() - startUs > usOf(options_.openTimeout))
       failSilent(
           "no tactile controller answers; check cable and power (`palpate ports` shows "
           "what answers where)");
@@ -208,7 +207,7 @@ void DsaController::resetSensitivity(std::size_t matrix) {
 
 void DsaController::setThreshold(std::size_t matrix, int counts, bool persistent) {
   checkMatrix(matrix);
-  if (counts < 0 || counts > kMaxCounts)
+  if (counts < 0 || counts > kDsaSettingsMaxCounts)
     throw std::invalid_argument("threshold " + std::to_string(counts) +
                                 " is not in 0..4095 counts");
   if (!facts_.hasThresholds())

@@ -14,8 +14,8 @@ namespace palpate {
 namespace {
 
 constexpr std::int64_t kStatesPeriodUs = 50'000;  // while a motion runs
-constexpr int kPositioning = 1;                   // axis states of the SDH-2
-constexpr int kSpeedMode = 2;
+constexpr int kMotionLinkPositioning = 1;         // axis states of the SDH-2
+constexpr int kMotionLinkSpeedMode = 2;
 constexpr int kSinSquareProfile = 0;
 constexpr int kRampProfile = 1;
 
@@ -43,7 +43,7 @@ std::string listOf(const std::vector<double>& values) {
 
 bool anyMoves(const std::vector<int>& states) {
   return std::any_of(states.begin(), states.end(), [](int state) {
-    return state == kPositioning || state == kSpeedMode;
+    return state == kMotionLinkPositioning || state == kMotionLinkSpeedMode;
   });
 }
 
@@ -244,7 +244,7 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
   {
     // Until they are asked: whoever waits for the end mustn't take the states of before for it.
     std::lock_guard lock(mutex_);
-    states_.assign(axes.size(), kPositioning);
+    states_.assign(axes.size(), kMotionLinkPositioning);
   }
   answer.durationS = controller_->move();
   nextStatesUs_ = clock_.monotonicUs() + kStatesPeriodUs;

@@ -8,6 +8,7 @@
 
 #include "palpate/core/byte_reader.h"
 #include "palpate/core/error.h"
+#include "palpate/core/time.h"
 #include "palpate/device/dsa_controller.h"
 #include "palpate/device/dsa_packet.h"
 #include "palpate/device/sdh_reply_parser.h"
@@ -17,14 +18,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kSlice{20};
+constexpr milliseconds kPortProbeSlice{20};
 constexpr milliseconds kVersionWait{500};  // twice: a first ver may end somebody's half command
 constexpr milliseconds kSerialWait{300};
 constexpr milliseconds kStopWait{300};
 constexpr milliseconds kQueryWait{500};
 constexpr std::string_view kBootSign = "\x1B[5n";  // a tactile controller that boots, for 8 s
-
-std::int64_t us(milliseconds time) { return std::int64_t{time.count()} * 1000; }
 
 std::string hexText(std::uint32_t value) {
   std::string text;
@@ -51,13 +50,13 @@ class Prober {
 
   // Reads until `done`, at most `limit`.
   void listen(milliseconds limit, const std::function<bool()>& done) {
-    const std::int64_t endUs = clock_.monotonicUs() + us(limit);
+    const std::int64_t endUs = clock_.monotonicUs() + usOf(limit);
     std::vector<std::byte> buffer(1024);
     while (!done() && !stopped()) {
       const std::int64_t leftUs = endUs - clock_.monotonicUs();
       if (leftUs <= 0) return;
       const std::size_t count =
-          channel_.read(buffer, std::min(kSlice, milliseconds(leftUs / 1000 + 1)));
+          channel_.read(buffer, std::min(kPortProbeSlice, milliseconds(leftUs / 1000 + 1)));
       take(std::span<const std::byte>(buffer).first(count));
     }
   }

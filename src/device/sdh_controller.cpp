@@ -14,16 +14,16 @@ namespace palpate {
 namespace {
 
 using std::chrono::milliseconds;
-using Values = SdhController::Values;
+using SdhControllerValues = SdhController::Values;
 
 // An echoed target that differs by more was not understood: lines have few decimals, records 24 bits.
 constexpr double kEchoDeg = 0.5;
-constexpr int kPositioning = 1;
-constexpr int kSpeedMode = 2;
+constexpr int kSdhControllerPositioning = 1;
+constexpr int kSdhControllerSpeedMode = 2;
 
 template <typename Get>
-Values ofAxes(Get get) {
-  Values values;
+SdhControllerValues ofAxes(Get get) {
+  SdhControllerValues values;
   for (const AxisDescription& axis : sdh2().axes) values.push_back(get(axis));
   return values;
 }
@@ -135,28 +135,29 @@ std::string SdhController::word(const std::string& command, const SdhPatience& p
       .text;
 }
 
-Values SdhController::numbers(const std::string& request,
-                              std::string_view name,
-                              std::optional<int> axis,
-                              const SdhQuantity& quantity,
-                              std::size_t count,
-                              const SdhPatience& patience) {
-  Values values;
+SdhControllerValues SdhController::numbers(const std::string& request,
+                                           std::string_view name,
+                                           std::optional<int> axis,
+                                           const SdhQuantity& quantity,
+                                           std::size_t count,
+                                           const SdhPatience& patience) {
+  SdhControllerValues values;
   link_->ask(
       request,
       name,
       axis,
       [&](const SdhLine& line) {
-        values = parseSdhNumbers(line.text).value_or(Values{});
+        values = parseSdhNumbers(line.text).value_or(SdhControllerValues{});
         return quantity.plausible(values, count);
       },
       patience);
   return values;
 }
 
-Values SdhController::exchange(const SdhQuantity& quantity, const Values& values) {
+SdhControllerValues SdhController::exchange(const SdhQuantity& quantity,
+                                            const SdhControllerValues& values) {
   if (binary_ && sdhIsBinary(quantity.command))
-    return link_->askRecord(quantity.command, values, [&](const Values& answer) {
+    return link_->askRecord(quantity.command, values, [&](const SdhControllerValues& answer) {
       return quantity.plausible(answer, kSdhAxes);
     });
   const std::string name(sdhName(quantity.command));
@@ -167,21 +168,23 @@ Values SdhController::exchange(const SdhQuantity& quantity, const Values& values
       sdhLineRequest(name, std::nullopt, values), upper, std::nullopt, quantity, kSdhAxes, {});
 }
 
-Values SdhController::withAxis(std::size_t axis, Values values, double value) const {
+SdhControllerValues SdhController::withAxis(std::size_t axis,
+                                            SdhControllerValues values,
+                                            double value) const {
   values.at(axis) = value;
   return values;
 }
 
 // --- state ----------------------------------------------------------------------------------------
 
-Values SdhController::angles() { return exchange(sdh::kAngle, {}); }
-Values SdhController::velocities() { return exchange(sdh::kVelocity, {}); }
-Values SdhController::targets() { return exchange(sdh::kTarget, {}); }
-Values SdhController::targetVelocities() { return exchange(sdh::kTargetVelocity, {}); }
-Values SdhController::accelerations() { return exchange(sdh::kAcceleration, {}); }
-Values SdhController::power() { return exchange(sdh::kPower, {}); }
+SdhControllerValues SdhController::angles() { return exchange(sdh::kAngle, {}); }
+SdhControllerValues SdhController::velocities() { return exchange(sdh::kVelocity, {}); }
+SdhControllerValues SdhController::targets() { return exchange(sdh::kTarget, {}); }
+SdhControllerValues SdhController::targetVelocities() { return exchange(sdh::kTargetVelocity, {}); }
+SdhControllerValues SdhController::accelerations() { return exchange(sdh::kAcceleration, {}); }
+SdhControllerValues SdhController::power() { return exchange(sdh::kPower, {}); }
 
-Values SdhController::referenceVelocities() {
+SdhControllerValues SdhController::referenceVelocities() {
   needFirmware("the reference velocity", 0, 0, 2, 6);
   return exchange(sdh::kReferenceVelocity, {});
 }
@@ -192,19 +195,19 @@ std::vector<int> SdhController::states() {
   return states;
 }
 
-Values SdhController::temperatures() {
+SdhControllerValues SdhController::temperatures() {
   return numbers("temp", "TEMP", std::nullopt, sdh::kTemperature, kSdhTemperatures, {});
 }
 
 // --- targets --------------------------------------------------------------------------------------
 
-Values SdhController::setTargets(const Values& deg) {
+SdhControllerValues SdhController::setTargets(const SdhControllerValues& deg) {
   checkSdhValues(sdh::kTarget,
                  deg,
                  ofAxes([](const auto& axis) { return axis.minimumDeg; }),
                  ofAxes([](const auto& axis) { return axis.maximumDeg; }));
   for (int tries = 0;; ++tries) {
-    const Values taken = exchange(sdh::kTarget, deg);
+    const SdhControllerValues taken = exchange(sdh::kTarget, deg);
     const bool same = std::equal(deg.begin(), deg.end(), taken.begin(), [](double a, double b) {
       return std::abs(a - b) <= kEchoDeg;
     });
@@ -214,23 +217,23 @@ Values SdhController::setTargets(const Values& deg) {
   }
 }
 
-Values SdhController::checkedVelocities(const Values& degPerS) const {
-  Values least(kSdhAxes, 0.0);
+SdhControllerValues SdhController::checkedVelocities(const SdhControllerValues& degPerS) const {
+  SdhControllerValues least(kSdhAxes, 0.0);
   if (facts_.controller != 0)
     for (std::size_t axis = 0; axis < kSdhAxes; ++axis) least[axis] = -facts_.maximumVelocity[axis];
   checkSdhValues(sdh::kTargetVelocity, degPerS, least, facts_.maximumVelocity);
   return degPerS;
 }
 
-Values SdhController::setVelocities(const Values& degPerS) {
+SdhControllerValues SdhController::setVelocities(const SdhControllerValues& degPerS) {
   return exchange(sdh::kTargetVelocity, checkedVelocities(degPerS));
 }
 
-Values SdhController::setVelocitiesGetVelocities(const Values& degPerS) {
+SdhControllerValues SdhController::setVelocitiesGetVelocities(const SdhControllerValues& degPerS) {
   return exchange(sdh::kTargetGetVelocity, checkedVelocities(degPerS));
 }
 
-Values SdhController::setTargetsGetAngles(const Values& deg) {
+SdhControllerValues SdhController::setTargetsGetAngles(const SdhControllerValues& deg) {
   checkSdhValues(sdh::kTargetGetAngle,
                  deg,
                  ofAxes([](const auto& axis) { return axis.minimumDeg; }),
@@ -238,34 +241,37 @@ Values SdhController::setTargetsGetAngles(const Values& deg) {
   return exchange(sdh::kTargetGetAngle, deg);
 }
 
-Values SdhController::setAccelerations(const Values& degPerS2) {
-  checkSdhValues(sdh::kAcceleration, degPerS2, Values(kSdhAxes, 0.0), facts_.maximumAcceleration);
+SdhControllerValues SdhController::setAccelerations(const SdhControllerValues& degPerS2) {
+  checkSdhValues(
+      sdh::kAcceleration, degPerS2, SdhControllerValues(kSdhAxes, 0.0), facts_.maximumAcceleration);
   return exchange(sdh::kAcceleration, degPerS2);
 }
 
-Values SdhController::setTarget(std::size_t axis, double deg) {
+SdhControllerValues SdhController::setTarget(std::size_t axis, double deg) {
   checkSdhAxis(axis);
   return setTargets(withAxis(axis, targets(), deg));
 }
 
-Values SdhController::setVelocity(std::size_t axis, double degPerS) {
+SdhControllerValues SdhController::setVelocity(std::size_t axis, double degPerS) {
   checkSdhAxis(axis);
   return setVelocities(withAxis(axis, targetVelocities(), degPerS));
 }
 
-Values SdhController::setAcceleration(std::size_t axis, double degPerS2) {
+SdhControllerValues SdhController::setAcceleration(std::size_t axis, double degPerS2) {
   checkSdhAxis(axis);
   return setAccelerations(withAxis(axis, accelerations(), degPerS2));
 }
 
-Values SdhController::setPower(const Values& onOff) {
+SdhControllerValues SdhController::setPower(const SdhControllerValues& onOff) {
   checkSdhValues(sdh::kPower, onOff, 0.0, 1.0);
   return exchange(sdh::kPower, onOff);
 }
 
-Values SdhController::setPower(bool on) { return setPower(Values(kSdhAxes, on ? 1.0 : 0.0)); }
+SdhControllerValues SdhController::setPower(bool on) {
+  return setPower(SdhControllerValues(kSdhAxes, on ? 1.0 : 0.0));
+}
 
-Values SdhController::setAxisPower(std::size_t axis, bool on) {
+SdhControllerValues SdhController::setAxisPower(std::size_t axis, bool on) {
   checkSdhAxis(axis);
   return setPower(withAxis(axis, power(), on ? 1.0 : 0.0));
 }
@@ -286,7 +292,7 @@ double SdhController::move() {
   // The question may be lost, or its answer only: a second `m` in mid-motion would be a jerk.
   const std::vector<int> now = states();
   const bool moves = std::any_of(now.begin(), now.end(), [](int state) {
-    return state == kPositioning || state == kSpeedMode;
+    return state == kSdhControllerPositioning || state == kSdhControllerSpeedMode;
   });
   return moves ? pendingDuration() : start();
 }

@@ -3,22 +3,21 @@
 #include <algorithm>
 
 #include "palpate/core/error.h"
+#include "palpate/core/time.h"
 
 namespace palpate {
 namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t kReadBytes = 1024;
+constexpr std::size_t kSdhLinkReadBytes = 1024;
 constexpr milliseconds kSilence{50};      // then nothing of an old answer comes any more
 constexpr milliseconds kDrainLimit{300};  // of a line that never falls silent
 constexpr milliseconds kGap{150};         // within an answer: the rest of it was lost
 // An answer in order takes 3.4 ms; a stop doesn't wait for one that takes longer than this.
 constexpr milliseconds kUrgentAfter{10};
-constexpr milliseconds kSlice{4};  // how often `urgent` is asked while waiting
+constexpr milliseconds kSdhLinkSlice{4};  // how often `urgent` is asked while waiting
 constexpr milliseconds kExchangeLimit{3500};
-
-std::int64_t us(milliseconds time) { return std::int64_t{time.count()} * 1000; }
 
 std::span<const std::byte> bytesOf(std::string_view text) {
   return std::as_bytes(std::span<const char>(text.data(), text.size()));
@@ -37,7 +36,7 @@ SdhLink::SdhLink(ByteChannel& channel, const Clock& clock, std::function<bool()>
       clock_(clock),
       urgent_(std::move(urgent)),
       parser_(!channel.isNetwork()),
-      buffer_(kReadBytes) {}
+      buffer_(kSdhLinkReadBytes) {}
 
 void SdhLink::fail(DeviceFault fault, const std::string& message) const {
   throw DeviceError(fault, channel_.name(), message);
@@ -73,10 +72,10 @@ void SdhLink::drain(milliseconds silence, milliseconds limit) {
   std::int64_t lastUs = startUs;
   for (;;) {
     const std::int64_t nowUs = clock_.monotonicUs();
-    const std::int64_t leftUs = us(silence) - (nowUs - lastUs);
-    if (leftUs <= 0 || nowUs - startUs >= us(limit)) break;
+    const std::int64_t leftUs = usOf(silence) - (nowUs - lastUs);
+    if (leftUs <= 0 || nowUs - startUs >= usOf(limit)) break;
     const milliseconds wait(leftUs / 1000 + 1);
-    if (readOnce(urgent_ ? std::min(wait, kSlice) : wait) > 0) lastUs = clock_.monotonicUs();
+    if (readOnce(urgent_ ? std::min(wait, kSdhLinkSlice) : wait) > 0) lastUs = clock_.monotonicUs();
     stats_.strayReplies += replies_.size();
     replies_.clear();
     giveUpIfUrgent();
@@ -164,18 +163,18 @@ std::optional<SdhReply> SdhLink::attempt(Bytes request,
   std::int64_t heardUs = sentUs;
   for (;;) {
     const std::int64_t nowUs = clock_.monotonicUs();
-    if (patience.heedsUrgent && nowUs - sentUs >= us(kUrgentAfter)) giveUpIfUrgent();
+    if (patience.heedsUrgent && nowUs - sentUs >= usOf(kUrgentAfter)) giveUpIfUrgent();
     const bool begun = quick && (parser_.pendingBytes() > 0 ||
                                  parser_.stats().skippedBytes != before.skippedBytes);
     const std::int64_t leftUs =
-        begun ? std::min(us(patience.timeout) - (nowUs - sentUs), us(kGap) - (nowUs - heardUs))
-              : us(patience.timeout) - (nowUs - sentUs);
+        begun ? std::min(usOf(patience.timeout) - (nowUs - sentUs), usOf(kGap) - (nowUs - heardUs))
+              : usOf(patience.timeout) - (nowUs - sentUs);
     if (leftUs <= 0) {
       if (begun) trouble_ = Trouble::kBroken;
       return std::nullopt;
     }
     const milliseconds wait(leftUs / 1000 + 1);
-    if (readOnce(urgent_ ? std::min(wait, kSlice) : wait) == 0) continue;
+    if (readOnce(urgent_ ? std::min(wait, kSdhLinkSlice) : wait) == 0) continue;
     heardUs = clock_.monotonicUs();
     if (parser_.stats().badChecksums != before.badChecksums) trouble_ = Trouble::kBroken;
     if (auto answer = judged(what, judge)) {
@@ -220,7 +219,7 @@ SdhReply SdhLink::exchange(Bytes request,
   const std::int64_t startUs = clock_.monotonicUs();
   for (int tries = 1;; ++tries) {
     if (auto answer = attempt(request, what, judge, patience)) return std::move(*answer);
-    if (tries >= patience.tries || clock_.monotonicUs() - startUs > us(kExchangeLimit)) break;
+    if (tries >= patience.tries || clock_.monotonicUs() - startUs > usOf(kExchangeLimit)) break;
     ++stats_.retries;
     resync(tries > 1);
   }
@@ -268,8 +267,8 @@ void SdhLink::stop() {
     sendText((first || channel_.isNetwork() ? "" : std::string(40, ' ')) + " \r\nstop\r\n");
     first = false;
     outOfStep_ = true;
-    const std::int64_t endUs = clock_.monotonicUs() + us(timeout);
-    for (std::int64_t leftUs = us(timeout); leftUs > 0; leftUs = endUs - clock_.monotonicUs()) {
+    const std::int64_t endUs = clock_.monotonicUs() + usOf(timeout);
+    for (std::int64_t leftUs = usOf(timeout); leftUs > 0; leftUs = endUs - clock_.monotonicUs()) {
       readOnce(milliseconds(leftUs / 1000 + 1));
       for (const SdhReply& reply : replies_) {
         // An error may be the answer to a command that was cut off by this one.

@@ -61,8 +61,8 @@ constexpr std::array<std::string_view, kSdhLastCommand - kFirstCommand + 1> kNam
     "change_rs232",
     "change_channel"};
 
-constexpr std::size_t kHeaderBytes = 3;  // command, size, number of values
-constexpr std::size_t kChecksumBytes = 2;
+constexpr std::size_t kSdhProtocolHeaderBytes = 3;  // command, size, number of values
+constexpr std::size_t kSdhProtocolChecksumBytes = 2;
 
 void appendChecksum(std::vector<std::byte>& bytes) {
   const std::uint16_t crc = weissChecksum(bytes);
@@ -109,7 +109,7 @@ std::vector<std::byte> sdhRecordRequest(SdhCommand command,
   if (!values.empty() && values.size() != kSdhAxes)
     throw std::invalid_argument("a record takes 7 values, not " + std::to_string(values.size()));
   std::vector<std::byte> bytes;
-  const std::size_t size = 1 + 4 * values.size() + (checksum ? kChecksumBytes : 0);
+  const std::size_t size = 1 + 4 * values.size() + (checksum ? kSdhProtocolChecksumBytes : 0);
   bytes.push_back(static_cast<std::byte>(command));
   bytes.push_back(static_cast<std::byte>(size));
   bytes.push_back(static_cast<std::byte>(values.size()));
@@ -141,7 +141,7 @@ bool sdhIsRecordStart(std::span<const std::byte> bytes, bool checksum) noexcept 
   if (bytes.empty()) return false;
   const auto command = std::to_integer<std::uint8_t>(bytes[0]);
   if (command < kFirstCommand || command > kSdhLastCommand) return false;
-  for (std::size_t i = 1; i < kHeaderBytes && i < bytes.size(); ++i)
+  for (std::size_t i = 1; i < kSdhProtocolHeaderBytes && i < bytes.size(); ++i)
     if (bytes[i] != expected[i - 1]) return false;
   return true;
 }
@@ -156,7 +156,8 @@ std::optional<SdhRecord> decodeSdhRecord(std::span<const std::byte> bytes, bool 
   record.status = reader.u8();
   for (std::size_t axis = 0; axis < kSdhAxes; ++axis)
     record.values.push_back(static_cast<double>(reader.f32()));
-  if (checksum && weissChecksum(bytes.first(bytes.size() - kChecksumBytes)) != reader.u16())
+  if (checksum &&
+      weissChecksum(bytes.first(bytes.size() - kSdhProtocolChecksumBytes)) != reader.u16())
     return std::nullopt;
   return record;
 }

@@ -13,7 +13,7 @@ namespace palpate {
 namespace {
 
 using std::chrono::milliseconds;
-using Values = SdhController::Values;
+using SdhSettingsValues = SdhController::Values;
 
 constexpr double kAnyGain = 1e9;  // their sensible range isn't documented
 
@@ -51,7 +51,9 @@ void checkGain(const char* what, std::size_t axis, double value) {
                                 numberText(value) + " is no number; nothing was sent");
 }
 
-Values asNumbers(const std::vector<int>& values) { return {values.begin(), values.end()}; }
+SdhSettingsValues asNumbers(const std::vector<int>& values) {
+  return {values.begin(), values.end()};
+}
 
 }  // namespace
 
@@ -88,26 +90,28 @@ void SdhController::setProfile(int profile) {
     link_->fail(DeviceFault::kProtocol, "the hand didn't take the velocity profile");
 }
 
-Values SdhController::velocityLimits() {
+SdhSettingsValues SdhController::velocityLimits() {
   needFirmware("telling the velocity limits", 0, 0, 2, 1);
   return exchange(sdh::kVelocityLimit, {});
 }
 
-Values SdhController::accelerationLimits() {
+SdhSettingsValues SdhController::accelerationLimits() {
   needFirmware("telling the acceleration limits", 0, 0, 2, 7);
   return exchange(sdh::kAccelerationLimit, {});
 }
 
-Values SdhController::currentLimits(SdhCurrent of) { return exchange(current(of), {}); }
+SdhSettingsValues SdhController::currentLimits(SdhCurrent of) { return exchange(current(of), {}); }
 
-Values SdhController::setCurrentLimits(SdhCurrent of, const Values& ampere) {
+SdhSettingsValues SdhController::setCurrentLimits(SdhCurrent of, const SdhSettingsValues& ampere) {
   checkSdhValues(current(of), ampere, 0.0, 1.0);
   return exchange(current(of), ampere);
 }
 
-Values SdhController::softLimits(SdhSoftLimit which) { return exchange(softLimit(which), {}); }
+SdhSettingsValues SdhController::softLimits(SdhSoftLimit which) {
+  return exchange(softLimit(which), {});
+}
 
-Values SdhController::setSoftLimits(SdhSoftLimit which, const Values& deg) {
+SdhSettingsValues SdhController::setSoftLimits(SdhSoftLimit which, const SdhSettingsValues& deg) {
   checkSdhValues(softLimit(which), deg, -sdh::kMostDeg, sdh::kMostDeg);
   return exchange(softLimit(which), deg);
 }
@@ -123,13 +127,13 @@ void SdhController::setVelocityGain(std::size_t axis, double value) {
   checkGain("velocity gain", axis, value);
   const int index = static_cast<int>(axis);
   const auto quantity = gain(SdhCommand::kVelocityGain);
-  numbers(sdhLineRequest("kv", index, Values{value}), "KV", index, quantity, 1, {});
+  numbers(sdhLineRequest("kv", index, SdhSettingsValues{value}), "KV", index, quantity, 1, {});
 }
 
 std::array<double, 3> SdhController::pid(std::size_t axis) {
   checkSdhAxis(axis);
   const int index = static_cast<int>(axis);
-  const Values values =
+  const SdhSettingsValues values =
       numbers(sdhLineRequest("pid", index), "PID", index, gain(SdhCommand::kPid), 3, {});
   return {values[0], values[1], values[2]};
 }
@@ -143,7 +147,7 @@ void SdhController::setPid(std::size_t axis, const std::array<double, 3>& gains)
 
 void SdhController::referenceRun(const std::vector<int>& direction) {
   const SdhQuantity quantity{SdhCommand::kReference, "direction", "", 0.0, 2.0, true};
-  const Values values = asNumbers(direction);
+  const SdhSettingsValues values = asNumbers(direction);
   checkSdhValues(quantity, values, 0.0, 2.0);
   const SdhPatience patience{.timeout = milliseconds(15'000), .tries = 1, .heedsUrgent = false};
   link_->ask(
@@ -156,7 +160,7 @@ void SdhController::referenceRun(const std::vector<int>& direction) {
 
 void SdhController::savePositions(const std::vector<int>& axes) {
   const SdhQuantity quantity{SdhCommand::kSavePosition, "choice", "", 0.0, 1.0, true};
-  const Values values = asNumbers(axes);
+  const SdhSettingsValues values = asNumbers(axes);
   checkSdhValues(quantity, values, 0.0, 1.0);
   const SdhPatience once{.tries = 1};  // the flash wears
   link_->ask(

@@ -19,7 +19,7 @@
 namespace palpate {
 namespace {
 
-using SteadyClock = std::chrono::steady_clock;
+using TcpChannelSteadyClock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr std::string_view kPrefix = "tcp:";
@@ -68,7 +68,7 @@ void look(const Place& place, int flags, Addresses& found) {
 // which is left behind when it takes too long, and ends when the resolver gives up.
 std::shared_ptr<const Addresses> resolve(const std::string& name,
                                          const Place& place,
-                                         SteadyClock::time_point deadline) {
+                                         TcpChannelSteadyClock::time_point deadline) {
   auto found = std::make_shared<Addresses>();
   look(place, AI_NUMERICHOST, *found);
   if (found->error == 0) return found;
@@ -102,11 +102,12 @@ void tune(int fd) noexcept {
 }
 
 // 0, or the errno of the failure.
-int connectWithin(int fd, const addrinfo& address, SteadyClock::time_point deadline) {
+int connectWithin(int fd, const addrinfo& address, TcpChannelSteadyClock::time_point deadline) {
   if (::connect(fd, address.ai_addr, address.ai_addrlen) == 0) return 0;
   if (errno != EINPROGRESS && errno != EINTR) return errno;
   for (;;) {
-    const auto left = std::chrono::ceil<milliseconds>(deadline - SteadyClock::now()).count();
+    const auto left =
+        std::chrono::ceil<milliseconds>(deadline - TcpChannelSteadyClock::now()).count();
     pollfd wait{fd, POLLOUT, 0};
     const int ready = ::poll(&wait, 1, static_cast<int>(std::max<std::int64_t>(left, 0)));
     if (ready > 0) {
@@ -115,7 +116,7 @@ int connectWithin(int fd, const addrinfo& address, SteadyClock::time_point deadl
       return ::getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size) == 0 ? error : errno;
     }
     if (ready < 0 && errno != EINTR) return errno;
-    if (SteadyClock::now() >= deadline) return ETIMEDOUT;
+    if (TcpChannelSteadyClock::now() >= deadline) return ETIMEDOUT;
   }
 }
 
@@ -126,7 +127,7 @@ TcpChannel::TcpChannel(std::string name, OwnedDescriptor fd)
 
 std::unique_ptr<ByteChannel> TcpChannel::open(const std::string& name,
                                               milliseconds connectTimeout) {
-  const auto deadline = SteadyClock::now() + connectTimeout;
+  const auto deadline = TcpChannelSteadyClock::now() + connectTimeout;
   const Place place = placeOf(name);
   const auto addresses = resolve(name, place, deadline);
   int error = ETIMEDOUT;

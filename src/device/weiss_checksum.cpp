@@ -32,7 +32,7 @@ constexpr std::array<Table, kSlices> makeSlices() {
   return slices;
 }
 
-constexpr std::array<Table, kSlices> kSlice = makeSlices();
+constexpr std::array<Table, kSlices> kWeissChecksumSlice = makeSlices();
 
 }  // namespace
 
@@ -43,12 +43,14 @@ std::uint16_t weissChecksum(std::span<const std::byte> bytes, std::uint16_t seed
   };
   std::size_t at = 0;
   for (; bytes.size() - at >= kSlices; at += kSlices) {
-    unsigned next = kSlice[7][index(at, crc)] ^ kSlice[6][index(at + 1, crc >> 8)];
-    for (std::size_t k = 2; k < kSlices; ++k) next ^= kSlice[kSlices - 1 - k][index(at + k, 0)];
+    unsigned next =
+        kWeissChecksumSlice[7][index(at, crc)] ^ kWeissChecksumSlice[6][index(at + 1, crc >> 8)];
+    for (std::size_t k = 2; k < kSlices; ++k)
+      next ^= kWeissChecksumSlice[kSlices - 1 - k][index(at + k, 0)];
     crc = static_cast<std::uint16_t>(next);
   }
   for (; at < bytes.size(); ++at)
-    crc = static_cast<std::uint16_t>(crc >> 8 ^ kSlice[0][index(at, crc)]);
+    crc = static_cast<std::uint16_t>(crc >> 8 ^ kWeissChecksumSlice[0][index(at, crc)]);
   return crc;
 }
 

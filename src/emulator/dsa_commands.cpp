@@ -13,7 +13,7 @@ namespace {
 
 // Flags of the settings.
 constexpr unsigned kPersistent = 0x80, kAllMatrices = 0x02, kReset = 0x01;
-constexpr int kMaxCounts = 4095;
+constexpr int kDsaCommandsMaxCounts = 4095;
 
 std::vector<std::byte> maskBytes(const Mask& mask) {
   std::vector<std::byte> bytes((mask.size() + 7) / 8);
@@ -209,7 +209,7 @@ void DsaServer::setThreshold(Payload payload) {
   if (in.remaining() > 0) return fail(kDsaFormatError);
   const bool all = (flags & kAllMatrices) != 0, reset = (flags & kReset) != 0;
   if (!all && index >= settings.size()) return fail(kDsaIndexOutOfBounds);
-  if (!reset && value > kMaxCounts) return fail(kDsaRangeError);
+  if (!reset && value > kDsaCommandsMaxCounts) return fail(kDsaRangeError);
   for (std::size_t m = 0; m < settings.size(); ++m) {
     if (!all && m != index) continue;
     settings[m].thresholdCounts = reset ? settings[m].factoryThresholdCounts : value;

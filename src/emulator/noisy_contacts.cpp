@@ -15,12 +15,12 @@ namespace {
 
 constexpr std::int64_t kStartUs = 1'700'000'000'000'000;
 constexpr double kFaintCounts = 0.5;
-constexpr double kMaxCounts = 4095.0;
+constexpr double kNoisyContactsMaxCounts = 4095.0;
 // A contact: load comes, holds, goes; then nothing.
 constexpr double kComesS = 0.4, kHoldsS = 1.2, kGoesS = 0.3, kRestsS = 1.1;
 constexpr double kContactS = kComesS + kHoldsS + kGoesS + kRestsS;
 
-void checkRange(const char* name, double value, double least, double most) {
+void noisyContactsCheckRange(const char* name, double value, double least, double most) {
   if (!(value >= least && value <= most))
     throw std::invalid_argument(std::string("noisy contacts: ") + name + " is " +
                                 std::to_string(value) + ", not " + std::to_string(least) + ".." +
@@ -56,9 +56,9 @@ double pressureShare(ContactSize size, double along, double across, double radiu
          std::clamp(2.0 / 3.0 * radius + 0.5 - std::abs(across), 0.0, 1.0);
 }
 
-class Generator {
+class NoisyContactsGenerator {
  public:
-  explicit Generator(const NoisyContactsOptions& options)
+  explicit NoisyContactsGenerator(const NoisyContactsOptions& options)
       : options_(options),
         layout_(*sdh2().layout),
         noisy_(sdh2(), sdh2Sensor(), options.seed),
@@ -232,19 +232,19 @@ std::string_view nameOf(ContactSize size) {
 }
 
 void NoisyContactsOptions::validate() const {
-  checkRange("frames", static_cast<double>(frames), 1.0, 1e6);
-  checkRange("rateHz", rateHz, 1.0, 1000.0);
-  checkRange("degC", degC, 0.0, 80.0);
-  checkRange("sensitivity", sensitivity, 0.0, 1.0);
-  checkRange("noiseMultiple", noiseMultiple, -20.0, 20.0);
-  checkRange("belowCounts", belowCounts, -100.0, 100.0);
-  checkRange("lightestKpa", lightestKpa, 1e-3, 1e3);
-  checkRange("heaviestKpa", heaviestKpa, lightestKpa, 1e3);
+  noisyContactsCheckRange("frames", static_cast<double>(frames), 1.0, 1e6);
+  noisyContactsCheckRange("rateHz", rateHz, 1.0, 1000.0);
+  noisyContactsCheckRange("degC", degC, 0.0, 80.0);
+  noisyContactsCheckRange("sensitivity", sensitivity, 0.0, 1.0);
+  noisyContactsCheckRange("noiseMultiple", noiseMultiple, -20.0, 20.0);
+  noisyContactsCheckRange("belowCounts", belowCounts, -100.0, 100.0);
+  noisyContactsCheckRange("lightestKpa", lightestKpa, 1e-3, 1e3);
+  noisyContactsCheckRange("heaviestKpa", heaviestKpa, lightestKpa, 1e3);
 }
 
 NoisyContacts makeNoisyContacts(const NoisyContactsOptions& options) {
   options.validate();
-  return Generator(options).run();
+  return NoisyContactsGenerator(options).run();
 }
 
 int noiseThresholdCounts(const MatrixCharacteristics& matrix,
@@ -253,7 +253,8 @@ int noiseThresholdCounts(const MatrixCharacteristics& matrix,
                          double belowCounts) {
   const double theta =
       matrix.noiseIntercept + matrix.noiseSlope * degC + noiseMultiple * matrix.noiseRmse;
-  return static_cast<int>(std::lround(std::clamp(theta - belowCounts, 0.0, kMaxCounts)));
+  return static_cast<int>(
+      std::lround(std::clamp(theta - belowCounts, 0.0, kNoisyContactsMaxCounts)));
 }
 
 }  // namespace palpate

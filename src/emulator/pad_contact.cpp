@@ -6,9 +6,9 @@
 namespace palpate {
 namespace {
 
-constexpr double kDeepestMm = 8.0;  // no rubber is thicker
-constexpr double kReachMm = 8.0;    // surfaces are bent: slack of the quick check
-constexpr double kFacing = 0.0;     // normals of pads that meet look at each other
+constexpr double kDeepestMm = 8.0;          // no rubber is thicker
+constexpr double kPadContactReachMm = 8.0;  // surfaces are bent: slack of the quick check
+constexpr double kFacing = 0.0;             // normals of pads that meet look at each other
 
 double radiusMm(const MatrixLayout& matrix) {
   return std::hypot(matrix.rows * matrix.pitchMm, matrix.columns * matrix.pitchMm) / 2.0;
@@ -18,7 +18,7 @@ bool mayMeet(const GeometryDescription& hand, const HandPose& pose, std::size_t 
   const MatrixLayout &first = hand.layout.matrix(a), &second = hand.layout.matrix(b);
   const Eigen::Vector3d apart = pose.positionMm(a, first.rows / 2, first.columns / 2) -
                                 pose.positionMm(b, second.rows / 2, second.columns / 2);
-  const double reach = radiusMm(first) + radiusMm(second) + kReachMm;
+  const double reach = radiusMm(first) + radiusMm(second) + kPadContactReachMm;
   return apart.squaredNorm() < reach * reach;
 }
 

@@ -24,7 +24,8 @@ constexpr double kLeastHoldN = 1e-6;  // of friction, along a normal
 constexpr double kTouchN = 0.05;      // less is no contact
 constexpr double kPutDownS = 0.5;     // untouched for so long it stands again
 constexpr double kQuietMmPerS = 0.05;
-constexpr double kReachMm = 8.0;  // sensor surfaces are bent: slack of the quick check
+constexpr double kPhysicalObjectsReachMm =
+    8.0;  // sensor surfaces are bent: slack of the quick check
 
 Vector3d limited(const Vector3d& v, double most) {
   const double norm = v.norm();
@@ -101,7 +102,8 @@ void PhysicalObjects::pressBody(std::size_t index,
     const Vector3d middle = pose.positionMm(m, matrix.rows / 2, matrix.columns / 2);
     const double radius =
         std::hypot(matrix.rows * matrix.pitchMm, matrix.columns * matrix.pitchMm) / 2.0;
-    if (body.object.shape.distanceMm(toBody * (middle - body.positionMm)) > radius + kReachMm)
+    if (body.object.shape.distanceMm(toBody * (middle - body.positionMm)) >
+        radius + kPhysicalObjectsReachMm)
       continue;
     const double area = matrix.taxelAreaMm2();
     MatrixContact& contact = contacts_[m];

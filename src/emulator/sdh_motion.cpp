@@ -11,13 +11,13 @@ namespace {
 
 constexpr FirmwareVersion kAlways{0, 0, 0, 0};
 constexpr FirmwareVersion kVelocityLimits{0, 0, 2, 1};
-constexpr FirmwareVersion kControllers{0, 0, 2, 6};
+constexpr FirmwareVersion kSdhMotionControllers{0, 0, 2, 6};
 constexpr FirmwareVersion kAccelerationLimits{0, 0, 2, 7};
 
 constexpr SdhQuantity kQuantities[] = {
     {"v", 0x80, true, false, kAlways},
     {"vel", 0x81, false, false, kAlways},
-    {"rvel", 0x82, false, false, kControllers},
+    {"rvel", 0x82, false, false, kSdhMotionControllers},
     {"pos", 0x83, false, false, kAlways},
     {"state", 0x84, false, true, kAlways},
     {"p", 0x85, true, false, kAlways},

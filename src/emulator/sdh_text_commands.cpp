@@ -11,7 +11,7 @@ namespace palpate {
 namespace {
 
 constexpr FirmwareVersion kQuietFirmware{0, 0, 3, 1};  // before: lines with @ ahead of answers
-constexpr FirmwareVersion kControllers{0, 0, 2, 6};
+constexpr FirmwareVersion kSdhTextCommandsControllers{0, 0, 2, 6};
 constexpr int kDecimals = 4;
 
 std::string_view trimmed(std::string_view text) {
@@ -202,7 +202,8 @@ std::optional<SdhAnswer> SdhMotion::motionCommand(const Words& words) {
   const std::string& name = words.name;
   const bool isChoice = name == "con" || name == "vp" || name == "demo";
   if (isChoice) {
-    if (name == "con" && isBefore(kControllers)) throw SdhRefusal{kSdhUnknownCommand};
+    if (name == "con" && isBefore(kSdhTextCommandsControllers))
+      throw SdhRefusal{kSdhUnknownCommand};
     double value = name == "con"  ? static_cast<double>(joints.controller())
                    : name == "vp" ? static_cast<double>(joints.profile())
                                   : 0.0;

@@ -9,7 +9,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kMaxCounts = 4095.0;
+constexpr double kSensorModelMaxCounts = 4095.0;
 constexpr double kRestKpa = 1e-6;     // below: the rubber is at rest
 constexpr double kNoiseReach = 8.0;   // farther noise never comes [standard deviations]
 constexpr double kHeavyReach = 45.0;  // heavyTailed(kNoiseReach)
@@ -121,7 +121,7 @@ void SensorModel::scan(std::span<const double> degC,
       raw += shared + sd * (raised ? drawn : heavyTailed(drawn));
       const double above =
           std::round(saturated(raw - threshold, characteristics_.saturationCounts));
-      counts[place] = static_cast<std::uint16_t>(std::clamp(above, 0.0, kMaxCounts));
+      counts[place] = static_cast<std::uint16_t>(std::clamp(above, 0.0, kSensorModelMaxCounts));
     }
   }
 }

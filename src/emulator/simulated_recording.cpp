@@ -13,12 +13,12 @@
 #include <Eigen/Geometry>
 
 #include "palpate/core/error.h"
+#include "palpate/core/time.h"
 #include "palpate/model/profile_builder.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kUsPerS = 1e6;
 constexpr double kTemperatureIntervalS = 1.0;
 constexpr std::int64_t kStepsPerReport = 256;
 

@@ -70,9 +70,9 @@ Phase phaseAt(double timeS, const SyntheticOptions& options) {
 
 double saturated(double counts) { return kHighestCounts * std::tanh(counts / kHighestCounts); }
 
-class Generator {
+class SyntheticProfileGenerator {
  public:
-  explicit Generator(const SyntheticOptions& options)
+  explicit SyntheticProfileGenerator(const SyntheticOptions& options)
       : options_(options), layout_(sdh2().layout), random_(options.seed) {}
 
   TactileFrame frameAt(double timeS) {
@@ -131,7 +131,7 @@ void sampleStream(const SyntheticOptions& options, double rateHz, Add add) {
   }
 }
 
-void checkRange(const char* name, double value, double low, double high) {
+void syntheticProfileCheckRange(const char* name, double value, double low, double high) {
   if (!(value >= low && value <= high))
     throw std::invalid_argument("synthetic recording: " + std::string(name) + " must be " +
                                 std::to_string(low) + ".." + std::to_string(high) + ", is " +
@@ -141,15 +141,15 @@ void checkRange(const char* name, double value, double low, double high) {
 }  // namespace
 
 void SyntheticOptions::validate() const {
-  checkRange("durationS", durationS, 0.001, 86'400.0);
-  checkRange("rateHz", rateHz, 0.1, 1000.0);
-  checkRange("angleRateHz", angleRateHz, 0.0, 1000.0);
-  checkRange("temperatureRateHz", temperatureRateHz, 0.0, 100.0);
-  checkRange("grasps", grasps, 0, 10'000);
-  checkRange("peakCounts", peakCounts, 50.0, 3500.0);
-  checkRange("contactRadiusTaxels", contactRadiusTaxels, 0.5, 5.0);
-  checkRange("thresholdCounts", thresholdCounts, 0.0, 4095.0);
-  checkRange("noiseCounts", noiseCounts, 0.0, 1000.0);
+  syntheticProfileCheckRange("durationS", durationS, 0.001, 86'400.0);
+  syntheticProfileCheckRange("rateHz", rateHz, 0.1, 1000.0);
+  syntheticProfileCheckRange("angleRateHz", angleRateHz, 0.0, 1000.0);
+  syntheticProfileCheckRange("temperatureRateHz", temperatureRateHz, 0.0, 100.0);
+  syntheticProfileCheckRange("grasps", grasps, 0, 10'000);
+  syntheticProfileCheckRange("peakCounts", peakCounts, 50.0, 3500.0);
+  syntheticProfileCheckRange("contactRadiusTaxels", contactRadiusTaxels, 0.5, 5.0);
+  syntheticProfileCheckRange("thresholdCounts", thresholdCounts, 0.0, 4095.0);
+  syntheticProfileCheckRange("noiseCounts", noiseCounts, 0.0, 1000.0);
   // Fewer frames than that in a grasp's share of the time, and grasps are lost between frames.
   constexpr double kFewestFrames = 12.0;
   if (grasps * kFewestFrames > durationS * rateHz)
@@ -160,7 +160,7 @@ void SyntheticOptions::validate() const {
 
 Profile synthesize(const SyntheticOptions& options, SyntheticTruth* truth) {
   options.validate();
-  Generator generator(options);
+  SyntheticProfileGenerator generator(options);
   ProfileBuilder builder(sdh2().layout);
   std::vector<SyntheticGrasp> grasps;
   bool touching = false;

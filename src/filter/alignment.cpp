@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "palpate/core/error.h"
+#include "palpate/core/time.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kUsPerS = 1e6;
-constexpr double kFurthestS = 1e9;  // beyond it nothing is: keeps microseconds within 64 bit
+constexpr double kAlignmentFurthestS =
+    1e9;  // beyond it nothing is: keeps microseconds within 64 bit
 
 bool empty(const TimedProfile& side) { return side.profile.numFrames() == 0; }
 
@@ -41,7 +42,7 @@ double TimedProfile::timeS(std::size_t frame) const {
 
 std::optional<std::size_t> TimedProfile::frameAt(double seconds) const {
   const std::size_t numFrames = profile.numFrames();
-  if (numFrames == 0 || !(std::abs(seconds) < kFurthestS)) return std::nullopt;
+  if (numFrames == 0 || !(std::abs(seconds) < kAlignmentFurthestS)) return std::nullopt;
   const std::int64_t timeUs = profile.frameTimeUs(0) + std::llround(seconds * kUsPerS);
   if (timeUs < profile.frameTimeUs(0) || timeUs > profile.frameTimeUs(numFrames - 1))
     return std::nullopt;

@@ -9,12 +9,12 @@
 namespace palpate {
 namespace {
 
-constexpr double kShortestGapS = 1.0;
-constexpr double kGapIntervals = 5.0;
+constexpr double kCurveComparisonShortestGapS = 1.0;
+constexpr double kCurveComparisonGapIntervals = 5.0;
 constexpr double kRoundingS = 1e-7;  // stamps are whole microseconds
 constexpr std::size_t kMostSamples = 20'000'000;
 
-void check(const Series& series) {
+void checkCurveComparison(const Series& series) {
   if (series.timeS.size() != series.values.size())
     throw std::invalid_argument("compareCurves: " + std::to_string(series.timeS.size()) +
                                 " times, " + std::to_string(series.values.size()) + " values");
@@ -31,9 +31,9 @@ double medianInterval(const Series& series) {
 }
 
 // Reads a curve at ascending moments.
-class Cursor {
+class CurveComparisonCursor {
  public:
-  Cursor(const Series& series, double shiftS, double gapS)
+  CurveComparisonCursor(const Series& series, double shiftS, double gapS)
       : series_(series), shiftS_(shiftS), gapS_(gapS) {}
 
   // NaN in a gap and outside.
@@ -89,16 +89,17 @@ struct Moments {
 }  // namespace
 
 double gapFromS(const TimingReport& timing) {
-  return timing.rateHz > 0.0 ? std::max(kShortestGapS, kGapIntervals / timing.rateHz)
-                             : kShortestGapS;
+  return timing.rateHz > 0.0
+             ? std::max(kCurveComparisonShortestGapS, kCurveComparisonGapIntervals / timing.rateHz)
+             : kCurveComparisonShortestGapS;
 }
 
 CurveComparison compareCurves(const Series& a,
                               const Series& b,
                               double offsetS,
                               const CurveGaps& gaps) {
-  check(a);
-  check(b);
+  checkCurveComparison(a);
+  checkCurveComparison(b);
   CurveComparison report;
   if (a.timeS.empty() || b.timeS.empty()) return report;
   report.fromS = std::max(a.timeS.front(), b.timeS.front() + offsetS);
@@ -110,7 +111,7 @@ CurveComparison compareCurves(const Series& a,
   if (report.stepS > 0.0)
     moments += static_cast<std::size_t>(
         std::min((span + kRoundingS) / report.stepS, static_cast<double>(kMostSamples)));
-  Cursor readA(a, 0.0, gaps.aS), readB(b, offsetS, gaps.bS);
+  CurveComparisonCursor readA(a, 0.0, gaps.aS), readB(b, offsetS, gaps.bS);
   Moments sums;
   double squares = 0.0;
   for (std::size_t i = 0; i < moments; ++i) {

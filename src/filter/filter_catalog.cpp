@@ -8,11 +8,11 @@
 namespace palpate {
 namespace {
 
-using Kind = FilterOption::Kind;
+using FilterCatalogKind = FilterOption::Kind;
 
 constexpr double kAutomatic = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLargestSize = 31;      // taxels
-constexpr double kLargestWindow = 1001;  // frames
+constexpr double kFilterCatalogLargestSize = 31;  // taxels
+constexpr double kLargestWindow = 1001;           // frames
 
 const char* const kSpatialBorder =
     "the taxel at the border is repeated; masked taxels are neither read nor written";
@@ -21,10 +21,11 @@ const char* const kShrinks =
 
 FilterOption odd(
     const char* key, double maximum, double fallback, const char* unit, const char* purpose) {
-  return {key, unit, Kind::kOdd, 1, maximum, fallback, {}, purpose};
+  return {key, unit, FilterCatalogKind::kOdd, 1, maximum, fallback, {}, purpose};
 }
 FilterOption size(double fallback = 3) {
-  return odd("size", kLargestSize, fallback, "taxels", "width of the window, 2 radius + 1");
+  return odd(
+      "size", kFilterCatalogLargestSize, fallback, "taxels", "width of the window, 2 radius + 1");
 }
 FilterOption window(double fallback) {
   return odd("window", kLargestWindow, fallback, "frames", "frames that count");
@@ -35,12 +36,12 @@ FilterOption real(const char* key,
                   double fallback,
                   const char* unit,
                   const char* purpose) {
-  return {key, unit, Kind::kReal, minimum, maximum, fallback, {}, purpose};
+  return {key, unit, FilterCatalogKind::kReal, minimum, maximum, fallback, {}, purpose};
 }
 FilterOption masked() {
   return {"masked",
           "",
-          Kind::kFlag,
+          FilterCatalogKind::kFlag,
           0,
           1,
           0,
@@ -50,7 +51,7 @@ FilterOption masked() {
 FilterOption centred() {
   return {"centred",
           "",
-          Kind::kFlag,
+          FilterCatalogKind::kFlag,
           0,
           1,
           0,
@@ -88,7 +89,7 @@ std::vector<FilterKind> spatialKinds() {
       {"bilateral",
        "Bilateral",
        FilterDomain::kSpatial,
-       {odd("diameter", kLargestSize, 3, "taxels", "diameter of the round window"),
+       {odd("diameter", kFilterCatalogLargestSize, 3, "taxels", "diameter of the round window"),
         real("sigma_value", 0.01, 10000, 50, "counts", "difference of value that still counts"),
         real("sigma_space", 0.01, 1000, 3, "taxels", "distance that still counts"),
         masked()},
@@ -110,7 +111,7 @@ std::vector<FilterKind> spatialKinds() {
        FilterDomain::kSpatial,
        {{"shape",
          "",
-         Kind::kChoice,
+         FilterCatalogKind::kChoice,
          0,
          2,
          0,
@@ -126,7 +127,7 @@ std::vector<FilterKind> spatialKinds() {
 
 std::vector<FilterKind> temporalKinds() {
   FilterOption anyWindow = window(3);
-  anyWindow.kind = Kind::kInteger;
+  anyWindow.kind = FilterCatalogKind::kInteger;
   anyWindow.purpose = "frames that count; odd with centred=1";
   return {
       {"running-mean",
@@ -160,7 +161,7 @@ std::vector<FilterKind> temporalKinds() {
         real("r", 1e-6, 1e6, 0.5, "counts^2", "variance of the measurement"),
         {"centred",
          "",
-         Kind::kFlag,
+         FilterCatalogKind::kFlag,
          0,
          1,
          0,
@@ -185,7 +186,7 @@ std::vector<FilterKind> temporalKinds() {
         real("r", 1e-9, 1e9, kAutomatic, "counts^2", "noise; left out: found in the recording"),
         {"centred",
          "",
-         Kind::kFlag,
+         FilterCatalogKind::kFlag,
          0,
          1,
          0,
@@ -207,10 +208,17 @@ std::vector<FilterKind> temporalKinds() {
        "Savitzky-Golay",
        FilterDomain::kTemporal,
        {odd("window", kLongestSavitzkyGolayWindow, 5, "frames", "frames that count"),
-        {"order", "", Kind::kInteger, 0, 6, 2, {}, "degree of the polynomial, below the window"},
+        {"order",
+         "",
+         FilterCatalogKind::kInteger,
+         0,
+         6,
+         2,
+         {},
+         "degree of the polynomial, below the window"},
         {"derivative",
          "",
-         Kind::kInteger,
+         FilterCatalogKind::kInteger,
          0,
          2,
          0,
@@ -225,7 +233,7 @@ std::vector<FilterKind> temporalKinds() {
 
 std::vector<FilterKind> spatioTemporalKinds() {
   FilterOption anyWindow = window(3);
-  anyWindow.kind = Kind::kInteger;
+  anyWindow.kind = FilterCatalogKind::kInteger;
   anyWindow.purpose = "frames of the minimum; odd with centred=1";
   return {
       {"median3d",

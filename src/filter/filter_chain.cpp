@@ -7,9 +7,9 @@
 namespace palpate {
 namespace {
 
-using SteadyClock = std::chrono::steady_clock;
+using FilterChainSteadyClock = std::chrono::steady_clock;
 
-double nsBetween(SteadyClock::time_point from, SteadyClock::time_point to) {
+double nsBetween(FilterChainSteadyClock::time_point from, FilterChainSteadyClock::time_point to) {
   return std::chrono::duration<double, std::nano>(to - from).count();
 }
 
@@ -35,9 +35,10 @@ class FilterChain::Link final : public FrameSink {
     if (!chain_.measuring_) return work();
     // Steps behind this one are called within: their time is theirs.
     const double spentBehind = behindNs();
-    const auto from = SteadyClock::now();
+    const auto from = FilterChainSteadyClock::now();
     work();
-    chain_.spentNs_[step_] += nsBetween(from, SteadyClock::now()) - (behindNs() - spentBehind);
+    chain_.spentNs_[step_] +=
+        nsBetween(from, FilterChainSteadyClock::now()) - (behindNs() - spentBehind);
   }
   double behindNs() const {
     double sum = 0.0;

@@ -10,13 +10,13 @@
 namespace palpate {
 namespace {
 
-using Kind = FilterOption::Kind;
+using FilterStepKind = FilterOption::Kind;
 
 constexpr std::size_t kMostMatrices = 1024;
 constexpr int kMostMedianValues = 2001;  // that one value is the middle of: some ms per frame
 constexpr const char* kMatrices = "matrices";
 
-std::string_view trimmed(std::string_view text) {
+std::string_view filterStepTrimmed(std::string_view text) {
   const auto from = text.find_first_not_of(" \t");
   if (from == std::string_view::npos) return {};
   return text.substr(from, text.find_last_not_of(" \t") - from + 1);
@@ -26,7 +26,7 @@ std::vector<std::string_view> split(std::string_view text, char at) {
   std::vector<std::string_view> parts;
   for (;;) {
     const auto end = text.find(at);
-    parts.push_back(trimmed(text.substr(0, end)));
+    parts.push_back(filterStepTrimmed(text.substr(0, end)));
     if (end == std::string_view::npos) return parts;
     text.remove_prefix(end + 1);
   }
@@ -42,15 +42,15 @@ std::string rangeOf(const FilterOption& option) {
   const std::string range = numberText(option.minimum) + ".." + numberText(option.maximum) +
                             (option.unit.empty() ? "" : " " + option.unit);
   switch (option.kind) {
-    case Kind::kOdd:
+    case FilterStepKind::kOdd:
       return "an odd number " + range;
-    case Kind::kInteger:
+    case FilterStepKind::kInteger:
       return "a whole number " + range;
-    case Kind::kFlag:
+    case FilterStepKind::kFlag:
       return "0 or 1";
-    case Kind::kChoice:
+    case FilterStepKind::kChoice:
       return "one of " + choicesOf(option);
-    case Kind::kReal:
+    case FilterStepKind::kReal:
       break;
   }
   return "a number " + range;
@@ -70,9 +70,9 @@ std::string unknownKey(const FilterKind& kind, std::string_view key) {
 
 bool fits(const FilterOption& option, double value) {
   if (!std::isfinite(value) || value < option.minimum || value > option.maximum) return false;
-  if (option.kind == Kind::kReal) return true;
+  if (option.kind == FilterStepKind::kReal) return true;
   if (value != std::floor(value)) return false;
-  return option.kind != Kind::kOdd || std::fmod(value, 2.0) == 1.0;
+  return option.kind != FilterStepKind::kOdd || std::fmod(value, 2.0) == 1.0;
 }
 
 std::vector<std::size_t> parseMatrices(const FilterStep& step, std::string_view text) {
@@ -91,7 +91,7 @@ std::vector<std::size_t> parseMatrices(const FilterStep& step, std::string_view 
 }
 
 double parseValue(const FilterStep& step, const FilterOption& option, std::string_view text) {
-  if (option.kind == Kind::kChoice) {
+  if (option.kind == FilterStepKind::kChoice) {
     const auto at = std::find(option.choices.begin(), option.choices.end(), text);
     if (at == option.choices.end()) refuse(step, option, "\"" + std::string(text) + "\"");
     return static_cast<double>(at - option.choices.begin());
@@ -161,7 +161,7 @@ bool FilterStep::causal() const {
 FilterStep parseFilterStep(std::string_view text) {
   FilterStep step;
   const auto colon = text.find(':');
-  step.name = trimmed(text.substr(0, colon));
+  step.name = filterStepTrimmed(text.substr(0, colon));
   if (step.name.empty())
     throw std::invalid_argument("a filter is wanted, as \"median:size=3\"; there are: " +
                                 filterNames());
@@ -170,7 +170,7 @@ FilterStep parseFilterStep(std::string_view text) {
     std::vector<std::string_view> seen;
     for (const std::string_view part : split(text.substr(colon + 1), ',')) {
       const auto equals = part.find('=');
-      const std::string_view key = trimmed(part.substr(0, equals));
+      const std::string_view key = filterStepTrimmed(part.substr(0, equals));
       if (equals == std::string_view::npos || key.empty())
         throw std::invalid_argument(step.name + ": \"" + std::string(part) +
                                     "\" is no KEY=VALUE; keys: " + kind.optionKeys() + ", " +
@@ -178,7 +178,7 @@ FilterStep parseFilterStep(std::string_view text) {
       if (std::find(seen.begin(), seen.end(), key) != seen.end())
         throw std::invalid_argument(step.name + ": " + std::string(key) + " is given twice");
       seen.push_back(key);
-      const std::string_view value = trimmed(part.substr(equals + 1));
+      const std::string_view value = filterStepTrimmed(part.substr(equals + 1));
       if (key == kMatrices) {
         step.matrices = parseMatrices(step, value);
         continue;
@@ -200,7 +200,7 @@ std::string filterText(const FilterStep& step) {
     const double value = step.value(option.key);
     if (same(value, option.fallback)) continue;
     text += before + option.key + '=';
-    if (option.kind == Kind::kChoice)
+    if (option.kind == FilterStepKind::kChoice)
       text += option.choices.at(static_cast<std::size_t>(value));
     else
       appendNumber(text, value);

@@ -13,17 +13,17 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kFramesPerReport = 64;
+constexpr std::size_t kFilteredProfileFramesPerReport = 64;
 constexpr std::size_t kFramesForRate = 16;  // what the gap rule looks back at
 constexpr std::size_t kCursors = 4;         // readers at different places: screen, charts, exports
 
 // Reads the source in order through a chain.
-class Cursor final : public FrameSink {
+class FilteredProfileCursor final : public FrameSink {
  public:
-  Cursor(const Profile& source,
-         const Recipe& recipe,
-         const std::vector<std::int64_t>& restartsUs,
-         std::size_t from)
+  FilteredProfileCursor(const Profile& source,
+                        const Recipe& recipe,
+                        const std::vector<std::int64_t>& restartsUs,
+                        std::size_t from)
       : source_(source), restartsUs_(restartsUs), next_(from), chain_(recipe, *this) {}
 
   void take(TactileFrame& frame) override {
@@ -141,7 +141,7 @@ class FilteredFrames final : public BesideFrames {
 
  private:
   struct Reader {
-    std::unique_ptr<Cursor> cursor;
+    std::unique_ptr<FilteredProfileCursor> cursor;
     std::optional<std::pair<std::size_t, TactileFrame>> last;  // that it gave
     std::uint64_t usedAt = 0;
   };
@@ -160,7 +160,7 @@ class FilteredFrames final : public BesideFrames {
           return a.usedAt < b.usedAt;
         });
     reader.last.reset();
-    reader.cursor = std::make_unique<Cursor>(
+    reader.cursor = std::make_unique<FilteredProfileCursor>(
         source_, recipe_, restartsUs_, frame > memory_ ? frame - memory_ : 0);
     return reader;
   }
@@ -178,11 +178,11 @@ Profile computedWhole(const Profile& source,
                       const std::vector<std::int64_t>& restartsUs,
                       const Progress& progress) {
   ProfileBuilder builder(source.hand().layout);
-  Cursor cursor(source, recipe, restartsUs, 0);
+  FilteredProfileCursor cursor(source, recipe, restartsUs, 0);
   const std::size_t numFrames = source.numFrames();
   // Nothing comes before the stretch is whole: reading is the first half of the work.
   for (std::size_t i = 0; i < numFrames; ++i) {
-    if (progress && i % kFramesPerReport == 0 &&
+    if (progress && i % kFilteredProfileFramesPerReport == 0 &&
         !progress(static_cast<double>(i) / static_cast<double>(numFrames)))
       throw Cancelled();
     while (const auto next = cursor.advance(i, i))

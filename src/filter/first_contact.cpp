@@ -9,7 +9,7 @@ namespace palpate {
 namespace {
 
 constexpr int kMost = 1'000'000;
-constexpr std::size_t kFramesPerReport = 512;
+constexpr std::size_t kFirstContactFramesPerReport = 512;
 
 void requireIn(int value, const char* field) {
   if (value < 1 || value > kMost)
@@ -78,7 +78,7 @@ std::optional<std::size_t> firstContact(const Profile& profile,
   TactileFrame frame;
   const std::size_t numFrames = profile.numFrames();
   for (std::size_t i = 0; i < numFrames; ++i) {
-    if (progress && i % kFramesPerReport == 0 &&
+    if (progress && i % kFirstContactFramesPerReport == 0 &&
         !progress(static_cast<double>(i) / static_cast<double>(numFrames)))
       throw Cancelled();
     profile.readFrame(i, frame);

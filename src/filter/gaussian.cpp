@@ -9,7 +9,7 @@
 namespace palpate {
 namespace {
 
-constexpr int kLargestSize = 31;
+constexpr int kGaussianLargestSize = 31;
 constexpr double kFwhmPerSigma = 2.3548;  // full width at half maximum of a Gaussian, in sigmas
 
 // Weighted sum along one direction of a rows x columns array, border replicated.
@@ -46,7 +46,7 @@ MatrixValues convolvedBothWays(const MatrixValues& in, std::span<const float> ke
 }  // namespace
 
 void GaussianOptions::validate() const {
-  if (size < 1 || size > kLargestSize || size % 2 == 0)
+  if (size < 1 || size > kGaussianLargestSize || size % 2 == 0)
     throw std::invalid_argument("gaussian: size must be odd, 1..31, is " + std::to_string(size));
   if (!std::isfinite(sigma) || sigma < 0.0)
     throw std::invalid_argument("gaussian: sigma must be 0 (automatic) or above, is " +

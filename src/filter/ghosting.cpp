@@ -12,10 +12,10 @@
 namespace palpate {
 namespace {
 
-using SteadyClock = std::chrono::steady_clock;
+using GhostingSteadyClock = std::chrono::steady_clock;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kFramesPerReport = 256;
+constexpr std::size_t kGhostingFramesPerReport = 256;
 
 // Keeps what comes out until it is counted: so the counting isn't in the time of the chain.
 class Outcome final : public FrameSink {
@@ -27,9 +27,9 @@ class Outcome final : public FrameSink {
   std::vector<std::vector<float>> frames_;
 };
 
-void check(const Profile& profile,
-           std::span<const TouchMask> truth,
-           const GhostingOptions& options) {
+void checkGhosting(const Profile& profile,
+                   std::span<const TouchMask> truth,
+                   const GhostingOptions& options) {
   if (options.leastTaxels < 1 || !(options.activeAboveCounts >= 0.0) ||
       !(options.wholeMatrixShare >= 0.0 && options.wholeMatrixShare <= 1.0))
     throw std::invalid_argument("measureGhosting: an option is out of range");
@@ -234,7 +234,7 @@ GhostingReport measureGhosting(const Profile& profile,
                                std::span<const TouchMask> truth,
                                const GhostingOptions& options,
                                const Progress& progress) {
-  check(profile, truth, options);
+  checkGhosting(profile, truth, options);
   GhostingReport report;
   Outcome outcome;
   FilterChain chain(recipe, outcome);
@@ -243,14 +243,14 @@ GhostingReport measureGhosting(const Profile& profile,
   double spentUs = 0.0;
   auto restart = options.restartsUs.begin();
   const auto timed = [&](auto&& work) {
-    const auto from = SteadyClock::now();
+    const auto from = GhostingSteadyClock::now();
     work();
-    spentUs += std::chrono::duration<double, std::micro>(SteadyClock::now() - from).count();
+    spentUs += std::chrono::duration<double, std::micro>(GhostingSteadyClock::now() - from).count();
     for (const std::vector<float>& filtered : outcome.frames()) counter.count(filtered);
     outcome.frames().clear();
   };
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (i % kFramesPerReport == 0 && progress &&
+    if (i % kGhostingFramesPerReport == 0 && progress &&
         !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
       throw Cancelled();
     profile.readFrame(i, frame);

@@ -5,7 +5,7 @@
 namespace palpate::detail {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kMedianNeighborsInfinity = std::numeric_limits<float>::infinity();
 constexpr int kWindow = 3;
 
 }  // namespace
@@ -46,7 +46,7 @@ MedianNeighbors::MedianNeighbors(const PaddedMatrix& padded, int depth) {
                  static_cast<std::size_t>(padded.at(places[i].y + dy, places[i].x + dx)),
                  static_cast<std::size_t>(plane)});
           } else {
-            gathered_[to] = low ? -kInfinity : kInfinity;
+            gathered_[to] = low ? -kMedianNeighborsInfinity : kMedianNeighborsInfinity;
             low = !low;
           }
         }

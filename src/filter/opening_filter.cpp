@@ -9,7 +9,7 @@
 namespace palpate::detail {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kOpeningFilterInfinity = std::numeric_limits<float>::infinity();
 
 enum Shape { kCross, kRectangle, kEllipse };  // as in the catalogue
 
@@ -34,10 +34,10 @@ class OpeningKernel final : public MatrixKernel {
   }
 
   void apply(float* values) override {
-    padded_.fill(values, kInfinity);
+    padded_.fill(values, kOpeningFilterInfinity);
     overElement([](const Lanes& a, const Lanes& b) { return least(a, b); });
     padded_.writeBack(out_, eroded_.data());
-    padded_.fill(eroded_.data(), -kInfinity);
+    padded_.fill(eroded_.data(), -kOpeningFilterInfinity);
     overElement([](const Lanes& a, const Lanes& b) { return most(a, b); });
     padded_.writeBack(out_, values);
   }

@@ -6,19 +6,19 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/core/time.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kUsPerS = 1e6;
-constexpr double kFurthestS = 1e12;
+constexpr double kProfileSeriesFurthestS = 1e12;
 constexpr std::size_t kSamplesPerReport = 512;
 
-using Kind = SeriesChoice::Kind;
+using ProfileSeriesKind = SeriesChoice::Kind;
 
-std::size_t countOf(const Profile& profile, Kind kind) {
-  if (kind == Kind::kAngle) return profile.numAngles();
-  if (kind == Kind::kTemperature) return profile.numTemperatures();
+std::size_t countOf(const Profile& profile, ProfileSeriesKind kind) {
+  if (kind == ProfileSeriesKind::kAngle) return profile.numAngles();
+  if (kind == ProfileSeriesKind::kTemperature) return profile.numTemperatures();
   return profile.numFrames();
 }
 
@@ -29,14 +29,18 @@ std::int64_t originUs(const Profile& profile) {
   return profile.numTemperatures() > 0 ? profile.temperatureTimeUs(0) : 0;
 }
 
-std::optional<std::size_t> sampleAt(const Profile& profile, Kind kind, std::int64_t timeUs) {
-  if (kind == Kind::kAngle) return profile.angleSampleAt(timeUs);
-  if (kind == Kind::kTemperature) return profile.temperatureSampleAt(timeUs);
+std::optional<std::size_t> sampleAt(const Profile& profile,
+                                    ProfileSeriesKind kind,
+                                    std::int64_t timeUs) {
+  if (kind == ProfileSeriesKind::kAngle) return profile.angleSampleAt(timeUs);
+  if (kind == ProfileSeriesKind::kTemperature) return profile.temperatureSampleAt(timeUs);
   return profile.frameAt(timeUs);
 }
 
 std::int64_t usOf(const Profile& profile, double seconds) {
-  return originUs(profile) + std::llround(std::clamp(seconds, -kFurthestS, kFurthestS) * kUsPerS);
+  return originUs(profile) +
+         std::llround(std::clamp(seconds, -kProfileSeriesFurthestS, kProfileSeriesFurthestS) *
+                      kUsPerS);
 }
 
 double valueAt(const std::vector<double>& values, std::size_t index) {
@@ -51,20 +55,20 @@ class Reader {
 
   std::pair<double, double> read(std::size_t sample) {
     switch (choice_.kind) {
-      case Kind::kAngle: {
+      case ProfileSeriesKind::kAngle: {
         const JointAngles angles = profile_.angles(sample);
         return {seconds(angles.hostUs), valueAt(angles.deg, choice_.index)};
       }
-      case Kind::kTemperature: {
+      case ProfileSeriesKind::kTemperature: {
         const Temperatures temperatures = profile_.temperatures(sample);
         const double degC = valueAt(temperatures.degC, choice_.index);
         return {seconds(temperatures.hostUs),
                 degC == 0.0 ? std::numeric_limits<double>::quiet_NaN() : degC};
       }
-      case Kind::kTaxels:
+      case ProfileSeriesKind::kTaxels:
         profile_.readFrame(sample, frame_);
         return {seconds(frame_.hostUs), meanOf(frame_, choice_.taxels)};
-      case Kind::kMatrix:
+      case ProfileSeriesKind::kMatrix:
         break;
     }
     profile_.readFrame(sample, frame_);
@@ -129,13 +133,13 @@ double meanOf(const TactileFrame& frame, const TaxelSelection& taxels) {
 bool hasSeries(const Profile& profile, const SeriesChoice& choice) {
   if (countOf(profile, choice.kind) == 0) return false;
   switch (choice.kind) {
-    case Kind::kAngle:
+    case ProfileSeriesKind::kAngle:
       return choice.index < profile.angles(0).deg.size();
-    case Kind::kTemperature:
+    case ProfileSeriesKind::kTemperature:
       return choice.index < profile.temperatures(0).degC.size();
-    case Kind::kTaxels:
+    case ProfileSeriesKind::kTaxels:
       return !choice.taxels.empty() && TaxelSelection(profile.layout()).sameSensor(choice.taxels);
-    case Kind::kMatrix:
+    case ProfileSeriesKind::kMatrix:
       break;
   }
   return choice.index <= profile.layout().numMatrices();

@@ -11,16 +11,17 @@
 namespace palpate {
 namespace {
 
-using Kind = FilterOption::Kind;
+using RecipeKind = FilterOption::Kind;
 
 constexpr const char* kFormat = "palpate-recipe";
 constexpr std::int64_t kVersion = 1;
 constexpr std::string_view kNoOptions[] = {"filter", "enabled", "matrices"};
 
 Json optionJson(const FilterOption& option, double value) {
-  if (option.kind == Kind::kFlag) return Json(value != 0.0);
-  if (option.kind == Kind::kChoice) return Json(option.choices.at(static_cast<std::size_t>(value)));
-  if (option.kind != Kind::kReal) return Json(static_cast<std::int64_t>(value));
+  if (option.kind == RecipeKind::kFlag) return Json(value != 0.0);
+  if (option.kind == RecipeKind::kChoice)
+    return Json(option.choices.at(static_cast<std::size_t>(value)));
+  if (option.kind != RecipeKind::kReal) return Json(static_cast<std::int64_t>(value));
   return Json(value);
 }
 
@@ -77,7 +78,7 @@ FilterStep stepFromJson(const Json& json) {
   return step;
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view recipeTrimmed(std::string_view text) {
   const auto from = text.find_first_not_of(" \t");
   if (from == std::string_view::npos) return {};
   return text.substr(from, text.find_last_not_of(" \t") - from + 1);
@@ -131,7 +132,7 @@ Recipe parseRecipe(std::span<const std::string> texts) {
   for (std::string_view text : texts) {
     for (;;) {
       const auto end = text.find('|');
-      std::string_view part = trimmed(text.substr(0, end));
+      std::string_view part = recipeTrimmed(text.substr(0, end));
       const bool off = part.size() >= 2 && part.front() == '(' && part.back() == ')';
       if (off) part = part.substr(1, part.size() - 2);
       recipe.steps.push_back(parseFilterStep(part));

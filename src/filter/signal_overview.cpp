@@ -4,12 +4,12 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/core/time.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kUsPerS = 1e6;
-constexpr std::size_t kFramesPerReport = 512;
+constexpr std::size_t kSignalOverviewFramesPerReport = 512;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void SignalOverview::compute(const Progress& progress) {
   std::vector<CharacteristicSignals> rows;
   TactileFrame frame;
   for (std::size_t i = 0; i < frames; ++i) {
-    if (progress && i % kFramesPerReport == 0 &&
+    if (progress && i % kSignalOverviewFramesPerReport == 0 &&
         !progress(static_cast<double>(i) / static_cast<double>(frames)))
       throw Cancelled();
     profile_.readFrame(i, frame);

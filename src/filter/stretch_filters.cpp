@@ -6,6 +6,7 @@
 #include <string>
 
 #include "palpate/core/error.h"
+#include "palpate/core/time.h"
 #include "palpate/filter/kalman.h"
 #include "palpate/filter/kelvin_voigt_estimation.h"
 
@@ -50,8 +51,6 @@ class StretchFilter : public FrameFilter {
                                        std::span<const double> series) = 0;
 
  private:
-  static constexpr double kUsPerS = 1e6;
-
   std::vector<double> seriesOf(const std::vector<TactileFrame>& frames, std::size_t place) const {
     std::vector<double> series;
     series.reserve(frames.size());

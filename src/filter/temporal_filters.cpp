@@ -173,9 +173,9 @@ class KalmanFilter final : public FrameFilter {
 };
 
 // One filter per taxel, all of one model: an interval is discretised once for all of them.
-class KelvinVoigt final : public FrameFilter {
+class KelvinVoigtFrames final : public FrameFilter {
  public:
-  KelvinVoigt(const FilterStep& step, const SensorLayout& layout)
+  KelvinVoigtFrames(const FilterStep& step, const SensorLayout& layout)
       : places_(placesOf(step, layout)),
         model_{.mass = std::isnan(step.value("m")) ? 1.0 : step.value("m"),
                .stiffness = step.value("e"),
@@ -216,7 +216,7 @@ std::unique_ptr<FrameFilter> temporalFilter(const FilterStep& step,
   if (step.name == "temporal-gaussian") return std::make_unique<TemporalGaussian>(step, *layout);
   if (step.name == "temporal-min") return std::make_unique<TemporalMinimum>(step, *layout);
   if (step.name == "savitzky-golay") return std::make_unique<SavitzkyGolay>(step, *layout);
-  if (step.name == "kelvin-voigt") return std::make_unique<KelvinVoigt>(step, *layout);
+  if (step.name == "kelvin-voigt") return std::make_unique<KelvinVoigtFrames>(step, *layout);
   return std::make_unique<KalmanFilter>(step, *layout);
 }
 

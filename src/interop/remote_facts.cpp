@@ -3,11 +3,11 @@
 #include <string>
 
 #include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kMsPerS = 1000.0;
 constexpr std::uint64_t kLeastFreeBytes = 1U << 20;  // a minute of an SDH-2
 
 Json known(double value) { return value > 0.0 ? Json(value) : Json(); }

@@ -8,7 +8,7 @@
 
 namespace palpate {
 namespace {
-using Verb = RemoteRequest::Verb;
+using RemoteProtocolVerb = RemoteRequest::Verb;
 
 constexpr std::string_view kBlanks = " \t";
 constexpr std::size_t kMostQuoted = 60;  // of what a stranger wrote, in an answer
@@ -19,8 +19,9 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-bool hasText(Verb verb) {
-  return verb == Verb::kStart || verb == Verb::kLabel || verb == Verb::kFile || verb == Verb::kSet;
+bool hasText(RemoteProtocolVerb verb) {
+  return verb == RemoteProtocolVerb::kStart || verb == RemoteProtocolVerb::kLabel ||
+         verb == RemoteProtocolVerb::kFile || verb == RemoteProtocolVerb::kSet;
 }
 
 ReadRequest refuse(std::string code, std::string why) {
@@ -33,37 +34,37 @@ std::string quoted(std::string_view text) {
 
 }  // namespace
 
-std::string_view nameOf(Verb verb) noexcept {
+std::string_view nameOf(RemoteProtocolVerb verb) noexcept {
   switch (verb) {
-    case Verb::kStatus:
+    case RemoteProtocolVerb::kStatus:
       return "status";
-    case Verb::kStart:
+    case RemoteProtocolVerb::kStart:
       return "start";
-    case Verb::kStop:
+    case RemoteProtocolVerb::kStop:
       return "stop";
-    case Verb::kLabel:
+    case RemoteProtocolVerb::kLabel:
       return "label";
-    case Verb::kMark:
+    case RemoteProtocolVerb::kMark:
       return "mark";
-    case Verb::kFile:
+    case RemoteProtocolVerb::kFile:
       return "file";
-    case Verb::kSet:
+    case RemoteProtocolVerb::kSet:
       return "set";
-    case Verb::kHelp:
+    case RemoteProtocolVerb::kHelp:
       return "help";
   }
   return {};
 }
 
-const std::vector<Verb>& allRemoteVerbs() {
-  static const std::vector<Verb> all{Verb::kStatus,
-                                     Verb::kStart,
-                                     Verb::kStop,
-                                     Verb::kLabel,
-                                     Verb::kMark,
-                                     Verb::kFile,
-                                     Verb::kSet,
-                                     Verb::kHelp};
+const std::vector<RemoteProtocolVerb>& allRemoteVerbs() {
+  static const std::vector<RemoteProtocolVerb> all{RemoteProtocolVerb::kStatus,
+                                                   RemoteProtocolVerb::kStart,
+                                                   RemoteProtocolVerb::kStop,
+                                                   RemoteProtocolVerb::kLabel,
+                                                   RemoteProtocolVerb::kMark,
+                                                   RemoteProtocolVerb::kFile,
+                                                   RemoteProtocolVerb::kSet,
+                                                   RemoteProtocolVerb::kHelp};
   return all;
 }
 
@@ -96,16 +97,16 @@ ReadRequest readRequest(std::string_view line) {
   if (text.empty()) return refuse("malformed", "an empty request; 'help' lists what can be asked");
   const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
   const auto& verbs = allRemoteVerbs();
-  const auto verb =
-      std::find_if(verbs.begin(), verbs.end(), [&](Verb each) { return nameOf(each) == word; });
+  const auto verb = std::find_if(
+      verbs.begin(), verbs.end(), [&](RemoteProtocolVerb each) { return nameOf(each) == word; });
   if (verb == verbs.end())
     return refuse("unknown", quoted(word) + " is no request; 'help' lists what can be asked");
   RemoteRequest request{*verb, std::string(trimmed(text.substr(word.size())))};
   if (!request.text.empty() && !hasText(*verb))
     return refuse("malformed", std::string(word) + " takes no text");
-  if (request.text.empty() && *verb == Verb::kLabel)
+  if (request.text.empty() && *verb == RemoteProtocolVerb::kLabel)
     return refuse("malformed", "label needs its text: label TEXT");
-  if (*verb == Verb::kSet && !settingFrom(request.text))
+  if (*verb == RemoteProtocolVerb::kSet && !settingFrom(request.text))
     return refuse("malformed",
                   "set operator TEXT, object, run or notes; without TEXT it is forgotten");
   return {std::move(request), {}};

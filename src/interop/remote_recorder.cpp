@@ -15,12 +15,11 @@
 namespace palpate {
 namespace fs = std::filesystem;
 namespace {
-using SteadyTime = std::chrono::steady_clock;
-using Verb = RemoteRequest::Verb;
+using RemoteRecorderSteadyTime = std::chrono::steady_clock;
+using RemoteRecorderVerb = RemoteRequest::Verb;
 
 constexpr std::chrono::milliseconds kStartRound{5};    // while the first commit is waited for
 constexpr std::chrono::milliseconds kUsualRound{200};  // a recording may end by itself
-constexpr std::int64_t kUsPerMs = 1000;
 
 enum class State { kIdle, kStarting, kRecording, kStopping };
 
@@ -150,7 +149,7 @@ struct RemoteRecorder::Impl {
           jobs.pop_front();
         }
       }
-      if (job && job->request.verb == Verb::kStart)
+      if (job && job->request.verb == RemoteRecorderVerb::kStart)
         start(job->request.text, std::move(job->done));
       else if (job)
         stopRecording(job->done);
@@ -199,7 +198,7 @@ struct RemoteRecorder::Impl {
     } catch (const std::exception& error) {
       return done(RemoteAnswer::refused("failed", error.what()));
     }
-    starting = Starting{done, SteadyTime::now()};
+    starting = Starting{done, RemoteRecorderSteadyTime::now()};
     endedByItself.reset();
     become(State::kStarting);
   }
@@ -231,7 +230,8 @@ struct RemoteRecorder::Impl {
       return;
     }
     const double waitedS =
-        std::chrono::duration<double>(SteadyTime::now() - starting->sinceMono).count();
+        std::chrono::duration<double>(RemoteRecorderSteadyTime::now() - starting->sinceMono)
+            .count();
     // In this order: what is on disk stays true when it ends in between.
     const bool recording = session.recording();
     const auto verdict = startVerdict(session.recorderStatus(), recording, waitedS, options.limits);
@@ -246,7 +246,7 @@ struct RemoteRecorder::Impl {
 
   struct Starting {
     Done done;
-    SteadyTime::time_point sinceMono;
+    RemoteRecorderSteadyTime::time_point sinceMono;
   };
 
   CaptureSession& session;
@@ -272,19 +272,19 @@ RemoteRecorder::~RemoteRecorder() = default;
 
 void RemoteRecorder::carryOut(const RemoteRequest& request, Done done) {
   switch (request.verb) {
-    case Verb::kStart:
-    case Verb::kStop:
+    case RemoteRecorderVerb::kStart:
+    case RemoteRecorderVerb::kStop:
       return impl_->hand(request, std::move(done));
-    case Verb::kLabel:
+    case RemoteRecorderVerb::kLabel:
       return done(impl_->note(request.text));
-    case Verb::kMark:
+    case RemoteRecorderVerb::kMark:
       return done(impl_->note({}));
-    case Verb::kFile:
+    case RemoteRecorderVerb::kFile:
       return done(impl_->name(request.text));
-    case Verb::kSet:
+    case RemoteRecorderVerb::kSet:
       return done(impl_->set(request.text));
-    case Verb::kStatus:
-    case Verb::kHelp:  // which the server answers itself
+    case RemoteRecorderVerb::kStatus:
+    case RemoteRecorderVerb::kHelp:  // which the server answers itself
       return done(impl_->status());
   }
 }

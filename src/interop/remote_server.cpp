@@ -24,8 +24,8 @@
 
 namespace palpate {
 namespace {
-using SteadyTime = std::chrono::steady_clock;
-using Verb = RemoteRequest::Verb;
+using RemoteServerSteadyTime = std::chrono::steady_clock;
+using RemoteServerVerb = RemoteRequest::Verb;
 
 constexpr std::size_t kReadBytes = 4096;
 constexpr int kRestMs = 100;  // when the system has no descriptor left
@@ -89,7 +89,7 @@ struct Client {
   std::string out;                       // of the last answer, what isn't sent yet
   std::optional<RemoteRequest> pending;  // its answer is awaited
   bool ended = false;                    // sends nothing more
-  SteadyTime::time_point active = SteadyTime::now();
+  RemoteServerSteadyTime::time_point active = RemoteServerSteadyTime::now();
 
   bool reads() const { return !ended && !pending && out.empty(); }
 };
@@ -152,7 +152,7 @@ struct RemoteServer::Impl {
     std::array<char, kReadBytes> bytes{};
     const ssize_t n = ::recv(client.socket.get(), bytes.data(), bytes.size(), 0);
     if (n < 0) return errno == EAGAIN || errno == EINTR;
-    client.active = SteadyTime::now();
+    client.active = RemoteServerSteadyTime::now();
     client.ended = n == 0;
     client.lines.push({bytes.data(), static_cast<std::size_t>(n)});
     return true;
@@ -162,7 +162,7 @@ struct RemoteServer::Impl {
     const ssize_t n = ::send(
         client.socket.get(), client.out.data(), client.out.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
     if (n < 0) return errno == EAGAIN || errno == EINTR;
-    client.active = SteadyTime::now();
+    client.active = RemoteServerSteadyTime::now();
     client.out.erase(0, static_cast<std::size_t>(n));
     return true;
   }
@@ -180,8 +180,8 @@ struct RemoteServer::Impl {
       }
       if (!read.request) {
         if (!answer(client, read.refusal, {})) return false;
-      } else if (read.request->verb == Verb::kHelp) {
-        if (!answer(client, help(), nameOf(Verb::kHelp))) return false;
+      } else if (read.request->verb == RemoteServerVerb::kHelp) {
+        if (!answer(client, help(), nameOf(RemoteServerVerb::kHelp))) return false;
       } else {
         ask(client, *read.request);
       }
@@ -206,7 +206,7 @@ struct RemoteServer::Impl {
 
   static RemoteAnswer help() {
     Json verbs = Json::array();
-    for (const Verb verb : allRemoteVerbs()) verbs.push(nameOf(verb));
+    for (const RemoteServerVerb verb : allRemoteVerbs()) verbs.push(nameOf(verb));
     RemoteAnswer answer;
     answer.fields.set("requests", verbs).set("protocol", 1);
     return answer;
@@ -222,7 +222,8 @@ struct RemoteServer::Impl {
         clients.begin(), clients.end(), [&](const Client& each) { return each.id == item.client; });
     if (client == clients.end() || !client->pending) return;  // it has gone meanwhile
     const RemoteRequest request = *std::exchange(client->pending, std::nullopt);
-    if (options.onAnswer && request.verb != Verb::kStatus) options.onAnswer(request, item.answer);
+    if (options.onAnswer && request.verb != RemoteServerVerb::kStatus)
+      options.onAnswer(request, item.answer);
     if (!answer(*client, item.answer, nameOf(request.verb)) || !heed(*client))
       clients.erase(client);
   }
@@ -255,7 +256,7 @@ struct RemoteServer::Impl {
 
   // The one that has been silent for longest goes, if that is long enough.
   bool makeRoom() {
-    const auto limit = SteadyTime::now() - std::chrono::duration<double>(options.idleS);
+    const auto limit = RemoteServerSteadyTime::now() - std::chrono::duration<double>(options.idleS);
     auto longest = clients.end();
     for (auto each = clients.begin(); each != clients.end(); ++each)
       if (!each->pending && each->active < limit &&

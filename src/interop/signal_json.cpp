@@ -1,14 +1,13 @@
 #include "palpate/interop/signal_json.h"
 
 #include "palpate/calibration/pressure_map.h"
+#include "palpate/core/time.h"
 #include "palpate/slip/slip_state.h"
 
 #include "interop/json_line.h"
 
 namespace palpate {
 namespace {
-
-constexpr double kUsPerS = 1e6;
 
 void addSignals(JsonLine& json, const CharacteristicSignals& signals) {
   json.number("mean", signals.mean);

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "palpate/core/time.h"
+
 namespace palpate {
 namespace {
 
-constexpr double kUsPerS = 1e6;
 constexpr std::int64_t kLeastGapUs = 1'000'000;
 constexpr std::int64_t kGapIntervals = 5;
 

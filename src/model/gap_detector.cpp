@@ -7,7 +7,7 @@ namespace palpate {
 namespace {
 
 constexpr std::int64_t kLeastGapUs = 1'000'000;
-constexpr std::int64_t kGapIntervals = 5;
+constexpr std::int64_t kGapDetectorGapIntervals = 5;
 constexpr std::size_t kIntervals = 15;
 
 }  // namespace
@@ -28,7 +28,7 @@ bool GapDetector::afterGap(std::int64_t stampUs) {
   if (!second) return false;
   // The median is only asked for where it matters.
   const bool gap = intervalUs > kLeastGapUs && !intervalsUs_.empty() &&
-                   intervalUs > kGapIntervals * medianIntervalUs();
+                   intervalUs > kGapDetectorGapIntervals * medianIntervalUs();
   intervalsUs_.push_back(intervalUs);
   if (intervalsUs_.size() > kIntervals) intervalsUs_.pop_front();
   return gap;

@@ -34,7 +34,7 @@ MatrixDescription fingerMatrix(int finger, const std::string& segment) {
           std::nullopt};
 }
 
-HandDescription makeSdh2() {
+HandDescription handDescriptionMakeSdh2() {
   HandDescription hand;
   hand.name = "SCHUNK SDH-2 with Weiss Robotics DSA";
   hand.layout = sdh2Layout();
@@ -76,7 +76,7 @@ std::string HandDescription::matrixName(std::size_t matrix) const {
 }
 
 const HandDescription& sdh2() {
-  static const HandDescription hand = makeSdh2();
+  static const HandDescription hand = handDescriptionMakeSdh2();
   return hand;
 }
 

@@ -16,7 +16,7 @@ std::vector<RaisedTaxel> raisedEdge(const double (&lines)[7][3]) {
   return edge;
 }
 
-SensorCharacteristics makeSdh2() {
+SensorCharacteristics sensorCharacteristicsMakeSdh2() {
   SensorCharacteristics sensor;
   // Slope, intercept, rmse of the maximum; slope, intercept, noise of an ordinary taxel (without the part
   // that rounding makes), shared noise.
@@ -92,7 +92,7 @@ double SensorCharacteristics::countsAbove(double kpa, double degC) const {
 }
 
 const SensorCharacteristics& sdh2Sensor() {
-  static const SensorCharacteristics sensor = makeSdh2();
+  static const SensorCharacteristics sensor = sensorCharacteristicsMakeSdh2();
   return sensor;
 }
 

@@ -50,8 +50,8 @@ double sdOf(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-ValidationReport reportOf(const SampleSet& samples,
-                          const std::vector<std::vector<ExaminedSample>>& perSplit) {
+ValidationReport crossValidationReportOf(const SampleSet& samples,
+                                         const std::vector<std::vector<ExaminedSample>>& perSplit) {
   ValidationReport report(samples.classes);
   std::size_t inTop3 = 0;
   for (const auto& split : perSplit) {
@@ -94,7 +94,7 @@ ValidationReport crossValidate(const SampleSet& samples,
       [&](std::size_t i) { perSplit[i] = examine(samples, options, splits[i], i); },
       progress,
       threads);
-  return reportOf(samples, perSplit);
+  return crossValidationReportOf(samples, perSplit);
 }
 
 std::vector<ValidationReport> crossValidateAll(const SampleSet& samples,
@@ -122,7 +122,8 @@ std::vector<ValidationReport> crossValidateAll(const SampleSet& samples,
   for (const auto& perSplit : all) {
     const bool whole = std::none_of(
         perSplit.begin(), perSplit.end(), [](const auto& split) { return split.empty(); });
-    reports.push_back(whole ? reportOf(samples, perSplit) : ValidationReport(samples.classes));
+    reports.push_back(whole ? crossValidationReportOf(samples, perSplit)
+                            : ValidationReport(samples.classes));
   }
   return reports;
 }

@@ -11,27 +11,27 @@ namespace {
 
 constexpr std::int64_t kFormat = 1;
 
-Json jsonOf(const Eigen::VectorXd& vector) {
+Json dayJsonOf(const Eigen::VectorXd& vector) {
   Json out = Json::array();
   for (const double value : vector) out.push(value);
   return out;
 }
 
-Json jsonOf(const Eigen::MatrixXd& matrix) {
+Json dayJsonOf(const Eigen::MatrixXd& matrix) {
   Json out = Json::array();
   for (Eigen::Index row = 0; row < matrix.rows(); ++row)
-    out.push(jsonOf(Eigen::VectorXd(matrix.row(row).transpose())));
+    out.push(dayJsonOf(Eigen::VectorXd(matrix.row(row).transpose())));
   return out;
 }
 
-Json jsonOf(const std::vector<std::string>& texts) {
+Json dayJsonOf(const std::vector<std::string>& texts) {
   Json out = Json::array();
   for (const std::string& text : texts) out.push(text);
   return out;
 }
 
-Json jsonOf(const DayBell& bell) {
-  return Json::object().set("mean", jsonOf(bell.mean)).set("scatter", jsonOf(bell.scatter));
+Json dayJsonOf(const DayBell& bell) {
+  return Json::object().set("mean", dayJsonOf(bell.mean)).set("scatter", dayJsonOf(bell.scatter));
 }
 
 Json needed(const Json& json, const char* key) {
@@ -40,7 +40,7 @@ Json needed(const Json& json, const char* key) {
   return json.at(key);
 }
 
-double numberIn(const Json& json, const char* key) {
+double dayModelJsonNumberIn(const Json& json, const char* key) {
   const Json value = needed(json, key);
   if (!value.isNumber() || !std::isfinite(value.asDouble()))
     throw Error(std::string("a damaged model: '") + key + "' is no number");
@@ -48,7 +48,7 @@ double numberIn(const Json& json, const char* key) {
 }
 
 std::size_t countIn(const Json& json, const char* key) {
-  const double value = numberIn(json, key);
+  const double value = dayModelJsonNumberIn(json, key);
   if (!(value >= 0.0 && value <= 1e9 && value == std::floor(value)))
     throw Error(std::string("a damaged model: '") + key + "' is no number of things");
   return static_cast<std::size_t>(value);
@@ -98,31 +98,31 @@ DayBell bellIn(const Json& json) {
 Json dayModelJson(const DayModel& model) {
   const DayModelData& data = model.data();
   Json bells = Json::array(), today = Json::array();
-  for (const DayBell& bell : data.bells) bells.push(jsonOf(bell));
+  for (const DayBell& bell : data.bells) bells.push(dayJsonOf(bell));
   for (const TodayComponent& component : data.today)
     today.push(
-        jsonOf(component.bell).set("class", component.classIndex).set("count", component.count));
+        dayJsonOf(component.bell).set("class", component.classIndex).set("count", component.count));
   Json out = Json::object();
   out.set("format", kFormat);
-  out.set("features", jsonOf(data.features)).set("classes", jsonOf(data.classes));
+  out.set("features", dayJsonOf(data.features)).set("classes", dayJsonOf(data.classes));
   if (data.sizeColumn) out.set("size_column", *data.sizeColumn);
   out.set("degrees_of_freedom", data.degreesOfFreedom);
   out.set("new_scatter", data.newScatter).set("seen_today", data.seenToday);
-  out.set("bells", bells).set("pooled", jsonOf(data.pooled));
-  out.set("background", jsonOf(data.background)).set("today", today);
+  out.set("bells", bells).set("pooled", dayJsonOf(data.pooled));
+  out.set("background", dayJsonOf(data.background)).set("today", today);
   return out;
 }
 
 DayModel dayModelFrom(const Json& json) {
-  if (numberIn(json, "format") != static_cast<double>(kFormat))
+  if (dayModelJsonNumberIn(json, "format") != static_cast<double>(kFormat))
     throw Error("a model of another version of the program");
   DayModelData data;
   data.features = textsIn(json, "features");
   data.classes = textsIn(json, "classes");
   if (json.contains("size_column")) data.sizeColumn = countIn(json, "size_column");
-  data.degreesOfFreedom = numberIn(json, "degrees_of_freedom");
-  data.newScatter = numberIn(json, "new_scatter");
-  data.seenToday = numberIn(json, "seen_today");
+  data.degreesOfFreedom = dayModelJsonNumberIn(json, "degrees_of_freedom");
+  data.newScatter = dayModelJsonNumberIn(json, "new_scatter");
+  data.seenToday = dayModelJsonNumberIn(json, "seen_today");
   data.pooled = matrixIn(json, "pooled");
   data.background = bellIn(needed(json, "background"));
   const Json bells = needed(json, "bells"), today = needed(json, "today");
@@ -152,8 +152,8 @@ Json sessionOffsetJson(const SessionOffset& offset) {
 
 SessionOffset sessionOffsetFrom(const Json& json) {
   SessionOffset out;
-  out.mm = numberIn(json, "mm");
-  out.sdMm = numberIn(json, "sd_mm");
+  out.mm = dayModelJsonNumberIn(json, "mm");
+  out.sdMm = dayModelJsonNumberIn(json, "sd_mm");
   const std::string origin = needed(json, "origin").asString();
   bool known = false;
   for (const OffsetOrigin one : {OffsetOrigin::kNone,

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kCountsOfFoamMm = 1000.0;
 
-double numberIn(const Json& json, const char* key) {
+double emptyHandNumberIn(const Json& json, const char* key) {
   const Json value = json.at(key);
   if (!value.isNumber() || !std::isfinite(value.asDouble()))
     throw Error(std::string("a damaged zero of the empty hand: '") + key + "'");
@@ -131,15 +131,16 @@ Json emptyHandZeroJson(const EmptyHandZero& zero) {
 
 EmptyHandZero emptyHandZeroFrom(const Json& json) {
   EmptyHandZero out;
-  out.mm = numberIn(json, "mm");
-  out.sdMm = numberIn(json, "sd_mm");
-  out.foamMm = numberIn(json, "foam_mm");
-  const double touches = numberIn(json, "touches");
+  out.mm = emptyHandNumberIn(json, "mm");
+  out.sdMm = emptyHandNumberIn(json, "sd_mm");
+  out.foamMm = emptyHandNumberIn(json, "foam_mm");
+  const double touches = emptyHandNumberIn(json, "touches");
   if (!(out.sdMm > 0.0) || !(touches >= 1.0 && touches <= 1e6))
     throw Error("a damaged zero of the empty hand: its error or its touches");
   out.touches = static_cast<std::size_t>(touches);
   // Those of models of format 1 don't say where they are from.
-  if (json.contains("time_us")) out.timeUs = static_cast<std::int64_t>(numberIn(json, "time_us"));
+  if (json.contains("time_us"))
+    out.timeUs = static_cast<std::int64_t>(emptyHandNumberIn(json, "time_us"));
   out.origin = textIn(json, "origin");
   out.sha256 = textIn(json, "sha256");
   return out;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "palpate/core/time.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/crop.h"
 
@@ -12,7 +13,6 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kMostFingers = 8;
-constexpr double kUsPerS = 1e6;
 constexpr std::size_t kAnglesWithoutFrames = 2000;
 
 }  // namespace

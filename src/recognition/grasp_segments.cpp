@@ -6,12 +6,12 @@
 #include <string>
 
 #include "palpate/core/error.h"
+#include "palpate/core/time.h"
 
 namespace palpate {
 namespace {
 
 constexpr std::size_t kFramesPerReport = 512;
-constexpr double kUsPerS = 1e6;
 constexpr double kFingerShare = 0.5;  // of the frames, to be one of a grasp's fingers
 constexpr double kEndOutside = 0.5;   // factor of the quality, per end
 

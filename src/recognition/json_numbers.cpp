@@ -7,20 +7,21 @@
 namespace palpate::json_numbers {
 namespace {
 
-[[noreturn]] void refuse(std::string_view key, const std::string& what) {
+[[noreturn]] void refuseJsonNumbers(std::string_view key, const std::string& what) {
   throw Error("model: '" + std::string(key) + "' " + what);
 }
 
 double finite(const Json& value, std::string_view key) {
-  if (!value.isNumber()) refuse(key, "holds something that is no number");
+  if (!value.isNumber()) refuseJsonNumbers(key, "holds something that is no number");
   const double number = value.asDouble();
-  if (!std::isfinite(number)) refuse(key, "holds something that is no number");
+  if (!std::isfinite(number)) refuseJsonNumbers(key, "holds something that is no number");
   return number;
 }
 
 void requireSize(std::size_t found, Eigen::Index wanted, std::string_view key) {
   if (wanted >= 0 && found != static_cast<std::size_t>(wanted))
-    refuse(key, "has " + std::to_string(found) + " entries instead of " + std::to_string(wanted));
+    refuseJsonNumbers(
+        key, "has " + std::to_string(found) + " entries instead of " + std::to_string(wanted));
 }
 
 }  // namespace
@@ -45,7 +46,7 @@ Json of(const std::vector<std::string>& texts) {
 }
 
 Json member(const Json& object, std::string_view key) {
-  if (!object.isObject() || !object.contains(key)) refuse(key, "is missing");
+  if (!object.isObject() || !object.contains(key)) refuseJsonNumbers(key, "is missing");
   return object.at(key);
 }
 
@@ -53,26 +54,26 @@ double number(const Json& object, std::string_view key) { return finite(member(o
 
 bool flag(const Json& object, std::string_view key) {
   const Json value = member(object, key);
-  if (!value.isBool()) refuse(key, "is neither true nor false");
+  if (!value.isBool()) refuseJsonNumbers(key, "is neither true nor false");
   return value.asBool();
 }
 
 std::string text(const Json& object, std::string_view key) {
   const Json value = member(object, key);
-  if (!value.isString()) refuse(key, "is no text");
+  if (!value.isString()) refuseJsonNumbers(key, "is no text");
   return value.asString();
 }
 
 std::size_t count(const Json& object, std::string_view key) {
   const double value = number(object, key);
   if (value < 0.0 || value > 1e9 || value != std::floor(value))
-    refuse(key, "is no number of things");
+    refuseJsonNumbers(key, "is no number of things");
   return static_cast<std::size_t>(value);
 }
 
 Eigen::VectorXd vector(const Json& object, std::string_view key, Eigen::Index size) {
   const Json list = member(object, key);
-  if (!list.isArray()) refuse(key, "is no list");
+  if (!list.isArray()) refuseJsonNumbers(key, "is no list");
   requireSize(list.size(), size, key);
   Eigen::VectorXd result(static_cast<Eigen::Index>(list.size()));
   for (std::size_t i = 0; i < list.size(); ++i)
@@ -85,12 +86,12 @@ Eigen::MatrixXd matrix(const Json& object,
                        Eigen::Index rows,
                        Eigen::Index columns) {
   const Json list = member(object, key);
-  if (!list.isArray()) refuse(key, "is no list");
+  if (!list.isArray()) refuseJsonNumbers(key, "is no list");
   requireSize(list.size(), rows, key);
   Eigen::MatrixXd result(rows, columns);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const Json row = list.at(static_cast<std::size_t>(i));
-    if (!row.isArray()) refuse(key, "has a row that is no list");
+    if (!row.isArray()) refuseJsonNumbers(key, "has a row that is no list");
     requireSize(row.size(), columns, key);
     for (Eigen::Index j = 0; j < columns; ++j)
       result(i, j) = finite(row.at(static_cast<std::size_t>(j)), key);
@@ -100,10 +101,10 @@ Eigen::MatrixXd matrix(const Json& object,
 
 std::vector<std::string> texts(const Json& object, std::string_view key) {
   const Json list = member(object, key);
-  if (!list.isArray()) refuse(key, "is no list");
+  if (!list.isArray()) refuseJsonNumbers(key, "is no list");
   std::vector<std::string> result;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (!list.at(i).isString()) refuse(key, "holds something that is no text");
+    if (!list.at(i).isString()) refuseJsonNumbers(key, "holds something that is no text");
     result.push_back(list.at(i).asString());
   }
   return result;

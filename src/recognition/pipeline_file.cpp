@@ -11,7 +11,7 @@ namespace palpate {
 namespace {
 namespace js = json_numbers;
 
-[[noreturn]] void refuse(const std::string& what) { throw Error("model: " + what); }
+[[noreturn]] void refusePipelineFile(const std::string& what) { throw Error("model: " + what); }
 
 Json jsonOf(const GaussianClassifier& gaussian) {
   Json classes = Json::array();
@@ -32,7 +32,7 @@ GaussianClassifier gaussianFrom(const Json& json,
                                 Eigen::Index features) {
   const Json list = js::member(json, key);
   if (!list.isArray() || list.size() != numClasses)
-    refuse("'" + std::string(key) + "' hasn't one entry per class");
+    refusePipelineFile("'" + std::string(key) + "' hasn't one entry per class");
   GaussianClassifier gaussian;
   gaussian.classes.resize(numClasses);
   for (std::size_t c = 0; c < numClasses; ++c) {
@@ -60,13 +60,13 @@ SupportVectorMachine svmFrom(const Json& json, std::size_t numClasses, Eigen::In
   SupportVectorMachine svm;
   svm.numClasses = numClasses;
   const Json pairs = js::member(json, "pairs");
-  if (!pairs.isArray() || pairs.size() == 0) refuse("'pairs' is empty");
+  if (!pairs.isArray() || pairs.size() == 0) refusePipelineFile("'pairs' is empty");
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const Json pair = pairs.at(p);
-    if (pair.size() != 2) refuse("'pairs' holds something that is no pair");
+    if (pair.size() != 2) refusePipelineFile("'pairs' holds something that is no pair");
     const auto first = pair.at(0).asInteger(), second = pair.at(1).asInteger();
     if (first < 0 || second <= first || static_cast<std::size_t>(second) >= numClasses)
-      refuse("'pairs' names a class that isn't there");
+      refusePipelineFile("'pairs' names a class that isn't there");
     svm.pairs.emplace_back(static_cast<int>(first), static_cast<int>(second));
   }
   const auto count = static_cast<Eigen::Index>(svm.pairs.size());
@@ -127,24 +127,26 @@ ClassifierPipeline pipelineFrom(const Json& json) {
   ClassifierPipeline pipeline;
   const std::string name = js::text(json, "classifier");
   const auto kind = classifierNamed(name);
-  if (!kind) refuse("its classifier '" + name + "' isn't known to this version");
+  if (!kind) refusePipelineFile("its classifier '" + name + "' isn't known to this version");
   pipeline.classifier = *kind;
   pipeline.numClasses = js::count(json, "classes");
   if (*kind == ClassifierKind::kGauss) {
     pipeline.day = dayModelFrom(js::member(json, "day"));
-    if (pipeline.day->numClasses() != pipeline.numClasses) refuse("'day' has other classes");
+    if (pipeline.day->numClasses() != pipeline.numClasses)
+      refusePipelineFile("'day' has other classes");
     pipeline.calibrated = true;
     return pipeline;
   }
   const auto features = static_cast<Eigen::Index>(js::count(json, "features"));
-  if (pipeline.numClasses < 2 || features < 1) refuse("it has no classes or no features");
+  if (pipeline.numClasses < 2 || features < 1)
+    refusePipelineFile("it has no classes or no features");
   pipeline.standardisation.mean = js::vector(json, "mean", features);
   pipeline.standardisation.scale = js::vector(json, "scale", features);
   Eigen::Index inner = features;
   if (json.contains("discriminant")) {
     const Json part = json.at("discriminant");
     inner = static_cast<Eigen::Index>(js::count(part, "components"));
-    if (inner < 1 || inner > features) refuse("'components' is out of range");
+    if (inner < 1 || inner > features) refusePipelineFile("'components' is out of range");
     DiscriminantAnalysis discriminant;
     discriminant.mean = js::vector(part, "mean", features);
     discriminant.directions = js::matrix(part, "directions", features, inner);
@@ -160,7 +162,7 @@ ClassifierPipeline pipelineFrom(const Json& json) {
   if (pipeline.calibrated) {
     pipeline.sigmoids = sigmoidsFrom(json, pipeline.svm.pairs.size());
     pipeline.exponent = js::number(json, "exponent");
-    if (!(pipeline.exponent > 0.0)) refuse("'exponent' must be above 0");
+    if (!(pipeline.exponent > 0.0)) refusePipelineFile("'exponent' must be above 0");
     pipeline.novelty = gaussianFrom(json, "novelty", pipeline.numClasses, inner);
   }
   return pipeline;

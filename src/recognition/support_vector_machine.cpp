@@ -11,7 +11,7 @@
 namespace palpate {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuseSupportVectorMachine(const std::string& what) {
   throw std::invalid_argument("SupportVectorMachine: " + what);
 }
 
@@ -65,37 +65,40 @@ SupportVectorMachine SupportVectorMachine::of(const Eigen::MatrixXd& x,
                                               const SvmOptions& options) {
   options.validate();
   if (static_cast<std::size_t>(x.rows()) != y.size())
-    refuse(std::to_string(x.rows()) + " samples, " + std::to_string(y.size()) + " labels");
+    refuseSupportVectorMachine(std::to_string(x.rows()) + " samples, " + std::to_string(y.size()) +
+                               " labels");
   std::vector<bool> present(numClasses, false);
   for (const int label : y) {
     if (label < 0 || static_cast<std::size_t>(label) >= numClasses)
-      refuse("label " + std::to_string(label) + " of " + std::to_string(numClasses) + " classes");
+      refuseSupportVectorMachine("label " + std::to_string(label) + " of " +
+                                 std::to_string(numClasses) + " classes");
     present[static_cast<std::size_t>(label)] = true;
   }
   // OpenCV refuses by an exception of its own, printed on stderr: so nothing reaches it that it would refuse.
-  if (!x.allFinite()) refuse("a feature is no number");
-  if (x.cols() == 0) refuse("no features");
+  if (!x.allFinite()) refuseSupportVectorMachine("a feature is no number");
+  if (x.cols() == 0) refuseSupportVectorMachine("no features");
   SupportVectorMachine machine;
   machine.numClasses = numClasses;
   for (std::size_t a = 0; a < numClasses; ++a)  // OpenCV's order of pairs
     for (std::size_t b = a + 1; b < numClasses; ++b)
       if (present[a] && present[b])
         machine.pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
-  if (machine.pairs.empty()) refuse("fewer than two classes with samples");
+  if (machine.pairs.empty()) refuseSupportVectorMachine("fewer than two classes with samples");
   takePlanes(*trained(x, y, options), machine);
   return machine;
 }
 
 Eigen::MatrixXd SupportVectorMachine::decisions(const Eigen::MatrixXd& x) const {
   if (x.cols() != weights.cols())
-    refuse(std::to_string(x.cols()) + " features, fitted to " + std::to_string(weights.cols()));
+    refuseSupportVectorMachine(std::to_string(x.cols()) + " features, fitted to " +
+                               std::to_string(weights.cols()));
   return (x * weights.transpose()).rowwise() + offsets.transpose();
 }
 
 Eigen::VectorXd SupportVectorMachine::votes(const Eigen::VectorXd& decisions) const {
   if (static_cast<std::size_t>(decisions.size()) != pairs.size())
-    refuse(std::to_string(decisions.size()) + " decisions of " + std::to_string(pairs.size()) +
-           " pairs");
+    refuseSupportVectorMachine(std::to_string(decisions.size()) + " decisions of " +
+                               std::to_string(pairs.size()) + " pairs");
   const auto classes = static_cast<Eigen::Index>(numClasses);
   Eigen::VectorXd votes = Eigen::VectorXd::Zero(classes), distance = votes;
   for (std::size_t p = 0; p < pairs.size(); ++p) {

@@ -41,9 +41,9 @@ std::vector<std::size_t> rowsOf(const SampleSet& samples, int wanted) {
   return rows;
 }
 
-UnknownReport reportOf(const SampleSet& samples,
-                       const std::vector<double>& known,
-                       const std::vector<std::vector<double>>& ofClass) {
+UnknownReport unknownObjectsReportOf(const SampleSet& samples,
+                                     const std::vector<double>& known,
+                                     const std::vector<std::vector<double>>& ofClass) {
   UnknownReport report;
   std::vector<double> unknown;
   for (std::size_t c = 0; c < ofClass.size(); ++c) {
@@ -101,7 +101,7 @@ UnknownReport unknownWithin(const SampleSet& samples,
         ofClass[c].assign(novelty.begin(), novelty.end());
       },
       part(kKnownPart, 1.0));
-  return reportOf(present, known, ofClass);
+  return unknownObjectsReportOf(present, known, ofClass);
 }
 
 UnknownReport unknownOnAnotherDay(const SampleSet& training,
@@ -146,7 +146,7 @@ UnknownReport unknownOnAnotherDay(const SampleSet& training,
                 offsetOf(offset == StrangerOffset::kKnown ? whole : rest, day.x, offset),
                 ofClass[static_cast<std::size_t>(c)]);
   }
-  return reportOf(later, known, ofClass);
+  return unknownObjectsReportOf(later, known, ofClass);
 }
 
 Json jsonOf(const UnknownReport& report) {

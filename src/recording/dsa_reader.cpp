@@ -16,13 +16,13 @@ namespace {
 
 constexpr std::uint64_t kBytesPerReport = 256u << 10;  // of XML, between two calls of Progress
 // A bzip2 block holds at most 900 kB, which its first run-length code can stretch 51 times.
-constexpr std::uint64_t kMaxBlockBytes = 46u << 20;
+constexpr std::uint64_t kDsaReaderMaxBlockBytes = 46u << 20;
 
 // Wrong data of a damaged bzip2 block comes out before the block's checksum: nonsense in the text
 // may be only the echo of that. Reads on to the end of the block; throws when it is damaged.
 void blameContainer(DsaText& text) {
   if (!text.compressed()) return;
-  for (std::uint64_t bytes = 0; bytes <= kMaxBlockBytes;) {
+  for (std::uint64_t bytes = 0; bytes <= kDsaReaderMaxBlockBytes;) {
     const std::size_t size = text.next().size();
     if (size == 0) return;
     bytes += size;

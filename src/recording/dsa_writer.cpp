@@ -245,7 +245,7 @@ class Writer {
 };
 
 // A negative value would be read as a run of zeros: better no file than a wrong one.
-void requireStorable(const Profile& profile, const std::filesystem::path& path) {
+void dsaWriterRequireStorable(const Profile& profile, const std::filesystem::path& path) {
   if (profile.info().valueType == ValueType::kCounts) return;
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
@@ -266,7 +266,7 @@ void writeDsa(const Profile& profile,
               const std::filesystem::path& path,
               Overwrite overwrite,
               const Progress& progress) {
-  requireStorable(profile, path);
+  dsaWriterRequireStorable(profile, path);
   Bzip2Output output(path, overwrite);
   Writer(profile, output, progress).write();
   output.commit();

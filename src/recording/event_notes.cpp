@@ -12,8 +12,8 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kFormat = "palpate notes";
-constexpr std::int64_t kVersion = 1;
+constexpr std::string_view kEventNotesFormat = "palpate notes";
+constexpr std::int64_t kEventNotesVersion = 1;
 constexpr std::uintmax_t kLargestSidecar = 64u << 20;
 
 RecordingEvent eventFrom(const Json& json) {
@@ -61,11 +61,12 @@ void forEachNote(const fs::path& recording, const std::function<void(const Json&
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   try {
     const Json json = Json::parse(text);
-    if (!json.isObject() || json.at("format").asString() != kFormat)
+    if (!json.isObject() || json.at("format").asString() != kEventNotesFormat)
       throw Error("is no file of notes");
-    if (json.at("version").asInteger() != kVersion)
+    if (json.at("version").asInteger() != kEventNotesVersion)
       throw Error("has version " + std::to_string(json.at("version").asInteger()) +
-                  " of the format; this program reads version " + std::to_string(kVersion));
+                  " of the format; this program reads version " +
+                  std::to_string(kEventNotesVersion));
     const Json events = json.at("events");
     if (!events.isArray()) throw Error("has no list of events");
     for (std::size_t i = 0; i < events.size(); ++i) take(events.at(i));
@@ -76,8 +77,8 @@ void forEachNote(const fs::path& recording, const std::function<void(const Json&
 
 std::string sidecarText(Json events) {
   return Json::object()
-             .set("format", kFormat)
-             .set("version", kVersion)
+             .set("format", kEventNotesFormat)
+             .set("version", kEventNotesVersion)
              .set("events", std::move(events))
              .text() +
          "\n";

@@ -47,7 +47,7 @@ EventCounts happened(std::span<const RecordingEvent> events) {
   return counts;
 }
 
-void requireStorable(const EventsReport& asRead, std::span<const RecordingEvent> events) {
+void eventStoreRequireStorable(const EventsReport& asRead, std::span<const RecordingEvent> events) {
   for (const RecordingEvent& event : events) {
     if (event.kind.empty()) throw std::invalid_argument("event: has no kind");
     if (event.t1Us < event.tUs) throw std::invalid_argument("event: ends before it begins");
@@ -105,7 +105,7 @@ std::unique_ptr<RecordingLock> locked(const fs::path& recording, const fs::path&
   }
 }
 
-std::pair<std::uint64_t, std::uint64_t> identityOf(const fs::path& path) {
+std::pair<std::uint64_t, std::uint64_t> eventStoreIdentityOf(const fs::path& path) {
   struct stat facts {};
   if (::stat(path.c_str(), &facts) != 0) return {};
   return {facts.st_dev, facts.st_ino};
@@ -159,7 +159,7 @@ void saveRows(const fs::path& given,
   requireWritableBy(path, path);
   requireFinished(path);
   const auto lock = locked(path, path);
-  const auto file = identityOf(path);
+  const auto file = eventStoreIdentityOf(path);
   SqliteDatabase database(path, SqliteDatabase::Mode::kReadWrite, options.vfs);
   const std::uintmax_t size = fs::file_size(path, ignored);
   database.limitWork(ignored ? 0 : size);
@@ -181,7 +181,7 @@ void saveRows(const fs::path& given,
     database.rollBack();
     throw;
   }
-  if (identityOf(path) != file)
+  if (eventStoreIdentityOf(path) != file)
     throw FileError(path, "was deleted or replaced while its notes were being saved");
 }
 
@@ -207,7 +207,7 @@ void saveEvents(const fs::path& path,
                 const EventsReport& asRead,
                 std::span<const RecordingEvent> events,
                 const SaveEventsOptions& options) {
-  requireStorable(asRead, events);
+  eventStoreRequireStorable(asRead, events);
   requireThere(path);
   if (isNativeRecording(path))
     saveRows(path, asRead, events, options);

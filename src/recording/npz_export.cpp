@@ -3,6 +3,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
+#include "palpate/core/time.h"
 #include "palpate/recording/table_export.h"
 
 #include "recording/event_notes.h"
@@ -12,8 +13,7 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::int64_t kUsPerMs = 1000;
-constexpr std::size_t kPieceBytes = 1u << 16;
+constexpr std::size_t kNpzExportPieceBytes = 1u << 16;
 
 // The head of a .npy file, format 1.0 (numpy.lib.format): magic, version, length, a Python literal.
 std::string npyHead(const std::string& type, const std::vector<std::size_t>& shape) {
@@ -61,7 +61,7 @@ class NpyArray {
  private:
   void put(std::uint64_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) buffer_ += static_cast<char>(value >> 8 * i & 0xFF);
-    if (buffer_.size() >= kPieceBytes) flush();
+    if (buffer_.size() >= kNpzExportPieceBytes) flush();
   }
   void flush() {
     zip_.write(buffer_);
@@ -80,11 +80,11 @@ void writeTimes(ZipWriter& zip, const std::string& name, std::size_t count, Time
 }
 
 template <typename ValuesOf>
-void writeSamples(ZipWriter& zip,
-                  const std::string& name,
-                  std::size_t count,
-                  std::size_t width,
-                  ValuesOf valuesOf) {
+void npzExportWriteSamples(ZipWriter& zip,
+                           const std::string& name,
+                           std::size_t count,
+                           std::size_t width,
+                           ValuesOf valuesOf) {
   NpyArray array(zip, name, "<f8", 8, {count, width});
   for (std::size_t i = 0; i < count; ++i)
     for (double value : valuesOf(i)) array.f64(value);
@@ -159,7 +159,7 @@ void writeNpz(const Profile& profile,
   for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m)
     writeMatrix(zip, profile, m, progress);
   const std::size_t axes = profile.numAngles() > 0 ? profile.angles(0).deg.size() : 0;
-  writeSamples(zip, "angles", profile.numAngles(), axes, [&](std::size_t i) {
+  npzExportWriteSamples(zip, "angles", profile.numAngles(), axes, [&](std::size_t i) {
     return profile.angles(i).deg;
   });
   writeTimes(zip, "angle_time_ms", profile.numAngles(), [&](std::size_t i) {
@@ -167,9 +167,10 @@ void writeNpz(const Profile& profile,
   });
   const std::size_t sensors =
       profile.numTemperatures() > 0 ? profile.temperatures(0).degC.size() : 0;
-  writeSamples(zip, "temperatures", profile.numTemperatures(), sensors, [&](std::size_t i) {
-    return profile.temperatures(i).degC;
-  });
+  npzExportWriteSamples(
+      zip, "temperatures", profile.numTemperatures(), sensors, [&](std::size_t i) {
+        return profile.temperatures(i).degC;
+      });
   writeTimes(zip, "temperature_time_ms", profile.numTemperatures(), [&](std::size_t i) {
     return profile.temperatureTimeUs(i);
   });

@@ -15,14 +15,14 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-std::pair<std::uint64_t, std::uint64_t> identityOf(const fs::path& path) {
+std::pair<std::uint64_t, std::uint64_t> palpateAccessIdentityOf(const fs::path& path) {
   struct stat facts {};
   if (::stat(path.c_str(), &facts) != 0) return {};
   return {facts.st_dev, facts.st_ino};
 }
 
 // Which journal lies there, to see whether it still does; nothing is different from any.
-std::array<std::int64_t, 5> stampOf(const fs::path& path) {
+std::array<std::int64_t, 5> palpateAccessStampOf(const fs::path& path) {
   struct stat facts {};
   if (::stat(path.c_str(), &facts) != 0) return {};
   return {static_cast<std::int64_t>(facts.st_dev),
@@ -77,7 +77,7 @@ void PalpateAccess::open(const fs::path& path) {
   const std::uintmax_t size = fs::file_size(path, failure);
   if (failure) throw FileError(path, "can't be read: " + failure.message());
   path_ = path;
-  file_ = identityOf(path);
+  file_ = palpateAccessIdentityOf(path);
   const bool isHeld = RecordingLock::isHeld(path) || !copyHot();
   if (!copyFolder_.empty()) {
     database_ = std::make_unique<SqliteDatabase>(copyFolder_ / "copy.palpate",
@@ -109,15 +109,16 @@ void PalpateAccess::open(const fs::path& path) {
 bool PalpateAccess::copyHot() {
   std::error_code ignored;
   while (hasHotJournal(path_)) {
-    const auto journal = stampOf(journalPathOf(path_));
+    const auto journal = palpateAccessStampOf(journalPathOf(path_));
     if (RecordingLock::isHeld(path_)) return false;
     try {
       copyFolder_ = copyWithJournal(path_);
     } catch (const FileError&) {
-      if (stampOf(journalPathOf(path_)) == journal) throw;
+      if (palpateAccessStampOf(journalPathOf(path_)) == journal) throw;
     }
     // Somebody's commit, not a dead one's, when the journal has gone or changed meanwhile.
-    if (stampOf(journalPathOf(path_)) == journal && !RecordingLock::isHeld(path_)) return true;
+    if (palpateAccessStampOf(journalPathOf(path_)) == journal && !RecordingLock::isHeld(path_))
+      return true;
     fs::remove_all(copyFolder_, ignored);
     copyFolder_.clear();
   }
@@ -131,7 +132,7 @@ void PalpateAccess::readBlocksOnly() {
   database->limitWork(fs::file_size(path_, ignored));
   database->execute("PRAGMA cell_size_check=ON");
   database->prepare("SELECT 1 FROM block LIMIT 1").next();  // reads the schema while nobody writes
-  if (identityOf(path_) != file_)
+  if (palpateAccessIdentityOf(path_) != file_)
     throw FileError(path_, "was replaced while it was being opened; open it again");
   database_ = std::move(database);
 }

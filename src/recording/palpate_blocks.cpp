@@ -17,7 +17,7 @@ constexpr std::size_t kLongestItem = kItemHeadBytes + 8 * kMaxPlaces;
 constexpr std::int64_t kMostItems = kMaxBlockBytes / kItemHeadBytes;
 constexpr std::int64_t kLatestUs = std::int64_t{1} << 60;  // the year 38505
 
-void putLittle(std::vector<std::byte>& out, std::uint64_t value, int bytes) {
+void palpateBlocksPutLittle(std::vector<std::byte>& out, std::uint64_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> 8 * i & 0xFF));
 }
 
@@ -51,7 +51,8 @@ void BlockPacker::addFrame(std::int64_t hostUs,
   // Values that don't repeat are shorter as they are than as runs of one.
   if (coding == FrameCoding::kFloats && item_.size() > 4 * values.size()) {
     item_.clear();
-    for (float value : values) putLittle(item_, std::bit_cast<std::uint32_t>(value), 4);
+    for (float value : values)
+      palpateBlocksPutLittle(item_, std::bit_cast<std::uint32_t>(value), 4);
     add(hostUs, deviceMs, BlockCoding::kPlainF32);
   } else {
     add(hostUs,
@@ -66,9 +67,9 @@ void BlockPacker::addSample(std::int64_t hostUs, std::span<const double> values)
   item_.clear();
   for (double value : values) {
     if (single)
-      putLittle(item_, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
+      palpateBlocksPutLittle(item_, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
     else
-      putLittle(item_, std::bit_cast<std::uint64_t>(value), 8);
+      palpateBlocksPutLittle(item_, std::bit_cast<std::uint64_t>(value), 8);
   }
   add(hostUs, std::nullopt, single ? BlockCoding::kPlainF32 : BlockCoding::kPlainF64);
 }
@@ -85,8 +86,9 @@ void BlockPacker::add(std::int64_t hostUs,
     block_.t0Us = hostUs;
     block_.coding = coding;
   }
-  putLittle(block_.data, static_cast<std::uint64_t>(hostUs - block_.t0Us), 4);
-  putLittle(block_.data, static_cast<std::uint64_t>(deviceMs.value_or(kNoDeviceTime)), 8);
+  palpateBlocksPutLittle(block_.data, static_cast<std::uint64_t>(hostUs - block_.t0Us), 4);
+  palpateBlocksPutLittle(
+      block_.data, static_cast<std::uint64_t>(deviceMs.value_or(kNoDeviceTime)), 8);
   block_.data.insert(block_.data.end(), item_.begin(), item_.end());
   block_.t1Us = hostUs;
   ++block_.n;

@@ -15,7 +15,7 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-fs::path withEnding(const fs::path& path, const char* ending) {
+fs::path palpateLockWithEnding(const fs::path& path, const char* ending) {
   fs::path other = path;
   other += ending;
   return other;
@@ -23,8 +23,10 @@ fs::path withEnding(const fs::path& path, const char* ending) {
 
 }  // namespace
 
-fs::path lockPathOf(const fs::path& recording) { return withEnding(recording, ".lock"); }
-fs::path journalPathOf(const fs::path& recording) { return withEnding(recording, "-journal"); }
+fs::path lockPathOf(const fs::path& recording) { return palpateLockWithEnding(recording, ".lock"); }
+fs::path journalPathOf(const fs::path& recording) {
+  return palpateLockWithEnding(recording, "-journal");
+}
 
 void refuseForeignJournal(const fs::path& recording) {
   std::error_code failure;

@@ -16,7 +16,7 @@ namespace {
 // Per second: i64 t_s, then per matrix u32 frames, f32 min, f32 max, f64 sum, u32 active_max.
 constexpr std::size_t kMatrixBytes = 4 + 4 + 4 + 8 + 4;
 
-void putLittle(std::vector<std::byte>& out, std::uint64_t value, int bytes) {
+void palpateOverviewPutLittle(std::vector<std::byte>& out, std::uint64_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> 8 * i & 0xFF));
 }
 
@@ -53,15 +53,17 @@ std::int64_t writeOverview(SqliteDatabase& database, std::size_t numMatrices) {
   while (rows.next()) {
     if (rows.integer(1) == 0) {
       if (data.size() + 8 + numMatrices * kMatrixBytes > kMaxBlockBytes) flush();
-      putLittle(data, static_cast<std::uint64_t>(rows.integer(0)), 8);
+      palpateOverviewPutLittle(data, static_cast<std::uint64_t>(rows.integer(0)), 8);
       ++inRow;
       ++seconds;
     }
-    putLittle(data, static_cast<std::uint64_t>(rows.integer(2)), 4);
-    putLittle(data, std::bit_cast<std::uint32_t>(static_cast<float>(rows.real(3))), 4);
-    putLittle(data, std::bit_cast<std::uint32_t>(static_cast<float>(rows.real(4))), 4);
-    putLittle(data, std::bit_cast<std::uint64_t>(rows.real(5)), 8);
-    putLittle(data, static_cast<std::uint64_t>(rows.integer(6)), 4);
+    palpateOverviewPutLittle(data, static_cast<std::uint64_t>(rows.integer(2)), 4);
+    palpateOverviewPutLittle(
+        data, std::bit_cast<std::uint32_t>(static_cast<float>(rows.real(3))), 4);
+    palpateOverviewPutLittle(
+        data, std::bit_cast<std::uint32_t>(static_cast<float>(rows.real(4))), 4);
+    palpateOverviewPutLittle(data, std::bit_cast<std::uint64_t>(rows.real(5)), 8);
+    palpateOverviewPutLittle(data, static_cast<std::uint64_t>(rows.integer(6)), 4);
   }
   flush();
   return seconds;

@@ -34,7 +34,7 @@ struct Findings {
 
 // Runs a piece of reading; what SQLite refuses is remembered, not thrown.
 template <typename Work>
-void attempt(PalpateSalvage& salvage, Work work) {
+void attemptPalpateSalvage(PalpateSalvage& salvage, Work work) {
   try {
     work();
   } catch (const Cancelled&) {
@@ -84,21 +84,23 @@ void readBySql(const fs::path& path,
   salvage.beingWritten = access.beingWritten();
   found.meta = access.meta();
   salvage.damagedRows += found.meta.damaged;
-  attempt(salvage, [&] { readBlocks(database, found, salvage, progress); });
-  attempt(salvage, [&] { found.layout = std::make_shared<SensorLayout>(readLayout(database)); });
-  attempt(salvage, [&] {
+  attemptPalpateSalvage(salvage, [&] { readBlocks(database, found, salvage, progress); });
+  attemptPalpateSalvage(
+      salvage, [&] { found.layout = std::make_shared<SensorLayout>(readLayout(database)); });
+  attemptPalpateSalvage(salvage, [&] {
     EventsReport events = readEventRows(database);
     salvage.events = std::move(events.events);
     salvage.damagedRows += events.damaged;
   });
-  attempt(salvage, [&] { found.seconds = readSecondRows(database, found.damagedSeconds); });
-  attempt(salvage, [&] {
+  attemptPalpateSalvage(salvage,
+                        [&] { found.seconds = readSecondRows(database, found.damagedSeconds); });
+  attemptPalpateSalvage(salvage, [&] {
     const auto numSeconds = found.meta.integer("seconds");
     found.hasOverview = numSeconds && *numSeconds > 0;
     if (found.hasOverview && found.layout)
       found.overview = readOverview(database, found.layout->numMatrices(), *numSeconds);
   });
-  attempt(salvage, [&] { checkIntegrity(database); });
+  attemptPalpateSalvage(salvage, [&] { checkIntegrity(database); });
 }
 
 void scanFile(const fs::path& path,
@@ -287,7 +289,7 @@ void buildProfile(const fs::path& path,
 PalpateSalvage salvagePalpate(const fs::path& path, const Progress& progress) {
   PalpateSalvage salvage;
   Findings found;
-  attempt(salvage, [&] { readBySql(path, found, salvage, progress); });
+  attemptPalpateSalvage(salvage, [&] { readBySql(path, found, salvage, progress); });
   bool doubtful =
       !salvage.sqliteError.empty() || salvage.damagedBlocks > 0 || found.meta.damaged > 0;
   for (Stream stream : kStreams) {

@@ -9,7 +9,7 @@
 namespace palpate {
 namespace {
 
-std::array<unsigned char, 8> little(std::uint64_t value) {
+std::array<unsigned char, 8> palpateSchemaLittle(std::uint64_t value) {
   std::array<unsigned char, 8> bytes{};
   for (std::size_t i = 0; i < bytes.size(); ++i)
     bytes[i] = static_cast<unsigned char>(value >> 8 * i);
@@ -24,13 +24,13 @@ std::uint32_t crcOf(std::uint32_t crc, const void* bytes, std::size_t size) {
 }  // namespace
 
 RowCrc& RowCrc::integer(std::int64_t value) {
-  const auto bytes = little(static_cast<std::uint64_t>(value));
+  const auto bytes = palpateSchemaLittle(static_cast<std::uint64_t>(value));
   crc_ = crcOf(crc_, bytes.data(), bytes.size());
   return *this;
 }
 
 RowCrc& RowCrc::real(double value) {
-  const auto bytes = little(std::bit_cast<std::uint64_t>(value));
+  const auto bytes = palpateSchemaLittle(std::bit_cast<std::uint64_t>(value));
   crc_ = crcOf(crc_, bytes.data(), bytes.size());
   return *this;
 }

@@ -26,14 +26,14 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kFormat = "palpate library";
-constexpr std::int64_t kVersion = 1;
+constexpr std::string_view kRecordingCatalogFormat = "palpate library";
+constexpr std::int64_t kRecordingCatalogVersion = 1;
 constexpr std::uintmax_t kLargestCache = 256u << 20;
 
 // Tells whether a recording and its sidecar are what they were: size, time of change and of status of both.
 using Stamp = std::array<std::int64_t, 6>;
 
-void stampOf(const fs::path& path, std::span<std::int64_t, 3> out) {
+void recordingCatalogStampOf(const fs::path& path, std::span<std::int64_t, 3> out) {
   constexpr std::int64_t kNsPerS = 1'000'000'000;
   struct stat facts {};
   if (::stat(path.c_str(), &facts) != 0) return;
@@ -42,11 +42,11 @@ void stampOf(const fs::path& path, std::span<std::int64_t, 3> out) {
   out[2] = facts.st_ctim.tv_sec * kNsPerS + facts.st_ctim.tv_nsec;
 }
 
-Stamp stampOf(const fs::path& recording) {
+Stamp recordingCatalogStampOf(const fs::path& recording) {
   Stamp stamp{};
   const std::span<std::int64_t, 6> all(stamp);
-  stampOf(recording, all.first<3>());
-  stampOf(notesPathOf(recording), all.last<3>());
+  recordingCatalogStampOf(recording, all.first<3>());
+  recordingCatalogStampOf(notesPathOf(recording), all.last<3>());
   return stamp;
 }
 
@@ -124,7 +124,8 @@ Entries readCache(const fs::path& path) {
   Entries entries;
   try {
     const Json json = Json::parse(text);
-    if (json.at("format").asString() != kFormat || json.at("version").asInteger() != kVersion)
+    if (json.at("format").asString() != kRecordingCatalogFormat ||
+        json.at("version").asInteger() != kRecordingCatalogVersion)
       return {};
     const Json list = json.at("recordings");
     for (std::size_t i = 0; i < list.size(); ++i) entries.insert(fromJson(list.at(i)));
@@ -142,8 +143,8 @@ void writeCache(const fs::path& path, const Entries& entries) {
   for (const auto& [name, entry] : entries) list.push(toJson(name, entry));
   OutputFile file(path, Overwrite::kReplace);
   file.write(Json::object()
-                 .set("format", kFormat)
-                 .set("version", kVersion)
+                 .set("format", kRecordingCatalogFormat)
+                 .set("version", kRecordingCatalogVersion)
                  .set("recordings", std::move(list))
                  .text(-1));
   file.write("\n");
@@ -192,7 +193,7 @@ class CatalogRun {
     double bytesToRead = 0.0;
     for (fs::path& file : listing.files) {
       if (progress && !progress(0.0)) throw Cancelled();
-      const Stamp stamp = stampOf(file);
+      const Stamp stamp = recordingCatalogStampOf(file);
       const auto found = known_.find(keyOf(file));
       if (found != known_.end() && found->second.stamp == stamp) {
         found->second.details.path = file;

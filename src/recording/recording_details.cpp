@@ -114,7 +114,7 @@ void fail(RecordingDetails& details, State state, std::string message) {
 
 // Runs a piece of reading; what goes wrong is said in the details.
 template <typename Work>
-void attempt(RecordingDetails& details, Work work) {
+void attemptRecordingDetails(RecordingDetails& details, Work work) {
   try {
     work();
   } catch (const Cancelled&) {
@@ -153,13 +153,13 @@ RecordingDetails readDetails(const fs::path& path, const Progress& progress) {
     details.changedUs =
         std::int64_t{facts.st_mtim.tv_sec} * 1'000'000 + facts.st_mtim.tv_nsec / 1000;
   }
-  attempt(details, [&] {
+  attemptRecordingDetails(details, [&] {
     if (isNativeRecording(path)) return readNative(details);
     readDsaThrough(details, progress);
   });
   if (details.form == "dsa") {
     const State state = details.state;
-    attempt(details, [&] { addEvents(details, readEventNotes(path)); });
+    attemptRecordingDetails(details, [&] { addEvents(details, readEventNotes(path)); });
     if (state == State::kFinished && details.state != state) {
       // The recording itself is sound: its notes are not.
       details.state = State::kFinished;

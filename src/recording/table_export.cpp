@@ -2,16 +2,16 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::int64_t kUsPerMs = 1000;
-constexpr std::size_t kPieceBytes = 1u << 16;
+constexpr std::size_t kTableExportPieceBytes = 1u << 16;
 
 void writePiece(OutputFile& out, std::string& text, bool last = false) {
-  if (!last && text.size() < kPieceBytes) return;
+  if (!last && text.size() < kTableExportPieceBytes) return;
   out.write(text);
   text.clear();
 }
@@ -23,11 +23,11 @@ void appendInteger(std::string& text, std::int64_t value) {
 
 // One row per sample: time and a column per value, named with its unit.
 template <typename TimeOf, typename ValuesOf>
-void writeSamples(OutputFile& out,
-                  const std::string& header,
-                  std::size_t count,
-                  TimeOf timeOf,
-                  ValuesOf valuesOf) {
+void tableExportWriteSamples(OutputFile& out,
+                             const std::string& header,
+                             std::size_t count,
+                             TimeOf timeOf,
+                             ValuesOf valuesOf) {
   std::string text = header;
   for (std::size_t i = 0; i < count; ++i) {
     appendNumber(text, static_cast<std::int64_t>(i));
@@ -50,7 +50,7 @@ std::string sampleHeader(std::size_t columns, const char* name, const char* unit
   return header + "\n";
 }
 
-fs::path withEnding(const fs::path& path, const char* ending) {
+fs::path tableExportWithEnding(const fs::path& path, const char* ending) {
   fs::path other = path;
   other += ending;
   return other;
@@ -66,9 +66,10 @@ void writeCsv(const Profile& profile,
   OutputFile taxels(path, overwrite);
   std::optional<OutputFile> angles;
   std::optional<OutputFile> temperatures;
-  if (profile.numAngles() > 0) angles.emplace(withEnding(path, ".angles.csv"), overwrite);
+  if (profile.numAngles() > 0)
+    angles.emplace(tableExportWithEnding(path, ".angles.csv"), overwrite);
   if (profile.numTemperatures() > 0)
-    temperatures.emplace(withEnding(path, ".temperatures.csv"), overwrite);
+    temperatures.emplace(tableExportWithEnding(path, ".temperatures.csv"), overwrite);
 
   std::string text = "frame,time_ms,matrix,y,x,value\n";
   TactileFrame frame;
@@ -96,14 +97,14 @@ void writeCsv(const Profile& profile,
   }
   writePiece(taxels, text, true);
   if (angles)
-    writeSamples(
+    tableExportWriteSamples(
         *angles,
         sampleHeader(profile.angles(0).deg.size(), "axis", "deg"),
         profile.numAngles(),
         [&](std::size_t i) { return profile.angleTimeUs(i); },
         [&](std::size_t i) { return profile.angles(i).deg; });
   if (temperatures)
-    writeSamples(
+    tableExportWriteSamples(
         *temperatures,
         sampleHeader(profile.temperatures(0).degC.size(), "sensor", "degc"),
         profile.numTemperatures(),

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t kUsPerS = 1'000'000;
 constexpr std::int64_t kNsPerUs = 1000;
-constexpr std::size_t kPieceBytes = 1U << 16;
+constexpr std::size_t kTactileSensorJsonPieceBytes = 1U << 16;
 constexpr std::size_t kFramesPerReport = 256;
 
 // As int16[] has it.
@@ -69,7 +69,7 @@ void writeTactileSensorLines(const Profile& profile,
     profile.readFrame(i, frame);
     appendTactileSensorJson(text, frame, i);
     text += '\n';
-    if (text.size() < kPieceBytes) continue;
+    if (text.size() < kTactileSensorJsonPieceBytes) continue;
     file.write(text);
     text.clear();
   }

@@ -6,24 +6,24 @@ namespace palpate {
 namespace {
 
 // PKWARE APPNOTE.TXT 6.3: local file header, central directory, zip64 records.
-constexpr std::uint16_t kVersion = 45;               // 4.5: zip64
+constexpr std::uint16_t kZipWriterVersion = 45;      // 4.5: zip64
 constexpr std::uint16_t kChecksumFollows = 1u << 3;  // general purpose flag
 constexpr std::uint32_t kMax32 = 0xFFFFFFFF;
 constexpr std::uint16_t kDosDate =
     0x0021;  // 1980-01-01: files do not depend on when they were made
 
-void little(std::string& out, std::uint64_t value, int bytes) {
+void zipWriterLittle(std::string& out, std::uint64_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> 8 * i & 0xFF);
 }
 
 // Extra field 1: sizes and offset as 64-bit numbers.
 std::string zip64(std::uint64_t size, bool withOffset, std::uint64_t offset) {
   std::string extra;
-  little(extra, 1, 2);
-  little(extra, withOffset ? 24 : 16, 2);
-  little(extra, size, 8);
-  little(extra, size, 8);
-  if (withOffset) little(extra, offset, 8);
+  zipWriterLittle(extra, 1, 2);
+  zipWriterLittle(extra, withOffset ? 24 : 16, 2);
+  zipWriterLittle(extra, size, 8);
+  zipWriterLittle(extra, size, 8);
+  if (withOffset) zipWriterLittle(extra, offset, 8);
   return extra;
 }
 
@@ -38,17 +38,17 @@ void ZipWriter::begin(std::string_view name, std::uint64_t size) {
   entries_.push_back({std::string(name), size, position_});
   const std::string extra = zip64(size, false, 0);
   std::string head;
-  little(head, 0x04034B50, 4);
-  little(head, kVersion, 2);
-  little(head, kChecksumFollows, 2);
-  little(head, 0, 2);  // stored
-  little(head, 0, 2);  // time
-  little(head, kDosDate, 2);
-  little(head, 0, 4);       // checksum
-  little(head, kMax32, 4);  // sizes stand in the extra field
-  little(head, kMax32, 4);
-  little(head, name.size(), 2);
-  little(head, extra.size(), 2);
+  zipWriterLittle(head, 0x04034B50, 4);
+  zipWriterLittle(head, kZipWriterVersion, 2);
+  zipWriterLittle(head, kChecksumFollows, 2);
+  zipWriterLittle(head, 0, 2);  // stored
+  zipWriterLittle(head, 0, 2);  // time
+  zipWriterLittle(head, kDosDate, 2);
+  zipWriterLittle(head, 0, 4);       // checksum
+  zipWriterLittle(head, kMax32, 4);  // sizes stand in the extra field
+  zipWriterLittle(head, kMax32, 4);
+  zipWriterLittle(head, name.size(), 2);
+  zipWriterLittle(head, extra.size(), 2);
   put(head + std::string(name) + extra);
 }
 
@@ -64,10 +64,10 @@ void ZipWriter::write(std::string_view bytes) {
 void ZipWriter::end() {
   const Entry& entry = entries_.back();
   std::string descriptor;
-  little(descriptor, 0x08074B50, 4);
-  little(descriptor, entry.crc, 4);
-  little(descriptor, entry.size, 8);
-  little(descriptor, entry.size, 8);
+  zipWriterLittle(descriptor, 0x08074B50, 4);
+  zipWriterLittle(descriptor, entry.crc, 4);
+  zipWriterLittle(descriptor, entry.size, 8);
+  zipWriterLittle(descriptor, entry.size, 8);
   put(descriptor);
 }
 
@@ -82,49 +82,49 @@ void ZipWriter::finish() {
   for (const Entry& entry : entries_) {
     const std::string extra = zip64(entry.size, true, entry.offset);
     std::string row;
-    little(row, 0x02014B50, 4);
-    little(row, kVersion, 2);
-    little(row, kVersion, 2);
-    little(row, kChecksumFollows, 2);
-    little(row, 0, 2);  // stored
-    little(row, 0, 2);  // time
-    little(row, kDosDate, 2);
-    little(row, entry.crc, 4);
-    little(row, kMax32, 4);
-    little(row, kMax32, 4);
-    little(row, entry.name.size(), 2);
-    little(row, extra.size(), 2);
-    little(row, 0, 2);  // comment
-    little(row, 0, 2);  // disk
-    little(row, 0, 2);  // attributes
-    little(row, 0, 4);
-    little(row, kMax32, 4);  // offset
+    zipWriterLittle(row, 0x02014B50, 4);
+    zipWriterLittle(row, kZipWriterVersion, 2);
+    zipWriterLittle(row, kZipWriterVersion, 2);
+    zipWriterLittle(row, kChecksumFollows, 2);
+    zipWriterLittle(row, 0, 2);  // stored
+    zipWriterLittle(row, 0, 2);  // time
+    zipWriterLittle(row, kDosDate, 2);
+    zipWriterLittle(row, entry.crc, 4);
+    zipWriterLittle(row, kMax32, 4);
+    zipWriterLittle(row, kMax32, 4);
+    zipWriterLittle(row, entry.name.size(), 2);
+    zipWriterLittle(row, extra.size(), 2);
+    zipWriterLittle(row, 0, 2);  // comment
+    zipWriterLittle(row, 0, 2);  // disk
+    zipWriterLittle(row, 0, 2);  // attributes
+    zipWriterLittle(row, 0, 4);
+    zipWriterLittle(row, kMax32, 4);  // offset
     put(row + entry.name + extra);
   }
   const std::uint64_t size = position_ - start;
   std::string end;
-  little(end, 0x06064B50, 4);  // zip64 end of central directory
-  little(end, 44, 8);
-  little(end, kVersion, 2);
-  little(end, kVersion, 2);
-  little(end, 0, 4);
-  little(end, 0, 4);
-  little(end, entries_.size(), 8);
-  little(end, entries_.size(), 8);
-  little(end, size, 8);
-  little(end, start, 8);
-  little(end, 0x07064B50, 4);  // its locator
-  little(end, 0, 4);
-  little(end, position_, 8);
-  little(end, 1, 4);
-  little(end, 0x06054B50, 4);  // end of central directory
-  little(end, 0, 2);
-  little(end, 0, 2);
-  little(end, 0xFFFF, 2);
-  little(end, 0xFFFF, 2);
-  little(end, kMax32, 4);
-  little(end, kMax32, 4);
-  little(end, 0, 2);
+  zipWriterLittle(end, 0x06064B50, 4);  // zip64 end of central directory
+  zipWriterLittle(end, 44, 8);
+  zipWriterLittle(end, kZipWriterVersion, 2);
+  zipWriterLittle(end, kZipWriterVersion, 2);
+  zipWriterLittle(end, 0, 4);
+  zipWriterLittle(end, 0, 4);
+  zipWriterLittle(end, entries_.size(), 8);
+  zipWriterLittle(end, entries_.size(), 8);
+  zipWriterLittle(end, size, 8);
+  zipWriterLittle(end, start, 8);
+  zipWriterLittle(end, 0x07064B50, 4);  // its locator
+  zipWriterLittle(end, 0, 4);
+  zipWriterLittle(end, position_, 8);
+  zipWriterLittle(end, 1, 4);
+  zipWriterLittle(end, 0x06054B50, 4);  // end of central directory
+  zipWriterLittle(end, 0, 2);
+  zipWriterLittle(end, 0, 2);
+  zipWriterLittle(end, 0xFFFF, 2);
+  zipWriterLittle(end, 0xFFFF, 2);
+  zipWriterLittle(end, kMax32, 4);
+  zipWriterLittle(end, kMax32, 4);
+  zipWriterLittle(end, 0, 2);
   put(end);
 }
 

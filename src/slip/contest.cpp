@@ -19,7 +19,7 @@ constexpr double kNoiseOfSlope = 0.75;  // variance of a spline's slope, per var
 constexpr float kSlopeGuess = 1.0F;
 constexpr std::array<std::pair<int, int>, 4> kNeighbors = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 
-void check(bool good, const char* field, double value) {
+void checkContest(bool good, const char* field, double value) {
   if (!good)
     throw std::invalid_argument(std::string("ContestOptions: ") + field + " is " +
                                 std::to_string(value));
@@ -65,8 +65,8 @@ int activeInEither(const KeyFrame& key, const ConstMatrixMap& frame) {
 
 void ContestOptions::validate() const {
   registration.validate();
-  check(sharpness > 0.0, "sharpness", sharpness);
-  check(misfit > 0.0, "misfit", misfit);
+  checkContest(sharpness > 0.0, "sharpness", sharpness);
+  checkContest(misfit > 0.0, "misfit", misfit);
 }
 
 LoadFieldResult fitLoadField(const KeyFrame& key,

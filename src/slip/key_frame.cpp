@@ -13,7 +13,7 @@
 namespace palpate {
 namespace {
 
-constexpr int kAround = 2;             // places of coefficients on every side
+constexpr int kKeyFrameAround = 2;     // places of coefficients on every side
 constexpr float kPole = -0.26794919F;  // sqrt(3) - 2, of the cubic spline's inverse filter
 
 using spline::Four;
@@ -43,7 +43,7 @@ void goOn(float* line, int length, int step) noexcept {
   for (int side = 0; side < 2; ++side) {
     float* end = side == 0 ? line : line + (length - 1) * step;
     const int in = side == 0 ? step : -step;
-    for (int i = 1; i <= kAround; ++i) {
+    for (int i = 1; i <= kKeyFrameAround; ++i) {
       float* place = end - i * in;
       if (length >= 3)
         *place = 3.0F * place[in] - 3.0F * place[2 * in] + place[3 * in];
@@ -106,8 +106,8 @@ KeyFrame::KeyFrame(const MatrixLayout& layout, const KeyFrameOptions& options)
       enabled_[static_cast<std::size_t>(y * layout_.columns + x)] = layout_.enabled(y, x) ? 1 : 0;
   smoothed_.resize(places);
   filled_.resize(places);
-  stride_ = layout_.columns + 2 * kAround;
-  const auto padded = static_cast<std::size_t>(stride_ * (layout_.rows + 2 * kAround));
+  stride_ = layout_.columns + 2 * kKeyFrameAround;
+  const auto padded = static_cast<std::size_t>(stride_ * (layout_.rows + 2 * kKeyFrameAround));
   coefficients_.resize(padded);
   unknown_.resize(padded);
 }
@@ -155,7 +155,8 @@ void KeyFrame::fill() {
           neighbors += weight;
           near += smoothed_[other] > 0.0F ? 1 : 0;
         }
-      float& unknown = unknown_[static_cast<std::size_t>((y + kAround) * stride_ + x + kAround)];
+      float& unknown =
+          unknown_[static_cast<std::size_t>((y + kKeyFrameAround) * stride_ + x + kKeyFrameAround)];
       if (enabled_[place] == 0) {
         filled_[place] = neighbors > 0 ? sum / static_cast<float>(neighbors) : 0.0F;
         unknown = near > 0 ? 1.0F : 0.0F;
@@ -171,16 +172,16 @@ void KeyFrame::fill() {
 void KeyFrame::interpolate() noexcept {
   const int rows = layout_.rows;
   const int columns = layout_.columns;
-  float* inner = coefficients_.data() + kAround * stride_ + kAround;
+  float* inner = coefficients_.data() + kKeyFrameAround * stride_ + kKeyFrameAround;
   for (int y = 0; y < rows; ++y) {
     float* line = inner + y * stride_;
     std::copy_n(filled_.data() + y * columns, columns, line);
     goOn(line, columns, 1);
-    inverseFilter(line - kAround, stride_, 1);
+    inverseFilter(line - kKeyFrameAround, stride_, 1);
   }
-  for (int x = -kAround; x < columns + kAround; ++x) {
+  for (int x = -kKeyFrameAround; x < columns + kKeyFrameAround; ++x) {
     goOn(inner + x, rows, stride_);
-    inverseFilter(inner + x - kAround * stride_, rows + 2 * kAround, stride_);
+    inverseFilter(inner + x - kKeyFrameAround * stride_, rows + 2 * kKeyFrameAround, stride_);
   }
 }
 
@@ -204,8 +205,8 @@ void KeyFrame::lookForTurning() noexcept {
 }
 
 float KeyFrame::coefficient(int y, int x) const noexcept {
-  const int row = std::clamp(y + kAround, 0, layout_.rows + 2 * kAround - 1);
-  const int column = std::clamp(x + kAround, 0, stride_ - 1);
+  const int row = std::clamp(y + kKeyFrameAround, 0, layout_.rows + 2 * kKeyFrameAround - 1);
+  const int column = std::clamp(x + kKeyFrameAround, 0, stride_ - 1);
   return coefficients_[static_cast<std::size_t>(row * stride_ + column)];
 }
 
@@ -214,8 +215,8 @@ KeyFrame::Sample KeyFrame::at(float x, float y) const noexcept {
   const float floorY = std::floor(y);
   const float tx = x - floorX;
   const float ty = y - floorY;
-  const int corner =
-      (static_cast<int>(floorY) + kAround) * stride_ + static_cast<int>(floorX) + kAround;
+  const int corner = (static_cast<int>(floorY) + kKeyFrameAround) * stride_ +
+                     static_cast<int>(floorX) + kKeyFrameAround;
   const float* places = coefficients_.data() + corner - stride_ - 1;
   const Four weightsY = spline::weights(ty);
   const Four slopesY = spline::slopes(ty);

@@ -16,7 +16,7 @@ using spline::Four;
 // Half places before the first taxel: the margin, and one that a spline reaches out.
 constexpr int kBefore = 2 * LearnedSurface::kMargin + 1;
 
-void check(bool good, const char* field, double value) {
+void checkLearnedSurface(bool good, const char* field, double value) {
   if (!good)
     throw std::invalid_argument(std::string("LearnedSurfaceOptions: ") + field + " is " +
                                 std::to_string(value));
@@ -24,15 +24,15 @@ void check(bool good, const char* field, double value) {
 
 constexpr float kMotionCounts = 8.0F;
 
-float square(float value) { return value * value; }
+float learnedSurfaceSquare(float value) { return value * value; }
 
 }  // namespace
 
 void LearnedSurfaceOptions::validate() const {
-  check(unsureOfBend >= 0.0, "unsureOfBend", unsureOfBend);
-  check(unsureOfSilence >= 0.0, "unsureOfSilence", unsureOfSilence);
-  check(unsureOutside > 0.0, "unsureOutside", unsureOutside);
-  check(forgetting >= 0.0, "forgetting", forgetting);
+  checkLearnedSurface(unsureOfBend >= 0.0, "unsureOfBend", unsureOfBend);
+  checkLearnedSurface(unsureOfSilence >= 0.0, "unsureOfSilence", unsureOfSilence);
+  checkLearnedSurface(unsureOutside > 0.0, "unsureOutside", unsureOutside);
+  checkLearnedSurface(forgetting >= 0.0, "forgetting", forgetting);
   key.validate();
 }
 
@@ -54,10 +54,10 @@ bool LearnedSurface::set(const ConstMatrixMap& frame, double noiseCounts) {
   const int columns = layout.columns;
   least_ = key_.leastCounts();
   const float* filled = key_.filled().data();
-  const float noise2 = square(static_cast<float>(noiseCounts));
+  const float noise2 = learnedSurfaceSquare(static_cast<float>(noiseCounts));
   const float largest = *std::max_element(filled, filled + layout.numPlaces());
-  const float outside = square(static_cast<float>(options_.unsureOutside) * largest);
-  const float silence = square(static_cast<float>(options_.unsureOfSilence) * least_);
+  const float outside = learnedSurfaceSquare(static_cast<float>(options_.unsureOutside) * largest);
+  const float silence = learnedSurfaceSquare(static_cast<float>(options_.unsureOfSilence) * least_);
   const auto bendSd = static_cast<float>(options_.unsureOfBend);
 
   for (int y = 0; y < rows; ++y)
@@ -68,7 +68,7 @@ bool LearnedSurface::set(const ConstMatrixMap& frame, double noiseCounts) {
         bend += std::abs(filled[i - 1] - 2.0F * filled[i] + filled[i + 1]);
       if (y > 0 && y + 1 < rows)
         bend += std::abs(filled[i - columns] - 2.0F * filled[i] + filled[i + columns]);
-      float variance = noise2 + square(bendSd * bend);
+      float variance = noise2 + learnedSurfaceSquare(bendSd * bend);
       if (key_.at(static_cast<float>(x), static_cast<float>(y)).unknown > 0.5F)
         variance += key_.enabled()[i] != 0 ? silence : outside;
       ofTaxels_[static_cast<std::size_t>(i)] = variance;
@@ -155,8 +155,8 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
   const auto dx = static_cast<float>(motion.dx);
   const auto dy = static_cast<float>(motion.dy);
   const auto gain = static_cast<float>(motion.gain);
-  const float noise2 = square(static_cast<float>(options.noiseCounts));
-  const float relative2 = square(static_cast<float>(options.relativeError));
+  const float noise2 = learnedSurfaceSquare(static_cast<float>(options.noiseCounts));
+  const float relative2 = learnedSurfaceSquare(static_cast<float>(options.relativeError));
   const auto saturated = static_cast<float>(options.saturationCounts);
   const float forgotten = static_cast<float>(options_.forgetting) * noise2;
   const auto sdX = static_cast<float>(found.sdX);
@@ -194,10 +194,11 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
       Four unsure = Four::Zero();
       for (int j = 0; j < 4; ++j) {
         values += weightsY(j) * Eigen::Map<const Four>(coefficients + j * columns_);
-        unsure += square(weightsY(j)) * Eigen::Map<const Four>(variances + j * columns_);
+        unsure +=
+            learnedSurfaceSquare(weightsY(j)) * Eigen::Map<const Four>(variances + j * columns_);
       }
       const float model = gain * (values * weightsX).sum();
-      const float variance = square(gain) * (unsure * weightsX * weightsX).sum();
+      const float variance = learnedSurfaceSquare(gain) * (unsure * weightsX * weightsX).sum();
       float measured = frame.data()[taxel];
       if (!(measured > 0.0F)) {
         if (model <= least_) continue;
@@ -214,10 +215,11 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
       const float slopeX = 2.0F * gain * along.sum();
       const float slopeY = 2.0F * gain * (across * weightsX).sum();
       const float turn = slopeX * (sy - cy) - slopeY * (sx - cx);
-      const float unsureMotion =
-          square(slopeX * sdX) + square(slopeY * sdY) + 4.0F * square(turn * sdAngle);
-      const float all =
-          variance + noise2 + relative2 * square(measured) + kMotionCounts * unsureMotion;
+      const float unsureMotion = learnedSurfaceSquare(slopeX * sdX) +
+                                 learnedSurfaceSquare(slopeY * sdY) +
+                                 4.0F * learnedSurfaceSquare(turn * sdAngle);
+      const float all = variance + noise2 + relative2 * learnedSurfaceSquare(measured) +
+                        kMotionCounts * unsureMotion;
       const float residual = measured - model;
       const float scale = gain / all;
       for (int j = 0; j < 4; ++j) {

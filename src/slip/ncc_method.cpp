@@ -16,8 +16,8 @@
 namespace palpate {
 namespace {
 
-constexpr int kAround = 3;  // of the peak: 7 x 7
-constexpr float kLeastOverlap = 0.5F;
+constexpr int kNccMethodAround = 3;  // of the peak: 7 x 7
+constexpr float kNccMethodLeastOverlap = 0.5F;
 constexpr double kNeighborhoodSd = 1.0;  // of the paraboloid's weights [taxels]
 
 struct Shift {
@@ -36,7 +36,7 @@ class NccMethod final : public TranslationMethod {
         last_(layout.numPlaces()),
         reference_(layout.numPlaces()),
         now_(layout.numPlaces()) {
-    reach_ = farthest_ + kAround;
+    reach_ = farthest_ + kNccMethodAround;
     known_.resize(static_cast<std::size_t>((2 * reach_ + 1) * (2 * reach_ + 1)));
     // Squares summed over rectangles from the first taxel.
     const auto sums = static_cast<std::size_t>((rows_ + 1) * (columns_ + 1));
@@ -91,8 +91,8 @@ class NccMethod final : public TranslationMethod {
     baseY_ = std::clamp(static_cast<int>(std::lround(guessY)), 1 - rows_, rows_ - 1);
     sumSquares(from, squaresA_);
     sumSquares(now_, squaresB_);
-    leastA_ = kLeastOverlap * squaresA_.back();
-    leastB_ = kLeastOverlap * squaresB_.back();
+    leastA_ = kNccMethodLeastOverlap * squaresA_.back();
+    leastB_ = kNccMethodLeastOverlap * squaresB_.back();
     from_ = from.data();
     std::fill(known_.begin(), known_.end(), kUnknown);
     // Up the hill from the guess: its eight neighbours first, then from the best of them.
@@ -189,8 +189,8 @@ class NccMethod final : public TranslationMethod {
     Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
     Six right = Six::Zero();
     int points = 0;
-    for (int dy = -kAround; dy <= kAround; ++dy)
-      for (int dx = -kAround; dx <= kAround; ++dx) {
+    for (int dy = -kNccMethodAround; dy <= kNccMethodAround; ++dy)
+      for (int dx = -kNccMethodAround; dx <= kNccMethodAround; ++dx) {
         const double value = static_cast<double>(at(x + dx, y + dy));
         if (value < 0.0) continue;
         const double u = dx;

@@ -10,7 +10,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
+constexpr double kObjectMotionRadians = std::numbers::pi / 180.0;
 constexpr double kLeastSingular = 1e-3;  // of the largest
 
 }  // namespace
@@ -36,7 +36,7 @@ SlipArrow slipArrow(const HandPose& pose,
       -surface.linear().col(1);  // its Y points to the fingertip, rows rise towards the palm
   arrow.normal = surface.linear().col(2);
   arrow.vectorMm = pitchMm * (dx * arrow.alongX + dy * arrow.alongY);
-  if (turnDeg) arrow.turnRad = -*turnDeg * kRadians;
+  if (turnDeg) arrow.turnRad = -*turnDeg * kObjectMotionRadians;
   arrow.weight = weight;
   return arrow;
 }

@@ -9,10 +9,10 @@
 namespace palpate {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180.0;
+constexpr double kRegisterMethodRadians = std::numbers::pi / 180.0;
 
 // When a key has served: what it can't see any more, or no longer resembles.
-constexpr double kLeastOverlap = 0.6;
+constexpr double kRegisterMethodLeastOverlap = 0.6;
 constexpr double kWorstMisfit = 0.25;  // rms residual against the mean active taxel
 constexpr double kMostGain = 1.8;
 constexpr double kFarthest = 3.0;  // [taxels]
@@ -31,8 +31,8 @@ struct Transform {
   double ty = 0.0;
 
   void apply(double x, double y, double& outX, double& outY) const {
-    const double c = std::cos(angleDeg * kRadians);
-    const double s = std::sin(angleDeg * kRadians);
+    const double c = std::cos(angleDeg * kRegisterMethodRadians);
+    const double s = std::sin(angleDeg * kRegisterMethodRadians);
     outX = c * x - s * y + tx;
     outY = s * x + c * y + ty;
   }
@@ -171,8 +171,9 @@ class RegisterMethod final : public TranslationMethod {
     noise_ = std::clamp(
         noise_ + kNoiseMemory * (noise - noise_), 0.5 * options_.noiseCounts, kMostNoise);
 
-    if (result.overlap < kLeastOverlap || misfit > kWorstMisfit || motion_.gain > kMostGain ||
-        motion_.gain < 1.0 / kMostGain || std::hypot(motion_.dx, motion_.dy) > kFarthest ||
+    if (result.overlap < kRegisterMethodLeastOverlap || misfit > kWorstMisfit ||
+        motion_.gain > kMostGain || motion_.gain < 1.0 / kMostGain ||
+        std::hypot(motion_.dx, motion_.dy) > kFarthest ||
         std::abs(motion_.angleDeg) > kMostTurnDeg) {
       beginKey(frame, motion().after(keyFromReference_));
       reading.newKey = true;

@@ -25,7 +25,7 @@ struct KeySurface {
   }
 };
 
-void check(bool good, const char* field, double value) {
+void checkRigidRegistration(bool good, const char* field, double value) {
   if (!good)
     throw std::invalid_argument(std::string("RegistrationOptions: ") + field + " is " +
                                 std::to_string(value));
@@ -34,16 +34,16 @@ void check(bool good, const char* field, double value) {
 }  // namespace
 
 void RegistrationOptions::validate() const {
-  check(passes >= 1 && passes <= 50, "passes", passes);
-  check(convergedTaxels > 0.0, "convergedTaxels", convergedTaxels);
-  check(noiseCounts > 0.0, "noiseCounts", noiseCounts);
-  check(relativeError >= 0.0, "relativeError", relativeError);
-  check(saturationCounts > 0.0, "saturationCounts", saturationCounts);
-  check(anglePriorDeg > 0.0, "anglePriorDeg", anglePriorDeg);
-  check(leastTurning >= 0.0 && leastTurning <= 0.5, "leastTurning", leastTurning);
-  check(untoldTaxels > 0.0, "untoldTaxels", untoldTaxels);
-  check(gainPrior > 0.0, "gainPrior", gainPrior);
-  check(leastOverlap >= 0.0 && leastOverlap <= 1.0, "leastOverlap", leastOverlap);
+  checkRigidRegistration(passes >= 1 && passes <= 50, "passes", passes);
+  checkRigidRegistration(convergedTaxels > 0.0, "convergedTaxels", convergedTaxels);
+  checkRigidRegistration(noiseCounts > 0.0, "noiseCounts", noiseCounts);
+  checkRigidRegistration(relativeError >= 0.0, "relativeError", relativeError);
+  checkRigidRegistration(saturationCounts > 0.0, "saturationCounts", saturationCounts);
+  checkRigidRegistration(anglePriorDeg > 0.0, "anglePriorDeg", anglePriorDeg);
+  checkRigidRegistration(leastTurning >= 0.0 && leastTurning <= 0.5, "leastTurning", leastTurning);
+  checkRigidRegistration(untoldTaxels > 0.0, "untoldTaxels", untoldTaxels);
+  checkRigidRegistration(gainPrior > 0.0, "gainPrior", gainPrior);
+  checkRigidRegistration(leastOverlap >= 0.0 && leastOverlap <= 1.0, "leastOverlap", leastOverlap);
 }
 
 RegistrationResult registerFrame(const KeyFrame& key,

@@ -16,10 +16,10 @@ constexpr double kSureTaxels = 0.35;
 constexpr int kSureFrames = 2;
 constexpr double kModelInvalid = 60.0;  // residual above which neither explanation is believed
 constexpr int kCalmFrames = 3;
-constexpr double kCalmPart = 0.5;       // of a window's threshold
-constexpr double kPlainCalmPart = 0.8;  // of a plain threshold
-constexpr double kCentroidPart = 1.3;   // as in slip_rule.h
-constexpr std::size_t kTurnLook = 3;    // frames between looks at the angle where nothing shifts
+constexpr double kCalmPart = 0.5;                  // of a window's threshold
+constexpr double kPlainCalmPart = 0.8;             // of a plain threshold
+constexpr double kSlipDetectorCentroidPart = 1.3;  // as in slip_rule.h
+constexpr std::size_t kTurnLook = 3;  // frames between looks at the angle where nothing shifts
 constexpr std::size_t kRestAge = 15;
 constexpr double kRestTaxels = 0.1;
 constexpr double kRestLoad = 0.05;  // ln
@@ -31,7 +31,7 @@ SlipTrackerOptions trackerOptions(const SlipDetectorOptions& options) {
   return tracker;
 }
 
-double shift(const WindowEvidence& window) {
+double slipDetectorShift(const WindowEvidence& window) {
   return std::hypot(window.centroidX, window.centroidY);
 }
 
@@ -129,7 +129,7 @@ bool SlipDetector::rests(const SlipEvidence& evidence) const {
   const WindowEvidence& middle = evidence.windows[kMiddleWindow];
   return evidence.computable && evidence.contactAge >= kRestAge && middle.filled &&
          !verdict_.slipping && std::abs(middle.logLoadRatio) < kRestLoad &&
-         shift(middle) < kRestTaxels;
+         slipDetectorShift(middle) < kRestTaxels;
 }
 
 // The motion of `register`, as far as the contest of reference and frame believes in it.
@@ -156,8 +156,8 @@ void SlipDetector::weigh(const SlipMotion& moved) {
       const double odds = std::pow(p / std::max(1.0 - p, 1e-9), kReading) / std::pow(doubt, kDoubt);
       weight = odds / (1.0 + odds);
     }
-    const double shifted =
-        kCentroidPart * std::hypot(moved.x - reference_.centerX(), moved.y - reference_.centerY());
+    const double shifted = kSlipDetectorCentroidPart * std::hypot(moved.x - reference_.centerX(),
+                                                                  moved.y - reference_.centerY());
     const double sure = std::min(shifted, std::hypot(moved.refDx, moved.refDy));
     certain_ = p > kSureP && sure > kSureTaxels ? certain_ + 1 : 0;
     latched_ = certain_ >= kSureFrames;
@@ -202,9 +202,9 @@ void SlipDetector::decideByContest(const SlipEvidence& seen) {
     return;
   }
   verdict_.turning = outcome.turning;
-  const bool calm = kCentroidPart * shift(evidence.windows[kShortWindow]) <
+  const bool calm = kSlipDetectorCentroidPart * slipDetectorShift(evidence.windows[kShortWindow]) <
                         kCalmPart * options_.rule.shortSteps * options_.rule.stepTaxels &&
-                    kCentroidPart * shift(evidence.windows[kMiddleWindow]) <
+                    kSlipDetectorCentroidPart * slipDetectorShift(evidence.windows[kMiddleWindow]) <
                         kCalmPart * options_.rule.middleSteps * options_.rule.stepTaxels;
   holdAlarm(outcome.alarm || outcome.turning, calm);
   if (outcome.alarm && hasReference_) latched_ = true;

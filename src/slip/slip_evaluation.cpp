@@ -48,13 +48,13 @@ std::vector<SlipLabel> labelsOf(std::size_t matrix, const std::vector<Place>& pl
   return labels;
 }
 
-double shift(const WindowEvidence& window) {
+double slipEvaluationShift(const WindowEvidence& window) {
   return std::hypot(window.centroidX, window.centroidY);
 }
 
 double registered(const WindowEvidence& window) {
   return window.contest.computed ? std::hypot(window.contest.motion.dx, window.contest.motion.dy)
-                                 : shift(window);
+                                 : slipEvaluationShift(window);
 }
 
 double medianIntervalUs(const Profile& profile) {
@@ -169,7 +169,7 @@ void SlipEvaluation::add(const Profile& profile, bool slip, const Progress& prog
           windows[m].add(std::as_const(frame).matrix(m), frame.hostUs, jointsDeg);
       if (!evidence.computable) continue;
       for (std::size_t w = 0; w < kSlipWindows; ++w)
-        if (evidence.windows[w].filled && shift(evidence.windows[w]) > kGates[w])
+        if (evidence.windows[w].filled && slipEvaluationShift(evidence.windows[w]) > kGates[w])
           windows[m].compete(static_cast<SlipWindow>(w));
       const WindowEvidence& middle = evidence.windows[kMiddleWindow];
       series[m].seen.push_back({.frame = i,
@@ -243,7 +243,7 @@ SlipEvaluationReport SlipEvaluation::report() const {
     return [](const SlipEvidence& evidence) {
       const WindowEvidence& window = evidence.windows[kShortWindow];
       return window.filled &&
-             shift(window) > 0.2 * static_cast<double>(kWindowFrames[kShortWindow]);
+             slipEvaluationShift(window) > 0.2 * static_cast<double>(kWindowFrames[kShortWindow]);
     };
   };
   const auto twice = [](auto measure) {
@@ -257,7 +257,7 @@ SlipEvaluationReport SlipEvaluation::report() const {
     };
   };
   report.alarms.push_back({"centroid-step", scoreOf(step, -1)});
-  report.alarms.push_back({"centroid-windows", scoreOf(twice(&shift), -1)});
+  report.alarms.push_back({"centroid-windows", scoreOf(twice(&slipEvaluationShift), -1)});
   report.alarms.push_back({"register-windows", scoreOf(twice(&registered), -1)});
   report.alarms.push_back({"contest", score({}, false)});
   report.alarms.push_back({"contest-joints", score({}, true)});

@@ -8,14 +8,14 @@
 namespace palpate {
 namespace {
 
-constexpr double kCentroidPart =
+constexpr double kSlipRuleCentroidPart =
     1.3;  // the centroid loses motion where a contact reaches over an edge
 constexpr double kStillMoves = 0.5;  // of the middle window's threshold
 constexpr double kUndecided = 0.5;
 constexpr double kFarSlack = 0.3;  // [taxels]
 constexpr double kSds = 2.0;
 
-void check(bool good, const char* field, double value) {
+void checkSlipRule(bool good, const char* field, double value) {
   if (!good)
     throw std::invalid_argument(std::string("SlipRuleOptions: ") + field + " is " +
                                 std::to_string(value));
@@ -28,17 +28,17 @@ double shiftOf(const WindowEvidence& window) {
 }  // namespace
 
 void SlipRuleOptions::validate() const {
-  check(stepTaxels > 0.0, "stepTaxels", stepTaxels);
-  check(referenceTaxels > 0.0, "referenceTaxels", referenceTaxels);
-  check(rotationDeg > 0.0, "rotationDeg", rotationDeg);
-  check(shortSteps > 0.0, "shortSteps", shortSteps);
-  check(middleSteps > 0.0, "middleSteps", middleSteps);
-  check(longReferences > 0.0, "longReferences", longReferences);
-  check(accumulatedReferences > 0.0, "accumulatedReferences", accumulatedReferences);
-  for (const double value : perLogRise) check(value >= 0.0, "perLogRise", value);
-  check(perJointDeg >= 0.0, "perJointDeg", perJointDeg);
-  check(rotationPerLog >= 0.0, "rotationPerLog", rotationPerLog);
-  check(furthest >= 1.0, "furthest", furthest);
+  checkSlipRule(stepTaxels > 0.0, "stepTaxels", stepTaxels);
+  checkSlipRule(referenceTaxels > 0.0, "referenceTaxels", referenceTaxels);
+  checkSlipRule(rotationDeg > 0.0, "rotationDeg", rotationDeg);
+  checkSlipRule(shortSteps > 0.0, "shortSteps", shortSteps);
+  checkSlipRule(middleSteps > 0.0, "middleSteps", middleSteps);
+  checkSlipRule(longReferences > 0.0, "longReferences", longReferences);
+  checkSlipRule(accumulatedReferences > 0.0, "accumulatedReferences", accumulatedReferences);
+  for (const double value : perLogRise) checkSlipRule(value >= 0.0, "perLogRise", value);
+  checkSlipRule(perJointDeg >= 0.0, "perJointDeg", perJointDeg);
+  checkSlipRule(rotationPerLog >= 0.0, "rotationPerLog", rotationPerLog);
+  checkSlipRule(furthest >= 1.0, "furthest", furthest);
 }
 
 SlipRule::SlipRule(const SlipRuleOptions& options) : options_(options) { options_.validate(); }
@@ -50,7 +50,7 @@ bool SlipRule::counts(const SlipEvidence& evidence, std::size_t window) const {
   // The long window remembers a slip long after its end.
   const WindowEvidence& middle = evidence.windows[kMiddleWindow];
   return window != kLongWindow || !middle.filled ||
-         kCentroidPart * shiftOf(middle) > kStillMoves * threshold(kMiddleWindow);
+         kSlipRuleCentroidPart * shiftOf(middle) > kStillMoves * threshold(kMiddleWindow);
 }
 
 double SlipRule::threshold(std::size_t window) const {
@@ -79,7 +79,8 @@ std::optional<SlipWindow> SlipRule::asksFor(const SlipEvidence& evidence) const 
   for (std::size_t i = 0; i < kSlipWindows; ++i) {
     if (!counts(evidence, i)) continue;
     const WindowEvidence& window = evidence.windows[i];
-    const double reach = kCentroidPart * shiftOf(window) / (threshold(i) + allowance(window, i));
+    const double reach =
+        kSlipRuleCentroidPart * shiftOf(window) / (threshold(i) + allowance(window, i));
     if (reach <= most) continue;
     most = reach;
     best = static_cast<SlipWindow>(i);
@@ -93,7 +94,7 @@ RuleOutcome SlipRule::decide(const SlipEvidence& evidence) {
   for (std::size_t i = 0; i < kSlipWindows; ++i) {
     if (!counts(evidence, i)) continue;
     const WindowEvidence& window = evidence.windows[i];
-    const double most = kCentroidPart * shiftOf(window);
+    const double most = kSlipRuleCentroidPart * shiftOf(window);
     const double reach = most / threshold(i);
     if (outcome.leading && reach <= outcome.reach) continue;
     outcome.leading = static_cast<SlipWindow>(i);
@@ -104,14 +105,14 @@ RuleOutcome SlipRule::decide(const SlipEvidence& evidence) {
     const WindowEvidence& window = evidence.windows[*asked];
     const ContestResult& contest = window.contest;
     outcome.leading = asked;
-    outcome.reach = kCentroidPart * shiftOf(window) / threshold(*asked);
+    outcome.reach = kSlipRuleCentroidPart * shiftOf(window) / threshold(*asked);
     const double allowed = allowance(window, *asked);
-    outcome.allowedReach = kCentroidPart * shiftOf(window) / (threshold(*asked) + allowed);
+    outcome.allowedReach = kSlipRuleCentroidPart * shiftOf(window) / (threshold(*asked) + allowed);
     // Where nothing could be registered the centroid alone speaks, and P is undecided.
     const double shift = shiftOf(window);
     const double registered =
         contest.computed ? std::hypot(contest.motion.dx, contest.motion.dy) : shift;
-    const double motion = std::min(kCentroidPart * shift, registered);
+    const double motion = std::min(kSlipRuleCentroidPart * shift, registered);
     const bool believed = contest.computed && registered <= options_.furthest * shift + kFarSlack;
     above = motion * (believed ? contest.pMoved : 0.5) > threshold(*asked) + allowed;
     if (*asked == kShortWindow && above) outcome.alarm = true;

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "palpate/core/time.h"
+
 namespace palpate {
 namespace {
-
-constexpr double kUsPerS = 1e6;
 
 bool before(const SlipSample& sample, std::size_t frame) { return sample.frame < frame; }
 

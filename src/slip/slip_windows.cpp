@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kRing = kWindowFrames.back() + 2;
 constexpr double kLongWay = 0.5;  // [taxels] beyond which a second start is worth its time
 
-void check(bool good, const char* field, double value) {
+void checkSlipWindows(bool good, const char* field, double value) {
   if (!good)
     throw std::invalid_argument(std::string("SlipWindowsOptions: ") + field + " is " +
                                 std::to_string(value));
@@ -22,9 +22,9 @@ void check(bool good, const char* field, double value) {
 
 void SlipWindowsOptions::validate() const {
   contest.validate();
-  check(leastActive >= 2, "leastActive", leastActive);
-  check(leastCounts >= 0.0, "leastCounts", leastCounts);
-  check(keepUs >= 0, "keepUs", static_cast<double>(keepUs));
+  checkSlipWindows(leastActive >= 2, "leastActive", leastActive);
+  checkSlipWindows(leastCounts >= 0.0, "leastCounts", leastCounts);
+  checkSlipWindows(keepUs >= 0, "keepUs", static_cast<double>(keepUs));
 }
 
 SlipWindows::SlipWindows(const MatrixLayout& layout, const SlipWindowsOptions& options)

@@ -29,7 +29,7 @@ constexpr double kGaussianSd = 1.5;
 constexpr double kNarrowSd = 1.1;
 constexpr double kLongSd = 2.2;
 
-double square(double value) { return value * value; }
+double syntheticSlipSquare(double value) { return value * value; }
 
 // A half plane that ends at distance 0, seen through the cover.
 double softEdge(double outside, double cover) {
@@ -51,18 +51,23 @@ double height(SlipShape shape, double u, double v, double cover) {
       // Distance from the edge to first order: the implicit function over its gradient.
       const double radius = std::hypot(u / kEllipseHalfWidth, v / kEllipseHalfLength);
       if (radius < 1e-6) return softEdge(-kEllipseHalfWidth, cover);
-      const double slope =
-          std::hypot(u / square(kEllipseHalfWidth), v / square(kEllipseHalfLength)) / radius;
+      const double slope = std::hypot(u / syntheticSlipSquare(kEllipseHalfWidth),
+                                      v / syntheticSlipSquare(kEllipseHalfLength)) /
+                           radius;
       return softEdge((radius - 1.0) / slope, cover);
     }
     case SlipShape::kTwoBlobs:
-      return std::exp(-0.5 * (square(u) + square(v + kBlobDistance)) / square(kBlobSd)) +
+      return std::exp(-0.5 * (syntheticSlipSquare(u) + syntheticSlipSquare(v + kBlobDistance)) /
+                      syntheticSlipSquare(kBlobSd)) +
              kSecondBlob *
-                 std::exp(-0.5 * (square(u) + square(v - kBlobDistance)) / square(kBlobSd));
+                 std::exp(-0.5 * (syntheticSlipSquare(u) + syntheticSlipSquare(v - kBlobDistance)) /
+                          syntheticSlipSquare(kBlobSd));
     case SlipShape::kGaussian:
-      return std::exp(-0.5 * (square(u) + square(v)) / square(kGaussianSd));
+      return std::exp(-0.5 * (syntheticSlipSquare(u) + syntheticSlipSquare(v)) /
+                      syntheticSlipSquare(kGaussianSd));
     case SlipShape::kEllipticGaussian:
-      return std::exp(-0.5 * (square(u / kNarrowSd) + square(v / kLongSd)));
+      return std::exp(-0.5 *
+                      (syntheticSlipSquare(u / kNarrowSd) + syntheticSlipSquare(v / kLongSd)));
   }
   return 0.0;
 }

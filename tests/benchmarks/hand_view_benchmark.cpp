@@ -21,8 +21,8 @@ constexpr QSizeF kSize(800.0, 600.0);
 
 // Without OpenGL. The hand turns, so that every picture is another one.
 void handRaster(benchmark::State& state, RasterQuality quality, double distanceMm) {
-  const HandScene scene = palpate::gui::testing::sampleScene();
-  HandCamera camera = palpate::gui::testing::sampleCamera();
+  const HandScene scene = palpate::gui::samples::sampleScene();
+  HandCamera camera = palpate::gui::samples::sampleCamera();
   camera.distanceMm = distanceMm;
   HandRaster raster;
   for (auto _ : state) {
@@ -82,8 +82,8 @@ void handGl(benchmark::State& state, double distanceMm, bool readBack) {
   pixels.setSamples(4);
   QOpenGLFramebufferObject target(kSize.toSize(), pixels);
   QOpenGLFramebufferObject resolved(kSize.toSize());
-  const HandScene scene = palpate::gui::testing::sampleScene();
-  HandCamera camera = palpate::gui::testing::sampleCamera();
+  const HandScene scene = palpate::gui::samples::sampleScene();
+  HandCamera camera = palpate::gui::samples::sampleCamera();
   camera.distanceMm = distanceMm;
   for (auto _ : state) {
     camera.orbit({5.0, 0.0}, kSize.height());

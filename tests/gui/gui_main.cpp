@@ -1,12 +1,22 @@
 // Runs the tests of the window: under the display that is there, else drawing to memory. Settings go
 // to a temporary folder.
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 
 #include "gui/application.h"
+#include "testing/test_selection.h"
 #include "testing/testing.h"
 
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
+  try {
+    // Without a test to run no window system is asked for anything.
+    if (!palpate::testing::selectTests(argc, argv)) return RUN_ALL_TESTS();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
   const palpate::testing::TemporaryFolder home;
   for (const char* variable :
        {"XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR"})

@@ -89,9 +89,9 @@ Difference differenceOf(const QImage& a, const QImage& b) {
 
 TEST_F(HandGlTest, DrawsWhatTheRasteriserDraws) {
   ASSERT_EQ(gl_.initialize(), QString());
-  const HandScene scene = testing::sampleScene();
+  const HandScene scene = samples::sampleScene();
   for (const double distanceMm : {640.0, 260.0, 120.0}) {
-    HandCamera camera = testing::sampleCamera();
+    HandCamera camera = samples::sampleCamera();
     camera.distanceMm = distanceMm;
     for (const double elevationDeg : {18.0, 80.0, -35.0}) {
       camera.elevationDeg = elevationDeg;
@@ -102,19 +102,19 @@ TEST_F(HandGlTest, DrawsWhatTheRasteriserDraws) {
     }
   }
   // The measure tells pictures apart.
-  HandCamera turned = testing::sampleCamera();
+  HandCamera turned = samples::sampleCamera();
   turned.azimuthDeg += 3.0;
   EXPECT_GT(
-      differenceOf(drawn(scene, turned), rasterize(scene, testing::sampleCamera(), kSize)).mean,
+      differenceOf(drawn(scene, turned), rasterize(scene, samples::sampleCamera(), kSize)).mean,
       1.5);
 }
 
 TEST_F(HandGlTest, ColorsAreExactWhereASurfaceIs) {
   ASSERT_EQ(gl_.initialize(), QString());
-  testing::SceneMaker make;
+  samples::SceneMaker make;
   make.scene.background = qRgb(11, 22, 33);
   make.box({0, 0, 95}, {40, 40, 40}, qRgb(200, 120, 60));
-  HandCamera camera = testing::sampleCamera();
+  HandCamera camera = samples::sampleCamera();
   camera.azimuthDeg = 0.0;
   camera.elevationDeg = 0.0;
   const QImage image = drawn(make.scene, camera);
@@ -131,10 +131,10 @@ TEST_F(HandGlTest, OddScenesAreDrawnToo) {
   ASSERT_EQ(gl_.initialize(), QString());
   HandScene scene;
   scene.background = qRgb(1, 2, 3);
-  const HandCamera camera = testing::sampleCamera();
+  const HandCamera camera = samples::sampleCamera();
   EXPECT_EQ(drawn(scene, camera).pixel(200, 150), qRgb(1, 2, 3)) << "empty";
 
-  testing::SceneMaker make;
+  samples::SceneMaker make;
   make.box({0, 0, 95}, {40, 40, 40}, qRgb(0, 250, 0));
   const QImage expected = drawn(make.scene, camera);
   // What is no number is left out, and nothing else; so is what is no whole triangle.
@@ -149,7 +149,7 @@ TEST_F(HandGlTest, OddScenesAreDrawnToo) {
   broken.points.push_back({.atMm = {0, kNan, 0}, .color = 0});
   EXPECT_EQ(drawn(broken, camera), expected);
   // Huge, and with a normal that is no number: the picture is full of it.
-  testing::SceneMaker huge;
+  samples::SceneMaker huge;
   huge.box({0, 0, 0}, {1e5F, 1e5F, 10}, qRgb(90, 90, 90));
   for (SceneVertex& vertex : huge.scene.solid) vertex.normal = {kNan, kNan, kNan};
   HandCamera above = camera;
@@ -163,8 +163,8 @@ TEST_F(HandGlTest, OddScenesAreDrawnToo) {
 
 TEST_F(HandGlTest, PixelsOfAFineScreen) {
   ASSERT_EQ(gl_.initialize(), QString());
-  const HandScene scene = testing::sampleScene();
-  const HandCamera camera = testing::sampleCamera();
+  const HandScene scene = samples::sampleScene();
+  const HandCamera camera = samples::sampleCamera();
   const Difference difference =
       differenceOf(drawn(scene, camera, kSize, 2.0),
                    rasterize(scene, camera, kSize, 2.0, RasterQuality::kScreen));
@@ -173,7 +173,7 @@ TEST_F(HandGlTest, PixelsOfAFineScreen) {
 
 TEST_F(HandGlTest, LeavesTheContextAsOthersExpectIt) {
   ASSERT_EQ(gl_.initialize(), QString());
-  drawn(testing::sampleScene(), testing::sampleCamera());
+  drawn(samples::sampleScene(), samples::sampleCamera());
   QOpenGLFunctions& gl = *context_->functions();
   EXPECT_FALSE(gl.glIsEnabled(GL_DEPTH_TEST));
   EXPECT_FALSE(gl.glIsEnabled(GL_CULL_FACE));
@@ -189,17 +189,17 @@ TEST_F(HandGlTest, LeavesTheContextAsOthersExpectIt) {
 }
 
 TEST_F(HandGlTest, GoesOnInAnotherContext) {
-  const HandScene scene = testing::sampleScene();
+  const HandScene scene = samples::sampleScene();
   ASSERT_EQ(gl_.initialize(), QString());
-  const QImage expected = drawn(scene, testing::sampleCamera());
+  const QImage expected = drawn(scene, samples::sampleCamera());
   gl_.release();
   gl_.release();
   EXPECT_FALSE(gl_.canDraw());
   use(formatOf(3, 3, QSurfaceFormat::CoreProfile));
-  EXPECT_NE(drawn(scene, testing::sampleCamera()), expected) << "drew without a context of its own";
+  EXPECT_NE(drawn(scene, samples::sampleCamera()), expected) << "drew without a context of its own";
   ASSERT_EQ(gl_.initialize(), QString());
   EXPECT_TRUE(gl_.canDraw());
-  EXPECT_EQ(drawn(scene, testing::sampleCamera()), expected);
+  EXPECT_EQ(drawn(scene, samples::sampleCamera()), expected);
 }
 
 TEST_F(HandGlTest, SaysWhyItCantDraw) {
@@ -210,7 +210,7 @@ TEST_F(HandGlTest, SaysWhyItCantDraw) {
   if (context_->format().version() < std::pair(3, 3)) {
     EXPECT_TRUE(gl_.initialize().startsWith("the driver offers OpenGL "));
     EXPECT_FALSE(gl_.canDraw());
-    gl_.draw(testing::sampleScene(), testing::sampleCamera(), kSize);
+    gl_.draw(samples::sampleScene(), samples::sampleCamera(), kSize);
   }
 }
 

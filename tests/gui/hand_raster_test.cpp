@@ -29,7 +29,7 @@ HandCamera onePxPerMm() {
   return camera;
 }
 
-struct Maker : testing::SceneMaker {
+struct Maker : samples::SceneMaker {
   Maker() { scene.background = kBlack; }
   // Of a plane across the line of sight, nearer to the eye by xMm.
   void rectangle(float xMm, float fromY, float toY, float fromZ, float toZ, QRgb color) {
@@ -284,8 +284,8 @@ TEST(HandRaster, AFloorUnderTheEyeIsCutAtIt) {
 }
 
 TEST(HandRaster, TheSameScaledIsTheSamePicture) {
-  const HandScene scene = testing::sampleScene();
-  const HandCamera camera = testing::sampleCamera();
+  const HandScene scene = samples::sampleScene();
+  const HandCamera camera = samples::sampleCamera();
   const QImage once = rasterize(scene, camera, {300.0, 220.0}, 1.0, RasterQuality::kPicture);
   const QImage twice = rasterize(scene, camera, {300.0, 220.0}, 2.0, RasterQuality::kPicture);
   EXPECT_EQ(twice.size(), QSize(600, 440));
@@ -302,14 +302,14 @@ TEST(HandRaster, TheSameScaledIsTheSamePicture) {
 }
 
 TEST(HandRaster, AThingDoesntDependOnWhatWasDrawnBefore) {
-  const HandScene scene = testing::sampleScene();
-  const QImage expected = drawn(scene, testing::sampleCamera());
+  const HandScene scene = samples::sampleScene();
+  const QImage expected = drawn(scene, samples::sampleCamera());
   HandRaster raster;
-  HandCamera other = testing::sampleCamera();
+  HandCamera other = samples::sampleCamera();
   other.zoom(4.0, {20.0, 30.0}, kSize);
   raster.draw(scene, other, {333.0, 77.0}, 1.5, RasterQuality::kPicture);
   for (int i = 0; i < 2; ++i)
-    EXPECT_EQ(raster.draw(scene, testing::sampleCamera(), kSize, 1.0), expected);
+    EXPECT_EQ(raster.draw(scene, samples::sampleCamera(), kSize, 1.0), expected);
 }
 
 TEST(HandRaster, VerticesThatAreNoNumbersAreLeftOut) {
@@ -363,7 +363,7 @@ TEST(HandRaster, APictureOfTheLargestWidthIsDrawn) {
 }
 
 TEST(HandRaster, CanBeCancelled) {
-  const HandScene scene = testing::sampleScene();
+  const HandScene scene = samples::sampleScene();
   int calls = 0;
   double last = -1.0;
   const auto all = [&](double fraction) {
@@ -373,18 +373,18 @@ TEST(HandRaster, CanBeCancelled) {
     ++calls;
     return true;
   };
-  rasterize(scene, testing::sampleCamera(), kSize, 1.0, RasterQuality::kScreen, all);
+  rasterize(scene, samples::sampleCamera(), kSize, 1.0, RasterQuality::kScreen, all);
   EXPECT_GE(calls, 3);
   HandRaster raster;
   EXPECT_THROW(raster.draw(scene,
-                           testing::sampleCamera(),
+                           samples::sampleCamera(),
                            kSize,
                            1.0,
                            RasterQuality::kScreen,
                            [](double fraction) { return fraction < 0.4; }),
                Cancelled);
-  EXPECT_EQ(raster.draw(scene, testing::sampleCamera(), kSize),
-            drawn(scene, testing::sampleCamera()));
+  EXPECT_EQ(raster.draw(scene, samples::sampleCamera(), kSize),
+            drawn(scene, samples::sampleCamera()));
 }
 
 }  // namespace

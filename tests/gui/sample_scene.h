@@ -10,7 +10,7 @@
 
 #include "gui/hand_scene.h"
 
-namespace palpate::gui::testing {
+namespace palpate::gui::samples {
 
 class SceneMaker {
  public:
@@ -146,4 +146,4 @@ inline HandScene sampleScene() {
   return std::move(scene);
 }
 
-}  // namespace palpate::gui::testing
+}  // namespace palpate::gui::samples

@@ -11,6 +11,14 @@ SOURCE = Path(os.environ["PALPATE_SOURCE"])
 CORPUS = Path(os.environ["PALPATE_CORPUS"])
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_configure(config):
+    """Writes the report that scripts/count_tests reads, one per file of tests."""
+    folder = os.environ.get("PALPATE_TEST_REPORTS")
+    if folder and len(config.args) == 1:
+        config.option.xmlpath = str(Path(folder) / f"python.{Path(config.args[0]).stem}.xml")
+
+
 def shared(variable, default):
     folder = Path(os.environ.get(variable, SOURCE.parent / "shared" / default))
     if not folder.is_dir():

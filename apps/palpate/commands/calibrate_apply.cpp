@@ -4,6 +4,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/one_line.h"
+#include "palpate/core/time.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
 
@@ -13,16 +14,15 @@
 namespace palpate::commands {
 namespace {
 
-constexpr std::int64_t kUsPerMs = 1000;
-constexpr const char* kColumns =
+constexpr const char* kCalibrateApplyColumns =
     "frame,time_ms,matrix,active,K,pressure_kpa,pressure_sd_kpa,force_n,force_sd_n,in_range,"
     "temperature_known,"
     "saturated\n";
 
-void appendRow(std::string& line,
-               std::size_t frame,
-               std::size_t matrix,
-               const PressureFrame& pressures) {
+void calibrateApplyAppendRow(std::string& line,
+                             std::size_t frame,
+                             std::size_t matrix,
+                             const PressureFrame& pressures) {
   const MatrixPressure& p = pressures.matrices[matrix];
   line.clear();
   for (const std::int64_t whole : {static_cast<std::int64_t>(frame),
@@ -91,7 +91,7 @@ int calibrateApply(const Words& words) {
     for (const std::string& sentence : frames.assumptions())
       std::fprintf(stderr, "palpate: %s\n", oneLine(sentence).c_str());
   StandardOutput out;
-  if (!outPath) out.write(kColumns);
+  if (!outPath) out.write(kCalibrateApplyColumns);
   ProfileBuilder builder(profile.hand().layout);
   std::size_t beyond = 0, touched = 0;
   std::string line;
@@ -107,7 +107,7 @@ int calibrateApply(const Words& words) {
       ++touched;
       beyond += pressures.matrices[m].inRange ? 0 : 1;
       if (outPath) continue;
-      appendRow(line, i, m, pressures);
+      calibrateApplyAppendRow(line, i, m, pressures);
       out.write(line);
     }
     if (outPath) builder.addFrame(frame.hostUs, pressures.kpa, frame.deviceMs);

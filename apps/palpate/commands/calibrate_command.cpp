@@ -44,7 +44,7 @@ void showKinds() {
       "Example:\n  palpate calibrate step A1.dsa --matrix 1");
 }
 
-constexpr std::array<std::pair<const char*, SignalKind>, 7> kSignals = {
+constexpr std::array<std::pair<const char*, SignalKind>, 7> kCalibrateSignals = {
     {{"filtered_mean", SignalKind::kFilteredMean},
      {"mean", SignalKind::kMean},
      {"max", SignalKind::kMaximum},
@@ -77,10 +77,11 @@ std::size_t matrixGiven(const CommandLine& given) {
 
 SignalKind signalGiven(const CommandLine& given) {
   Words known;
-  for (const auto& [name, kind] : kSignals) known.emplace_back(name);
+  for (const auto& [name, kind] : kCalibrateSignals) known.emplace_back(name);
   const std::string name = given.choice("signal", known).value_or("filtered_mean");
-  return std::find_if(
-             kSignals.begin(), kSignals.end(), [&](const auto& s) { return s.first == name; })
+  return std::find_if(kCalibrateSignals.begin(),
+                      kCalibrateSignals.end(),
+                      [&](const auto& s) { return s.first == name; })
       ->second;
 }
 

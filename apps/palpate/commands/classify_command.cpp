@@ -72,15 +72,8 @@ int classifyCommand(const Words& words) {
   const TrainedModel model = loadModel(given.words().front());
   const FeatureTable table =
       gatherTable(given, {given.words().begin() + 1, given.words().end()}, model.set);
-  requireFits(model, table);
-  Eigen::MatrixXd x(static_cast<Eigen::Index>(table.rows.size()),
-                    static_cast<Eigen::Index>(table.names.size()));
-  for (std::size_t i = 0; i < table.rows.size(); ++i)
-    x.row(static_cast<Eigen::Index>(i)) =
-        Eigen::Map<const Eigen::RowVectorXd>(table.rows[i].values.data(), x.cols());
-  const SessionUse use = sessionFor(model, x, timesOf(table), choice);
+  const auto [use, verdicts] = classifyTable(model, table, choice);
   for (const std::string& warning : use.warnings) sayLine(warning);
-  const std::vector<Verdict> verdicts = classifyRows(model, x, use.offset, use.sameSession);
   if (!given.has("json")) {
     printTable(model, table, verdicts, use);
     return codeFor(table);

@@ -37,7 +37,7 @@ po::options_description described(const CommandSpec& spec) {
   return options;
 }
 
-void showHelp(const CommandSpec& spec, const po::options_description& options) {
+void commandLineShowHelp(const CommandSpec& spec, const po::options_description& options) {
   std::ostringstream text;
   text << "Usage: " << spec.synopsis << "\n\n" << spec.purpose << "\n\n" << options;
   text << "\nExample:\n  " << spec.example << "\n";
@@ -80,7 +80,7 @@ CommandLine::CommandLine(const CommandSpec& spec, const std::vector<std::string>
     throw UsageError(error.what());
   }
   if (has("help")) {
-    showHelp(spec, options);
+    commandLineShowHelp(spec, options);
     helpShown_ = true;
     return;
   }

@@ -19,7 +19,7 @@ namespace palpate::commands {
 namespace fs = std::filesystem;
 namespace {
 
-void showHelp() {
+void commandsShowHelp() {
   std::cout
       << "Palpate " PALPATE_VERSION
          ": workbench for robot hands that feel\n\n"
@@ -76,7 +76,7 @@ void refuseMistypedCommand(const std::string& word) {
 int dispatch(const Words& words) {
   if (!words.empty()) {
     if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
-      showHelp();
+      commandsShowHelp();
       return kDone;
     }
     if (words[0] == "--version") {

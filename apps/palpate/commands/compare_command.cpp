@@ -39,12 +39,12 @@ double offsetFor(const CommandLine& given, const TimedProfile& a, const TimedPro
   throw Error("these two can't be aligned");
 }
 
-void appendRow(std::string& line,
-               const FramePair& pair,
-               std::size_t matrix,
-               double meanA,
-               double meanB,
-               const DifferenceStatistics& difference) {
+void compareAppendRow(std::string& line,
+                      const FramePair& pair,
+                      std::size_t matrix,
+                      double meanA,
+                      double meanB,
+                      const DifferenceStatistics& difference) {
   line += fixedText(pair.timeS, kMicroseconds);
   for (const std::size_t whole : {pair.frameA, pair.frameB, matrix}) {
     line += ',';
@@ -101,7 +101,7 @@ int compareCommand(const Words& words) {
           const auto mean = [m](const TactileFrame& frame) {
             return characteristicSignals(frame.matrix(m), frame.layout->matrix(m)).mean;
           };
-          appendRow(line, pair, m, mean(inA), mean(inB), differences[m]);
+          compareAppendRow(line, pair, m, mean(inA), mean(inB), differences[m]);
         }
         out.write(line);
       },

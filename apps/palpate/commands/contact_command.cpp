@@ -9,6 +9,7 @@
 #include "palpate/core/number_text.h"
 #include "palpate/core/one_line.h"
 #include "palpate/core/text_table.h"
+#include "palpate/core/time.h"
 #include "palpate/kinematics/contact_geometry.h"
 #include "palpate/kinematics/hand_geometry.h"
 #include "palpate/kinematics/joint_range.h"
@@ -23,7 +24,6 @@
 namespace palpate::commands {
 namespace {
 
-constexpr std::int64_t kUsPerMs = 1000;
 constexpr const char* kFrameColumns =
     "frame,time_ms,active,sphere_x_mm,sphere_y_mm,sphere_z_mm,sphere_radius_mm,force_n";
 constexpr const char* kMatrixColumns =
@@ -31,7 +31,7 @@ constexpr const char* kMatrixColumns =
     "major_x,major_y,major_z,major_sd_mm,minor_x,minor_y,minor_z,minor_sd_mm,surface_x_mm,"
     "surface_y_mm";
 
-struct Request {
+struct ContactRequest {
   std::optional<std::vector<double>> anglesDeg;  // assumed, whatever the recording says
   bool matrices = false;
   ContactOptions options = {};
@@ -108,9 +108,9 @@ void appendMatrix(std::string& line, std::size_t m, const MatrixContact& contact
 }
 
 // First and last frame that were asked for.
-std::pair<std::size_t, std::size_t> rangeOf(const std::filesystem::path& file,
-                                            const Profile& profile,
-                                            const Request& request) {
+std::pair<std::size_t, std::size_t> contactRangeOf(const std::filesystem::path& file,
+                                                   const Profile& profile,
+                                                   const ContactRequest& request) {
   const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
   const std::int64_t from = request.from.value_or(0), to = request.to.value_or(last);
   if (last < 0 && !request.from && !request.to) return {1, 0};
@@ -123,7 +123,7 @@ std::pair<std::size_t, std::size_t> rangeOf(const std::filesystem::path& file,
 // Keeps the pose that belongs to a frame; joint angles change less often than frames.
 class PoseOfFrames {
  public:
-  PoseOfFrames(const Profile& profile, const HandGeometry& geometry, const Request& request)
+  PoseOfFrames(const Profile& profile, const HandGeometry& geometry, const ContactRequest& request)
       : profile_(profile), geometry_(geometry), request_(request) {
     if (request.anglesDeg) geometry.pose(*request.anglesDeg, pose_);
   }
@@ -152,7 +152,7 @@ class PoseOfFrames {
  private:
   const Profile& profile_;
   const HandGeometry& geometry_;
-  const Request& request_;
+  const ContactRequest& request_;
   HandPose pose_;
   std::optional<std::size_t> sample_;
   AnglesCheck check_;
@@ -162,7 +162,7 @@ AngleTroubles writeContact(StandardOutput& out,
                            const std::filesystem::path& file,
                            const Profile& profile,
                            const HandGeometry& geometry,
-                           const Request& request,
+                           const ContactRequest& request,
                            const std::pair<std::size_t, std::size_t>& range,
                            const std::string& lineEnd,
                            const Progress& progress) {
@@ -250,7 +250,7 @@ int contactCommand(const Words& words) {
       words);
   if (given.helpShown()) return kDone;
   if (given.has("size")) return contactSizes(given);
-  Request request{.anglesDeg = anglesOf(given)};
+  ContactRequest request{.anglesDeg = anglesOf(given)};
   request.matrices = given.has("matrices");
   request.options.threshold = given.number("threshold", 0.0, 4095.0).value_or(0.0);
   request.calibration = calibrationGiven(given);
@@ -274,7 +274,7 @@ int contactCommand(const Words& words) {
         if (profile.numAngles() == 0 && !request.anglesDeg)
           throw Error(file.string() +
                       ": holds no joint angles; assume some with --angles A0,..,A6 [deg]");
-        const auto range = rangeOf(file, profile, request);
+        const auto range = contactRangeOf(file, profile, request);
         if (!headerWritten)
           out.write(std::string(request.matrices ? kMatrixColumns : kFrameColumns) +
                     (recordings.several ? ",file\n" : "\n"));

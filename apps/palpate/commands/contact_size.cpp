@@ -34,7 +34,8 @@ std::vector<std::string> header() {
           "sphere_mm"};
 }
 
-std::vector<std::string> cellsOf(const GraspSegment& grasp, const ObjectSizeReport& report) {
+std::vector<std::string> contactSizeCellsOf(const GraspSegment& grasp,
+                                            const ObjectSizeReport& report) {
   std::vector<std::string> cells = {std::to_string(grasp.begin), std::to_string(grasp.end)};
   if (!report.valid) {
     cells.resize(header().size());
@@ -56,7 +57,9 @@ std::vector<std::string> cellsOf(const GraspSegment& grasp, const ObjectSizeRepo
   return cells;
 }
 
-void say(const std::filesystem::path& file, const GraspSegment& grasp, const std::string& what) {
+void sayContactSize(const std::filesystem::path& file,
+                    const GraspSegment& grasp,
+                    const std::string& what) {
   std::fprintf(stderr,
                "palpate: %s: grasp %zu..%zu: %s\n",
                oneLine(file.string()).c_str(),
@@ -92,15 +95,15 @@ int contactSizes(const CommandLine& given) {
         for (const GraspSegment& grasp : grasps) {
           const ObjectSizeReport report =
               objectSize(profile, geometry, grasp.begin, grasp.end, {}, progress);
-          std::vector<std::string> cells = cellsOf(grasp, report);
+          std::vector<std::string> cells = contactSizeCellsOf(grasp, report);
           if (recordings.several) cells.push_back(file.string());
           out.write(csvLine(cells));
           if (report.unusableFrames > 0)
-            say(file,
-                grasp,
-                std::to_string(report.unusableFrames) +
-                    " frames without usable joint angles are left out");
-          if (!report.valid) say(file, grasp, "no size: " + report.trouble);
+            sayContactSize(file,
+                           grasp,
+                           std::to_string(report.unusableFrames) +
+                               " frames without usable joint angles are left out");
+          if (!report.valid) sayContactSize(file, grasp, "no size: " + report.trouble);
           whole = whole && report.valid && report.unusableFrames == 0;
         }
         out.finish();  // each recording's rows as they come

@@ -67,7 +67,7 @@ void requireOutside(const fs::path& folder, const fs::path& out) {
     throw FileError(out, "is not a folder");
 }
 
-void makeFolder(const fs::path& folder) {
+void convertMakeFolder(const fs::path& folder) {
   std::error_code failure;
   fs::create_directories(folder, failure);
   if (failure) throw FileError(folder, "can't be made: " + failure.message());
@@ -92,7 +92,7 @@ int convertFolder(const CommandLine& given,
         const Profile profile =
             openRecording(file, [&](double fraction) { return progress(0.5 * fraction); });
         const EventsReport events = readEvents(file);
-        makeFolder(out.parent_path());
+        convertMakeFolder(out.parent_path());
         saveRecording(profile, events.events, out, overwrite, [&](double fraction) {
           return progress(0.5 + 0.5 * fraction);
         });

@@ -35,7 +35,7 @@ void setRate(const std::string& text, EmulatedHandOptions& options) {
   }
 }
 
-EmulatedHandOptions optionsOf(const CommandLine& given) {
+EmulatedHandOptions emulateOptionsOf(const CommandLine& given) {
   EmulatedHandOptions options;
   options.dsaPort = given.text("dsa").value_or("");
   options.sdhPort = given.text("sdh").value_or("");
@@ -64,7 +64,7 @@ std::unique_ptr<HandModel> modelOf(const CommandLine& given, std::uint64_t seed)
   return std::make_unique<PhysicalHand>(scene, options);
 }
 
-CommandSpec spec() {
+CommandSpec emulateSpec() {
   return {
       .synopsis = "palpate emulate [--dsa LINK] [--sdh LINK] [--scene NAME|FILE.json] ..",
       .purpose =
@@ -103,13 +103,13 @@ void waitForEnd(const EmulatedHand& hand, Interruption& interruption) {
 }  // namespace
 
 int emulateCommand(const Words& words) {
-  const CommandLine given(spec(), words);
+  const CommandLine given(emulateSpec(), words);
   if (given.helpShown()) return kDone;
   if (given.has("replay") && given.has("scene"))
     throw UsageError("--replay and --scene exclude each other");
   if (given.has("replay") && given.has("truth"))
     throw UsageError("nobody knows the truth of a recording: --truth needs a scene");
-  const EmulatedHandOptions options = optionsOf(given);
+  const EmulatedHandOptions options = emulateOptionsOf(given);
   std::unique_ptr<HandModel> model = modelOf(given, options.seed);
   std::unique_ptr<TruthWriter> truth;
   if (const auto path = given.text("truth"))

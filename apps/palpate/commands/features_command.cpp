@@ -14,7 +14,7 @@
 namespace palpate::commands {
 namespace {
 
-void say(const std::string& message) {
+void sayFeatures(const std::string& message) {
   std::fprintf(stderr, "palpate: %s\n", oneLine(message).c_str());
 }
 
@@ -29,7 +29,7 @@ FeatureTable gather(const CommandLine& given, const FeatureGatherOptions& option
       });
 }
 
-std::vector<std::string> cellsOf(const FeatureRow& row) {
+std::vector<std::string> featuresCellsOf(const FeatureRow& row) {
   std::vector<std::string> cells = {row.className,
                                     row.file.string(),
                                     std::to_string(row.begin),
@@ -68,18 +68,19 @@ int featuresCommand(const Words& words) {
   if (set) options.set = *featureSetNamed(*set);
   const FeatureTable table = gather(given, options);
 
-  if (options.set == FeatureSet::kSession && !given.quiet()) say(std::string(sessionSetWarning()));
-  for (const std::string& trouble : table.troubles) say(trouble);
+  if (options.set == FeatureSet::kSession && !given.quiet())
+    sayFeatures(std::string(sessionSetWarning()));
+  for (const std::string& trouble : table.troubles) sayFeatures(trouble);
   if (table.rows.empty()) {
-    say("no grasp with features in " + std::to_string(table.numFiles) +
-        (table.numFiles == 1 ? " recording" : " recordings"));
+    sayFeatures("no grasp with features in " + std::to_string(table.numFiles) +
+                (table.numFiles == 1 ? " recording" : " recordings"));
     return kFailed;
   }
   StandardOutput out;
   std::vector<std::string> header = {"class", "file", "begin", "end", "initial_frame", "end_frame"};
   header.insert(header.end(), table.names.begin(), table.names.end());
   out.write(csvLine(header));
-  for (const FeatureRow& row : table.rows) out.write(csvLine(cellsOf(row)));
+  for (const FeatureRow& row : table.rows) out.write(csvLine(featuresCellsOf(row)));
   out.finish();
   return table.troubles.empty() ? kDone : kPartlyDone;
 }

@@ -9,7 +9,7 @@
 namespace palpate::commands {
 namespace {
 
-std::string rangeOf(const FilterOption& option) {
+std::string filterOptionsRangeOf(const FilterOption& option) {
   if (option.kind == FilterOption::Kind::kFlag) return "0|1";
   if (option.kind == FilterOption::Kind::kChoice) {
     std::string text;
@@ -88,8 +88,8 @@ std::string filterList() {
     text += padded("", 18) + "Over " + domainText(kind.domain) + ". Border: " + kind.border +
             ". Source: " + kind.source + ".\n";
     for (const FilterOption& option : kind.options)
-      text += "    " + padded(option.key, 14) + padded(rangeOf(option), 28) + "default " +
-              padded(fallbackOf(option), 8) + option.purpose + "\n";
+      text += "    " + padded(option.key, 14) + padded(filterOptionsRangeOf(option), 28) +
+              "default " + padded(fallbackOf(option), 8) + option.purpose + "\n";
   }
   text += "Every filter takes matrices=A+B.. (only these). A filter in round brackets is off.\n";
   return text;

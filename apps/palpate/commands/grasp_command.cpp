@@ -21,9 +21,9 @@ namespace palpate::commands {
 namespace {
 using gui::Interruption;
 
-constexpr int kLookMs = 20;
+constexpr int kGraspLookMs = 20;
 
-CommandSpec spec() {
+CommandSpec graspSpec() {
   return {
       .synopsis = "palpate grasp --sdh PORT [--dsa PORT] --preshape NAME [--close R] ..",
       .purpose =
@@ -76,7 +76,7 @@ void holdingOf(const CommandLine& given, GraspRequest& request) {
   holding.newtonsPerCount = given.number("newtons-per-count", 1e-9, 1.0).value_or(0.0);
 }
 
-GraspRequest requestOf(const CommandLine& given) {
+GraspRequest graspRequestOf(const CommandLine& given) {
   GraspRequest request;
   const std::string mode = given.choice("mode", {"plain", "reactive", "slip"}).value_or("plain");
   const bool feels = mode != "plain";
@@ -134,13 +134,13 @@ void awaitHand(const GraspControl& control,
         request.mode == GraspMode::kPlain ? status.cannotMove : status.cannotReact;
     if (why.empty()) return;
     if (systemClock().monotonicUs() > endUs) throw Error("the hand can't grasp: " + why);
-    if (interruption.came(kLookMs)) throw Error("interrupted before anything was moved");
+    if (interruption.came(kGraspLookMs)) throw Error("interrupted before anything was moved");
   }
 }
 
 GraspReport follow(GraspControl& control, const StateLines& lines, Interruption& interruption) {
   while (true) {
-    if (interruption.came(kLookMs)) control.stop();
+    if (interruption.came(kGraspLookMs)) control.stop();
     for (const GraspChange& change : control.takeChanges()) {
       if (!change.report) {
         // What happened in a phase, or that it begins.
@@ -173,9 +173,9 @@ int exitCodeOf(const GraspReport& report) {
 }  // namespace
 
 int graspCommand(const Words& words) {
-  const CommandLine given(spec(), words);
+  const CommandLine given(graspSpec(), words);
   if (given.helpShown()) return kDone;
-  const GraspRequest request = requestOf(given);
+  const GraspRequest request = graspRequestOf(given);
   LiveHandOptions ports;
   ports.sdhPort = given.text("sdh").value_or("");
   ports.dsaPort = given.text("dsa").value_or("");

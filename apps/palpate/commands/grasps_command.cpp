@@ -6,6 +6,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
+#include "palpate/core/time.h"
 #include "palpate/recognition/grasp_segments.h"
 
 #include "commands/command_line.h"
@@ -14,8 +15,6 @@
 
 namespace palpate::commands {
 namespace {
-
-constexpr std::int64_t kUsPerMs = 1000;
 
 // The rule of the study names matrices; of a sensor without them "no grasp" would be the wrong answer.
 void requireMatrices(const std::filesystem::path& file,
@@ -31,7 +30,7 @@ void requireMatrices(const std::filesystem::path& file,
                           ": use --rule general");
 }
 
-std::vector<std::string> cellsOf(const Profile& profile, const GraspSegment& grasp) {
+std::vector<std::string> graspsCellsOf(const Profile& profile, const GraspSegment& grasp) {
   std::string fingers;
   for (const int finger : grasp.fingers)
     fingers += (fingers.empty() ? "" : " ") + std::to_string(finger);
@@ -88,7 +87,7 @@ int graspsCommand(const Words& words) {
     if (!headerWritten) out.write(csvLine(header));
     headerWritten = true;
     for (const GraspSegment& grasp : grasps) {
-      std::vector<std::string> cells = cellsOf(profile, grasp);
+      std::vector<std::string> cells = graspsCellsOf(profile, grasp);
       if (list.several) cells.push_back(file.string());
       out.write(csvLine(cells));
     }

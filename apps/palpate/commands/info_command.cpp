@@ -44,7 +44,7 @@ const char* valueTypeText(const Profile& profile) {
 }
 
 // A rate needs two frames; with fewer it is not known.
-Json rateJson(double hz) { return hz > 0.0 ? Json(hz) : Json(); }
+Json infoRateJson(double hz) { return hz > 0.0 ? Json(hz) : Json(); }
 
 Json matricesJson(const SensorLayout& layout) {
   Json matrices = Json::array();
@@ -62,10 +62,10 @@ Json matricesJson(const SensorLayout& layout) {
 }
 
 // `report` has what stands before.
-Json jsonOf(Json report,
-            const Profile& profile,
-            const TimingReport& timing,
-            const ValueReport& values) {
+Json infoJsonOf(Json report,
+                const Profile& profile,
+                const TimingReport& timing,
+                const ValueReport& values) {
   const ProfileInfo& info = profile.info();
   Json gaps = Json::array();
   for (const Gap& gap : timing.gaps)
@@ -76,8 +76,8 @@ Json jsonOf(Json report,
       .set("value_type", valueTypeText(profile))
       .set("frames", profile.numFrames())
       .set("duration_s", timing.durationS)
-      .set("rate_hz", rateJson(timing.rateHz))
-      .set("mean_rate_hz", rateJson(timing.meanRateHz))
+      .set("rate_hz", infoRateJson(timing.rateHz))
+      .set("mean_rate_hz", infoRateJson(timing.meanRateHz))
       .set("gaps", timing.gaps.size())
       .set("gap_list", gaps)
       .set("matrices", matricesJson(profile.layout()))
@@ -187,7 +187,7 @@ int infoOfOne(const RecordingList& recordings, bool quiet, bool json) {
       [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
         const TimingReport timing = timingOf(profile);
         const ValueReport values = valuesOf(profile, progress);
-        out.write(json ? jsonOf(Json::object(), profile, timing, values).text() + "\n"
+        out.write(json ? infoJsonOf(Json::object(), profile, timing, values).text() + "\n"
                        : plainText(file.string(), profile, timing, values));
         out.finish();
       });
@@ -206,7 +206,7 @@ int infoOfSeveral(const RecordingList& recordings, bool quiet, bool json) {
         const ValueReport values = valuesOf(profile, progress);
         if (json) {
           const Json report =
-              jsonOf(Json::object().set("file", file.string()), profile, timing, values);
+              infoJsonOf(Json::object().set("file", file.string()), profile, timing, values);
           out.write(between + report.text(-1));
           between = ",\n";
         } else {

@@ -14,13 +14,13 @@ namespace {
 
 constexpr double kFarthestMm = 1000.0;
 
-void appendRow(std::string& out,
-               std::size_t matrix,
-               double x,
-               double y,
-               const Eigen::Vector3d& positionMm,
-               const Eigen::Vector3d& normal,
-               bool exists) {
+void kinematicsAppendRow(std::string& out,
+                         std::size_t matrix,
+                         double x,
+                         double y,
+                         const Eigen::Vector3d& positionMm,
+                         const Eigen::Vector3d& normal,
+                         bool exists) {
   appendNumber(out, static_cast<std::int64_t>(matrix));
   for (const double value :
        {x, y, positionMm.x(), positionMm.y(), positionMm.z(), normal.x(), normal.y(), normal.z()}) {
@@ -73,25 +73,25 @@ int kinematicsCommand(const Words& words) {
     // The taxel that the point lies in.
     const bool exists = layout.matrix(matrix).exists(static_cast<int>(std::floor(y + 0.5)),
                                                      static_cast<int>(std::floor(x + 0.5)));
-    appendRow(out,
-              matrix,
-              x,
-              y,
-              pose.pointMm(matrix, point[1], point[2]),
-              pose.normalAt(matrix, point[1], point[2]),
-              exists);
+    kinematicsAppendRow(out,
+                        matrix,
+                        x,
+                        y,
+                        pose.pointMm(matrix, point[1], point[2]),
+                        pose.normalAt(matrix, point[1], point[2]),
+                        exists);
   } else {
     for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
       if (only && static_cast<std::size_t>(*only) != m) continue;
       for (int y = 0; y < layout.matrix(m).rows; ++y)
         for (int x = 0; x < layout.matrix(m).columns; ++x)
-          appendRow(out,
-                    m,
-                    x,
-                    y,
-                    pose.positionMm(m, y, x),
-                    pose.normal(m, y, x),
-                    layout.matrix(m).exists(y, x));
+          kinematicsAppendRow(out,
+                              m,
+                              x,
+                              y,
+                              pose.positionMm(m, y, x),
+                              pose.normal(m, y, x),
+                              layout.matrix(m).exists(y, x));
     }
   }
   StandardOutput output;

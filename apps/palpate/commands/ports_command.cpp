@@ -28,7 +28,7 @@ struct Row {
 };
 
 // Where a name leads to; the name itself where that is no file.
-std::string deviceOf(const std::string& name) {
+std::string portsDeviceOf(const std::string& name) {
   std::error_code failed;
   const std::string path = std::filesystem::canonical(name, failed).string();
   return failed ? name : path;
@@ -43,9 +43,9 @@ std::vector<Row> rowsOf(const std::vector<std::string>& named) {
     rows.push_back({std::move(info), wanted, std::nullopt});
   }
   for (const std::string& name : named) {
-    const std::string device = deviceOf(name);
+    const std::string device = portsDeviceOf(name);
     const auto known = std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
-      return deviceOf(row.info.name) == device;
+      return portsDeviceOf(row.info.name) == device;
     });
     if (known != rows.end()) {
       known->wanted = true;
@@ -125,7 +125,7 @@ std::string adviceText(const std::vector<Row>& rows) {
          (motion ? " --sdh " + oneLine(*motion) : "") + "\n";
 }
 
-std::string jsonText(const std::vector<Row>& rows) {
+std::string portsJsonText(const std::vector<Row>& rows) {
   Json list = Json::array();
   for (const Row& row : rows) {
     const PortInfo& info = row.info;
@@ -162,7 +162,7 @@ int portsCommand(const Words& words) {
   if (!given.has("no-probe")) probe(rows);
   StandardOutput out;
   if (given.has("json")) {
-    out.write(jsonText(rows));
+    out.write(portsJsonText(rows));
   } else {
     out.write(tableText(rows));
     if (!given.quiet()) out.write(adviceText(rows));

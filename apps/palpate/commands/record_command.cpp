@@ -127,9 +127,9 @@ std::uint64_t badChecksumsOf(const DeviceStatus& device) {
   return device.tactile.badChecksums + (device.motion ? device.motion->badChecksums : 0);
 }
 
-Json rateJson(double hz) { return hz > 0.0 ? Json(hz) : Json(); }
+Json recordRateJson(double hz) { return hz > 0.0 ? Json(hz) : Json(); }
 
-std::string jsonText(const RecordingReport& report, const DeviceStatus& device) {
+std::string recordJsonText(const RecordingReport& report, const DeviceStatus& device) {
   Json files = Json::array();
   for (const fs::path& path : report.paths) files.push(path.string());
   return Json::object()
@@ -144,8 +144,8 @@ std::string jsonText(const RecordingReport& report, const DeviceStatus& device) 
       .set("gaps", report.gaps)
       .set("events", report.events)
       .set("duration_s", report.durationS)
-      .set("rate_hz", rateJson(report.rateHz))
-      .set("mean_rate_hz", rateJson(report.meanRateHz))
+      .set("rate_hz", recordRateJson(report.rateHz))
+      .set("mean_rate_hz", recordRateJson(report.meanRateHz))
       .set("bytes", report.bytes)
       .set("complete", report.complete)
       .text();
@@ -223,7 +223,8 @@ int recordCommand(const Words& words) {
   const RecordingReport report = session.stopRecording();
   if (report.paths.empty())
     throw Error(health.frames.ageMs ? report.message : nothingText(device, *dsa));
-  const std::string text = given.has("json") ? jsonText(report, device) : lineText(report, device);
+  const std::string text =
+      given.has("json") ? recordJsonText(report, device) : lineText(report, device);
   if (given.has("json") || !given.quiet()) std::printf("%s\n", text.c_str());
   if (report.complete) return kDone;
   std::fprintf(stderr, "palpate: %s\n", oneLine(report.message).c_str());

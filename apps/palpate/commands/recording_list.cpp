@@ -21,7 +21,7 @@ namespace palpate::commands {
 namespace fs = std::filesystem;
 namespace {
 
-void say(const std::string& message) {
+void sayRecordingList(const std::string& message) {
   std::fprintf(stderr, "palpate: %s\n", oneLine(message).c_str());
 }
 
@@ -37,7 +37,7 @@ class ListRun {
   }
 
   int through(const FileWork& work) {
-    for (const std::string& trouble : list_.troubles) say(trouble);
+    for (const std::string& trouble : list_.troubles) sayRecordingList(trouble);
     for (index_ = 0; index_ < list_.files.size(); ++index_) {
       if (interrupted()) return endInterrupted();
       const fs::path& file = list_.files[index_];
@@ -53,7 +53,7 @@ class ListRun {
         std::fflush(stdout);  // a line per file as it comes, also into a pipe
       }
       if (outcome->trouble.empty()) continue;
-      say(outcome->trouble);
+      sayRecordingList(outcome->trouble);
       ++inPart_;
     }
     return end();
@@ -63,7 +63,7 @@ class ListRun {
   void note(const std::string& message) {
     if (quiet_ || !list_.several) return;
     line_.wipe();
-    say(message);
+    sayRecordingList(message);
   }
   // Before rows go to a terminal: they would be written behind the progress, and are progress enough.
   void leaveTheTerminal() {
@@ -106,13 +106,13 @@ class ListRun {
 
   void fail(const std::string& message) {
     line_.wipe();
-    say(message);
+    sayRecordingList(message);
     ++failed_;
   }
 
   int end() const {
     const std::size_t all = list_.files.size();
-    if (failed_ > 1) say(countText(failed_, all) + " recordings failed");
+    if (failed_ > 1) sayRecordingList(countText(failed_, all) + " recordings failed");
     if (failed_ == all) return kFailed;
     return failed_ + inPart_ + list_.troubles.size() > 0 ? kPartlyDone : kDone;
   }
@@ -120,7 +120,8 @@ class ListRun {
   int endInterrupted() {
     line_.wipe();
     const std::size_t done = index_ - failed_;
-    say("interrupted: " + countText(done, list_.files.size()) + " recordings are done");
+    sayRecordingList("interrupted: " + countText(done, list_.files.size()) +
+                     " recordings are done");
     return done > 0 ? kPartlyDone : kFailed;
   }
 

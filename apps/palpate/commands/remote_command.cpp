@@ -6,6 +6,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/core/one_line.h"
+#include "palpate/core/time.h"
 #include "palpate/interop/remote_client.h"
 #include "palpate/interop/remote_server.h"
 
@@ -16,9 +17,8 @@ namespace palpate::commands {
 namespace {
 
 constexpr double kUsualWaitS = 60.0;  // a stop waits for the disk
-constexpr double kMsPerS = 1000.0;
 
-std::string requestOf(const CommandLine& given) {
+std::string remoteRequestOf(const CommandLine& given) {
   std::string request;
   for (const std::string& word : given.words()) request += (request.empty() ? "" : " ") + word;
   const ReadRequest read = readRequest(request);
@@ -51,7 +51,7 @@ int remoteCommand(const Words& words) {
        .fewestWords = 1},
       words);
   if (given.helpShown()) return kDone;
-  const std::string request = requestOf(given);
+  const std::string request = remoteRequestOf(given);
   const double waitS = given.number("wait", 0.01, 1e5).value_or(kUsualWaitS);
   const auto socket = given.text("socket");
   RemoteClient client(socket ? std::filesystem::path(*socket) : usualRemoteSocket());

@@ -17,9 +17,9 @@ namespace palpate::commands {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int kLookMs = 100;
+constexpr int kRemoteRecordingLookMs = 100;
 
-RemoteRecorderOptions optionsOf(const CommandLine& given, RecordingOptions each) {
+RemoteRecorderOptions remoteRecordingOptionsOf(const CommandLine& given, RecordingOptions each) {
   RemoteRecorderOptions options;
   const fs::path out(given.text("output").value());
   std::error_code ignored;
@@ -38,7 +38,7 @@ RemoteRecorderOptions optionsOf(const CommandLine& given, RecordingOptions each)
   return options;
 }
 
-void say(const RecordingReport& report, bool json) {
+void sayRemoteRecording(const RecordingReport& report, bool json) {
   const RemoteAnswer answer = stopAnswer(report);
   std::string line;
   if (json)
@@ -74,11 +74,11 @@ int recordRemotely(const CommandLine& given,
                    CaptureSession& session,
                    gui::Interruption& interruption,
                    RecordingOptions each) {
-  RemoteRecorderOptions options = optionsOf(given, std::move(each));
+  RemoteRecorderOptions options = remoteRecordingOptionsOf(given, std::move(each));
   std::atomic<bool> whole = true;
   options.onFinished = [&](const RecordingReport& report) {
     if (!report.complete && !report.paths.empty()) whole = false;
-    if (given.has("json") || !given.quiet()) say(report, given.has("json"));
+    if (given.has("json") || !given.quiet()) sayRemoteRecording(report, given.has("json"));
   };
   session.start();
   {
@@ -86,7 +86,7 @@ int recordRemotely(const CommandLine& given,
     const RemoteServer server(remoteSocketOf(given), recorder);
     std::printf("remote=%s\n", oneLine(server.socket().string()).c_str());
     std::fflush(stdout);
-    while (!interruption.came(kLookMs)) {
+    while (!interruption.came(kRemoteRecordingLookMs)) {
     }
   }
   session.stop();

@@ -88,32 +88,43 @@ void checkHandUsage(const CommandLine& given) {
   }
 }
 
-gui::FramePictures::Paint handPainter(const CommandLine& given,
+gui::FramePictures::Paint handPainter(const HandRendering& view,
                                       const Profile& profile,
                                       const gui::FrameSpan& span,
                                       const gui::MatricesPictureOptions& page) {
   gui::HandPictureOptions options;
   options.page = page;
-  options.look = lookOf(given, profile);
-  const std::vector<double> assumed = anglesOf(given).value_or(std::vector<double>());
+  options.look = view.look;
   gui::HandDrawing drawing;
   drawing.setHand(profile.hand());
   std::vector<Eigen::Vector3d> seen;
   for (std::size_t i = 0; i <= std::min(kLooks, span.count() - 1); ++i) {
     const std::size_t frame = span.first + (span.count() - 1) * i / kLooks;
     const auto angles = profile.anglesAtFrame(frame);
-    drawing.setMoment(profile.frame(frame), angles ? angles->deg : assumed);
+    drawing.setMoment(profile.frame(frame), angles ? angles->deg : view.assumedAnglesDeg);
     const auto extent = drawing.extent(options.look);
     seen.insert(seen.end(), extent.begin(), extent.end());
   }
   options.camera = drawing.usualCamera(options.look);
-  if (const auto camera = given.text("camera")) {
-    const auto numbers = numbersOf(*camera, "camera", 2);
-    options.camera.azimuthDeg = numbers[0];
-    options.camera.elevationDeg = numbers[1];
+  if (view.eye) {
+    options.camera.azimuthDeg = view.eye->azimuthDeg;
+    options.camera.elevationDeg = view.eye->elevationDeg;
   }
   options.camera.fit(seen, page.size.width() / page.size.height());
-  return gui::handFramePainter(profile, options, assumed);
+  return gui::handFramePainter(profile, options, view.assumedAnglesDeg);
+}
+
+gui::FramePictures::Paint handPainter(const CommandLine& given,
+                                      const Profile& profile,
+                                      const gui::FrameSpan& span,
+                                      const gui::MatricesPictureOptions& page) {
+  HandRendering view{.look = lookOf(given, profile),
+                     .assumedAnglesDeg = anglesOf(given).value_or(std::vector<double>())};
+  if (const auto camera = given.text("camera")) {
+    const auto numbers = numbersOf(*camera, "camera", 2);
+    view.eye = {numbers[0], numbers[1]};
+  }
+  return handPainter(view, profile, span, page);
 }
 
 }  // namespace palpate::commands

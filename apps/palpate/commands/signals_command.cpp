@@ -5,6 +5,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
+#include "palpate/core/time.h"
 #include "palpate/filter/characteristic_signals.h"
 #include "palpate/filter/signal_filter.h"
 
@@ -15,8 +16,6 @@
 
 namespace palpate::commands {
 namespace {
-
-constexpr std::int64_t kUsPerMs = 1000;
 
 // One value after the other, in the order of the columns.
 SignalValues columnsOf(const CharacteristicSignals& row) {
@@ -33,11 +32,11 @@ SignalValues columnsOf(const SignalValues& row) {
   return {row[0], row[1], row[3], row[2], row[4], row[5], row[6]};
 }
 
-void appendRow(std::string& line,
-               std::size_t frame,
-               std::int64_t hostUs,
-               std::size_t matrix,
-               const SignalValues& columns) {
+void signalsAppendRow(std::string& line,
+                      std::size_t frame,
+                      std::int64_t hostUs,
+                      std::size_t matrix,
+                      const SignalValues& columns) {
   appendNumber(line, static_cast<std::int64_t>(frame));
   line += ',';
   appendNumber(line, hostUs / kUsPerMs);
@@ -64,7 +63,7 @@ void writeSignals(StandardOutput& out,
   const auto write = [&](std::int64_t hostUs, const auto& rows) {
     for (std::size_t m = first; m < last; ++m) {
       line.clear();
-      appendRow(line, written, hostUs, m, columnsOf(rows[m]));
+      signalsAppendRow(line, written, hostUs, m, columnsOf(rows[m]));
       out.write(line += lineEnd);
     }
     ++written;

@@ -12,7 +12,7 @@
 namespace palpate::commands {
 namespace {
 
-Json toJson(const SlipScore& score) {
+Json slipAlarmsToJson(const SlipScore& score) {
   Json json = Json::object();
   json.set("per_hour", score.perHour(kAllContact))
       .set("per_hour_settled", score.perHour(kSettledContact))
@@ -54,7 +54,8 @@ Json slipAlarms(const std::filesystem::path& folder, bool quiet) {
   readAll("grasps_by_class", false);
   const SlipEvaluationReport report = evaluation.report();
   Json alarms = Json::object();
-  for (const ScoredAlarm& alarm : report.alarms) alarms.set(alarm.name, toJson(alarm.score));
+  for (const ScoredAlarm& alarm : report.alarms)
+    alarms.set(alarm.name, slipAlarmsToJson(alarm.score));
   Json json = Json::object();
   json.set("hold_recordings", static_cast<std::int64_t>(report.holdRecordings))
       .set("slip_recordings", static_cast<std::int64_t>(report.slipRecordings))

@@ -9,7 +9,7 @@
 namespace palpate::commands {
 namespace {
 
-Json toJson(const SlipAccuracy& accuracy) {
+Json slipBenchmarkToJson(const SlipAccuracy& accuracy) {
   Json json = Json::object();
   json.set("rmse", accuracy.rmse)
       .set("bias", accuracy.bias)
@@ -73,10 +73,10 @@ int slipBenchmarkCommand(const Words& words) {
   }
   Json methods = Json::object();
   for (const MethodAccuracy& result : results) {
-    Json method = toJson(result.all);
+    Json method = slipBenchmarkToJson(result.all);
     Json shapes = Json::object();
     for (const ShapeAccuracy& one : result.shapes)
-      shapes.set(nameOf(one.shape), toJson(one.accuracy));
+      shapes.set(nameOf(one.shape), slipBenchmarkToJson(one.accuracy));
     method.set("shapes", shapes);
     methods.set(result.name, method);
   }

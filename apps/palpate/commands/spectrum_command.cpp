@@ -25,13 +25,13 @@ struct NamedSignal {
   const char* word;
   SignalKind kind;
 };
-constexpr NamedSignal kSignals[] = {{"mean", SignalKind::kMean},
-                                    {"filtered_mean", SignalKind::kFilteredMean},
-                                    {"min", SignalKind::kMinimum},
-                                    {"max", SignalKind::kMaximum},
-                                    {"sum", SignalKind::kSum},
-                                    {"active", SignalKind::kActive},
-                                    {"area_mm2", SignalKind::kArea}};
+constexpr NamedSignal kSpectrumSignals[] = {{"mean", SignalKind::kMean},
+                                            {"filtered_mean", SignalKind::kFilteredMean},
+                                            {"min", SignalKind::kMinimum},
+                                            {"max", SignalKind::kMaximum},
+                                            {"sum", SignalKind::kSum},
+                                            {"active", SignalKind::kActive},
+                                            {"area_mm2", SignalKind::kArea}};
 
 std::string placeText(std::size_t matrix, std::int64_t x, std::int64_t y) {
   return "matrix " + std::to_string(matrix) + ", x " + std::to_string(x) + ", y " +
@@ -88,11 +88,11 @@ SeriesChoice choiceOf(const CommandLine& given, const SensorLayout& layout) {
                 std::to_string(numMatrices - 1));
   const auto x = given.integer("x", 0, INT32_MAX), y = given.integer("y", 0, INT32_MAX);
   std::vector<std::string> words;
-  for (const NamedSignal& signal : kSignals) words.emplace_back(signal.word);
+  for (const NamedSignal& signal : kSpectrumSignals) words.emplace_back(signal.word);
   if (const auto word = given.choice("signal", words)) {
     if (x || y) throw UsageError("give --signal, or --x and --y, not both");
     SeriesChoice choice{.index = static_cast<std::size_t>(matrix.value_or(numMatrices))};
-    for (const NamedSignal& signal : kSignals)
+    for (const NamedSignal& signal : kSpectrumSignals)
       if (*word == signal.word) choice.signal = signal.kind;
     return choice;
   }
@@ -124,7 +124,7 @@ Series seriesOf(const CommandLine& given, const Profile& profile, const Progress
   return series;
 }
 
-SpectrumOptions optionsOf(const CommandLine& given) {
+SpectrumOptions spectrumOptionsOf(const CommandLine& given) {
   SpectrumOptions options;
   options.window = static_cast<int>(given.integer("window", 2, 65'536).value_or(options.window));
   // Unasked: all but one sample, as the study has it.
@@ -155,10 +155,10 @@ void appendRows(std::string& text, const SpectrumSegment& segment) {
 
 Json known(double value) { return value > 0.0 ? Json(value) : Json(); }
 
-Json jsonOf(const SpectrumReport& report,
-            const SpectrumOptions& options,
-            const MeanSpectrum& mean,
-            double strongestTimeS) {
+Json spectrumJsonOf(const SpectrumReport& report,
+                    const SpectrumOptions& options,
+                    const MeanSpectrum& mean,
+                    double strongestTimeS) {
   Json stretches = Json::array();
   for (const SpectrumStretch& stretch : report.stretches)
     stretches.push(Json::object()
@@ -230,7 +230,7 @@ int spectrumCommand(const Words& words) {
        .mostWords = 1},
       words);
   if (given.helpShown()) return kDone;
-  const SpectrumOptions options = optionsOf(given);
+  const SpectrumOptions options = spectrumOptionsOf(given);
   const Recipe recipe = recipeOf(given);
   const std::string& file = given.words().front();
   ProgressLine line("reading " + file, given.quiet());
@@ -257,7 +257,7 @@ int spectrumCommand(const Words& words) {
       largest = segment.magnitude[mean.strongestBin()];
       timeS = segment.timeS;
     });
-    out.write(jsonOf(plan, options, mean, timeS).text() + "\n");
+    out.write(spectrumJsonOf(plan, options, mean, timeS).text() + "\n");
     out.finish();
     return kDone;
   }

@@ -23,7 +23,7 @@ namespace palpate::commands {
 namespace {
 using gui::Interruption;
 
-constexpr int kLookMs = 50;
+constexpr int kStreamLookMs = 50;
 
 // Lines for whoever reads standard output. What can't be written ends the work, not the processing thread.
 class Lines {
@@ -58,7 +58,7 @@ class Lines {
   std::atomic<bool> failed_ = false;
 };
 
-CommandSpec spec() {
+CommandSpec streamSpec() {
   return {
       .synopsis = "palpate stream (--dsa PORT [--sdh PORT] | FILE) [--to STREAM].. [--lines]",
       .purpose =
@@ -77,7 +77,7 @@ CommandSpec spec() {
       .mostWords = 1};
 }
 
-std::unique_ptr<Device> deviceOf(const CommandLine& given) {
+std::unique_ptr<Device> streamDeviceOf(const CommandLine& given) {
   if (!given.words().empty()) {
     ProgressLine progress("reading " + given.words()[0], given.quiet());
     Profile profile = openRecording(given.words()[0], progress.callback());
@@ -99,7 +99,7 @@ void runSession(const CommandLine& given,
   const std::int64_t beginUs = systemClock().monotonicUs();
   session.start();
   const auto* replay = dynamic_cast<const Replay*>(&session.device());
-  while (!interruption.came(kLookMs)) {
+  while (!interruption.came(kStreamLookMs)) {
     if (replay && replay->finished()) return;
     if (over()) return;
     if (static_cast<double>(systemClock().monotonicUs() - beginUs) >= durationS * 1e6) return;
@@ -119,7 +119,7 @@ int streamDatagrams(const CommandLine& given, std::vector<StreamTarget> targets)
   if (targets.empty()) targets.push_back(streamTargetOf("signals", "to"));
   const auto calibration = streamCalibrationOf(given);
   Interruption interruption;
-  CaptureSession session(deviceOf(given));
+  CaptureSession session(streamDeviceOf(given));
   LiveStreams streams(session, targets, calibration);
   runSession(given, session, interruption, [&] { return !streams.failure().empty(); });
   requireFrames(session, given);
@@ -162,7 +162,7 @@ int streamLines(const CommandLine& given, const std::vector<StreamTarget>& targe
   const StreamKind kind = targets.empty() ? StreamKind::kSignals : targets.front().kind;
   if (!given.words().empty()) return streamLinesOf(given, given.words()[0], kind);
   Interruption interruption;
-  CaptureSession session(deviceOf(given));
+  CaptureSession session(streamDeviceOf(given));
   Lines lines(kind, true);
   ChainOptions options;
   options.onResults = [&](const LiveResults& results) {
@@ -192,7 +192,7 @@ int streamLines(const CommandLine& given, const std::vector<StreamTarget>& targe
 }  // namespace
 
 int streamCommand(const Words& words) {
-  const CommandLine given(spec(), words);
+  const CommandLine given(streamSpec(), words);
   if (given.helpShown()) return kDone;
   if (given.words().empty() != given.has("dsa"))
     throw UsageError("stream needs --dsa PORT or a recording, not both");

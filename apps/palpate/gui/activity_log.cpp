@@ -2,17 +2,18 @@
 
 #include <QDateTime>
 
+#include <palpate/core/time.h>
+
 namespace palpate::gui {
 namespace {
 
-constexpr int kUsPerMs = 1000;
 constexpr int kDroppedAtOnce = 500;
 
 QString timeText(qint64 ms, const char* format) {
   return QDateTime::fromMSecsSinceEpoch(ms).toString(format);
 }
 
-QString textOf(const LogLine& line) {
+QString activityLogTextOf(const LogLine& line) {
   return line.count == 1 ? line.text : QString("%1 (%2 times)").arg(line.text).arg(line.count);
 }
 
@@ -64,7 +65,7 @@ void ActivityLog::clear() {
 QString ActivityLog::lineText(int row) const {
   const LogLine& at = line(row);
   return timeText(at.timeMs, "yyyy-MM-dd HH:mm:ss.zzz") + "  " +
-         nameOf(at.severity).leftJustified(7) + "  " + textOf(at);
+         nameOf(at.severity).leftJustified(7) + "  " + activityLogTextOf(at);
 }
 
 void ActivityLog::setTheme(Theme theme) {
@@ -87,7 +88,7 @@ QVariant ActivityLog::data(const QModelIndex& index, int role) const {
   switch (role) {
     case Qt::DisplayRole:
       if (index.column() == kTime) return timeText(at.timeMs, "HH:mm:ss");
-      return index.column() == kSeverity ? nameOf(at.severity) : textOf(at);
+      return index.column() == kSeverity ? nameOf(at.severity) : activityLogTextOf(at);
     case Qt::ToolTipRole:
       return lineText(index.row()).toHtmlEscaped();  // wraps
     case Qt::TextAlignmentRole:

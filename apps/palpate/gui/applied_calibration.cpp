@@ -8,25 +8,25 @@
 namespace palpate::gui {
 namespace {
 
-QString keyOf(const char* what, const std::string& hand) {
+QString appliedCalibrationKeyOf(const char* what, const std::string& hand) {
   return QString("calibrate/") + what + "/" + QString::fromStdString(hand).replace('/', '_');
 }
 
 }  // namespace
 
 QString appliedCalibration(const QSettings& settings, const std::string& hand) {
-  return settings.value(keyOf("applied", hand)).toString();
+  return settings.value(appliedCalibrationKeyOf("applied", hand)).toString();
 }
 
 void applyCalibration(QSettings& settings, const std::string& hand, const QString& path) {
   if (path.isEmpty())
-    settings.remove(keyOf("applied", hand));
+    settings.remove(appliedCalibrationKeyOf("applied", hand));
   else
-    settings.setValue(keyOf("applied", hand), QFileInfo(path).absoluteFilePath());
+    settings.setValue(appliedCalibrationKeyOf("applied", hand), QFileInfo(path).absoluteFilePath());
 }
 
 std::optional<NoiseFloor> appliedNoise(const QSettings& settings, const std::string& hand) {
-  const QString json = settings.value(keyOf("noise", hand)).toString();
+  const QString json = settings.value(appliedCalibrationKeyOf("noise", hand)).toString();
   if (json.isEmpty()) return std::nullopt;
   try {
     return noiseFloorFrom(Json::parse(json.toStdString()));
@@ -36,7 +36,8 @@ std::optional<NoiseFloor> appliedNoise(const QSettings& settings, const std::str
 }
 
 void applyNoise(QSettings& settings, const std::string& hand, const NoiseFloor& floor) {
-  settings.setValue(keyOf("noise", hand), QString::fromStdString(jsonOf(floor).text(-1)));
+  settings.setValue(appliedCalibrationKeyOf("noise", hand),
+                    QString::fromStdString(jsonOf(floor).text(-1)));
 }
 
 NoiseFloor noiseFromFile(const QString& path) {

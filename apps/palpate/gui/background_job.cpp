@@ -5,7 +5,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kSmallestNews = 0.01;
+constexpr double kBackgroundJobSmallestNews = 0.01;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ void BackgroundJob::startNext() {
   worker_ = std::jthread([this, now = std::move(now)] {
     double told = -1.0;
     const Progress progress = [&](double fraction) {
-      if (fraction - told >= kSmallestNews || fraction < told) {
+      if (fraction - told >= kBackgroundJobSmallestNews || fraction < told) {
         told = fraction;
         QMetaObject::invokeMethod(
             this, [this, fraction] { emit progressed(fraction); }, Qt::QueuedConnection);

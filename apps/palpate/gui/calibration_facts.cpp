@@ -17,7 +17,7 @@ QString powerOf(const QString& name, int power) {
 }
 
 // "12.5 to 431 counts, 27.1 to 38.9 °C"
-QString rangeOf(const Surface& surface) {
+QString calibrationFactsRangeOf(const Surface& surface) {
   if (surface.hull.empty()) return "none";
   const auto [leastX, mostX] = std::minmax_element(
       surface.hull.begin(), surface.hull.end(), [](auto& a, auto& b) { return a.x < b.x; });
@@ -68,7 +68,7 @@ std::vector<Fact> calibrationFacts(const Calibration& calibration) {
   const PressureModel& model = calibration.pressure;
   std::vector<Fact> facts;
   addSurface(facts, model.gain, "P(K, T) [kPa]", "K");
-  facts.push_back({"measured", rangeOf(model.gain), model.gain.hull.empty()});
+  facts.push_back({"measured", calibrationFactsRangeOf(model.gain), model.gain.hull.empty()});
   addSurface(facts, model.drift, "P(m, T) [kPa]", "m");
   facts.push_back({"temperature",
                    model.options.study ? QString("as the study took it")

@@ -14,11 +14,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kMargin = 12.0;      // [units] around the words
-constexpr double kLine = 18.0;        // [units] length of a line in the legend
-constexpr double kGap = 6.0;          // [units] between a line and its name
-constexpr double kEntryGap = 18.0;    // [units] between entries
-constexpr double kLineSpacing = 1.3;  // of the legend's rows
+constexpr double kChartPictureMargin = 12.0;  // [units] around the words
+constexpr double kChartPictureLine = 18.0;    // [units] length of a line in the legend
+constexpr double kChartPictureGap = 6.0;      // [units] between a line and its name
+constexpr double kEntryGap = 18.0;            // [units] between entries
+constexpr double kLineSpacing = 1.3;          // of the legend's rows
 constexpr double kLeastContrast = 3.0;
 
 double luminance(const QColor& color) {
@@ -140,20 +140,21 @@ double paintLegend(QPainter& painter,
   if (entries.empty()) return top;
   const QFontMetricsF metrics(font);
   const double row = metrics.height() * kLineSpacing;
-  double x = kMargin;
+  double x = kChartPictureMargin;
   painter.setFont(font);
   for (const ChartLegendEntry& entry : entries) {
-    const double width = kLine + kGap + metrics.horizontalAdvance(entry.name);
-    if (x > kMargin && x + width > look.size.width() - kMargin) {
-      x = kMargin;
+    const double width =
+        kChartPictureLine + kChartPictureGap + metrics.horizontalAdvance(entry.name);
+    if (x > kChartPictureMargin && x + width > look.size.width() - kChartPictureMargin) {
+      x = kChartPictureMargin;
       top += row;
     }
     QPen pen = entry.pen;
     if (look.forPrint) pen.setColor(inkOf(pen.color()));
     painter.setPen(pen);
-    painter.drawLine(QPointF(x, top + row / 2), QPointF(x + kLine, top + row / 2));
+    painter.drawLine(QPointF(x, top + row / 2), QPointF(x + kChartPictureLine, top + row / 2));
     painter.setPen(text);
-    painter.drawText(QRectF(x + kLine + kGap, top, width, row),
+    painter.drawText(QRectF(x + kChartPictureLine + kChartPictureGap, top, width, row),
                      Qt::AlignLeft | Qt::AlignVCenter | Qt::TextDontClip,
                      entry.name);
     x += width + kEntryGap;
@@ -202,9 +203,10 @@ void paintChart(QPainter& painter,
   const QColor text = look.forPrint ? paper.text : plot.xAxis->labelColor();
   painter.save();
   painter.fillRect(QRectF(QPointF(), look.size), background);
-  double top = kMargin * 0.6;
+  double top = kChartPictureMargin * 0.6;
   if (look.titled && !(options.title.isEmpty() && options.caption.isEmpty())) {
-    const QRectF line(kMargin, top, look.size.width() - 2 * kMargin, metrics.height());
+    const QRectF line(
+        kChartPictureMargin, top, look.size.width() - 2 * kChartPictureMargin, metrics.height());
     QFont bold = font;
     bold.setBold(true);
     const double room = line.width() - metrics.horizontalAdvance(options.caption) - kEntryGap;
@@ -215,7 +217,7 @@ void paintChart(QPainter& painter,
                      QFontMetricsF(bold).elidedText(options.title, Qt::ElideMiddle, room));
     painter.setFont(font);
     painter.drawText(line, Qt::AlignRight | Qt::AlignVCenter, options.caption);
-    top = line.bottom() + kGap / 2;
+    top = line.bottom() + kChartPictureGap / 2;
   }
   top = paintLegend(
       painter, options.legend.empty() ? ownNames(plot) : options.legend, look, font, top, text);

@@ -19,7 +19,7 @@
 namespace palpate::gui {
 namespace {
 
-std::vector<FigureColumn> objectColumns() {
+std::vector<FigureColumn> checkPageObjectColumns() {
   return {{"object", {}, 14, true},
           {"precision", "Of those called so: right", 9},
           {"recall", "Of those that are so: found", 7},
@@ -91,7 +91,7 @@ CheckPage::CheckPage(TeachingDesk& desk, QWidget* parent) : QWidget(parent), des
   back_ = new QPushButton("All objects", content);
   back_->setObjectName("checkBack");
   lists_ = new QStackedWidget(content);
-  objects_ = new FiguresTable(objectColumns(), lists_);
+  objects_ = new FiguresTable(checkPageObjectColumns(), lists_);
   objects_->setObjectName("checkObjects");
   objects_->setSingleLine();
   grasps_ = new FiguresTable(graspColumns(), lists_);

@@ -24,7 +24,7 @@ constexpr int kPatienceMs = 50;
 constexpr std::size_t kMostSaid = 256 * 1024;  // [bytes]
 constexpr int kFirstFree = 10;                 // above all that the program is given
 
-std::string messageOf(int error) { return std::generic_category().message(error); }
+std::string childProgramMessageOf(int error) { return std::generic_category().message(error); }
 
 class Descriptor {
  public:
@@ -39,7 +39,7 @@ class Descriptor {
   // Makes its number one that isn't overwritten when it becomes another of the program's.
   void moveUp() {
     const int higher = ::fcntl(number_, F_DUPFD_CLOEXEC, kFirstFree);
-    if (higher < 0) throw Error("too many files are open: " + messageOf(errno));
+    if (higher < 0) throw Error("too many files are open: " + childProgramMessageOf(errno));
     ::close(std::exchange(number_, higher));
   }
 
@@ -87,12 +87,12 @@ ChildProgram::ChildProgram(const std::filesystem::path& program,
                            int descriptor) {
   std::array<int, 2> sockets{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0)
-    throw Error(program.string() + " can't be started: " + messageOf(errno));
+    throw Error(program.string() + " can't be started: " + childProgramMessageOf(errno));
   Descriptor input(sockets[0]);
   Descriptor theirInput(sockets[1]);
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0)
-    throw Error(program.string() + " can't be started: " + messageOf(errno));
+    throw Error(program.string() + " can't be started: " + childProgramMessageOf(errno));
   Descriptor output(pipe[0]);
   Descriptor theirOutput(pipe[1]);
   theirInput.moveUp();
@@ -115,7 +115,7 @@ ChildProgram::ChildProgram(const std::filesystem::path& program,
       ::posix_spawn(&pid_, name.c_str(), &plan.files, &plan.attributes, argv.data(), environ);
   if (failure != 0) {
     pid_ = -1;
-    throw Error(program.string() + " can't be started: " + messageOf(failure));
+    throw Error(program.string() + " can't be started: " + childProgramMessageOf(failure));
   }
   input_ = input.release();
   output_ = output.release();
@@ -166,7 +166,7 @@ bool ChildProgram::write(std::span<const std::byte> bytes, const KeepGoing& keep
       return false;
     }
     if (errno != EAGAIN && errno != EINTR)
-      throw Error("nothing can be given to a program: " + messageOf(errno));
+      throw Error("nothing can be given to a program: " + childProgramMessageOf(errno));
     ask(keepGoing);
     wait(true);
   }
@@ -187,7 +187,7 @@ int ChildProgram::finish(const KeepGoing& keepGoing) {
       pid_ = -1;
     } else if (asked != 0 && errno != EINTR) {
       pid_ = -1;
-      throw Error("the end of a program can't be awaited: " + messageOf(errno));
+      throw Error("the end of a program can't be awaited: " + childProgramMessageOf(errno));
     } else {
       ask(keepGoing);
       wait(false);

@@ -15,15 +15,15 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kShortestSeenS = 0.05;
+constexpr double kCompareChartShortestSeenS = 0.05;
 constexpr double kLongestSeenS = 1e9;
-constexpr double kHeadroom = 1.06;   // the highest curve stays below the frame
-constexpr double kWheelStep = 1.25;  // zoom per notch
-constexpr double kNotch = 120.0;     // angleDelta of one notch
-constexpr double kPageRest = 0.1;    // part of the old page that a new page starts with
-constexpr int kCursorWidth = 2;      // [px]
+constexpr double kCompareChartHeadroom = 1.06;   // the highest curve stays below the frame
+constexpr double kCompareChartWheelStep = 1.25;  // zoom per notch
+constexpr double kCompareChartNotch = 120.0;     // angleDelta of one notch
+constexpr double kCompareChartPageRest = 0.1;    // part of the old page that a new page starts with
+constexpr int kCompareChartCursorWidth = 2;      // [px]
 
-double largestOf(const std::shared_ptr<const Series>& series) {
+double compareChartLargestOf(const std::shared_ptr<const Series>& series) {
   double largest = 0.0;
   if (series)
     for (const double value : series->values)
@@ -57,7 +57,7 @@ CompareChart::CompareChart(QWidget* parent) : QCustomPlot(parent) {
 TimeSpan CompareChart::whole() const {
   if (!curves_.a || !curves_.b) return {0.0, 1.0};
   TimeSpan span = wholeSpan(*curves_.a, *curves_.b, curves_.offsetS);
-  if (span.lengthS() < kShortestSeenS) span.toS = span.fromS + 1.0;
+  if (span.lengthS() < kCompareChartShortestSeenS) span.toS = span.fromS + 1.0;
   return span;
 }
 
@@ -98,8 +98,9 @@ void CompareChart::rebuild() {
     graph->setName(side == CompareSide::kA ? "A" : "B");
     graph->setAdaptiveSampling(false);  // thinned already
   }
-  const double largest = std::max(largestOf(curves_.curveA), largestOf(curves_.curveB));
-  yAxis->setRange(0.0, largest > 0.0 ? largest * kHeadroom : 1.0);
+  const double largest =
+      std::max(compareChartLargestOf(curves_.curveA), compareChartLargestOf(curves_.curveB));
+  yAxis->setRange(0.0, largest > 0.0 ? largest * kCompareChartHeadroom : 1.0);
   if (curves_.a && curves_.a->contact) {
     contact_ = new QCPItemStraightLine(this);
     contact_->setPen(QPen(colorsOf(theme_).muted, 1.0, Qt::DotLine));
@@ -143,8 +144,8 @@ void CompareChart::setPosition(double seconds) {
   const QCPRange range = xAxis->range();
   if (!fitted_ && drag_ == Drag::kNone && (seconds < range.lower || seconds > range.upper)) {
     const double span = range.size();
-    const double from =
-        seconds > range.upper ? seconds - kPageRest * span : seconds - (1.0 - kPageRest) * span;
+    const double from = seconds > range.upper ? seconds - kCompareChartPageRest * span
+                                              : seconds - (1.0 - kCompareChartPageRest) * span;
     setSeen(from, from + span);
   }
   placeCursor();
@@ -154,14 +155,16 @@ void CompareChart::placeCursor() {
   const QRect plot = axisRect()->rect();
   const int x = static_cast<int>(std::lround(pixelOf(positionS_)));
   const bool inside = x >= plot.left() - 1 && x <= plot.right() + 2;
-  const QRect place(x - kCursorWidth / 2, plot.top(), kCursorWidth, plot.height());
+  const QRect place(
+      x - kCompareChartCursorWidth / 2, plot.top(), kCompareChartCursorWidth, plot.height());
   if (cursor_->geometry() != place) cursor_->setGeometry(place);
   if (cursor_->isHidden() == inside) cursor_->setVisible(inside);
 }
 
 void CompareChart::setSeen(double from, double to) {
   const TimeSpan all = whole();
-  const double span = std::clamp(to - from, kShortestSeenS, std::min(all.lengthS(), kLongestSeenS));
+  const double span =
+      std::clamp(to - from, kCompareChartShortestSeenS, std::min(all.lengthS(), kLongestSeenS));
   const double start = std::clamp(from, all.fromS, all.toS - span);
   xAxis->setRange(start, start + span);
   fitted_ = span >= all.lengthS() * (1.0 - 1e-9);
@@ -175,7 +178,8 @@ void CompareChart::fit() {
 
 void CompareChart::zoomAbout(double seconds, double factor) {
   const QCPRange range = xAxis->range();
-  const double span = std::clamp(range.size() / factor, kShortestSeenS, whole().lengthS());
+  const double span =
+      std::clamp(range.size() / factor, kCompareChartShortestSeenS, whole().lengthS());
   const double share = (seconds - range.lower) / range.size();
   setSeen(seconds - share * span, seconds + (1.0 - share) * span);
 }
@@ -227,14 +231,15 @@ void CompareChart::mouseDoubleClickEvent(QMouseEvent* event) {
 }
 
 void CompareChart::wheelEvent(QWheelEvent* event) {
-  const double notches = event->angleDelta().y() / kNotch;
-  const double sideways = event->angleDelta().x() / kNotch;
+  const double notches = event->angleDelta().y() / kCompareChartNotch;
+  const double sideways = event->angleDelta().x() / kCompareChartNotch;
   if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier) {
     const QCPRange range = xAxis->range();
-    const double moved = -(sideways != 0.0 ? sideways : notches) * kPageRest * range.size();
+    const double moved =
+        -(sideways != 0.0 ? sideways : notches) * kCompareChartPageRest * range.size();
     setSeen(range.lower + moved, range.upper + moved);
   } else {
-    zoomAbout(secondsAt(event->position().x()), std::pow(kWheelStep, notches));
+    zoomAbout(secondsAt(event->position().x()), std::pow(kCompareChartWheelStep, notches));
   }
   event->accept();
 }

@@ -16,10 +16,10 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kControlHeight = 26;     // [px]
-constexpr int kCompactBelow = 760;     // [px] of width: buttons lose their text
-constexpr double kFurthestS = 1e9;     // of an offset: 30 years
-constexpr double kOffsetStepS = 0.05;  // of the arrow keys
+constexpr int kCompareHeaderControlHeight = 26;  // [px]
+constexpr int kCompareHeaderCompactBelow = 760;  // [px] of width: buttons lose their text
+constexpr double kFurthestS = 1e9;               // of an offset: 30 years
+constexpr double kOffsetStepS = 0.05;            // of the arrow keys
 constexpr int kOffsetDecimals = 3;
 
 }  // namespace
@@ -43,7 +43,7 @@ QComboBox* CompareHeader::recordingBox(const char* name, const QString& tip, QLa
   box->setObjectName(name);
   box->setToolTip(tip);
   box->setAccessibleName(tip);
-  box->setMinimumHeight(kControlHeight);
+  box->setMinimumHeight(kCompareHeaderControlHeight);
   box->setMinimumContentsLength(10);
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
@@ -70,7 +70,7 @@ CompareHeader::CompareHeader(QAction* leave,
   swap_->setFocusPolicy(Qt::TabFocus);
   alignment_ = new QComboBox(this);
   alignment_->setObjectName("compareAlignment");
-  alignment_->setMinimumHeight(kControlHeight);
+  alignment_->setMinimumHeight(kCompareHeaderControlHeight);
   alignment_->setToolTip("What comes on top of each other");
   alignment_->setAccessibleName("Alignment");
   alignment_->setFocusPolicy(Qt::TabFocus);
@@ -193,7 +193,7 @@ void CompareHeader::setTheme(Theme theme) {
 
 void CompareHeader::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
-  const bool narrow = event->size().width() < kCompactBelow;
+  const bool narrow = event->size().width() < kCompareHeaderCompactBelow;
   for (QToolButton* each : withText_)
     each->setToolButtonStyle(narrow ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
 }

@@ -10,13 +10,14 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kBarSpace =
-    86.0;                         // [px] more for a group with a colour bar (matrices_geometry.cpp)
-constexpr double kAround = 14.0;  // [px] of titles, as of the matrices below them
-constexpr double kSwatch = 10.0;  // [px]
+    86.0;  // [px] more for a group with a colour bar (matrices_geometry.cpp)
+constexpr double kComparePainterAround = 14.0;  // [px] of titles, as of the matrices below them
+constexpr double kSwatch = 10.0;                // [px]
 
-std::size_t indexOf(CompareGroup group) { return static_cast<std::size_t>(group); }
+std::size_t comparePainterIndexOf(CompareGroup group) { return static_cast<std::size_t>(group); }
 
-MatricesPictureOptions optionsOf(CompareGroup group, const ComparePictureOptions& options) {
+MatricesPictureOptions comparePainterOptionsOf(CompareGroup group,
+                                               const ComparePictureOptions& options) {
   MatricesPictureOptions own = options.look;
   own.title.clear();
   own.caption.clear();
@@ -28,7 +29,7 @@ MatricesPictureOptions optionsOf(CompareGroup group, const ComparePictureOptions
   return own;
 }
 
-ValueRange rangeOf(const MatricesPictureOptions& options) {
+ValueRange comparePainterRangeOf(const MatricesPictureOptions& options) {
   return {options.rangeMin, std::max(options.rangeMax, options.rangeMin + 1e-9)};
 }
 
@@ -69,10 +70,10 @@ void paintTitle(QPainter& painter,
 }
 
 // In the middle of the group, on a card, so that it can be read over taxels.
-void paintNotice(QPainter& painter,
-                 const MatricesGeometry& geometry,
-                 const QString& notice,
-                 const MatricesPictureOptions& options) {
+void comparePainterPaintNotice(QPainter& painter,
+                               const MatricesGeometry& geometry,
+                               const QString& notice,
+                               const MatricesPictureOptions& options) {
   const ThemeColors& colors = colorsOf(options.theme);
   QRectF matrices;
   for (std::size_t m = 0; m < geometry.numMatrices(); ++m) matrices |= geometry.matrixRect(m);
@@ -103,26 +104,30 @@ CompareGeometry::CompareGeometry(const QRectF& area,
     : area_(area) {
   const double line = QFontMetricsF(pictureFont(options.look)).height();
   const double titleHeight = 2 * line + 2;
-  const double top = area.top() + kAround * 0.6;
+  const double top = area.top() + kComparePainterAround * 0.6;
   // Two colour bars; what is left is shared equally, so that all have the same scale.
   const double share = std::max(0.0, (area.width() - 2 * kBarSpace) / 3);
   double left = area.left();
   for (const CompareGroup group : kAllCompareGroups) {
     const double width = share + (group == CompareGroup::kA ? 0.0 : kBarSpace);
     const double below = top + titleHeight;
-    groups_[indexOf(group)] = MatricesGeometry(QRectF(left, below, width, area.bottom() - below),
-                                               hands.of(group),
-                                               optionsOf(group, options));
-    titles_[indexOf(group)] = QRectF(left + kAround, top, width - kAround - 6, titleHeight);
+    groups_[comparePainterIndexOf(group)] =
+        MatricesGeometry(QRectF(left, below, width, area.bottom() - below),
+                         hands.of(group),
+                         comparePainterOptionsOf(group, options));
+    titles_[comparePainterIndexOf(group)] =
+        QRectF(left + kComparePainterAround, top, width - kComparePainterAround - 6, titleHeight);
     left += width;
   }
 }
 
 const MatricesGeometry& CompareGeometry::group(CompareGroup which) const {
-  return groups_[indexOf(which)];
+  return groups_[comparePainterIndexOf(which)];
 }
 
-QRectF CompareGeometry::titleRect(CompareGroup which) const { return titles_[indexOf(which)]; }
+QRectF CompareGeometry::titleRect(CompareGroup which) const {
+  return titles_[comparePainterIndexOf(which)];
+}
 
 std::optional<CompareGeometry::Place> CompareGeometry::placeAt(const QPointF& point) const {
   for (const CompareGroup each : kAllCompareGroups)
@@ -136,8 +141,9 @@ void paintCompareBackground(QPainter& painter,
                             const ComparePictureOptions& options) {
   painter.fillRect(geometry.area(), colorsOf(options.look.theme).window);
   for (const CompareGroup group : kAllCompareGroups) {
-    const MatricesPictureOptions own = optionsOf(group, options);
-    paintMatricesBackground(painter, geometry.group(group), hands.of(group), rangeOf(own), own);
+    const MatricesPictureOptions own = comparePainterOptionsOf(group, options);
+    paintMatricesBackground(
+        painter, geometry.group(group), hands.of(group), comparePainterRangeOf(own), own);
   }
 }
 
@@ -147,15 +153,16 @@ void paintCompareValues(QPainter& painter,
                         const ComparedFrames& frames,
                         const ComparePictureOptions& options) {
   for (const CompareGroup group : kAllCompareGroups) {
-    const CompareGroupContent& content = frames[indexOf(group)];
-    const MatricesPictureOptions own = optionsOf(group, options);
+    const CompareGroupContent& content = frames[comparePainterIndexOf(group)];
+    const MatricesPictureOptions own = comparePainterOptionsOf(group, options);
     const MatricesGeometry& place = geometry.group(group);
     painter.save();
     paintTitle(painter, geometry.titleRect(group), group, content, own);
     if (content.frame.values.size() == hands.of(group).layout->numPlaces())
       for (std::size_t m = 0; m < place.numMatrices(); ++m)
-        paintMatrixValues(painter, place, m, content.frame, hands.of(group), rangeOf(own), own);
-    if (!content.notice.isEmpty()) paintNotice(painter, place, content.notice, own);
+        paintMatrixValues(
+            painter, place, m, content.frame, hands.of(group), comparePainterRangeOf(own), own);
+    if (!content.notice.isEmpty()) comparePainterPaintNotice(painter, place, content.notice, own);
     painter.restore();
   }
 }

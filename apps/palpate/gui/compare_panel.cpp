@@ -17,11 +17,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kControlHeight = 26;  // [px]
-constexpr int kViewShare = 5;       // of the height, to the chart's two
+constexpr int kComparePanelControlHeight = 26;  // [px]
+constexpr int kViewShare = 5;                   // of the height, to the chart's two
 constexpr int kChartShare = 2;
 
-QString nameOf(const OpenedRecordingPtr& recording) {
+QString comparePanelNameOf(const OpenedRecordingPtr& recording) {
   return QString::fromStdString(recording->path.filename().string());
 }
 
@@ -29,7 +29,7 @@ bool contains(const std::vector<OpenedRecordingPtr>& all, const OpenedRecordingP
   return one && std::find(all.begin(), all.end(), one) != all.end();
 }
 
-int indexOf(const std::vector<OpenedRecordingPtr>& all, const OpenedRecordingPtr& one) {
+int comparePanelIndexOf(const std::vector<OpenedRecordingPtr>& all, const OpenedRecordingPtr& one) {
   const auto at = std::find(all.begin(), all.end(), one);
   return at == all.end() ? -1 : static_cast<int>(at - all.begin());
 }
@@ -88,7 +88,7 @@ QWidget* ComparePanel::makeCurveHeader() {
     made->setObjectName(name);
     made->setToolTip(tip);
     made->setAccessibleName(tip);
-    made->setMinimumHeight(kControlHeight);
+    made->setMinimumHeight(kComparePanelControlHeight);
     made->setFocusPolicy(Qt::TabFocus);
     return made;
   };
@@ -201,8 +201,9 @@ void ComparePanel::setRecordings(const std::vector<OpenedRecordingPtr>& recordin
       if (a_ && each != a_ && !b_) b_ = each;
   }
   QStringList names;
-  for (const auto& each : recordings_) names.append(nameOf(each));
-  header_->setRecordings(names, indexOf(recordings_, a_), indexOf(recordings_, b_));
+  for (const auto& each : recordings_) names.append(comparePanelNameOf(each));
+  header_->setRecordings(
+      names, comparePanelIndexOf(recordings_, a_), comparePanelIndexOf(recordings_, b_));
   if (a_ != beforeA || b_ != beforeB) pairChanged();
   showEmpty();
 }
@@ -213,8 +214,9 @@ void ComparePanel::setB(const OpenedRecordingPtr& b) {
   wantsNew_ = false;
   withItself_ = b_ == a_;
   QStringList names;
-  for (const auto& each : recordings_) names.append(nameOf(each));
-  header_->setRecordings(names, indexOf(recordings_, a_), indexOf(recordings_, b_));
+  for (const auto& each : recordings_) names.append(comparePanelNameOf(each));
+  header_->setRecordings(
+      names, comparePanelIndexOf(recordings_, a_), comparePanelIndexOf(recordings_, b_));
   pairChanged();
   showEmpty();
 }

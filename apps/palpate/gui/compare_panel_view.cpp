@@ -24,11 +24,11 @@ QString figure(double value, int decimals) {
   return QString::fromStdString(fixedText(value, decimals));
 }
 
-QString nameOf(const OpenedRecordingPtr& recording) {
+QString comparePanelViewNameOf(const OpenedRecordingPtr& recording) {
   return QString::fromStdString(recording->path.filename().string());
 }
 
-double largestOf(const TactileFrame& frame) {
+double comparePanelViewLargestOf(const TactileFrame& frame) {
   double largest = 0.0;
   for (const float value : frame.values)
     largest = std::max(largest, std::abs(static_cast<double>(value)));
@@ -54,7 +54,7 @@ void ComparePanel::showEmpty() {
   if (hasPair()) return;
   emptyItself_->setVisible(a_ != nullptr);
   emptyOpen_->setText(a_ ? "Open another…" : "Open recordings…");
-  emptyText_->setText(a_ ? "Only " + nameOf(a_) +
+  emptyText_->setText(a_ ? "Only " + comparePanelViewNameOf(a_) +
                                " is open. Open a second recording to compare it with."
                          : QString("Open two recordings to compare them."));
 }
@@ -90,8 +90,8 @@ void ComparePanel::showFrames() {
   if (!hasPair() || !active_) return;
   ComparedFrames frames;
   auto& [inA, inB, between] = frames;
-  inA.name = nameOf(a_);
-  inB.name = nameOf(b_);
+  inA.name = comparePanelViewNameOf(a_);
+  inB.name = comparePanelViewNameOf(b_);
   between.name = "A − B";
   if (!answer_.a || !answer_.b) {
     inA.notice = inB.notice = answer_.failure.isEmpty() ? "reading …" : answer_.failure;
@@ -155,12 +155,15 @@ ComparePictureOptions ComparePanel::pictureOptions() const {
       options.largestDifference = maximum;
       break;
     case RangeMode::kFrame:
-      maximum = std::max(largestOf(inA.frame), largestOf(inB.frame));
-      options.largestDifference = largestOf(between.frame);
+      maximum =
+          std::max(comparePanelViewLargestOf(inA.frame), comparePanelViewLargestOf(inB.frame));
+      options.largestDifference = comparePanelViewLargestOf(between.frame);
       break;
     case RangeMode::kRecording:
       // Of a long recording the largest value isn't known before all of it has been read.
-      maximum = std::max({answer_.largestValue, largestOf(inA.frame), largestOf(inB.frame)});
+      maximum = std::max({answer_.largestValue,
+                          comparePanelViewLargestOf(inA.frame),
+                          comparePanelViewLargestOf(inB.frame)});
       for (const OpenedRecordingPtr& side : {a_, b_})
         if (side) maximum = std::max(maximum, side->maximumNow());
       options.largestDifference = answer_.largestDifference.value_or(maximum);
@@ -258,8 +261,8 @@ void ComparePanel::paint(QPainter& painter, const PictureLook& look) const {
   paintChart(painter,
              below,
              *chart_,
-             {.legend = {{"A  " + nameOf(a_), chart_->graph(0)->pen()},
-                         {"B  " + nameOf(b_), chart_->graph(1)->pen()}}});
+             {.legend = {{"A  " + comparePanelViewNameOf(a_), chart_->graph(0)->pen()},
+                         {"B  " + comparePanelViewNameOf(b_), chart_->graph(1)->pen()}}});
   painter.restore();
 }
 

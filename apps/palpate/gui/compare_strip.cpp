@@ -10,11 +10,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kBar = 11;          // [px] high
-constexpr int kBetween = 4;       // [px]
-constexpr int kAround = 4;        // [px]
-constexpr double kLeast = 8.0;    // [px] wide: a single frame can be seen and dragged, too
-constexpr double kContact = 2.0;  // [px]
+constexpr int kBar = 11;                 // [px] high
+constexpr int kCompareStripBetween = 4;  // [px]
+constexpr int kCompareStripAround = 4;   // [px]
+constexpr double kLeast = 8.0;           // [px] wide: a single frame can be seen and dragged, too
+constexpr double kContact = 2.0;         // [px]
 
 }  // namespace
 
@@ -27,7 +27,9 @@ CompareStrip::CompareStrip(const CompareChart& chart, QWidget* parent)
   connect(&chart, &CompareChart::rangeChanged, this, qOverload<>(&QWidget::update));
 }
 
-QSize CompareStrip::sizeHint() const { return {300, 2 * kBar + kBetween + 2 * kAround}; }
+QSize CompareStrip::sizeHint() const {
+  return {300, 2 * kBar + kCompareStripBetween + 2 * kCompareStripAround};
+}
 
 void CompareStrip::setTheme(Theme theme) {
   theme_ = theme;
@@ -41,7 +43,7 @@ QRectF CompareStrip::barRect(bool ofB) const {
   const double beginS = ofB ? curves.offsetS : 0.0;
   const double left = chart_.pixelOf(beginS);
   const double right = chart_.pixelOf(beginS + timed->timing.durationS);
-  const double top = kAround + (ofB ? kBar + kBetween : 0);
+  const double top = kCompareStripAround + (ofB ? kBar + kCompareStripBetween : 0);
   return {left, top, std::max(kLeast, right - left), static_cast<double>(kBar)};
 }
 
@@ -76,7 +78,10 @@ void CompareStrip::paintEvent(QPaintEvent*) {
   const QRect plot = chart_.axisRect()->rect();
   painter.setPen(colorsOf(theme_).muted);
   for (const bool ofB : {false, true}) {
-    const QRectF name(0, kAround + (ofB ? kBar + kBetween : 0) - 3, plot.left() - 8, kBar + 6);
+    const QRectF name(0,
+                      kCompareStripAround + (ofB ? kBar + kCompareStripBetween : 0) - 3,
+                      plot.left() - 8,
+                      kBar + 6);
     painter.drawText(name, Qt::AlignRight | Qt::AlignVCenter, ofB ? "B" : "A");
   }
   painter.setClipRect(plot.left() - 1, 0, plot.width() + 3, height());

@@ -5,14 +5,15 @@
 #include <limits>
 
 #include <palpate/core/error.h>
+#include <palpate/core/time.h>
 #include <palpate/filter/frame_difference.h>
 
 namespace palpate::gui {
 namespace {
 
-constexpr std::size_t kMostKept = 12;         // recordings, and curves
-constexpr std::size_t kPairsLookedAt = 4000;  // of a long recording: for the range of colours
-constexpr double kEverS = std::numeric_limits<double>::max();
+constexpr std::size_t kCompareWorkerMostKept = 12;  // recordings, and curves
+constexpr std::size_t kPairsLookedAt = 4000;        // of a long recording: for the range of colours
+constexpr double kCompareWorkerEverS = std::numeric_limits<double>::max();
 
 // How much of the whole work each part is.
 constexpr double kTimedShare = 0.2;
@@ -23,7 +24,6 @@ std::size_t framesInCommon(const TimedProfile& a, const TimedProfile& b, double 
   const auto span = commonSpan(a, b, offsetS);
   if (!span) return 0;
   const auto at = [&](double seconds) {
-    constexpr double kUsPerS = 1e6;
     return a.profile.frameAt(a.profile.frameTimeUs(0) + std::llround(seconds * kUsPerS))
         .value_or(0);
   };
@@ -86,7 +86,7 @@ std::shared_ptr<const TimedProfile> CompareWorker::timed(const OpenedRecordingPt
     if (each.of.lock() == recording) return each.timed;
   auto timed = std::make_shared<TimedProfile>(timedProfile(recording->profile, {}, progress));
   kept_->timed.push_back({recording, timed});
-  if (kept_->timed.size() > kMostKept) kept_->timed.pop_front();
+  if (kept_->timed.size() > kCompareWorkerMostKept) kept_->timed.pop_front();
   return timed;
 }
 
@@ -97,10 +97,10 @@ std::shared_ptr<const Series> CompareWorker::curve(const OpenedRecordingPtr& rec
   if (!hasSeries(recording->profile, choice)) return nullptr;
   for (const auto& each : kept_->curves)
     if (each.of.lock() == recording && each.choice == choice) return each.series;
-  auto series =
-      std::make_shared<Series>(readSeries(recording->profile, choice, -kEverS, kEverS, progress));
+  auto series = std::make_shared<Series>(
+      readSeries(recording->profile, choice, -kCompareWorkerEverS, kCompareWorkerEverS, progress));
   kept_->curves.push_back({recording, choice, series});
-  if (kept_->curves.size() > kMostKept) kept_->curves.pop_front();
+  if (kept_->curves.size() > kCompareWorkerMostKept) kept_->curves.pop_front();
   return series;
 }
 

@@ -11,7 +11,7 @@ constexpr double kLeastSideForText = 13.0;
 constexpr double kNameOfSide = 0.86;  // a name's pixel size
 constexpr int kLeastNamePx = 6;       // smaller ones are left out
 
-constexpr double kAir = 4.0;
+constexpr double kConfusionPainterAir = 4.0;
 
 QFont nameFont(const QFont& plain, double side) {
   QFont font = plain;
@@ -26,10 +26,10 @@ double nameWidth(const ConfusionMatrix& matrix, const QFont& font, double most) 
   double width = 0.0;
   for (const std::string& name : matrix.classes())
     width = std::max(width, metrics.horizontalAdvance(QString::fromStdString(name)));
-  return std::min(width + 3 * kAir, most);
+  return std::min(width + 3 * kConfusionPainterAir, most);
 }
 
-QColor mixed(const QColor& from, const QColor& to, double part) {
+QColor confusionPainterMixed(const QColor& from, const QColor& to, double part) {
   const auto mix = [part](int a, int b) { return static_cast<int>(a + part * (b - a)); };
   return {mix(from.red(), to.red()), mix(from.green(), to.green()), mix(from.blue(), to.blue())};
 }
@@ -38,14 +38,14 @@ bool hovered(const ConfusionMarks& marks, int row, int called) {
   return marks.hovered && (marks.hovered->first == row || marks.hovered->second == called);
 }
 
-void paintNames(QPainter& painter,
-                const QRectF& area,
-                const ConfusionGrid& grid,
-                const ConfusionMatrix& matrix,
-                const ThemeColors& colors,
-                const ConfusionMarks& marks) {
+void confusionPainterPaintNames(QPainter& painter,
+                                const QRectF& area,
+                                const ConfusionGrid& grid,
+                                const ConfusionMatrix& matrix,
+                                const ThemeColors& colors,
+                                const ConfusionMarks& marks) {
   const QFont plain = painter.font();
-  const double width = grid.window.left() - area.left() - 2 * kAir;
+  const double width = grid.window.left() - area.left() - 2 * kConfusionPainterAir;
   const QFontMetricsF plainMetrics(plain);
   painter.setPen(colors.muted);
   painter.drawText(QRectF(area.left(), area.top(), area.width(), plainMetrics.height()),
@@ -85,7 +85,10 @@ void paintNames(QPainter& painter,
       write(confusionName(matrix, row),
             marked,
             false,
-            QRectF(area.left(), grid.origin.y() + row * grid.side, width + kAir, grid.side),
+            QRectF(area.left(),
+                   grid.origin.y() + row * grid.side,
+                   width + kConfusionPainterAir,
+                   grid.side),
             Qt::AlignRight);
     }
     painter.restore();
@@ -96,7 +99,8 @@ void paintNames(QPainter& painter,
       const int called = grid.calledOf(column);
       if (marked != (marks.hovered && marks.hovered->second == called)) continue;
       painter.save();
-      painter.translate(grid.origin.x() + column * grid.side, grid.window.top() - kAir);
+      painter.translate(grid.origin.x() + column * grid.side,
+                        grid.window.top() - kConfusionPainterAir);
       painter.rotate(-90.0);
       write(confusionName(matrix, called),
             marked,
@@ -133,8 +137,10 @@ void paintCells(QPainter& painter,
       const bool right = called == row;
       // A single mistake is to be seen.
       const double tone = count == 0 ? 0.0 : std::max(share, right ? 0.25 : 0.75);
-      QColor ground = mixed(colors.taxel, right ? colors.accent : colors.warning, tone);
-      if (hovered(marks, row, grid.calledOf(column))) ground = mixed(ground, colors.text, 0.14);
+      QColor ground =
+          confusionPainterMixed(colors.taxel, right ? colors.accent : colors.warning, tone);
+      if (hovered(marks, row, grid.calledOf(column)))
+        ground = confusionPainterMixed(ground, colors.text, 0.14);
       painter.fillRect(cell, ground);
       if (count > 0 && grid.side >= kLeastSideForText) {
         painter.setPen(tone > 0.5 ? colors.window : colors.text);
@@ -209,7 +215,7 @@ void paintConfusion(QPainter& painter,
   if (grid.rows == 0) return;
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing, false);
-  paintNames(painter, area, grid, matrix, colorsOf(theme), marks);
+  confusionPainterPaintNames(painter, area, grid, matrix, colorsOf(theme), marks);
   paintCells(painter, grid, matrix, colorsOf(theme), marks);
   painter.restore();
 }

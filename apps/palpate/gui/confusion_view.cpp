@@ -15,11 +15,12 @@ namespace {
 
 using Cell = ConfusionCell;
 
-constexpr double kZoomStep = 1.15;
-constexpr double kAir = 4.0;
+constexpr double kConfusionViewZoomStep = 1.15;
+constexpr double kConfusionViewAir = 4.0;
 
 QRectF areaOf(const QWidget& viewport) {
-  return QRectF(viewport.rect()).adjusted(kAir, kAir, -kAir, -kAir);
+  return QRectF(viewport.rect())
+      .adjusted(kConfusionViewAir, kConfusionViewAir, -kConfusionViewAir, -kConfusionViewAir);
 }
 
 }  // namespace
@@ -169,7 +170,7 @@ void ConfusionView::mouseMoveEvent(QMouseEvent* event) {
 
 void ConfusionView::wheelEvent(QWheelEvent* event) {
   if (!(event->modifiers() & Qt::ControlModifier)) return QAbstractScrollArea::wheelEvent(event);
-  setSide(side() * std::pow(kZoomStep, event->angleDelta().y() / 120.0));
+  setSide(side() * std::pow(kConfusionViewZoomStep, event->angleDelta().y() / 120.0));
   event->accept();
 }
 
@@ -200,9 +201,9 @@ void ConfusionView::keyPressEvent(QKeyEvent* event) {
       if (chosen_) emit cellOpened(chosen_->first, chosen_->second);
       return;
     case Qt::Key_Plus:
-      return setSide(side() * kZoomStep);
+      return setSide(side() * kConfusionViewZoomStep);
     case Qt::Key_Minus:
-      return setSide(side() / kZoomStep);
+      return setSide(side() / kConfusionViewZoomStep);
     case Qt::Key_0:
       return showAll();
     default:

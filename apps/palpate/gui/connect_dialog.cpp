@@ -19,9 +19,9 @@
 namespace palpate::gui {
 namespace {
 
-constexpr QSize kUsualSize(840, 500);
-constexpr int kKindsWidth = 236;  // [px]
-constexpr int kMargin = 20;       // [px]
+constexpr QSize kConnectDialogUsualSize(840, 500);
+constexpr int kKindsWidth = 236;          // [px]
+constexpr int kConnectDialogMargin = 20;  // [px]
 
 struct KindText {
   const char* name;
@@ -29,7 +29,7 @@ struct KindText {
   const char* what;
 };
 
-KindText textOf(Connection::Kind kind) {
+KindText connectDialogTextOf(Connection::Kind kind) {
   switch (kind) {
     case Connection::Kind::kPorts:
       return {"kindPorts", "Hand on &ports", "A real hand: serial adapters or network"};
@@ -41,7 +41,7 @@ KindText textOf(Connection::Kind kind) {
   return {"kindEmulated", "&Emulated hand", "No hand needed: it grasps objects that aren't there"};
 }
 
-std::size_t indexOf(Connection::Kind kind) {
+std::size_t connectDialogIndexOf(Connection::Kind kind) {
   std::size_t index = 0;
   while (kAllConnectionKinds[index] != kind) ++index;
   return index;
@@ -69,7 +69,7 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
                       : kind == Connection::Kind::kEmulated ? static_cast<QWidget*>(scenes_)
                                                             : static_cast<QWidget*>(replay_));
   auto* page = new QHBoxLayout;
-  page->setContentsMargins(kMargin, kMargin, kMargin, 16);
+  page->setContentsMargins(kConnectDialogMargin, kConnectDialogMargin, kConnectDialogMargin, 16);
   page->addWidget(pages_);
   auto* middle = new QHBoxLayout;
   middle->setSpacing(0);
@@ -83,10 +83,10 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
   connect(ports_, &PortsPage::changed, this, &ConnectDialog::refresh);
   connect(scenes_, &ScenePage::changed, this, &ConnectDialog::refresh);
   connect(replay_, &ReplayPage::changed, this, &ConnectDialog::refresh);
-  kinds_[indexOf(kind_)]->setChecked(true);
-  pages_->setCurrentIndex(static_cast<int>(indexOf(kind_)));
+  kinds_[connectDialogIndexOf(kind_)]->setChecked(true);
+  pages_->setCurrentIndex(static_cast<int>(connectDialogIndexOf(kind_)));
   refresh();
-  resize(kUsualSize);
+  resize(kConnectDialogUsualSize);
 }
 
 ConnectDialog::~ConnectDialog() {
@@ -103,10 +103,10 @@ QWidget* ConnectDialog::makeKinds() {
                           .arg(colors.window.name(), colors.border.name()));
   side->setFixedWidth(kKindsWidth);
   auto* column = new QVBoxLayout(side);
-  column->setContentsMargins(16, kMargin, 16, 14);
+  column->setContentsMargins(16, kConnectDialogMargin, 16, 14);
   column->setSpacing(3);
   for (const Connection::Kind kind : kAllConnectionKinds) {
-    const KindText text = textOf(kind);
+    const KindText text = connectDialogTextOf(kind);
     auto* button = new QRadioButton(text.title, side);
     button->setObjectName(text.name);
     QFont bold = button->font();
@@ -121,7 +121,7 @@ QWidget* ConnectDialog::makeKinds() {
     what->setContentsMargins(22, 0, 0, 14);
     column->addWidget(button);
     column->addWidget(what);
-    kinds_[indexOf(kind)] = button;
+    kinds_[connectDialogIndexOf(kind)] = button;
   }
   column->addStretch(1);
   auto* calm = new QLabel("Connecting never moves the hand.", side);
@@ -153,7 +153,7 @@ QWidget* ConnectDialog::makeFoot() {
   connect_->setMinimumWidth(110);
   connect(connect_, &QPushButton::clicked, this, &QDialog::accept);
   auto* row = new QHBoxLayout(foot);
-  row->setContentsMargins(16, 12, kMargin, 12);
+  row->setContentsMargins(16, 12, kConnectDialogMargin, 12);
   row->setSpacing(8);
   row->addWidget(mark_);
   row->addWidget(problem_, 1);
@@ -164,7 +164,7 @@ QWidget* ConnectDialog::makeFoot() {
 
 void ConnectDialog::choose(Connection::Kind kind) {
   kind_ = kind;
-  pages_->setCurrentIndex(static_cast<int>(indexOf(kind)));
+  pages_->setCurrentIndex(static_cast<int>(connectDialogIndexOf(kind)));
   if (isVisible() && kind == Connection::Kind::kPorts && !looked_) {
     looked_ = true;
     ports_->look();
@@ -174,7 +174,7 @@ void ConnectDialog::choose(Connection::Kind kind) {
 
 void ConnectDialog::showEvent(QShowEvent* event) {
   QDialog::showEvent(event);
-  kinds_[indexOf(kind_)]->setFocus();
+  kinds_[connectDialogIndexOf(kind_)]->setFocus();
   choose(kind_);
 }
 

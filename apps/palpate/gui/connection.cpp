@@ -5,14 +5,14 @@
 namespace palpate::gui {
 namespace {
 
-constexpr const char* kKind = "connection/kind";
+constexpr const char* kConnectionKind = "connection/kind";
 constexpr const char* kDsaPort = "connection/tactile_port";
 constexpr const char* kSdhPort = "connection/motion_port";
 constexpr const char* kScene = "connection/scene";
 constexpr const char* kSceneActs = "connection/scene_acts";
 constexpr const char* kRecording = "connection/recording";
 
-QString keyOf(Connection::Kind kind) {
+QString connectionKeyOf(Connection::Kind kind) {
   switch (kind) {
     case Connection::Kind::kPorts:
       return "ports";
@@ -25,7 +25,7 @@ QString keyOf(Connection::Kind kind) {
 }
 
 // "/dev/ttyUSB0" is known by its last part, "tcp:host:1" as a whole; names by-id are long.
-QString shortName(const QString& port) {
+QString connectionShortName(const QString& port) {
   constexpr int kLongest = 28;
   constexpr int kKept = 13;  // of both ends
   const QString name = port.startsWith('/') ? port.section('/', -1) : port;
@@ -39,7 +39,7 @@ QString describe(const Connection& connection) {
     case Connection::Kind::kPorts: {
       QStringList ports;
       for (const QString& port : {connection.dsaPort, connection.sdhPort})
-        if (!port.isEmpty()) ports.append(shortName(port));
+        if (!port.isEmpty()) ports.append(connectionShortName(port));
       return "hand on " + ports.join(" and ");
     }
     case Connection::Kind::kReplay:
@@ -68,9 +68,9 @@ QString problemOf(const Connection& connection) {
 
 Connection loadConnection(const QSettings& settings) {
   Connection connection;
-  const QString kind = settings.value(kKind).toString();
+  const QString kind = settings.value(kConnectionKind).toString();
   for (const Connection::Kind each : kAllConnectionKinds)
-    if (keyOf(each) == kind) connection.kind = each;
+    if (connectionKeyOf(each) == kind) connection.kind = each;
   connection.dsaPort = settings.value(kDsaPort).toString();
   connection.sdhPort = settings.value(kSdhPort).toString();
   connection.scene = settings.value(kScene, connection.scene).toString();
@@ -80,7 +80,7 @@ Connection loadConnection(const QSettings& settings) {
 }
 
 void saveConnection(const Connection& connection, QSettings& settings) {
-  settings.setValue(kKind, keyOf(connection.kind));
+  settings.setValue(kConnectionKind, connectionKeyOf(connection.kind));
   settings.setValue(kDsaPort, connection.dsaPort);
   settings.setValue(kSdhPort, connection.sdhPort);
   settings.setValue(kScene, connection.scene);

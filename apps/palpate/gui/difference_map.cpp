@@ -14,7 +14,7 @@ double linear(double channel) {
   return channel <= 0.04045 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
 }
 
-double encoded(double channel) {
+double differenceMapEncoded(double channel) {
   return channel <= 0.0031308 ? channel * 12.92 : 1.055 * std::pow(channel, 1.0 / 2.4) - 0.055;
 }
 
@@ -34,7 +34,8 @@ QRgb rgbOf(const Oklab& color) {
   const double m = cubed(color[0] - 0.1055613458 * color[1] - 0.0638541728 * color[2]);
   const double s = cubed(color[0] - 0.0894841775 * color[1] - 1.2914855480 * color[2]);
   const auto byte = [](double channel) {
-    return static_cast<int>(std::lround(255.0 * std::clamp(encoded(channel), 0.0, 1.0)));
+    return static_cast<int>(
+        std::lround(255.0 * std::clamp(differenceMapEncoded(channel), 0.0, 1.0)));
   };
   return qRgb(byte(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
               byte(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include <palpate/core/json.h>
+#include <palpate/core/time.h>
 #include <palpate/slip/slip_series.h>
 
 #include "gui/captions.h"
@@ -14,10 +15,9 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kUsPerS = 1e6;
 constexpr const char* kNoGraspText = "no grasp";
 
-double secondsOf(const OpenedRecording& recording, std::int64_t us) {
+double eventMarksSecondsOf(const OpenedRecording& recording, std::int64_t us) {
   return static_cast<double>(us - timeUsOf(recording, 0.0)) / kUsPerS;
 }
 
@@ -43,8 +43,8 @@ EventLane laneOf(const std::string& kind) {
 EventMark markOf(const OpenedRecording& recording, const RecordingEvent& event, std::size_t index) {
   EventMark mark;
   mark.lane = laneOf(event.kind);
-  mark.fromS = secondsOf(recording, event.tUs);
-  mark.toS = std::max(mark.fromS, secondsOf(recording, event.t1Us));
+  mark.fromS = eventMarksSecondsOf(recording, event.tUs);
+  mark.toS = std::max(mark.fromS, eventMarksSecondsOf(recording, event.t1Us));
   mark.text = QString::fromStdString(event.text.empty() ? event.kind : event.text);
   mark.event = index;
   mark.editable = mark.lane == EventLane::kGrasps || mark.lane == EventLane::kLabels ||

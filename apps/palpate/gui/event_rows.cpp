@@ -14,14 +14,14 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kAboveText = 3;       // [px] above and below the text of a row
-constexpr double kGap = 2.0;        // [px] between rows
-constexpr double kLeastBar = 3.0;   // [px] a moment is as wide
-constexpr double kReach = 5.0;      // [px] beside an end that still take it
-constexpr double kTextRoom = 4.0;   // [px] before a text
-constexpr int kFieldWidth = 180;    // [px]
-constexpr int kLongestText = 2000;  // characters
-constexpr int kMostText = 300;      // [px] of a moment's name beside it
+constexpr int kAboveText = 3;          // [px] above and below the text of a row
+constexpr double kEventRowsGap = 2.0;  // [px] between rows
+constexpr double kLeastBar = 3.0;      // [px] a moment is as wide
+constexpr double kReach = 5.0;         // [px] beside an end that still take it
+constexpr double kTextRoom = 4.0;      // [px] before a text
+constexpr int kFieldWidth = 180;       // [px]
+constexpr int kLongestText = 2000;     // characters
+constexpr int kMostText = 300;         // [px] of a moment's name beside it
 
 }  // namespace
 
@@ -91,9 +91,9 @@ QRectF EventRows::barOf(std::size_t index) const {
   const double x0 = std::max<double>(from, left_);
   const double x1 = std::min<double>(to, right_);
   return {x0,
-          static_cast<double>(row) * rowHeight() + kGap,
+          static_cast<double>(row) * rowHeight() + kEventRowsGap,
           std::max(x1 - x0, 1.0),
-          rowHeight() - kGap};
+          rowHeight() - kEventRowsGap};
 }
 
 QColor EventRows::colorOf(const EventMark& mark) const {
@@ -154,8 +154,10 @@ void EventRows::paintEvent(QPaintEvent*) {
   const ThemeColors& colors = colorsOf(theme_);
   painter.fillRect(rect(), colors.window);
   for (std::size_t row = 0; row < lanes_.size(); ++row) {
-    const QRectF lane(
-        left_, static_cast<double>(row) * rowHeight() + kGap, right_ - left_, rowHeight() - kGap);
+    const QRectF lane(left_,
+                      static_cast<double>(row) * rowHeight() + kEventRowsGap,
+                      right_ - left_,
+                      rowHeight() - kEventRowsGap);
     painter.fillRect(lane, colors.panel);
     painter.setPen(colors.muted);
     painter.drawText(QRectF(0, lane.top(), left_ - 6, lane.height()),

@@ -20,12 +20,12 @@
 namespace palpate::gui {
 namespace {
 
-constexpr QSize kUsualSize(900, 580);
-constexpr int kMargin = 20;       // [px]
-constexpr int kFormWidth = 372;   // [px]
-constexpr int kFieldHeight = 28;  // [px]
+constexpr QSize kExportDialogUsualSize(900, 580);
+constexpr int kExportDialogMargin = 20;       // [px]
+constexpr int kFormWidth = 372;               // [px]
+constexpr int kExportDialogFieldHeight = 28;  // [px]
 
-constexpr const char* kStyle = R"(
+constexpr const char* kExportDialogStyle = R"(
 QLineEdit { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; padding: 4px 6px; }
 QLineEdit:focus { border-color: palette(highlight); }
 #exportFoot { border-top: 1px solid palette(mid); }
@@ -38,20 +38,20 @@ QDoubleSpinBox* spinBox(const char* name, double least, double most, int decimal
   box->setObjectName(name);
   box->setRange(least, most);
   box->setDecimals(decimals);
-  box->setMinimumHeight(kFieldHeight);
+  box->setMinimumHeight(kExportDialogFieldHeight);
   box->setKeyboardTracking(false);
   box->setButtonSymbols(QAbstractSpinBox::NoButtons);
   return box;
 }
 
-QComboBox* comboBox(const char* name) {
+QComboBox* exportDialogComboBox(const char* name) {
   auto* box = new QComboBox;
   box->setObjectName(name);
-  box->setMinimumHeight(kFieldHeight);
+  box->setMinimumHeight(kExportDialogFieldHeight);
   return box;
 }
 
-void showElided(QLabel* label, const QString& text, int width) {
+void exportDialogShowElided(QLabel* label, const QString& text, int width) {
   label->setText(label->fontMetrics().elidedText(text, Qt::ElideMiddle, width));
   label->setToolTip(label->text() == text ? QString() : text);
   label->setAccessibleName(text);
@@ -64,7 +64,7 @@ ExportDialog::ExportDialog(std::vector<const ExportedView*> views,
                            QWidget* parent)
     : QDialog(parent), views_(std::move(views)), first_(suggestion) {
   setWindowTitle("Export");
-  setStyleSheet(kStyle);
+  setStyleSheet(kExportDialogStyle);
   auto* side = new QFrame(this);
   side->setObjectName("exportSide");
   preview_ = new ExportPreview(side);
@@ -97,7 +97,7 @@ ExportDialog::ExportDialog(std::vector<const ExportedView*> views,
   whole->addWidget(makeFoot());
   fill(suggestion);
   connectFields();
-  resize(kUsualSize);
+  resize(kExportDialogUsualSize);
   refresh();
 }
 
@@ -105,21 +105,21 @@ QWidget* ExportDialog::makeForm() {
   auto* form = new QWidget(this);
   form->setFixedWidth(kFormWidth);
   fields_ = new QFormLayout(form);
-  fields_->setContentsMargins(kMargin, kMargin, kMargin, 14);
+  fields_->setContentsMargins(kExportDialogMargin, kExportDialogMargin, kExportDialogMargin, 14);
   fields_->setHorizontalSpacing(12);
   fields_->setVerticalSpacing(8);
   fields_->setLabelAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   fields_->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  view_ = comboBox("exportView");
+  view_ = exportDialogComboBox("exportView");
   for (const ExportedView* each : views_) view_->addItem(each->name);
   fields_->addRow("&View", view_);
   form_ = new ExportForms(form);
   fields_->addRow("Form", form_);
-  frames_ = comboBox("exportFrames");
+  frames_ = exportDialogComboBox("exportFrames");
   fields_->addRow("F&rames", frames_);
-  table_ = comboBox("exportTable");
+  table_ = exportDialogComboBox("exportTable");
   fields_->addRow("Ro&ws", table_);
-  preset_ = comboBox("exportPreset");
+  preset_ = exportDialogComboBox("exportPreset");
   for (const PaperPreset& preset : kPaperPresets) preset_->addItem(preset.name);
   fields_->addRow("&Size", preset_);
   size_ = makeSize();
@@ -128,11 +128,11 @@ QWidget* ExportDialog::makeForm() {
   text_->setSingleStep(0.5);
   text_->setSuffix(" pt");
   fields_->addRow("&Text", text_);
-  dpi_ = comboBox("exportDpi");
+  dpi_ = exportDialogComboBox("exportDpi");
   for (const int dpi : kExportDpi) dpi_->addItem(QString::number(dpi) + " dpi", dpi);
   fields_->addRow("Reso&lution", dpi_);
   movie_ = new ExportMovieFields(*fields_);
-  colors_ = comboBox("exportColors");
+  colors_ = exportDialogComboBox("exportColors");
   colors_->addItems({"for print: white ground, dark ink", "as on screen"});
   fields_->addRow("&Colours", colors_);
   titled_ = new QCheckBox("T&itle line", form);
@@ -188,7 +188,7 @@ QWidget* ExportDialog::makeFoot() {
   ok_->setMinimumWidth(110);
   connect(ok_, &QPushButton::clicked, this, &ExportDialog::accept);
   auto* row = new QHBoxLayout(foot);
-  row->setContentsMargins(kMargin, 12, kMargin, 12);
+  row->setContentsMargins(kExportDialogMargin, 12, kExportDialogMargin, 12);
   row->setSpacing(8);
   row->addWidget(problem_, 1);
   row->addWidget(replace_);
@@ -365,9 +365,10 @@ void ExportDialog::showProblem() {
   summary_->setText(preview_->summary());
   const QString path = QString::fromStdString(pathOf(now).string());
   const bool makes = now.isSeries() && !QFileInfo::exists(path);
-  showElided(target_,
-             "in " + (now.isSeries() ? path : now.folder) + (makes ? ", a new folder" : ""),
-             preview_->width());
+  exportDialogShowElided(
+      target_,
+      "in " + (now.isSeries() ? path : now.folder) + (makes ? ", a new folder" : ""),
+      preview_->width());
 }
 
 void ExportDialog::accept() {

@@ -9,16 +9,16 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kFieldHeight = 28;  // [px]
+constexpr int kExportMovieFieldsFieldHeight = 28;  // [px]
 
-QComboBox* comboBox(const char* name) {
+QComboBox* exportMovieFieldsComboBox(const char* name) {
   auto* box = new QComboBox;
   box->setObjectName(name);
-  box->setMinimumHeight(kFieldHeight);
+  box->setMinimumHeight(kExportMovieFieldsFieldHeight);
   return box;
 }
 
-void choose(QComboBox* box, const QVariant& value) {
+void chooseExportMovieFields(QComboBox* box, const QVariant& value) {
   box->setCurrentIndex(std::max(0, box->findData(value)));
 }
 
@@ -26,10 +26,10 @@ void choose(QComboBox* box, const QVariant& value) {
 
 ExportMovieFields::ExportMovieFields(QFormLayout& form)
     : QObject(form.parentWidget()), form_(form) {
-  speed_ = comboBox("exportSpeed");
+  speed_ = exportMovieFieldsComboBox("exportSpeed");
   speed_->setToolTip("1× takes as long as it took. Gaps are shown as one second.");
   for (const double speed : kMovieSpeeds) speed_->addItem(QString("%1×").arg(speed), speed);
-  rate_ = comboBox("exportRate");
+  rate_ = exportMovieFieldsComboBox("exportRate");
   rate_->setAccessibleName("Pictures per second");
   for (const int rate : kMovieRates) rate_->addItem(QString("%1 pictures/s").arg(rate), rate);
   pace_ = new QWidget;
@@ -40,7 +40,7 @@ ExportMovieFields::ExportMovieFields(QFormLayout& form)
   row->addWidget(rate_, 2);
   form.addRow("S&peed", pace_);
   qobject_cast<QLabel*>(form.labelForField(pace_))->setBuddy(speed_);
-  height_ = comboBox("exportMovieHeight");
+  height_ = exportMovieFieldsComboBox("exportMovieHeight");
   for (const int height : kMovieHeights)
     height_->addItem(QString("%1 px high").arg(height), height);
   form.addRow("Resol&ution", height_);
@@ -49,9 +49,9 @@ ExportMovieFields::ExportMovieFields(QFormLayout& form)
 }
 
 void ExportMovieFields::fill(const ExportRequest& request) {
-  choose(speed_, request.movieSpeed);
-  choose(rate_, request.moviePicturesPerS);
-  choose(height_, request.movieHeightPx);
+  chooseExportMovieFields(speed_, request.movieSpeed);
+  chooseExportMovieFields(rate_, request.moviePicturesPerS);
+  chooseExportMovieFields(height_, request.movieHeightPx);
 }
 
 void ExportMovieFields::read(ExportRequest& request) const {

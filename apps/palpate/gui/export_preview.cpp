@@ -12,8 +12,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kAround = 16.0;      // [px] around the paper
-constexpr int kMeasureAfterMs = 200;  // not at each step of a spin box
+constexpr double kExportPreviewAround = 16.0;  // [px] around the paper
+constexpr int kMeasureAfterMs = 200;           // not at each step of a spin box
 constexpr std::size_t kPreviewRows = 40;
 constexpr std::size_t kMeasuredRows = 400;  // whose mean length stands for all
 
@@ -166,7 +166,8 @@ QString ExportPreview::summary() const {
 }
 
 QRectF ExportPreview::paperRect() const {
-  const QRectF room = QRectF(rect()).adjusted(kAround, kAround, -kAround, -kAround);
+  const QRectF room = QRectF(rect()).adjusted(
+      kExportPreviewAround, kExportPreviewAround, -kExportPreviewAround, -kExportPreviewAround);
   const QSizeF size = paper_.size.scaled(room.size(), Qt::KeepAspectRatio);
   return {room.center() - QPointF(size.width() / 2, size.height() / 2), size};
 }
@@ -197,7 +198,8 @@ void ExportPreview::paintEvent(QPaintEvent*) {
 }
 
 void ExportPreview::paintRows(QPainter& painter) const {
-  const QRectF room = QRectF(rect()).adjusted(kAround, kAround, -kAround, -kAround);
+  const QRectF room = QRectF(rect()).adjusted(
+      kExportPreviewAround, kExportPreviewAround, -kExportPreviewAround, -kExportPreviewAround);
   painter.fillRect(room, palette().color(QPalette::Base));
   painter.setPen(palette().color(QPalette::Mid));
   painter.drawRect(room);

@@ -14,17 +14,17 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kMmPerInch = 25.4;
+constexpr double kExportRequestMmPerInch = 25.4;
 constexpr double kScreenPerInch = 96.0;
 // Half a point each: sizes of text, in whole units, are exact in halves of a point, and lines that are one
 // pixel on screen are half a point on paper.
 constexpr double kPaperPerInch = 144.0;
 constexpr double kUnitsPerPt = 2.0;
-constexpr double kLeastMm = 20.0, kMostMm = 1200.0;
+constexpr double kExportRequestLeastMm = 20.0, kMostMm = 1200.0;
 constexpr double kLeastPt = 4.0, kMostPt = 40.0;
 constexpr int kMostPixels = 16384;  // on a side
 
-const QString kGroup = "export/";
+const QString kExportRequestGroup = "export/";
 
 // Of one that has a name already.
 QString fileProblemOf(const ExportRequest& request) {
@@ -74,7 +74,7 @@ QString descriptionOf(ExportForm form) {
 ExportRequest loadExportRequest(const QSettings& settings) {
   ExportRequest request;
   const auto value = [&](const char* key, const QVariant& usual) {
-    return settings.value(kGroup + key, usual);
+    return settings.value(kExportRequestGroup + key, usual);
   };
   const auto number = [&](const char* key, double usual, double least, double most) {
     bool good = false;
@@ -88,8 +88,8 @@ ExportRequest loadExportRequest(const QSettings& settings) {
   const QString preset = value("size", "").toString();
   for (std::size_t i = 0; i < kPaperPresets.size(); ++i)
     if (kPaperPresets[i].name == preset) request.preset = static_cast<int>(i);
-  request.sizeMm = {number("width_mm", request.sizeMm.width(), kLeastMm, kMostMm),
-                    number("height_mm", request.sizeMm.height(), kLeastMm, kMostMm)};
+  request.sizeMm = {number("width_mm", request.sizeMm.width(), kExportRequestLeastMm, kMostMm),
+                    number("height_mm", request.sizeMm.height(), kExportRequestLeastMm, kMostMm)};
   request.textPt = number("text_pt", request.textPt, kLeastPt, kMostPt);
   const int dpi = value("dpi", request.dpi).toInt();
   if (std::find(kExportDpi.begin(), kExportDpi.end(), dpi) != kExportDpi.end()) request.dpi = dpi;
@@ -121,7 +121,7 @@ ExportRequest loadExportRequest(const QSettings& settings) {
 
 void saveExportRequest(const ExportRequest& request, QSettings& settings) {
   const auto set = [&](const char* key, const QVariant& value) {
-    settings.setValue(kGroup + key, value);
+    settings.setValue(kExportRequestGroup + key, value);
   };
   set("view", request.view);
   set("form", nameOf(request.form));
@@ -146,7 +146,7 @@ PicturePaper paperOf(const ExportRequest& request, const QSizeF& sizeOnScreen) {
   PicturePaper paper;
   const bool asOnScreen = request.preset == kScreenPreset;
   paper.unitsPerInch = asOnScreen ? kScreenPerInch : kPaperPerInch;
-  paper.size = asOnScreen ? sizeOnScreen : request.sizeMm / kMmPerInch * kPaperPerInch;
+  paper.size = asOnScreen ? sizeOnScreen : request.sizeMm / kExportRequestMmPerInch * kPaperPerInch;
   paper.dpi = request.dpi;
   if (request.isMovie())
     paper.dpi = request.movieHeightPx / paper.size.height() * paper.unitsPerInch;

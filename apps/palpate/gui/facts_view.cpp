@@ -9,8 +9,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kPadding = 8;   // [px] above and below a row's text, together
-constexpr int kSpacing = 12;  // [px] between name and value
+constexpr int kFactsViewPadding = 8;  // [px] above and below a row's text, together
+constexpr int kSpacing = 12;          // [px] between name and value
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void FactsView::setTheme(Theme theme) {
   update();
 }
 
-int FactsView::rowHeight() const { return fontMetrics().height() + kPadding; }
+int FactsView::rowHeight() const { return fontMetrics().height() + kFactsViewPadding; }
 
 int FactsView::nameWidth() const {
   int widest = 0;

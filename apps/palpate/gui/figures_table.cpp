@@ -12,12 +12,12 @@ namespace {
 
 constexpr int kDetailRole = Qt::UserRole + 1;
 constexpr int kWarningRole = Qt::UserRole + 2;
-constexpr int kPadding = 6;          // [px] beside a figure
-constexpr int kIcon = 16;            // [px] side of an icon
-constexpr int kAir = 5;              // [px] above and below
-constexpr double kNarrowest = 0.85;  // of a column's width
-constexpr int kLastLeast = 64;       // [px] of the last column
-constexpr int kMostRowsSeen = 6;     // the others are scrolled to
+constexpr int kFiguresTablePadding = 6;          // [px] beside a figure
+constexpr int kIcon = 16;                        // [px] side of an icon
+constexpr int kFiguresTableAir = 5;              // [px] above and below
+constexpr double kFiguresTableNarrowest = 0.85;  // of a column's width
+constexpr int kLastLeast = 64;                   // [px] of the last column
+constexpr int kFiguresTableMostRowsSeen = 6;     // the others are scrolled to
 
 class FigureDelegate : public QStyledItemDelegate {
  public:
@@ -34,11 +34,12 @@ class FigureDelegate : public QStyledItemDelegate {
     painter->setPen(colors.border);
     painter->drawLine(option.rect.bottomLeft(), option.rect.bottomRight());
     const QString text = index.data().toString(), detail = index.data(kDetailRole).toString();
-    const QRect room = option.rect.adjusted(kPadding, kAir - 1, -kPadding, -kAir);
+    const QRect room = option.rect.adjusted(
+        kFiguresTablePadding, kFiguresTableAir - 1, -kFiguresTablePadding, -kFiguresTableAir);
     const int line = option.fontMetrics.height();
     const int side = index.data(Qt::TextAlignmentRole).toInt() & Qt::AlignHorizontal_Mask;
     const auto icon = index.data(Qt::DecorationRole).value<QIcon>();
-    const int aside = icon.isNull() ? 0 : kIcon + kPadding;
+    const int aside = icon.isNull() ? 0 : kIcon + kFiguresTablePadding;
     if (!icon.isNull())
       icon.paint(painter, QRect(room.left(), room.center().y() - kIcon / 2, kIcon, kIcon));
     const auto draw = [&](const QString& words, int top) {
@@ -74,7 +75,7 @@ FiguresTable::FiguresTable(const std::vector<FigureColumn>& columns, QWidget* pa
   setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
   setItemDelegate(new FigureDelegate(this));
   verticalHeader()->hide();
-  verticalHeader()->setDefaultSectionSize(2 * fontMetrics().height() + 2 * kAir);
+  verticalHeader()->setDefaultSectionSize(2 * fontMetrics().height() + 2 * kFiguresTableAir);
   QHeaderView* header = horizontalHeader();
   header->setHighlightSections(false);
   header->setMinimumSectionSize(24);
@@ -85,7 +86,8 @@ FiguresTable::FiguresTable(const std::vector<FigureColumn>& columns, QWidget* pa
     item->setToolTip(column.tip);
     item->setTextAlignment((column.words ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
     setHorizontalHeaderItem(i, item);
-    widths_.push_back(column.letters * fontMetrics().horizontalAdvance('0') + 2 * kPadding);
+    widths_.push_back(column.letters * fontMetrics().horizontalAdvance('0') +
+                      2 * kFiguresTablePadding);
   }
   connect(this, &QTableWidget::itemSelectionChanged, this, [this] {
     if (const int row = chosenRow(); row >= 0) emit rowChosen(row);
@@ -121,13 +123,14 @@ void FiguresTable::setTheme(Theme theme) {
 }
 
 void FiguresTable::setSingleLine() {
-  verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 2 * kAir);
+  verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 2 * kFiguresTableAir);
 }
 
 void FiguresTable::fitColumns() {
   const int room = viewport()->width();
   const int before = std::accumulate(widths_.begin(), widths_.end() - 1, 0);
-  const double scale = std::clamp(static_cast<double>(room - kLastLeast) / before, kNarrowest, 1.0);
+  const double scale =
+      std::clamp(static_cast<double>(room - kLastLeast) / before, kFiguresTableNarrowest, 1.0);
   int used = 0;
   for (int i = 0; i + 1 < columnCount(); ++i) {
     const int width = static_cast<int>(scale * widths_[static_cast<std::size_t>(i)]);
@@ -148,7 +151,7 @@ int FiguresTable::chosenRow() const {
 }
 
 QSize FiguresTable::sizeHint() const {
-  const int rows = std::clamp(rowCount(), 1, kMostRowsSeen);
+  const int rows = std::clamp(rowCount(), 1, kFiguresTableMostRowsSeen);
   return {
       420,
       horizontalHeader()->sizeHint().height() + rows * verticalHeader()->defaultSectionSize() + 2};

@@ -20,11 +20,11 @@
 namespace palpate::gui {
 namespace {
 
-using Kind = FilterOption::Kind;
+using FilterFormKind = FilterOption::Kind;
 
 constexpr int kDecimals = 4;
 
-QLabel* caption(const QString& text, QWidget* parent) {
+QLabel* filterFormCaption(const QString& text, QWidget* parent) {
   auto* label = new QLabel(text, parent);
   label->setProperty("role", "muted");
   return label;
@@ -34,10 +34,10 @@ QString wordOf(const FilterOption& option) {
   return QString::fromStdString(option.key).replace('_', ' ');
 }
 
-QString rangeOf(const FilterOption& option) {
+QString filterFormRangeOf(const FilterOption& option) {
   QString text = QString::fromStdString(numberText(option.minimum)) + "–" +
                  QString::fromStdString(numberText(option.maximum));
-  if (option.kind == Kind::kOdd) text += ", odd";
+  if (option.kind == FilterFormKind::kOdd) text += ", odd";
   return text;
 }
 
@@ -56,7 +56,7 @@ FilterForm::FilterForm(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(6);
-  about_ = caption({}, this);
+  about_ = filterFormCaption({}, this);
   about_->setObjectName("filterAbout");
   about_->setWordWrap(true);
   column->addWidget(about_);
@@ -102,16 +102,17 @@ void FilterForm::build(const FilterKind& kind) {
 
 void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option) {
   const QString tip = QString::fromStdString(option.purpose);
-  const QString rangeTip = option.kind == Kind::kFlag || option.kind == Kind::kChoice
-                               ? QString()
-                               : rangeOf(option) + "; arrow keys and the wheel step through it";
+  const QString rangeTip =
+      option.kind == FilterFormKind::kFlag || option.kind == FilterFormKind::kChoice
+          ? QString()
+          : filterFormRangeOf(option) + "; arrow keys and the wheel step through it";
   const std::string key = option.key;
   auto* name = new QLabel(wordOf(option), fields_);
   name->setToolTip(tip);
   grid.addWidget(name, row, 0);
   QWidget* field = nullptr;
   switch (option.kind) {
-    case Kind::kFlag: {
+    case FilterFormKind::kFlag: {
       auto* box = new QCheckBox(fields_);
       connect(box, &QCheckBox::toggled, this, [this, key](bool on) {
         emit optionChosen(key, on ? 1.0 : 0.0);
@@ -120,7 +121,7 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
         const QSignalBlocker blocker(box);
         box->setChecked(step.flag(key));
       });
-      auto* words = caption(tip, fields_);
+      auto* words = filterFormCaption(tip, fields_);
       words->setWordWrap(true);
       words->setMinimumWidth(0);
       grid.addWidget(words, row, 1, 1, 2);
@@ -131,7 +132,7 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
       field = box;
       break;
     }
-    case Kind::kChoice: {
+    case FilterFormKind::kChoice: {
       auto* box = new QComboBox(fields_);
       for (const std::string& choice : option.choices) box->addItem(QString::fromStdString(choice));
       connect(box, &QComboBox::activated, this, [this, key](int index) {
@@ -145,10 +146,10 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
       field = box;
       break;
     }
-    case Kind::kInteger:
-    case Kind::kOdd: {
+    case FilterFormKind::kInteger:
+    case FilterFormKind::kOdd: {
       auto* box = new QSpinBox(fields_);
-      const bool odd = option.kind == Kind::kOdd;
+      const bool odd = option.kind == FilterFormKind::kOdd;
       box->setRange(static_cast<int>(option.minimum), static_cast<int>(option.maximum));
       box->setSingleStep(odd ? 2 : 1);
       box->setButtonSymbols(QAbstractSpinBox::NoButtons);
@@ -163,11 +164,11 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
         box->setValue(step.integer(key));
       });
       grid.addWidget(box, row, 1);
-      grid.addWidget(caption(rangeOf(option), fields_), row, 2);
+      grid.addWidget(filterFormCaption(filterFormRangeOf(option), fields_), row, 2);
       field = box;
       break;
     }
-    case Kind::kReal: {
+    case FilterFormKind::kReal: {
       auto* box = new QDoubleSpinBox(fields_);
       box->setDecimals(kDecimals);
       box->setButtonSymbols(QAbstractSpinBox::NoButtons);
@@ -188,7 +189,7 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
             });
         grid.addWidget(automatic, row, 2);
       } else {
-        grid.addWidget(caption(rangeOf(option), fields_), row, 2);
+        grid.addWidget(filterFormCaption(filterFormRangeOf(option), fields_), row, 2);
       }
       show_.push_back([box, automatic, key](const FilterStep& step) {
         const QSignalBlocker blocker(box);

@@ -11,9 +11,9 @@
 namespace palpate::gui {
 namespace {
 
-enum Column { kName, kCost, kLatency };
+enum FilterListColumn { kName, kCost, kLatency };
 
-QString optionsOf(const FilterStep& step) {
+QString filterListOptionsOf(const FilterStep& step) {
   const QString text = QString::fromStdString(filterText(step));
   const auto colon = text.indexOf(':');
   return colon < 0 ? QString() : text.mid(colon + 1).replace(',', "  ").replace('=', ' ');
@@ -27,7 +27,7 @@ FilterList::FilterList(QWidget* parent) : QTreeWidget(parent) {
   setHeaderLabels({"Filter", "µs/frame", "delay"});
   headerItem()->setToolTip(kCost, "Time that a frame of all matrices takes");
   headerItem()->setToolTip(kLatency, "Frames until half of a step of load has come through");
-  for (const Column column : {kCost, kLatency})
+  for (const FilterListColumn column : {kCost, kLatency})
     headerItem()->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
   setRootIsDecorated(false);
   setUniformRowHeights(true);
@@ -58,7 +58,7 @@ void FilterList::showRecipe(const Recipe& recipe, bool live) {
     auto* item = new QTreeWidgetItem(this);
     item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsDragEnabled |
                    Qt::ItemIsUserCheckable);
-    for (const Column column : {kCost, kLatency})
+    for (const FilterListColumn column : {kCost, kLatency})
       item->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
   }
   for (std::size_t i = 0; i < recipe.steps.size(); ++i) {
@@ -66,7 +66,8 @@ void FilterList::showRecipe(const Recipe& recipe, bool live) {
     QTreeWidgetItem* item = topLevelItem(static_cast<int>(i));
     const bool leftOut = live && !step.causal();
     QString text = QString::fromStdString(step.kind().title);
-    if (const QString options = optionsOf(step); !options.isEmpty()) text += "   " + options;
+    if (const QString options = filterListOptionsOf(step); !options.isEmpty())
+      text += "   " + options;
     item->setText(kName, text);
     item->setCheckState(kName, step.enabled ? Qt::Checked : Qt::Unchecked);
     item->setToolTip(kName,

@@ -15,10 +15,11 @@ namespace palpate::gui {
 namespace {
 
 enum Graph { kLow, kHigh, kForce, kBeyond };
-constexpr double kSigmas = 1.96;  // the band: 95 %
-constexpr double kHeadroom = 1.1;
-constexpr int kBandAlpha = 46;
-constexpr std::size_t kMostPoints = 20'000;  // drawn; more frames: the largest of each bunch
+constexpr double kForceChartSigmas = 1.96;  // the band: 95 %
+constexpr double kForceChartHeadroom = 1.1;
+constexpr int kForceChartBandAlpha = 46;
+constexpr std::size_t kForceChartMostPoints =
+    20'000;  // drawn; more frames: the largest of each bunch
 
 }  // namespace
 
@@ -63,7 +64,7 @@ void ForceChart::fill() {
         if ((whole || m == matrix_) && !series_->at(i, m).inRange) return true;
       return false;
     };
-    const std::size_t bunch = numFrames / kMostPoints + 1;
+    const std::size_t bunch = numFrames / kForceChartMostPoints + 1;
     const double nothing = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t first = 0; first < numFrames; first += bunch) {
       std::size_t at = first;
@@ -72,11 +73,11 @@ void ForceChart::fill() {
       const double t = series_->timeS[at], n = value(at);
       const double sd =
           whole ? series_->sdForceN(at) : static_cast<double>(series_->at(at, matrix_).sdForceN);
-      low.append({t, std::max(0.0, n - kSigmas * sd)});
-      high.append({t, n + kSigmas * sd});
+      low.append({t, std::max(0.0, n - kForceChartSigmas * sd)});
+      high.append({t, n + kForceChartSigmas * sd});
       force.append({t, n});
       beyond.append({t, outside(at) ? n : nothing});
-      most = std::max(most, n + kSigmas * sd);
+      most = std::max(most, n + kForceChartSigmas * sd);
     }
     xAxis->setRange(series_->timeS.front(),
                     std::max(series_->timeS.back(), series_->timeS.front() + 1e-3));
@@ -85,7 +86,7 @@ void ForceChart::fill() {
   graph(kHigh)->data()->set(high, true);
   graph(kForce)->data()->set(force, true);
   graph(kBeyond)->data()->set(beyond, true);
-  yAxis->setRange(0.0, (most > 0.0 ? most : 1.0) * kHeadroom);
+  yAxis->setRange(0.0, (most > 0.0 ? most : 1.0) * kForceChartHeadroom);
   style();
 }
 
@@ -101,7 +102,7 @@ void ForceChart::style() {
   const bool whole = !series_ || matrix_ >= series_->numMatrices;
   const QColor color = whole ? wholeColor(theme_) : matrixColor(matrix_, theme_);
   QColor shade = color;
-  shade.setAlpha(kBandAlpha);
+  shade.setAlpha(kForceChartBandAlpha);
   graph(kHigh)->setBrush(shade);
   graph(kForce)->setPen(QPen(color, 1.4));
   graph(kBeyond)->setPen(QPen(colors.warning, 1.8));

@@ -25,7 +25,7 @@ constexpr double kQuantile = 1.96;  // 95 %
 constexpr double kFullScaleCounts = 4095.0;
 constexpr double kLeastSensitivity = 0.01;
 
-std::vector<FigureColumn> columns() {
+std::vector<FigureColumn> forcePageColumns() {
   return {{"matrix", {}, 16, true},
           {"taxels", "Active ones", 6},
           {"K", "Gain that was used: the filtered mean, creep taken out [counts]", 8},
@@ -36,7 +36,7 @@ std::vector<FigureColumn> columns() {
 
 QString plusMinus(double sd) { return "± " + figure(kQuantile * sd, 2); }
 
-std::vector<FigureCell> rowOf(const QString& name, const MatrixForce& force) {
+std::vector<FigureCell> forcePageRowOf(const QString& name, const MatrixForce& force) {
   if (force.active == 0)
     return {{.text = name}, {.text = "0"}, {.text = "–"}, {.text = "–"}, {.text = "0"}, {}};
   QStringList flags;
@@ -95,7 +95,7 @@ ForcePage::ForcePage(QSettings& settings, QWidget* parent)
   makeTop();
   auto* content = new QWidget(this);
   chart_ = new ForceChart(content);
-  table_ = new FiguresTable(columns(), content);
+  table_ = new FiguresTable(forcePageColumns(), content);
   table_->setObjectName("forceTable");
   notes_ = notesLabel("forceNotes", content);
   auto* column = new QVBoxLayout(content);
@@ -312,7 +312,7 @@ void ForcePage::showForces(const std::vector<MatrixForce>& forces, double sumN, 
   int active = 0;
   bool inRange = true;
   for (std::size_t m = 0; m < forces.size(); ++m) {
-    rows.push_back(rowOf(rowName(m), forces[m]));
+    rows.push_back(forcePageRowOf(rowName(m), forces[m]));
     active += forces[m].active;
     inRange = inRange && forces[m].inRange;
   }

@@ -3,13 +3,10 @@
 #include <memory>
 
 #include <palpate/core/number_text.h>
+#include <palpate/core/time.h>
 
 namespace palpate::gui {
-namespace {
-
-constexpr double kUsPerS = 1e6;
-
-}  // namespace
+namespace {}  // namespace
 
 MatricesPictureOptions fitted(MatricesPictureOptions options, const PictureLook& look) {
   options.size = look.size;

@@ -20,9 +20,9 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kRefreshMs = 50;
-constexpr int kMargin = 12;
-constexpr const char* kNothing = "–";
+constexpr int kHandDockRefreshMs = 50;
+constexpr int kHandDockMargin = 12;
+constexpr const char* kHandDockNothing = "–";
 
 FeedOptions smallFeed() {
   FeedOptions options;
@@ -53,7 +53,7 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   connect(tactile_, &TactileSettingsPanel::refused, this, refused);
   connect(sensitivity_, &SensitivityModes::refused, this, refused);
   connect(tactile_, &TactileSettingsPanel::changedByHand, sensitivity_, &SensitivityModes::letGo);
-  timer_.setInterval(kRefreshMs);
+  timer_.setInterval(kHandDockRefreshMs);
   connect(&timer_, &QTimer::timeout, this, &HandDock::refresh);
   setHand(nullptr, nullptr);
 }
@@ -83,7 +83,7 @@ QWidget* HandDock::makeHead() {
   row->addWidget(state_, 1);
   row->addWidget(stop_);
   auto* column = new QVBoxLayout(head);
-  column->setContentsMargins(kMargin, 10, kMargin, 8);
+  column->setContentsMargins(kHandDockMargin, 10, kHandDockMargin, 8);
   column->setSpacing(6);
   column->addLayout(row);
   column->addWidget(heat_);
@@ -119,7 +119,7 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   measured->addLayout(left, 1);
   measured->addLayout(right, 1);
   auto* column = new QVBoxLayout(content);
-  column->setContentsMargins(kMargin, 4, kMargin, 10);
+  column->setContentsMargins(kHandDockMargin, 4, kHandDockMargin, 10);
   column->setSpacing(8);
   column->addWidget(sectionHeading("Grasp", content));
   column->addWidget(grasp_);
@@ -155,11 +155,11 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   const HandDescription hand = session ? session->device().hand() : sdh2();
   std::vector<Fact> facts;
   for (const AxisDescription& axis : hand.axes)
-    facts.push_back({QString::fromStdString(axis.name), kNothing});
+    facts.push_back({QString::fromStdString(axis.name), kHandDockNothing});
   angles_->setFacts(std::move(facts));
   facts.clear();
   for (const TemperatureSensorDescription& sensor : hand.temperatureSensors)
-    facts.push_back({QString::fromStdString(sensor.name), kNothing});
+    facts.push_back({QString::fromStdString(sensor.name), kHandDockNothing});
   temperatures_->setFacts(std::move(facts));
   heat_->hide();
   if (session)
@@ -233,7 +233,7 @@ void HandDock::showTemperatures(const Temperatures& temperatures) {
   QString hot;
   for (std::size_t i = 0; i < std::min(temperatures.degC.size(), facts.size()); ++i) {
     const double value = temperatures.degC[i];
-    facts[i].value = value == 0.0 ? QString(kNothing) : figure(value, 1) + " °C";
+    facts[i].value = value == 0.0 ? QString(kHandDockNothing) : figure(value, 1) + " °C";
     facts[i].warning = value > hottest;
     if (facts[i].warning) hot += (hot.isEmpty() ? "" : ", ") + facts[i].name + " " + facts[i].value;
   }

@@ -21,7 +21,7 @@ constexpr float kOutlineLiftMm = 0.45F;
 constexpr float kTaxelDotPx = 3.2F;
 constexpr float kBodyVeil = 0.62F;  // how much of the background a greyed hand takes on
 
-QColor mixed(const QColor& a, const QColor& b, float share) {
+QColor handDrawingMixed(const QColor& a, const QColor& b, float share) {
   const auto mix = [share](float from, float to) { return from + (to - from) * share; };
   return QColor::fromRgbF(
       mix(a.redF(), b.redF()), mix(a.greenF(), b.greenF()), mix(a.blueF(), b.blueF()));
@@ -172,7 +172,7 @@ void HandDrawing::addBodies(HandScene& scene, const HandLook& look) const {
   for (const HandBody& body : bodies_) {
     if (!isShown(body, look)) continue;
     QColor color = bodyColor(body.role, look.theme);
-    if (!posed()) color = mixed(color, background, kBodyVeil);
+    if (!posed()) color = handDrawingMixed(color, background, kBodyVeil);
     const QRgb rgb = color.rgb();
     const Eigen::Isometry3f to =
         (body.link ? pose_.baseFromLink(body.finger, *body.link) : Eigen::Isometry3d::Identity())
@@ -192,7 +192,8 @@ void HandDrawing::addTaxels(HandScene& scene, const HandLook& look) const {
   const ColorTable& table = colorTable(look.map);
   const ThemeColors& colors = colorsOf(look.theme);
   QColor resting = colors.taxel;
-  if (!posed() && !isFlat(look.taxels)) resting = mixed(resting, colors.window, kBodyVeil);
+  if (!posed() && !isFlat(look.taxels))
+    resting = handDrawingMixed(resting, colors.window, kBodyVeil);
   const bool bars = look.taxels == TaxelShape::kBars || look.taxels == TaxelShape::kFlatBars;
   const double span = std::max(1e-9, look.range.maximum - look.range.minimum);
   const SensorLayout& layout = *hand_->layout;

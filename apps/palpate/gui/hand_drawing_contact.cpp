@@ -13,8 +13,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr int kAround = 48;  // segments of a circle
-constexpr int kRings = 24;   // of a sphere from pole to pole
+constexpr int kHandDrawingContactAround = 48;  // segments of a circle
+constexpr int kRings = 24;                     // of a sphere from pole to pole
 constexpr float kNormalMm = 5.0F;
 constexpr float kMeanNormalMm = 18.0F;
 constexpr float kAxisMm = 45.0F;
@@ -28,7 +28,7 @@ QRgb withAlpha(const QColor& color, float alpha) {
 
 Vector3f onSphere(int ring, int step) {
   const double down = std::numbers::pi * ring / kRings;
-  const double around = 2.0 * std::numbers::pi * step / kAround;
+  const double around = 2.0 * std::numbers::pi * step / kHandDrawingContactAround;
   return Vector3d(
              std::sin(down) * std::cos(around), std::sin(down) * std::sin(around), std::cos(down))
       .cast<float>();
@@ -41,12 +41,12 @@ void addCircle(HandScene& scene,
                float widthPx,
                QRgb color) {
   const auto at = [&](int step) {
-    const double angle = 2.0 * std::numbers::pi * step / kAround;
+    const double angle = 2.0 * std::numbers::pi * step / kHandDrawingContactAround;
     return Vector3f(
         (sphere.centreMm + sphere.radiusMm * (std::cos(angle) * u + std::sin(angle) * v))
             .cast<float>());
   };
-  for (int step = 0; step < kAround; ++step)
+  for (int step = 0; step < kHandDrawingContactAround; ++step)
     scene.lines.push_back({at(step), at(step + 1), widthPx, color});
 }
 
@@ -127,7 +127,7 @@ void HandDrawing::addSphere(HandScene& scene,
   };
   std::vector<SceneVertex>& to = glass ? scene.clear : scene.solid;
   for (int ring = 0; ring < kRings; ++ring)
-    for (int step = 0; step < kAround; ++step) {
+    for (int step = 0; step < kHandDrawingContactAround; ++step) {
       const SceneVertex a = corner(ring, step), b = corner(ring + 1, step),
                         c = corner(ring + 1, step + 1), d = corner(ring, step + 1);
       if (ring + 1 < kRings) to.insert(to.end(), {a, b, c});

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kLeastMm = 0.2;  // motion that is drawn
+constexpr double kHandDrawingSlipLeastMm = 0.2;  // motion that is drawn
 constexpr double kLeastTurnDeg = 1.0;
 // Within the arrows' time: more is what contacts in one line make of noise.
 constexpr double kMostMm = 40.0;
@@ -80,7 +80,7 @@ void HandDrawing::addSlip(HandScene& scene, const HandLook& look) const {
     const SlipArrow& arrow = arrows.back();
     const double mm = arrow.vectorMm.norm();
     moves = moves || slip.slipping;
-    if (mm < kLeastMm || (look.only && *look.only != slip.matrix)) continue;
+    if (mm < kHandDrawingSlipLeastMm || (look.only && *look.only != slip.matrix)) continue;
     const QColor color = slip.slipping ? colors.danger : colors.text;
     const Vector3d from = arrow.originMm + kLiftMm * arrow.normal;
     const Vector3d way = static_cast<double>(kSlipEnlarged) * arrow.vectorMm;
@@ -96,7 +96,7 @@ void HandDrawing::addSlip(HandScene& scene, const HandLook& look) const {
   if (mm > kMostMm || deg > kMostDeg) return;
   const QColor color = colors.accent;
   const double enlarged = static_cast<double>(kSlipEnlarged);
-  if (mm >= kLeastMm)
+  if (mm >= kHandDrawingSlipLeastMm)
     addArrow(scene, object.centerMm, enlarged * object.translationMm, kObjectPx, color.rgb());
   if (deg >= kLeastTurnDeg)
     addTurn(scene, object.centerMm, enlarged * object.rotationRad, color.rgb());

@@ -62,7 +62,7 @@ QString source(const char* text) {
   return QStringLiteral("#version 330 core\n") + QLatin1String(text);
 }
 
-bool isFinite(const SceneVertex& vertex) {
+bool handGlIsFinite(const SceneVertex& vertex) {
   const auto& p = vertex.positionMm;
   const auto& n = vertex.normal;
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) && std::isfinite(n[0]) &&
@@ -76,8 +76,8 @@ void copyNumbers(const std::vector<SceneVertex>& from, std::vector<SceneVertex>&
     const std::size_t before = to.size();
     for (std::size_t k = 0; k < 3; ++k) {
       SceneVertex vertex = from[i + k];
-      if (!isFinite(vertex)) vertex.normal = {};
-      if (isFinite(vertex)) to.push_back(vertex);
+      if (!handGlIsFinite(vertex)) vertex.normal = {};
+      if (handGlIsFinite(vertex)) to.push_back(vertex);
     }
     if (to.size() != before + 3) to.resize(before);
   }
@@ -201,7 +201,7 @@ void HandGl::Gl::fill(Kind& kind, const std::vector<Vertex>& vertices) {
 }
 
 void HandGl::Gl::fillSurface(Kind& kind, const std::vector<SceneVertex>& vertices) {
-  if (std::all_of(vertices.begin(), vertices.end(), isFinite)) return fill(kind, vertices);
+  if (std::all_of(vertices.begin(), vertices.end(), handGlIsFinite)) return fill(kind, vertices);
   copyNumbers(vertices, numbers);
   fill(kind, numbers);
 }
@@ -249,7 +249,8 @@ void HandGl::draw(const HandScene& scene,
       gl_->surface.uniformLocation("clipFromBase"), 1, GL_FALSE, clipFromBase.data());
   gl.glUniformMatrix3fv(
       gl_->surface.uniformLocation("eyeFromBase"), 1, GL_FALSE, eyeFromBase.data());
-  gl_->surface.setUniformValue("towardsLight", QVector3D(kLight.x(), kLight.y(), kLight.z()));
+  gl_->surface.setUniformValue("towardsLight",
+                               QVector3D(kTowardsLight.x(), kTowardsLight.y(), kTowardsLight.z()));
   gl_->surface.setUniformValue("ambientDiffuse", QVector2D(kAmbient, kDiffuse));
   gl_->drawKind(gl_->solid);
 

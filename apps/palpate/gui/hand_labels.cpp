@@ -36,10 +36,10 @@ QRectF movedInside(QRectF rect, const QRectF& picture) {
   return rect;
 }
 
-QRectF freePlace(const QPointF& at,
-                 const QSizeF& text,
-                 const QRectF& picture,
-                 const std::vector<QRectF>& taken) {
+QRectF handLabelsFreePlace(const QPointF& at,
+                           const QSizeF& text,
+                           const QRectF& picture,
+                           const std::vector<QRectF>& taken) {
   const auto places = placesAround(at, text);
   for (const QRectF& place : places)
     if (picture.contains(place) && std::none_of(taken.begin(), taken.end(), [&](const QRectF& r) {
@@ -74,7 +74,7 @@ void paintLabels(QPainter& painter,
   std::vector<QRectF> taken;
   for (const Placed& word : shown) {
     const QSizeF text(metrics.horizontalAdvance(word.label->text), metrics.height());
-    const QRectF at = freePlace(word.place.at, text, picture, taken);
+    const QRectF at = handLabelsFreePlace(word.place.at, text, picture, taken);
     taken.push_back(at);
     QPainterPath path;
     path.addText(at.topLeft() + QPointF(0.0, metrics.ascent()), painter.font(), word.label->text);

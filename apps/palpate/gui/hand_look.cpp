@@ -40,18 +40,18 @@ QString nameOf(SphereLook look) {
 
 namespace {
 
-constexpr const char* kGroup = "hand_view/";
+constexpr const char* kHandLookGroup = "hand_view/";
 
 template <class All, class Value>
 Value named(const QSettings& settings, const char* key, const All& all, Value usual) {
-  const QString name = settings.value(kGroup + QString(key)).toString();
+  const QString name = settings.value(kHandLookGroup + QString(key)).toString();
   const auto* found =
       std::find_if(all.begin(), all.end(), [&](Value v) { return nameOf(v) == name; });
   return found == all.end() ? usual : *found;
 }
 
-bool flag(const QSettings& settings, const char* key, bool usual) {
-  return settings.value(kGroup + QString(key), usual).toBool();
+bool handLookFlag(const QSettings& settings, const char* key, bool usual) {
+  return settings.value(kHandLookGroup + QString(key), usual).toBool();
 }
 
 }  // namespace
@@ -60,19 +60,19 @@ HandLook loadHandLook(const QSettings& settings) {
   HandLook look;
   look.taxels = named(settings, "taxels", kAllTaxelShapes, look.taxels);
   look.sphere = named(settings, "sphere", kAllSphereLooks, look.sphere);
-  look.sphereOf =
-      flag(settings, "sphere_of_centroids", false) ? SphereOf::kCentroids : SphereOf::kTaxels;
-  look.normals = flag(settings, "normals", look.normals);
-  look.wire = flag(settings, "wire", look.wire);
-  look.contacts = flag(settings, "contacts", look.contacts);
-  look.slip = flag(settings, "slip", look.slip);
-  look.axes = flag(settings, "axes", look.axes);
+  look.sphereOf = handLookFlag(settings, "sphere_of_centroids", false) ? SphereOf::kCentroids
+                                                                       : SphereOf::kTaxels;
+  look.normals = handLookFlag(settings, "normals", look.normals);
+  look.wire = handLookFlag(settings, "wire", look.wire);
+  look.contacts = handLookFlag(settings, "contacts", look.contacts);
+  look.slip = handLookFlag(settings, "slip", look.slip);
+  look.axes = handLookFlag(settings, "axes", look.axes);
   return look;
 }
 
 void saveHandLook(const HandLook& look, QSettings& settings) {
   const auto put = [&settings](const char* key, const QVariant& value) {
-    settings.setValue(kGroup + QString(key), value);
+    settings.setValue(kHandLookGroup + QString(key), value);
   };
   put("taxels", nameOf(look.taxels));
   put("sphere", nameOf(look.sphere));

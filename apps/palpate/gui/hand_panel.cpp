@@ -16,16 +16,17 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kControlHeight = 26;  // [px] of boxes beside buttons
-constexpr int kBoxesAbove = 400;    // [px] of width: room for the sphere's box
+constexpr int kHandPanelControlHeight = 26;  // [px] of boxes beside buttons
+constexpr int kBoxesAbove = 400;             // [px] of width: room for the sphere's box
 
 template <class All, class Value>
-int indexOf(const All& all, Value value) {
+int handPanelIndexOf(const All& all, Value value) {
   return static_cast<int>(std::find(all.begin(), all.end(), value) - all.begin());
 }
 
 // Of the hand at the ends of a recording and where it holds most.
-std::vector<Eigen::Vector3d> extentOf(const OpenedRecording& recording, const HandLook& look) {
+std::vector<Eigen::Vector3d> handPanelExtentOf(const OpenedRecording& recording,
+                                               const HandLook& look) {
   std::vector<Eigen::Vector3d> points;
   const Profile& profile = recording.profile;
   if (profile.numFrames() == 0) return points;
@@ -56,7 +57,7 @@ HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(pa
     made->setObjectName(name);
     made->setFocusPolicy(Qt::NoFocus);  // it has a key
     made->setToolTip(tip);
-    made->setMinimumHeight(kControlHeight);
+    made->setMinimumHeight(kHandPanelControlHeight);
     made->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     return made;
   };
@@ -137,7 +138,7 @@ void HandPanel::setRecording(const OpenedRecordingPtr& recording) {
   }
   setHand(recording->profile.hand());
   recording_ = recording;
-  if (!recording->isLong()) view_->setExtent(extentOf(*recording, view_->look()));
+  if (!recording->isLong()) view_->setExtent(handPanelExtentOf(*recording, view_->look()));
 }
 
 void HandPanel::setHand(const HandDescription& hand) {
@@ -171,8 +172,8 @@ void HandPanel::setLook(const HandLook& wanted) {
   look.range = view_->look().range;
   look.theme = view_->look().theme;
   view_->setLook(look);
-  taxels_->setCurrentIndex(indexOf(kAllTaxelShapes, look.taxels));
-  spheres_->setCurrentIndex(indexOf(kAllSphereLooks, look.sphere));
+  taxels_->setCurrentIndex(handPanelIndexOf(kAllTaxelShapes, look.taxels));
+  spheres_->setCurrentIndex(handPanelIndexOf(kAllSphereLooks, look.sphere));
   matrix_->setCurrentIndex(look.only ? static_cast<int>(*look.only) + 1 : 0);
 }
 

@@ -13,9 +13,9 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kMargin = 12.0;    // [px]
-constexpr double kBarWidth = 12.0;  // of the colours
-constexpr double kBarLabels = 44.0;
+constexpr double kHandPictureMargin = 12.0;    // [px]
+constexpr double kHandPictureBarWidth = 12.0;  // of the colours
+constexpr double kHandPictureBarLabels = 44.0;
 constexpr double kHighestBar = 220.0;
 constexpr double kLowestPicture = 220.0;  // [px] below, there is no room for a bar
 constexpr double kScaleShare = 0.16;      // of the width, at most
@@ -35,7 +35,7 @@ void paintScale(QPainter& painter, const QRectF& area, const HandPictureOptions&
   if (!(pxPerMm > 0.0) || !std::isfinite(pxPerMm)) return;
   const double lengthMm = roundLength(area.width() * kScaleShare / pxPerMm);
   const double length = lengthMm * pxPerMm;
-  const QPointF left(area.left() + kMargin, area.bottom() - kMargin);
+  const QPointF left(area.left() + kHandPictureMargin, area.bottom() - kHandPictureMargin);
   painter.setPen(QPen(colorsOf(options.page.theme).muted, 1.5));
   painter.drawLine(left, left + QPointF(length, 0.0));
   for (const double at : {0.0, length})
@@ -57,22 +57,26 @@ double paintSphereText(QPainter& painter,
   if (text.isEmpty()) return top;
   const QFontMetricsF metrics(painter.font());
   painter.setPen(colorsOf(options.page.theme).muted);
-  const QRectF line(area.left() + kMargin, top, area.width() - 2.0 * kMargin, metrics.height());
+  const QRectF line(area.left() + kHandPictureMargin,
+                    top,
+                    area.width() - 2.0 * kHandPictureMargin,
+                    metrics.height());
   painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter, text);
   return line.bottom() + 6.0;
 }
 
-void paintNotice(QPainter& painter,
-                 const QRectF& area,
-                 double top,
-                 const HandPictureOptions& options) {
+void handPicturePaintNotice(QPainter& painter,
+                            const QRectF& area,
+                            double top,
+                            const HandPictureOptions& options) {
   if (options.notice.isEmpty()) return;
   const ThemeColors& colors = colorsOf(options.page.theme);
   const QFontMetricsF metrics(painter.font());
-  const double widest = area.width() - 2.0 * kMargin - 20.0;
-  QRectF box = metrics.boundingRect(QRectF(area.left() + kMargin + 10.0, top, widest, 200.0),
-                                    Qt::AlignLeft | Qt::TextWordWrap,
-                                    options.notice);
+  const double widest = area.width() - 2.0 * kHandPictureMargin - 20.0;
+  QRectF box =
+      metrics.boundingRect(QRectF(area.left() + kHandPictureMargin + 10.0, top, widest, 200.0),
+                           Qt::AlignLeft | Qt::TextWordWrap,
+                           options.notice);
   const QRectF around = box.adjusted(-10.0, -5.0, 10.0, 5.0).translated(0.0, 5.0);
   painter.setPen(QPen(colors.warning, 1.0));
   painter.setBrush(colors.panel);
@@ -104,22 +108,29 @@ void paintHandOverlay(QPainter& painter,
   paintLabels(painter, scene, options.camera, area.size());
   painter.translate(-area.topLeft());
   const QFontMetricsF metrics(painter.font());
-  double top = area.top() + kMargin;
+  double top = area.top() + kHandPictureMargin;
   if (!options.page.title.isEmpty() || !options.page.caption.isEmpty()) {
-    const QRectF title(area.left() + kMargin, top, area.width() - 2.0 * kMargin, metrics.height());
+    const QRectF title(area.left() + kHandPictureMargin,
+                       top,
+                       area.width() - 2.0 * kHandPictureMargin,
+                       metrics.height());
     paintTitle(painter, title, options.page);
     top = title.bottom() + 8.0;
   }
   painter.setFont(pictureFont(options.page));
   top = paintSphereText(painter, area, top, drawing, options);
-  paintNotice(painter, area, top, options);
+  handPicturePaintNotice(painter, area, top, options);
   if (drawing.hasHand()) {
     painter.setFont(pictureFont(options.page));
     paintScale(painter, area, options);
     if (options.page.colorBar && area.height() >= kLowestPicture) {
       const double above = top + 2.5 * metrics.height();
-      const double height = std::min(kHighestBar, area.bottom() - above - 3.0 * kMargin);
-      const QRectF bar(area.right() - kMargin - kBarLabels - kBarWidth, above, kBarWidth, height);
+      const double height = std::min(kHighestBar, area.bottom() - above - 3.0 * kHandPictureMargin);
+      const QRectF bar(
+          area.right() - kHandPictureMargin - kHandPictureBarLabels - kHandPictureBarWidth,
+          above,
+          kHandPictureBarWidth,
+          height);
       painter.setRenderHint(QPainter::Antialiasing, false);
       paintColorBar(painter, bar, lookOf(options, drawing).range, options.page);
     }

@@ -17,7 +17,7 @@ namespace {
 // Four in sixteenths of a pixel, no two in a row or column: where OpenGL drivers put them (y down here).
 constexpr std::array<std::array<int, 2>, 4> kFour = {{{-2, 6}, {6, 2}, {-6, -2}, {2, -6}}};
 
-std::vector<SamplePlaces> placesOf(RasterQuality quality) {
+std::vector<SamplePlaces> handRasterPlacesOf(RasterQuality quality) {
   std::vector<SamplePlaces> passes(quality == RasterQuality::kScreen ? 1 : 4);
   for (std::size_t pass = 0; pass < passes.size(); ++pass)
     for (std::size_t i = 0; i < 4; ++i) {
@@ -112,7 +112,7 @@ const QImage& HandRaster::draw(const HandScene& scene,
   if (image.isNull()) return image;
   image.setDevicePixelRatio(pixelRatio);
   work_->setup.fill(scene, camera, size, pixels, work_->list);
-  const auto passes = placesOf(quality);
+  const auto passes = handRasterPlacesOf(quality);
   auto* first = reinterpret_cast<QRgb*>(image.bits());
   const std::ptrdiff_t stride = image.bytesPerLine() / static_cast<std::ptrdiff_t>(sizeof(QRgb));
   constexpr int kSide = HandTile::kSide;

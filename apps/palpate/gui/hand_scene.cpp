@@ -137,7 +137,7 @@ void HandScene::clearAll() {
 QRgb litColor(QRgb color, const Eigen::Vector3f& normal, const Eigen::Matrix3f& eyeFromBase) {
   const float squared = normal.squaredNorm();
   if (!std::isfinite(squared) || squared <= 0.0F) return color;
-  const float light = kAmbient + kDiffuse * std::abs((eyeFromBase * normal).dot(kLight));
+  const float light = kAmbient + kDiffuse * std::abs((eyeFromBase * normal).dot(kTowardsLight));
   return qRgba(litChannel(qRed(color), light),
                litChannel(qGreen(color), light),
                litChannel(qBlue(color), light),

@@ -56,11 +56,11 @@ struct HandScene {
 };
 
 // The light stands at the eye's left shoulder and moves with it. A lit colour is
-//   color * (kAmbient + kDiffuse * |n . l|), l = kLight in the eye's frame.
+//   color * (kAmbient + kDiffuse * |n . l|), l = kTowardsLight in the eye's frame.
 // (|.|: a surface seen from behind is lit as well.)
 inline constexpr float kAmbient = 0.38F;
 inline constexpr float kDiffuse = 0.66F;
-inline const Eigen::Vector3f kLight = Eigen::Vector3f(-0.35F, 0.55F, 0.76F).normalized();
+inline const Eigen::Vector3f kTowardsLight = Eigen::Vector3f(-0.35F, 0.55F, 0.76F).normalized();
 QRgb litColor(QRgb color, const Eigen::Vector3f& normal, const Eigen::Matrix3f& eyeFromBase);
 
 // Lines and points as triangles that face the eye, in clip space, three vertices each: how both ways draw them.

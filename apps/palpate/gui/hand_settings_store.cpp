@@ -8,10 +8,12 @@ namespace palpate::gui {
 namespace {
 
 // A name may hold anything, a key no slash.
-QString encoded(const QString& text) {
+QString handSettingsStoreEncoded(const QString& text) {
   return QString::fromLatin1(QUrl::toPercentEncoding(text.isEmpty() ? "unknown" : text));
 }
-QString groupOf(const QString& serial) { return "hands/" + encoded(serial) + "/settings"; }
+QString groupOf(const QString& serial) {
+  return "hands/" + handSettingsStoreEncoded(serial) + "/settings";
+}
 
 }  // namespace
 
@@ -28,21 +30,24 @@ QStringList HandSettingsStore::names(const QString& serial) const {
 void HandSettingsStore::save(const QString& serial,
                              const QString& name,
                              const TactileSettings& values) {
-  settings_.setValue(groupOf(serial) + "/" + encoded(name), QString::fromStdString(toJson(values)));
+  settings_.setValue(groupOf(serial) + "/" + handSettingsStoreEncoded(name),
+                     QString::fromStdString(toJson(values)));
 }
 
 std::optional<TactileSettings> HandSettingsStore::load(const QString& serial,
                                                        const QString& name) const {
   try {
     return parseTactileSettings(
-        settings_.value(groupOf(serial) + "/" + encoded(name)).toString().toStdString());
+        settings_.value(groupOf(serial) + "/" + handSettingsStoreEncoded(name))
+            .toString()
+            .toStdString());
   } catch (const Error&) {
     return std::nullopt;
   }
 }
 
 void HandSettingsStore::remove(const QString& serial, const QString& name) {
-  settings_.remove(groupOf(serial) + "/" + encoded(name));
+  settings_.remove(groupOf(serial) + "/" + handSettingsStoreEncoded(name));
 }
 
 }  // namespace palpate::gui

@@ -14,10 +14,10 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kClickPx = 4.0;       // less is no drag
-constexpr double kWheelStep = 1.0015;  // per eighth of a degree
-constexpr double kRoom = 1.06;         // around what is fitted: fingers move, spheres come
-constexpr double kDragZoom = 1.006;    // per px
+constexpr double kClickPx = 4.0;               // less is no drag
+constexpr double kHandViewWheelStep = 1.0015;  // per eighth of a degree
+constexpr double kRoom = 1.06;                 // around what is fitted: fingers move, spheres come
+constexpr double kDragZoom = 1.006;            // per px
 
 }  // namespace
 
@@ -318,7 +318,7 @@ void HandView::mouseDoubleClickEvent(QMouseEvent*) { fit(); }
 
 void HandView::wheelEvent(QWheelEvent* event) {
   HandCamera camera = camera_;
-  camera.zoom(std::pow(kWheelStep, event->angleDelta().y()), event->position(), size());
+  camera.zoom(std::pow(kHandViewWheelStep, event->angleDelta().y()), event->position(), size());
   moved_ = true;
   setCamera(camera);
   event->accept();

@@ -9,10 +9,10 @@ namespace palpate::gui {
 namespace {
 
 // All shapes live in a square of 16 x 16 units.
-constexpr double kUnits = 16.0;
-constexpr double kStroke = 1.6;
+constexpr double kIconsUnits = 16.0;
+constexpr double kIconsStroke = 1.6;
 
-QPainterPath polygon(std::initializer_list<QPointF> points) {
+QPainterPath iconsPolygon(std::initializer_list<QPointF> points) {
   QPainterPath path;
   path.addPolygon(QPolygonF(QList<QPointF>(points)));
   path.closeSubpath();
@@ -34,20 +34,20 @@ QPainterPath bar(double x, double width) {
 QPainterPath filledPart(IconShape shape) {
   switch (shape) {
     case IconShape::kToStart:
-      return bar(2, 2) + polygon({{13.5, 3}, {13.5, 13}, {5, 8}});
+      return bar(2, 2) + iconsPolygon({{13.5, 3}, {13.5, 13}, {5, 8}});
     case IconShape::kStepBack:
-      return bar(11.5, 2) + polygon({{10, 3}, {10, 13}, {2.5, 8}});
+      return bar(11.5, 2) + iconsPolygon({{10, 3}, {10, 13}, {2.5, 8}});
     case IconShape::kPlay:
-      return polygon({{4, 2.5}, {13.5, 8}, {4, 13.5}});
+      return iconsPolygon({{4, 2.5}, {13.5, 8}, {4, 13.5}});
     case IconShape::kPause:
       return bar(4, 3) + bar(9, 3);
     case IconShape::kStepForward:
-      return bar(2.5, 2) + polygon({{6, 3}, {6, 13}, {13.5, 8}});
+      return bar(2.5, 2) + iconsPolygon({{6, 3}, {6, 13}, {13.5, 8}});
     case IconShape::kLoop:
-      return polygon({{9.5, 0.6}, {13.6, 3.4}, {9.5, 6.2}}) +
-             polygon({{6.5, 9.8}, {6.5, 15.4}, {2.4, 12.6}});
+      return iconsPolygon({{9.5, 0.6}, {13.6, 3.4}, {9.5, 6.2}}) +
+             iconsPolygon({{6.5, 9.8}, {6.5, 15.4}, {2.4, 12.6}});
     case IconShape::kSkipGaps:
-      return polygon({{8.6, 4.6}, {14.4, 4.6}, {11.5, 9}});
+      return iconsPolygon({{8.6, 4.6}, {14.4, 4.6}, {11.5, 9}});
     case IconShape::kHelp: {
       QPainterPath dot;
       dot.addEllipse(QPointF(8, 13.2), 1.1, 1.1);
@@ -84,7 +84,7 @@ QPainterPath strokedPart(IconShape shape) {
   switch (shape) {
     case IconShape::kOpen:
       path = lines({{2, 13}, {2, 3.5}, {6, 3.5}, {7.5, 5.5}, {13, 5.5}, {13, 7.5}});
-      path.addPath(polygon({{2, 13}, {4.5, 7.5}, {15, 7.5}, {12.5, 13}}));
+      path.addPath(iconsPolygon({{2, 13}, {4.5, 7.5}, {15, 7.5}, {12.5, 13}}));
       return path;
     case IconShape::kExport:
       path = lines({{2.5, 9.5}, {2.5, 13.5}, {13.5, 13.5}, {13.5, 9.5}});
@@ -112,7 +112,7 @@ QPainterPath strokedPart(IconShape shape) {
       return path;
     case IconShape::kConnect:  // a plug before its socket
       path = lines({{1, 8}, {4.5, 8}});
-      path.addPath(polygon({{4.5, 4.5}, {8, 4.5}, {8, 11.5}, {4.5, 11.5}}));
+      path.addPath(iconsPolygon({{4.5, 4.5}, {8, 4.5}, {8, 11.5}, {4.5, 11.5}}));
       path.addPath(lines({{8, 6.2}, {10.6, 6.2}}));
       path.addPath(lines({{8, 9.8}, {10.6, 9.8}}));
       path.addPath(lines({{12.5, 4}, {12.5, 12}}));
@@ -153,10 +153,10 @@ class PathIconEngine : public QIconEngine {
     painter->save();
     painter->setRenderHint(QPainter::Antialiasing);
     painter->translate(rect.topLeft());
-    painter->scale(rect.width() / kUnits, rect.height() / kUnits);
+    painter->scale(rect.width() / kIconsUnits, rect.height() / kIconsUnits);
     painter->fillPath(filledPart(shape_), color);
     painter->strokePath(strokedPart(shape_),
-                        QPen(color, kStroke, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+                        QPen(color, kIconsStroke, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
     painter->restore();
   }
 

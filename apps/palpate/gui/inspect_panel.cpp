@@ -20,7 +20,8 @@ QString rate(double hz) {
   return figure(hz, hz < kSlow ? 2 : 1);
 }
 
-std::vector<Fact> factsOf(const OpenedRecording& recording, const QString& calibration) {
+std::vector<Fact> inspectPanelFactsOf(const OpenedRecording& recording,
+                                      const QString& calibration) {
   const Profile& profile = recording.profile;
   const ProfileInfo& info = profile.info();
   std::vector<Fact> facts;
@@ -121,7 +122,7 @@ void InspectPanel::setRecording(const OpenedRecordingPtr& recording) {
     return;
   }
   heading_->setText("RECORDING");
-  facts_->setFacts(factsOf(*recording, calibration_));
+  facts_->setFacts(inspectPanelFactsOf(*recording, calibration_));
   listSensors(recording->profile.hand(),
               recording->profile.numAngles() > 0,
               recording->profile.numTemperatures() > 0);
@@ -134,7 +135,7 @@ void InspectPanel::setCalibration(const QString& text) {
 }
 
 void InspectPanel::renewFacts() {
-  if (recording_) facts_->setFacts(factsOf(*recording_, calibration_));
+  if (recording_) facts_->setFacts(inspectPanelFactsOf(*recording_, calibration_));
 }
 
 void InspectPanel::setHand(const HandDescription& hand) {

@@ -7,16 +7,14 @@
 #include <cmath>
 
 #include <palpate/core/natural_order.h>
+#include <palpate/core/time.h>
 
 namespace palpate::gui {
 namespace {
 
-using State = RecordingDetails::State;
+using LibraryModelState = RecordingDetails::State;
 
-constexpr std::int64_t kUsPerMs = 1000;
-constexpr double kUsPerS = 1e6;
-
-QString wide(const std::string& text) { return QString::fromStdString(text); }
+QString libraryModelWide(const std::string& text) { return QString::fromStdString(text); }
 
 QString dateText(std::int64_t us, const char* format) {
   return QDateTime::fromMSecsSinceEpoch(us / kUsPerMs).toString(format);
@@ -24,7 +22,7 @@ QString dateText(std::int64_t us, const char* format) {
 
 QString joined(const std::vector<std::string>& labels) {
   QStringList texts;
-  for (const std::string& label : labels) texts.append(wide(label));
+  for (const std::string& label : labels) texts.append(libraryModelWide(label));
   return texts.join(", ");
 }
 
@@ -49,7 +47,8 @@ SearchKey searchKeyOf(int column) {
 }
 
 bool isBad(const RecordingDetails& details) {
-  return details.state == State::kDamaged || details.state == State::kUnreadable;
+  return details.state == LibraryModelState::kDamaged ||
+         details.state == LibraryModelState::kUnreadable;
 }
 
 }  // namespace
@@ -126,7 +125,9 @@ void LibraryModel::setTheme(Theme theme) {
     emit dataChanged(index(0, 0), index(rowCount() - 1, kNumColumns - 1), {Qt::ForegroundRole});
 }
 
-QString LibraryModel::path(int row) const { return wide(entry(row).details.path.string()); }
+QString LibraryModel::path(int row) const {
+  return libraryModelWide(entry(row).details.path.string());
+}
 
 double LibraryModel::totalS() const {
   double total = 0.0;
@@ -146,27 +147,27 @@ int LibraryModel::columnCount(const QModelIndex& parent) const {
 QString LibraryModel::text(const RecordingDetails& details, int column) const {
   switch (column) {
     case kName:
-      return wide(details.path.filename().string());
+      return libraryModelWide(details.path.filename().string());
     case kLength:
       if (details.durationUs) return lengthText(static_cast<double>(*details.durationUs) / kUsPerS);
       if (details.numFrames) return "empty";
-      return wide(nameOf(details.state));
+      return libraryModelWide(nameOf(details.state));
     case kDate:
       return details.startUs ? dateText(*details.startUs, "yyyy-MM-dd HH:mm") : QString();
     case kObject:
-      return wide(details.object);
+      return libraryModelWide(details.object);
     case kOperator:
-      return wide(details.operatorName);
+      return libraryModelWide(details.operatorName);
     case kRun:
-      return wide(details.run);
+      return libraryModelWide(details.run);
     case kLabels:
       return joined(details.labels);
     case kNotes:
-      return wide(details.notes).simplified();
+      return libraryModelWide(details.notes).simplified();
     case kFolder: {
       std::string folder = details.path.parent_path().string();
       if (folder.starts_with(folder_)) folder.erase(0, folder_.size());
-      return wide(folder.starts_with('/') ? folder.substr(1) : folder);
+      return libraryModelWide(folder.starts_with('/') ? folder.substr(1) : folder);
     }
     default:
       return {};
@@ -174,16 +175,17 @@ QString LibraryModel::text(const RecordingDetails& details, int column) const {
 }
 
 QString LibraryModel::tip(const RecordingDetails& details) const {
-  QStringList lines{wide(details.path.string())};
+  QStringList lines{libraryModelWide(details.path.string())};
   if (details.startUs) lines.append("begins " + dateText(*details.startUs, "yyyy-MM-dd HH:mm:ss"));
   QStringList facts;
   if (details.numFrames) facts.append(QString::number(*details.numFrames) + " frames");
   facts.append(QString::number(static_cast<double>(details.sizeBytes) / 1e6, 'f', 1) + " MB");
   lines.append(facts.join(", "));
-  if (details.state != State::kFinished) lines.append(wide(nameOf(details.state)));
-  if (!details.message.empty()) lines.append(wide(details.message));
+  if (details.state != LibraryModelState::kFinished)
+    lines.append(libraryModelWide(nameOf(details.state)));
+  if (!details.message.empty()) lines.append(libraryModelWide(details.message));
   if (!details.labels.empty()) lines.append("labels: " + joined(details.labels));
-  if (!details.notes.empty()) lines.append(wide(details.notes));
+  if (!details.notes.empty()) lines.append(libraryModelWide(details.notes));
   return lines.join('\n').toHtmlEscaped().replace('\n', "<br>");  // wraps, and is no mark-up
 }
 
@@ -200,7 +202,7 @@ QVariant LibraryModel::data(const QModelIndex& index, int role) const {
           Qt::AlignVCenter | (index.column() == kLength ? Qt::AlignRight : Qt::AlignLeft)));
     case Qt::ForegroundRole:
       if (isBad(details)) return colorsOf(theme_).danger;
-      if (details.state != State::kFinished) return colorsOf(theme_).warning;
+      if (details.state != LibraryModelState::kFinished) return colorsOf(theme_).warning;
       return index.column() == kName || index.column() == kLength ? colorsOf(theme_).text
                                                                   : colorsOf(theme_).muted;
     default:

@@ -23,11 +23,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr const char* kFolderKey = "library/folder";
+constexpr const char* kLibraryPanelFolderKey = "library/folder";
 constexpr const char* kHeaderKey = "library/columns";
-constexpr int kCalmMs = 1000;            // so long nothing changes before it is looked at again
-constexpr qsizetype kMostWatched = 500;  // folders
-constexpr int kSteps = 1000;             // of the progress bar
+constexpr int kLibraryPanelCalmMs = 1000;  // so long nothing changes before it is looked at again
+constexpr qsizetype kMostWatched = 500;    // folders
+constexpr int kLibraryPanelSteps = 1000;   // of the progress bar
 
 QString countText(int count, const QString& what) {
   return QString::number(count) + " " + what + (count == 1 ? "" : "s");
@@ -61,10 +61,10 @@ LibraryPanel::LibraryPanel(QSettings& settings,
   buildBottom();
   connectScanner();
   changed_.setSingleShot(true);
-  changed_.setInterval(kCalmMs);
+  changed_.setInterval(kLibraryPanelCalmMs);
   connect(&changed_, &QTimer::timeout, this, &LibraryPanel::refresh);
   connect(&watcher_, &QFileSystemWatcher::directoryChanged, this, [this] { changed_.start(); });
-  setFolder(settings_.value(kFolderKey).toString());
+  setFolder(settings_.value(kLibraryPanelFolderKey).toString());
 }
 
 LibraryPanel::~LibraryPanel() { rememberColumns(); }
@@ -145,7 +145,7 @@ void LibraryPanel::buildBottom() {
   summary_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   bar_ = new QProgressBar(this);
   bar_->setObjectName("libraryProgress");
-  bar_->setRange(0, kSteps);
+  bar_->setRange(0, kLibraryPanelSteps);
   bar_->setTextVisible(false);
   bar_->setFixedSize(90, 8);
   stop_ = new QToolButton(this);
@@ -176,7 +176,7 @@ void LibraryPanel::connectScanner() {
         showState();
       });
   connect(&scanner_, &LibraryScanner::progressed, this, [this](double fraction) {
-    bar_->setValue(static_cast<int>(fraction * kSteps));
+    bar_->setValue(static_cast<int>(fraction * kLibraryPanelSteps));
   });
   connect(&scanner_, &LibraryScanner::finished, this, [this](const CatalogReport& report) {
     scanEnded(&report);
@@ -191,7 +191,7 @@ void LibraryPanel::connectScanner() {
 
 void LibraryPanel::setFolder(const QString& folder) {
   folder_ = folder;
-  settings_.setValue(kFolderKey, folder_);
+  settings_.setValue(kLibraryPanelFolderKey, folder_);
   if (!watcher_.directories().isEmpty()) watcher_.removePaths(watcher_.directories());
   model_->setFolder(folder_);
   troubles_.clear();

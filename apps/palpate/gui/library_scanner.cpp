@@ -18,7 +18,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr std::size_t kPortion = 200;  // entries that the window takes at once
-constexpr double kSmallestNews = 0.01;
+constexpr double kLibraryScannerSmallestNews = 0.01;
 constexpr auto kPatience = std::chrono::seconds(2);  // with a thread that shall end
 
 }  // namespace
@@ -99,7 +99,7 @@ void LibraryScanner::work(const std::shared_ptr<Run>& run,
   };
   double told = -1.0;
   const Progress progress = [&](double fraction) {
-    if (fraction - told >= kSmallestNews) {
+    if (fraction - told >= kLibraryScannerSmallestNews) {
       told = fraction;
       run->tell([&] { run->fraction = fraction; });
     }

@@ -7,13 +7,14 @@
 #include <QTime>
 #include <QVBoxLayout>
 
+#include <palpate/core/time.h>
+
 #include "gui/captions.h"
 
 namespace palpate::gui {
 namespace {
 
-constexpr int kMostLines = 1000;  // of the log
-constexpr double kMsPerS = 1000.0;
+constexpr int kLinkPanelMostLines = 1000;  // of the log
 
 QString count(std::uint64_t value) { return QString::number(value); }
 
@@ -123,7 +124,7 @@ LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
   log_ = new QPlainTextEdit(this);
   log_->setObjectName("linkLog");
   log_->setReadOnly(true);
-  log_->setMaximumBlockCount(kMostLines);
+  log_->setMaximumBlockCount(kLinkPanelMostLines);
   log_->setLineWrapMode(QPlainTextEdit::WidgetWidth);
   log_->setFrameShape(QFrame::NoFrame);
   log_->setFocusPolicy(Qt::ClickFocus);

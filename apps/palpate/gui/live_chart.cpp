@@ -5,15 +5,16 @@
 #include <cmath>
 #include <limits>
 
+#include <palpate/core/time.h>
+
 #include "gui/chart_style.h"
 
 namespace palpate::gui {
 namespace {
 
-constexpr double kUsPerS = 1e6;
-constexpr double kWheelStep = 1.25;  // per notch
-constexpr double kNotch = 120.0;     // angleDelta of one notch
-constexpr double kHeadroom = 1.06;
+constexpr double kLiveChartWheelStep = 1.25;  // per notch
+constexpr double kLiveChartNotch = 120.0;     // angleDelta of one notch
+constexpr double kLiveChartHeadroom = 1.06;
 constexpr double kShrinkBelow = 0.35;  // of the axis: then it is made shorter
 constexpr double kOldS = 0.4;  // without a frame for so long the picture rolls by itself [s]
 constexpr std::size_t kMostEvents = 200;
@@ -156,7 +157,7 @@ void LiveChart::fitHeight(double fromS) {
       if (at->value > largest) largest = at->value;  // not for a gap's NaN
   }
   if (largest > largest_ || largest < kShrinkBelow * largest_)
-    largest_ = largest > 0.0 ? niceAbove(largest * kHeadroom) : 0.0;
+    largest_ = largest > 0.0 ? niceAbove(largest * kLiveChartHeadroom) : 0.0;
   yAxis->setRange(0.0, largest_ > 0.0 ? largest_ : 1.0);
 }
 
@@ -210,7 +211,7 @@ void LiveChart::shadeGap(double beginS, double endS) {
 void LiveChart::nameAxis() { yAxis->setLabel(signalAxisName(signal_, *this)); }
 
 void LiveChart::wheelEvent(QWheelEvent* event) {
-  setWindowS(windowS_ / std::pow(kWheelStep, event->angleDelta().y() / kNotch));
+  setWindowS(windowS_ / std::pow(kLiveChartWheelStep, event->angleDelta().y() / kLiveChartNotch));
   event->accept();
 }
 

@@ -1,15 +1,14 @@
 #include "gui/live_controller.h"
 
 #include <palpate/core/error.h>
+#include <palpate/core/time.h>
 
 namespace palpate::gui {
 namespace {
 
-constexpr int kRefreshMs = 16;  // a screen's refresh
-constexpr int kLookMs = 250;
+constexpr int kLiveControllerRefreshMs = 16;  // a screen's refresh
+constexpr int kLiveControllerLookMs = 250;
 constexpr int kLooksPerCheck = 4;
-constexpr double kUsPerS = 1e6;
-constexpr std::int64_t kUsPerMs = 1000;
 
 // The folder, or what there is of it: its disk is the one that counts.
 std::filesystem::path existingPartOf(std::filesystem::path folder) {
@@ -26,9 +25,9 @@ LiveController::LiveController(std::filesystem::path dataFolder, QObject* parent
     : QObject(parent), dataFolder_(std::move(dataFolder)) {
   worker_.setMaxThreadCount(1);
   checker_.setMaxThreadCount(1);
-  refreshTimer_.setInterval(kRefreshMs);
+  refreshTimer_.setInterval(kLiveControllerRefreshMs);
   refreshTimer_.setTimerType(Qt::PreciseTimer);
-  lookTimer_.setInterval(kLookMs);
+  lookTimer_.setInterval(kLiveControllerLookMs);
   connect(&refreshTimer_, &QTimer::timeout, this, &LiveController::refresh);
   connect(&lookTimer_, &QTimer::timeout, this, &LiveController::look);
 }

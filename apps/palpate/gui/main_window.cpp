@@ -37,7 +37,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kDemoFile = "demo_grasps.dsa";
-constexpr const char* kLastFolder = "recent/folder";
+constexpr const char* kMainWindowLastFolder = "recent/folder";
 constexpr QSize kSmallestWindow(900, 600);
 constexpr QSize kUsualWindow(1440, 900);
 
@@ -86,7 +86,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   askForRecordings = [this] {
     return QFileDialog::getOpenFileNames(this,
                                          "Open recordings",
-                                         settings_.value(kLastFolder).toString(),
+                                         settings_.value(kMainWindowLastFolder).toString(),
                                          "Recordings (*.dsa *.palpate *.xml);;All files (*)");
   };
   resize(kUsualWindow);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kFlashMs = 5000;
 constexpr int kTenFrames = 10;
-constexpr double kZoomStep = 1.5;
+constexpr double kMainWindowActionsZoomStep = 1.5;
 
 }  // namespace
 
@@ -82,8 +82,8 @@ void MainWindow::connectViewActions() {
     else
       timeline_->zoom(factor);
   };
-  on(actions_.zoomIn, [zoom] { zoom(kZoomStep); });
-  on(actions_.zoomOut, [zoom] { zoom(1.0 / kZoomStep); });
+  on(actions_.zoomIn, [zoom] { zoom(kMainWindowActionsZoomStep); });
+  on(actions_.zoomOut, [zoom] { zoom(1.0 / kMainWindowActionsZoomStep); });
   on(actions_.fit,
      [this] { liveShown_ ? liveChart_->setWindowS(LiveChart::kUsualS) : timeline_->fit(); });
   on(actions_.nextTheme, [this] {

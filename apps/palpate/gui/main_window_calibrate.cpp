@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kTareKind = "tare";  // of events
 constexpr const char* kSettingsKind = "sensor_settings";
-constexpr int kUsualWidth = 640;  // [px] its tables are read without scrolling
+constexpr int kMainWindowCalibrateUsualWidth = 640;  // [px] its tables are read without scrolling
 
 }  // namespace
 
@@ -87,8 +87,8 @@ void MainWindow::CalibrateView::connectAll() {
 void MainWindow::CalibrateView::makeRoomFor(const Dock* asked) {
   if (asked != dock_) return;
   QTimer::singleShot(0, this, [this] {
-    if (dock_->isFloating() || dock_->width() >= kUsualWidth) return;
-    window_.resizeDocks({dock_}, {kUsualWidth}, Qt::Horizontal);
+    if (dock_->isFloating() || dock_->width() >= kMainWindowCalibrateUsualWidth) return;
+    window_.resizeDocks({dock_}, {kMainWindowCalibrateUsualWidth}, Qt::Horizontal);
   });
 }
 

@@ -14,12 +14,12 @@ namespace {
 
 constexpr const char* kAlignmentKey = "compare/alignment";
 
-std::string text(const QVariant& value) { return value.toString().toStdString(); }
+std::string mainWindowCompareText(const QVariant& value) { return value.toString().toStdString(); }
 
 }  // namespace
 
 void MainWindow::connectCompare() {
-  if (const auto known = alignmentFrom(text(settings_.value(kAlignmentKey))))
+  if (const auto known = alignmentFrom(mainWindowCompareText(settings_.value(kAlignmentKey))))
     if (*known != Alignment::kByHand) compare_->setAlignment(*known);
   connect(actions_.compare, &QAction::triggered, this, [this](bool on) { showCompare(on); });
   connect(&playback_, &PlaybackController::positionChanged, this, [this](double seconds) {

@@ -14,7 +14,7 @@
 namespace palpate::gui {
 namespace {
 
-QString nameOf(const OpenedRecording& recording) {
+QString mainWindowEventsNameOf(const OpenedRecording& recording) {
   return QString::fromStdString(recording.path.filename().string());
 }
 
@@ -165,7 +165,7 @@ void MainWindow::enableEventActions() {
     action->setEnabled(selected);
   if (current_ && !liveShown_) {
     const QString star = editor && editor->unsaved() ? "*" : "";
-    setWindowTitle(nameOf(*current_) + star + " – Palpate");
+    setWindowTitle(mainWindowEventsNameOf(*current_) + star + " – Palpate");
   }
 }
 
@@ -277,7 +277,7 @@ bool MainWindow::settleUnsaved(const std::vector<OpenedRecordingPtr>& recordings
     const auto editor = editors_.find(recording.get());
     if (editor == editors_.end() || !editor->second->unsaved()) continue;
     unsaved.push_back(recording);
-    names.append(nameOf(*recording));
+    names.append(mainWindowEventsNameOf(*recording));
   }
   if (unsaved.empty()) return true;
   const Unsaved answer = askAboutUnsaved(names.join("\n"));

@@ -20,7 +20,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr const char* kLastFolder = "recent/folder";
+constexpr const char* kMainWindowFilesLastFolder = "recent/folder";
 
 std::vector<std::filesystem::path> localFiles(const QMimeData& data) {
   std::vector<std::filesystem::path> files;
@@ -29,14 +29,14 @@ std::vector<std::filesystem::path> localFiles(const QMimeData& data) {
   return files;
 }
 
-QString nameOf(const OpenedRecording& recording) {
+QString mainWindowFilesNameOf(const OpenedRecording& recording) {
   return QString::fromStdString(recording.path.filename().string());
 }
 
 QString nameAndDate(const OpenedRecording& recording) {
-  if (recording.profile.numFrames() == 0) return nameOf(recording) + " · empty";
+  if (recording.profile.numFrames() == 0) return mainWindowFilesNameOf(recording) + " · empty";
   const std::string date = utcText(recording.profile.frameTimeUs(0)).substr(0, 10);
-  return nameOf(recording) + " · " + QString::fromStdString(date);
+  return mainWindowFilesNameOf(recording) + " · " + QString::fromStdString(date);
 }
 
 }  // namespace
@@ -45,7 +45,8 @@ void MainWindow::askAndOpen() {
   std::vector<std::filesystem::path> files;
   for (const QString& path : askForRecordings()) files.emplace_back(path.toStdString());
   if (files.empty()) return;
-  settings_.setValue(kLastFolder, QFileInfo(QString::fromStdString(files[0].string())).path());
+  settings_.setValue(kMainWindowFilesLastFolder,
+                     QFileInfo(QString::fromStdString(files[0].string())).path());
   openFiles(files);
 }
 
@@ -152,12 +153,13 @@ void MainWindow::showRecording(const OpenedRecordingPtr& recording) {
     playback_.setProfile(recording->profile, recording->timingNow().gaps);
   else
     playback_.setProfile(std::nullopt);
-  setWindowTitle(recording ? nameOf(*recording) + " – Palpate" : QString("Palpate"));
+  setWindowTitle(recording ? mainWindowFilesNameOf(*recording) + " – Palpate" : QString("Palpate"));
   listRecordings();
   if (recording) {
     goBackToWhereWeWere();
     if (recording->profile.numFrames() == 0)
-      banner_->showMessage(nameOf(*recording) + ": holds no frame; there is nothing to show");
+      banner_->showMessage(mainWindowFilesNameOf(*recording) +
+                           ": holds no frame; there is nothing to show");
   }
   if (live) showLive();
   if (!live) filterNewSource();
@@ -192,7 +194,7 @@ void MainWindow::closeCurrent() {
 QString MainWindow::pictureName() const {
   if (liveShown_) return "live_" + QTime::currentTime().toString("HHmmss");
   return QString("%1_frame_%2")
-      .arg(QFileInfo(nameOf(*current_)).completeBaseName())
+      .arg(QFileInfo(mainWindowFilesNameOf(*current_)).completeBaseName())
       .arg(playback_.frame(), 5, 10, QChar('0'));
 }
 

@@ -25,10 +25,10 @@
 namespace palpate::gui {
 namespace {
 
-std::vector<Fact> factsOf(const Connection& connection,
-                          const DeviceFacts& device,
-                          const QString& hand,
-                          const QString& calibration) {
+std::vector<Fact> mainWindowLiveFactsOf(const Connection& connection,
+                                        const DeviceFacts& device,
+                                        const QString& hand,
+                                        const QString& calibration) {
   std::vector<Fact> facts{{"source", describe(connection)}, {"hand", hand}};
   const auto add = [&](const QString& name, const std::string& value) {
     if (!value.empty()) facts.push_back({name, QString::fromStdString(value)});
@@ -346,10 +346,10 @@ void MainWindow::showLook() {
   heedScanAnswers();
   if (!liveShown_) return;
   const HandDescription hand = source->session->device().hand();
-  inspect_->setLiveFacts(factsOf(source->connection,
-                                 source->session->device().facts(),
-                                 QString::fromStdString(hand.name),
-                                 calibrate_->text()));
+  inspect_->setLiveFacts(mainWindowLiveFactsOf(source->connection,
+                                               source->session->device().facts(),
+                                               QString::fromStdString(hand.name),
+                                               calibrate_->text()));
   // Other taxels are scanned now, or another hand was found.
   if (matrices_->hand() && !(*matrices_->hand()->layout == *hand.layout)) {
     matrices_->setHand(hand);

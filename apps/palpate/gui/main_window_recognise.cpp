@@ -21,7 +21,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kUsualWidth = 430;  // [px]
+constexpr int kMainWindowRecogniseUsualWidth = 430;  // [px]
 constexpr int kHearingMs = 50;
 constexpr int kAskAgainRounds = 10;  // by itself: twice a second
 constexpr double kSteadyS = 0.8;     // held so long before it is asked by itself
@@ -94,8 +94,8 @@ void MainWindow::RecogniseView::connectAll() {
 
 void MainWindow::RecogniseView::makeRoom() {
   QTimer::singleShot(0, this, [this] {
-    if (dock_->isFloating() || dock_->width() >= kUsualWidth) return;
-    window_.resizeDocks({dock_}, {kUsualWidth}, Qt::Horizontal);
+    if (dock_->isFloating() || dock_->width() >= kMainWindowRecogniseUsualWidth) return;
+    window_.resizeDocks({dock_}, {kMainWindowRecogniseUsualWidth}, Qt::Horizontal);
   });
 }
 

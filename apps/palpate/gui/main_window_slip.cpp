@@ -10,8 +10,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kArrowS = 0.3;   // the arrows' span of time
-constexpr int kUsualWidth = 620;  // [px] list and drawing stand beside each other
+constexpr double kArrowS = 0.3;                 // the arrows' span of time
+constexpr int kMainWindowSlipUsualWidth = 620;  // [px] list and drawing stand beside each other
 
 }  // namespace
 
@@ -60,8 +60,8 @@ void MainWindow::SlipView::connectAll() {
 void MainWindow::SlipView::makeRoomFor(const Dock* asked) {
   if (asked != dock_) return;
   QTimer::singleShot(0, this, [this] {
-    if (dock_->isFloating() || dock_->width() >= kUsualWidth) return;
-    window_.resizeDocks({dock_}, {kUsualWidth}, Qt::Horizontal);
+    if (dock_->isFloating() || dock_->width() >= kMainWindowSlipUsualWidth) return;
+    window_.resizeDocks({dock_}, {kMainWindowSlipUsualWidth}, Qt::Horizontal);
   });
 }
 

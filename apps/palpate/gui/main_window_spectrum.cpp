@@ -10,7 +10,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kSpectrumShare = 0.31;  // of the window's height, when it is asked for
-constexpr double kTimelineShare = 0.17;  // below it
+constexpr double kMainWindowSpectrumTimelineShare = 0.17;  // below it
 
 constexpr int kLowWindow = 760;  // [px] of height
 
@@ -65,7 +65,7 @@ void MainWindow::makeRoomForSpectrum() {
     const int wanted = static_cast<int>(height() * kSpectrumShare);
     if (spectrumDock_->isFloating() || spectrumDock_->height() >= wanted) return;
     resizeDocks({spectrumDock_, timelineDock_},
-                {wanted, static_cast<int>(height() * kTimelineShare)},
+                {wanted, static_cast<int>(height() * kMainWindowSpectrumTimelineShare)},
                 Qt::Vertical);
   });
 }

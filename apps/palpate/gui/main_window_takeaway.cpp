@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <palpate/core/number_text.h>
+#include <palpate/core/time.h>
 #include <palpate/filter/characteristic_signals.h>
 
 #include "gui/chart_picture.h"
@@ -22,9 +23,6 @@
 
 namespace palpate::gui {
 namespace {
-
-constexpr std::int64_t kUsPerMs = 1000;
-constexpr double kUsPerS = 1e6;
 
 // Every taxel that is scanned, at rest or not.
 TextTable taxelTable(const TactileFrame& frame, const std::string& index) {
@@ -89,9 +87,9 @@ TextTable signalTable(const TactileFrame& frame, const HandDescription& hand) {
 }
 
 // The value of a curve at a frame; joint angles and temperatures are the last ones before it.
-std::string cellOf(const OpenedRecording& recording,
-                   const SeriesChoice& choice,
-                   std::size_t frame) {
+std::string mainWindowTakeawayCellOf(const OpenedRecording& recording,
+                                     const SeriesChoice& choice,
+                                     std::size_t frame) {
   const auto of = [](const std::vector<double>& values, std::size_t index) {
     return index < values.size() ? numberText(values[index]) : std::string();
   };
@@ -131,7 +129,8 @@ TextTable curveTable(const OpenedRecordingPtr& recording,
         std::to_string(frame),
         std::to_string(recording->profile.frameTimeUs(frame) / kUsPerMs),
         numberText(recording->timeAt(frame))};
-    for (const SeriesChoice& choice : choices) cells.push_back(cellOf(*recording, choice, frame));
+    for (const SeriesChoice& choice : choices)
+      cells.push_back(mainWindowTakeawayCellOf(*recording, choice, frame));
     return cells;
   };
   return table;

@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* kCropFolder = "recent/crop_folder";
 
-QString nameOf(const OpenedRecording& recording) {
+QString mainWindowTimelineNameOf(const OpenedRecording& recording) {
   return QString::fromStdString(recording.path.filename().string());
 }
 
@@ -204,7 +204,7 @@ void MainWindow::cropSelection() {
   const auto number = [](std::size_t frame) { return QString("%1").arg(frame, 6, 10, QChar('0')); };
   const QString here = QFileInfo(QString::fromStdString(current_->path.string())).absolutePath();
   const QString folder = settings_.value(kCropFolder, here).toString();
-  const QString stem = QFileInfo(nameOf(*current_)).completeBaseName();
+  const QString stem = QFileInfo(mainWindowTimelineNameOf(*current_)).completeBaseName();
   QString path = askForCropped(folder + "/" + stem + "_" + number(frames->first) + "-" +
                                number(frames->second) + ".palpate");
   if (path.isEmpty()) return;

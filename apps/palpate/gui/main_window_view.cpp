@@ -9,6 +9,7 @@
 
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
+#include <palpate/core/time.h>
 
 #include "gui/compare_panel.h"
 #include "gui/dock.h"
@@ -37,17 +38,16 @@
 namespace palpate::gui {
 namespace {
 
-constexpr std::int64_t kUsPerMs = 1000;
-constexpr int kCompactBelow = 1340;      // [px] of width: buttons lose their text
-constexpr int kNarrowestInspect = 455;   // [px] its table is read without eliding
-constexpr double kInspectShare = 0.345;  // of the window's width
+constexpr int kMainWindowViewCompactBelow = 1340;  // [px] of width: buttons lose their text
+constexpr int kNarrowestInspect = 455;             // [px] its table is read without eliding
+constexpr double kInspectShare = 0.345;            // of the window's width
 constexpr double kLiveInspectShare = 0.24;
-constexpr int kNarrowestLiveInspect = 330;  // [px]
-constexpr int kHandWidth = 380;             // [px]
-constexpr double kTimelineShare = 0.235;    // of the window's height
+constexpr int kNarrowestLiveInspect = 330;              // [px]
+constexpr int kHandWidth = 380;                         // [px]
+constexpr double kMainWindowViewTimelineShare = 0.235;  // of the window's height
 
 template <class Choices, class Choice>
-void check(const QActionGroup* group, const Choices& all, Choice now) {
+void checkMainWindowView(const QActionGroup* group, const Choices& all, Choice now) {
   const auto index = std::find(std::begin(all), std::end(all), now) - std::begin(all);
   if (index < group->actions().size()) group->actions().at(index)->setChecked(true);
 }
@@ -68,10 +68,10 @@ void MainWindow::applyView() {
   showCurves();
   actions_.interpolated->setChecked(view_.interpolated);
   actions_.values->setChecked(view_.values);
-  check(actions_.maps, kAllColorMaps, view_.map);
-  check(actions_.ranges, kAllRangeModes, view_.range);
-  check(actions_.signalsPlotted, kAllPlottedSignals, view_.signal);
-  check(actions_.themes, kAllThemeChoices, view_.theme);
+  checkMainWindowView(actions_.maps, kAllColorMaps, view_.map);
+  checkMainWindowView(actions_.ranges, kAllRangeModes, view_.range);
+  checkMainWindowView(actions_.signalsPlotted, kAllPlottedSignals, view_.signal);
+  checkMainWindowView(actions_.themes, kAllThemeChoices, view_.theme);
   compare_->setSettings(view_, resolved(view_.theme));
 }
 
@@ -123,7 +123,7 @@ void MainWindow::showPlaybackState() {
   actions_.play->setToolTip(playing ? "Pause (Space)" : "Play by the real time stamps (Space)");
   actions_.loop->setChecked(playback_.loop());
   actions_.skipGaps->setChecked(playback_.skipGaps());
-  check(actions_.speeds, PlaybackController::kSpeeds, playback_.speed());
+  checkMainWindowView(actions_.speeds, PlaybackController::kSpeeds, playback_.speed());
   const auto* at = std::find(std::begin(PlaybackController::kSpeeds),
                              std::end(PlaybackController::kSpeeds),
                              playback_.speed());
@@ -263,7 +263,8 @@ void MainWindow::defaultLayout() {
   const int inspect = std::max(narrowest, static_cast<int>(width() * share));
   resizeDocks({inspectDock_}, {inspect}, Qt::Horizontal);
   if (place_ == Place::kLive) resizeDocks({handDock_}, {kHandWidth}, Qt::Horizontal);
-  resizeDocks({timelineDock_}, {static_cast<int>(height() * kTimelineShare)}, Qt::Vertical);
+  resizeDocks(
+      {timelineDock_}, {static_cast<int>(height() * kMainWindowViewTimelineShare)}, Qt::Vertical);
 }
 
 void MainWindow::enableActions() {
@@ -392,7 +393,7 @@ void MainWindow::showEvent(QShowEvent* event) {
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
   QMainWindow::resizeEvent(event);
-  menus_->setCompact(event->size().width() < kCompactBelow);
+  menus_->setCompact(event->size().width() < kMainWindowViewCompactBelow);
 }
 
 }  // namespace palpate::gui

@@ -9,12 +9,12 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kMostLetters = 60;  // of a label
+constexpr int kMarksByKeyMostLetters = 60;  // of a label
 constexpr int kRows = 5;
 // As they lie on the keyboard.
 constexpr std::array<std::size_t, 10> kKeyOrder = {1, 2, 3, 4, 5, 6, 7, 8, 9, 0};
 
-constexpr const char* kStyle = R"(
+constexpr const char* kMarksByKeyStyle = R"(
 #keyCap { background: palette(button); border: 1px solid palette(mid); border-radius: 4px; padding: 3px 0; }
 #marksHeader { padding: 4px 6px 4px 2px; }
 )";
@@ -22,7 +22,7 @@ constexpr const char* kStyle = R"(
 }  // namespace
 
 MarksByKey::MarksByKey(QWidget* parent) : QWidget(parent) {
-  setStyleSheet(kStyle);
+  setStyleSheet(kMarksByKeyStyle);
   header_ = new QToolButton(this);
   header_->setObjectName("marksHeader");
   header_->setText("&Marks by key");
@@ -77,7 +77,7 @@ QWidget* MarksByKey::makeGrid() {
     field->setObjectName("markLabel" + name);
     field->setAccessibleName("Label of key " + name);
     field->setPlaceholderText("mark " + name);
-    field->setMaxLength(kMostLetters);
+    field->setMaxLength(kMarksByKeyMostLetters);
     connect(field, &QLineEdit::textChanged, this, &MarksByKey::sumUp);
     const int column = place / kRows * 3;
     grid->addWidget(key, place % kRows, column);

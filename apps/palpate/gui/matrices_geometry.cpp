@@ -8,14 +8,14 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kMargin = 14.0;        // [px] around everything
-constexpr double kBarWidth = 14.0;      // [px] of the colour bar
-constexpr double kBarLabels = 46.0;     // [px] for its numbers
-constexpr double kBarGap = 26.0;        // [px] between matrices and bar
-constexpr double kNarrowGap = 18.0;     // [px] least space between columns of matrices
-constexpr double kWideGapTaxels = 2.5;  // most space between them
-constexpr double kRowGap = 10.0;        // [px] between rows of matrices
-constexpr double kLargestTaxel = 64.0;  // [px] a small pad doesn't fill the screen
+constexpr double kMatricesGeometryMargin = 14.0;     // [px] around everything
+constexpr double kMatricesGeometryBarWidth = 14.0;   // [px] of the colour bar
+constexpr double kMatricesGeometryBarLabels = 46.0;  // [px] for its numbers
+constexpr double kBarGap = 26.0;                     // [px] between matrices and bar
+constexpr double kNarrowGap = 18.0;                  // [px] least space between columns of matrices
+constexpr double kWideGapTaxels = 2.5;               // most space between them
+constexpr double kRowGap = 10.0;                     // [px] between rows of matrices
+constexpr double kMatricesGeometryLargestTaxel = 64.0;  // [px] a small pad doesn't fill the screen
 
 // Extent of the picture's grid [mm].
 struct Grid {
@@ -39,7 +39,7 @@ Grid gridOf(const HandDescription& hand) {
   return grid;
 }
 
-double sum(const std::vector<double>& values) {
+double matricesGeometrySum(const std::vector<double>& values) {
   double total = 0.0;
   for (const double value : values) total += value;
   return total;
@@ -64,7 +64,10 @@ MatricesGeometry::MatricesGeometry(const QRectF& area,
     : area_(area) {
   const QFontMetricsF metrics(pictureFont(options));
   const double nameHeight = metrics.height() + 4.0;
-  QRectF inside = area.adjusted(kMargin, kMargin * 0.6, -kMargin, -kMargin);
+  QRectF inside = area.adjusted(kMatricesGeometryMargin,
+                                kMatricesGeometryMargin * 0.6,
+                                -kMatricesGeometryMargin,
+                                -kMatricesGeometryMargin);
   if (!options.title.isEmpty() || !options.caption.isEmpty()) {
     title_ = QRectF(inside.left(), inside.top(), inside.width(), metrics.height());
     inside.setTop(title_.bottom() + 8.0);
@@ -73,24 +76,27 @@ MatricesGeometry::MatricesGeometry(const QRectF& area,
   if (grid.columnMm.empty() || inside.width() <= 0 || inside.height() <= 0) return;
   const auto columns = static_cast<double>(grid.columnMm.size());
   const auto rows = static_cast<double>(grid.rowMm.size());
-  const double barSpace = options.colorBar ? kBarGap + kBarWidth + kBarLabels : 0.0;
+  const double barSpace =
+      options.colorBar ? kBarGap + kMatricesGeometryBarWidth + kMatricesGeometryBarLabels : 0.0;
 
   const double freeWidth = inside.width() - barSpace - (columns - 1) * kNarrowGap;
   const double freeHeight = inside.height() - rows * nameHeight - (rows - 1) * kRowGap;
-  double pxPerMm = std::min(freeWidth / sum(grid.columnMm), freeHeight / sum(grid.rowMm));
+  double pxPerMm = std::min(freeWidth / matricesGeometrySum(grid.columnMm),
+                            freeHeight / matricesGeometrySum(grid.rowMm));
   // The first matrix' pitch gets whole pixels; all of an SDH-2's are equal.
   const double pitchMm = hand.layout->matrix(0).pitchMm;
-  double side = std::clamp(pxPerMm * pitchMm, 1.0, kLargestTaxel);
+  double side = std::clamp(pxPerMm * pitchMm, 1.0, kMatricesGeometryLargestTaxel);
   if (side >= 3.0) side = snapped(side, options.pixelRatio);
   pxPerMm = side / pitchMm;
 
   // Width that is left goes between the fingers, up to a point, then to both sides.
-  const double spare = inside.width() - barSpace - pxPerMm * sum(grid.columnMm);
+  const double spare = inside.width() - barSpace - pxPerMm * matricesGeometrySum(grid.columnMm);
   double gap = kNarrowGap;
   if (columns > 1) gap = std::clamp(spare / (columns - 1), kNarrowGap, kWideGapTaxels * side);
   gap = std::max(gap, kNarrowGap);
-  const double width = pxPerMm * sum(grid.columnMm) + (columns - 1) * gap;
-  const double height = pxPerMm * sum(grid.rowMm) + rows * nameHeight + (rows - 1) * kRowGap;
+  const double width = pxPerMm * matricesGeometrySum(grid.columnMm) + (columns - 1) * gap;
+  const double height =
+      pxPerMm * matricesGeometrySum(grid.rowMm) + rows * nameHeight + (rows - 1) * kRowGap;
   const double left = inside.left() + std::max(0.0, (inside.width() - width - barSpace) / 2);
   const double top = inside.top() + std::max(0.0, (inside.height() - height) / 2);
 
@@ -115,7 +121,7 @@ MatricesGeometry::MatricesGeometry(const QRectF& area,
   const double barTop = top + nameHeight;
   colorBar_ = QRectF(snapped(left + width + kBarGap, options.pixelRatio),
                      snapped(barTop, options.pixelRatio),
-                     kBarWidth,
+                     kMatricesGeometryBarWidth,
                      std::max(1.0, top + height - barTop));
 }
 

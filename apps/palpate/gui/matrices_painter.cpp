@@ -72,10 +72,10 @@ void paintMasked(QPainter& painter, const QRectF& square, const ThemeColors& col
   painter.drawLine(cross.bottomLeft(), cross.topRight());
 }
 
-void paintNames(QPainter& painter,
-                const MatricesGeometry& geometry,
-                const HandDescription& hand,
-                const MatricesPictureOptions& options) {
+void matricesPainterPaintNames(QPainter& painter,
+                               const MatricesGeometry& geometry,
+                               const HandDescription& hand,
+                               const MatricesPictureOptions& options) {
   const QFontMetricsF metrics(pictureFont(options));
   painter.setPen(colorsOf(options.theme).muted);
   for (std::size_t m = 0; m < geometry.numMatrices(); ++m) {
@@ -178,7 +178,7 @@ void paintMatricesBackground(QPainter& painter,
   painter.setFont(pictureFont(options));
   painter.setRenderHint(QPainter::Antialiasing, false);
   paintTitle(painter, geometry.titleRect(), options);
-  paintNames(painter, geometry, hand, options);
+  matricesPainterPaintNames(painter, geometry, hand, options);
   for (std::size_t m = 0; m < geometry.numMatrices(); ++m) {
     const MatrixLayout& layout = hand.layout->matrix(m);
     for (int y = 0; y < layout.rows; ++y) {

@@ -15,11 +15,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kControlHeight = 26;         // [px] of boxes beside buttons
-constexpr int kNarrowest = 360;            // [px]
-constexpr int kCompactBelow = 700;         // [px] of width: buttons lose their text
-constexpr double kLeastLiveRange = 500.0;  // [counts] a first light touch isn't glaring
-constexpr double kLiveRangeStep = 250.0;   // [counts]
+constexpr int kMatricesPanelControlHeight = 26;  // [px] of boxes beside buttons
+constexpr int kMatricesPanelNarrowest = 360;     // [px]
+constexpr int kMatricesPanelCompactBelow = 700;  // [px] of width: buttons lose their text
+constexpr double kLeastLiveRange = 500.0;        // [counts] a first light touch isn't glaring
+constexpr double kLiveRangeStep = 250.0;         // [counts]
 
 QToolButton* buttonFor(QAction* action, QWidget* parent) {
   auto* button = new QToolButton(parent);
@@ -60,7 +60,7 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   range_ = new QComboBox(header);
   range_->setObjectName("rangeBox");
   range_->setFocusPolicy(Qt::NoFocus);  // it has a key
-  for (QComboBox* box : {map_, range_}) box->setMinimumHeight(kControlHeight);
+  for (QComboBox* box : {map_, range_}) box->setMinimumHeight(kMatricesPanelControlHeight);
   range_->setToolTip("Where the colour range ends (R)");
   for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
   minimum_ = rangeField(header, "rangeMinimum", "Value of the lowest colour in counts");
@@ -81,7 +81,7 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   row->addWidget(to_);
   row->addWidget(maximum_);
 
-  setMinimumWidth(kNarrowest);
+  setMinimumWidth(kMatricesPanelNarrowest);
   view_ = new MatricesView(this);
   view_->setObjectName("matricesView");
   auto* column = new QVBoxLayout(this);
@@ -107,7 +107,7 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
 
 void MatricesPanel::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
-  const bool narrow = event->size().width() < kCompactBelow;
+  const bool narrow = event->size().width() < kMatricesPanelCompactBelow;
   for (QToolButton* button : looks_)
     button->setToolButtonStyle(narrow ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
 }

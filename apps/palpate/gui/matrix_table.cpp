@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLastAlways = MatrixTableModel::kMaximum;  // column that never gives way
 constexpr int kFirstNumber = 1;                          // column
-constexpr int kMostRowsSeen = 13;                        // a sensor with more matrices scrolls
+constexpr int kMatrixTableMostRowsSeen = 13;             // a sensor with more matrices scrolls
 
 bool sameText(const CharacteristicSignals& a, const CharacteristicSignals& b) {
   return a.active == b.active && a.sum == b.sum && a.maximum == b.maximum && a.minimum == b.minimum;
@@ -271,7 +271,7 @@ MatrixTable::MatrixTable(MatrixTableModel* model, QWidget* parent) : QTableView(
 }
 
 QSize MatrixTable::sizeHint() const {
-  const int rows = std::min(model()->rowCount(), kMostRowsSeen);
+  const int rows = std::min(model()->rowCount(), kMatrixTableMostRowsSeen);
   return {
       360,
       horizontalHeader()->sizeHint().height() + 2 + rows * verticalHeader()->defaultSectionSize()};

@@ -9,7 +9,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr qsizetype kMostLines = 4;
+constexpr qsizetype kMessageBannerMostLines = 4;
 
 }  // namespace
 
@@ -40,7 +40,8 @@ void MessageBanner::showMessage(const QString& message) {
   QStringList lines = isHidden() ? QStringList() : text_->text().split('\n');
   lines.removeAll(message);
   lines.append(message);
-  text_->setText(lines.mid(std::max<qsizetype>(0, lines.size() - kMostLines)).join('\n'));
+  text_->setText(
+      lines.mid(std::max<qsizetype>(0, lines.size() - kMessageBannerMostLines)).join('\n'));
   show();
   emit said(message);
 }

@@ -11,12 +11,12 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kSigmas = 3.0;
-constexpr double kAir = 0.06;  // part of a range
-constexpr int kBandAlpha = 40;
+constexpr double kNoiseChartSigmas = 3.0;
+constexpr double kNoiseChartAir = 0.06;  // part of a range
+constexpr int kNoiseChartBandAlpha = 40;
 constexpr double kBinSize = 5.0;  // [px]
 
-struct Extent {
+struct NoiseChartExtent {
   double low = std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::lowest();
   void add(double value) {
@@ -25,7 +25,7 @@ struct Extent {
   }
   QCPRange range() const {
     if (low > high) return {0.0, 1.0};
-    const double air = high > low ? (high - low) * kAir : 1.0;
+    const double air = high > low ? (high - low) * kNoiseChartAir : 1.0;
     return {low - air, high + air};
   }
 };
@@ -62,7 +62,7 @@ void NoiseChart::fill() {
   styleChart(*this, theme_);
   yAxis->ticker()->setTickCount(6);
   yAxis->setLabel(fittingName("largest reading in counts", "counts", *this));
-  Extent degrees, counts;
+  NoiseChartExtent degrees, counts;
   for (std::size_t i = 0; i < floor_.lines.size(); ++i) {
     const NoiseLine& line = floor_.lines[i];
     const bool chosen = i == chosen_;
@@ -78,10 +78,10 @@ void NoiseChart::fill() {
       };
       for (const double degC : ends) degrees.add(degC);
       if (chosen) {
-        QCPGraph* low = draw(-kSigmas * line.rmse);
-        QCPGraph* high = draw(kSigmas * line.rmse);
+        QCPGraph* low = draw(-kNoiseChartSigmas * line.rmse);
+        QCPGraph* high = draw(kNoiseChartSigmas * line.rmse);
         QColor shade = color;
-        shade.setAlpha(kBandAlpha);
+        shade.setAlpha(kNoiseChartBandAlpha);
         low->setPen(QPen(color, 1.0, Qt::DotLine));
         high->setPen(QPen(color, 1.0, Qt::DashLine));
         high->setBrush(shade);

@@ -27,7 +27,7 @@ namespace {
 constexpr double kFitShare = 0.9;  // of the work; the rest is the file's hash
 constexpr int kMostBins = 1000;
 
-std::vector<FigureColumn> columns() {
+std::vector<FigureColumn> noisePageColumns() {
   return {{"matrix", {}, 15, true},
           {"slope", "[counts/°C]", 6},
           {"at 0 °C", "Intercept of the line [counts]", 6},
@@ -38,7 +38,7 @@ std::vector<FigureColumn> columns() {
           {"", {}, 6, true}};
 }
 
-std::vector<FigureCell> rowOf(const NoiseLine& line, const QString& name) {
+std::vector<FigureCell> noisePageRowOf(const NoiseLine& line, const QString& name) {
   const FigureCell none{.text = "–"};
   std::vector<FigureCell> row{{.text = name}};
   if (line.valid) {
@@ -139,7 +139,7 @@ NoisePage::NoisePage(QWidget* parent) : CalibratePage("noise", parent) {
 
   auto* content = new QWidget(this);
   chart_ = new NoiseChart(content);
-  table_ = new FiguresTable(columns(), content);
+  table_ = new FiguresTable(noisePageColumns(), content);
   table_->setObjectName("noiseTable");
   notes_ = notesLabel("noiseNotes", content);
   auto* column = new QVBoxLayout(content);
@@ -236,7 +236,7 @@ void NoisePage::take(const std::shared_ptr<const FoundNoise>& found) {
   const QStringList all = names();
   std::vector<std::vector<FigureCell>> rows;
   for (std::size_t i = 0; i < lines.size(); ++i)
-    rows.push_back(rowOf(lines[i], all[static_cast<qsizetype>(i)]));
+    rows.push_back(noisePageRowOf(lines[i], all[static_cast<qsizetype>(i)]));
   table_->setRows(rows);
   chart_->setFloor(found->floor, all);
   const QSignalBlocker blocker(table_);

@@ -11,7 +11,7 @@
 namespace palpate::gui {
 namespace {
 
-std::optional<double> numberIn(const QString& text) {
+std::optional<double> numberFieldNumberIn(const QString& text) {
   QString point = text;
   point.replace(',', '.');
   return parseDouble(point.toStdString());
@@ -20,7 +20,7 @@ std::optional<double> numberIn(const QString& text) {
 // Anything may stand there while it is typed; fixup() decides at the end.
 template <class Field>
 QValidator::State stateOf(const Field& field, const QString& text, bool whole) {
-  const auto number = numberIn(text);
+  const auto number = numberFieldNumberIn(text);
   const bool inRange = number && *number >= field.minimum() && *number <= field.maximum() &&
                        (!whole || *number == std::floor(*number));
   return inRange ? QValidator::Acceptable : QValidator::Intermediate;
@@ -61,11 +61,11 @@ QValidator::State FrameField::validate(QString& text, int& /*position*/) const {
 }
 
 void FrameField::fixup(QString& text) const {
-  text = written(*this, numberIn(text).value_or(value()));
+  text = written(*this, numberFieldNumberIn(text).value_or(value()));
 }
 
 int FrameField::valueFromText(const QString& text) const {
-  return static_cast<int>(numberIn(text).value_or(value()));
+  return static_cast<int>(numberFieldNumberIn(text).value_or(value()));
 }
 
 bool FrameField::event(QEvent* event) { return keepsKey(event) || QSpinBox::event(event); }
@@ -83,11 +83,11 @@ QValidator::State SecondsField::validate(QString& text, int& /*position*/) const
 }
 
 void SecondsField::fixup(QString& text) const {
-  text = written(*this, numberIn(text).value_or(value()));
+  text = written(*this, numberFieldNumberIn(text).value_or(value()));
 }
 
 double SecondsField::valueFromText(const QString& text) const {
-  return numberIn(text).value_or(value());
+  return numberFieldNumberIn(text).value_or(value());
 }
 
 bool SecondsField::event(QEvent* event) { return keepsKey(event) || QDoubleSpinBox::event(event); }

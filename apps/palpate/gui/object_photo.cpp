@@ -10,7 +10,7 @@ namespace {
 constexpr int kLargestSide = 1200;  // [px]
 const QStringList kEndings = {"*.jpg", "*.jpeg", "*.png", "*.JPG", "*.JPEG", "*.PNG"};
 
-QString plain(QString name) { return name.replace('_', ' ').trimmed().toLower(); }
+QString objectPhotoPlain(QString name) { return name.replace('_', ' ').trimmed().toLower(); }
 
 }  // namespace
 
@@ -23,9 +23,9 @@ std::filesystem::path photoOf(const QString& name,
     const QDir dir(QString::fromStdString(folder.string()));
     if (folder.empty() || !dir.exists()) continue;
     for (const QFileInfo& file : dir.entryInfoList(kEndings, QDir::Files, QDir::Name))
-      if (plain(file.completeBaseName()) == plain(name)) return pathOf(file);
+      if (objectPhotoPlain(file.completeBaseName()) == objectPhotoPlain(name)) return pathOf(file);
     for (const QFileInfo& sub : dir.entryInfoList(QDir::Dirs | QDir::NoDotAndDotDot, QDir::Name)) {
-      if (plain(sub.fileName()) != plain(name)) continue;
+      if (objectPhotoPlain(sub.fileName()) != objectPhotoPlain(name)) continue;
       const auto files = QDir(sub.filePath()).entryInfoList(kEndings, QDir::Files, QDir::Name);
       if (!files.isEmpty()) return pathOf(files.first());
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <palpate/core/error.h>
+#include <palpate/core/time.h>
 #include <palpate/recording/recording.h>
 #include <palpate/recording/recording_meta.h>
 #include <palpate/recording/second_summary.h>
@@ -11,7 +12,6 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kUsPerS = 1e6;
 constexpr std::int64_t kWholeS = 1'000'000;  // [us]
 constexpr std::size_t kFramesPerReport = 256;
 

@@ -10,7 +10,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kAppearAfterMs = 150;  // what is quicker needs no strip that flickers
-constexpr int kSteps = 1000;
+constexpr int kOpeningStripSteps = 1000;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ OpeningStrip::OpeningStrip(QWidget* parent, const QString& verb, const QString& 
   name_->setTextFormat(Qt::PlainText);
   bar_ = new QProgressBar(this);
   bar_->setObjectName(part + "Progress");
-  bar_->setRange(0, kSteps);
+  bar_->setRange(0, kOpeningStripSteps);
   bar_->setTextVisible(false);
   bar_->setFixedHeight(8);
   auto* cancel = new QPushButton("Cancel", this);
@@ -49,7 +49,7 @@ void OpeningStrip::begin(const QString& path) {
 }
 
 void OpeningStrip::setProgress(double fraction) {
-  bar_->setValue(static_cast<int>(fraction * kSteps));
+  bar_->setValue(static_cast<int>(fraction * kOpeningStripSteps));
 }
 
 void OpeningStrip::end() {

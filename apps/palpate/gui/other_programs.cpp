@@ -5,11 +5,11 @@
 namespace palpate::gui {
 namespace {
 
-const char* keyOf(StreamKind kind) {
+const char* otherProgramsKeyOf(StreamKind kind) {
   return kind == StreamKind::kSignals ? "streams/signals" : "streams/tactile";
 }
 
-QString nameOf(StreamKind kind) {
+QString otherProgramsNameOf(StreamKind kind) {
   return kind == StreamKind::kSignals ? "signals (PlotJuggler)" : "taxels (TactileSensor)";
 }
 
@@ -22,9 +22,9 @@ OtherPrograms::OtherPrograms(const OtherProgramsOptions& options, QObject* paren
       settings_(options.settings),
       desk_(options.live, options.recordingSettings) {
   for (const StreamKind kind : kAllStreamKinds) {
-    actionOf(kind)->setChecked(settings_.value(keyOf(kind), false).toBool());
+    actionOf(kind)->setChecked(settings_.value(otherProgramsKeyOf(kind), false).toBool());
     connect(actionOf(kind), &QAction::toggled, this, [this, kind](bool on) {
-      settings_.setValue(keyOf(kind), on);
+      settings_.setValue(otherProgramsKeyOf(kind), on);
       switchStream(kind, on);
     });
   }
@@ -39,7 +39,8 @@ QAction* OtherPrograms::actionOf(StreamKind kind) const {
 }
 
 std::uint16_t OtherPrograms::portOf(StreamKind kind) const {
-  const int port = settings_.value(QString(keyOf(kind)) + "_port", usualPort(kind)).toInt();
+  const int port =
+      settings_.value(QString(otherProgramsKeyOf(kind)) + "_port", usualPort(kind)).toInt();
   return port >= 1 && port <= UINT16_MAX ? static_cast<std::uint16_t>(port) : usualPort(kind);
 }
 
@@ -61,7 +62,7 @@ void OtherPrograms::switchStream(StreamKind kind, bool on) {
       return;
     }
   }
-  emit logged(QString(on ? "streaming " : "no longer streaming ") + nameOf(kind) +
+  emit logged(QString(on ? "streaming " : "no longer streaming ") + otherProgramsNameOf(kind) +
               (on ? " to 127.0.0.1:" + QString::number(portOf(kind)) : QString()));
   emit changed();
 }
@@ -117,7 +118,7 @@ std::vector<Fact> OtherPrograms::facts() const {
     else
       value += stats->heard ? " · " + QString::number(stats->sent) + " sent"
                             : QString(" · nobody listens");
-    facts.push_back({nameOf(kind), value});
+    facts.push_back({otherProgramsNameOf(kind), value});
   }
   if (server_) {
     const std::size_t clients = server_->stats().clients;

@@ -17,9 +17,9 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kPdfDpi = 1200;  // resolution that positions in a PDF are rounded to
-constexpr double kMmPerInch = 25.4;
+constexpr double kPictureExportMmPerInch = 25.4;
 constexpr double kMPerInch = 0.0254;
-constexpr double kPointsPerInch = 72.0;
+constexpr double kPictureExportPointsPerInch = 72.0;
 constexpr double kPxPerInch = 96.0;
 
 QByteArray svgBytes(const PaintPicture& paint, const PicturePaper& paper) {
@@ -37,7 +37,7 @@ QByteArray pdfBytes(const PaintPicture& paint, const PicturePaper& paper) {
   buffer.open(QIODevice::WriteOnly);
   QPdfWriter writer(&buffer);
   writer.setResolution(kPdfDpi);
-  writer.setPageSize(QPageSize(paper.size / paper.unitsPerInch * kPointsPerInch,
+  writer.setPageSize(QPageSize(paper.size / paper.unitsPerInch * kPictureExportPointsPerInch,
                                QPageSize::Point,
                                {},
                                QPageSize::ExactMatch));
@@ -87,7 +87,7 @@ PaintPicture paintOf(const TactileFrame& frame,
 
 QSize PicturePaper::pixels() const { return (size * scale()).toSize().expandedTo(QSize(1, 1)); }
 
-QSizeF PicturePaper::sizeMm() const { return size / unitsPerInch * kMmPerInch; }
+QSizeF PicturePaper::sizeMm() const { return size / unitsPerInch * kPictureExportMmPerInch; }
 
 std::optional<PictureForm> pictureFormOf(const std::filesystem::path& path) {
   std::string ending = path.extension().string();

@@ -4,17 +4,18 @@
 #include <cmath>
 #include <iterator>
 
+#include <palpate/core/time.h>
+
 namespace palpate::gui {
 namespace {
 
-constexpr int kRefreshMs = 16;  // 60 Hz
-constexpr double kUsPerS = 1e6;
+constexpr int kPlaybackControllerRefreshMs = 16;  // 60 Hz
 
 }  // namespace
 
 PlaybackController::PlaybackController(const Clock& clock, QObject* parent)
     : QObject(parent), clock_(clock) {
-  timer_.setInterval(kRefreshMs);
+  timer_.setInterval(kPlaybackControllerRefreshMs);
   timer_.setTimerType(Qt::PreciseTimer);
   connect(&timer_, &QTimer::timeout, this, &PlaybackController::tick);
 }

@@ -5,14 +5,14 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kWidth = 1.4;
-using Kind = SeriesChoice::Kind;
+constexpr double kPlottedCurveWidth = 1.4;
+using PlottedCurveKind = SeriesChoice::Kind;
 
 PlottedCurve curve(SeriesChoice choice,
                    const QString& name,
                    const QColor& color,
                    Qt::PenStyle style) {
-  QPen pen(color, kWidth, style);
+  QPen pen(color, kPlottedCurveWidth, style);
   PlottedCurve made{std::move(choice), name, {}, {}, pen};
   made.unit = unitOf(made.choice);
   made.axis = axisNameOf(made.choice);
@@ -23,13 +23,13 @@ PlottedCurve curve(SeriesChoice choice,
 
 QString unitOf(const SeriesChoice& choice) {
   switch (choice.kind) {
-    case Kind::kAngle:
+    case PlottedCurveKind::kAngle:
       return "°";
-    case Kind::kTemperature:
+    case PlottedCurveKind::kTemperature:
       return "°C";
-    case Kind::kTaxels:
+    case PlottedCurveKind::kTaxels:
       return "counts";
-    case Kind::kMatrix:
+    case PlottedCurveKind::kMatrix:
       break;
   }
   return unitOf(choice.signal);
@@ -37,13 +37,13 @@ QString unitOf(const SeriesChoice& choice) {
 
 QString axisNameOf(const SeriesChoice& choice) {
   switch (choice.kind) {
-    case Kind::kAngle:
+    case PlottedCurveKind::kAngle:
       return "joint angle in °";
-    case Kind::kTemperature:
+    case PlottedCurveKind::kTemperature:
       return "temperature in °C";
-    case Kind::kTaxels:
+    case PlottedCurveKind::kTaxels:
       return "taxels in counts";
-    case Kind::kMatrix:
+    case PlottedCurveKind::kMatrix:
       break;
   }
   const QString name = nameOf(choice.signal);
@@ -55,7 +55,7 @@ PlottedCurve matrixCurve(const HandDescription& hand,
                          SignalKind signal,
                          Theme theme) {
   const bool whole = row == hand.layout->numMatrices();
-  return curve({.kind = Kind::kMatrix, .index = row, .signal = signal},
+  return curve({.kind = PlottedCurveKind::kMatrix, .index = row, .signal = signal},
                whole ? QString("all") : QString::fromStdString(hand.matrixName(row)),
                whole ? wholeColor(theme) : matrixColor(row, theme),
                whole ? Qt::DashLine : Qt::SolidLine);
@@ -67,11 +67,11 @@ PlottedCurve taxelCurve(const TaxelSelection& taxels,
                         Theme theme) {
   // The first one in the colour of what is chosen everywhere.
   const QColor color = place == 0 ? colorsOf(theme).accent : matrixColor(place + 1, theme);
-  return curve({.kind = Kind::kTaxels, .taxels = taxels}, name, color, Qt::SolidLine);
+  return curve({.kind = PlottedCurveKind::kTaxels, .taxels = taxels}, name, color, Qt::SolidLine);
 }
 
 PlottedCurve angleCurve(const HandDescription& hand, std::size_t axis, Theme theme) {
-  return curve({.kind = Kind::kAngle, .index = axis},
+  return curve({.kind = PlottedCurveKind::kAngle, .index = axis},
                axis < hand.axes.size() ? QString::fromStdString(hand.axes[axis].name) + " joint"
                                        : "joint " + QString::number(axis),
                matrixColor(axis + 3, theme),
@@ -80,7 +80,7 @@ PlottedCurve angleCurve(const HandDescription& hand, std::size_t axis, Theme the
 
 PlottedCurve temperatureCurve(const HandDescription& hand, std::size_t sensor, Theme theme) {
   const auto& sensors = hand.temperatureSensors;
-  return curve({.kind = Kind::kTemperature, .index = sensor},
+  return curve({.kind = PlottedCurveKind::kTemperature, .index = sensor},
                sensor < sensors.size() ? QString::fromStdString(sensors[sensor].name)
                                        : "sensor " + QString::number(sensor),
                matrixColor(sensor + 1, theme),

@@ -12,9 +12,9 @@
 namespace palpate::gui {
 namespace {
 
-using State = StateMark::State;
+using PortsPageState = StateMark::State;
 
-QString shortName(const QString& port) {
+QString portsPageShortName(const QString& port) {
   return port.startsWith('/') ? port.section('/', -1) : port;
 }
 
@@ -202,7 +202,7 @@ void PortsPage::refresh() {
     const ScannedPort& port = ports_[i];
     const QString key = QString::fromStdString(port.info.name);
     QStringList parts;
-    if (port.info.stableName != port.info.name) parts.append(shortName(key));
+    if (port.info.stableName != port.info.name) parts.append(portsPageShortName(key));
     if (answers_.contains(key))
       parts.append(QString::fromStdString(answers_[key].message));
     else
@@ -260,23 +260,25 @@ std::optional<PortProbe> PortsPage::probeOf(const PortField& field) const {
 
 PortState PortsPage::stateOf(const PortField& field, PortAnswer wanted) const {
   if (field.port().isEmpty())
-    return scan_.running() && !field.touched() ? PortState{State::kAtWork, "Looking for it…"}
-                                               : PortState{};
+    return scan_.running() && !field.touched()
+               ? PortState{PortsPageState::kAtWork, "Looking for it…"}
+               : PortState{};
   const QString key = keyOf(field.port());
   if (const auto probe = probeOf(field)) {
     const bool other =
         probe->answer == PortAnswer::kMotion || probe->answer == PortAnswer::kTactile;
-    const State mark = probe->answer == wanted ? State::kGood
-                       : other                 ? State::kBad
-                                               : State::kWarning;
+    const PortsPageState mark = probe->answer == wanted ? PortsPageState::kGood
+                                : other                 ? PortsPageState::kBad
+                                                        : PortsPageState::kWarning;
     return {mark, sentence(probe->message)};
   }
-  if (asking_.contains(key)) return {State::kAtWork, "Asking…"};
+  if (asking_.contains(key)) return {PortsPageState::kAtWork, "Asking…"};
   const ScannedPort* port = listed(key);
   if (port && !port->notAsked.isEmpty())
-    return {port->info.writable && port->info.readable ? State::kNone : State::kWarning,
+    return {port->info.writable && port->info.readable ? PortsPageState::kNone
+                                                       : PortsPageState::kWarning,
             sentence(port->notAsked.toStdString())};
-  return {State::kNone, "Not asked yet."};
+  return {PortsPageState::kNone, "Not asked yet."};
 }
 
 QString PortsPage::swapText() const {

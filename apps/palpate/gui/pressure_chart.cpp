@@ -15,12 +15,12 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kSlicePoints = 120;
-constexpr double kHeadroom = 1.12;
-constexpr int kBandAlpha = 36;
-constexpr double kPointSize = 6.0;           // [px]
-constexpr double kChosenSize = 11.0;         // [px]
-constexpr double kSame = 0.05;               // [deg C]
-constexpr std::size_t kCold = 5, kWarm = 3;  // as the colours of these matrices: blue, red
+constexpr double kPressureChartHeadroom = 1.12;
+constexpr int kPressureChartBandAlpha = 36;
+constexpr double kPressureChartPointSize = 6.0;  // [px]
+constexpr double kChosenSize = 11.0;             // [px]
+constexpr double kSame = 0.05;                   // [deg C]
+constexpr std::size_t kCold = 5, kWarm = 3;      // as the colours of these matrices: blue, red
 
 }  // namespace
 
@@ -98,7 +98,7 @@ void PressureChart::addSlice(
   };
   if (band && std::isfinite(quantile)) {
     QColor shade = color;
-    shade.setAlpha(kBandAlpha);
+    shade.setAlpha(kPressureChartBandAlpha);
     QCPGraph* under = add(low, Qt::NoPen, {});
     QCPGraph* above = add(high, Qt::NoPen, {});
     above->setBrush(shade);
@@ -151,7 +151,7 @@ void PressureChart::fill() {
     QCPGraph* made = addGraph();
     made->setLineStyle(QCPGraph::lsNone);
     made->setPen(QPen(color, 1.2));
-    made->setScatterStyle(QCPScatterStyle(shape, QPen(color, 1.2), color, kPointSize));
+    made->setScatterStyle(QCPScatterStyle(shape, QPen(color, 1.2), color, kPressureChartPointSize));
     made->removeFromLegend();
     return made;
   };
@@ -175,7 +175,7 @@ void PressureChart::fill() {
     ring->addData(sample.gainCounts, sample.pressureKpa);
   }
   xAxis->setRange(fromK, toK);
-  yAxis->setRange(0.0, (mostKpa > 0.0 ? mostKpa : 1.0) * kHeadroom);
+  yAxis->setRange(0.0, (mostKpa > 0.0 ? mostKpa : 1.0) * kPressureChartHeadroom);
   replot(QCustomPlot::rpQueuedReplot);
 }
 

@@ -28,11 +28,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kWideFrom = 980;  // [px] chart and figures side by side
+constexpr int kPressurePageWideFrom = 980;  // [px] chart and figures side by side
 constexpr double kLargestArea = 1e6;
 constexpr double kFullScale = 4095.0;
 
-std::vector<FigureColumn> columns() {
+std::vector<FigureColumn> pressurePageColumns() {
   return {{"recording", {}, 15, true},
           {"kPa", "Pressure that was put on", 7},
           {"K", "Gain of the step [counts]", 8},
@@ -42,7 +42,8 @@ std::vector<FigureColumn> columns() {
           {"", "Why it is left out", 14, true}};
 }
 
-std::vector<FigureCell> rowOf(const PressureSample& sample, const PressureModel& model) {
+std::vector<FigureCell> pressurePageRowOf(const PressureSample& sample,
+                                          const PressureModel& model) {
   const QString name = QString::fromStdString(std::filesystem::path(sample.file).filename());
   const double degC = temperatureOf(sample, model.options);
   const bool known = (model.options.study ? sample.studyDegC : sample.nearestDegC).has_value();
@@ -82,7 +83,7 @@ PressurePage::PressurePage(QWidget* parent) : CalibratePage("pressure", parent) 
     charts_->setCurrentIndex(above ? 1 : 0);
   });
   auto* figures = new QWidget(content);
-  samples_ = new FiguresTable(columns(), figures);
+  samples_ = new FiguresTable(pressurePageColumns(), figures);
   samples_->setObjectName("pressureSamples");
   samples_->setSingleLine();
   facts_ = new FactsView(figures);
@@ -275,7 +276,7 @@ void PressurePage::take(const ShownCalibrationPtr& shown) {
   const Calibration& calibration = shown->calibration;
   std::vector<std::vector<FigureCell>> rows;
   for (const PressureSample& sample : calibration.samples)
-    rows.push_back(rowOf(sample, calibration.pressure));
+    rows.push_back(pressurePageRowOf(sample, calibration.pressure));
   samples_->setRows(rows);
   samples_->clearSelection();
   chart_->setModel(calibration.pressure, calibration.samples);
@@ -356,8 +357,8 @@ void PressurePage::paint(QPainter& painter, const PictureLook& look, const QStri
 
 void PressurePage::resizeEvent(QResizeEvent* event) {
   CalibratePage::resizeEvent(event);
-  halves_->setDirection(event->size().width() >= kWideFrom ? QBoxLayout::LeftToRight
-                                                           : QBoxLayout::TopToBottom);
+  halves_->setDirection(event->size().width() >= kPressurePageWideFrom ? QBoxLayout::LeftToRight
+                                                                       : QBoxLayout::TopToBottom);
 }
 
 }  // namespace palpate::gui

@@ -5,12 +5,12 @@
 namespace palpate::gui {
 namespace {
 
-constexpr const char* kKey = "recent/files";
+constexpr const char* kRecentFilesKey = "recent/files";
 
 }  // namespace
 
 RecentFiles::RecentFiles(QSettings& settings, QObject* parent)
-    : QObject(parent), settings_(settings), paths_(settings.value(kKey).toStringList()) {
+    : QObject(parent), settings_(settings), paths_(settings.value(kRecentFilesKey).toStringList()) {
   paths_.removeAll(QString());
   paths_ = paths_.mid(0, kMost);
 }
@@ -40,7 +40,7 @@ void RecentFiles::clear() {
 bool RecentFiles::exists(const QString& path) { return QFileInfo(path).isFile(); }
 
 void RecentFiles::store() {
-  settings_.setValue(kKey, paths_);
+  settings_.setValue(kRecentFilesKey, paths_);
   emit changed();
 }
 

@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t kBest = 3;
 constexpr double kNameUnits = 3.0;  // of the name, at most
 constexpr double kLeastNameUnits = 1.2;
-constexpr double kPhotoShare = 0.36;  // of the width, at most
-constexpr double kLine = 1.7;         // [units] of a runner-up
+constexpr double kPhotoShare = 0.36;            // of the width, at most
+constexpr double kRecognitionAnswerLine = 1.7;  // [units] of a runner-up
 
 QString percent(double p) {
   // 100 % is nobody's.
@@ -29,7 +29,7 @@ QFont fontOf(const QPainter& painter, double pixels, bool bold = false) {
   return font;
 }
 
-QColor colorOf(const RecognitionAnswer& answer, const ThemeColors& colors) {
+QColor recognitionAnswerColorOf(const RecognitionAnswer& answer, const ThemeColors& colors) {
   if (answer.kind == RecognitionAnswer::Kind::kUnknown) return colors.muted;
   return answer.sure ? colors.accent : colors.warning;
 }
@@ -161,7 +161,7 @@ void paintAnswer(QPainter& painter,
     painter.restore();
     return;
   }
-  const QColor color = colorOf(answer, colors);
+  const QColor color = recognitionAnswerColorOf(answer, colors);
   // As large as it fits.
   double size = kNameUnits * unit;
   while (size > kLeastNameUnits * unit &&
@@ -207,7 +207,7 @@ void paintAnswer(QPainter& painter,
     const auto& place = answer.best[k];
     painter.setFont(plain);
     painter.setPen(colors.muted);
-    const QRectF row(room.left(), y, room.width(), kLine * unit);
+    const QRectF row(room.left(), y, room.width(), kRecognitionAnswerLine * unit);
     painter.drawText(
         QRectF(row.left(), row.top(), nameWidth, row.height()),
         left,
@@ -222,7 +222,7 @@ void paintAnswer(QPainter& painter,
              theme);
     painter.setPen(colors.muted);
     painter.drawText(row, right, percent(place.p));
-    y += kLine * unit;
+    y += kRecognitionAnswerLine * unit;
   }
   y += 0.5 * unit;
   const QFont small = fontOf(painter, 0.9 * unit);

@@ -21,14 +21,15 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kWidth = 580;        // [px]
-constexpr int kMargin = 20;        // [px]
-constexpr int kMostLetters = 200;  // of a field: the name of the file is cut far before
+constexpr int kRecordingDialogWidth = 580;  // [px]
+constexpr int kRecordingDialogMargin = 20;  // [px]
+constexpr int kRecordingDialogMostLetters =
+    200;  // of a field: the name of the file is cut far before
 constexpr int kNoteLines = 3;
-constexpr int kRefreshMs = 1000;  // {time} goes on, and others write into the folder
+constexpr int kRecordingDialogRefreshMs = 1000;  // {time} goes on, and others write into the folder
 
 // Of the dialog's own parts, by the roles of the theme's palette: it follows a change of the theme.
-constexpr const char* kStyle = R"(
+constexpr const char* kRecordingDialogStyle = R"(
 QLineEdit, QPlainTextEdit { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; }
 QLineEdit { padding: 4px 6px; }
 QPlainTextEdit { padding: 1px 2px; }
@@ -73,7 +74,7 @@ void letShrink(QLabel* label) {
   label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
 }
 
-void showElided(QLabel* label, const QString& text, Qt::TextElideMode mode) {
+void recordingDialogShowElided(QLabel* label, const QString& text, Qt::TextElideMode mode) {
   label->setText(label->fontMetrics().elidedText(text, mode, label->contentsRect().width()));
   label->setToolTip(label->text() == text ? QString() : text);
   label->setAccessibleName(text);
@@ -87,12 +88,13 @@ RecordingDialog::RecordingDialog(const RecordingSettings& settings,
                                  const Clock& clock)
     : QDialog(parent), clock_(clock) {
   setWindowTitle("Recording");
-  setStyleSheet(kStyle);
+  setStyleSheet(kRecordingDialogStyle);
   askForFolder = [this](const QString& begin) {
     return QFileDialog::getExistingDirectory(this, "Folder for recordings", begin);
   };
   auto* middle = new QVBoxLayout;
-  middle->setContentsMargins(kMargin, kMargin, kMargin, 14);
+  middle->setContentsMargins(
+      kRecordingDialogMargin, kRecordingDialogMargin, kRecordingDialogMargin, 14);
   middle->setSpacing(12);
   middle->addWidget(makeFields(), 1);
   middle->addWidget(makePreview());
@@ -109,9 +111,9 @@ RecordingDialog::RecordingDialog(const RecordingSettings& settings,
   connect(marks_, &MarksByKey::folded, this, &RecordingDialog::fitMarks);
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, &RecordingDialog::refresh);
-  timer->start(kRefreshMs);
+  timer->start(kRecordingDialogRefreshMs);
   refresh();
-  resize(kWidth, sizeHint().height());
+  resize(kRecordingDialogWidth, sizeHint().height());
 }
 
 QLineEdit* RecordingDialog::makeField(const char* name, int mostLetters) {
@@ -139,10 +141,10 @@ QWidget* RecordingDialog::makeFields() {
     if (button) grid->addWidget(button, row, 2);
     ++row;
   };
-  operator_ = makeField("recordingOperator", kMostLetters);
+  operator_ = makeField("recordingOperator", kRecordingDialogMostLetters);
   operator_->setPlaceholderText("who records");
   add("O&perator", operator_);
-  object_ = makeField("recordingObject", kMostLetters);
+  object_ = makeField("recordingObject", kRecordingDialogMostLetters);
   object_->setPlaceholderText("what is grasped");
   add("&Object", object_);
   notes_ = new NotesField(fields);
@@ -154,7 +156,7 @@ QWidget* RecordingDialog::makeFields() {
   notes_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   add("No&tes", notes_);
   grid->setRowStretch(row - 1, 1);
-  template_ = makeField("recordingTemplate", kMostLetters);
+  template_ = makeField("recordingTemplate", kRecordingDialogMostLetters);
   auto* placeholders = new QPushButton("&Insert", fields);
   placeholders->setObjectName("recordingInsert");
   placeholders->setAutoDefault(false);
@@ -236,7 +238,7 @@ QWidget* RecordingDialog::makeFoot(const QString& okText) {
   ok_->setMinimumWidth(110);
   connect(ok_, &QPushButton::clicked, this, &RecordingDialog::accept);
   auto* row = new QHBoxLayout(foot);
-  row->setContentsMargins(kMargin, 12, kMargin, 12);
+  row->setContentsMargins(kRecordingDialogMargin, 12, kRecordingDialogMargin, 12);
   row->setSpacing(8);
   row->addWidget(ask_, 1);
   row->addWidget(cancel);
@@ -310,11 +312,13 @@ void RecordingDialog::refresh() {
 
 void RecordingDialog::showTexts() {
   if (!ask_) return;  // while it is built
-  showElided(name_, QString::fromStdString(next_.path.filename().string()), Qt::ElideMiddle);
+  recordingDialogShowElided(
+      name_, QString::fromStdString(next_.path.filename().string()), Qt::ElideMiddle);
   const QString folder = QString::fromStdString(next_.path.parent_path().string());
-  showElided(place_,
-             next_.folderWillBeMade ? "in " + folder + ", which will be made" : "in " + folder,
-             Qt::ElideMiddle);
+  recordingDialogShowElided(
+      place_,
+      next_.folderWillBeMade ? "in " + folder + ", which will be made" : "in " + folder,
+      Qt::ElideMiddle);
 }
 
 void RecordingDialog::accept() {

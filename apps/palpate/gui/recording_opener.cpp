@@ -10,8 +10,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kReadShare = 0.6;      // of the whole work; then come the signals
-constexpr double kSmallestNews = 0.01;  // progress is reported in steps of this
+constexpr double kRecordingOpenerReadShare = 0.6;      // of the whole work; then come the signals
+constexpr double kRecordingOpenerSmallestNews = 0.01;  // progress is reported in steps of this
 
 }  // namespace
 
@@ -57,7 +57,7 @@ void RecordingOpener::work(const std::filesystem::path& path) {
   const auto part = [&](double from, double share) {
     return [this, &told, from, share](double fraction) {
       const double now = from + share * fraction;
-      if (now - told >= kSmallestNews) {
+      if (now - told >= kRecordingOpenerSmallestNews) {
         told = now;
         QMetaObject::invokeMethod(
             this, [this, now] { emit progressed(now); }, Qt::QueuedConnection);
@@ -66,9 +66,9 @@ void RecordingOpener::work(const std::filesystem::path& path) {
     };
   };
   try {
-    Profile profile = read_(path, part(0.0, kReadShare));
-    auto recording =
-        makeOpenedRecording(path, std::move(profile), part(kReadShare, 1.0 - kReadShare));
+    Profile profile = read_(path, part(0.0, kRecordingOpenerReadShare));
+    auto recording = makeOpenedRecording(
+        path, std::move(profile), part(kRecordingOpenerReadShare, 1.0 - kRecordingOpenerReadShare));
     conclude([this, recording] { emit opened(recording); });
   } catch (const Cancelled&) {
     conclude([this, name] { emit cancelled(name); });

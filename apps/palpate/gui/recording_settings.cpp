@@ -25,7 +25,9 @@ constexpr const char* kAsk = "recording/ask";
 
 QString labelKey(std::size_t digit) { return QString("recording/label%1").arg(digit); }
 
-QString textOf(const QSettings& settings, const QString& key, const QString& otherwise) {
+QString recordingSettingsTextOf(const QSettings& settings,
+                                const QString& key,
+                                const QString& otherwise) {
   const QString text = settings.value(key, otherwise).toString();
   return text.contains(QChar('\0')) ? otherwise : text;
 }
@@ -80,17 +82,18 @@ QString folderFromText(const QString& typed) {
 
 RecordingSettings loadRecordingSettings(const QSettings& settings) {
   RecordingSettings recording;
-  recording.folder = folderFromText(textOf(settings, kFolder, {}));
+  recording.folder = folderFromText(recordingSettingsTextOf(settings, kFolder, {}));
   if (!QDir::isAbsolutePath(recording.folder)) recording.folder = defaultRecordingsFolder();
-  const QString nameTemplate = textOf(settings, kTemplate, recording.nameTemplate).trimmed();
+  const QString nameTemplate =
+      recordingSettingsTextOf(settings, kTemplate, recording.nameTemplate).trimmed();
   if (!nameTemplate.isEmpty()) recording.nameTemplate = nameTemplate;
-  recording.operatorName = textOf(settings, kOperator, {});
-  recording.object = textOf(settings, kObject, {});
-  recording.notes = textOf(settings, kNotes, {});
+  recording.operatorName = recordingSettingsTextOf(settings, kOperator, {});
+  recording.object = recordingSettingsTextOf(settings, kObject, {});
+  recording.notes = recordingSettingsTextOf(settings, kNotes, {});
   recording.askEachTime = settings.value(kAsk, true).toBool();
   for (std::size_t digit = 0; digit < recording.markLabels.size(); ++digit) {
     QString& label = recording.markLabels[digit];
-    label = textOf(settings, labelKey(digit), label).simplified().left(kMostLabel);
+    label = recordingSettingsTextOf(settings, labelKey(digit), label).simplified().left(kMostLabel);
   }
   return recording;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <palpate/core/error.h>
+#include <palpate/core/time.h>
 #include <palpate/interop/remote_file.h>
 
 namespace palpate::gui {
@@ -12,8 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 using Verb = RemoteRequest::Verb;
 
-constexpr int kLookMs = 10;
-constexpr std::int64_t kUsPerMs = 1000;
+constexpr int kRemoteDeskLookMs = 10;
 
 // Looks at folders: never on the window's thread.
 void addNames(RemoteAnswer& answer, const RecordingSettings& settings) {
@@ -59,7 +59,7 @@ RemoteDesk::RemoteDesk(LiveController& live,
                        std::function<RecordingSettings()> settings,
                        QObject* parent)
     : QObject(parent), live_(live), settings_(std::move(settings)) {
-  timer_.setInterval(kLookMs);
+  timer_.setInterval(kRemoteDeskLookMs);
   connect(&timer_, &QTimer::timeout, this, &RemoteDesk::look);
   connect(&live_, &LiveController::recordingStarted, this, [this] {
     if (starting_) starting_->begun = std::chrono::steady_clock::now();

@@ -7,6 +7,7 @@
 
 #include <palpate/core/error.h>
 #include <palpate/core/output_file.h>
+#include <palpate/core/time.h>
 
 #include "gui/application.h"
 #include "gui/calibrate_panel.h"
@@ -23,8 +24,6 @@
 
 namespace palpate::gui {
 namespace {
-
-constexpr double kMsPerS = 1000.0;
 
 // Opens and waits; throws what went wrong.
 void openAndWait(MainWindow& window, const ScreenshotOptions& options) {

@@ -13,12 +13,12 @@
 
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
+#include <palpate/core/time.h>
 
 namespace palpate::gui {
 namespace {
 
-constexpr double kMsPerS = 1000.0;
-constexpr int kLookMs = 10;
+constexpr int kScreenshotPressesLookMs = 10;
 
 // A dialogue or another window in front of `window` that is open; null: none.
 QWidget* openBefore(const QWidget& window) {
@@ -29,7 +29,7 @@ QWidget* openBefore(const QWidget& window) {
 }
 
 // As it is read: without mnemonic and dots, blanks at the ends, and the key behind it.
-QString wordsOf(const QAbstractButton& button) {
+QString screenshotPressesWordsOf(const QAbstractButton& button) {
   QString words = button.text();
   words.remove('&').remove("…");
   return words.section("  (", 0, 0).trimmed();
@@ -54,7 +54,7 @@ bool pressButton(const QWidget& window, const QString& words) {
   for (QAbstractButton* button : window.findChildren<QAbstractButton*>()) {
     // One of a choice that is chosen already would do nothing.
     if (!button->isVisible() || !button->isEnabled() || button->isChecked()) continue;
-    if (wordsOf(*button) != words) continue;
+    if (screenshotPressesWordsOf(*button) != words) continue;
     button->click();
     return true;
   }
@@ -93,7 +93,7 @@ QImage runAndPress(QWidget& window,
   QObject context;  // no timer outlives this call
   // A dialogue runs a loop of its own inside a press: the next look is asked for before it, and the end closes it.
   std::function<void()> look = [&] {
-    QTimer::singleShot(kLookMs, &context, look);
+    QTimer::singleShot(kScreenshotPressesLookMs, &context, look);
     const double nowS = static_cast<double>(since.elapsed()) / kMsPerS;
     QWidget* open = openBefore(window);
     if (!failure && done < presses.size()) {

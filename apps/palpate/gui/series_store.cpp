@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <palpate/core/error.h>
+#include <palpate/core/time.h>
 
 namespace palpate::gui {
 namespace {
@@ -13,7 +14,6 @@ constexpr std::size_t kReadAtOnce = 3000;   // samples, in the window's thread (
 constexpr std::size_t kMostExact = 16'000;  // samples that are read for what is seen
 constexpr std::size_t kSpread = 1500;       // samples of the first look at a long recording
 constexpr int kNewsMs = 200;
-constexpr double kUsPerS = 1e6;
 constexpr double kForever = 1e12;  // [s]
 
 std::optional<std::pair<double, double>> extremesOf(const std::vector<double>& values) {

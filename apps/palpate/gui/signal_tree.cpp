@@ -13,11 +13,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kKind = Qt::UserRole;       // what a line ticks
-constexpr int kIndex = Qt::UserRole + 1;  // joint, sensor
-constexpr int kName = Qt::UserRole + 2;   // of a group, as it was
+constexpr int kSignalTreeKind = Qt::UserRole;  // what a line ticks
+constexpr int kIndex = Qt::UserRole + 1;       // joint, sensor
+constexpr int kName = Qt::UserRole + 2;        // of a group, as it was
 constexpr int kMostNumbers = 64;
-enum Kind { kSection, kChosen, kGroup, kAngle, kTemperature };
+enum SignalTreeKind { kSection, kChosen, kGroup, kAngle, kTemperature };
 
 std::set<int> numbersIn(const QVariant& value) {
   std::set<int> numbers;
@@ -29,7 +29,7 @@ std::set<int> numbersIn(const QVariant& value) {
   return numbers;
 }
 
-QStringList wordsOf(const std::set<int>& numbers) {
+QStringList signalTreeWordsOf(const std::set<int>& numbers) {
   QStringList words;
   for (const int number : numbers) words.append(QString::number(number));
   return words;
@@ -50,8 +50,8 @@ PlottedExtras loadPlottedExtras(const QSettings& settings) {
 void savePlottedExtras(const PlottedExtras& extras, QSettings& settings) {
   settings.setValue("plotted/chosen_taxels", extras.chosenTaxels);
   settings.setValue("plotted/groups", QStringList(extras.groups.begin(), extras.groups.end()));
-  settings.setValue("plotted/angles", wordsOf(extras.angles));
-  settings.setValue("plotted/temperatures", wordsOf(extras.temperatures));
+  settings.setValue("plotted/angles", signalTreeWordsOf(extras.angles));
+  settings.setValue("plotted/temperatures", signalTreeWordsOf(extras.temperatures));
 }
 
 SignalTree::SignalTree(TaxelGroups& groups, QWidget* parent)
@@ -103,7 +103,7 @@ void SignalTree::setExtras(const PlottedExtras& extras) {
 QTreeWidgetItem* SignalTree::section(const QString& title) {
   auto* item = new QTreeWidgetItem(tree_, {title});
   item->setFlags(Qt::ItemIsEnabled);
-  item->setData(0, kKind, kSection);
+  item->setData(0, kSignalTreeKind, kSection);
   QFont font = item->font(0);
   font.setBold(true);
   item->setFont(0, font);
@@ -114,9 +114,9 @@ void SignalTree::rebuild() {
   building_ = true;
   tree_->clear();
   const auto line =
-      [](QTreeWidgetItem* parent, const QString& text, Kind kind, int index, bool on) {
+      [](QTreeWidgetItem* parent, const QString& text, SignalTreeKind kind, int index, bool on) {
         auto* item = new QTreeWidgetItem(parent, {text});
-        item->setData(0, kKind, kind);
+        item->setData(0, kSignalTreeKind, kind);
         item->setData(0, kIndex, index);
         item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
         item->setCheckState(0, on ? Qt::Checked : Qt::Unchecked);
@@ -125,7 +125,7 @@ void SignalTree::rebuild() {
   const auto nothing = [](QTreeWidgetItem* parent, const QString& text) {
     auto* item = new QTreeWidgetItem(parent, {text});
     item->setFlags(Qt::NoItemFlags);
-    item->setData(0, kKind, kSection);
+    item->setData(0, kSignalTreeKind, kSection);
   };
   QTreeWidgetItem* taxels = section("Taxels (mean in counts)");
   line(taxels,
@@ -169,7 +169,7 @@ void SignalTree::heed(QTreeWidgetItem* item) {
   const auto put = [on](auto& set, const auto& value) {
     on ? (void)set.insert(value) : (void)set.erase(value);
   };
-  switch (item->data(0, kKind).toInt()) {
+  switch (item->data(0, kSignalTreeKind).toInt()) {
     case kChosen:
       extras_.chosenTaxels = on;
       break;
@@ -202,7 +202,7 @@ void SignalTree::heed(QTreeWidgetItem* item) {
 
 void SignalTree::keyPressEvent(QKeyEvent* event) {
   const QTreeWidgetItem* item = tree_->currentItem();
-  if (event->key() == Qt::Key_Delete && item && item->data(0, kKind).toInt() == kGroup) {
+  if (event->key() == Qt::Key_Delete && item && item->data(0, kSignalTreeKind).toInt() == kGroup) {
     const QString name = item->data(0, kName).toString();
     extras_.groups.erase(name);
     groups_.forget(name);

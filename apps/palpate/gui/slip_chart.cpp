@@ -14,10 +14,10 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kHeadroom = 1.15;
-constexpr double kTurnShare = 0.75;          // of the height of what is above
-constexpr std::size_t kMostPoints = 20'000;  // drawn; more: the farthest of each bunch
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSlipChartHeadroom = 1.15;
+constexpr double kTurnShare = 0.75;                   // of the height of what is above
+constexpr std::size_t kSlipChartMostPoints = 20'000;  // drawn; more: the farthest of each bunch
+constexpr double kSlipChartNothing = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -79,7 +79,7 @@ void SlipChart::setSeries(const SlipSeries* series, std::size_t matrix, const QS
   if (series && matrix < series->matrices.size()) {
     options_ = series->options;
     const std::vector<SlipSample>& samples = series->matrices[matrix];
-    const std::size_t bunch = samples.size() / kMostPoints + 1;
+    const std::size_t bunch = samples.size() / kSlipChartMostPoints + 1;
     for (std::size_t first = 0; first < samples.size(); first += bunch) {
       std::size_t at = first;
       for (std::size_t i = first; i < std::min(first + bunch, samples.size()); ++i)
@@ -88,12 +88,12 @@ void SlipChart::setSeries(const SlipSeries* series, std::size_t matrix, const QS
       const double t = series->timeS[sample.frame];
       // A contact that was lost is a gap in the curve.
       if (first > 0 && sample.frame > samples[first - 1].frame + bunch) {
-        shift.append({t, kNothing});
-        turn.append({t, kNothing});
+        shift.append({t, kSlipChartNothing});
+        turn.append({t, kSlipChartNothing});
       }
-      shift.append({t, sample.refValid ? sample.shiftTaxels() : kNothing});
+      shift.append({t, sample.refValid ? sample.shiftTaxels() : kSlipChartNothing});
       const double deg = static_cast<double>(sample.refRotationDeg);
-      turn.append({t, sample.refRotationValid ? deg : kNothing});
+      turn.append({t, sample.refRotationValid ? deg : kSlipChartNothing});
       if (sample.refValid) mostTaxels_ = std::max(mostTaxels_, sample.shiftTaxels());
       if (!sample.refRotationValid) continue;
       leastDeg_ = std::min(leastDeg_, deg);
@@ -122,10 +122,10 @@ void SlipChart::placeLimits() {
     limits_[i]->start->setCoords(0.0, values[i]);
     limits_[i]->end->setCoords(1.0, values[i]);
   }
-  yAxis->setRange(0.0, std::max(mostTaxels_, options_.referenceTaxels) * kHeadroom);
+  yAxis->setRange(0.0, std::max(mostTaxels_, options_.referenceTaxels) * kSlipChartHeadroom);
   turns_->axis(QCPAxis::atLeft)
-      ->setRange(std::min(leastDeg_, -options_.rotationDeg) * kHeadroom,
-                 std::max(mostDeg_, options_.rotationDeg) * kHeadroom);
+      ->setRange(std::min(leastDeg_, -options_.rotationDeg) * kSlipChartHeadroom,
+                 std::max(mostDeg_, options_.rotationDeg) * kSlipChartHeadroom);
 }
 
 void SlipChart::style() {

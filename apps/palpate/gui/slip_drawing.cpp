@@ -12,12 +12,12 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kMargin = 10.0;        // [px]
-constexpr double kLargestTaxel = 40.0;  // [px]
+constexpr double kSlipDrawingMargin = 10.0;        // [px]
+constexpr double kSlipDrawingLargestTaxel = 40.0;  // [px]
 constexpr int kFootLines = 4;      // of figures, below the drawing; half of them where it is low
 constexpr double kLow = 320.0;     // [px]
 constexpr double kFaintest = 0.2;  // opacity of the taxels
-constexpr double kFaint = 0.6;     // opacity of the taxels
+constexpr double kSlipDrawingFaint = 0.6;  // opacity of the taxels
 constexpr double kEllipseSds = 2.0;
 constexpr double kSkewSeen = 0.05;   // smaller ones have no mark
 constexpr double kMostSkew = 1.5;    // for the size of a mark
@@ -117,11 +117,14 @@ void SlipDrawing::setMap(ColorMapName map) {
 
 SlipDrawing::Place SlipDrawing::placeIn(const QRectF& area) const {
   const double line = fontMetrics().height();
-  const QRectF room = area.adjusted(kMargin, line + 10.0, -kMargin, -footLines(area) * line - 12.0);
+  const QRectF room = area.adjusted(
+      kSlipDrawingMargin, line + 10.0, -kSlipDrawingMargin, -footLines(area) * line - 12.0);
   const MatrixLayout& layout = scene_->layout;
   Place place;
-  place.side = std::floor(std::clamp(
-      std::min(room.width() / layout.columns, room.height() / layout.rows), 2.0, kLargestTaxel));
+  place.side =
+      std::floor(std::clamp(std::min(room.width() / layout.columns, room.height() / layout.rows),
+                            2.0,
+                            kSlipDrawingLargestTaxel));
   const QSizeF size(layout.columns * place.side, layout.rows * place.side);
   place.matrix =
       QRectF(QPointF(std::floor(room.center().x() - 0.5 * size.width()),
@@ -142,10 +145,13 @@ void SlipDrawing::paint(QPainter& painter, const QRectF& area, Theme theme) cons
   const double line = QFontMetricsF(painter.font()).height();
   painter.setPen(colors.text);
   painter.drawText(
-      QRectF(area.left() + kMargin, area.top() + 6.0, area.width() - 2 * kMargin, line),
+      QRectF(area.left() + kSlipDrawingMargin,
+             area.top() + 6.0,
+             area.width() - 2 * kSlipDrawingMargin,
+             line),
       Qt::AlignHCenter | Qt::AlignVCenter,
       QFontMetricsF(painter.font())
-          .elidedText(scene.name, Qt::ElideRight, area.width() - 2 * kMargin));
+          .elidedText(scene.name, Qt::ElideRight, area.width() - 2 * kSlipDrawingMargin));
   const ColorTable& table = colorTable(map_);
   for (int y = 0; y < scene.layout.rows; ++y)
     for (int x = 0; x < scene.layout.columns; ++x) {
@@ -156,14 +162,14 @@ void SlipDrawing::paint(QPainter& painter, const QRectF& area, Theme theme) cons
       if (!(value > 0.0) || !scene.layout.enabled(y, x)) continue;
       QColor color = QColor::fromRgb(table[static_cast<std::size_t>(
           colorIndex(value, 0.0, std::max(1.0, scene.largestCounts)))]);
-      color.setAlphaF(static_cast<float>(kFaintest + (kFaint - kFaintest) * value /
+      color.setAlphaF(static_cast<float>(kFaintest + (kSlipDrawingFaint - kFaintest) * value /
                                                          std::max(1.0, scene.largestCounts)));
       painter.fillRect(square, color);
     }
   painter.setRenderHint(QPainter::Antialiasing);
-  const QRectF foot(area.left() + kMargin,
+  const QRectF foot(area.left() + kSlipDrawingMargin,
                     area.bottom() - footLines(area) * line - 6.0,
-                    area.width() - 2 * kMargin,
+                    area.width() - 2 * kSlipDrawingMargin,
                     line);
   painter.setPen(colors.muted);
   if (!scene.sample) {

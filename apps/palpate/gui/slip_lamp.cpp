@@ -7,12 +7,12 @@ namespace palpate::gui {
 namespace {
 
 // Drawn in a square of 16 x 16 units, at twice the size.
-constexpr int kUnits = 16;
+constexpr int kSlipLampUnits = 16;
 constexpr int kScale = 2;
-constexpr QPointF kMiddle(8.0, 8.0);
-constexpr double kRadius = 6.0;
+constexpr QPointF kSlipLampMiddle(8.0, 8.0);
+constexpr double kSlipLampRadius = 6.0;
 
-QPolygonF polygon(const QList<QPointF>& points) { return QPolygonF(points); }
+QPolygonF slipLampPolygon(const QList<QPointF>& points) { return QPolygonF(points); }
 
 }  // namespace
 
@@ -42,7 +42,7 @@ QColor colorOf(LampLook look, Theme theme) {
 }
 
 QIcon lampIcon(LampLook look, Theme theme) {
-  QPixmap pixmap(kUnits * kScale, kUnits * kScale);
+  QPixmap pixmap(kSlipLampUnits * kScale, kSlipLampUnits * kScale);
   pixmap.setDevicePixelRatio(kScale);
   pixmap.fill(Qt::transparent);
   QPainter painter(&pixmap);
@@ -55,15 +55,15 @@ QIcon lampIcon(LampLook look, Theme theme) {
     case LampLook::kOff:
       painter.setBrush(Qt::NoBrush);
       painter.setPen(QPen(color, 1.6));
-      painter.drawEllipse(kMiddle, kRadius - 1.0, kRadius - 1.0);
+      painter.drawEllipse(kSlipLampMiddle, kSlipLampRadius - 1.0, kSlipLampRadius - 1.0);
       break;
     case LampLook::kReady:
-      painter.drawEllipse(kMiddle, kRadius, kRadius);
+      painter.drawEllipse(kSlipLampMiddle, kSlipLampRadius, kSlipLampRadius);
       painter.setPen(inside);
-      painter.drawPolyline(polygon({{5.2, 8.3}, {7.2, 10.3}, {10.9, 5.9}}));
+      painter.drawPolyline(slipLampPolygon({{5.2, 8.3}, {7.2, 10.3}, {10.9, 5.9}}));
       break;
     case LampLook::kUnsure:
-      painter.drawPolygon(polygon({{8.0, 1.8}, {14.8, 14.0}, {1.2, 14.0}}));
+      painter.drawPolygon(slipLampPolygon({{8.0, 1.8}, {14.8, 14.0}, {1.2, 14.0}}));
       painter.setPen(inside);
       painter.drawLine(QPointF(8.0, 6.2), QPointF(8.0, 9.4));
       painter.drawPoint(QPointF(8.0, 12.0));
@@ -72,7 +72,7 @@ QIcon lampIcon(LampLook look, Theme theme) {
       painter.drawRoundedRect(QRectF(1.6, 1.6, 12.8, 12.8), 2.0, 2.0);
       painter.setPen(inside);
       painter.drawLine(QPointF(8.0, 4.4), QPointF(8.0, 11.4));
-      painter.drawPolyline(polygon({{5.0, 8.6}, {8.0, 11.6}, {11.0, 8.6}}));
+      painter.drawPolyline(slipLampPolygon({{5.0, 8.6}, {8.0, 11.6}, {11.0, 8.6}}));
       break;
   }
   painter.end();

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include <palpate/core/error.h>
+#include <palpate/core/time.h>
 
 #include "gui/calibrate_texts.h"
 #include "gui/captions.h"
@@ -20,15 +21,14 @@
 namespace palpate::gui {
 namespace {
 
-constexpr std::size_t kMostKept = 8;
-constexpr std::size_t kMostLive = 20'000;  // frames of a live chart
-constexpr double kUsPerS = 1e6;
+constexpr std::size_t kSlipPanelMostKept = 8;
+constexpr std::size_t kMostLive = 20'000;             // frames of a live chart
 constexpr int kListWidth = 380, kDrawingWidth = 240;  // [px] of the usual dock
 constexpr int kShortNames = 440;  // [px] of the list's width: below, matrices are "0 distal"
 constexpr double kLiveSeenS = 30.0;
 constexpr double kPictureDrawing = 0.36;  // of the width of a picture
 
-std::vector<FigureColumn> columns() {
+std::vector<FigureColumn> slipPanelColumns() {
   return {{"matrix", {}, 15, true},
           {"", "What is said of it", 10, true},
           {"step", "Motion of the last frame [taxels]", 4},
@@ -65,7 +65,7 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : CalibratePage("slip
   top().addWidget(controls_);
   auto* all = new QWidget(this);
   auto* left = new QWidget(all);
-  list_ = new FiguresTable(columns(), left);
+  list_ = new FiguresTable(slipPanelColumns(), left);
   list_->setObjectName("slipList");
   list_->setAccessibleName("Slip of every matrix");
   list_->setSingleLine();
@@ -177,7 +177,7 @@ void SlipPanel::compute() {
     const auto found = std::make_shared<const SlipSeries>(seriesOf(of->profile, options, progress));
     return [this, of, options, found] {
       kept_.push_front({of, options, found});
-      if (kept_.size() > kMostKept) kept_.pop_back();
+      if (kept_.size() > kSlipPanelMostKept) kept_.pop_back();
       take(found);
     };
   });

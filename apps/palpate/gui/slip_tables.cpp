@@ -3,16 +3,14 @@
 #include <cmath>
 
 #include <palpate/core/number_text.h>
+#include <palpate/core/time.h>
 
 namespace palpate::gui {
 namespace {
 
-constexpr double kMsPerS = 1e3;
-constexpr std::int64_t kUsPerMs = 1000;
-
 // As precise as it is kept, and no more.
-std::string text(float value) { return numberText(value); }
-std::string flag(bool value) { return value ? "1" : "0"; }
+std::string slipTablesText(float value) { return numberText(value); }
+std::string slipTablesFlag(bool value) { return value ? "1" : "0"; }
 
 std::string timeMs(const SlipSeries& series, std::size_t frame) {
   return std::to_string(series.firstUs / kUsPerMs + std::llround(series.timeS[frame] * kMsPerS));
@@ -25,7 +23,7 @@ struct Place {
 };
 
 // Frame after frame, matrix after matrix.
-std::vector<Place> placesOf(const SlipSeries& series) {
+std::vector<Place> slipTablesPlacesOf(const SlipSeries& series) {
   std::vector<Place> places;
   std::vector<std::size_t> next(series.matrices.size(), 0);
   for (std::size_t frame = 0; frame < series.timeS.size(); ++frame)
@@ -42,7 +40,7 @@ std::vector<Place> placesOf(const SlipSeries& series) {
 }  // namespace
 
 TextTable slipTable(const std::shared_ptr<const SlipSeries>& series) {
-  auto places = std::make_shared<const std::vector<Place>>(placesOf(*series));
+  auto places = std::make_shared<const std::vector<Place>>(slipTablesPlacesOf(*series));
   return {.header = {"frame",
                      "time_ms",
                      "matrix",
@@ -68,29 +66,29 @@ TextTable slipTable(const std::shared_ptr<const SlipSeries>& series) {
             const Place& place = (*places)[row];
             const SlipSample& sample = series->matrices[place.matrix][place.index];
             const auto known = [](bool is, float value) {
-              return is ? text(value) : std::string();
+              return is ? slipTablesText(value) : std::string();
             };
             return std::vector<std::string>{
                 std::to_string(place.frame),
                 timeMs(*series, place.frame),
                 std::to_string(place.matrix),
                 std::to_string(sample.active),
-                flag(sample.valid),
+                slipTablesFlag(sample.valid),
                 known(sample.valid, sample.dx),
                 known(sample.valid, sample.dy),
                 known(sample.valid && sample.refValid, sample.refDx),
                 known(sample.valid && sample.refValid, sample.refDy),
-                flag(sample.rotationValid),
+                slipTablesFlag(sample.rotationValid),
                 known(sample.rotationValid, sample.rotationDeg),
                 known(sample.rotationValid && sample.refRotationValid, sample.refRotationDeg),
-                text(sample.orientationDeg),
-                text(sample.eccentricity),
-                text(sample.roundness),
-                text(sample.residual),
-                text(sample.confidence),
+                slipTablesText(sample.orientationDeg),
+                slipTablesText(sample.eccentricity),
+                slipTablesText(sample.roundness),
+                slipTablesText(sample.residual),
+                slipTablesText(sample.confidence),
                 known(sample.pMoved >= 0.0F, sample.pMoved),
                 std::string(nameOf(sample.state)),
-                flag(sample.slipping)};
+                slipTablesFlag(sample.slipping)};
           }};
 }
 

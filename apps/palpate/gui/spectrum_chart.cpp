@@ -16,15 +16,15 @@ namespace {
 
 constexpr double kRangeDb = 60.0;  // below the strongest, nothing is told apart
 constexpr double kStepDb = 5.0;    // its end is a round figure
-constexpr double kHeadroom = 1.06;
-constexpr double kSignalShare = 0.55;  // height of the signal, the spectra having 1
-constexpr int kCursorWidth = 4;        // [px] with its edges
-constexpr int kBarWidth = 12;          // [px] of the colours
-constexpr double kWheelStep = 1.25;
-constexpr double kWheelPan = 0.1;
-constexpr double kNotch = 120.0;
-constexpr double kLongestInS = 1200.0;  // [s] as in the timeline
-constexpr int kLowBelow = 230;          // [px] the signal's axis has no room for a name
+constexpr double kSpectrumChartHeadroom = 1.06;
+constexpr double kSignalShare = 0.55;         // height of the signal, the spectra having 1
+constexpr int kSpectrumChartCursorWidth = 4;  // [px] with its edges
+constexpr int kSpectrumChartBarWidth = 12;    // [px] of the colours
+constexpr double kSpectrumChartWheelStep = 1.25;
+constexpr double kSpectrumChartWheelPan = 0.1;
+constexpr double kSpectrumChartNotch = 120.0;
+constexpr double kSpectrumChartLongestInS = 1200.0;  // [s] as in the timeline
+constexpr int kLowBelow = 230;  // [px] the signal's axis has no room for a name
 
 QCPColorGradient gradientOf(ColorMapName map) {
   QCPColorGradient gradient;
@@ -42,7 +42,10 @@ double topDb(const Spectrogram& spectrogram) {
   return std::ceil(decibels(spectrogram.largestPsd, -kRangeDb) / kStepDb) * kStepDb;
 }
 
-double cellOf(const SpectrogramPart& part, std::size_t index, SpectrumScale scale, double floorDb) {
+double spectrumChartCellOf(const SpectrogramPart& part,
+                           std::size_t index,
+                           SpectrumScale scale,
+                           double floorDb) {
   return scale == SpectrumScale::kMagnitude
              ? static_cast<double>(part.magnitude[index])
              : decibels(static_cast<double>(part.psd[index]), floorDb);
@@ -97,7 +100,7 @@ SpectrumChart::SpectrumChart(QWidget* parent) : QCustomPlot(parent) {
   colors_ = new QCPColorScale(this);
   plotLayout()->addElement(1, 1, colors_);
   colors_->setType(QCPAxis::atRight);
-  colors_->setBarWidth(kBarWidth);
+  colors_->setBarWidth(kSpectrumChartBarWidth);
   plotLayout()->setColumnStretchFactor(1, 0.001);
   auto* sides = new QCPMarginGroup(this);
   axisRect()->setMarginGroup(QCP::msLeft | QCP::msRight, sides);
@@ -146,7 +149,7 @@ void SpectrumChart::fillSignal() {
   }
   graph(0)->data()->set(samples, true);
   if (!(high > low)) high = low + 1.0;
-  yAxis->setRange(low < 0.0 ? low * kHeadroom : 0.0, high * kHeadroom);
+  yAxis->setRange(low < 0.0 ? low * kSpectrumChartHeadroom : 0.0, high * kSpectrumChartHeadroom);
 }
 
 // A map per stretch: each has its own rate, and nothing lies between them.
@@ -172,7 +175,7 @@ void SpectrumChart::fillSpectra() {
       for (std::size_t k = 0; k < all.numBins; ++k)
         map->data()->setCell(static_cast<int>(i),
                              static_cast<int>(k),
-                             cellOf(part, i * all.numBins + k, scale_, floorDb));
+                             spectrumChartCellOf(part, i * all.numBins + k, scale_, floorDb));
     map->setColorScale(colors_);
     maps_.push_back(map);
     const auto window = static_cast<double>(answer_.options.window);
@@ -235,7 +238,7 @@ void SpectrumChart::nameAxes() {
   const bool low = height() < kLowBelow;
   colors_->axis()->ticker()->setTickCount(low ? 2 : 4);
   frequency_->ticker()->setTickCount(low ? 2 : 4);
-  const bool seconds = time_->range().upper <= kLongestInS;
+  const bool seconds = time_->range().upper <= kSpectrumChartLongestInS;
   time_->setLabel(low       ? QString()
                   : seconds ? "time from the first frame in s"
                             : "time from the first frame in h:min:s");
@@ -262,12 +265,12 @@ void SpectrumChart::writeNotes() {
 
 void SpectrumChart::setSeen(double fromS, double toS) {
   for (QCPAxis* axis : {xAxis, time_}) axis->setRange(fromS, toS);
-  if (toS > kLongestInS && !time_->ticker().dynamicCast<QCPAxisTickerTime>()) {
+  if (toS > kSpectrumChartLongestInS && !time_->ticker().dynamicCast<QCPAxisTickerTime>()) {
     const QSharedPointer<QCPAxisTickerTime> clock(new QCPAxisTickerTime);
     clock->setTimeFormat("%h:%m:%s");
     clock->setTickCount(9);
     time_->setTicker(clock);
-  } else if (toS <= kLongestInS && time_->ticker().dynamicCast<QCPAxisTickerTime>()) {
+  } else if (toS <= kSpectrumChartLongestInS && time_->ticker().dynamicCast<QCPAxisTickerTime>()) {
     time_->setTicker(QSharedPointer<QCPAxisTicker>(new QCPAxisTicker));
     time_->ticker()->setTickCount(9);
   }
@@ -284,8 +287,10 @@ void SpectrumChart::placeCursor() {
   const QRect plot = axisRect()->rect();
   const int x = static_cast<int>(std::lround(xAxis->coordToPixel(positionS_)));
   const bool inside = x >= plot.left() - 1 && x <= plot.right() + 2;
-  const QRect place(
-      x - kCursorWidth / 2, plot.top(), kCursorWidth, spectra_->rect().bottom() - plot.top());
+  const QRect place(x - kSpectrumChartCursorWidth / 2,
+                    plot.top(),
+                    kSpectrumChartCursorWidth,
+                    spectra_->rect().bottom() - plot.top());
   if (cursor_->geometry() != place) cursor_->setGeometry(place);
   if (cursor_->isHidden() == inside) cursor_->setVisible(inside);
 }
@@ -359,12 +364,13 @@ void SpectrumChart::mouseDoubleClickEvent(QMouseEvent* event) {
 }
 
 void SpectrumChart::wheelEvent(QWheelEvent* event) {
-  const double notches = event->angleDelta().y() / kNotch;
-  const double sideways = event->angleDelta().x() / kNotch;
+  const double notches = event->angleDelta().y() / kSpectrumChartNotch;
+  const double sideways = event->angleDelta().x() / kSpectrumChartNotch;
   if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier)
-    emit panAsked(-(sideways != 0.0 ? sideways : notches) * kWheelPan * xAxis->range().size());
+    emit panAsked(-(sideways != 0.0 ? sideways : notches) * kSpectrumChartWheelPan *
+                  xAxis->range().size());
   else
-    emit zoomAsked(secondsAt(event->position().x()), std::pow(kWheelStep, notches));
+    emit zoomAsked(secondsAt(event->position().x()), std::pow(kSpectrumChartWheelStep, notches));
   event->accept();
 }
 

@@ -16,7 +16,8 @@ namespace {
 constexpr const char* kWindowKey = "spectrum/window";
 constexpr const char* kOverlapKey = "spectrum/overlap";
 constexpr const char* kScaleKey = "spectrum/scale";
-constexpr int kCalmMs = 120;  // so long nothing moves before a long recording is computed anew
+constexpr int kSpectrumPanelCalmMs =
+    120;  // so long nothing moves before a long recording is computed anew
 
 SpectrumSetting loaded(const QSettings& settings) {
   const SpectrumSetting usual;
@@ -88,7 +89,7 @@ SpectrumPanel::SpectrumPanel(QSettings& settings, QWidget* parent)
   column->addWidget(strip_);
   column->addWidget(pages_, 1);
   later_.setSingleShot(true);
-  later_.setInterval(kCalmMs);
+  later_.setInterval(kSpectrumPanelCalmMs);
   connect(&later_, &QTimer::timeout, this, &SpectrumPanel::ask);
   connect(header_, &SpectrumHeader::changed, this, [this] {
     const SpectrumSetting& setting = header_->setting();

@@ -11,11 +11,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kEverS = std::numeric_limits<double>::max();
+constexpr double kSpectrumWorkerEverS = std::numeric_limits<double>::max();
 constexpr std::size_t kFramesLookedAt = 4000;  // for the strongest taxel
 // How much of the work each part is.
 constexpr double kLookShare = 0.2;
-constexpr double kReadShare = 0.5;
+constexpr double kSpectrumWorkerReadShare = 0.5;
 constexpr double kToldStep = 0.02;
 
 // Part of a progress: from `base`, `share` of the whole.
@@ -123,19 +123,19 @@ SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
   }
   const SeriesChoice choice{.kind = SeriesChoice::Kind::kTaxels, .taxels = answer.taxels};
   if (!hasSeries(profile, choice)) return answer;
-  const Progress reading = part(progress, kLookShare, kReadShare);
+  const Progress reading = part(progress, kLookShare, kSpectrumWorkerReadShare);
   if (!answer.whole) {
     answer.series = std::make_shared<Series>(
         readSeries(profile, choice, question.fromS, question.toS, reading));
   } else {
     if (!kept_->series || kept_->taxels != answer.taxels) {
-      kept_->series =
-          std::make_shared<Series>(readSeries(profile, choice, -kEverS, kEverS, reading));
+      kept_->series = std::make_shared<Series>(
+          readSeries(profile, choice, -kSpectrumWorkerEverS, kSpectrumWorkerEverS, reading));
       kept_->taxels = answer.taxels;
     }
     answer.series = kept_->series;
   }
-  const double read = kLookShare + kReadShare;
+  const double read = kLookShare + kSpectrumWorkerReadShare;
   answer.spectrogram =
       std::make_shared<Spectrogram>(spectrogramOf(answer.series->timeS,
                                                   answer.series->values,

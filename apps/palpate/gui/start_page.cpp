@@ -15,8 +15,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kColumnWidth = 560;  // [px]
-constexpr int kRowHeight = 46;     // [px] of a recent file
+constexpr int kColumnWidth = 560;        // [px]
+constexpr int kStartPageRowHeight = 46;  // [px] of a recent file
 
 QFont scaled(QFont font, double factor, bool bold) {
   font.setPointSizeF(font.pointSizeF() * factor);
@@ -29,7 +29,7 @@ class RecentRow : public QPushButton {
  public:
   RecentRow(const QString& path, bool exists, QWidget* parent) : QPushButton(parent) {
     setObjectName("RecentRow");
-    setFixedHeight(kRowHeight);
+    setFixedHeight(kStartPageRowHeight);
     setEnabled(exists);
     setAccessibleName(path);
     setToolTip(path);

@@ -7,18 +7,20 @@ namespace palpate::gui {
 namespace {
 
 // Drawn in a square of 16 x 16 units.
-constexpr int kUnits = 16;
-constexpr QPointF kMiddle(8.0, 8.0);
-constexpr double kRadius = 6.5;
-constexpr double kStroke = 1.8;
+constexpr int kStateMarkUnits = 16;
+constexpr QPointF kStateMarkMiddle(8.0, 8.0);
+constexpr double kStateMarkRadius = 6.5;
+constexpr double kStateMarkStroke = 1.8;
 
-QPolygonF check() { return QPolygonF(QList<QPointF>{{5.0, 8.3}, {7.2, 10.5}, {11.2, 5.8}}); }
+QPolygonF checkStateMark() {
+  return QPolygonF(QList<QPointF>{{5.0, 8.3}, {7.2, 10.5}, {11.2, 5.8}});
+}
 QPolygonF triangle() { return QPolygonF(QList<QPointF>{{8.0, 1.8}, {15.0, 14.2}, {1.0, 14.2}}); }
 
 }  // namespace
 
 StateMark::StateMark(Theme theme, QWidget* parent) : QWidget(parent), theme_(theme) {
-  setFixedSize(kUnits, kUnits);
+  setFixedSize(kStateMarkUnits, kStateMarkUnits);
 }
 
 void StateMark::setState(State state) {
@@ -30,7 +32,7 @@ void StateMark::paintEvent(QPaintEvent*) {
   const ThemeColors& colors = colorsOf(theme_);
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
-  const QPen inside(colors.panel, kStroke, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin);
+  const QPen inside(colors.panel, kStateMarkStroke, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin);
   painter.setPen(Qt::NoPen);
   switch (state_) {
     case State::kNone:
@@ -38,14 +40,14 @@ void StateMark::paintEvent(QPaintEvent*) {
     case State::kAtWork:
       painter.setBrush(colors.muted);
       for (const double x : {3.0, 8.0, 13.0})
-        painter.drawEllipse(QPointF(x, kMiddle.y()), 1.5, 1.5);
+        painter.drawEllipse(QPointF(x, kStateMarkMiddle.y()), 1.5, 1.5);
       break;
     case State::kGood:
       painter.setBrush(colors.accent);
-      painter.drawEllipse(kMiddle, kRadius, kRadius);
+      painter.drawEllipse(kStateMarkMiddle, kStateMarkRadius, kStateMarkRadius);
       painter.setPen(inside);
       painter.setBrush(Qt::NoBrush);
-      painter.drawPolyline(check());
+      painter.drawPolyline(checkStateMark());
       break;
     case State::kWarning:
       painter.setBrush(colors.warning);
@@ -56,7 +58,7 @@ void StateMark::paintEvent(QPaintEvent*) {
       break;
     case State::kBad:
       painter.setBrush(colors.danger);
-      painter.drawEllipse(kMiddle, kRadius, kRadius);
+      painter.drawEllipse(kStateMarkMiddle, kStateMarkRadius, kStateMarkRadius);
       painter.setPen(inside);
       painter.drawLine(QPointF(5.7, 5.7), QPointF(10.3, 10.3));
       painter.drawLine(QPointF(10.3, 5.7), QPointF(5.7, 10.3));

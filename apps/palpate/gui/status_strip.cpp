@@ -5,8 +5,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kMargin = 12;  // [px]
-constexpr int kBetween = 18;
+constexpr int kStatusStripMargin = 12;  // [px]
+constexpr int kStatusStripBetween = 18;
 constexpr double kLampRadius = 4.0;
 
 }  // namespace
@@ -36,10 +36,10 @@ void StatusStrip::paintEvent(QPaintEvent*) {
   };
   const int rightWidth = advance(status_.right);
   painter.setPen(colors.text);
-  painter.drawText(QRect(width() - kMargin - rightWidth, 0, rightWidth, height()),
+  painter.drawText(QRect(width() - kStatusStripMargin - rightWidth, 0, rightWidth, height()),
                    Qt::AlignRight | Qt::AlignVCenter,
                    status_.right);
-  const int end = width() - kMargin - rightWidth - kBetween;
+  const int end = width() - kStatusStripMargin - rightWidth - kStatusStripBetween;
 
   const QColor lamp = status_.lamp == Status::Lamp::kGood      ? colors.accent
                       : status_.lamp == Status::Lamp::kWarning ? colors.warning
@@ -47,15 +47,16 @@ void StatusStrip::paintEvent(QPaintEvent*) {
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(Qt::NoPen);
   painter.setBrush(lamp);
-  painter.drawEllipse(QPointF(kMargin + kLampRadius, height() / 2.0), kLampRadius, kLampRadius);
-  int x = kMargin + static_cast<int>(2 * kLampRadius) + 7;
+  painter.drawEllipse(
+      QPointF(kStatusStripMargin + kLampRadius, height() / 2.0), kLampRadius, kLampRadius);
+  int x = kStatusStripMargin + static_cast<int>(2 * kLampRadius) + 7;
   const auto item = [&](const QString& text, const QColor& color) {
     if (text.isEmpty() || x >= end) return;
     painter.setPen(color);
     painter.drawText(QRect(x, 0, end - x, height()),
                      Qt::AlignLeft | Qt::AlignVCenter,
                      fontMetrics().elidedText(text, Qt::ElideRight, end - x));
-    x += advance(text) + kBetween;
+    x += advance(text) + kStatusStripBetween;
   };
   item(status_.state, status_.lamp == Status::Lamp::kWarning ? colors.warning : colors.text);
   // Figures get a fixed width, so that they don't dance while playing.
@@ -63,7 +64,7 @@ void StatusStrip::paintEvent(QPaintEvent*) {
     const int from = x;
     item(figure, colors.muted);
     const auto space = figure.lastIndexOf(' ');
-    x = std::max(x, from + advance(figure.left(space) + " 0000") + kBetween);
+    x = std::max(x, from + advance(figure.left(space) + " 0000") + kStatusStripBetween);
   }
   item(status_.notice, colors.text);
 }

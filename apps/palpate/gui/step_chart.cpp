@@ -13,7 +13,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kHeadroom = 1.12;
+constexpr double kStepChartHeadroom = 1.12;
 constexpr double kResidualShare = 0.42;  // height of the residuals, the data having 1
 constexpr int kFitPoints = 600;
 constexpr double kDotSize = 3.0;  // [px]
@@ -106,8 +106,8 @@ void StepChart::fill(const StepSignal& samples) {
   graph(kInflection)->data()->set(inflection, true);
   graph(kResidual)->data()->set(residuals, true);
   for (QCPAxis* axis : {xAxis, time_}) axis->setRange(0.0, endS);
-  yAxis->setRange(0.0, (high > 0.0 ? high : 1.0) * kHeadroom);
-  const double reach = most > 0.0 ? most * kHeadroom : 1.0;
+  yAxis->setRange(0.0, (high > 0.0 ? high : 1.0) * kStepChartHeadroom);
+  const double reach = most > 0.0 ? most * kStepChartHeadroom : 1.0;
   residual_->setRange(-reach, reach);
   gain_->start->setCoords(0.0, fitted.gainCounts);
   gain_->end->setCoords(endS, fitted.gainCounts);

@@ -22,11 +22,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kMatrixShare = 0.3;  // of the work: which matrix is loaded
-constexpr int kWideFrom = 1240;       // [px] table and chart side by side
+constexpr double kMatrixShare = 0.3;     // of the work: which matrix is loaded
+constexpr int kStepPageWideFrom = 1240;  // [px] table and chart side by side
 constexpr double kLarge = 1000.0;
 
-std::vector<FigureColumn> columns() {
+std::vector<FigureColumn> stepPageColumns() {
   return {
       {"begin [s]", "When the load came, from the first frame; below: frames of the step", 8},
       {"K [counts]",
@@ -41,7 +41,7 @@ std::vector<FigureColumn> columns() {
 }
 
 // As many decimals as an interval has a meaning for.
-QString plain(double value, double interval) {
+QString stepPagePlain(double value, double interval) {
   if (!std::isfinite(value)) return "–";
   const double size =
       std::isfinite(interval) && interval > 0.0 ? interval : std::abs(value) / kLarge;
@@ -51,8 +51,9 @@ QString plain(double value, double interval) {
 }
 
 FigureCell withInterval(double value, double interval) {
-  FigureCell cell{.text = plain(value, interval)};
-  cell.detail = std::isfinite(interval) ? "± " + plain(interval, interval) : QString("not known");
+  FigureCell cell{.text = stepPagePlain(value, interval)};
+  cell.detail =
+      std::isfinite(interval) ? "± " + stepPagePlain(interval, interval) : QString("not known");
   return cell;
 }
 
@@ -70,7 +71,7 @@ QStringList flagsOf(const FittedStep& step) {
 
 QString notesOf(const FittedStep& step) { return linesOf(step.notes, step.fit.notes); }
 
-std::vector<FigureCell> rowOf(const FittedStep& step, const StepSignal& signal) {
+std::vector<FigureCell> stepPageRowOf(const FittedStep& step, const StepSignal& signal) {
   const StepFit& fit = step.fit;
   const StepParameters& p = fit.parameters;
   const FigureCell none{.text = "–"};
@@ -183,7 +184,7 @@ StepPage::StepPage(QWidget* parent) : CalibratePage("steps", parent) {
   auto* column = new QVBoxLayout(left);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  table_ = new FiguresTable(columns(), left);
+  table_ = new FiguresTable(stepPageColumns(), left);
   table_->setObjectName("stepTable");
   notes_ = notesLabel("stepNotes", left);
   column->addWidget(table_, 1);
@@ -255,7 +256,7 @@ void StepPage::take(const std::shared_ptr<const FoundSteps>& found) {
                "Another matrix can be chosen above.");
   }
   std::vector<std::vector<FigureCell>> rows;
-  for (const FittedStep& step : report.steps) rows.push_back(rowOf(step, found->signal));
+  for (const FittedStep& step : report.steps) rows.push_back(stepPageRowOf(step, found->signal));
   table_->setRows(rows);
   showContent();
   const QSignalBlocker blocker(table_);  // nobody chose it: the timeline stays
@@ -314,7 +315,7 @@ void StepPage::paint(QPainter& painter, const PictureLook& look, const QString& 
 
 void StepPage::resizeEvent(QResizeEvent* event) {
   CalibratePage::resizeEvent(event);
-  const bool wide = event->size().width() >= kWideFrom;
+  const bool wide = event->size().width() >= kStepPageWideFrom;
   halves_->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
   halves_->setStretch(0, wide ? 1 : 2);
   halves_->setStretch(1, wide ? 1 : 3);

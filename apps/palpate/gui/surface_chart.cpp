@@ -17,11 +17,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kAcross = 120, kUp = 80;  // cells
-constexpr double kAir = 0.12;           // of the span, beside the samples
+constexpr int kAcross = 120, kUp = 80;     // cells
+constexpr double kSurfaceChartAir = 0.12;  // of the span, beside the samples
 constexpr double kLeastSpanDegC = 4.0;
-constexpr double kPointSize = 7.0, kChosenSize = 12.0;  // [px]
-constexpr int kBeyondAlpha = 90;                        // of 255, beyond what was measured
+constexpr double kSurfaceChartPointSize = 7.0, kChosenSize = 12.0;  // [px]
+constexpr int kBeyondAlpha = 90;  // of 255, beyond what was measured
 
 QCPColorGradient gradient() {
   QCPColorGradient colors;
@@ -89,8 +89,9 @@ void SurfaceChart::fill() {
     mostT = any ? std::max(mostT, degC) : degC;
     any = true;
   }
-  const double airK = kAir * std::max(mostK - leastK, 1.0);
-  const double airT = std::max(kAir * (mostT - leastT), 0.5 * (kLeastSpanDegC - (mostT - leastT)));
+  const double airK = kSurfaceChartAir * std::max(mostK - leastK, 1.0);
+  const double airT =
+      std::max(kSurfaceChartAir * (mostT - leastT), 0.5 * (kLeastSpanDegC - (mostT - leastT)));
   const QCPRange k(std::max(0.0, leastK - airK), mostK + airK), t(leastT - airT, mostT + airT);
   xAxis->setRange(k);
   yAxis->setRange(t);
@@ -135,10 +136,10 @@ void SurfaceChart::addPoints() {
     made->setScatterStyle(style);
     return made;
   };
-  QCPGraph* used =
-      scatter({QCPScatterStyle::ssDisc, QPen(colors.window, 1.2), colors.text, kPointSize});
-  QCPGraph* unused =
-      scatter({QCPScatterStyle::ssCross, QPen(colors.muted, 1.2), Qt::NoBrush, kPointSize});
+  QCPGraph* used = scatter(
+      {QCPScatterStyle::ssDisc, QPen(colors.window, 1.2), colors.text, kSurfaceChartPointSize});
+  QCPGraph* unused = scatter(
+      {QCPScatterStyle::ssCross, QPen(colors.muted, 1.2), Qt::NoBrush, kSurfaceChartPointSize});
   for (std::size_t s = 0; s < samples_.size(); ++s) {
     const PressureSample& sample = samples_[s];
     if (!(sample.gainCounts > 0.0)) continue;

@@ -16,18 +16,20 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kDepth = 24;  // [bits] of a colour
-constexpr double kMmPerInch = 25.4;
-constexpr double kPointsPerInch = 72.0;
+constexpr double kSvgDeviceMmPerInch = 25.4;
+constexpr double kSvgDevicePointsPerInch = 72.0;
 
 // A thousandth of a unit is finer than any printer.
-std::string text(double value) {
+std::string svgDeviceText(double value) {
   constexpr double kParts = 1000.0;
   std::string out;
   appendNumber(out, std::round(value * kParts) / kParts + 0.0);
   return out;
 }
 
-std::string pair(const QPointF& point) { return text(point.x()) + "," + text(point.y()); }
+std::string pair(const QPointF& point) {
+  return svgDeviceText(point.x()) + "," + svgDeviceText(point.y());
+}
 
 std::string escaped(const QString& plain) {
   // What XML has no place for at all would make the file unreadable.
@@ -60,22 +62,23 @@ std::string pathData(const QPainterPath& path) {
   return data;
 }
 
-std::string colorOf(const char* what, const QColor& color) {
+std::string svgDeviceColorOf(const char* what, const QColor& color) {
   std::string out = " " + std::string(what) + "=\"" + color.name().toStdString() + '"';
   if (color.alpha() < 255)
-    out += " " + std::string(what) + "-opacity=\"" + text(color.alphaF()) + '"';
+    out += " " + std::string(what) + "-opacity=\"" + svgDeviceText(color.alphaF()) + '"';
   return out;
 }
 
 std::string strokeOf(const QPen& pen) {
   if (pen.style() == Qt::NoPen) return " stroke=\"none\"";
   const double width = pen.widthF() > 0.0 ? pen.widthF() : 1.0;
-  std::string out = colorOf("stroke", pen.color()) + " stroke-width=\"" + text(width) + '"';
+  std::string out =
+      svgDeviceColorOf("stroke", pen.color()) + " stroke-width=\"" + svgDeviceText(width) + '"';
   if (pen.isCosmetic()) out += " vector-effect=\"non-scaling-stroke\"";
   if (pen.style() != Qt::SolidLine) {
     std::string dashes;
     for (const double dash : pen.dashPattern())
-      dashes += (dashes.empty() ? "" : ",") + text(dash * width);
+      dashes += (dashes.empty() ? "" : ",") + svgDeviceText(dash * width);
     out += " stroke-dasharray=\"" + dashes + '"';
   }
   out += pen.capStyle() == Qt::RoundCap    ? " stroke-linecap=\"round\""
@@ -89,17 +92,18 @@ std::string strokeOf(const QPen& pen) {
 
 std::string fillOf(const QBrush& brush) {
   if (brush.style() == Qt::NoBrush) return " fill=\"none\"";
-  return colorOf("fill",
-                 brush.gradient() && !brush.gradient()->stops().isEmpty()
-                     ? brush.gradient()->stops().first().second
-                     : brush.color());
+  return svgDeviceColorOf("fill",
+                          brush.gradient() && !brush.gradient()->stops().isEmpty()
+                              ? brush.gradient()->stops().first().second
+                              : brush.color());
 }
 
 std::string transformOf(const QTransform& transform) {
   if (transform.isIdentity()) return {};
-  return " transform=\"matrix(" + text(transform.m11()) + ' ' + text(transform.m12()) + ' ' +
-         text(transform.m21()) + ' ' + text(transform.m22()) + ' ' + text(transform.dx()) + ' ' +
-         text(transform.dy()) + ")\"";
+  return " transform=\"matrix(" + svgDeviceText(transform.m11()) + ' ' +
+         svgDeviceText(transform.m12()) + ' ' + svgDeviceText(transform.m21()) + ' ' +
+         svgDeviceText(transform.m22()) + ' ' + svgDeviceText(transform.dx()) + ' ' +
+         svgDeviceText(transform.dy()) + ")\"";
 }
 
 }  // namespace
@@ -146,8 +150,9 @@ class SvgEngine : public QPaintEngine {
     open(true);
     for (int i = 0; i < count; ++i) {
       const QRectF rect = rects[i].normalized();
-      body_ += "<rect x=\"" + text(rect.x()) + "\" y=\"" + text(rect.y()) + "\" width=\"" +
-               text(rect.width()) + "\" height=\"" + text(rect.height()) + "\"/>\n";
+      body_ += "<rect x=\"" + svgDeviceText(rect.x()) + "\" y=\"" + svgDeviceText(rect.y()) +
+               "\" width=\"" + svgDeviceText(rect.width()) + "\" height=\"" +
+               svgDeviceText(rect.height()) + "\"/>\n";
     }
   }
   void drawRects(const QRect* rects, int count) override {
@@ -160,11 +165,12 @@ class SvgEngine : public QPaintEngine {
   void drawTextItem(const QPointF& at, const QTextItem& item) override {
     openText();
     const QFont font = item.font();
-    const double size = font.pixelSize() > 0 ? font.pixelSize()
-                                             : font.pointSizeF() * unitsPerInch_ / kPointsPerInch;
-    body_ += "<text x=\"" + text(at.x()) + "\" y=\"" + text(at.y()) + "\" font-family=\"" +
-             escaped(font.family()) + ", 'DejaVu Sans', Arial, sans-serif\" font-size=\"" +
-             text(size) + '"';
+    const double size = font.pixelSize() > 0
+                            ? font.pixelSize()
+                            : font.pointSizeF() * unitsPerInch_ / kSvgDevicePointsPerInch;
+    body_ += "<text x=\"" + svgDeviceText(at.x()) + "\" y=\"" + svgDeviceText(at.y()) +
+             "\" font-family=\"" + escaped(font.family()) +
+             ", 'DejaVu Sans', Arial, sans-serif\" font-size=\"" + svgDeviceText(size) + '"';
     if (font.weight() != QFont::Normal)
       body_ += " font-weight=\"" + std::to_string(font.weight()) + '"';
     if (font.italic()) body_ += " font-style=\"italic\"";
@@ -184,9 +190,10 @@ class SvgEngine : public QPaintEngine {
     buffer.open(QIODevice::WriteOnly);
     image.copy(source.toRect()).save(&buffer, "PNG");
     const bool smooth = painter()->testRenderHint(QPainter::SmoothPixmapTransform);
-    body_ += "<image x=\"" + text(target.x()) + "\" y=\"" + text(target.y()) + "\" width=\"" +
-             text(target.width()) + "\" height=\"" + text(target.height()) +
-             "\" preserveAspectRatio=\"none\"" + (smooth ? "" : " image-rendering=\"pixelated\"") +
+    body_ += "<image x=\"" + svgDeviceText(target.x()) + "\" y=\"" + svgDeviceText(target.y()) +
+             "\" width=\"" + svgDeviceText(target.width()) + "\" height=\"" +
+             svgDeviceText(target.height()) + "\" preserveAspectRatio=\"none\"" +
+             (smooth ? "" : " image-rendering=\"pixelated\"") +
              " xlink:href=\"data:image/png;base64," + png.toBase64().toStdString() + "\"/>\n";
   }
 
@@ -198,12 +205,13 @@ class SvgEngine : public QPaintEngine {
   void open(bool filled) {
     look(strokeOf(painter()->pen()) + (filled ? fillOf(painter()->brush()) : " fill=\"none\""));
   }
-  void openText() { look(" stroke=\"none\"" + colorOf("fill", painter()->pen().color())); }
+  void openText() { look(" stroke=\"none\"" + svgDeviceColorOf("fill", painter()->pen().color())); }
 
   void look(const std::string& strokeAndFill) {
     if (clipIsOld_) useClip();
     std::string attributes = strokeAndFill + transformOf(painter()->transform());
-    if (painter()->opacity() < 1.0) attributes += " opacity=\"" + text(painter()->opacity()) + '"';
+    if (painter()->opacity() < 1.0)
+      attributes += " opacity=\"" + svgDeviceText(painter()->opacity()) + '"';
     if (lookIsOpen_ && attributes == look_) return;
     if (lookIsOpen_) body_ += "</g>\n";
     body_ += "<g" + attributes + ">\n";
@@ -266,9 +274,9 @@ int SvgDevice::metric(PaintDeviceMetric metric) const {
     case PdmHeight:
       return whole(size_.height());
     case PdmWidthMM:
-      return whole(size_.width() / unitsPerInch_ * kMmPerInch);
+      return whole(size_.width() / unitsPerInch_ * kSvgDeviceMmPerInch);
     case PdmHeightMM:
-      return whole(size_.height() / unitsPerInch_ * kMmPerInch);
+      return whole(size_.height() / unitsPerInch_ * kSvgDeviceMmPerInch);
     case PdmDpiX:
     case PdmDpiY:
     case PdmPhysicalDpiX:
@@ -287,11 +295,14 @@ int SvgDevice::metric(PaintDeviceMetric metric) const {
 }
 
 QByteArray SvgDevice::bytes() const {
-  const auto mm = [&](double units) { return text(units / unitsPerInch_ * kMmPerInch) + "mm"; };
+  const auto mm = [&](double units) {
+    return svgDeviceText(units / unitsPerInch_ * kSvgDeviceMmPerInch) + "mm";
+  };
   std::string all = "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"no\"?>\n";
   all += "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" ";
   all += "version=\"1.1\" width=\"" + mm(size_.width()) + "\" height=\"" + mm(size_.height()) +
-         "\" viewBox=\"0 0 " + text(size_.width()) + ' ' + text(size_.height()) + "\">\n";
+         "\" viewBox=\"0 0 " + svgDeviceText(size_.width()) + ' ' + svgDeviceText(size_.height()) +
+         "\">\n";
   all += "<title>" + escaped(title_) + "</title>\n<desc>" + escaped(description_) + "</desc>\n";
   all += "<defs>\n" + engine_->definitions() + "</defs>\n" + engine_->body() + "</svg>\n";
   return QByteArray::fromStdString(all);

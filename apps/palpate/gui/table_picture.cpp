@@ -9,25 +9,25 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kMargin = 12.0;     // [units]
-constexpr double kCellGap = 14.0;    // [units] least space between columns
-constexpr double kRowHeight = 1.75;  // in heights of the text
-constexpr int kSmallestText = 5;     // [units]
+constexpr double kTablePictureMargin = 12.0;     // [units]
+constexpr double kCellGap = 14.0;                // [units] least space between columns
+constexpr double kTablePictureRowHeight = 1.75;  // in heights of the text
+constexpr int kSmallestText = 5;                 // [units]
 
 // What the table takes with a font.
-struct Extent {
+struct TablePictureExtent {
   std::vector<double> columns;
   double row = 0.0;
   double title = 0.0;
   QSizeF whole;
 };
 
-Extent extentOf(const TablePicture& table, const QFont& font, bool titled) {
+TablePictureExtent tablePictureExtentOf(const TablePicture& table, const QFont& font, bool titled) {
   const QFontMetricsF metrics(font);
-  Extent extent;
-  extent.row = metrics.height() * kRowHeight;
+  TablePictureExtent extent;
+  extent.row = metrics.height() * kTablePictureRowHeight;
   extent.title = titled && !(table.title.isEmpty() && table.caption.isEmpty()) ? extent.row : 0.0;
-  double width = 2 * kMargin;
+  double width = 2 * kTablePictureMargin;
   for (qsizetype column = 0; column < table.header.size(); ++column) {
     double widest = metrics.horizontalAdvance(table.header[column]);
     for (const QStringList& row : table.rows)
@@ -35,8 +35,8 @@ Extent extentOf(const TablePicture& table, const QFont& font, bool titled) {
     extent.columns.push_back(widest);
     width += widest + (column > 0 ? kCellGap : 0.0);
   }
-  const double height =
-      extent.title + extent.row * static_cast<double>(table.rows.size() + 1) + 2 * kMargin;
+  const double height = extent.title + extent.row * static_cast<double>(table.rows.size() + 1) +
+                        2 * kTablePictureMargin;
   extent.whole = {width, height};
   return extent;
 }
@@ -52,18 +52,18 @@ void paintTable(QPainter& painter,
   QFont fitting = font;
   int size = look.textUnits > 0 ? look.textUnits : QFontInfo(font).pixelSize();
   fitting.setPixelSize(size);
-  Extent extent = extentOf(table, fitting, look.titled);
+  TablePictureExtent extent = tablePictureExtentOf(table, fitting, look.titled);
   while (size > kSmallestText &&
          (extent.whole.width() > look.size.width() || extent.whole.height() > look.size.height())) {
     fitting.setPixelSize(--size);
-    extent = extentOf(table, fitting, look.titled);
+    extent = tablePictureExtentOf(table, fitting, look.titled);
   }
   painter.save();
   painter.fillRect(QRectF(QPointF(), look.size), colors.window);
-  const double right = look.size.width() - kMargin;
-  double y = kMargin / 2;
+  const double right = look.size.width() - kTablePictureMargin;
+  double y = kTablePictureMargin / 2;
   if (extent.title > 0.0) {
-    const QRectF line(kMargin, y, right - kMargin, extent.row);
+    const QRectF line(kTablePictureMargin, y, right - kTablePictureMargin, extent.row);
     QFont bold = fitting;
     bold.setBold(true);
     painter.setFont(bold);
@@ -81,7 +81,7 @@ void paintTable(QPainter& painter,
   const double gap = kCellGap + (columns > 1 ? spare / (columns - 1) : 0.0);
   const auto paintRow = [&](const QStringList& cells, const QColor& color) {
     painter.setPen(color);
-    double x = kMargin;
+    double x = kTablePictureMargin;
     for (std::size_t column = 0; column < extent.columns.size(); ++column) {
       const QRectF cell(x, y, extent.columns[column], extent.row);
       const auto side = column == 0 ? Qt::AlignLeft : Qt::AlignRight;
@@ -92,7 +92,7 @@ void paintTable(QPainter& painter,
     }
     y += extent.row;
     painter.setPen(QPen(look.forPrint ? colors.muted : colors.border, 0.5));
-    painter.drawLine(QPointF(kMargin, y), QPointF(right, y));
+    painter.drawLine(QPointF(kTablePictureMargin, y), QPointF(right, y));
   };
   paintRow(table.header, look.forPrint ? colors.text : colors.muted);
   for (const QStringList& row : table.rows) paintRow(row, colors.text);

@@ -22,9 +22,9 @@ constexpr int kMostThreshold = 4095;       // [counts]
 constexpr int kMostUsefulThreshold = 600;  // of the slider
 constexpr const char* kPick = "Saved settings…";
 
-enum Column { kSquare, kName, kSensitivity, kThreshold };
+enum TactileSettingsPanelColumn { kSquare, kName, kSensitivity, kThreshold };
 
-QLabel* caption(const QString& text, QWidget* parent) {
+QLabel* tactileSettingsPanelCaption(const QString& text, QWidget* parent) {
   auto* label = new QLabel(text, parent);
   label->setProperty("role", "muted");
   return label;
@@ -42,15 +42,15 @@ TactileSettingsPanel::TactileSettingsPanel(QSettings& settings, QWidget* parent)
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setHorizontalSpacing(8);
   grid->setVerticalSpacing(4);
-  grid->addWidget(caption("matrix", table_), 0, kName);
-  grid->addWidget(caption("sensitivity", table_), 0, kSensitivity);
-  grid->addWidget(caption("threshold, counts", table_), 0, kThreshold);
+  grid->addWidget(tactileSettingsPanelCaption("matrix", table_), 0, kName);
+  grid->addWidget(tactileSettingsPanelCaption("sensitivity", table_), 0, kSensitivity);
+  grid->addWidget(tactileSettingsPanelCaption("threshold, counts", table_), 0, kThreshold);
   grid->setColumnStretch(kSensitivity, 1);
   grid->setColumnStretch(kThreshold, 1);
   makeRow(0, "all");
   for (const MatrixDescription& matrix : sdh2().matrices)
     makeRow(static_cast<int>(rows_.size()), QString::fromStdString(matrix.shortName));
-  note_ = caption({}, this);
+  note_ = tactileSettingsPanelCaption({}, this);
   note_->setMinimumHeight(fontMetrics().lineSpacing());  // nothing jumps when it says something
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);

@@ -16,7 +16,7 @@
 namespace palpate::gui {
 namespace {
 
-std::vector<FigureColumn> columns() {
+std::vector<FigureColumn> tarePageColumns() {
   return {{"matrix", {}, 16, true},
           {"unloaded", "Time in which nothing touches it; below: windows", 10},
           {"largest zero", "Of its taxels [counts]", 10},
@@ -24,24 +24,26 @@ std::vector<FigureColumn> columns() {
           {"", "What is missing", 16, true}};
 }
 
-double secondsOf(const UnloadedWindow& window, const OpenedRecording& of) {
+double tarePageSecondsOf(const UnloadedWindow& window, const OpenedRecording& of) {
   return of.timeAt(window.end) - of.timeAt(window.begin);
 }
 
-double secondsOf(const MatrixTare& tare, const OpenedRecording& of) {
+double tarePageSecondsOf(const MatrixTare& tare, const OpenedRecording& of) {
   double sum = 0.0;
-  for (const UnloadedWindow& window : tare.windows) sum += secondsOf(window, of);
+  for (const UnloadedWindow& window : tare.windows) sum += tarePageSecondsOf(window, of);
   return sum;
 }
 
-QString nameOf(std::size_t matrix, const OpenedRecording& of) {
+QString tarePageNameOf(std::size_t matrix, const OpenedRecording& of) {
   return QString::fromStdString(of.profile.hand().matrixName(matrix));
 }
 
-std::vector<FigureCell> rowOf(std::size_t m, const MatrixTare& tare, const OpenedRecording& of) {
+std::vector<FigureCell> tarePageRowOf(std::size_t m,
+                                      const MatrixTare& tare,
+                                      const OpenedRecording& of) {
   const auto count = static_cast<int>(tare.windows.size());
   if (!tare.valid)
-    return {{.text = nameOf(m, of)},
+    return {{.text = tarePageNameOf(m, of)},
             {.text = "–"},
             {.text = "–"},
             {.text = "–"},
@@ -49,8 +51,8 @@ std::vector<FigureCell> rowOf(std::size_t m, const MatrixTare& tare, const Opene
              .detail = QString::fromStdString(tare.note),
              .tip = QString::fromStdString(tare.note),
              .warning = true}};
-  return {{.text = nameOf(m, of)},
-          {.text = figure(secondsOf(tare, of), 1) + " s",
+  return {{.text = tarePageNameOf(m, of)},
+          {.text = figure(tarePageSecondsOf(tare, of), 1) + " s",
            .detail = QString::number(count) + (count == 1 ? " window" : " windows")},
           {.text = figure(tare.largestZero, 1)},
           {.text = QString::number(tare.raisedTaxels)},
@@ -72,7 +74,7 @@ TextTable matrixTable(const std::shared_ptr<const Tare>& tare, const OpenedRecor
             return std::vector<std::string>{std::to_string(row),
                                             matrix.valid ? "1" : "0",
                                             std::to_string(matrix.windows.size()),
-                                            numberText(secondsOf(matrix, *of)),
+                                            numberText(tarePageSecondsOf(matrix, *of)),
                                             numberText(matrix.largestZero),
                                             std::to_string(matrix.raisedTaxels),
                                             matrix.note};
@@ -134,7 +136,7 @@ TarePage::TarePage(QWidget* parent) : CalibratePage("tare", parent) {
   row->addWidget(keep_);
   top().addLayout(row);
   auto* content = new QWidget(this);
-  table_ = new FiguresTable(columns(), content);
+  table_ = new FiguresTable(tarePageColumns(), content);
   table_->setObjectName("tareTable");
   notes_ = notesLabel("tareNotes", content);
   notes_->setText(
@@ -152,7 +154,7 @@ TarePage::TarePage(QWidget* parent) : CalibratePage("tare", parent) {
     const auto& windows = found_->matrices[static_cast<std::size_t>(chosen)].windows;
     if (windows.empty()) return;
     const auto longest = std::max_element(windows.begin(), windows.end(), [&](auto& a, auto& b) {
-      return secondsOf(a, *recording()) < secondsOf(b, *recording());
+      return tarePageSecondsOf(a, *recording()) < tarePageSecondsOf(b, *recording());
     });
     emit spanChosen(recording()->timeAt(longest->begin), recording()->timeAt(longest->end));
   });
@@ -182,7 +184,8 @@ void TarePage::take(const std::shared_ptr<const Tare>& found) {
                "\n\nA zero needs a second in which nothing touches a matrix.");
   }
   std::vector<std::vector<FigureCell>> rows;
-  for (std::size_t m = 0; m < all.size(); ++m) rows.push_back(rowOf(m, all[m], *recording()));
+  for (std::size_t m = 0; m < all.size(); ++m)
+    rows.push_back(tarePageRowOf(m, all[m], *recording()));
   table_->setRows(rows);
   showContent();
 }
@@ -221,8 +224,8 @@ void TarePage::paint(QPainter& painter, const PictureLook& look, const QString& 
       .header = {"matrix", "unloaded in s", "windows", "largest zero in counts", "taxels"}};
   for (std::size_t m = 0; m < found_->matrices.size(); ++m) {
     const MatrixTare& tare = found_->matrices[m];
-    picture.rows.push_back({nameOf(m, *recording()),
-                            tare.valid ? figure(secondsOf(tare, *recording()), 1) : "–",
+    picture.rows.push_back({tarePageNameOf(m, *recording()),
+                            tare.valid ? figure(tarePageSecondsOf(tare, *recording()), 1) : "–",
                             QString::number(tare.windows.size()),
                             tare.valid ? figure(tare.largestZero, 1) : "–",
                             QString::number(tare.raisedTaxels)});

@@ -5,7 +5,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr const char* kKey = "taxel_groups";
+constexpr const char* kTaxelGroupsKey = "taxel_groups";
 
 QString tidy(const QString& name) { return name.simplified().left(TaxelGroups::kLongestName); }
 
@@ -13,7 +13,7 @@ QString tidy(const QString& name) { return name.simplified().left(TaxelGroups::k
 
 TaxelGroups::TaxelGroups(QSettings& settings, QObject* parent)
     : QObject(parent), settings_(settings) {
-  const int count = std::min(settings_.beginReadArray(kKey), kMost);
+  const int count = std::min(settings_.beginReadArray(kTaxelGroupsKey), kMost);
   for (int i = 0; i < count; ++i) {
     settings_.setArrayIndex(i);
     Kept kept{tidy(settings_.value("name").toString()), settings_.value("taxels").toString()};
@@ -65,8 +65,8 @@ void TaxelGroups::forget(const QString& name) {
 }
 
 void TaxelGroups::store() {
-  settings_.remove(kKey);
-  settings_.beginWriteArray(kKey, static_cast<int>(kept_.size()));
+  settings_.remove(kTaxelGroupsKey);
+  settings_.beginWriteArray(kTaxelGroupsKey, static_cast<int>(kept_.size()));
   for (std::size_t i = 0; i < kept_.size(); ++i) {
     settings_.setArrayIndex(static_cast<int>(i));
     settings_.setValue("name", kept_[i].name);

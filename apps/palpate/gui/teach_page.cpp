@@ -14,10 +14,10 @@
 namespace palpate::gui {
 namespace {
 
-using State = TaughtClip::State;
+using TeachPageState = TaughtClip::State;
 constexpr int kFewGrasps = 5;  // of an object: blocks can't examine it
 
-std::vector<FigureColumn> objectColumns() {
+std::vector<FigureColumn> teachPageObjectColumns() {
   return {
       {"object", {}, 18, true}, {"grasps", "In the folder", 7}, {"", "What is missing", 14, true}};
 }
@@ -31,15 +31,15 @@ std::vector<FigureColumn> clipColumns() {
 
 QString stateText(const TaughtClip& clip) {
   switch (clip.state) {
-    case State::kWaiting:
+    case TeachPageState::kWaiting:
       return "waits: " + clip.trouble;
-    case State::kSaving:
+    case TeachPageState::kSaving:
       return "being written";
-    case State::kAccepted:
+    case TeachPageState::kAccepted:
       return "accepted";
-    case State::kTakenOut:
+    case TeachPageState::kTakenOut:
       return "taken out";
-    case State::kFailed:
+    case TeachPageState::kFailed:
       break;
   }
   return "not written: " + clip.trouble;
@@ -61,7 +61,7 @@ TeachPage::TeachPage(TeachingDesk& desk, QWidget* parent) : QWidget(parent), des
   folder_->setObjectName("teachFolderName");
   folder_->setTextFormat(Qt::PlainText);
   folder_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  objects_ = new FiguresTable(objectColumns(), this);
+  objects_ = new FiguresTable(teachPageObjectColumns(), this);
   objects_->setObjectName("teachObjects");
   objects_->setSingleLine();
   object_ = new QLineEdit(this);
@@ -177,7 +177,8 @@ void TeachPage::showClips() {
   std::vector<std::vector<FigureCell>> rows;
   const auto& clips = desk_.clips();
   for (auto clip = clips.rbegin(); clip != clips.rend(); ++clip) {
-    const bool odd = clip->state == State::kWaiting || clip->state == State::kFailed;
+    const bool odd =
+        clip->state == TeachPageState::kWaiting || clip->state == TeachPageState::kFailed;
     rows.push_back({{.text = clip->object},
                     {.text = figure(clip->seconds, 1)},
                     {.text = figure(clip->quality, 2), .warning = odd},
@@ -210,19 +211,20 @@ void TeachPage::showState() {
                   : object().isEmpty()         ? QString("What will be grasped?")
                                                : QString());
   const int clip = chosenClip();
-  const State state =
-      clip < 0 ? State::kSaving : desk_.clips()[static_cast<std::size_t>(clip)].state;
-  act_->setEnabled(state != State::kSaving);
-  act_->setText(clip < 0 || state == State::kAccepted || state == State::kSaving ? "Undo"
-                : state == State::kTakenOut                                      ? "Put back"
-                                                                                 : "Accept");
+  const TeachPageState state =
+      clip < 0 ? TeachPageState::kSaving : desk_.clips()[static_cast<std::size_t>(clip)].state;
+  act_->setEnabled(state != TeachPageState::kSaving);
+  act_->setText(clip < 0 || state == TeachPageState::kAccepted || state == TeachPageState::kSaving
+                    ? "Undo"
+                : state == TeachPageState::kTakenOut ? "Put back"
+                                                     : "Accept");
 }
 
 void TeachPage::actOnClip() {
   const int clip = chosenClip();
   if (clip < 0) return;
   const auto index = static_cast<std::size_t>(clip);
-  if (desk_.clips()[index].state == State::kAccepted)
+  if (desk_.clips()[index].state == TeachPageState::kAccepted)
     desk_.takeOut(index);
   else
     desk_.accept(index);

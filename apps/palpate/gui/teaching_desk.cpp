@@ -18,10 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFolderKey = "recognise/folder";
+constexpr const char* kTeachingDeskFolderKey = "recognise/folder";
 constexpr double kGoodQuality = 0.5;  // from here on a clip is taken without asking
 constexpr std::size_t kBlocks = 5, kSplits = 10;
-constexpr double kUsPerS = 1e6;
 
 // The classifier that carries over to another day.
 PipelineOptions gauss() {
@@ -40,7 +39,7 @@ fs::path takenOutFolder(const fs::path& folder) {
   return folder.parent_path() / (folder.filename().string() + "_taken_out");
 }
 
-fs::path freePlace(const fs::path& wanted) {
+fs::path teachingDeskFreePlace(const fs::path& wanted) {
   fs::path place = wanted;
   for (int i = 2; fs::exists(place); ++i)
     place = wanted.parent_path() /
@@ -52,7 +51,7 @@ fs::path freePlace(const fs::path& wanted) {
 
 TeachingDesk::TeachingDesk(QSettings& settings, QObject* parent)
     : QObject(parent), settings_(settings) {
-  folder_ = settings.value(kFolderKey).toString().toStdString();
+  folder_ = settings.value(kTeachingDeskFolderKey).toString().toStdString();
   connect(&job_, &BackgroundJob::failed, this, &TeachingDesk::failed);
   connect(&saving_, &BackgroundJob::failed, this, &TeachingDesk::failed);
 }
@@ -61,7 +60,7 @@ void TeachingDesk::setFolder(const fs::path& folder) {
   fs::path plain = folder.lexically_normal();
   if (!plain.has_filename()) plain = plain.parent_path();
   folder_ = plain;
-  settings_.setValue(kFolderKey, QString::fromStdString(plain.string()));
+  settings_.setValue(kTeachingDeskFolderKey, QString::fromStdString(plain.string()));
   table_.reset();
   clips_.clear();
   checked_.reset();
@@ -154,7 +153,7 @@ void TeachingDesk::save(std::size_t index) {
           const fs::path place = objectFolder(folder, object);
           fs::create_directories(place);
           if (!from.empty()) {  // it was taken out
-            written->path = freePlace(place / from.filename());
+            written->path = teachingDeskFreePlace(place / from.filename());
             fs::rename(from, written->path);
             return;
           }
@@ -197,7 +196,7 @@ void TeachingDesk::takeOut(std::size_t index) {
   try {
     const fs::path place = takenOutFolder(folder_) / objectFolder(folder_, clip.object).filename();
     fs::create_directories(place);
-    const fs::path to = freePlace(place / clip.path.filename());
+    const fs::path to = teachingDeskFreePlace(place / clip.path.filename());
     fs::rename(clip.path, to);
     clip.path = to;
     clip.state = TaughtClip::State::kTakenOut;

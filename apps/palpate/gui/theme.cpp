@@ -36,7 +36,7 @@ QPalette paletteOf(Theme theme) {
 }
 
 // @name stands for a colour of the theme.
-constexpr const char* kStyle = R"(
+constexpr const char* kThemeStyle = R"(
 QMainWindow::separator { background: @border; width: 1px; height: 1px; }
 QMainWindow::separator:hover { background: @accent; }
 QMenuBar { background: @panel; border-bottom: 1px solid @border; padding: 1px 6px; }
@@ -110,7 +110,7 @@ QToolButton[recording="true"] { background: @dangerSoft; border: 1px solid @dang
 
 QString styleOf(Theme theme) {
   const ThemeColors& colors = colorsOf(theme);
-  QString style = kStyle;
+  QString style = kThemeStyle;
   // Longer names first: @accentSoft begins with @accent.
   const std::pair<const char*, QColor> names[] = {{"@accentSoft", colors.accentSoft},
                                                   {"@dangerSoft", colors.dangerSoft},

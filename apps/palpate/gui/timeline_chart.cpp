@@ -8,17 +8,17 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kFaint = 110;              // opacity of what stands behind, of 255
-constexpr double kEmptyDurationS = 1.0;  // axis of a recording without extent
-constexpr double kShortestSeenS = 0.05;
-constexpr double kHeadroom = 1.06;  // the highest curve stays below the frame
-constexpr double kAir = 0.08;       // beside a span that is shown, part of it
-constexpr int kCursorWidth = 2;     // [px]
-constexpr double kPageRest = 0.1;   // part of the old page that a new page starts with
+constexpr int kTimelineChartFaint = 110;  // opacity of what stands behind, of 255
+constexpr double kEmptyDurationS = 1.0;   // axis of a recording without extent
+constexpr double kTimelineChartShortestSeenS = 0.05;
+constexpr double kTimelineChartHeadroom = 1.06;  // the highest curve stays below the frame
+constexpr double kTimelineChartAir = 0.08;       // beside a span that is shown, part of it
+constexpr int kTimelineChartCursorWidth = 2;     // [px]
+constexpr double kTimelineChartPageRest = 0.1;   // part of the old page that a new page starts with
 constexpr std::size_t kMostGapMarks = 2000;
-constexpr int kHandleWidth = 3;         // [px]
-constexpr double kLongestInS = 1200.0;  // [s] a longer view tells time as h:min:s
-constexpr double kFewSecondsS = 8.0;    // [s] seen, where its ticks need parts of a second
+constexpr int kHandleWidth = 3;                      // [px]
+constexpr double kTimelineChartLongestInS = 1200.0;  // [s] a longer view tells time as h:min:s
+constexpr double kFewSecondsS = 8.0;  // [s] seen, where its ticks need parts of a second
 
 QWidget* overlay(QWidget* parent, const char* name) {
   auto* widget = new QWidget(parent);
@@ -60,7 +60,7 @@ TimelineChart::TimelineChart(QWidget* parent) : QCustomPlot(parent) {
 
 double TimelineChart::durationS() const {
   if (!recording_ || recording_->profile.numFrames() == 0) return kEmptyDurationS;
-  return std::max(recording_->durationS(), kShortestSeenS);
+  return std::max(recording_->durationS(), kTimelineChartShortestSeenS);
 }
 
 void TimelineChart::setRecording(const OpenedRecordingPtr& recording) {
@@ -144,7 +144,7 @@ void TimelineChart::rebuildGraphs() {
     QCPGraph* behind = addGraph(xAxis, axisFor(curve));
     QPen faint = curve.pen;
     QColor color = faint.color();
-    color.setAlpha(kFaint);
+    color.setAlpha(kTimelineChartFaint);
     faint.setColor(color);
     faint.setWidthF(1.0);
     behind->setPen(faint);
@@ -192,7 +192,7 @@ void TimelineChart::scaleAxes() {
     auto [low, high] = extent.value_or(std::pair(0.0, 0.0));
     if (fromZero) low = std::min(low, 0.0);
     if (!(high > low)) high = low + 1.0;
-    const double air = (high - low) * (kHeadroom - 1.0);
+    const double air = (high - low) * (kTimelineChartHeadroom - 1.0);
     axis->setRange(fromZero && low == 0.0 ? 0.0 : low - air, high + air);
   }
   if (axes_.empty()) yAxis->setRange(0.0, 1.0);
@@ -233,8 +233,8 @@ void TimelineChart::setPosition(double seconds) {
   const bool out = seconds < range.lower || seconds > range.upper;
   if (recording_ && drag_ == Drag::kNone && out) {
     const double span = range.size();
-    const double from =
-        seconds > range.upper ? seconds - kPageRest * span : seconds - (1.0 - kPageRest) * span;
+    const double from = seconds > range.upper ? seconds - kTimelineChartPageRest * span
+                                              : seconds - (1.0 - kTimelineChartPageRest) * span;
     setSeen(from, from + span);
   }
   placeCursor();
@@ -244,7 +244,8 @@ void TimelineChart::placeCursor() {
   const QRect plot = axisRect()->rect();
   const int x = static_cast<int>(std::lround(pixelOf(positionS_)));
   const bool inside = recording_ && x >= plot.left() - 1 && x <= plot.right() + 2;
-  const QRect place(x - kCursorWidth / 2, plot.top(), kCursorWidth, plot.height());
+  const QRect place(
+      x - kTimelineChartCursorWidth / 2, plot.top(), kTimelineChartCursorWidth, plot.height());
   if (cursor_->geometry() != place) cursor_->setGeometry(place);
   if (cursor_->isHidden() == inside) cursor_->setVisible(inside);
 }
@@ -282,7 +283,8 @@ void TimelineChart::placeSelection() {
 
 void TimelineChart::setSeen(double from, double to) {
   const double duration = durationS();
-  const double span = std::clamp(to - from, std::min(kShortestSeenS, duration), duration);
+  const double span =
+      std::clamp(to - from, std::min(kTimelineChartShortestSeenS, duration), duration);
   const double start = std::clamp(from, 0.0, duration - span);
   xAxis->setRange(start, start + span);
   nameTime();
@@ -293,7 +295,7 @@ void TimelineChart::setSeen(double from, double to) {
 
 // Hours aren't read in seconds.
 void TimelineChart::nameTime() {
-  const bool seconds = seen().upper <= kLongestInS;
+  const bool seconds = seen().upper <= kTimelineChartLongestInS;
   if (seconds)
     xAxis->setTicker(secondsTicker_);
   else
@@ -311,14 +313,15 @@ void TimelineChart::zoom(double factor) {
 }
 
 void TimelineChart::showSpan(const TimeSpan& span) {
-  const double air = std::max((span.toS - span.fromS) * kAir, kShortestSeenS / 2);
+  const double air =
+      std::max((span.toS - span.fromS) * kTimelineChartAir, kTimelineChartShortestSeenS / 2);
   setSeen(span.fromS - air, span.toS + air);
 }
 
 void TimelineChart::zoomAbout(double seconds, double factor) {
   const QCPRange range = xAxis->range();
-  const double span =
-      std::clamp(range.size() / factor, std::min(kShortestSeenS, durationS()), durationS());
+  const double span = std::clamp(
+      range.size() / factor, std::min(kTimelineChartShortestSeenS, durationS()), durationS());
   const double share = (seconds - range.lower) / range.size();
   setSeen(seconds - share * span, seconds + (1.0 - share) * span);
 }

@@ -9,9 +9,9 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kStroke = 18;      // [px] length of a stroke
-constexpr int kAfterStroke = 6;  // [px]
-constexpr int kAfterName = 16;   // [px]
+constexpr int kTimelineHeaderStroke = 18;  // [px] length of a stroke
+constexpr int kAfterStroke = 6;            // [px]
+constexpr int kAfterName = 16;             // [px]
 
 }  // namespace
 
@@ -30,7 +30,8 @@ void Legend::setEntries(std::vector<Entry> entries, Theme theme) {
 QSize Legend::sizeHint() const {
   int width = 0;
   for (const Entry& entry : entries_)
-    width += kStroke + kAfterStroke + fontMetrics().horizontalAdvance(entry.name) + kAfterName;
+    width += kTimelineHeaderStroke + kAfterStroke + fontMetrics().horizontalAdvance(entry.name) +
+             kAfterName;
   return {width, fontMetrics().height() + 2};
 }
 
@@ -41,7 +42,7 @@ void Legend::paintEvent(QPaintEvent*) {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& entry = entries_[i];
     const int nameWidth = fontMetrics().horizontalAdvance(entry.name);
-    const int needed = kStroke + kAfterStroke + nameWidth;
+    const int needed = kTimelineHeaderStroke + kAfterStroke + nameWidth;
     if (x + needed > width() - (i + 1 < entries_.size() ? more + kAfterName : 0)) {
       painter.setPen(colorsOf(theme_).muted);
       painter.drawText(QRect(x, 0, width() - x, height()), Qt::AlignVCenter, "…");
@@ -51,8 +52,8 @@ void Legend::paintEvent(QPaintEvent*) {
     pen.setWidthF(3.0);
     pen.setCapStyle(Qt::FlatCap);
     painter.setPen(pen);
-    painter.drawLine(x, height() / 2, x + kStroke, height() / 2);
-    x += kStroke + kAfterStroke;
+    painter.drawLine(x, height() / 2, x + kTimelineHeaderStroke, height() / 2);
+    x += kTimelineHeaderStroke + kAfterStroke;
     painter.setPen(colorsOf(theme_).text);
     painter.drawText(QRect(x, 0, nameWidth + 2, height()), Qt::AlignVCenter, entry.name);
     x += nameWidth + kAfterName;

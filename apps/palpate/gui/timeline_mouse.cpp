@@ -12,9 +12,9 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kWheelStep = 1.25;   // zoom per notch
-constexpr double kNotch = 120.0;      // angleDelta of one notch
-constexpr double kWheelPan = 0.1;     // part of what is seen per notch
+constexpr double kTimelineMouseWheelStep = 1.25;  // zoom per notch
+constexpr double kTimelineMouseNotch = 120.0;     // angleDelta of one notch
+constexpr double kTimelineMouseWheelPan = 0.1;    // part of what is seen per notch
 constexpr double kHandleReach = 6.0;  // [px] beside a handle or the cursor that still take it
 
 }  // namespace
@@ -104,14 +104,15 @@ void TimelineChart::mouseDoubleClickEvent(QMouseEvent* event) {
 
 void TimelineChart::wheelEvent(QWheelEvent* event) {
   if (!recording_) return;
-  const double notches = event->angleDelta().y() / kNotch;
-  const double sideways = event->angleDelta().x() / kNotch;
+  const double notches = event->angleDelta().y() / kTimelineMouseNotch;
+  const double sideways = event->angleDelta().x() / kTimelineMouseNotch;
   if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier) {
     const QCPRange range = xAxis->range();
-    const double moved = -(sideways != 0.0 ? sideways : notches) * kWheelPan * range.size();
+    const double moved =
+        -(sideways != 0.0 ? sideways : notches) * kTimelineMouseWheelPan * range.size();
     setSeen(range.lower + moved, range.upper + moved);
   } else {
-    zoomAbout(secondsAt(event->position().x()), std::pow(kWheelStep, notches));
+    zoomAbout(secondsAt(event->position().x()), std::pow(kTimelineMouseWheelStep, notches));
   }
   event->accept();
 }

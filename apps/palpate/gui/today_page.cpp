@@ -19,10 +19,11 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kFarthestMm = 20.0;
-using Kind = OffsetChoice::Kind;
-constexpr std::array kKinds = {Kind::kModel, Kind::kNone, Kind::kBatch, Kind::kGiven};
+using TodayPageKind = OffsetChoice::Kind;
+constexpr std::array kKinds = {
+    TodayPageKind::kModel, TodayPageKind::kNone, TodayPageKind::kBatch, TodayPageKind::kGiven};
 
-std::vector<FigureColumn> columns() {
+std::vector<FigureColumn> todayPageColumns() {
   return {{"time", "UTC", 8, true},
           {"recognised as", {}, 14, true},
           {"p", {}, 5},
@@ -54,7 +55,7 @@ TodayPage::TodayPage(RecogniseDesk& desk, QWidget* parent) : QWidget(parent), de
   typed_->setSuffix(" mm");
   zero_ = new QPushButton("Zero: close the empty hand", this);
   zero_->setObjectName("todayZero");
-  grasps_ = new FiguresTable(columns(), this);
+  grasps_ = new FiguresTable(todayPageColumns(), this);
   grasps_->setObjectName("todayGrasps");
   grasps_->setSingleLine();
   forget_ = new QPushButton("Forget today", this);
@@ -108,8 +109,8 @@ TodayPage::TodayPage(RecogniseDesk& desk, QWidget* parent) : QWidget(parent), de
 }
 
 void TodayPage::choose() {
-  const Kind kind = kKinds[static_cast<std::size_t>(source_->currentIndex())];
-  typed_->setEnabled(kind == Kind::kGiven);
+  const TodayPageKind kind = kKinds[static_cast<std::size_t>(source_->currentIndex())];
+  typed_->setEnabled(kind == TodayPageKind::kGiven);
   desk_.changeDay([&](RecognitionDay& day) { day.choose({kind, typed_->value()}); });
 }
 
@@ -149,8 +150,8 @@ void TodayPage::showDay() {
     const QSignalBlocker first(source_), second(typed_);
     for (std::size_t i = 0; i < kKinds.size(); ++i)
       if (kKinds[i] == day->choice().kind) source_->setCurrentIndex(static_cast<int>(i));
-    typed_->setEnabled(day->choice().kind == Kind::kGiven);
-    if (day->choice().kind == Kind::kGiven) typed_->setValue(day->choice().mm);
+    typed_->setEnabled(day->choice().kind == TodayPageKind::kGiven);
+    if (day->choice().kind == TodayPageKind::kGiven) typed_->setValue(day->choice().mm);
   }
   std::vector<std::vector<FigureCell>> rows;
   const auto& grasps = day->grasps();

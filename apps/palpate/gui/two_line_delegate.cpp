@@ -5,15 +5,15 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kPadding = 5;  // [px] above and below the text
-constexpr int kIndent = 10;  // [px]
-constexpr int kLeading = 1;  // [px] between the lines
+constexpr int kTwoLineDelegatePadding = 5;  // [px] above and below the text
+constexpr int kIndent = 10;                 // [px]
+constexpr int kLeading = 1;                 // [px] between the lines
 
 }  // namespace
 
 QSize TwoLineDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIndex&) const {
   // No width: long names are cut in the middle, the list doesn't grow with them.
-  return {0, 2 * option.fontMetrics.height() + kLeading + 2 * kPadding};
+  return {0, 2 * option.fontMetrics.height() + kLeading + 2 * kTwoLineDelegatePadding};
 }
 
 void TwoLineDelegate::paint(QPainter* painter,
@@ -29,7 +29,8 @@ void TwoLineDelegate::paint(QPainter* painter,
     painter->fillRect(QRect(option.rect.topLeft(), QSize(kBar, option.rect.height())),
                       focused ? colors.accent : colors.border);
   }
-  const QRect text = option.rect.adjusted(kIndent, kPadding, -kIndent, -kPadding);
+  const QRect text =
+      option.rect.adjusted(kIndent, kTwoLineDelegatePadding, -kIndent, -kTwoLineDelegatePadding);
   const QFontMetrics& metrics = option.fontMetrics;
   painter->setFont(option.font);
   painter->setPen(colors.text);

@@ -12,11 +12,13 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kIgnored = "recording/ignored";
-constexpr qsizetype kMostIgnored = 500;  // the oldest are forgotten
-constexpr double kSmallestNews = 0.01;   // progress is reported in steps of this
+constexpr qsizetype kMostIgnored = 500;                 // the oldest are forgotten
+constexpr double kUnfinishedFinderSmallestNews = 0.01;  // progress is reported in steps of this
 
 std::string narrow(const QString& path) { return path.toStdString(); }
-QString wide(const std::filesystem::path& path) { return QString::fromStdString(path.string()); }
+QString unfinishedFinderWide(const std::filesystem::path& path) {
+  return QString::fromStdString(path.string());
+}
 
 // A recording as it was then; when it changes it is another one.
 QString entryOf(const QString& path, std::int64_t changedUs) {
@@ -24,7 +26,7 @@ QString entryOf(const QString& path, std::int64_t changedUs) {
 }
 QString pathOf(const QString& entry) { return entry.section(' ', 1); }
 
-QString messageOf(const std::exception& error, const QString& path) {
+QString unfinishedFinderMessageOf(const std::exception& error, const QString& path) {
   if (dynamic_cast<const std::bad_alloc*>(&error))
     return path + ": too large for this computer's memory";
   return QString::fromUtf8(error.what());
@@ -96,7 +98,7 @@ UnfinishedFinder::Report UnfinishedFinder::lookInto(const QString& folder,
   } catch (const Cancelled&) {
     return [] {};
   } catch (const std::exception& error) {
-    const QString message = messageOf(error, folder);
+    const QString message = unfinishedFinderMessageOf(error, folder);
     return [this, folder, message] {
       emit failed(folder, message);
       emit found({});
@@ -110,7 +112,7 @@ UnfinishedFinder::Report UnfinishedFinder::recoverAll(const QStringList& paths,
   for (qsizetype i = 0; i < paths.size() && !cancelled; ++i) {
     const auto progress = [&](double fraction) {
       const double now = (static_cast<double>(i) + fraction) / static_cast<double>(paths.size());
-      if (now - told >= kSmallestNews) {
+      if (now - told >= kUnfinishedFinderSmallestNews) {
         told = now;
         tell([this, now] { emit progressed(now); });
       }
@@ -121,7 +123,7 @@ UnfinishedFinder::Report UnfinishedFinder::recoverAll(const QStringList& paths,
     } catch (const Cancelled&) {
       break;
     } catch (const std::exception& error) {
-      const QString message = messageOf(error, paths[i]);
+      const QString message = unfinishedFinderMessageOf(error, paths[i]);
       tell([this, path = paths[i], message] { emit failed(path, message); });
     }
   }
@@ -135,14 +137,16 @@ void UnfinishedFinder::recoverOne(const QString& path, const Progress& progress)
   if (report.state == RecoverReport::State::kNothing)
     tell([this, path, message] { emit failed(path, path + ": " + message); });
   else
-    tell([this, path, message, saved] { emit recovered(path, message, wide(saved)); });
+    tell([this, path, message, saved] {
+      emit recovered(path, message, unfinishedFinderWide(saved));
+    });
 }
 
 void UnfinishedFinder::offer(const std::vector<UnfinishedRecording>& recordings) {
   const QStringList ignored = settings_.value(kIgnored).toStringList();
   QStringList paths;
   for (const UnfinishedRecording& recording : recordings) {
-    const QString path = wide(recording.path);
+    const QString path = unfinishedFinderWide(recording.path);
     changedUs_[path] = recording.changedUs;
     if (!ignored.contains(entryOf(path, recording.changedUs))) paths.append(path);
   }

@@ -14,8 +14,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kControlHeight = 28;   // [px] of boxes beside buttons
-constexpr int kIconAndPadding = 46;  // [px]
+constexpr int kWindowMenusControlHeight = 28;  // [px] of boxes beside buttons
+constexpr int kIconAndPadding = 46;            // [px]
 
 void addChoices(QMenu* menu, const QString& title, const QActionGroup* group) {
   QMenu* choices = menu->addMenu(title);
@@ -178,7 +178,7 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   bar->addWidget(spacer);
   recordings = new QComboBox(bar);
   recordings->setObjectName("recordingsBox");
-  recordings->setMinimumHeight(kControlHeight);
+  recordings->setMinimumHeight(kWindowMenusControlHeight);
   recordings->setToolTip("Open recordings (Ctrl+Tab)");
   recordings->setAccessibleName("Open recordings");
   recordings->setFocusPolicy(Qt::NoFocus);  // it has a key
@@ -208,7 +208,7 @@ QWidget* WindowMenus::makePlayback(QToolBar& bar, const Actions& actions) {
   add(actions.stepForward);
   speed = new QComboBox(group);
   speed->setObjectName("speedBox");
-  speed->setMinimumHeight(kControlHeight);
+  speed->setMinimumHeight(kWindowMenusControlHeight);
   speed->setToolTip("Speed (Up, Down)");
   speed->setAccessibleName("Speed");
   speed->setFocusPolicy(Qt::NoFocus);  // it has a key

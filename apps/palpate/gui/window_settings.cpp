@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLargestValue = 1e9;  // of a manual range [counts]
 
-double numberIn(
+double windowSettingsNumberIn(
     const QSettings& settings, const char* key, double lowest, double highest, double fallback) {
   bool isNumber = false;
   const double value = settings.value(key, fallback).toDouble(&isNumber);
@@ -49,14 +49,16 @@ ViewSettings loadViewSettings(const QSettings& settings) {
   const QString range = settings.value("view/range").toString();
   for (const RangeMode mode : kAllRangeModes)
     if (range == nameOf(mode)) view.range = mode;
-  view.manualMin = numberIn(settings, "view/manual_min", 0.0, kLargestValue, usual.manualMin);
-  view.manualMax = numberIn(settings, "view/manual_max", 0.0, kLargestValue, usual.manualMax);
+  view.manualMin =
+      windowSettingsNumberIn(settings, "view/manual_min", 0.0, kLargestValue, usual.manualMin);
+  view.manualMax =
+      windowSettingsNumberIn(settings, "view/manual_max", 0.0, kLargestValue, usual.manualMax);
   if (!(view.manualMax > view.manualMin)) {
     view.manualMin = usual.manualMin;
     view.manualMax = usual.manualMax;
   }
   view.signal = plottedSignalFrom(settings.value("view/signal").toString());
-  view.speed = numberIn(
+  view.speed = windowSettingsNumberIn(
       settings, "playback/speed", Playback::kMinimumSpeed, Playback::kMaximumSpeed, usual.speed);
   view.loop = settings.value("playback/loop", usual.loop).toBool();
   view.skipGaps = settings.value("playback/skip_gaps", usual.skipGaps).toBool();

@@ -1,10 +1,16 @@
 // Host time: wall clock at the start plus the monotonic clock since, so that it never jumps.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 
 namespace palpate {
+
+inline constexpr std::int64_t kUsPerMs = 1000;
+inline constexpr double kUsPerS = 1e6;
+inline constexpr double kMsPerS = 1e3;
+constexpr std::int64_t usOf(std::chrono::milliseconds time) { return kUsPerMs * time.count(); }
 
 // Where time comes from; tests hand in one they move by hand.
 class Clock {

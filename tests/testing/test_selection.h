@@ -1,0 +1,17 @@
+// Which tests a process runs. One program holds all tests of a module; each file of tests is run by a process
+// of its own, so that files can't disturb each other.
+#pragma once
+
+#include <string>
+
+namespace palpate::testing {
+
+// To be called after InitGoogleTest, which has read its own options.
+//   --file=NAME    runs the tests of the source NAME.cpp only
+//   --entry=NAME   what the entry is called in reports, "MODULE/FILE"
+// Environment: TEST_FILTER, a regular expression: only tests whose whole name, "MODULE/FILE.Suite.Test",
+// matches it; PALPATE_TEST_REPORTS, a folder: an XML report MODULE.FILE.xml is written into it.
+// Returns whether any test is left; throws std::invalid_argument for an option it doesn't know.
+bool selectTests(int argc, char** argv);
+
+}  // namespace palpate::testing
