@@ -9,7 +9,6 @@
 #include "testing/testing.h"
 
 int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
   try {
     // Without a test to run no window system is asked for anything.
     if (!palpate::testing::selectTests(argc, argv)) return RUN_ALL_TESTS();

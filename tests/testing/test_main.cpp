@@ -7,7 +7,6 @@
 #include "testing/test_selection.h"
 
 int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
   try {
     palpate::testing::selectTests(argc, argv);
   } catch (const std::exception& error) {

@@ -18,9 +18,10 @@ std::string variableText(const char* name) {
 
 }  // namespace
 
-bool selectTests(int argc, char** argv) {
+bool selectTests(int& argc, char** argv) {
   std::string file;
   std::string entry;
+  int rest = 1;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word.starts_with("--file="))
@@ -28,8 +29,19 @@ bool selectTests(int argc, char** argv) {
     else if (word.starts_with("--entry="))
       entry = word.substr(8);
     else
-      throw std::invalid_argument("unknown option " + word);
+      argv[rest++] = argv[i];
   }
+  argc = rest;
+  argv[argc] = nullptr;
+  // GoogleTest makes its reporter when it is initialised.
+  const std::string folder = variableText("PALPATE_TEST_REPORTS");
+  if (!folder.empty() && !entry.empty()) {
+    std::string name = entry;
+    std::replace(name.begin(), name.end(), '/', '.');
+    GTEST_FLAG_SET(output, "xml:" + folder + "/" + name + ".xml");
+  }
+  ::testing::InitGoogleTest(&argc, argv);
+  if (argc > 1) throw std::invalid_argument(std::string("unknown option ") + argv[1]);
   const std::string pattern = variableText("TEST_FILTER");
   const std::regex wanted(pattern);
   const std::string module = entry.empty() ? std::filesystem::path(argv[0]).stem().string()
@@ -56,12 +68,6 @@ bool selectTests(int argc, char** argv) {
   } else {
     const std::string own = GTEST_FLAG_GET(filter);
     GTEST_FLAG_SET(filter, own + (own.find('-') == std::string::npos ? "-" : ":") + left);
-  }
-  const std::string folder = variableText("PALPATE_TEST_REPORTS");
-  if (!folder.empty() && !entry.empty()) {
-    std::string name = entry;
-    std::replace(name.begin(), name.end(), '/', '.');
-    GTEST_FLAG_SET(output, "xml:" + folder + "/" + name + ".xml");
   }
   return !chosen.empty();
 }

@@ -6,12 +6,12 @@
 
 namespace palpate::testing {
 
-// To be called after InitGoogleTest, which has read its own options.
-//   --file=NAME    runs the tests of the source NAME.cpp only
-//   --entry=NAME   what the entry is called in reports, "MODULE/FILE"
+// Initialises GoogleTest and selects the tests of this process:
+//   --file=NAME    only the tests of the source NAME.cpp
+//   --entry=NAME   what the process is called in reports, "MODULE/FILE"
 // Environment: TEST_FILTER, a regular expression: only tests whose whole name, "MODULE/FILE.Suite.Test",
 // matches it; PALPATE_TEST_REPORTS, a folder: an XML report MODULE.FILE.xml is written into it.
 // Returns whether any test is left; throws std::invalid_argument for an option it doesn't know.
-bool selectTests(int argc, char** argv);
+bool selectTests(int& argc, char** argv);
 
 }  // namespace palpate::testing
