@@ -7,87 +7,41 @@
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
+#include "palpate/core/time.h"
 #include "palpate/slip/slip_segments.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/recording_list.h"
+#include "commands/slip_rows.h"
 
 namespace palpate::commands {
 namespace {
 
-constexpr std::int64_t kUsPerMs = 1000;
-constexpr const char* kColumns =
-    "frame,time_ms,matrix,active,valid,dx,dy,ref_dx,ref_dy,rotation_valid,rotation_deg,"
-    "ref_rotation_deg,orientation_deg,eccentricity,roundness,residual,confidence,p_moved,state,"
-    "slipping";
 constexpr const char* kSegmentColumns =
     "begin,end,begin_ms,end_ms,matrix,path_taxels,rotation_deg,confidence";
 
-struct Request {
+struct SlipRequest {
   SlipPassOptions pass;
   std::optional<std::int64_t> matrix;
 };
 
-// Empty where it isn't known.
-void appendIf(std::string& line, bool known, double value) {
-  line += ',';
-  if (known) appendNumber(line, value + 0.0);
-}
-
-void appendVerdict(std::string& line, const SlipVerdict& verdict) {
-  const SlipMotion& motion = verdict.motion;
-  const SlipRotation& rotation = motion.rotation;
-  appendNumber(line, static_cast<std::int64_t>(motion.active));
-  line += motion.valid ? ",1" : ",0";
-  appendIf(line, motion.valid, motion.dx);
-  appendIf(line, motion.valid, motion.dy);
-  appendIf(line, motion.valid && motion.refValid, motion.refDx);
-  appendIf(line, motion.valid && motion.refValid, motion.refDy);
-  line += rotation.valid ? ",1" : ",0";
-  appendIf(line, rotation.valid, rotation.rotationDeg);
-  appendIf(line, rotation.valid && rotation.refValid, rotation.refRotationDeg);
-  appendIf(line, true, rotation.axis.orientationDeg);
-  appendIf(line, true, rotation.axis.eccentricity);
-  appendIf(line, true, rotation.roundness);
-  appendIf(line, true, verdict.residual);
-  appendIf(line, true, verdict.confidence);
-  appendIf(line, verdict.pMoved.has_value(), verdict.pMoved.value_or(0.0));
-  line += ',';
-  line += nameOf(verdict.state);
-  line += verdict.slipping ? ",1" : ",0";
-}
-
 void writeRows(StandardOutput& out,
                const Profile& profile,
-               const Request& request,
+               const SlipRequest& request,
                const std::string& lineEnd,
                const Progress& progress) {
-  std::string line;
-  passSlip(
+  forEachSlipRow(
       profile,
       request.pass,
-      [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipVerdict>& verdicts) {
-        for (std::size_t m = 0; m < verdicts.size(); ++m) {
-          if (verdicts[m].motion.active == 0) continue;
-          if (request.matrix && *request.matrix != static_cast<std::int64_t>(m)) continue;
-          line.clear();
-          appendNumber(line, static_cast<std::int64_t>(frame));
-          line += ',';
-          appendNumber(line, timeUs / kUsPerMs);
-          line += ',';
-          appendNumber(line, static_cast<std::int64_t>(m));
-          line += ',';
-          appendVerdict(line, verdicts[m]);
-          out.write(line += lineEnd);
-        }
-      },
+      request.matrix,
+      [&](const std::string& row) { out.write(row + lineEnd); },
       progress);
 }
 
 void writeSegments(StandardOutput& out,
                    const Profile& profile,
-                   const Request& request,
+                   const SlipRequest& request,
                    const std::string& lineEnd,
                    const Progress& progress) {
   std::string line;
@@ -103,13 +57,13 @@ void writeSegments(StandardOutput& out,
       line += ',';
     }
     appendNumber(line, segment.pathTaxels);
-    appendIf(line, true, segment.rotationDeg);
-    appendIf(line, true, segment.confidence);
+    appendSlipCell(line, true, segment.rotationDeg);
+    appendSlipCell(line, true, segment.confidence);
     out.write(line += lineEnd);
   }
 }
 
-void readReference(const CommandLine& given, Request& request) {
+void readReference(const CommandLine& given, SlipRequest& request) {
   const std::string word = given.text("reference").value_or("first");
   SlipDetectorOptions& detector = request.pass.detector;
   if (word == "first") {
@@ -124,8 +78,8 @@ void readReference(const CommandLine& given, Request& request) {
   }
 }
 
-Request requestOf(const CommandLine& given) {
-  Request request;
+SlipRequest slipRequestOf(const CommandLine& given) {
+  SlipRequest request;
   SlipDetectorOptions& detector = request.pass.detector;
   std::vector<std::string> methods;
   for (const SlipMethod method : slipMethods()) methods.emplace_back(nameOf(method));
@@ -142,7 +96,7 @@ Request requestOf(const CommandLine& given) {
 
 void requireThere(const std::filesystem::path& file,
                   const Profile& profile,
-                  const Request& request) {
+                  const SlipRequest& request) {
   const auto matrices = static_cast<std::int64_t>(profile.layout().numMatrices());
   if (request.matrix && *request.matrix >= matrices)
     throw Error(file.string() + ": has no matrix " + std::to_string(*request.matrix) +
@@ -181,7 +135,7 @@ int slipCommand(const Words& words) {
        .fewestWords = 1},
       words);
   if (given.helpShown()) return kDone;
-  const Request request = requestOf(given);
+  const SlipRequest request = slipRequestOf(given);
   const bool segments = given.has("segments");
   const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
@@ -192,7 +146,7 @@ int slipCommand(const Words& words) {
       [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
         requireThere(file, profile, request);
         if (!headerWritten)
-          out.write(std::string(segments ? kSegmentColumns : kColumns) +
+          out.write(std::string(segments ? kSegmentColumns : kSlipColumns) +
                     (recordings.several ? ",file\n" : "\n"));
         headerWritten = true;
         const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";

@@ -1,0 +1,73 @@
+#include "commands/slip_rows.h"
+
+#include <vector>
+
+#include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
+
+namespace palpate::commands {
+namespace {
+
+void appendVerdict(std::string& row, const SlipVerdict& verdict) {
+  const SlipMotion& motion = verdict.motion;
+  const SlipRotation& rotation = motion.rotation;
+  appendNumber(row, static_cast<std::int64_t>(motion.active));
+  row += motion.valid ? ",1" : ",0";
+  appendSlipCell(row, motion.valid, motion.dx);
+  appendSlipCell(row, motion.valid, motion.dy);
+  appendSlipCell(row, motion.valid && motion.refValid, motion.refDx);
+  appendSlipCell(row, motion.valid && motion.refValid, motion.refDy);
+  row += rotation.valid ? ",1" : ",0";
+  appendSlipCell(row, rotation.valid, rotation.rotationDeg);
+  appendSlipCell(row, rotation.valid && rotation.refValid, rotation.refRotationDeg);
+  appendSlipCell(row, true, rotation.axis.orientationDeg);
+  appendSlipCell(row, true, rotation.axis.eccentricity);
+  appendSlipCell(row, true, rotation.roundness);
+  appendSlipCell(row, true, verdict.residual);
+  appendSlipCell(row, true, verdict.confidence);
+  appendSlipCell(row, verdict.pMoved.has_value(), verdict.pMoved.value_or(0.0));
+  row += ',';
+  row += nameOf(verdict.state);
+  row += verdict.slipping ? ",1" : ",0";
+}
+
+}  // namespace
+
+const char* const kSlipColumns =
+    "frame,time_ms,matrix,active,valid,dx,dy,ref_dx,ref_dy,rotation_valid,rotation_deg,"
+    "ref_rotation_deg,orientation_deg,eccentricity,roundness,residual,confidence,p_moved,state,"
+    "slipping";
+
+void appendSlipCell(std::string& row, bool known, double value) {
+  row += ',';
+  if (known) appendNumber(row, value + 0.0);
+}
+
+void forEachSlipRow(const Profile& profile,
+                    const SlipPassOptions& pass,
+                    std::optional<std::int64_t> matrix,
+                    const std::function<void(const std::string& row)>& sink,
+                    const Progress& progress) {
+  std::string row;
+  passSlip(
+      profile,
+      pass,
+      [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipVerdict>& verdicts) {
+        for (std::size_t m = 0; m < verdicts.size(); ++m) {
+          if (verdicts[m].motion.active == 0) continue;
+          if (matrix && *matrix != static_cast<std::int64_t>(m)) continue;
+          row.clear();
+          appendNumber(row, static_cast<std::int64_t>(frame));
+          row += ',';
+          appendNumber(row, timeUs / kUsPerMs);
+          row += ',';
+          appendNumber(row, static_cast<std::int64_t>(m));
+          row += ',';
+          appendVerdict(row, verdicts[m]);
+          sink(row);
+        }
+      },
+      progress);
+}
+
+}  // namespace palpate::commands
