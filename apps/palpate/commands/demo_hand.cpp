@@ -8,7 +8,9 @@
 #include "palpate/capture/replay.h"
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
 #include "palpate/device/live_hand.h"
+#include "palpate/emulator/joint_motion.h"
 #include "palpate/emulator/physical_hand.h"
 #include "palpate/model/preshape.h"
 
@@ -18,13 +20,14 @@ namespace {
 using std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr int kPositioning = 1;  // axis state of the SDH-2
-constexpr double kClosingDegPerS = 60.0;
+constexpr double kHoldS = 1.2;
+constexpr double kOpeningDegPerS = 60.0;
+constexpr milliseconds kLook{10};
 
 // Compares what comes with what was recorded, as it comes.
-class Comparison : public DeviceSink {
+class ReplayComparison : public DeviceSink {
  public:
-  explicit Comparison(const Profile& profile) : profile_(profile) {}
+  explicit ReplayComparison(const Profile& profile) : profile_(profile) {}
 
   void onFrame(TactileFrame&& frame) override {
     if (frames_ < profile_.numFrames()) {
@@ -63,14 +66,22 @@ class Comparison : public DeviceSink {
   std::size_t frames_ = 0, angles_ = 0, temperatures_ = 0, different_ = 0;
 };
 
+bool isPositioning(int state) { return state == static_cast<int>(AxisState::kPositioning); }
+
 }  // namespace
 
-DemoHand::DemoHand(const std::filesystem::path& scenesFolder) {
-  Scene scene = loadScene("ball", scenesFolder);
-  scene.script.clear();  // here the hand is moved over its port
-  preshape_ = scene.preshape;
-  hand_ = std::make_unique<EmulatedHand>(std::make_unique<PhysicalHand>(scene));
-}
+DemoHand::DemoHand(const Scene& scene, std::string object, DemoGoOn goOn)
+    : object_(std::move(object)),
+      preshape_(scene.preshape),
+      goOn_(std::move(goOn)),
+      truth_(std::make_shared<Truth>()),
+      hand_(std::make_unique<EmulatedHand>(
+          std::make_unique<PhysicalHand>(scene),
+          EmulatedHandOptions(),
+          [truth = truth_](const EmulatedFrame& frame) {
+            const std::lock_guard lock(truth->mutex);
+            truth->frames.push_back({frame.hostUs, frame.model.timeS(), frame.model.truth()});
+          })) {}
 
 DemoHand::~DemoHand() {
   if (session_) session_->stop();
@@ -79,86 +90,99 @@ DemoHand::~DemoHand() {
 void DemoHand::await(const std::string& what,
                      double limitS,
                      const std::function<bool()>& condition) {
-  const auto end = SteadyClock::now() + milliseconds(static_cast<std::int64_t>(limitS * 1000.0));
+  const auto end = SteadyClock::now() + milliseconds(static_cast<std::int64_t>(limitS * kMsPerS));
   while (!condition()) {
+    if (!goOn_()) throw Cancelled();
     if (SteadyClock::now() > end)
-      throw Error(what + " did not happen within " + numberText(limitS) + " s");
-    std::this_thread::sleep_for(milliseconds(10));
+      throw Error(object_ + ": " + what + " did not happen within " + numberText(limitS) + " s");
+    std::this_thread::sleep_for(kLook);
   }
 }
 
-std::string DemoHand::connect() {
+void DemoHand::pause(double seconds) {
+  const auto end = SteadyClock::now() + milliseconds(static_cast<std::int64_t>(seconds * kMsPerS));
+  await("the end of a pause", seconds + 1.0, [end] { return SteadyClock::now() >= end; });
+}
+
+DeviceFacts DemoHand::connect() {
   LiveHandOptions options;
   options.dsaPort = hand_->dsaPort();
   options.sdhPort = hand_->sdhPort();
   session_ = std::make_unique<CaptureSession>(std::make_unique<LiveHand>(options));
   session_->start();
   const Device& device = session_->device();
-  await("the first frames", 10.0, [&] {
+  await("the first frame", 10.0, [&] {
     const DeviceStatus status = device.status();
     return status.tactile.items >= 5 && status.motion && status.motion->items >= 5;
   });
-  const DeviceFacts facts = device.facts();
-  return "tactile controller " + facts.serial + " firmware " + facts.firmware +
-         ", motion firmware " + facts.motionFirmware;
+  return device.facts();
 }
 
-std::string DemoHand::startRecording(const std::filesystem::path& file) {
+void DemoHand::startRecording(const std::filesystem::path& file) {
   RecordingOptions options;
   options.path = file;
-  options.meta = {{"object", "ball"}, {"operator", "palpate demo"}};
+  options.meta = {{"object", object_}, {"operator", "palpate demo"}};
   session_->startRecording(options);
   await("a frame on disk", 5.0, [&] { return session_->recorderStatus().framesOnDisk > 0; });
-  return file.filename().string();
 }
 
 void DemoHand::moveTo(double closeRatio, double velocityDegPerS) {
+  constexpr double kBeginS = 0.2;  // until the axes say that they move
+  constexpr double kPatienceS = 5.0;
   MoveJoints move;
   move.targetDeg = sdh2Preshape(preshape_).anglesDeg(closeRatio);
   move.velocityDegPerS.assign(move.targetDeg.size(), velocityDegPerS);
   Device& device = session_->device();
   const double durationS = device.submit(std::move(move)).get().durationS;
-  std::this_thread::sleep_for(milliseconds(200));
-  await("the end of the motion", durationS + 5.0, [&] {
+  pause(kBeginS);
+  await("the end of the motion", durationS + kPatienceS, [&] {
     const std::vector<int> states = device.axisStates();
-    return !states.empty() &&
-           std::none_of(states.begin(), states.end(), [](int s) { return s == kPositioning; });
+    return !states.empty() && std::none_of(states.begin(), states.end(), &isPositioning);
   });
 }
 
-std::string DemoHand::grasp() {
-  moveTo(1.0, kClosingDegPerS);
+DemoGrip DemoHand::grasp(double closingDegPerS) {
+  moveTo(1.0, closingDegPerS);
   session_->mark("closed");
-  std::this_thread::sleep_for(milliseconds(1000));
-  double forceN = 0.0;
-  int fingers = 0;
+  pause(kHoldS);
+  DemoGrip grip;
   hand_->withModel([&](HandModel& model) {
     int last = -1;
     const std::vector<MatrixTruth> truth = model.truth();
     for (std::size_t m = 0; m < truth.size(); ++m) {
       if (!truth[m].contact) continue;
-      forceN += truth[m].forceN;
-      fingers += std::exchange(last, model.hand().matrices[m].finger) != last ? 1 : 0;
+      grip.forceN += truth[m].forceN;
+      grip.fingers += std::exchange(last, model.hand().matrices[m].finger) != last ? 1 : 0;
     }
   });
-  if (fingers < 2) throw Error("the fingers missed the ball");
-  moveTo(0.0, kClosingDegPerS);
-  return std::to_string(fingers) + " fingers pressed the ball with " + fixedText(forceN, 1) +
-         " N altogether";
+  if (grip.fingers < 2) throw Error("the fingers missed the " + object_);
+  moveTo(0.0, kOpeningDegPerS);
+  return grip;
 }
 
-std::string DemoHand::finishRecording() {
-  const RecordingReport report = session_->stopRecording();
-  const LinkHealth health = session_->health();
+void DemoHand::playScript(double untilS) {
+  constexpr double kPatienceS = 30.0;
+  await("the end of the script", untilS + kPatienceS, [&] {
+    return hand_->counts().handTimeS >= untilS;
+  });
+}
+
+DemoRecorded DemoHand::finishRecording() {
+  DemoRecorded recorded;
+  recorded.report = session_->stopRecording();
+  recorded.lostFrames = session_->health().lost;
   session_->stop();
-  if (!report.complete) throw Error(report.message);
-  return std::to_string(report.frames) + " frames at " + fixedText(report.meanRateHz, 1) + " Hz, " +
-         std::to_string(report.angles) + " samples of the joint angles, " +
-         std::to_string(health.lost) + " lost";
+  if (!recorded.report.complete) throw Error(object_ + ": " + recorded.report.message);
+  return recorded;
+}
+
+std::vector<DemoTruthFrame> DemoHand::truth() const {
+  const std::lock_guard lock(truth_->mutex);
+  return truth_->frames;
 }
 
 std::string replayAndCompare(const Profile& profile) {
-  Comparison comparison(profile);
+  ReplayComparison comparison(profile);
   ReplayOptions options;
   options.pace = ReplayPace::kByHand;
   Replay replay(profile, options);
