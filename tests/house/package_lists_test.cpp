@@ -66,23 +66,52 @@ TEST_F(PackageLists, WhatIsMissingIsNamedWithTheListItBelongsTo) {
   writeFile(*folder_ / "header.h", "");
   const std::string path = fs::canonical(*folder_ / "header.h").string();
   const ProgramResult result = check(
-      {"--level=run",
-       "--level=test",
+      {"--level=test",
        "--list=run=" + listWithout("debian-packages.txt", {"libqt6opengl6-dev"}),
        "--list=test=" + listWithout("debian-test-packages.txt", {"python3-matplotlib", "xauth"}),
-       "--also=run=" + path});
+       "--also=test=" + path});
   if (result.exitCode == kCannotTell) GTEST_SKIP() << result.out;
   EXPECT_EQ(result.exitCode, 1) << result.err;
-  const std::string run = " not brought by cmake/debian-packages.txt";
-  const std::string tests = run + " and cmake/debian-test-packages.txt";
-  const std::string begins[] = {"of no package:" + run + ". " + path,
-                                "libqt6opengl6-dev:" + run + ". ",
-                                "python3-matplotlib:" + tests + ". ",
-                                "xauth:" + tests + ". "};
+  const std::string lists =
+      " not brought by cmake/debian-packages.txt and cmake/debian-test-packages.txt. ";
+  const std::string begins[] = {"of no package:" + lists + path,
+                                "libqt6opengl6-dev:" + lists,
+                                "python3-matplotlib:" + lists,
+                                "xauth:" + lists};
   const auto lines = linesOf(result.out);
   ASSERT_EQ(lines.size(), std::size(begins)) << result.out;
   for (std::size_t i = 0; i < lines.size(); ++i)
     EXPECT_TRUE(lines[i].starts_with(begins[i])) << lines[i];
+}
+
+// One of the sources of what is taken: the programs that scripts call, found by reading them.
+TEST(ShellWords, AreThoseThatStandWhereACommandDoes) {
+  const TemporaryFolder folder;
+  writeFile(folder / "script", R"(#!/bin/sh
+# comment it's "no command
+own() { sed s/x/y/ "$1"; }
+VALUE=$(date +%s) OTHER='a b' tar -c x | gzip -9 >"$HOME/a b" 2>&1
+if [ -f x ] && ! cmp -s a b; then mv a b; else own; fi
+case "$1" in
+  start | stop) systemctl "$1" ;;
+  *) echo "it's $(basename "$0"), said (cut) 'paste'" ;;
+esac
+(cd /tmp && ninja -C x) &
+xargs -0 -n 1 strip </dev/null
+exec env -u VALUE LC_ALL=C \
+  sort <<END
+wc is data
+END
+awk '{ print }
+uniq' file; $computed; /usr/bin/join
+)");
+  const ProgramResult result = runProgram(
+      "/usr/bin/python3",
+      {(projectFolder() / "cmake/shell_words.py").string(), (folder / "script").string()});
+  EXPECT_EQ(result.out,
+            "/usr/bin/join\nawk\nbasename\ncd\ncmp\ndate\necho\nenv\ngzip\nmv\nninja\nsed\nsort\n"
+            "strip\nsystemctl\ntar\nxargs\n")
+      << result.err;
 }
 
 }  // namespace

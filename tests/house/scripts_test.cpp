@@ -1,10 +1,7 @@
-// The scripts in a checkout of their own, with apt, CMake, ninja and palpate played by stand-ins
-// that write down how they were called.
-#include <cstdlib>
-#include <map>
-
+// The scripts where all goes well or something is done twice; what they say where something is missing: set_up_test.cpp.
 #include <gtest/gtest.h>
 
+#include "house/checkout_of_scripts.h"
 #include "house/source_tree.h"
 #include "testing/program.h"
 #include "testing/testing.h"
@@ -12,86 +9,6 @@
 namespace palpate::testing::scripts_test {
 namespace {
 namespace fs = std::filesystem;
-
-class Scripts : public ::testing::Test {
- protected:
-  void SetUp() override {
-    checkout_ = folder_ / "a check out";  // blanks on purpose
-    tools_ = folder_ / "tools";
-    for (const char* name : {"scripts", "cmake"}) {
-      fs::create_directories(checkout_ / name);
-      for (const auto& entry : fs::directory_iterator(projectFolder() / name))
-        if (entry.is_regular_file())
-          fs::copy_file(entry.path(), checkout_ / name / entry.path().filename());
-    }
-    writeFile(checkout_ / "CMakePresets.json", "{}");
-    writeFile(checkout_ / "cmake/debian-packages.txt", "# a comment\nfirst  # why\n\nsecond\n");
-    fs::create_directories(tools_);
-    for (const char* name : {"bash",
-                             "dirname",
-                             "readlink",
-                             "sed",
-                             "awk",
-                             "grep",
-                             "mkdir",
-                             "flock",
-                             "touch",
-                             "tail",
-                             "rm",
-                             "mktemp",
-                             "env",
-                             "cat",
-                             "pwd",
-                             "chmod"})
-      fs::create_symlink(fs::exists(fs::path("/bin") / name) ? fs::path("/bin") / name
-                                                             : fs::path("/usr/bin") / name,
-                         tools_ / name);
-    standIn("id", "echo 0");
-    standIn("dpkg-query", "echo 'installed first'; echo 'not-installed second'; exit 1");
-    standIn("apt-get", log("apt-get"));
-    // "cmake --preset release" makes the folder, ninja the program.
-    standIn("cmake",
-            log("cmake") +
-                "touch build/release/build.ninja\n"
-                "echo \"CMAKE_HOME_DIRECTORY:INTERNAL=$PWD\" > build/release/CMakeCache.txt");
-    standIn("ninja",
-            "case \"$*\" in *' -n '*)\n"
-            "  [ ! -x \"$2/palpate\" ] || echo 'ninja: no work to do.'; exit 0;; esac\n" +
-                log("ninja") + "echo compiling\n" +
-                "printf '#!/bin/sh\\npwd\\nprintf \"[%%s]\" \"$@\"\\nexit 3\\n' > "
-                "\"$2/palpate\"\nchmod +x \"$2/palpate\"");
-  }
-
-  std::string log(const std::string& name) const {
-    return "echo \"" + name + " $*\" >> '" + (folder_ / "log").string() + "'\n";
-  }
-  void standIn(const std::string& name, const std::string& body) {
-    fs::remove(tools_ / name);
-    writeFile(tools_ / name, "#!/bin/sh\n" + body + "\n");
-    fs::permissions(tools_ / name, fs::perms::owner_all);
-  }
-  // Calls it in a folder that isn't the checkout; the log starts anew.
-  ProgramResult call(const std::string& script,
-                     std::vector<std::string> arguments = {},
-                     std::map<std::string, std::string> environment = {}) {
-    writeFile(folder_ / "log", "");
-    fs::create_directories(folder_ / "elsewhere");
-    arguments.insert(arguments.begin(),
-                     {"-c",
-                      "cd \"$0\" && exec \"$@\"",
-                      (folder_ / "elsewhere").string(),
-                      (checkout_ / "scripts" / script).string()});
-    for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY", "PALPATE_PACKAGES"})
-      environment.try_emplace(name, "");
-    environment["PATH"] = tools_.string();
-    return runProgram("/bin/bash", arguments, environment);
-  }
-  std::string logged() const { return readFile(folder_ / "log"); }
-
-  TemporaryFolder folder_;
-  fs::path checkout_;
-  fs::path tools_;
-};
 
 TEST_F(Scripts, RunInstallsConfiguresBuildsAndHandsOver) {
   const ProgramResult result = call("run", {"info", "a file.dsa"});
@@ -123,50 +40,13 @@ TEST_F(Scripts, RunWithoutArgumentsShowsTheDemonstration) {
 }
 
 TEST_F(Scripts, PackageListsAreUpdatedOnlyWhenTheFirstTryFails) {
-  standIn("apt-get",
-          log("apt-get") + "case \"$*\" in *update) touch '" + (folder_ / "new").string() +
-              "';; *) [ -f '" + (folder_ / "new").string() + "' ];; esac");
+  standInApt(log("apt-get") + "case \"$*\" in *update) touch '" + (folder_ / "new").string() +
+             "';; *) [ -f '" + (folder_ / "new").string() + "' ];; esac");
   EXPECT_EQ(call("run").exitCode, 3);
   const auto lines = linesOf(logged());
   ASSERT_GE(lines.size(), 3u);
   EXPECT_TRUE(lines[1].ends_with(" update")) << lines[1];
   EXPECT_TRUE(lines[2].ends_with(" second")) << lines[2];
-}
-
-TEST_F(Scripts, FailureOfAptNamesThePackagesAndStopsTheRun) {
-  standIn("apt-get", "echo 'E: no network'; exit 100");
-  const ProgramResult result = call("run", {"info"});
-  EXPECT_EQ(result.exitCode, 1);
-  EXPECT_EQ(result.out, "");
-  EXPECT_NE(result.err.find("E: no network"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("--no-install-recommends second"), std::string::npos) << result.err;
-  EXPECT_EQ(logged(), "");
-}
-
-TEST_F(Scripts, WithoutAptTheMessageSaysWhatToDo) {
-  fs::remove(tools_ / "apt-get");
-  const ProgramResult result = call("run", {"info"});
-  EXPECT_EQ(result.exitCode, 1);
-  EXPECT_NE(result.err.find("PALPATE_PACKAGES=keep"), std::string::npos) << result.err;
-  EXPECT_EQ(call("run", {"info"}, {{"PALPATE_PACKAGES", "keep"}}).exitCode, 3);
-}
-
-TEST_F(Scripts, OrdinaryUsersInstallWithSudoOrAreToldHow) {
-  standIn("id", "echo 1000");
-  const ProgramResult without = call("run", {"info"});
-  EXPECT_EQ(without.exitCode, 1);
-  EXPECT_NE(without.err.find("there is no sudo"), std::string::npos) << without.err;
-  standIn("sudo", log("sudo"));
-  EXPECT_EQ(call("run", {"info"}).exitCode, 3);
-  EXPECT_TRUE(logged().starts_with("sudo ")) << logged();
-}
-
-TEST_F(Scripts, FailedBuildStopsTheRun) {
-  standIn("ninja", "echo 'x.cpp:1: error: no'; exit 1");
-  const ProgramResult result = call("run", {"info"});
-  EXPECT_EQ(result.exitCode, 1);
-  EXPECT_EQ(result.out, "");
-  EXPECT_NE(result.err.find("error: no"), std::string::npos) << result.err;
 }
 
 TEST_F(Scripts, CopiedCheckoutIsConfiguredAnew) {
@@ -187,7 +67,7 @@ TEST_F(Scripts, UnknownSuiteIsWrongUsage) {
 
 TEST_F(Scripts, SuitesInstallTheirOwnPackagesBesideTheOthers) {
   writeFile(checkout_ / "cmake/debian-test-packages.txt", "third\nfourth [fuzz]\nfifth [tidy]\n");
-  standIn("apt-get", log("apt-get") + "exit 1");
+  standInApt(log("apt-get") + "exit 1");
   call("test");
   EXPECT_NE(logged().find("--no-install-recommends second third\n"), std::string::npos) << logged();
   const ProgramResult result = call("test", {"fuzz"});
