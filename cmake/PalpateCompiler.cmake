@@ -8,7 +8,7 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
 endif()
 
-# Release: -O2; numerical rooms ask for more (palpate_thorough), what is run by people and tests for less.
+# Release: -O2; the core library asks for more (palpate_thorough), tests for less (palpate_light).
 if(CMAKE_CXX_FLAGS_RELEASE STREQUAL "-O3 -DNDEBUG")
   set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 endif()
@@ -19,6 +19,10 @@ if(PALPATE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # that large file once only.
   set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros
       CCACHE_INODECACHE=true ${PALPATE_CCACHE})
+endif()
+
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 12)
+  message(FATAL_ERROR "GCC ${CMAKE_CXX_COMPILER_VERSION} is too old: 12 or newer is wanted")
 endif()
 
 # Linked privately by every target of ours, so that warnings are errors in our code only.
@@ -102,7 +106,8 @@ function(palpate_light target)
   endif()
 endfunction()
 
-# palpate_thorough(TARGET): the numerical kernels, in which the program spends its time.
+# palpate_thorough(TARGET): the core library, in whose loops the program spends its time. GCC vectorises most of
+# them from -O3 on only.
 function(palpate_thorough target)
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
     target_compile_options(${target} PRIVATE -O3)

@@ -12,6 +12,7 @@ function(palpate_room name)
                         PRIVATE palpate_warnings ${room_PRIVATE})
   palpate_precompiled(palpate_${name} core)
   palpate_unity(palpate_${name})
+  palpate_thorough(palpate_${name})
   set_property(GLOBAL APPEND PROPERTY PALPATE_ROOMS palpate::${name})
 endfunction()
 

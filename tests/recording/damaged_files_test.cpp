@@ -196,15 +196,21 @@ const std::string kUpToFrameData = [] {
   return example.substr(0, example.find(tag) + tag.size());
 }();
 
-INSTANTIATE_TEST_SUITE_P(
-    Corpus,
-    BombFile,
-    ::testing::Values(Bomb{"zeros", "", '\0', 200, "not well-formed"},
-                      Bomb{"blanks", "", ' ', 200, "expands to more than 32 MB"},
-                      Bomb{"blanksInFrame", kUpToFrameData, ' ', 200, "expands to more than 32 MB"},
-                      Bomb{"oneName", "<", 'a', 200, "longer than 1048576 bytes"},
-                      Bomb{"oneText", "<root>", 'a', 200, "expands to more than 32 MB"}),
-    [](const auto& of) { return of.param.name; });
+// 200 MB each, some kB when packed; the slow suite opens all five.
+std::vector<Bomb> bombs() {
+  std::vector<Bomb> all = {
+      {"oneText", "<root>", 'a', 200, "expands to more than 32 MB"},
+      {"zeros", "", '\0', 200, "not well-formed"},
+      {"blanks", "", ' ', 200, "expands to more than 32 MB"},
+      {"blanksInFrame", kUpToFrameData, ' ', 200, "expands to more than 32 MB"},
+      {"oneName", "<", 'a', 200, "longer than 1048576 bytes"}};
+  if (!testing::exhaustive()) all.resize(1);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Corpus, BombFile, ::testing::ValuesIn(bombs()), [](const auto& of) {
+  return of.param.name;
+});
 
 }  // namespace
 }  // namespace palpate::damaged_files_test

@@ -1,5 +1,6 @@
 #include "testing/testing.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -38,6 +39,26 @@ std::optional<fs::path> goldenFolder() {
   return sharedFolder("PALPATE_GOLDEN", "../shared/golden");
 }
 fs::path dataFolder() { return fs::path(PALPATE_SOURCE_DIR) / "data"; }
+
+bool exhaustive() {
+  const char* wanted = std::getenv("PALPATE_EXHAUSTIVE");
+  return wanted && std::string_view(wanted) == "1";
+}
+
+std::vector<std::filesystem::path> recordingsToTry(const std::filesystem::path& folder) {
+  constexpr std::size_t kAlike = 20;
+  std::vector<std::filesystem::path> all;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".dsa") all.push_back(entry.path());
+  std::sort(all.begin(), all.end());
+  if (exhaustive()) return all;
+  std::vector<std::filesystem::path> some;
+  std::size_t grasps = 0;
+  for (const auto& path : all)
+    if (path.string().find("grasps_by_class") == std::string::npos || grasps++ % kAlike == 0)
+      some.push_back(path);
+  return some;
+}
 
 std::string readFile(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -31,6 +32,12 @@ std::optional<std::filesystem::path> recordingsFolder();
 std::optional<std::filesystem::path> goldenFolder();
 // The project's own folder data/.
 std::filesystem::path dataFolder();
+
+// Whether every recording and every size is wanted (PALPATE_EXHAUSTIVE=1, the slow suite). Else tests over all
+// shared recordings take those that differ, and a twentieth of the grasps by class, which are alike.
+bool exhaustive();
+// The .dsa files below `folder` that such a test takes, in the order of their paths.
+std::vector<std::filesystem::path> recordingsToTry(const std::filesystem::path& folder);
 
 std::string readFile(const std::filesystem::path& path);
 void writeFile(const std::filesystem::path& path, std::string_view bytes);
