@@ -10,8 +10,8 @@ fail() {
   exit 1
 }
 
-# Runs the calling script anew with mounts and processes of its own, then AFTERWARDS, and ends with its exit code. However
-# it ends, the kernel unmounts what it mounted and ends what it started.
+# Runs the calling script anew with mounts and processes of its own, then AFTERWARDS (with the word "interrupted" where
+# it was), and ends with its exit code. However it ends, the kernel unmounts what it mounted and ends what it started.
 inOwnSpace() { # AFTERWARDS "$0" "$@"
   if [ -n "${PALPATE_OWN_SPACE-}" ]; then
     trap 'exit 130' INT TERM HUP
@@ -21,7 +21,7 @@ inOwnSpace() { # AFTERWARDS "$0" "$@"
   shift
   PALPATE_OWN_SPACE=1 unshare --mount --pid --fork --kill-child "$@" &
   space=$!
-  trap 'kill -KILL "$space"; wait "$space"; "$afterwards"; exit 130' INT TERM HUP
+  trap '{ kill -KILL "$space"; wait "$space"; } 2>/dev/null; "$afterwards" interrupted; exit 130' INT TERM HUP
   wait "$space"
   status=$?
   "$afterwards"

@@ -3,7 +3,8 @@
 # line what is to be done; the next call goes on where this one stopped.
 #
 # Expects $root, the checkout. PALPATE_PACKAGES=keep installs nothing: for machines without apt,
-# or where somebody else looks after the packages. PALPATE_TIMES=FILE gets a line "STAGE SECONDS" per stage.
+# or where somebody else looks after the packages. PALPATE_TIMES=FILE gets a line "STAGE SECONDS" per stage, and what is
+# installed: "planned PACKAGES MB_TO_FETCH MB_ON_DISK". PALPATE_OS_RELEASE takes the place of /etc/os-release (for tests).
 
 # Without a standard error messages go nowhere, and no file that is opened later takes its place.
 (: >&2) 2>/dev/null || exec 2>/dev/null
@@ -197,6 +198,7 @@ planInstallation() { # NAME...
   minutes=
   [ "$packages" -lt 100 ] || minutes=$(firstTime packages_minutes)
   [ "$packages" -gt 0 ] || packages=
+  [ -z "${PALPATE_TIMES-}" ] || [ -z "$packages" ] || echo "planned $packages $fetch $disk" >>"$PALPATE_TIMES"
   say "installing $# packages${packages:+ and what they need ($packages together, $fetch MB to fetch, $disk MB on disk${minutes:+; $minutes min the last time})}: $*"
   room "the packages" "$disk" /usr "$fetch" /var/cache/apt
 }
