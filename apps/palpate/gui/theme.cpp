@@ -214,6 +214,8 @@ ThemeChoice themeChoiceFrom(const QString& name) {
 
 void applyTheme(QApplication& application, Theme theme) {
   systemTheme();  // read before the palette is ours
+  // Every widget there is would be styled anew, several times over.
+  if (application.styleSheet() == styleOf(theme)) return;
   QApplication::setStyle(QStyleFactory::create("Fusion"));
   QApplication::setPalette(paletteOf(theme));
   outlineFields(theme);
