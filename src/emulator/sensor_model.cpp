@@ -119,8 +119,7 @@ void SensorModel::scan(std::span<const double> degC,
         continue;  // noise doesn't lift it
       const double drawn = normal_(random_);
       raw += shared + sd * (raised ? drawn : heavyTailed(drawn));
-      const double above =
-          std::round(saturated(raw - threshold, characteristics_.saturationCounts));
+      const double above = std::round(saturated(raw - threshold, characteristics_.largestCounts));
       counts[place] = static_cast<std::uint16_t>(std::clamp(above, 0.0, kSensorModelMaxCounts));
     }
   }

@@ -56,8 +56,8 @@ HandDescription handDescriptionMakeSdh2() {
     hand.temperatureSensors.push_back({"motor " + std::to_string(axis)});
   hand.temperatureSensors.push_back({"FPGA"});
   hand.temperatureSensors.push_back({"circuit board"});
-  hand.maximumCounts = 4095.0F;
-  hand.saturationCounts = 3500.0F;
+  hand.maximumCounts = kSdh2FullScaleCounts;
+  hand.saturationCounts = kSdh2SaturationCounts;
   return hand;
 }
 

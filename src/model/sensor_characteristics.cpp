@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palpate/model/hand_description.h"
+
 namespace palpate {
 namespace {
 
@@ -66,7 +68,7 @@ SensorCharacteristics sensorCharacteristicsMakeSdh2() {
   sensor.countsPerMean = 4.75;
   sensor.thresholdKpa = 1.0;
   sensor.spreadShare = 0.10;
-  sensor.saturationCounts = 3560.0;
+  sensor.largestCounts = static_cast<double>(kSdh2LargestCounts);
   sensor.lag1S = 0.12;
   sensor.lag2S = 0.04;
   sensor.creepShare = 0.15;  // in 5 s: 3 % of the step per second at first

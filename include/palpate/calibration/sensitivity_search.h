@@ -7,15 +7,18 @@
 #include <cstddef>
 #include <optional>
 
+#include <palpate/model/hand_description.h>
+
 namespace palpate {
 
 struct SensitivitySearchOptions {
   double least = 0.1;  // sensitivities tried, 0..1
   double most = 1.0;
-  double resolution = 0.03;        // ends where less is to be won; > 0
-  double saturationCounts = 3500;  // a taxel at or above is saturated [counts]
-  double headroom = 0.1;           // aim so far below saturation; 0..0.9
-  std::size_t framesToLook = 10;   // with contact, at one sensitivity; >= 1
+  double resolution = 0.03;  // ends where less is to be won; > 0
+  double saturationCounts =
+      static_cast<double>(kSdh2SaturationCounts);  // a taxel at or above is saturated [counts]
+  double headroom = 0.1;                           // aim so far below saturation; 0..0.9
+  std::size_t framesToLook = 10;                   // with contact, at one sensitivity; >= 1
   double loosenAfterS =
       5.0;  // an end is looked at anew when the maximum stays low so long [s]; >= 0
 

@@ -13,6 +13,14 @@
 
 namespace palpate {
 
+// Readings of an SDH-2's tactile sensor [counts]. The converter has 12 bits, but the amplifier ends before: the
+// largest reading in 1052 recordings is 3567.
+constexpr float kSdh2FullScaleCounts = 4095.0F;
+// Readings bend towards this one ..
+constexpr float kSdh2LargestCounts = 3560.0F;
+// .. and from here on they say no more than "at least": a taxel at or above is saturated.
+constexpr float kSdh2SaturationCounts = 3500.0F;
+
 struct MatrixDescription {
   std::string name;       // "finger 0 distal"
   std::string shortName;  // "0 distal"
@@ -43,8 +51,9 @@ struct HandDescription {
   std::vector<MatrixDescription> matrices;     // one per matrix of the layout
   std::vector<AxisDescription> axes;
   std::vector<TemperatureSensorDescription> temperatureSensors;
-  float maximumCounts = 4095.0F;     // full scale of the converter [counts]
-  float saturationCounts = 4095.0F;  // a taxel at or above is saturated [counts]
+  float maximumCounts = 4095.0F;  // full scale of the converter [counts]
+  // A taxel at or above is saturated [counts]. Everything that asks for saturation asks here.
+  float saturationCounts = 4095.0F;
 
   // "finger 0 distal", or "matrix 7" where the description has no such matrix.
   std::string matrixName(std::size_t matrix) const;

@@ -46,10 +46,11 @@ struct MatrixCharacteristics {
 // f begins as P^2 / (2 P0) and becomes P - P0.
 struct SensorCharacteristics {
   std::vector<MatrixCharacteristics> matrices;
-  double pressure[4] = {};           // c0..c3
-  double countsPerMean = 1.0;        // reading of a taxel under the stamp / K
-  double thresholdKpa = 0.0;         // [kPa]
-  double saturationCounts = 4095.0;  // readings bend towards it
+  double pressure[4] = {};     // c0..c3
+  double countsPerMean = 1.0;  // reading of a taxel under the stamp / K
+  double thresholdKpa = 0.0;   // [kPa]
+  // Readings bend towards it [counts]; from where on one counts as saturated: HandDescription.
+  double largestCounts = 4095.0;
   // Share of its pressure that a taxel passes on to each of its four neighbours, through the rubber.
   double spreadShare = 0.0;
   // Step response: second order lag, then creep (share of the step, time); and how fast the surface lets go.

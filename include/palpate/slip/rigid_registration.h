@@ -8,6 +8,7 @@
 // x = column (right), y = row (down), in taxels; angles from +x towards +y [deg].
 #pragma once
 
+#include <palpate/model/hand_description.h>
 #include <palpate/slip/key_frame.h>
 
 namespace palpate {
@@ -25,7 +26,7 @@ struct RegistrationOptions {
       2e-4;                     // ends when a pass moves less, also the angle at the contact's edge
   double noiseCounts = 4.0;     // > 0
   double relativeError = 0.01;  // of the model, >= 0
-  double saturationCounts = 3500.0;  // at or above: saturated
+  double saturationCounts = static_cast<double>(kSdh2SaturationCounts);  // at or above: saturated
   double anglePriorDeg =
       6.0;  // sd of the turn from the start; what the shape says of it overrules [deg], > 0
   double leastTurning = 0.06;  // KeyFrame::turning() below which the angle is held, 0..0.5

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <palpate/model/gap_detector.h>
+#include <palpate/model/hand_description.h>
 #include <palpate/slip/learned_surface.h>
 #include <palpate/slip/slip_method.h>
 #include <palpate/slip/slip_motion.h>
@@ -18,8 +19,9 @@ namespace palpate {
 struct SlipTrackerOptions {
   SlipMethod method = SlipMethod::kCentroid;  // not kContest
   bool firstContactIsReference = true;        // else none until setReference()
-  double saturationCounts = 3500.0;           // a taxel at or above is saturated, > 0
-  int farthestTaxels = 4;                     // ncc, phase: a step is looked for within, 1..8
+  // A taxel at or above is saturated, > 0.
+  double saturationCounts = static_cast<double>(kSdh2SaturationCounts);
+  int farthestTaxels = 4;  // ncc, phase: a step is looked for within, 1..8
   RotationOptions rotation = {};
   RegistrationOptions registration = {.noiseCounts = 5.0, .relativeError = 0.001};
   LearnedSurfaceOptions surface = {};

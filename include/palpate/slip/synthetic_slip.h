@@ -13,6 +13,7 @@
 #include <span>
 #include <string_view>
 
+#include <palpate/model/hand_description.h>
 #include <palpate/model/matrix_layout.h>
 #include <palpate/model/tactile_frame.h>
 
@@ -48,10 +49,10 @@ struct SyntheticContact {
 
 struct SyntheticSensor {
   MatrixLayout layout = MatrixLayout::full(14, 6, 3.4);
-  double noiseSd = 5.0;              // [counts]
-  double thresholdCounts = 150.0;    // a reading below is 0
-  double saturationCounts = 3560.0;  // no reading is above
-  double coverTaxels = 0.4;          // sd of an edge [taxels], > 0
+  double noiseSd = 5.0;                                               // [counts]
+  double thresholdCounts = 150.0;                                     // a reading below is 0
+  double saturationCounts = static_cast<double>(kSdh2LargestCounts);  // no reading is above
+  double coverTaxels = 0.4;                                           // sd of an edge [taxels], > 0
 
   // Throws std::invalid_argument naming the field.
   void validate() const;
