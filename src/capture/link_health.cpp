@@ -32,6 +32,8 @@ std::string portFault(const PortStatus& port, const std::string& name) {
       return where + " is silent" + (why.empty() ? ": check the hand's power and cable" : why);
     case PortState::kLost:
       return where + " is gone" + (why.empty() ? ": plug it in again" : why);
+    case PortState::kFault:
+      return where + " failed" + why;
   }
   return {};
 }

@@ -150,6 +150,14 @@ void DsaController::send(DsaId id, const Bytes& payload) {
   channel_.write(dsaRequest(id, payload));
 }
 
+void DsaController::dropLateAnswers() {
+  constexpr int kMostReads = 4;  // a stream never ends
+  for (int i = 0; i < kMostReads && poll(milliseconds(0)) > 0; ++i) {
+  }
+  strayAnswers_ += answers_.size();
+  answers_.clear();
+}
+
 void DsaController::failSilent(const std::string& what) {
   throw DeviceError(DeviceFault::kSilent, channel_.name(), what);
 }
@@ -161,9 +169,9 @@ DsaController::Bytes DsaController::request(DsaId id,
     if (attempt > 0) {
       // A late answer to the try before must not pass for the answer to another question.
       awaitSilence(milliseconds(50), options_.answerTimeout);
-      answers_.clear();
       ++retries_;
     }
+    dropLateAnswers();
     send(id, payload);
     std::optional<Answer> answer = awaitAnswer(id, options_.answerTimeout);
     if (answer && errorWord(answer->payload) == kPending)

@@ -1,5 +1,6 @@
 #include "device/dsa_records.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -12,6 +13,7 @@ namespace palpate {
 namespace {
 
 constexpr double kLargestFullScale = 65'535.0;
+constexpr std::size_t kMostPlaces = (0xFFFF - 5) / 2;  // of a frame: stamp, flags, two bytes each
 
 double finite(float value) { return std::isfinite(value) ? static_cast<double>(value) : 0.0; }
 
@@ -51,7 +53,13 @@ DsaMatrixFacts readMatrixRecord(std::span<const std::byte> record) {
                                 std::to_string(heightMm) + " mm");
   // 3.4, not the 3.4000000953 of a 32-bit float.
   facts.layout = MatrixLayout::full(rows, columns, std::round(widthMm * 1e5) / 1e5);
-  for (const std::byte b : in.take(6)) facts.uniqueId.push_back(std::to_integer<std::uint8_t>(b));
+  const auto id = in.take(6);
+  for (const std::byte b : id) facts.uniqueId.push_back(std::to_integer<std::uint8_t>(b));
+  // A sensor without one reads all zeros or all ones.
+  const auto isBlank = [&](std::byte blank) {
+    return std::all_of(id.begin(), id.end(), [&](std::byte b) { return b == blank; });
+  };
+  if (!isBlank(std::byte{0}) && !isBlank(std::byte{0xFF})) facts.layout.uniqueId = hexDigits(id);
   in.take(2);
   facts.hardwareRevision = in.u8();
   for (double& centre : facts.centreMm) centre = finite(in.f32());
@@ -62,6 +70,25 @@ DsaMatrixFacts readMatrixRecord(std::span<const std::byte> record) {
                                                              : finite(std::bit_cast<float>(scale));
   facts.sensitivityAdjustable = (in.u8() & 2u) != 0;
   return facts;
+}
+
+void checkPlaces(const std::vector<DsaMatrixFacts>& matrices) {
+  std::size_t places = 0;
+  for (const DsaMatrixFacts& matrix : matrices) places += matrix.layout.numPlaces();
+  if (places > kMostPlaces)
+    throw std::invalid_argument("the tactile controller says it has " + std::to_string(places) +
+                                " taxels; a frame carries " + std::to_string(kMostPlaces) +
+                                " at most");
+}
+
+std::string hexDigits(std::span<const std::byte> bytes) {
+  static constexpr char kDigits[] = "0123456789ABCDEF";
+  std::string text;
+  for (const std::byte b : bytes) {
+    text += kDigits[std::to_integer<unsigned>(b) >> 4];
+    text += kDigits[std::to_integer<unsigned>(b) & 0xFu];
+  }
+  return text;
 }
 
 std::size_t maskBytes(std::size_t places) { return (places + 7) / 8; }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <palpate/device/dsa_controller.h>
@@ -22,10 +23,15 @@ std::size_t readSensorRecord(std::span<const std::byte> record, DsaFacts& facts)
 // Throws std::invalid_argument naming what can't be (0 columns, a pitch that isn't positive, ..).
 DsaMatrixFacts readMatrixRecord(std::span<const std::byte> record);
 
+// Throws std::invalid_argument when all matrices together have more places than a frame can carry.
+void checkPlaces(const std::vector<DsaMatrixFacts>& matrices);
+
 // Bit i, least first, belongs to place i = y * columns + x.
 std::size_t maskBytes(std::size_t places);
 Mask unpackMask(std::span<const std::byte> bytes, std::size_t places);
 std::vector<std::byte> packMask(const Mask& mask);
+// Two capital hexadecimal digits per byte.
+std::string hexDigits(std::span<const std::byte> bytes);
 
 void appendU16(std::vector<std::byte>& bytes, unsigned value);
 void appendF32(std::vector<std::byte>& bytes, float value);

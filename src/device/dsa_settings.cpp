@@ -80,6 +80,11 @@ const DsaFacts& DsaController::open() {
   facts_ = std::move(facts);
   facts_.matrices.resize(matrices);
   for (std::size_t m = 0; m < matrices; ++m) readMatrix(m);
+  try {
+    checkPlaces(facts_.matrices);
+  } catch (const std::invalid_argument& wrong) {
+    throw DeviceError(DeviceFault::kProtocol, channel_.name(), wrong.what());
+  }
   for (std::size_t m = 0; m < matrices; ++m) readSettings(m);
   if (options_.readMasks) readMasks();
   parser_.setNumPlaces(facts_.layout().numPlaces());

@@ -88,6 +88,9 @@ DeviceFacts LiveHand::facts() const {
       facts.firmware = known->firmwareText();
       for (const DsaMatrixFacts& matrix : known->matrices)
         facts.matrices.push_back({matrix.sensitivity, matrix.thresholdCounts.value_or(0)});
+      facts.sensorSerial = serialText(known->sensorSerial);
+      facts.sensorRevision = known->generatedBy;
+      facts.sensorHardwareRevision = known->sensorHardwareRevision;
     }
   }
   if (impl_->motion) {
@@ -98,12 +101,17 @@ DeviceFacts LiveHand::facts() const {
 
 void LiveHand::start(DeviceSink& sink) {
   if (!impl_->threads.empty()) throw std::logic_error("LiveHand::start: it was started already");
-  for (PortLink* link : impl_->links()) {
-    link->begin(sink);
-    impl_->threads.emplace_back([link] {
-      while (!link->stopping()) link->step();
-      link->finish();
-    });
+  try {
+    for (PortLink* link : impl_->links()) {
+      link->begin(sink);
+      impl_->threads.emplace_back([link] {
+        while (!link->stopping()) link->step();
+        link->finish();
+      });
+    }
+  } catch (...) {
+    stop();  // no second thread could be had: the first one must not be left alone
+    throw;
   }
 }
 

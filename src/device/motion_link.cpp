@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/model/hand_description.h"
 
@@ -35,10 +36,10 @@ void checkAxes(const char* what,
                                   numberText(least[axis]) + ".." + numberText(most[axis]));
 }
 
-std::string listOf(const std::vector<double>& values) {
-  std::string text = "[";
-  for (const double value : values) text += (text.size() > 1 ? "," : "") + numberText(value);
-  return text + "]";
+Json listOf(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push(value);
+  return list;
 }
 
 bool anyMoves(const std::vector<int>& states) {
@@ -117,27 +118,40 @@ void MotionLink::connect(ByteChannel& channel) {
   }
   std::lock_guard lock(mutex_);
   known_ = facts;
-  nextAnglesUs_ = nextTemperaturesUs_ = clock_.monotonicUs();
+  session_.nextAnglesUs = session_.nextTemperaturesUs = clock_.monotonicUs();
 }
 
 void MotionLink::disconnected() {
   countBytes();
   if (controller_) {
     const SdhStats stats = controller_->stats();
-    before_.bytesRead += stats.bytesRead;
-    before_.badChecksums += stats.badChecksums;
-    before_.retries += stats.retries;
-    before_.suspect += stats.suspect;
-    before_.skippedBytes += stats.skippedBytes;
+    session_.before.bytesRead += stats.bytesRead;
+    session_.before.badChecksums += stats.badChecksums;
+    session_.before.retries += stats.retries;
+    session_.before.suspect += stats.suspect;
+    session_.before.skippedBytes += stats.skippedBytes;
   }
   controller_.reset();
-  if (std::exchange(moving_, false)) stopAfterReturn_ = true;
+  if (std::exchange(session_.moving, false)) stopAfterReturn_ = true;
+  std::lock_guard lock(mutex_);
+  states_.clear();
+}
+
+void MotionLink::emergencyStop() {
+  if (!controller_ || !session_.moving) return;
+  controller_->stop();
+  session_.moving = false;
+  event("motion", "stopped: the program failed", session_.motionFromUs, time_.nowUs());
+}
+
+void MotionLink::forget() {
+  session_ = {};
   std::lock_guard lock(mutex_);
   states_.clear();
 }
 
 void MotionLink::closing() {
-  if (controller_ && std::exchange(moving_, false)) {
+  if (controller_ && std::exchange(session_.moving, false)) {
     controller_->stop();
     eventNow("motion", "stopped: the connection was closed during a motion");
   }
@@ -147,11 +161,11 @@ void MotionLink::countBytes() {
   if (!controller_) return;
   const SdhStats stats = controller_->stats();
   updateStatus([&](PortStatus& status) {
-    status.bytes = before_.bytesRead + stats.bytesRead;
-    status.skippedBytes = before_.skippedBytes + stats.skippedBytes;
-    status.badChecksums = before_.badChecksums + stats.badChecksums;
-    status.retries = before_.retries + stats.retries;
-    status.suspect = before_.suspect + stats.suspect;
+    status.bytes = session_.before.bytesRead + stats.bytesRead;
+    status.skippedBytes = session_.before.skippedBytes + stats.skippedBytes;
+    status.badChecksums = session_.before.badChecksums + stats.badChecksums;
+    status.retries = session_.before.retries + stats.retries;
+    status.suspect = session_.before.suspect + stats.suspect;
   });
 }
 
@@ -165,24 +179,25 @@ void MotionLink::work() {
   if (stopping()) return;
   const std::int64_t nowUs = clock_.monotonicUs();
   try {
-    if (nowUs >= nextTemperaturesUs_) {
-      nextTemperaturesUs_ = nowUs + temperaturePeriodUs_;
+    if (nowUs >= session_.nextTemperaturesUs) {
+      session_.nextTemperaturesUs = nowUs + temperaturePeriodUs_;
       pollTemperatures();
-    } else if (moving_ && nowUs >= nextStatesUs_) {
-      nextStatesUs_ = nowUs + kStatesPeriodUs;
+    } else if (session_.moving && nowUs >= session_.nextStatesUs) {
+      session_.nextStatesUs = nowUs + kStatesPeriodUs;
       pollStates();
-    } else if (nowUs >= nextAnglesUs_) {
+    } else if (nowUs >= session_.nextAnglesUs) {
       // Without catching up: after a delay there is no burst.
-      nextAnglesUs_ = std::max(nextAnglesUs_ + anglePeriodUs_, nowUs);
+      session_.nextAnglesUs = std::max(session_.nextAnglesUs + anglePeriodUs_, nowUs);
       pollAngles();
     } else {
-      waitForOrder(moving_ ? std::min(nextAnglesUs_, nextStatesUs_) : nextAnglesUs_);
+      waitForOrder(session_.moving ? std::min(session_.nextAnglesUs, session_.nextStatesUs)
+                                   : session_.nextAnglesUs);
     }
-    failures_ = 0;
+    session_.failures = 0;
   } catch (const DeviceError& error) {
     // An urgent order cuts an exchange short: no failure of the line.
     if (stopping() || stopWaits()) return;
-    if (error.fault() == DeviceFault::kGone || ++failures_ >= 2) throw;
+    if (error.fault() == DeviceFault::kGone || ++session_.failures >= 2) throw;
     setState(PortState::kSilent, error.what());
   }
   countBytes();
@@ -191,10 +206,10 @@ void MotionLink::work() {
 void MotionLink::pollAngles() {
   JointAngles angles;
   angles.deg = controller_->angles();
-  angles.hostUs = stampAfter(lastAngleStampUs_);
-  ++samples_;
+  angles.hostUs = stampAfter(session_.lastAngleStampUs);
+  ++session_.samples;
   updateStatus([&](PortStatus& status) {
-    status.items = samples_;
+    status.items = session_.samples;
     status.lastItemUs = angles.hostUs;
     status.state = PortState::kStreaming;
     status.message.clear();
@@ -205,7 +220,7 @@ void MotionLink::pollAngles() {
 void MotionLink::pollTemperatures() {
   Temperatures temperatures;
   temperatures.degC = controller_->temperatures();
-  temperatures.hostUs = stampAfter(lastTemperatureStampUs_);
+  temperatures.hostUs = stampAfter(session_.lastTemperatureStampUs);
   sink_->onTemperatures(std::move(temperatures));
 }
 
@@ -217,8 +232,8 @@ void MotionLink::pollStates() {
     states_ = states;
   }
   if (moves) return;
-  moving_ = false;
-  event("motion", "motion ended", motionFromUs_, time_.nowUs());
+  session_.moving = false;
+  event("motion", "motion ended", session_.motionFromUs, time_.nowUs());
 }
 
 CommandAnswer MotionLink::move(const MoveJoints& move) {
@@ -238,8 +253,8 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
   controller_->setProfile(move.ramp ? kRampProfile : kSinSquareProfile);
   if (!move.velocityDegPerS.empty()) controller_->setVelocities(move.velocityDegPerS);
   controller_->setTargets(move.targetDeg);
-  motionFromUs_ = time_.nowUs();
-  moving_ = true;  // also when the answer gets lost: then it may be moving
+  session_.motionFromUs = time_.nowUs();
+  session_.moving = true;  // also when the answer gets lost: then it may be moving
   CommandAnswer answer;
   {
     // Until they are asked: whoever waits for the end mustn't take the states of before for it.
@@ -247,21 +262,24 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
     states_.assign(axes.size(), kMotionLinkPositioning);
   }
   answer.durationS = controller_->move();
-  nextStatesUs_ = clock_.monotonicUs() + kStatesPeriodUs;
+  session_.nextStatesUs = clock_.monotonicUs() + kStatesPeriodUs;
   event("motion",
         "motion began",
-        motionFromUs_,
-        motionFromUs_,
+        session_.motionFromUs,
+        session_.motionFromUs,
         {},
-        "{\"target_deg\":" + listOf(move.targetDeg) + ",\"velocity_deg_per_s\":" +
-            listOf(move.velocityDegPerS) + ",\"duration_s\":" + numberText(answer.durationS) + "}");
+        Json::object()
+            .set("target_deg", listOf(move.targetDeg))
+            .set("velocity_deg_per_s", listOf(move.velocityDegPerS))
+            .set("duration_s", answer.durationS)
+            .text(-1));
   return answer;
 }
 
 void MotionLink::stopMotion() {
   controller_->stop();
-  if (!std::exchange(moving_, false)) return;
-  event("motion", "stopped", motionFromUs_, time_.nowUs());
+  if (!std::exchange(session_.moving, false)) return;
+  event("motion", "stopped", session_.motionFromUs, time_.nowUs());
 }
 
 CommandAnswer MotionLink::execute(const DeviceCommand& command) {
@@ -270,7 +288,7 @@ CommandAnswer MotionLink::execute(const DeviceCommand& command) {
     stopMotion();
   } else if (const auto* power = std::get_if<SetPower>(&command)) {
     controller_->setPower(power->on);
-    if (!power->on) moving_ = false;
+    if (!power->on) session_.moving = false;
     eventNow("motion", power->on ? "axes powered" : "axes without power");
   }
   return {};

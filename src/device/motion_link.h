@@ -28,6 +28,8 @@ class MotionLink : public PortLink {
   void connect(ByteChannel& channel) override;
   void work() override;
   void disconnected() override;
+  void emergencyStop() override;
+  void forget() override;
   void closing() override;
   CommandAnswer execute(const DeviceCommand& command) override;
   void enqueue(Order order) override;
@@ -48,17 +50,21 @@ class MotionLink : public PortLink {
   std::optional<SdhFacts> known_;  // under mutex_
   std::vector<int> states_;        // under mutex_
 
-  bool moving_ = false;  // a motion that we began hasn't ended
-  bool stopAfterReturn_ = false;
-  std::int64_t motionFromUs_ = 0;  // host time
-  std::int64_t nextAnglesUs_ = 0;  // monotonic
-  std::int64_t nextTemperaturesUs_ = 0;
-  std::int64_t nextStatesUs_ = 0;
-  std::int64_t lastAngleStampUs_ = 0;
-  std::int64_t lastTemperatureStampUs_ = 0;
-  int failures_ = 0;  // exchanges in a row that failed
-  SdhStats before_;
-  std::uint64_t samples_ = 0;
+  bool stopAfterReturn_ = false;  // the port went away during a motion
+  // Of one session, from begin() to finish().
+  struct Session {
+    bool moving = false;            // a motion that we began hasn't ended
+    std::int64_t motionFromUs = 0;  // host time
+    std::int64_t nextAnglesUs = 0;  // monotonic
+    std::int64_t nextTemperaturesUs = 0;
+    std::int64_t nextStatesUs = 0;
+    std::int64_t lastAngleStampUs = 0;
+    std::int64_t lastTemperatureStampUs = 0;
+    int failures = 0;  // exchanges in a row that failed
+    SdhStats before;
+    std::uint64_t samples = 0;
+  };
+  Session session_;
 };
 
 }  // namespace palpate

@@ -2,15 +2,26 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 #include <utility>
 
 namespace palpate {
 namespace {
 constexpr std::int64_t kRetryUs = 100'000;  // between two attempts to open a port that is gone
+constexpr std::int64_t kFaultRetryUs = 1'000'000;  // after a failure of the program
 
 // A pseudo-terminal named by its number, not by a link. Once it is gone the number may belong to anybody:
 // to another program's terminal.
 bool namesAPtyByNumber(const std::string& port) { return port.starts_with("/dev/pts/"); }
+
+// Where memory is short one thing may fail, and the next must be done all the same.
+template <typename Work>
+void whateverHappens(Work&& work) noexcept {
+  try {
+    work();
+  } catch (...) {
+  }
+}
 
 }  // namespace
 
@@ -54,6 +65,7 @@ void PortLink::requestStop() noexcept {
 }
 
 void PortLink::begin(DeviceSink& sink) {
+  forget();
   std::lock_guard lock(mutex_);
   sink_ = &sink;
   stopping_ = false;
@@ -67,36 +79,69 @@ void PortLink::begin(DeviceSink& sink) {
   status_.message = "looking for the " + what_;
 }
 
-void PortLink::step() {
+void PortLink::step() noexcept {
   try {
-    if (channel_) {
-      work();
-      return;
+    try {
+      round();
+    } catch (const DeviceError& error) {
+      lose(error);
     }
-    rejectOrders("the " + what_ + " is not connected");
-    if (goneForGood_) nextTryUs_ = clock_.monotonicUs() + kRetryUs;
-    if (clock_.monotonicUs() < nextTryUs_) {
-      waitForOrder(nextTryUs_);
-      return;
-    }
-    nextTryUs_ = clock_.monotonicUs() + kRetryUs;
-    std::unique_ptr<ByteChannel> channel = open_(port_);
-    {
-      std::lock_guard lock(mutex_);
-      channel_ = std::move(channel);
-    }
-    connect(*channel_);
-    updateStatus([&](PortStatus& status) {
-      status.state = PortState::kStreaming;
-      status.message.clear();
-      if (wasConnected_) ++status.reconnects;
-    });
-    lastFailure_.clear();
-    eventNow("link",
-             "the " + what_ + (std::exchange(wasConnected_, true) ? " is back" : " is connected"));
-  } catch (const DeviceError& error) {
-    lose(error);
+  } catch (const std::exception& failure) {
+    fail(failure.what());
+  } catch (...) {
+    fail("an exception of no known kind");
   }
+}
+
+void PortLink::round() {
+  if (channel_) {
+    work();
+    return;
+  }
+  rejectOrders("the " + what_ + " is not connected");
+  if (goneForGood_) nextTryUs_ = clock_.monotonicUs() + kRetryUs;
+  if (clock_.monotonicUs() < nextTryUs_) {
+    waitForOrder(nextTryUs_);
+    return;
+  }
+  nextTryUs_ = clock_.monotonicUs() + kRetryUs;
+  std::unique_ptr<ByteChannel> channel = open_(port_);
+  {
+    std::lock_guard lock(mutex_);
+    channel_ = std::move(channel);
+  }
+  connect(*channel_);
+  updateStatus([&](PortStatus& status) {
+    status.state = PortState::kStreaming;
+    status.message.clear();
+    if (wasConnected_) ++status.reconnects;
+  });
+  lastFailure_.clear();
+  eventNow("link",
+           "the " + what_ + (std::exchange(wasConnected_, true) ? " is back" : " is connected"));
+}
+
+void PortLink::fail(const char* what) noexcept {
+  nextTryUs_ = clock_.monotonicUs() + kFaultRetryUs;
+  if (channel_) {
+    whateverHappens([&] { emergencyStop(); });
+    whateverHappens([&] { disconnected(); });
+    std::unique_ptr<ByteChannel> closed;
+    std::lock_guard lock(mutex_);
+    closed = std::exchange(channel_, nullptr);
+  }
+  if (stopping_) return;
+  {
+    std::lock_guard lock(mutex_);
+    status_.state = PortState::kFault;
+    status_.message.clear();
+  }
+  whateverHappens([&] {
+    const std::string message = port_ + ": the program failed at the " + what_ + " (" + what +
+                                "); the port was closed and is tried anew";
+    setState(PortState::kFault, message);
+    if (std::exchange(lastFailure_, message) != message) eventNow("alarm", message);
+  });
 }
 
 void PortLink::lose(const DeviceError& error) {
@@ -128,13 +173,11 @@ void PortLink::lose(const DeviceError& error) {
 void PortLink::finish() noexcept {
   try {
     if (channel_) closing();
-  } catch (const std::exception&) {
+  } catch (...) {
     // The port went away while we said goodbye: it is closed all the same.
   }
-  try {
-    rejectOrders("the hand was stopped");
-  } catch (const std::exception&) {
-  }
+  whateverHappens([&] { ended(); });
+  whateverHappens([&] { rejectOrders("the hand was stopped"); });
   std::unique_ptr<ByteChannel> closed;
   std::lock_guard lock(mutex_);
   closed = std::exchange(channel_, nullptr);
@@ -158,8 +201,12 @@ void PortLink::executeOrders() {
       order->answer.set_exception(std::current_exception());
       if (error.fault() != DeviceFault::kRefused && error.fault() != DeviceFault::kUnsupported)
         throw;
+    } catch (const std::invalid_argument&) {
+      order->answer.set_exception(
+          std::current_exception());  // the caller's fault: nothing was sent
     } catch (...) {
       order->answer.set_exception(std::current_exception());
+      throw;
     }
   }
 }

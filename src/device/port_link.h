@@ -41,7 +41,9 @@ class PortLink {
 
   // The port's thread: step() until requestStop(), then finish().
   void begin(DeviceSink& sink);
-  void step();
+  // Whatever is thrown inside ends here: where it is no trouble of the port (a bug, no memory left) the hand is
+  // stopped, the port closed and tried anew a second later.
+  void step() noexcept;
   void finish() noexcept;
   bool stopping() const noexcept { return stopping_; }
 
@@ -52,6 +54,12 @@ class PortLink {
   virtual void work() = 0;
   // The port is gone or given up; the channel still exists.
   virtual void disconnected() = 0;
+  // The program failed, and the port will be closed: nothing may be left moving.
+  virtual void emergencyStop() {}
+  // After the last round, whether the port is open or not.
+  virtual void ended() {}
+  // Before the first round of a session: what was counted and seen in the one before is forgotten.
+  virtual void forget() {}
   virtual void closing() = 0;  // last words on an open port, before stop() returns
   virtual CommandAnswer execute(const DeviceCommand& command) = 0;
 
@@ -93,7 +101,9 @@ class PortLink {
   std::atomic<bool> stopping_ = false;
 
  private:
+  void round();
   void lose(const DeviceError& error);
+  void fail(const char* what) noexcept;
 
   Open open_;
   std::condition_variable orderCame_;

@@ -29,7 +29,8 @@ void require(sp_return result, const std::string& name, const std::string& what)
 void SerialPortChannel::Closer::operator()(sp_port* port) const noexcept {
   int fd = -1;
   if (sp_get_port_handle(port, &fd) == SP_OK && fd >= 0) {
-    ::ioctl(fd, TIOCNXCL);  // does not end by itself while something else has the port open
+    // Does not end by itself while something else has the port open. Never another program's: as root that is allowed.
+    if (ours) ::ioctl(fd, TIOCNXCL);
     sp_close(port);
   }
   sp_free_port(port);
@@ -42,8 +43,10 @@ bool SerialPortChannel::knows(const std::string& path) {
   return true;
 }
 
-SerialPortChannel::SerialPortChannel(std::string name, int fd, Port port)
-    : DescriptorChannel(std::move(name), fd, false), port_(std::move(port)) {}
+SerialPortChannel::SerialPortChannel(std::string name, int fd, Port port, OwnedDescriptor lock)
+    : DescriptorChannel(std::move(name), fd, false),
+      lock_(std::move(lock)),
+      port_(std::move(port)) {}
 
 SerialPortChannel::~SerialPortChannel() = default;
 
@@ -54,12 +57,20 @@ std::unique_ptr<ByteChannel> SerialPortChannel::open(const std::string& path,
   if (sp_get_port_by_name(path.c_str(), &found) != SP_OK)
     throw DeviceError(
         DeviceFault::kNotFound, name, "no such port; 'palpate ports' lists what is there");
-  Port port(found);
+  Port port(found, Closer{});
+  // Before libserialport opens the port, and sets it: another program may be streaming there.
+  OwnedDescriptor lock(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (lock.get() < 0) throwOpenError(errno, name);
+  lockLine(lock.get(), name);
+  int exclusive = 0;
+  if (::ioctl(lock.get(), TIOCGEXCL, &exclusive) == 0 && exclusive != 0)
+    throwOpenError(EBUSY, name);  // root gets in all the same
   require(sp_open(port.get(), SP_MODE_READ_WRITE), name, "");
   int fd = -1;
   require(sp_get_port_handle(port.get(), &fd), name, "be waited for");
   ::fcntl(fd, F_SETFD, FD_CLOEXEC);
-  lockLine(fd, name, /*forAll=*/true);
+  if (::ioctl(fd, TIOCEXCL) != 0) throwOpenError(errno, name);
+  port.get_deleter().ours = true;
   require(sp_set_baudrate(port.get(), baud), name, std::to_string(baud) + " baud");
   require(sp_set_bits(port.get(), 8), name, "8 data bits");
   require(sp_set_parity(port.get(), SP_PARITY_NONE), name, "no parity");
@@ -67,7 +78,8 @@ std::unique_ptr<ByteChannel> SerialPortChannel::open(const std::string& path,
   require(sp_set_flowcontrol(port.get(), SP_FLOWCONTROL_NONE), name, "no flow control");
   if (!makeRaw(fd)) throwOpenError(errno, name);  // what libserialport leaves: HUPCL, VMIN
   sp_flush(port.get(), SP_BUF_INPUT);
-  return std::unique_ptr<ByteChannel>(new SerialPortChannel(name, fd, std::move(port)));
+  return std::unique_ptr<ByteChannel>(
+      new SerialPortChannel(name, fd, std::move(port), std::move(lock)));
 }
 
 }  // namespace palpate

@@ -21,10 +21,12 @@ class SerialPortChannel final : public DescriptorChannel {
 
  private:
   struct Closer {
+    bool ours = false;  // the line is for this program alone: that ends with the port
     void operator()(sp_port* port) const noexcept;
   };
   using Port = std::unique_ptr<sp_port, Closer>;
-  SerialPortChannel(std::string name, int fd, Port port);
+  SerialPortChannel(std::string name, int fd, Port port, OwnedDescriptor lock);
+  OwnedDescriptor lock_;  // on the line, taken before anything was changed; let go after port_
   Port port_;
 };
 

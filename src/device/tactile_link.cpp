@@ -9,6 +9,8 @@
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 
+#include "device/dsa_records.h"
+
 namespace palpate {
 namespace {
 
@@ -23,7 +25,8 @@ constexpr double kBadShare = 0.1;
 constexpr std::uint64_t kBadEnough = 10;
 constexpr std::int64_t kCureEveryUs = 15'000'000;
 constexpr std::int64_t kOffsetWindowUs = 30'000'000;
-constexpr double kByteUs = 86.8;  // 10 bits at 115200 Bd
+constexpr std::uint64_t kFramesToCount =
+    9;  // before the controller's clock can count what is missing
 
 }  // namespace
 
@@ -31,10 +34,8 @@ TactileLink::TactileLink(
     const std::string& port, Open open, bool runLength, const HostTime& time, const Clock& clock)
     : PortLink(port, "tactile controller", std::move(open), time, clock),
       runLength_(runLength),
-      byteUs_(kByteUs),
       hand_(sdh2()),
-      layout_(hand_.layout),
-      loss_(byteUs_) {}
+      layout_(hand_.layout) {}
 
 TactileLink::~TactileLink() = default;
 
@@ -70,14 +71,14 @@ void TactileLink::connect(ByteChannel& channel) {
         "meant");
   learn();
   restoreSettings();
-  deviceClock_.reset();
-  loss_.reset();
-  held_.reset();
+  session_.deviceClock.reset();
+  rateMayChange();
+  session_.held.reset();
   delivering_ = true;
   controller_->startStream();
-  lastFrameUs_ = windowFromUs_ = clock_.monotonicUs();
-  windowFrames_ = windowBad_ = 0;
-  restarts_ = 0;
+  session_.lastFrameUs = session_.windowFromUs = clock_.monotonicUs();
+  session_.windowFrames = session_.windowBad = 0;
+  session_.restarts = 0;
 }
 
 void TactileLink::learn() {
@@ -96,22 +97,27 @@ void TactileLink::learn() {
 
 void TactileLink::disconnected() {
   countPackets();
-  before_ = DsaPacketStats{};
+  session_.before = DsaPacketStats{};
   {
     const PortStatus now = status();
-    before_.bytes = now.bytes;
-    before_.badChecksums = now.badChecksums;
-    before_.skippedBytes = now.skippedBytes;
-    retriesBefore_ = now.retries;
+    session_.before.bytes = now.bytes;
+    session_.before.badChecksums = now.badChecksums;
+    session_.before.skippedBytes = now.skippedBytes;
+    session_.retriesBefore = now.retries;
   }
   controller_.reset();
   delivering_ = false;
-  held_.reset();
-  if (!gapFromUs_ && lastStampUs_ != 0) gapFromUs_ = lastStampUs_;
+  session_.held.reset();
+  if (!session_.gapFromUs && session_.lastStampUs != 0) session_.gapFromUs = session_.lastStampUs;
+}
+
+void TactileLink::ended() {
+  if (!session_.gapFromUs) return;
+  const std::int64_t nowUs = time_.nowUs();
+  endGap(nowUs, missingSince(*session_.gapFromUs, nowUs, /*frameCame=*/false));
 }
 
 void TactileLink::closing() {
-  if (gapFromUs_) endGap(time_.nowUs());
   if (!controller_) return;
   delivering_ = false;
   // Within half a second, however the controller is: one try.
@@ -121,7 +127,7 @@ void TactileLink::closing() {
 void TactileLink::work() {
   if (ordersWait()) {
     executeOrders();
-    lastFrameUs_ = clock_.monotonicUs();
+    session_.lastFrameUs = clock_.monotonicUs();
   }
   if (stopping()) return;
   controller_->poll(milliseconds(50));
@@ -134,10 +140,10 @@ void TactileLink::countPackets() {
   if (!controller_) return;
   const DsaControllerStats stats = controller_->stats();
   updateStatus([&](PortStatus& status) {
-    status.bytes = before_.bytes + stats.packets.bytes;
-    status.badChecksums = before_.badChecksums + stats.packets.badChecksums;
-    status.skippedBytes = before_.skippedBytes + stats.packets.skippedBytes;
-    status.retries = retriesBefore_ + stats.retries;
+    status.bytes = session_.before.bytes + stats.packets.bytes;
+    status.badChecksums = session_.before.badChecksums + stats.packets.badChecksums;
+    status.skippedBytes = session_.before.skippedBytes + stats.packets.skippedBytes;
+    status.retries = session_.retriesBefore + stats.retries;
   });
 }
 
@@ -149,60 +155,65 @@ void TactileLink::onPayload(std::span<const std::byte> payload) {
   const std::optional<DsaFrame> packet =
       decodeDsaFrame(payload, *layout_, known_ && known_->masksKnown, frame.values);
   if (!packet) {
-    ++suspect_;
-    updateStatus([&](PortStatus& status) { status.suspect = suspect_; });
+    ++session_.suspect;
+    updateStatus([&](PortStatus& status) { status.suspect = session_.suspect; });
     return;
   }
   judge(std::move(frame), *packet);
 }
 
 void TactileLink::judge(TactileFrame&& frame, const DsaFrame& packet) {
-  frame.hostUs = stampAfter(lastStampUs_);
-  switch (deviceClock_.judge(packet.stampMs, clock_.monotonicUs())) {
+  frame.hostUs = stampAfter(session_.lastStampUs);
+  switch (session_.deviceClock.judge(packet.stampMs, clock_.monotonicUs())) {
     case DsaClock::Verdict::kAccept:
-      return deliver(std::move(frame), deviceClock_.deviceMs(), packet.packetBytes);
+      return deliver(std::move(frame), session_.deviceClock.deviceMs(), packet.packetBytes);
     case DsaClock::Verdict::kReplaceHeld:
-      ++suspect_;
+      ++session_.suspect;
       [[fallthrough]];
     case DsaClock::Verdict::kHold:
-      held_ = Held{std::move(frame), packet};
+      session_.held = Held{std::move(frame), packet};
       break;
     case DsaClock::Verdict::kDropHeld:
-      ++suspect_;
-      held_.reset();
-      deliver(std::move(frame), deviceClock_.deviceMs(), packet.packetBytes);
+      ++session_.suspect;
+      session_.held.reset();
+      deliver(std::move(frame), session_.deviceClock.deviceMs(), packet.packetBytes);
       break;
     case DsaClock::Verdict::kRestarted:
       eventNow("link", "the tactile controller's clock started anew: it was switched off and on");
-      loss_.reset();
-      leastOffsetUs_ = {};
-      if (held_) {
-        Held held = std::move(*held_);
-        held_.reset();
-        deliver(std::move(held.frame), deviceClock_.heldMs(), held.packet.packetBytes);
+      rateMayChange();
+      session_.leastOffsetUs = {};
+      if (session_.held) {
+        Held held = std::move(*session_.held);
+        session_.held.reset();
+        deliver(std::move(held.frame), session_.deviceClock.heldMs(), held.packet.packetBytes);
       }
-      deliver(std::move(frame), deviceClock_.deviceMs(), packet.packetBytes);
+      deliver(std::move(frame), session_.deviceClock.deviceMs(), packet.packetBytes);
       break;
   }
-  updateStatus([&](PortStatus& status) { status.suspect = suspect_; });
+  updateStatus([&](PortStatus& status) { status.suspect = session_.suspect; });
 }
 
 void TactileLink::deliver(TactileFrame&& frame, std::int64_t deviceMs, std::size_t packetBytes) {
   frame.deviceMs = deviceMs;
   const std::int64_t hostUs = frame.hostUs;
-  const std::uint64_t missing = loss_.next(deviceMs, packetBytes);
-  if (gapFromUs_) {
-    lostInGap_ += missing;
-    endGap(hostUs);
+  const std::uint64_t counted = session_.loss.next(deviceMs, packetBytes);
+  ++session_.framesOfClock;
+  Missing missing{counted, false};
+  if (session_.gapFromUs) {
+    if (session_.framesOfClock <= kFramesToCount)
+      missing = missingSince(*session_.gapFromUs, hostUs, /*frameCame=*/true);
+    endGap(hostUs, missing);
+  } else {
+    updateStatus([&](PortStatus& status) { status.lost += counted; });
   }
-  lastFrameUs_ = clock_.monotonicUs();
-  restarts_ = 0;
-  ++frames_;
-  ++windowFrames_;
+  if (session_.loss.scanPeriodMs() > 0.0) session_.periodMs = session_.loss.scanPeriodMs();
+  session_.lastFrameUs = clock_.monotonicUs();
+  session_.restarts = 0;
+  ++session_.frames;
+  ++session_.windowFrames;
   measureAge(hostUs, deviceMs);
   updateStatus([&](PortStatus& status) {
-    status.items = frames_;
-    status.lost += missing;
+    status.items = session_.frames;
     status.lastItemUs = hostUs;
     status.state = PortState::kStreaming;
     status.message.clear();
@@ -212,13 +223,13 @@ void TactileLink::deliver(TactileFrame&& frame, std::int64_t deviceMs, std::size
 
 void TactileLink::measureAge(std::int64_t hostUs, std::int64_t deviceMs) {
   const std::int64_t offsetUs = hostUs - deviceMs * 1000;
-  if (hostUs - offsetWindowUs_ > kOffsetWindowUs) {
-    offsetWindowUs_ = hostUs;
-    leastOffsetUs_[1] = std::exchange(leastOffsetUs_[0], std::nullopt);
+  if (hostUs - session_.offsetWindowUs > kOffsetWindowUs) {
+    session_.offsetWindowUs = hostUs;
+    session_.leastOffsetUs[1] = std::exchange(session_.leastOffsetUs[0], std::nullopt);
   }
-  leastOffsetUs_[0] = std::min(leastOffsetUs_[0].value_or(offsetUs), offsetUs);
-  const std::int64_t least =
-      std::min(*leastOffsetUs_[0], leastOffsetUs_[1].value_or(*leastOffsetUs_[0]));
+  session_.leastOffsetUs[0] = std::min(session_.leastOffsetUs[0].value_or(offsetUs), offsetUs);
+  const std::int64_t least = std::min(
+      *session_.leastOffsetUs[0], session_.leastOffsetUs[1].value_or(*session_.leastOffsetUs[0]));
   updateStatus(
       [&](PortStatus& status) { status.ageMs = static_cast<double>(offsetUs - least) / 1000.0; });
 }
@@ -228,61 +239,84 @@ void TactileLink::measureAge(std::int64_t hostUs, std::int64_t deviceMs) {
 void TactileLink::watchSilence() {
   const std::int64_t nowUs = clock_.monotonicUs();
   const auto limitUs = std::max(
-      kSilentUs, static_cast<std::int64_t>(kSilentPeriods * 1000.0 * loss_.scanPeriodMs()));
-  if (nowUs - lastFrameUs_ < limitUs) return;
-  if (!gapFromUs_) {
+      kSilentUs, static_cast<std::int64_t>(kSilentPeriods * 1000.0 * session_.loss.scanPeriodMs()));
+  if (nowUs - session_.lastFrameUs < limitUs) return;
+  if (!session_.gapFromUs) {
     controller_->flush();  // a packet behind a corrupt size
-    if (clock_.monotonicUs() - lastFrameUs_ < limitUs) return;
-    gapFromUs_ = lastStampUs_ != 0 ? lastStampUs_ : time_.nowUs();
-    setState(PortState::kSilent,
-             port_ + ": no frames for " +
-                 numberText(std::round(static_cast<double>(nowUs - lastFrameUs_) / 1e5) / 10.0) +
-                 " s; check power and cable of the tactile controller");
+    if (clock_.monotonicUs() - session_.lastFrameUs < limitUs) return;
+    session_.gapFromUs = session_.lastStampUs != 0 ? session_.lastStampUs : time_.nowUs();
+    setState(
+        PortState::kSilent,
+        port_ + ": no frames for " +
+            numberText(std::round(static_cast<double>(nowUs - session_.lastFrameUs) / 1e5) / 10.0) +
+            " s; check power and cable of the tactile controller");
     eventNow("alarm", "no frames from the tactile controller");
   }
-  if (nowUs - lastFrameUs_ < kWakeUs * (restarts_ + 1)) return;
-  if (restarts_ >= kWakeTries)
+  if (nowUs - session_.lastFrameUs < kWakeUs * (session_.restarts + 1)) return;
+  if (session_.restarts >= kWakeTries)
     throw DeviceError(
         DeviceFault::kSilent, port_, "the tactile controller is silent; check its power and cable");
-  ++restarts_;
+  ++session_.restarts;
   // Perhaps it was switched off and on, and waits for a start.
   if (controller_->stopStreamOnce(milliseconds(400))) {
-    deviceClock_.reset();
+    session_.deviceClock.reset();
     controller_->startStream();
   }
 }
 
-void TactileLink::endGap(std::int64_t nowUs) {
-  const std::int64_t fromUs = *std::exchange(gapFromUs_, std::nullopt);
+// The controller's rate, and what its clock says, are to be learned anew: what isn't sent meanwhile is no loss.
+void TactileLink::rateMayChange() {
+  session_.loss.reset();
+  session_.framesOfClock = 0;
+}
+
+// By the usual rate: nobody heard the controller's clock over all of the gap.
+TactileLink::Missing TactileLink::missingSince(std::int64_t fromUs,
+                                               std::int64_t nowUs,
+                                               bool frameCame) const {
+  if (!(session_.periodMs > 0.0)) return {};
+  const double periods = static_cast<double>(nowUs - fromUs) / 1000.0 / session_.periodMs;
+  const double frames = std::round(periods) - (frameCame ? 1.0 : 0.0);
+  return {static_cast<std::uint64_t>(std::max(frames, 0.0)), true};
+}
+
+void TactileLink::endGap(std::int64_t nowUs, const Missing& missing) {
+  const std::int64_t fromUs = *std::exchange(session_.gapFromUs, std::nullopt);
   const double seconds = static_cast<double>(nowUs - fromUs) / 1e6;
-  event("gap",
-        "no frames for " + numberText(std::round(seconds * 1000.0) / 1000.0) + " s",
-        fromUs,
-        nowUs,
-        {},
-        "{\"seconds\":" + numberText(seconds) + ",\"lost\":" + std::to_string(lostInGap_) + "}");
-  lostInGap_ = 0;
+  Json json = Json::object().set("seconds", seconds);
+  std::string text = "no frames for " + numberText(std::round(seconds * 1000.0) / 1000.0) + " s";
+  if (missing.frames) {
+    json.set("lost", static_cast<std::int64_t>(*missing.frames))
+        .set("estimated", missing.estimated);
+    text += std::string(missing.estimated ? ", about " : ", ") + std::to_string(*missing.frames) +
+            " frames are missing";
+    updateStatus([&](PortStatus& status) {
+      status.lost += *missing.frames;
+      if (missing.estimated) status.estimatedLost += *missing.frames;
+    });
+  }
+  event("gap", text, fromUs, nowUs, {}, json.text(-1));
 }
 
 // Now and then a wrong checksum is normal. Every tenth means that both ends are out of step, or that
 // another program writes to the port.
 void TactileLink::watchChecksums() {
   const std::int64_t nowUs = clock_.monotonicUs();
-  if (nowUs - windowFromUs_ < kChecksumWindowUs) return;
+  if (nowUs - session_.windowFromUs < kChecksumWindowUs) return;
   const std::uint64_t bad = controller_->stats().packets.badChecksums;
-  const std::uint64_t newBad = bad - std::min(bad, windowBad_);
-  const std::uint64_t frames = std::exchange(windowFrames_, 0);
-  windowBad_ = bad;
-  windowFromUs_ = nowUs;
+  const std::uint64_t newBad = bad - std::min(bad, session_.windowBad);
+  const std::uint64_t frames = std::exchange(session_.windowFrames, 0);
+  session_.windowBad = bad;
+  session_.windowFromUs = nowUs;
   if (newBad < kBadEnough ||
       static_cast<double>(newBad) < kBadShare * static_cast<double>(newBad + frames))
     return;
-  if (lastCureUs_ != 0 && nowUs - lastCureUs_ < kCureEveryUs) return;
-  lastCureUs_ = nowUs;
+  if (session_.lastCureUs != 0 && nowUs - session_.lastCureUs < kCureEveryUs) return;
+  session_.lastCureUs = nowUs;
   eventNow(
       "alarm",
       std::to_string(newBad) + " bad checksums in 3 s: cable, or a second program on the port");
-  if (std::exchange(restartedForChecksums_, !restartedForChecksums_))
+  if (std::exchange(session_.restartedForChecksums, !session_.restartedForChecksums))
     throw DeviceError(DeviceFault::kProtocol, port_, "too many bad checksums: opening it anew");
   controller_->whilePaused([] {});
 }
@@ -325,7 +359,8 @@ std::string TactileLink::settingsJson() const {
   for (const DsaMatrixFacts& matrix : controller_->facts().matrices)
     matrices.push(Json::object()
                       .set("sensitivity", matrix.sensitivity)
-                      .set("threshold_counts", matrix.thresholdCounts.value_or(0)));
+                      .set("threshold_counts", matrix.thresholdCounts.value_or(0))
+                      .set("dynamic_mask", hexDigits(packMask(matrix.layout.dynamicMask))));
   return Json::object().set("matrices", matrices).text(-1);
 }
 
@@ -345,7 +380,7 @@ void TactileLink::change(const Wanted& wanted, std::optional<int> matrix, const 
     }
   });
   learn();
-  loss_.reset();  // the rate may be another one now, and the pause is no loss
+  rateMayChange();
   event("settings",
         text + (matrix ? " (" + hand_.matrixName(static_cast<std::size_t>(*matrix)) + ")"
                        : " (all matrices)"),

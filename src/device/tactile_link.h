@@ -17,6 +17,8 @@
 
 namespace palpate {
 
+constexpr double kTactileByteUs = 86.8;  // 10 bits at 115200 Bd
+
 class TactileLink : public PortLink {
  public:
   TactileLink(
@@ -30,6 +32,8 @@ class TactileLink : public PortLink {
   void connect(ByteChannel& channel) override;
   void work() override;
   void disconnected() override;
+  void ended() override;
+  void forget() override { session_ = {}; }
   void closing() override;
   CommandAnswer execute(const DeviceCommand& command) override;
 
@@ -46,7 +50,14 @@ class TactileLink : public PortLink {
   void deliver(TactileFrame&& frame, std::int64_t deviceMs, std::size_t packetBytes);
   void watchSilence();
   void watchChecksums();
-  void endGap(std::int64_t nowUs);
+  // Frames that are missing; nothing: nobody can say.
+  struct Missing {
+    std::optional<std::uint64_t> frames;
+    bool estimated = true;
+  };
+  Missing missingSince(std::int64_t fromUs, std::int64_t nowUs, bool frameCame) const;
+  void endGap(std::int64_t nowUs, const Missing& missing);
+  void rateMayChange();
   void restoreSettings();
   std::string settingsJson() const;
   void applySetting(std::size_t matrix, const Wanted& wanted);
@@ -56,7 +67,6 @@ class TactileLink : public PortLink {
   void measureAge(std::int64_t hostUs, std::int64_t deviceMs);
 
   const bool runLength_;
-  const double byteUs_;
   std::unique_ptr<DsaController> controller_;
   bool delivering_ = false;
 
@@ -65,36 +75,42 @@ class TactileLink : public PortLink {
   std::optional<DsaFacts> known_;
 
   std::shared_ptr<const SensorLayout> layout_;
-  DsaClock deviceClock_;
-  DsaLossEstimate loss_;
+  std::map<std::size_t, Wanted> wanted_;
+
   struct Held {
     TactileFrame frame;
     DsaFrame packet;
   };
-  std::optional<Held> held_;
-  std::map<std::size_t, Wanted> wanted_;
+  // Of one session, from begin() to finish().
+  struct Session {
+    DsaClock deviceClock;
+    DsaLossEstimate loss{kTactileByteUs};
+    double periodMs = 0.0;            // usual time between two frames; 0: not known
+    std::uint64_t framesOfClock = 0;  // since the controller's clock and rate were known last
+    std::optional<Held> held;
 
-  std::int64_t lastStampUs_ = 0;           // host time of the newest frame
-  std::int64_t lastFrameUs_ = 0;           // monotonic time of it, or of the start of the stream
-  std::optional<std::int64_t> gapFromUs_;  // host time of the last frame before the silence
-  std::uint64_t lostInGap_ = 0;
-  int restarts_ = 0;  // attempts to wake a silent controller
+    std::int64_t lastStampUs = 0;           // host time of the newest frame
+    std::int64_t lastFrameUs = 0;           // monotonic time of it, or of the start of the stream
+    std::optional<std::int64_t> gapFromUs;  // host time of the last frame before the silence
+    int restarts = 0;                       // attempts to wake a silent controller
 
-  DsaPacketStats before_;  // of controllers of earlier connections
-  std::uint64_t retriesBefore_ = 0;
-  std::uint64_t frames_ = 0;
-  std::uint64_t suspect_ = 0;
+    DsaPacketStats before;  // of controllers of earlier connections
+    std::uint64_t retriesBefore = 0;
+    std::uint64_t frames = 0;
+    std::uint64_t suspect = 0;
 
-  // Checksums of the last three seconds.
-  std::int64_t windowFromUs_ = 0;
-  std::uint64_t windowFrames_ = 0;
-  std::uint64_t windowBad_ = 0;
-  std::int64_t lastCureUs_ = 0;
-  bool restartedForChecksums_ = false;
+    // Checksums of the last three seconds.
+    std::int64_t windowFromUs = 0;
+    std::uint64_t windowFrames = 0;
+    std::uint64_t windowBad = 0;
+    std::int64_t lastCureUs = 0;
+    bool restartedForChecksums = false;
 
-  // Least (host - device) of this and the last half minute: what a frame takes when nothing delays it.
-  std::array<std::optional<std::int64_t>, 2> leastOffsetUs_;
-  std::int64_t offsetWindowUs_ = 0;
+    // Least (host - device) of this and the last half minute: what a frame takes when nothing delays it.
+    std::array<std::optional<std::int64_t>, 2> leastOffsetUs;
+    std::int64_t offsetWindowUs = 0;
+  };
+  Session session_;
 };
 
 }  // namespace palpate

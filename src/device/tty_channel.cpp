@@ -49,12 +49,11 @@ void throwOpenError(int error, const std::string& name) {
   }
 }
 
-void lockLine(int fd, const std::string& name, bool forAll) {
+void lockLine(int fd, const std::string& name) {
   if (::flock(fd, LOCK_EX | LOCK_NB) != 0) {
     if (errno == EWOULDBLOCK) throw DeviceError(DeviceFault::kBusy, name, kBusyText);
     throwOpenError(errno, name);
   }
-  if (forAll && ::ioctl(fd, TIOCEXCL) != 0) throwOpenError(errno, name);
 }
 
 bool makeRaw(int fd) noexcept {
@@ -85,7 +84,7 @@ std::unique_ptr<ByteChannel> TtyChannel::open(const std::string& path, const std
         DeviceFault::kBusy, name, "this is the terminal the program runs in; name another port");
   // flock only: TIOCEXCL stays with a pty as long as its other end keeps it open, so that a program
   // that was killed would lock out its own successor.
-  lockLine(fd.get(), name, /*forAll=*/false);
+  lockLine(fd.get(), name);
   if (!makeRaw(fd.get())) throwOpenError(errno, name);
   ::tcflush(fd.get(), TCIFLUSH);
   return std::unique_ptr<ByteChannel>(new TtyChannel(name, std::move(fd)));

@@ -76,6 +76,18 @@ TEST_F(DsaControllerTest, SilenceEndsWithinTheLimitAndSaysWhatToDo) {
   EXPECT_LT(clock.nowUs, 16'500'000);
 }
 
+// C-A14: an acknowledgement that came late, of the same command, is no answer to this one.
+TEST_F(DsaControllerTest, AStaleAnswerIsNotTakenForTheOneAskedFor) {
+  controller.open();
+  line.arrive(wirePacket(0x13, bytesOf("18 00")), 1000);  // an error: "index out of bounds"
+  line.arrive(wirePacket(0x13, bytesOf("18 00")), 200'000);
+  controller.poll(std::chrono::milliseconds(10));  // one is taken already ..
+  clock.nowUs += 300'000;                          // .. one lies in the line
+  EXPECT_NO_THROW(controller.setThreshold(2, 77));
+  EXPECT_EQ(hand.thresholds[2], 77u);
+  EXPECT_EQ(controller.stats().strayAnswers, 2u);
+}
+
 TEST_F(DsaControllerTest, SaysWhenThePortsAreSwapped) {
   ScriptedChannel motion(clock, [](const Bytes& request, ScriptedChannel& channel) {
     if (std::search(request.begin(),

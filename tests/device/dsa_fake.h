@@ -18,6 +18,8 @@ class FakeDsa {
   int swallow = 0;               // requests it doesn't answer
   std::int64_t framePeriodUs = 31'500;
   std::int64_t answerUs = 500;
+  int rowsTold = 0;  // of each matrix, instead of its own; 0: its own
+  int columnsTold = 0;
   // What it was told.
   std::vector<unsigned> thresholds = {150, 300, 150, 300, 150, 300};
   std::vector<float> sensitivities = std::vector<float>(6, 0.5F);
@@ -73,6 +75,13 @@ class FakeDsa {
             "0000 9A995940 9A995940 0600 0E00 102233445566 0000 01 000048C2 000000C2 00000000"
             "00000000 00000000 00000000 FF0F0000 02");
         if (m % 2 == 1) record[12] = std::byte{13};
+        const auto tell = [&](std::size_t place, int count) {
+          if (count == 0) return;
+          record[place] = static_cast<std::byte>(count & 0xFF);
+          record[place + 1] = static_cast<std::byte>(count >> 8);
+        };
+        tell(10, columnsTold);
+        tell(12, rowsTold);
         return m < 6 ? answer(record) : answer(bytesOf("18 00"));
       }
       case 0x0F: {

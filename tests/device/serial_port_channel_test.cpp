@@ -2,6 +2,7 @@
 // (a link reached by "/dev/../"), and an ioctl() of our own that gives it the modem lines a pty lacks.
 #include "device/serial_port_channel.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
@@ -17,7 +18,16 @@
 
 namespace {
 std::atomic<int> exclusiveCalls = 0;
+std::atomic<int> endedExclusive = 0;  // TIOCNXCL
+std::atomic<int> changedLines = 0;    // settings of a line, modem lines
 std::atomic<bool> modemLines = true;
+
+bool changesALine(unsigned long request) {
+  constexpr unsigned long kTcsets2 = 0x402C542B;  // <asm/termbits.h> clashes with <termios.h>
+  constexpr unsigned long kChanges[] = {
+      TCSETS, TCSETSW, TCSETSF, TCSETA, TIOCMSET, TIOCMBIS, TIOCMBIC, TCFLSH, kTcsets2};
+  return std::find(std::begin(kChanges), std::end(kChanges), request) != std::end(kChanges);
+}
 }  // namespace
 
 // Replaces the C library's in this program. Signature as in sys/ioctl.h.
@@ -27,6 +37,8 @@ extern "C" int ioctl(int fd, unsigned long request, ...) noexcept {
   void* argument = va_arg(arguments, void*);
   va_end(arguments);
   if (request == TIOCEXCL) ++exclusiveCalls;
+  if (request == TIOCNXCL) ++endedExclusive;
+  if (changesALine(request)) ++changedLines;
   const long result = ::syscall(SYS_ioctl, fd, request, argument);
   if (result == 0 || errno != ENOTTY || !modemLines) return static_cast<int>(result);
   if (request == TIOCMGET) {
@@ -128,6 +140,28 @@ TEST_F(SerialPortChannelTest, IsForOneProgramOnly) {
   EXPECT_NO_THROW(SerialPortChannel::open(path, "hand", 115'200));
 }
 
+// C-A9: what another program holds stays as it is, also its own lock.
+TEST_F(SerialPortChannelTest, APortThatAnotherHoldsIsNotTouched) {
+  const int fd = ::open(pty.path().c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+  ASSERT_GE(fd, 0);
+  ASSERT_EQ(::flock(fd, LOCK_EX | LOCK_NB), 0);
+  const int ended = endedExclusive;
+  const int changed = changedLines;
+  for (int i = 0; i < 3; ++i) {
+    try {
+      SerialPortChannel::open(path, "other", 9'600);
+      ADD_FAILURE() << "opened twice";
+    } catch (const DeviceError& error) {
+      EXPECT_EQ(error.fault(), DeviceFault::kBusy) << error.what();
+    }
+  }
+  EXPECT_EQ(endedExclusive, ended) << "the other program's exclusive lock was lifted";
+  EXPECT_EQ(changedLines, changed) << "its line was changed";
+  ::close(fd);
+  { SerialPortChannel::open(path, "hand", 115'200); }
+  EXPECT_EQ(endedExclusive, ended + 1) << "its own lock ends with it";
+}
+
 TEST_F(SerialPortChannelTest, NoticesThatTheAdapterWasPulled) {
   const auto channel = SerialPortChannel::open(path, "hand", 115'200);
   Bytes got(10);
@@ -161,7 +195,7 @@ TEST_F(SerialPortChannelTest, LeaksNothingWhenOpeningFails) {
   for (int i = 0; i < 20; ++i)
     EXPECT_THROW(SerialPortChannel::open(path, "x", 115'200), DeviceError);
   EXPECT_EQ(testing::openDescriptors(), held);
-  EXPECT_LE(held, before + 2);  // the line and its wake-up
+  EXPECT_LE(held, before + 3);  // the line, the lock on it, its wake-up
 }
 
 }  // namespace

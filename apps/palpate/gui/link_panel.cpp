@@ -53,6 +53,8 @@ QString nameOf(PortState state) {
       return "silent";
     case PortState::kLost:
       return "gone, looking for it";
+    case PortState::kFault:
+      return "failed, trying it anew";
   }
   return {};
 }

@@ -17,6 +17,11 @@ namespace palpate {
 // Something that happened on the line, at a host time or over a span. Kinds: "gap" (no frames came in
 // between), "link" (connected, lost, restored), "settings" (stream paused to change them), "clock" (the
 // wall clock jumped), "motion" (a command to the joints), "alarm".
+// JSON of "gap": {"seconds": 3.2, "lost": 101, "estimated": true}; lost is counted by the controller's clock
+// where that went on, else estimated (true) by the usual rate; absent where no rate was known.
+// JSON of "settings", all that holds from then on: {"matrices": [{"sensitivity": 0.5, "threshold_counts": 150,
+// "dynamic_mask": "FFFF..0F"}, ..]}; the mask in capital hexadecimal digits, two per byte, the bit i % 8 of byte i / 8
+// (least first) is place i = y * columns + x: 1 where the taxel is scanned (as on the wire).
 struct DeviceEvent {
   std::int64_t tUs = 0;   // [us since 1970]
   std::int64_t t1Us = 0;  // end; equals tUs for a moment
@@ -43,6 +48,7 @@ enum class PortState {
   kStreaming,   // data come
   kSilent,      // open, but no data for 500 ms (or three periods, if longer)
   kLost,        // the port is gone; looking for its return
+  kFault,  // the program failed at this port (out of memory, a bug); it was closed and is tried anew
 };
 
 // Counts since start(). A snapshot.
@@ -55,7 +61,10 @@ struct PortStatus {
   std::uint64_t badChecksums = 0;  // packets or answers with a wrong checksum
   std::uint64_t suspect = 0;       // right checksum, implausible content: dropped
   std::uint64_t skippedBytes = 0;  // outside of any packet
-  std::uint64_t lost = 0;  // frames that the device clock says were sent, and never came whole
+  // Frames that were sent and never came whole, by the device clock. Over a gap in which nobody heard that clock:
+  // as many as would have come at the usual rate (estimatedLost of them).
+  std::uint64_t lost = 0;
+  std::uint64_t estimatedLost = 0;
   std::uint64_t reconnects = 0;
   std::int64_t lastItemUs = 0;  // host time of the newest item [us since 1970]; 0: none yet
   double ageMs = 0.0;           // how late the newest frame came, against the fastest one [ms]
@@ -109,6 +118,10 @@ struct DeviceFacts {
   std::string firmware;                  // tactile controller
   std::string motionFirmware;            // "0.0.3.3"
   std::vector<MatrixSettings> matrices;  // as last read back
+  // Of the sensor, beside its controller; empty, 0: not told.
+  std::string sensorSerial;  // "1D9B0057"
+  int sensorRevision = 0;    // of the tool that wrote its description ("generated_by" in a .dsa)
+  int sensorHardwareRevision = 0;  //
 };
 
 class Device {

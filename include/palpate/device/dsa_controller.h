@@ -126,6 +126,8 @@ class DsaController {
   std::optional<Answer> awaitAnswer(DsaId id, std::chrono::milliseconds limit);
   // Sends until answered; checks the error word and the size (0: any from 2 up).
   Bytes request(DsaId id, const Bytes& payload, std::size_t answerBytes);
+  // What has come already can't be the answer to what is asked next.
+  void dropLateAnswers();
   void send(DsaId id, const Bytes& payload);
   void acquisition(bool on, int rate);
   void awaitSilence(std::chrono::milliseconds silence, std::chrono::milliseconds limit);

@@ -4,7 +4,7 @@
 // Every value that is sent is checked before the first byte leaves (std::invalid_argument names axis,
 // value and range; nothing was sent), and every set names all seven axes: none becomes 0 by omission.
 // `grip` and `selgrip` aren't here: the hand is deaf to a stop until they end.
-// All calls are bounded in time (4 s, a reference run 20 s) and throw DeviceError: kSilent (no answer),
+// All calls are bounded in time (5 s, a reference run 20 s) and throw DeviceError: kSilent (no answer),
 // kRefused (error code, with its meaning), kProtocol (answers arrive damaged), kUnsupported (firmware too
 // old), kGone; SdhInterrupted (see SdhControllerOptions::urgent).
 #pragma once

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace palpate {
@@ -20,6 +21,9 @@ struct MatrixLayout {
   double pitchMm = 0.0;  // distance between neighbouring taxels [mm], along rows and columns
   Mask staticMask;       // size rows*columns: 1 where the sensor has a taxel
   Mask dynamicMask;      // size rows*columns: 1 where the taxel is scanned
+  // Which sensor it is: the unique id that is burnt into it, as the controller tells it, in capital
+  // hexadecimal digits ("28FF00AB0C11"); empty: not known.
+  std::string uniqueId = {};
 
   // A full matrix without masked places.
   static MatrixLayout full(int rows, int columns, double pitchMm);
@@ -32,7 +36,11 @@ struct MatrixLayout {
   double taxelAreaMm2() const noexcept { return pitchMm * pitchMm; }
   // Throws std::invalid_argument naming the field that is out of range.
   void validate() const;
-  bool operator==(const MatrixLayout&) const = default;
+  // Where taxels are, and which are scanned: the same for two sensors of a kind, whatever their ids.
+  bool operator==(const MatrixLayout& other) const {
+    return rows == other.rows && columns == other.columns && pitchMm == other.pitchMm &&
+           staticMask == other.staticMask && dynamicMask == other.dynamicMask;
+  }
 };
 
 // The matrices in wire order; places of all matrices form one sequence.
