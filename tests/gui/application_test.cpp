@@ -3,6 +3,8 @@
 
 #include <QIcon>
 #include <QImage>
+#include <memory>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -24,6 +26,16 @@ TEST(Application, HasAnIconInEverySizeThatDesktopsAskFor) {
 
 TEST(Application, IsCalledAsItsDesktopEntry) {
   EXPECT_EQ(QApplication::desktopFileName(), "palpate");
+}
+
+// C-A2: a hand may be moving, and its stop must be heard.
+TEST(Application, WhatIsThrownAtAnEventEndsNothing) {
+  class Thrower : public QObject {
+    bool event(QEvent*) override { throw std::runtime_error("a bug in the window"); }
+  } thrower;
+  QCoreApplication::postEvent(&thrower, new QEvent(QEvent::User));
+  EXPECT_NO_THROW(QCoreApplication::processEvents());
+  EXPECT_FALSE(QCoreApplication::sendEvent(&thrower, std::make_unique<QEvent>(QEvent::User).get()));
 }
 
 }  // namespace

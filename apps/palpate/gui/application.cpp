@@ -3,6 +3,7 @@
 #include <QIcon>
 #include <QLocale>
 #include <clocale>
+#include <exception>
 
 // A static library's resources are there only when asked for, and by a function of no namespace.
 static void initIcons() { Q_INIT_RESOURCE(icons); }
@@ -19,11 +20,28 @@ QIcon programIcon() {
   return icon;
 }
 
+// What is thrown while the window answers an event (no memory, a bug) costs that event, not the process: a hand
+// may be moving, and its stop must be heard.
+class GuardedApplication : public QApplication {
+ public:
+  using QApplication::QApplication;
+  bool notify(QObject* receiver, QEvent* event) override {
+    try {
+      return QApplication::notify(receiver, event);
+    } catch (const std::exception& failure) {
+      qCritical("The window failed at an event, and goes on: %s", failure.what());
+    } catch (...) {
+      qCritical("The window failed at an event, and goes on");
+    }
+    return false;
+  }
+};
+
 }  // namespace
 
 std::unique_ptr<QApplication> makeApplication(int& argc, char** argv) {
   std::unique_ptr<QApplication> application;
-  if (!QApplication::instance()) application = std::make_unique<QApplication>(argc, argv);
+  if (!QApplication::instance()) application = std::make_unique<GuardedApplication>(argc, argv);
   QApplication::setApplicationName("palpate");
   QApplication::setApplicationDisplayName("Palpate");
   QApplication::setApplicationVersion(PALPATE_VERSION);
