@@ -54,18 +54,20 @@ GraspControl::~GraspControl() {
   }
   if (moving) stop();
   thread_ = {};  // asks it to end, and waits
-  const std::lock_guard lock(mutex_);
-  if (!asked_) return;
-  asked_->answer.wait_for(kGoodbye);
-  try {
-    round();
-  } catch (const std::exception&) {
-    // The stop is on the wire: there is no more to do.
+  {
+    const std::lock_guard lock(mutex_);
+    if (asked_) {
+      asked_->answer.wait_for(kGoodbye);
+      guardedRound();
+    }
   }
+  delivery_ = {};
+  deliver();
 }
 
 void GraspControl::run() {
   if (thread_.joinable()) return;
+  delivery_ = std::jthread([this](const std::stop_token& stop) { deliverLoop(stop); });
   thread_ = std::jthread([this](const std::stop_token& stop) { loop(stop); });
 }
 
@@ -85,8 +87,93 @@ void GraspControl::loop(const std::stop_token& stop) {
 }
 
 void GraspControl::step() {
-  const std::lock_guard lock(mutex_);
-  round();
+  {
+    const std::lock_guard lock(mutex_);
+    guardedRound();
+  }
+  deliverHere();
+}
+
+void GraspControl::guardedRound() noexcept {
+  try {
+    round();
+    lastFault_.clear();
+  } catch (const std::exception& failure) {
+    fault(failure.what());
+  } catch (...) {
+    fault("an exception of no known kind");
+  }
+}
+
+// Each thing by itself: where memory is short one may fail, and the next must be tried all the same. The stop first.
+void GraspControl::fault(const char* what) noexcept {
+  const auto whateverHappens = [](auto&& work) {
+    try {
+      work();
+    } catch (...) {
+    }
+  };
+  const std::int64_t nowUs = clock_.monotonicUs();
+  whateverHappens([&] {
+    machine_.fault(what, nowUs);
+    send();
+  });
+  // What is thrown in every round must not keep a stop from being sent again, nor its answer from being heard.
+  whateverHappens([&] { heedAnswers(); });
+  whateverHappens([&] {
+    machine_.onTime(nowUs);
+    send();
+  });
+  whateverHappens([&] {
+    if (lastFault_ == what) return;
+    lastFault_ = what;
+    const std::string text = std::string("the program failed while it watched the hand (") + what +
+                             "); what moved was stopped";
+    note({session_.nowUs(), session_.nowUs(), "alarm", {}, text, {}});
+  });
+  whateverHappens([&] { report(); });
+}
+
+// --- what is told to the session ------------------------------------------------------------------
+
+void GraspControl::note(RecordingEvent event) {
+  owed_.push_back(std::move(event));
+  ++undelivered_;
+  owes_.notify_one();
+}
+
+void GraspControl::deliver() {
+  while (true) {
+    RecordingEvent event;
+    {
+      const std::lock_guard lock(mutex_);
+      if (owed_.empty()) return;
+      event = std::move(owed_.front());
+      owed_.pop_front();
+    }
+    try {
+      session_.note(event);
+    } catch (const std::exception&) {
+      // No memory: what moves a hand goes on without this line.
+    }
+    const std::lock_guard lock(mutex_);
+    --undelivered_;
+  }
+}
+
+void GraspControl::deliverLoop(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    {
+      std::unique_lock lock(mutex_);
+      if (!owes_.wait(lock, stop, [this] { return !owed_.empty(); })) return;
+    }
+    deliver();
+  }
+}
+
+// Without a thread for it, in the call itself.
+void GraspControl::deliverHere() {
+  if (!delivery_.joinable()) deliver();
 }
 
 void GraspControl::round() {
@@ -156,6 +243,7 @@ std::string GraspControl::motionProblem() const {
       return "it is closed";
     case PortState::kConnecting:
     case PortState::kLost:
+    case PortState::kFault:
       break;
   }
   return motion->message.empty() ? "no motion controller answers" : motion->message;
@@ -163,13 +251,13 @@ std::string GraspControl::motionProblem() const {
 
 void GraspControl::report() {
   for (const GraspNote& note : machine_.takeNotes()) {
-    session_.note(noteEvent(machine_.running(), note, session_.nowUs()));
+    this->note(noteEvent(machine_.running(), note, session_.nowUs()));
     tell(machine_.phase(), note.text);
   }
   if (auto ended = machine_.takeReport()) {
     ended->endUs = session_.nowUs();
     asked_.reset();
-    session_.note(endEvent(*ended));
+    note(endEvent(*ended));
     tell(GraspPhase::kIdle, ended->text, ended);
     last_ = std::move(ended);
   }
@@ -191,16 +279,25 @@ void GraspControl::refused(const GraspRequest& request, const std::string& why) 
   GraspReport report;
   report.request = request;
   report.outcome = GraspOutcome::kRefused;
-  report.text = why;
+  // "reactive grasp refused: limit 1 is not in ..", whoever found it wrong.
+  std::string_view reason = why;
+  for (const std::string_view part : {"grasp: ", "refused: "})
+    if (reason.substr(0, part.size()) == part) reason.remove_prefix(part.size());
+  report.text = kindOf(request) + " refused: " + std::string(reason);
   report.beginUs = report.endUs = session_.nowUs();
-  session_.note(endEvent(report));
+  note(endEvent(report));
   last_ = report;
 }
 
 void GraspControl::grasp(const GraspRequest& request) {
+  // Told before the caller hears of it, also of a refusal.
+  const struct Delivery {
+    GraspControl& control;
+    ~Delivery() { control.deliverHere(); }
+  } delivery{*this};
   {
     const std::lock_guard lock(mutex_);
-    round();  // what has come by now counts
+    guardedRound();  // what has come by now counts
     try {
       request.validate();
       if (const std::string why = motionProblem(); !why.empty())
@@ -210,12 +307,13 @@ void GraspControl::grasp(const GraspRequest& request) {
             DeviceFault::kRefused,
             "grasp",
             "refused: a tactile setting is just being changed; once more in a second");
+      machine_.setSettings(session_.device().facts().matrices);
       machine_.begin(request, clock_.monotonicUs(), session_.nowUs());
     } catch (const std::exception& error) {
       refused(request, error.what());
       throw;
     }
-    session_.note(beginEvent(machine_.running()));
+    note(beginEvent(machine_.running()));
     send();
     report();
   }
@@ -240,22 +338,27 @@ void GraspControl::stop() noexcept {
       // Nothing runs that we know of, or a stop is under way: it goes out all the same.
       if (sentBefore || !machine_.active()) free_.push_back(session_.device().submit(StopMotion{}));
       report();
-    } catch (const std::exception&) {
-      // Out of memory, after the stop was handed over.
+    } catch (const std::exception& failure) {
+      fault(failure.what());
     }
   }
+  deliverHere();
   feed_->wake();
 }
 
 void GraspControl::relax() noexcept {
-  const std::lock_guard lock(mutex_);
-  try {
-    free_.push_back(session_.device().submit(StopMotion{}));
-    free_.push_back(session_.device().submit(SetPower{}));
-    machine_.relax();
-    report();
-  } catch (const std::exception&) {
+  {
+    const std::lock_guard lock(mutex_);
+    try {
+      free_.push_back(session_.device().submit(StopMotion{}));
+      free_.push_back(session_.device().submit(SetPower{}));
+      machine_.relax();
+      report();
+    } catch (const std::exception& failure) {
+      fault(failure.what());
+    }
   }
+  deliverHere();
 }
 
 bool GraspControl::settingsPending() const {
@@ -281,6 +384,8 @@ GraspStatus GraspControl::status() const {
   const std::lock_guard lock(mutex_);
   GraspStatus status;
   status.phase = machine_.phase();
+  // Ended is a grasp when the session was told so, too.
+  if (!machine_.active() && undelivered_ > 0) status.phase = GraspPhase::kStopping;
   if (machine_.active()) status.request = machine_.running().request;
   status.last = last_;
   status.cannotMove = motionProblem();

@@ -6,6 +6,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/model/preshape.h"
 
 namespace palpate {
 namespace {
@@ -16,6 +17,10 @@ constexpr int kStops = 20;                      // .. so often, then it is given
 // A motion may take so much longer than announced: fingers slow down at what they press.
 constexpr double kDurationFactor = 3.0;
 constexpr double kDurationMoreS = 5.0;
+// The rubber answers with a lag of 0.16 s: after three of them little comes.
+constexpr std::int64_t kLookOnUs = 500'000;
+constexpr float kRiseCounts = 10.0F;   // less is noise
+constexpr double kFarOverLimit = 1.5;  // times the limit: said
 
 // Axis states of the SDH-2.
 constexpr int kPositioning = 1;
@@ -70,6 +75,7 @@ void GraspMachine::begin(const GraspRequest& request, std::int64_t monoUs, std::
              (silence ? "none has come for " + millisecondsText(*silence) + " ms"
                       : std::string("none has come yet")));
     }
+    refuseUnfelt(request);
     if (peak_.counts > static_cast<float>(request.limitCounts))
       refuse("refused: over the limit of " + std::to_string(request.limitCounts) + " already, at " +
              placeOf(peak_) + "; open the hand, or raise the limit");
@@ -94,6 +100,38 @@ void GraspMachine::begin(const GraspRequest& request, std::int64_t monoUs, std::
     move(request.closeRatio, GraspPhase::kClosing, monoUs);
 }
 
+// Throws when a matrix that may press can't tell that it does.
+void GraspMachine::refuseUnfelt(const GraspRequest& request) const {
+  const int highest = request.mode == GraspMode::kSlip
+                          ? std::max(request.limitCounts, request.holding.mostLimitCounts)
+                          : request.limitCounts;
+  std::string text;
+  for (const UnfeltLimit& unfelt : unfeltLimits(hand_, settings_, highest)) {
+    if (unfelt.matrix < hand_.matrices.size() &&
+        !movesIn(sdh2Preshape(request.preshape), hand_.matrices[unfelt.matrix]))
+      continue;
+    text += (text.empty() ? "" : "; ") + unfelt.why;
+  }
+  if (!text.empty())
+    refuse("refused: a limit of " + std::to_string(highest) + " counts would not be felt: " + text);
+}
+
+bool GraspMachine::isOverLimit() const noexcept {
+  return peak_.counts > static_cast<float>(limit_) || peak_.counts >= hand_.saturationCounts;
+}
+
+// True when the matrices are others than before, or other taxels of them are scanned.
+bool GraspMachine::learnLayout(const TactileFrame& frame) {
+  if (!frame.layout || frame.layout == hand_.layout) return false;
+  const bool another = !(*frame.layout == *hand_.layout);
+  if (another) {
+    hand_ = describeHand(*frame.layout, hand_.axes.size(), hand_.temperatureSensors.size());
+    grip_ = GripWatch(hand_);
+  }
+  hand_.layout = frame.layout;
+  return another;
+}
+
 void GraspMachine::move(double closeRatio, GraspPhase phase, std::int64_t monoUs) {
   command_ = motionTo(report_.request, closeRatio, hand_);
   phase_ = phase;
@@ -105,13 +143,21 @@ void GraspMachine::move(double closeRatio, GraspPhase phase, std::int64_t monoUs
 
 void GraspMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) {
   const auto silence = stream_.frame(frame.hostUs, monoUs);
+  const bool anotherLayout = learnLayout(frame);
   peak_ = taxelPeak(frame);
+  if (anotherLayout && underTactileControl())
+    return fault("the layout of the tactile sensor is another one than at the begin", monoUs);
   if (active() && isSlipAware()) grip_.onFrame(frame);
+  // From the stop on, until it has come to rest.
+  if (report_.reached && (phase_ == GraspPhase::kStopping || phase_ == GraspPhase::kSettling))
+    seeReached();
+  if (looksOn()) return;
   if (holds()) return onHoldingFrame(monoUs);
   if (!moves() || !underTactileControl()) return;
   if (phase_ == GraspPhase::kLoosening && !silence) return onLooseningFrame(monoUs);
-  if (phase_ != GraspPhase::kLoosening && peak_.counts > static_cast<float>(limit_)) {
+  if (phase_ != GraspPhase::kLoosening && isOverLimit()) {
     report_.peak = peak_;
+    report_.reached = peak_;
     if (isSlipAware() && phase_ == GraspPhase::kClosing)
       return pause(Next::kSettle, "limit reached: " + placeOf(peak_), monoUs);
     halt(GraspOutcome::kLimitReached, "limit reached: " + placeOf(peak_), monoUs);
@@ -185,9 +231,32 @@ void GraspMachine::end(GraspOutcome outcome, const std::string& text) {
 void GraspMachine::onStopTaken(std::int64_t monoUs) {
   if (phase_ != GraspPhase::kStopping) return;
   if (next_ == Next::kSettle) return settle(monoUs);
+  if (report_.outcome == GraspOutcome::kLimitReached) return lookOn(monoUs);
   if (next_ == Next::kClose) return move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
   end(report_.outcome, report_.text);
 }
+
+void GraspMachine::lookOn(std::int64_t monoUs) {
+  phase_ = GraspPhase::kSettling;
+  command_.reset();
+  settledUs_ = monoUs + kLookOnUs;
+}
+
+void GraspMachine::seeReached() {
+  if (!report_.reached || peak_.counts > report_.reached->counts) report_.reached = peak_;
+}
+
+// "; rose to 3222 after the stop, 16 times the limit: close more slowly", or nothing.
+std::string GraspMachine::riseText() const {
+  if (!report_.reached || report_.reached->counts < report_.peak.counts + kRiseCounts) return {};
+  const double times = static_cast<double>(report_.reached->counts) / std::max(limit_, 1);
+  std::string text = "; rose to " + numberText(report_.reached->counts) + " after the stop";
+  if (times >= kFarOverLimit)
+    text += ", " + fixedText(times, 1) + " times the limit: close more slowly";
+  return text;
+}
+
+void GraspMachine::endLooking() { end(report_.outcome, report_.text + riseText()); }
 
 void GraspMachine::onCommandFailed(const std::string& why, bool sent, std::int64_t monoUs) {
   if (active() && !sent) return end(GraspOutcome::kRefused, "refused: " + why);
@@ -197,6 +266,7 @@ void GraspMachine::onCommandFailed(const std::string& why, bool sent, std::int64
 
 void GraspMachine::onMotionPortGone(const std::string& why) {
   if (!active()) return;
+  if (looksOn()) return endLooking();  // it has stopped
   const std::string gone =
       "the motion port is gone: " + why + "; the hand finishes its motion by itself";
   end(GraspOutcome::kPortGone,
@@ -204,6 +274,7 @@ void GraspMachine::onMotionPortGone(const std::string& why) {
 }
 
 void GraspMachine::onTactilePortGone(const std::string& why, std::int64_t monoUs) {
+  if (looksOn()) return endLooking();
   if (moves() && underTactileControl())
     halt(GraspOutcome::kStreamDead, "stopped: the tactile port is gone: " + why, monoUs);
   else if (holds())
@@ -211,7 +282,24 @@ void GraspMachine::onTactilePortGone(const std::string& why, std::int64_t monoUs
         "the tactile port is gone: " + why + "; the hand holds, nobody watches");
 }
 
+void GraspMachine::fault(const std::string& why, std::int64_t monoUs) {
+  if (looksOn()) return endLooking();  // it has stopped
+  if (phase_ == GraspPhase::kStopping) {
+    // The stop is on its way; nothing may follow it.
+    if (next_ == Next::kEnd && report_.outcome != GraspOutcome::kNone) return;
+    next_ = Next::kEnd;
+    report_.outcome = GraspOutcome::kFailed;
+    report_.text = "failed: " + why + ": stopped";
+    return;
+  }
+  if (active())
+    halt(GraspOutcome::kFailed,
+         "failed: " + why + (holds() ? ": the hand holds, nobody watches" : ": stopped"),
+         monoUs);
+}
+
 void GraspMachine::stop(std::int64_t monoUs) {
+  if (looksOn()) return endLooking();
   if (holds() || (phase_ == GraspPhase::kStopping && next_ != Next::kEnd))
     return halt(
         GraspOutcome::kStopped, "stopped by the user: the hand holds, nobody watches", monoUs);
@@ -232,6 +320,10 @@ void GraspMachine::onTime(std::int64_t monoUs) {
     ++stops_;
     return;
   }
+  if (looksOn()) {
+    if (monoUs >= settledUs_) endLooking();
+    return;
+  }
   if (holds()) return onHoldingTime(monoUs);
   if (!moves()) return;
   if (underTactileControl() && monoUs > stream_.deadAtUs())
@@ -248,6 +340,7 @@ void GraspMachine::onTime(std::int64_t monoUs) {
 
 std::optional<std::int64_t> GraspMachine::nextUs() const {
   if (phase_ == GraspPhase::kStopping) return sentUs_ + kStopAgainUs;
+  if (looksOn()) return settledUs_;
   if (holds()) return holdingNextUs();
   if (!moves()) return std::nullopt;
   return underTactileControl() ? std::min(patienceUs_, stream_.deadAtUs() + 1) : patienceUs_;

@@ -41,13 +41,24 @@ void GraspMachine::settle(std::int64_t monoUs) {
   if (endUs_ == 0 && holding.holdS > 0.0) endUs_ = settledUs_ + microsecondsOf(holding.holdS);
 }
 
+// "holding: limit 200 counts; rose to 3331 after the stop, above its highest limit of 2200: close more slowly"
+std::string GraspMachine::holdingText() const {
+  std::string text = "holding: limit " + std::to_string(limit_) + " counts";
+  const int highest = report_.request.holding.mostLimitCounts;
+  if (!report_.reached || report_.reached->counts <= static_cast<float>(highest))
+    return text + riseText();
+  return text + "; rose to " + numberText(report_.reached->counts) +
+         " after the stop, above its highest limit of " + std::to_string(highest) +
+         ": close more slowly";
+}
+
 void GraspMachine::onHoldingFrame(std::int64_t monoUs) {
   if (phase_ == GraspPhase::kSettling) {
     if (monoUs < settledUs_) return;
     grip_.setReference();
     phase_ = GraspPhase::kHolding;
     calmUs_ = monoUs;
-    if (!held_) note("holding", "holding: limit " + std::to_string(limit_) + " counts");
+    if (!held_) note("holding", holdingText());
     held_ = report_.held = true;
     return;
   }

@@ -104,8 +104,17 @@ MoveJoints motionTo(const GraspRequest& request, double closeRatio, const HandDe
   return move;
 }
 
+bool isOpening(const GraspRequest& request) {
+  return request.mode == GraspMode::kPlain && request.closeRatio == 0.0 && !request.startRatio;
+}
+
+std::string kindOf(const GraspRequest& request) {
+  return isOpening(request) ? "opening" : std::string(nameOf(request.mode)) + " grasp";
+}
+
 std::string describe(const GraspRequest& request) {
-  std::string text = std::string(nameOf(request.mode)) + " grasp: " + request.preshape;
+  std::string text = kindOf(request) + ": " + request.preshape;
+  if (isOpening(request)) return text + ", " + numberText(request.velocityDegPerS) + " deg/s";
   if (request.startRatio) text += ", from " + numberText(*request.startRatio);
   text += std::string(request.startRatio ? " to " : ", to ") + numberText(request.closeRatio) +
           ", " + numberText(request.velocityDegPerS) + " deg/s";
@@ -136,6 +145,9 @@ RecordingEvent endEvent(const GraspReport& report) {
         .set("y", report.peak.row)
         .set("counts", static_cast<double>(report.peak.counts));
   }
+  if (report.reached)
+    json.set("reached_counts", static_cast<double>(report.reached->counts))
+        .set("reached_matrix", report.reached->matrix);
   if (report.request.mode == GraspMode::kSlip) {
     json.set("last_limit_counts", report.limitCounts).set("slips", report.slips);
     if (report.countsAtSlip) json.set("counts_at_slip", *report.countsAtSlip);

@@ -44,6 +44,9 @@ TEST(GraspControl, ReactiveGraspStopsWithTheFrameThatCrossesTheLimit) {
   EXPECT_EQ(bench.hand->count<StopMotion>(), 0u);
   bench.feel(1, 250.0F);  // one round
   EXPECT_EQ(bench.hand->count<StopMotion>(), 1u);
+  EXPECT_EQ(bench.control->status().phase, GraspPhase::kSettling);
+  bench.feel(17, 240.0F);
+  EXPECT_EQ(bench.hand->count<StopMotion>(), 1u);
   const GraspStatus status = bench.control->status();
   EXPECT_EQ(status.phase, GraspPhase::kIdle);
   ASSERT_TRUE(status.last.has_value());
@@ -69,6 +72,7 @@ TEST(GraspControl, TellsWhatHappensInOrder) {
   ASSERT_EQ(bench.hand->count<StopMotion>(), 1u);
   bench.hand->waiting[2].set_value({});
   bench.wait(1000);
+  bench.feel(17, 300.0F);
   std::vector<GraspPhase> phases;
   std::vector<GraspChange> changes = bench.control->takeChanges();
   for (const GraspChange& change : changes) phases.push_back(change.phase);
@@ -76,6 +80,7 @@ TEST(GraspControl, TellsWhatHappensInOrder) {
             (std::vector<GraspPhase>{GraspPhase::kPreshaping,
                                      GraspPhase::kClosing,
                                      GraspPhase::kStopping,
+                                     GraspPhase::kSettling,
                                      GraspPhase::kIdle}));
   ASSERT_TRUE(changes.back().report.has_value());
   EXPECT_EQ(changes.back().report->outcome, GraspOutcome::kLimitReached);
@@ -92,6 +97,7 @@ TEST(GraspControl, ARecordingHoldsWhatHappened) {
   bench.hand->states.assign(7, 1);
   bench.feel(10, 100.0F);
   bench.feel(1, 222.0F);
+  bench.feel(17, 1000.0F);
   EXPECT_THROW(bench.control->grasp(reactive(100)), DeviceError);  // over the limit already
   bench.session->step();
   bench.session->stopRecording();
@@ -104,7 +110,8 @@ TEST(GraspControl, ARecordingHoldsWhatHappened) {
   EXPECT_EQ(Json::parse(grasps[1].json).at("outcome").asString(), "limit_reached");
   EXPECT_EQ(Json::parse(grasps[1].json).at("counts").asDouble(), 222.0);
   EXPECT_EQ(grasps[1].matrix, 5);
-  EXPECT_EQ(grasps[1].t1Us - grasps[1].tUs, 11 * 30'000);
+  EXPECT_EQ(Json::parse(grasps[1].json).at("reached_counts").asDouble(), 1000.0);
+  EXPECT_EQ(grasps[1].t1Us - grasps[1].tUs, (11 + 17) * 30'000);
   EXPECT_EQ(Json::parse(grasps[2].json).at("outcome").asString(), "refused");
 }
 
@@ -120,6 +127,22 @@ TEST(GraspControl, RefusesBadValuesBeforeAnythingIsSent) {
   EXPECT_THROW(bench.control->preshape("fist", 20.0), std::invalid_argument);
   EXPECT_TRUE(bench.hand->commands.empty());
   EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kRefused);
+}
+
+// L-M2: by what the controller says of its matrices.
+TEST(GraspControl, RefusesATactileGraspWhoseLimitCannotBeFelt) {
+  GraspBench bench;
+  bench.hand->says.matrices.assign(6, {0.5, 150});
+  bench.hand->says.matrices[1].thresholdCounts = 4095;
+  try {
+    bench.control->grasp(reactive());
+    ADD_FAILURE() << "accepted";
+  } catch (const DeviceError& error) {
+    EXPECT_NE(std::string(error.what()).find("finger 0 distal"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(bench.hand->commands.empty());
+  EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kRefused);
+  EXPECT_NO_THROW(bench.control->grasp({}));  // a plain one feels nothing anyway
 }
 
 TEST(GraspControl, RefusesWithoutAMotionPort) {
@@ -278,9 +301,13 @@ TEST(GraspControl, RunsOnAThreadOfItsOwn) {
     return frame;
   }());
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (bench.control->status().phase != GraspPhase::kIdle &&
-         std::chrono::steady_clock::now() < deadline)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const auto await = [&](GraspPhase phase) {
+    while (bench.control->status().phase != phase && std::chrono::steady_clock::now() < deadline)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  await(GraspPhase::kSettling);
+  bench.clock.pass(600'000);  // it looks for half a second how far the reading rises
+  await(GraspPhase::kIdle);
   ASSERT_TRUE(bench.control->status().last.has_value());
   EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kLimitReached);
 }

@@ -38,7 +38,7 @@ TEST(GraspRequest, RefusesWhatIsOutOfRangeOrNoNumber) {
     request.velocityDegPerS = value;
     EXPECT_THROW(request.validate(), std::invalid_argument) << value;
   }
-  for (const int value : {2, 0, -5, 3601, std::numeric_limits<int>::max()}) {
+  for (const int value : {2, 0, -5, 3301, std::numeric_limits<int>::max()}) {
     GraspRequest request = reactive();
     request.limitCounts = value;
     EXPECT_THROW(request.validate(), std::invalid_argument) << value;

@@ -2,6 +2,7 @@
 // test and without a thread.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -30,7 +31,10 @@ class ScriptedHand : public ScriptedDevice {
     commands.push_back(std::move(command));
     return future;
   }
-  std::vector<int> axisStates() const override { return states; }
+  std::vector<int> axisStates() const override {
+    if (fails) fails();
+    return states;
+  }
 
   template <typename Command>
   std::size_t count() const {
@@ -39,7 +43,8 @@ class ScriptedHand : public ScriptedDevice {
     return found;
   }
 
-  bool answers = true;  // at once; else the test answers what is waiting
+  std::function<void()> fails;  // throws where the axes are asked
+  bool answers = true;          // at once; else the test answers what is waiting
   double durationS = 1.0;
   std::vector<DeviceCommand> commands;  // all that were handed in
   std::vector<std::promise<CommandAnswer>> waiting;

@@ -6,6 +6,7 @@
 // docs/safety.md says what is promised, and what the hand does when nobody is there any more.
 #pragma once
 
+#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <future>
@@ -59,6 +60,9 @@ class GraspControl {
   void run();
   void step();
 
+  // What is thrown in a round (a bug, no memory left) ends no process: a stop goes out, the grasp ends as failed, an
+  // event "alarm" says why, and the rounds go on.
+
   // Begins a grasp. Throws std::invalid_argument (a value out of range or not a number) and DeviceError,
   // kRefused (why, in a line); nothing was sent then, and the refusal is noted.
   void grasp(const GraspRequest& request);
@@ -84,6 +88,9 @@ class GraspControl {
   void loop(const std::stop_token& stop);
   // All of these under mutex_.
   void round();
+  void guardedRound() noexcept;
+  void fault(const char* what) noexcept;
+  void note(RecordingEvent event);
   void hear();         // frames
   void heedAnswers();  // of the hand
   void heedPorts();
@@ -93,6 +100,11 @@ class GraspControl {
   void tell(GraspPhase phase, const std::string& text, std::optional<GraspReport> report = {});
   std::string motionProblem() const;
   bool settingsPending() const;
+
+  // Hands over to the session what is owed to it; without mutex_: a consumer of the session may be in no hurry.
+  void deliver();
+  void deliverLoop(const std::stop_token& stop);
+  void deliverHere();
 
   CaptureSession& session_;
   const Clock& clock_;
@@ -107,6 +119,11 @@ class GraspControl {
   GraspPhase told_ = GraspPhase::kIdle;
   std::optional<GraspReport> last_;
   std::deque<GraspChange> changes_;
+  std::string lastFault_;  // said once; empty after a good round
+  std::deque<RecordingEvent> owed_;
+  std::size_t undelivered_ = 0;  // owed, or being handed over
+  std::condition_variable_any owes_;
+  std::jthread delivery_;
   std::jthread thread_;
 };
 

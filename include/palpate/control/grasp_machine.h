@@ -3,6 +3,7 @@
 //
 //   idle --begin--> preshaping --> closing --> idle        (preshaping only with a start ratio)
 //                        `------------`--> stopping --> idle
+// At the limit it rests half a second more (settling) to see how far the reading rises after the stop.
 // A slip-aware grasp goes on from its first stop (and ends, from anywhere, as the others do):
 //
 //   closing --limit--> stopping --> settling --> holding --slips--> closing (limit raised) ..
@@ -32,9 +33,12 @@ class GraspMachine {
  public:
   explicit GraspMachine(HandDescription hand) : hand_(std::move(hand)), grip_(hand_) {}
 
+  // What the controller says of its matrices, as last read back; empty: not known.
+  void setSettings(std::vector<MatrixSettings> settings) { settings_ = std::move(settings); }
+
   // Begins a grasp; then takeCommand() has the first motion. Throws std::invalid_argument (request) and
-  // DeviceError, kRefused (a grasp runs; a reactive one without a living tactile stream, or with a taxel
-  // over the limit already): nothing is to be sent then. hostUs: for the report.
+  // DeviceError, kRefused (a grasp runs; one under tactile control without a living tactile stream, with a
+  // taxel over the limit already, or with a matrix on a moving finger that can't tell its limit): nothing is to be sent then. hostUs: for the report.
   void begin(const GraspRequest& request, std::int64_t monoUs, std::int64_t hostUs);
 
   // Frames are watched all the time, so that a grasp knows its stream when it begins.
@@ -52,6 +56,8 @@ class GraspMachine {
   // The user: stops what runs, does nothing when idle (but a stop is to be sent whatever this says).
   void stop(std::int64_t monoUs);
   void relax();
+  // The program failed in the middle of this: what moves is stopped, and the grasp ends as failed.
+  void fault(const std::string& why, std::int64_t monoUs);
   void onTime(std::int64_t monoUs);
   // When onTime() has something to do [monotonic us]; nothing: not before something happens.
   std::optional<std::int64_t> nextUs() const;
@@ -85,12 +91,22 @@ class GraspMachine {
   // Of a slip-aware grasp (grasp_machine_slip.cpp).
   enum class Next { kEnd, kSettle, kClose };  // when a stop was taken
   bool holds() const noexcept {
-    return phase_ == GraspPhase::kSettling || phase_ == GraspPhase::kHolding;
+    return isSlipAware() && (phase_ == GraspPhase::kSettling || phase_ == GraspPhase::kHolding);
   }
+  // A reactive grasp that has stopped at its limit, and looks what becomes of it.
+  bool looksOn() const noexcept { return !isSlipAware() && phase_ == GraspPhase::kSettling; }
   bool isSlipAware() const noexcept { return report_.request.mode == GraspMode::kSlip; }
   void note(const char* action, const std::string& text, std::optional<std::size_t> matrix = {});
   void pause(Next next, const std::string& text, std::int64_t monoUs);
   void settle(std::int64_t monoUs);
+  void lookOn(std::int64_t monoUs);
+  void endLooking();
+  void seeReached();
+  std::string riseText() const;
+  std::string holdingText() const;
+  bool isOverLimit() const noexcept;
+  bool learnLayout(const TactileFrame& frame);
+  void refuseUnfelt(const GraspRequest& request) const;
   void onHoldingFrame(std::int64_t monoUs);
   void onLooseningFrame(std::int64_t monoUs);
   void onHoldingTime(std::int64_t monoUs);
@@ -101,7 +117,8 @@ class GraspMachine {
   std::string placeOf(const TaxelPeak& peak) const;
   void refuse(const std::string& why) const;
 
-  const HandDescription hand_;
+  HandDescription hand_;  // its layout: that of the newest frame
+  std::vector<MatrixSettings> settings_;
   StreamWatch stream_;
   TaxelPeak peak_;
 

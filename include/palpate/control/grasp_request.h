@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include <palpate/control/felt_limit.h>
 #include <palpate/device/device.h>
 #include <palpate/live/live_results.h>
 #include <palpate/model/hand_description.h>
@@ -23,8 +24,7 @@ std::string_view nameOf(GraspMode mode);  // "plain", "reactive", "slip"
 constexpr double kSlowestGraspDegPerS = 1.0;
 constexpr double kFastestGraspDegPerS = 100.0;
 constexpr int kLeastGraspLimitCounts = 3;
-constexpr int kMostGraspLimitCounts = 3600;  // an SDH-2 saturates at about 3560
-
+constexpr int kMostGraspLimitCounts = static_cast<int>(kSdh2SaturationCounts) - kFeltMarginCounts;
 constexpr int kMostSlipLimitCounts = 2200;
 
 // How a slip-aware grasp holds on.
@@ -33,8 +33,8 @@ struct HoldingOptions {
       0.0;  // ends by itself after so long, the hand goes on holding [s], 0: when told; at most a day
   double settleS = 0.5;                        // rest before the first references [s], 0..60
   double restS = 0.05;                         // and after closing again [s], 0..60
-  int raiseCounts = 300;                       // the limit rises by so much at a slip, 1..3600 ..
-  int mostLimitCounts = kMostSlipLimitCounts;  // .. up to this, limitCounts..3600
+  int raiseCounts = 300;                       // the limit rises by so much at a slip, 1..3300 ..
+  int mostLimitCounts = kMostSlipLimitCounts;  // .. up to this, limitCounts..3300
   // After so long without slip the limit falls again by as much as it rose, down to where it began [s], > 0.
   double calmS = 5.0;
   // The hand may then open, slowly and watched, until no taxel is over the lower limit. Not unless told: it is loaded.
@@ -57,7 +57,7 @@ struct GraspRequest {
   std::optional<double> startRatio = {};
   double closeRatio = 0.5;        // 0 (open) .. 1 (closed); a reactive grasp goes to 1 at most
   double velocityDegPerS = 10.0;  // 1..100; axes that are slower go as fast as they can [deg/s]
-  // Of a reactive grasp: stop above, 3..3600 [counts]; of a slip-aware one the first limit.
+  // Of a reactive grasp: stop above, 3..3300 [counts]; of a slip-aware one the first limit.
   int limitCounts = 200;
   HoldingOptions holding = {};  // of a slip-aware grasp
 
@@ -67,7 +67,11 @@ struct GraspRequest {
 // What goes to the hand for one motion of a grasp. Throws as validate(), and when a target is beyond the range of
 // an axis (a hand with less range than the SDH-2).
 MoveJoints motionTo(const GraspRequest& request, double closeRatio, const HandDescription& hand);
-// "reactive grasp: centrical, from 0 to 1, 30 deg/s, limit 200 counts"
+// A plain motion to the open hand: it grasps nothing, and is called so nowhere.
+bool isOpening(const GraspRequest& request);
+// What is done, without how: "reactive grasp", "opening".
+std::string kindOf(const GraspRequest& request);
+// "reactive grasp: centrical, from 0 to 1, 30 deg/s, limit 200 counts", "opening: centrical, 10 deg/s"
 std::string describe(const GraspRequest& request);
 
 enum class GraspOutcome {
@@ -92,6 +96,9 @@ struct GraspReport {
   std::int64_t endUs = 0;     //
   TaxelPeak peak;             // of kLimitReached: the largest taxel of the frame that crossed it
   std::vector<int> heldAxes;  // of kFinished: axes that something holds short of their target
+  // The largest taxel in the half second after the stop of a grasp under tactile control: the rubber answers late,
+  // so a reading goes on rising. Nothing: not measured.
+  std::optional<TaxelPeak> reached = {};
   // Of a slip-aware grasp:
   bool held = false;    // it came to hold
   int limitCounts = 0;  // the last limit

@@ -1,0 +1,149 @@
+// C-A2: what is thrown while fingers move. The process lives, a stop is on the wire, and it is said.
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+#include "palpate/core/error.h"
+
+#include "control/scripted_hand.h"
+#include "testing/testing.h"
+
+namespace palpate::grasp_fault_test {
+namespace {
+using testing::GraspBench;
+
+GraspRequest slipAware() {
+  GraspRequest request;
+  request.mode = GraspMode::kSlip;
+  request.closeRatio = 1.0;
+  request.limitCounts = 400;
+  return request;
+}
+
+bool alarmSays(CaptureSession& session, const std::string& word) {
+  for (const RecordingEvent& event : session.takeEvents())
+    if (event.kind == "alarm" && event.text.find(word) != std::string::npos) return true;
+  return false;
+}
+
+// A sensor with other matrices than the one before: another controller, or its settings.
+SensorLayout otherLayout() {
+  return SensorLayout({MatrixLayout::full(10, 8, 3.4), MatrixLayout::full(5, 5, 3.4)});
+}
+
+void feelOther(GraspBench& bench, float counts) {
+  bench.clock.pass(30'000);
+  TactileFrame frame(std::make_shared<const SensorLayout>(otherLayout()));
+  frame.hostUs = bench.clock.hostUs();
+  frame.matrix(1)(2, 2) = counts;
+  bench.hand->sink->onFrame(std::move(frame));
+  bench.control->step();
+}
+
+TEST(GraspFault, AStopIsOnTheWireAndTheControlGoesOn) {
+  for (const bool outOfMemory : {false, true}) {
+    GraspBench bench;
+    bench.control->grasp({});
+    bench.hand->states.assign(7, 1);
+    bench.hand->fails = [outOfMemory] {
+      if (outOfMemory) throw std::bad_alloc();
+      throw std::runtime_error("a bug behind the axes");
+    };
+    bench.control->run();
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    const auto ended = [&] {
+      const GraspStatus status = bench.control->status();
+      return status.phase == GraspPhase::kIdle && status.last;
+    };
+    while (!ended() && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+    bench.control->stop();  // its thread makes no more rounds over what the test looks at
+    ASSERT_TRUE(ended());
+    EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kFailed);
+    EXPECT_GE(bench.hand->count<StopMotion>(), 1u);
+    EXPECT_TRUE(alarmSays(*bench.session, outOfMemory ? "bad_alloc" : "a bug behind the axes"));
+  }
+}
+
+TEST(GraspFault, EndsTheGraspAlsoWhereItIsThrownInEveryRound) {
+  GraspBench bench;
+  bench.hand->answers = false;
+  bench.control->grasp({});
+  bench.hand->waiting[0].set_value({.durationS = 1.0});
+  bench.hand->fails = [] { throw std::runtime_error("again and again"); };
+  EXPECT_NO_THROW(bench.wait(5000));
+  ASSERT_EQ(bench.hand->count<StopMotion>(), 1u);
+  EXPECT_NO_THROW(bench.wait(260'000));  // not answered: sent again
+  EXPECT_EQ(bench.hand->count<StopMotion>(), 2u);
+  bench.hand->waiting[2].set_value({});
+  EXPECT_NO_THROW(bench.wait(5000));
+  EXPECT_EQ(bench.control->status().phase, GraspPhase::kIdle);
+  EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kFailed);
+  std::size_t alarms = 0;
+  for (const RecordingEvent& event : bench.session->takeEvents()) alarms += event.kind == "alarm";
+  EXPECT_EQ(alarms, 1u) << "said once";
+  bench.hand->fails = nullptr;
+  EXPECT_NO_THROW(bench.control->grasp({}));
+}
+
+TEST(GraspFault, AnotherLayoutInASlipAwareGraspStopsIt) {
+  GraspBench bench;
+  bench.control->grasp(slipAware());
+  bench.hand->states.assign(7, 1);
+  bench.feel(2, 100.0F);
+  EXPECT_NO_THROW(feelOther(bench, 50.0F));
+  EXPECT_EQ(bench.hand->count<StopMotion>(), 1u);
+  bench.wait(1000);
+  ASSERT_TRUE(bench.control->status().last.has_value());
+  EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kFailed);
+  EXPECT_NE(bench.control->status().last->text.find("layout"), std::string::npos)
+      << bench.control->status().last->text;
+}
+
+TEST(GraspFault, AnotherLayoutBetweenGraspsIsLearned) {
+  GraspBench bench;
+  for (int i = 0; i < 20; ++i) feelOther(bench, 0.0F);
+  bench.feel(5);
+  bench.control->grasp(slipAware());
+  bench.hand->states.assign(7, 1);
+  bench.feel(3, 100.0F);
+  EXPECT_EQ(bench.control->status().phase, GraspPhase::kClosing);
+}
+
+// C-A14: a consumer that hangs, while the control tells it something, keeps nobody from stopping the hand.
+TEST(GraspFault, AConsumerThatHangsKeepsNobodyFromStopping) {
+  GraspBench bench;
+  FeedOptions patient;
+  patient.eventItems = 1;
+  patient.waitForRoom = true;
+  auto hanging = bench.session->subscribe("hangs", patient);
+  bench.control->run();
+  std::jthread other([&] {
+    // Its events fill the feed of the one that hangs, and wait for room there.
+    for (int i = 0; i < 3; ++i) {
+      try {
+        bench.control->grasp({});
+      } catch (const DeviceError&) {
+      }
+      bench.control->stop();
+    }
+    bench.control->status();
+    bench.control->takeChanges();
+  });
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  std::atomic<bool> done = false;
+  std::jthread watch([&] {
+    other.join();
+    done = true;
+  });
+  while (!done && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(done) << "grasp() or stop() waits for a consumer";
+  EXPECT_GE(bench.hand->count<StopMotion>(), 3u);
+  hanging.reset();
+}
+
+}  // namespace
+}  // namespace palpate::grasp_fault_test
