@@ -332,6 +332,7 @@ build() { # PRESET [TARGET...]
   esac
   buildRoom "$preset"
   steps=$(printf '%s\n' "$steps" | sed -n 's/^\[[0-9]*\/\([0-9]*\)\].*/\1/p' | tail -n 1)
+  [ "${steps:-0}" -gt 20 ] || steps= # a few are CMake's own, after which there may be more
   # The first time this takes long: say how long.
   [ -x "$folder/palpate" ] || [ "$preset" != release ] || minutes=$(firstTime program_minutes)
   say "building build/$preset${steps:+, $steps steps}${minutes:+ (the last time from nothing: $minutes min on $(firstTime cores) cores, this machine has $(nproc))}"
