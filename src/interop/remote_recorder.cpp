@@ -149,11 +149,16 @@ struct RemoteRecorder::Impl {
           jobs.pop_front();
         }
       }
-      if (job && job->request.verb == RemoteRecorderVerb::kStart)
-        start(job->request.text, std::move(job->done));
-      else if (job)
-        stopRecording(job->done);
-      look();
+      try {
+        if (job && job->request.verb == RemoteRecorderVerb::kStart)
+          start(job->request.text, job->done);
+        else if (job)
+          stopRecording(job->done);
+        look();
+      } catch (const std::exception& failure) {
+        // The process that moves a hand goes on; whoever waits is told. An answer is given once.
+        if (job) job->done(RemoteAnswer::refused("failed", failure.what()));
+      }
     }
     if (starting) starting->done(RemoteAnswer::refused("shutting_down", "remote control ends"));
     if (current() != State::kIdle) finish();
@@ -218,9 +223,19 @@ struct RemoteRecorder::Impl {
   // Closes the file, however long the disk takes.
   RecordingReport finish() {
     become(State::kStopping);
-    const RecordingReport report = session.stopRecording();
+    RecordingReport report;
+    try {
+      report = session.stopRecording();
+    } catch (...) {
+      become(State::kIdle);
+      throw;
+    }
     become(State::kIdle);
-    if (options.onFinished) options.onFinished(report);
+    try {
+      if (options.onFinished) options.onFinished(report);
+    } catch (const std::exception&) {
+      // Whoever is told may fail: the recording is finished all the same.
+    }
     return report;
   }
 

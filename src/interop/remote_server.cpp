@@ -109,10 +109,14 @@ struct RemoteServer::Impl {
 
   void run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
-      await();
-      for (AnswerBox::Item& item : box->take()) deliver(item);
-      const std::lock_guard lock(mutex);
-      stats.clients = clients.size();
+      try {
+        await();
+        for (AnswerBox::Item& item : box->take()) deliver(item);
+        const std::lock_guard lock(mutex);
+        stats.clients = clients.size();
+      } catch (const std::exception&) {
+        resting = true;  // no memory, most likely: the process that moves a hand goes on
+      }
     }
     for (Client& client : clients)
       if (client.pending) {
@@ -136,8 +140,17 @@ struct RemoteServer::Impl {
     resting = false;
     std::size_t next = 2;
     for (auto client = clients.begin(); client != clients.end(); ++next)
-      client = serve(*client, waiting[next].revents) ? std::next(client) : clients.erase(client);
+      client = isServed(*client, waiting[next].revents) ? std::next(client) : clients.erase(client);
     if (waiting[1].revents != 0) accept();
+  }
+
+  // What is thrown over one client costs no more than that client.
+  bool isServed(Client& client, short events) {
+    try {
+      return serve(client, events);
+    } catch (const std::exception&) {
+      return false;
+    }
   }
 
   // False: it is done with.
@@ -222,10 +235,18 @@ struct RemoteServer::Impl {
         clients.begin(), clients.end(), [&](const Client& each) { return each.id == item.client; });
     if (client == clients.end() || !client->pending) return;  // it has gone meanwhile
     const RemoteRequest request = *std::exchange(client->pending, std::nullopt);
-    if (options.onAnswer && request.verb != RemoteServerVerb::kStatus)
-      options.onAnswer(request, item.answer);
-    if (!answer(*client, item.answer, nameOf(request.verb)) || !heed(*client))
-      clients.erase(client);
+    try {
+      if (options.onAnswer && request.verb != RemoteServerVerb::kStatus)
+        options.onAnswer(request, item.answer);
+    } catch (const std::exception&) {
+      // Whoever is told may fail: the client has its answer all the same.
+    }
+    try {
+      if (answer(*client, item.answer, nameOf(request.verb)) && heed(*client)) return;
+    } catch (const std::exception&) {
+      // No memory, most likely: this client goes without.
+    }
+    clients.erase(client);
   }
 
   void accept() {

@@ -51,6 +51,7 @@ void ProcessingChain::connect(CaptureSession& session) {
 
 void ProcessingChain::start() {
   if (thread_.joinable()) return;
+  if (!feed_) throw std::logic_error("ProcessingChain::start: it listens to no session");
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -63,7 +64,6 @@ void ProcessingChain::stop() noexcept {
 
 void ProcessingChain::run(const std::stop_token& stop) {
   const auto feed = feed_;
-  if (!feed) throw std::logic_error("ProcessingChain::run: it listens to no session");
   try {
     while (!stop.stop_requested()) {
       if (processWaiting() > 0) continue;

@@ -226,6 +226,26 @@ TEST_F(RemoteRecorderTest, WhenItEndsTheRecordingIsFinished) {
   EXPECT_EQ(verifyRecording(recordings() / "a.palpate").state, VerifyReport::State::kSound);
 }
 
+// C-A2: whoever is told of it may fail: recordings are made, and finished, all the same.
+TEST_F(RemoteRecorderTest, LivesThroughWhatIsThrownOnItsThread) {
+  session_->start();
+  RemoteRecorderOptions options;
+  options.folder = recordings();
+  options.recording.preTriggerS = 0.0;
+  options.onFinished = [](const RecordingReport&) { throw std::runtime_error("no ink"); };
+  recorder_ = std::make_unique<RemoteRecorder>(*session_, std::move(options));
+  server_ = std::make_unique<RemoteServer>(folder_ / "s", *recorder_);
+  client_ = std::make_unique<RemoteClient>(folder_ / "s");
+  ASSERT_TRUE(soon([&] { return session_->health().frames.ageMs.has_value(); }));
+  for (const char* name : {"a", "b"}) {
+    ASSERT_TRUE(ask(std::string("start ") + name).at("ok").asBool());
+    ask("stop");  // "failed: no ink", perhaps
+    EXPECT_EQ(ask("status").at("state").asString(), "idle");
+    EXPECT_EQ(verifyRecording(recordings() / (std::string(name) + ".palpate")).state,
+              VerifyReport::State::kSound);
+  }
+}
+
 TEST_F(RemoteRecorderTest, ARecordingThatEndedByItselfIsToldByTheNextStop) {
   session_->start();
   RemoteRecorderOptions options;

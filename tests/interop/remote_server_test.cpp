@@ -86,6 +86,24 @@ TEST_F(RemoteServerTest, AsksTheTargetAndAnswers) {
   EXPECT_THROW(client.ask("a\nb", 5000ms), std::invalid_argument);
 }
 
+// C-A2: what is thrown on the server's thread costs one client, not the process.
+TEST_F(RemoteServerTest, LivesThroughWhatIsThrownOnItsThread) {
+  RemoteServerOptions options;
+  options.onAnswer = [](const RemoteRequest& request, const RemoteAnswer&) {
+    if (request.text == "throw") throw std::bad_alloc();
+  };
+  serve(std::move(options));
+  RemoteClient other(socket());
+  for (int i = 0; i < 3; ++i) {
+    try {
+      RemoteClient(socket()).ask("label throw", 5000ms);
+    } catch (const Error&) {
+      // It may be left without an answer.
+    }
+    EXPECT_TRUE(Json::parse(other.ask("label still there", 5000ms)).at("ok").asBool());
+  }
+}
+
 TEST_F(RemoteServerTest, TheSocketIsItsOwnersAloneAndGoesWithTheServer) {
   serve();
   struct stat found {};

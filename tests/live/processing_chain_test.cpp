@@ -51,6 +51,13 @@ std::string bitsOf(const LiveResults& results) {
   return bytes;
 }
 
+// C-A14: said to the caller; on a thread of its own it would end the process.
+TEST(ProcessingChain, IsNotStartedWithoutASession) {
+  ProcessingChain chain(signalsOnly());
+  EXPECT_THROW(chain.start(), std::logic_error);
+  chain.stop();
+}
+
 std::vector<std::string> offline(const Profile& profile) {
   std::vector<std::string> found;
   ChainOptions options;
