@@ -103,7 +103,7 @@ TEST(DemoTruth, TheFirstAlarmOfTheMotionCounts) {
                            "matrix 1",
                            "'slipping'",
                            "frame 105",
-                           "1.0 taxels",
+                           "it went 1.0",
                            "1 false alarm before"})
     EXPECT_NE(text.find(part), std::string::npos) << part << ": " << text;
   const Json json = demoSlipJson(slip, kPitchMm);

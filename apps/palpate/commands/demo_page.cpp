@@ -72,6 +72,14 @@ std::string pageSteps(const DemoFacts& facts) {
          pageTable("<th>step</th><th>what it does</th><th></th><th>figure</th>", rows);
 }
 
+// "; named: ball", where something was asked about it.
+std::string pageNamed(const DemoFacts& facts, const std::string& object) {
+  if (facts.recognition)
+    for (const AskedGrasp& asked : facts.recognition->grasps)
+      if (asked.known.object == object && asked.verdict) return "; named: " + asked.called;
+  return {};
+}
+
 std::string pageHands(const DemoFacts& facts) {
   std::string figures;
   for (const DemoThing& thing : facts.things) {
@@ -79,7 +87,7 @@ std::string pageHands(const DemoFacts& facts) {
     std::string words = thing.object;
     if (thing.grip)
       words += ": " + std::to_string(thing.grip->fingers) + " fingers press it with " +
-               fixedText(thing.grip->forceN, 1) + " N";
+               fixedText(thing.grip->forceN, 1) + " N" + pageNamed(facts, thing.object);
     figures += "<figure>" + pageImage(thing.picturePng, "The hand holds: " + thing.object) +
                pageTagged("figcaption", words) + "</figure>\n";
   }
@@ -97,8 +105,7 @@ std::string pageRecognitionRow(const AskedGrasp& asked) {
   if (asked.verdict) {
     said = asked.called;
     sure = asked.verdict->sure ? "sure" : "not sure";
-    probability = fixedText(asked.rank ? asked.probability : asked.verdict->confidence, 3);
-    if (!asked.rank) probability += " (nearest)";
+    if (asked.rank) probability = fixedText(asked.probability, 3);
     if (asked.called == "unknown") sure.clear();
   }
   return pageRow(pageCell(asked.known.object) + pageCell(said) + pageCell(sure) +

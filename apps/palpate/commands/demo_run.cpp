@@ -124,7 +124,7 @@ void DemoRun::lookAtTheBall() {
     profile = openRecording(file);
     return replayAndCompare(*profile);
   });
-  next("export", "The same recording in the prior program's form.", [&] {
+  next("export", "The same recording as a .dsa, the form of the prior program.", [&] {
     if (!profile) profile = openRecording(file);
     const fs::path dsa = folder_ / "grasp.dsa";
     saveRecording(*profile, readEvents(file).events, dsa);

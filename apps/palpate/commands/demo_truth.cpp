@@ -103,15 +103,15 @@ DemoSlip demoSlip(const SlipSeries& series,
 }
 
 std::string demoSlipText(const DemoSlip& slip, double pitchMm) {
-  const std::string moved = "the pen was pulled " + taxelsAndMm(slip.motion.movedTaxels, pitchMm) +
-                            " through the fingers";
+  const std::string moved =
+      "a pen was pulled " + taxelsAndMm(slip.motion.movedTaxels, pitchMm) + " through the fingers";
   std::string text = moved + " and no lamp said so";
   if (slip.alarm) {
     const DemoAlarm& alarm = *slip.alarm;
-    text = moved + "; when it had gone " + fixedText(alarm.movedTaxels, 1) + ", in frame " +
-           std::to_string(alarm.frame) + ", the lamp of matrix " + std::to_string(alarm.matrix) +
-           " said '" + std::string(nameOf(alarm.lamp)) + "'; by its imprint it went " +
-           fixedText(alarm.imprintTaxels, 1) + " taxels";
+    text = moved + "; the lamp of matrix " + std::to_string(alarm.matrix) + " said '" +
+           std::string(nameOf(alarm.lamp)) + "' in frame " + std::to_string(alarm.frame) +
+           ", when it had gone " + fixedText(alarm.movedTaxels, 1) + "; by its imprint it went " +
+           fixedText(alarm.imprintTaxels, 1);
   }
   if (slip.early > 0)
     text += "; " + std::to_string(slip.early) +
