@@ -34,7 +34,7 @@ std::span<const DsaDocument::Child> DsaDocument::childrenOf(Node node) {
                                          Child{"theta_z", Node::kIgnored},
                                          Child{"output_unit", Node::kIgnored},
                                          Child{"hw_revision", Node::kIgnored},
-                                         Child{"one_wire_uid", Node::kIgnored},
+                                         sensorLeaf("one_wire_uid", SensorField::kUniqueId),
                                          Child{"fullscale", Node::kIgnored}};
   static constexpr std::array kData = {Child{"frame", Node::kFrame},
                                        Child{"frame_count", Node::kLeaf, Leaf::kFrameCount}};

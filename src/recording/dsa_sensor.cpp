@@ -42,6 +42,12 @@ void setOnce(std::optional<Value>& place, Value value, const std::string& where)
 
 }  // namespace
 
+bool isSensorId(std::string_view text) noexcept {
+  constexpr std::size_t kMostDigits = 32;
+  return !text.empty() && text.size() <= kMostDigits &&
+         text.find_first_not_of("0123456789ABCDEF") == std::string_view::npos;
+}
+
 void DsaSensor::beginMatrix() {
   if (matrices_.size() == maxMatrices_)
     throw Error("more than " + std::to_string(maxMatrices_) + " matrices");
@@ -80,6 +86,9 @@ void DsaSensor::set(SensorField field, std::string_view text) {
     case SensorField::kDynamicMask:
       setOnce(open_.dynamicMask, std::string(text), here() + ": dynamic_mask");
       break;
+    case SensorField::kUniqueId:
+      if (isSensorId(text)) open_.uniqueId = text;  // else it says that there is none
+      break;
   }
 }
 
@@ -98,6 +107,7 @@ void DsaSensor::endMatrix() {
   layout.pitchMm = pitchMm(open_);
   layout.staticMask = mask(open_.staticMask, "static_mask", places);
   layout.dynamicMask = mask(open_.dynamicMask, "dynamic_mask", places);
+  layout.uniqueId = open_.uniqueId;
   matrices_.push_back(std::move(layout));
 }
 

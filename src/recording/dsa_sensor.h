@@ -22,7 +22,11 @@ enum class SensorField {
   kPitchY,       // texel_height
   kStaticMask,
   kDynamicMask,
+  kUniqueId,  // one_wire_uid
 };
+
+// Whether this can be a sensor's unique id: 1 to 32 capital hexadecimal digits.
+bool isSensorId(std::string_view text) noexcept;
 
 // Filled in document order; every function throws Error naming what is wrong.
 class DsaSensor {
@@ -49,6 +53,7 @@ class DsaSensor {
     std::optional<double> pitchY;
     std::optional<std::string> staticMask;
     std::optional<std::string> dynamicMask;
+    std::string uniqueId;
   };
   double pitchMm(const OpenMatrix& matrix);
   Mask mask(const std::optional<std::string>& text, const char* name, std::size_t places);

@@ -117,7 +117,11 @@ void addMatrix(std::string& out, const MatrixLayout& matrix, std::size_t index, 
   addLine(out, kIndent, "theta_z", "0");
   addLine(out, kIndent, "output_unit", "mV");
   addLine(out, kIndent, "hw_revision", "1");
-  addLine(out, kIndent, "one_wire_uid", "Not implemented yet");
+  // What the prior program writes where it knows none.
+  addLine(out,
+          kIndent,
+          "one_wire_uid",
+          matrix.uniqueId.empty() ? "Not implemented yet" : matrix.uniqueId);
   addLine(out, kIndent, "fullscale", "4095");
   addMask(out, "static_mask", matrix.staticMask, matrix.columns);
   addMask(out, "dynamic_mask", matrix.dynamicMask, matrix.columns);

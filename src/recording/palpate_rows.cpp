@@ -7,6 +7,8 @@
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 
+#include "recording/dsa_sensor.h"
+
 namespace palpate {
 namespace {
 
@@ -161,8 +163,8 @@ void insertMatrices(SqliteDatabase& database, const SensorLayout& layout) {
         .bind(4, matrix.pitchMm)
         .bind(5, std::string_view(staticMask))
         .bind(6, std::string_view(dynamicMask))
-        .bind(7, std::string_view())
-        .bind(8, static_cast<std::int64_t>(matrixCrc(static_cast<int>(m), matrix, {})))
+        .bind(7, std::string_view(matrix.uniqueId))
+        .bind(8, static_cast<std::int64_t>(matrixCrc(static_cast<int>(m), matrix, matrix.uniqueId)))
         .run();
   }
 }
@@ -191,6 +193,7 @@ SensorLayout readLayout(SqliteDatabase& database) {
     if (rows.integer(0) != static_cast<std::int64_t>(matrices.size()) ||
         rows.integer(7) != matrixCrc(static_cast<int>(matrices.size()), matrix, rows.text(6)))
       throw FormatError(path, "the layout of its matrices is damaged; try 'palpate recover'");
+    if (isSensorId(rows.text(6))) matrix.uniqueId = rows.text(6);
     matrices.push_back(std::move(matrix));
   }
   try {
