@@ -18,6 +18,7 @@
 #include "palpate/recording/recording.h"
 
 #include "emulator/numbered_hand.h"
+#include "testing/awaited.h"
 #include "testing/background_program.h"
 #include "testing/testing.h"
 
@@ -45,10 +46,7 @@ class KilledRecordings {
         program_,
         {"record", "--dsa", hand_.dsaPort(), "--sdh", hand_.sdhPort(), "-o", file, "--quiet"});
     // Streams left over by the one killed before are stopped first: a file tells that this one records.
-    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!std::filesystem::exists(file) && std::chrono::steady_clock::now() < limit)
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    ASSERT_TRUE(std::filesystem::exists(file)) << recorder.err();
+    ASSERT_TRUE(awaited([&] { return std::filesystem::exists(file); })) << recorder.err();
     const std::int64_t madeUs = systemClock().wallUs();
     std::this_thread::sleep_for(std::chrono::microseconds(random_() % 700'000));
     const std::int64_t killUs = systemClock().wallUs();

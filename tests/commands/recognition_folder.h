@@ -1,13 +1,11 @@
 // Folders of recordings as train, evaluate, adapt and classify take them: made-up grasps of things that differ in size.
 #pragma once
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <random>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "palpate/model/profile_builder.h"
@@ -15,6 +13,7 @@
 
 #include "commands/palpate_program.h"
 #include "recognition/pinch_profile.h"
+#include "testing/awaited.h"
 #include "testing/background_program.h"
 
 namespace palpate::testing {
@@ -81,9 +80,7 @@ inline int interruptAtWork(BackgroundProgram& program) {
         return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1U) != 0;
     return false;
   };
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (!listens() && std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(awaited(listens));
   program.signal(SIGINT);
   return program.wait();
 }

@@ -1,7 +1,5 @@
 // The real program on an emulated hand that runs in the test: what the hand sends is what is recorded.
-#include <chrono>
 #include <csignal>
-#include <thread>
 
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
@@ -10,6 +8,7 @@
 
 #include "commands/palpate_program.h"
 #include "emulator/numbered_hand.h"
+#include "testing/awaited.h"
 #include "testing/background_program.h"
 
 namespace palpate::record_command_test {
@@ -40,15 +39,13 @@ void expectConsecutive(const std::vector<fs::path>& paths) {
 
 // Waits until an unfinished recording holds so many frames.
 bool awaitFrames(const fs::path& path, std::size_t frames) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (std::chrono::steady_clock::now() < end) {
+  return testing::awaited([&] {
     try {
-      if (openRecording(path).numFrames() >= frames) return true;
+      return openRecording(path).numFrames() >= frames;
     } catch (const Error&) {  // not there yet
+      return false;
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return false;
+  });
 }
 
 TEST(RecordCommand, RecordsWhatTheHandSends) {

@@ -1,12 +1,11 @@
-#include <chrono>
 #include <csignal>
 #include <set>
-#include <thread>
 
 #include "palpate/core/number_text.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/palpate_program.h"
+#include "testing/awaited.h"
 #include "testing/background_program.h"
 
 namespace palpate::render_command_test {
@@ -186,10 +185,8 @@ TEST(RenderCommand, AnInterruptedSeriesLeavesWholePictures) {
   const auto out = folder / "pictures";
   testing::BackgroundProgram program(PALPATE_PROGRAM,
                                      {"render", demoFile(), "--from", "0", "-o", out, "--print"});
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (!std::filesystem::exists(out / "demo_grasps_00002.png") &&
-         std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_TRUE(
+      testing::awaited([&] { return std::filesystem::exists(out / "demo_grasps_00002.png"); }));
   program.signal(SIGINT);
   EXPECT_EQ(program.wait(), 3);
   EXPECT_NE(program.err().find("interrupted: "), std::string::npos) << program.err();

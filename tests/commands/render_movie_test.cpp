@@ -1,9 +1,8 @@
 // palpate render .. -o OUT.mp4, with a program in ffmpeg's place that keeps what it is given.
-#include <chrono>
 #include <csignal>
-#include <thread>
 
 #include "commands/palpate_program.h"
+#include "testing/awaited.h"
 #include "testing/background_program.h"
 #include "testing/fake_ffmpeg.h"
 
@@ -90,9 +89,7 @@ TEST_F(RenderMovieTest, FfmpegThatFailsOrIsMissingIsSaidInOneLine) {
 TEST_F(RenderMovieTest, InterruptedItLeavesNothing) {
   const FakeFfmpeg fake("sleep 1000");
   testing::BackgroundProgram program(PALPATE_PROGRAM, words({"--to", "99"}));
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (!fake.wasCalled() && std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_TRUE(testing::awaited([&] { return fake.wasCalled(); }));
   program.signal(SIGINT);
   EXPECT_EQ(program.wait(), 3);
   EXPECT_NE(program.err().find("interrupted: "), std::string::npos) << program.err();

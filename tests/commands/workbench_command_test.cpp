@@ -1,8 +1,7 @@
-#include <chrono>
 #include <csignal>
-#include <thread>
 
 #include "commands/palpate_program.h"
+#include "testing/awaited.h"
 #include "testing/background_program.h"
 
 namespace palpate::workbench_command_test {
@@ -133,10 +132,8 @@ TEST(WorkbenchCommand, AskedToEndItEndsInOrder) {
   for (const int number : {SIGINT, SIGTERM}) {
     testing::BackgroundProgram program(PALPATE_PROGRAM, {"--demo"});
     // It remembers what it is connected to: so long it needs to stand.
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!std::filesystem::exists(settings) && std::chrono::steady_clock::now() < end)
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    ASSERT_TRUE(std::filesystem::exists(settings)) << program.err();
+    ASSERT_TRUE(testing::awaited([&] { return std::filesystem::exists(settings); }))
+        << program.err();
     std::filesystem::remove(settings);
     program.signal(number);
     EXPECT_EQ(program.wait(), 0) << program.err();

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <functional>
 #include <memory>
-#include <thread>
 
 #include "palpate/control/grasp_control.h"
 #include "palpate/core/error.h"
@@ -15,19 +14,14 @@
 
 #include "control/motion_log.h"
 #include "emulator/still_hand.h"
+#include "testing/awaited.h"
 #include "testing/testing.h"
-#include "testing/timely.h"
 
 namespace palpate::testing {
 
 inline bool eventuallyTrue(const std::function<bool()>& condition,
                            std::chrono::milliseconds limit = std::chrono::seconds(20)) {
-  const auto end = std::chrono::steady_clock::now() + limit;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
+  return awaited(condition, limit);
 }
 
 inline std::unique_ptr<HandModel> handWith(const std::string& scene) {

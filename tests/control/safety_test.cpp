@@ -12,6 +12,7 @@
 
 #include "control/emulated_bench.h"
 #include "control/stop_moments.h"
+#include "testing/punctuality.h"
 #include "testing/testing.h"
 
 namespace palpate::safety_test {
@@ -20,6 +21,7 @@ using namespace testing;
 
 constexpr std::int64_t kSilenceUs = 100'000;
 constexpr std::int64_t kReactionUs = 20'000;
+constexpr std::int64_t kNeverLongerUs = 100'000;
 
 TEST(Safety, ConnectingMovesNothing) {
   EmulatedBench bench(stillHand());
@@ -107,8 +109,8 @@ TEST(Safety, RelaxIsTheOnlyThingThatTakesThePower) {
 }
 
 // A grasp of the ball: from the frame over the limit, whose last byte has left the hand, to the stop that arrives
-// there [us].
-std::optional<std::int64_t> reactionUs(const std::filesystem::path& recorded) {
+// there.
+void graspUntilTheLimit(Punctuality& reactions, const std::filesystem::path& recorded) {
   constexpr int kLimit = 200;
   std::mutex mutex;
   std::optional<std::uint64_t> crossing;
@@ -126,36 +128,27 @@ std::optional<std::int64_t> reactionUs(const std::filesystem::path& recorded) {
   bench.session->startRecording(recording);
   bench.control->grasp(reactiveGrasp(kLimit, 60.0));
   const auto report = bench.awaitEnd();
-  if (!report || report->outcome == GraspOutcome::kStreamDead) return {};
-  EXPECT_EQ(report->outcome, GraspOutcome::kLimitReached) << report->text;
+  ASSERT_TRUE(report.has_value());
+  ASSERT_EQ(report->outcome, GraspOutcome::kLimitReached) << report->text;
   EXPECT_GT(report->peak.counts, static_cast<float>(kLimit));
   EXPECT_FALSE(bench.handMoves());
   bench.session->stopRecording();
   const auto stop = bench.log.firstSince("stop", 0);
-  if (!stop) {
-    ADD_FAILURE() << "no stop came";
-    return {};
-  }
+  ASSERT_TRUE(stop.has_value()) << "no stop came";
   std::int64_t leftUs = 0;  // host time
   for (const SentFrame& frame : bench.hand->sentFrames())
     if (frame.number == crossing.value()) leftUs = frame.hostUs;
-  EXPECT_NE(leftUs, 0);
-  return time.nowUs() - (systemClock().monotonicUs() - stop->monoUs) - leftUs;
+  ASSERT_NE(leftUs, 0);
+  const std::int64_t hostAheadUs = time.nowUs() - systemClock().monotonicUs();
+  reactions.took(leftUs - hostAheadUs, stop->monoUs);
 }
 
 TEST(Safety, AReactiveGraspStopsWithinMillisecondsOfTheFrameThatCrosses) {
   const TemporaryFolder folder;
-  int number = 0;
-  std::filesystem::path path;
-  const Timely timely = inTime(kReactionUs, 4, [&] {
-    path = folder / (std::to_string(number++) + ".palpate");
-    return reactionUs(path);
-  });
-  ASSERT_TRUE(timely.bestUs.has_value());
-  std::printf("frame over the limit to stop on the wire: %.2f ms (%d tries)\n",
-              static_cast<double>(*timely.bestUs) / 1e3,
-              timely.tries);
-  EXPECT_LE(*timely.bestUs, kReactionUs);
+  const std::filesystem::path path = folder / "grasp.palpate";
+  Punctuality reactions("frame_over_the_limit_to_stop", {kReactionUs, 1.0, kNeverLongerUs});
+  ASSERT_NO_FATAL_FAILURE(graspUntilTheLimit(reactions, path));
+  reactions.judge();
   const EventsReport events = readEvents(path);
   const auto count = [&](const std::string& kind) {
     return std::count_if(events.events.begin(), events.events.end(), [&](const auto& event) {
@@ -173,48 +166,36 @@ struct Death {
 };
 class DeadStream : public ::testing::TestWithParam<Death> {};
 
-// From the accident, before which the last frame left, to the stop that arrives [us].
-std::optional<std::int64_t> silenceUntilStopUs(const Death& death) {
+// From the accident, before which the last frame left, to the stop that arrives.
+TEST_P(DeadStream, StopsAReactiveGrasp) {
+  const Death& death = GetParam();
+  Punctuality stops(death.name, {kSilenceUs + kReactionUs, 1.0, kSilenceUs + kNeverLongerUs});
   EmulatedBench bench(stillHand());
   bench.connect();
   bench.control->grasp(reactiveGrasp(200, 10.0));
-  if (!bench.awaitMotion()) return {};
+  ASSERT_TRUE(bench.awaitMotion());
   const std::int64_t beforeUs = systemClock().monotonicUs();
   death.happen(*bench.hand);
   const std::int64_t deadUs = systemClock().monotonicUs();
-  if (!eventuallyTrue([&] { return bench.log.firstSince("stop", beforeUs).has_value(); })) {
-    ADD_FAILURE() << "no stop came";
-    return {};
-  }
-  const auto stop = bench.log.firstSince("stop", beforeUs);
+  ASSERT_TRUE(eventuallyTrue([&] { return bench.log.firstSince("stop", beforeUs).has_value(); }))
+      << "no stop came";
+  stops.took(deadUs, bench.log.firstSince("stop", beforeUs)->monoUs);
   EXPECT_TRUE(eventuallyTrue([&] { return !bench.handMoves(); }));
   bench.hand->mute(false);
   const auto report = bench.awaitEnd();
-  EXPECT_TRUE(report.has_value());
-  if (report) {
-    EXPECT_TRUE(report->outcome == GraspOutcome::kStreamDead ||
-                report->outcome == GraspOutcome::kPortGone)
-        << report->text;
-  }
-  return stop->monoUs - deadUs;
-}
-
-TEST_P(DeadStream, StopsAReactiveGrasp) {
-  const Timely timely =
-      inTime(kSilenceUs + kReactionUs, 4, [] { return silenceUntilStopUs(GetParam()); });
-  ASSERT_TRUE(timely.bestUs.has_value());
-  std::printf("%s: stop on the wire after %.1f ms (%d tries)\n",
-              GetParam().name,
-              static_cast<double>(*timely.bestUs) / 1e3,
-              timely.tries);
-  EXPECT_LE(*timely.bestUs, kSilenceUs + kReactionUs);
+  ASSERT_TRUE(report.has_value());
+  EXPECT_TRUE(report->outcome == GraspOutcome::kStreamDead ||
+              report->outcome == GraspOutcome::kPortGone)
+      << report->text;
+  stops.judge();
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Deaths,
     DeadStream,
-    ::testing::Values(Death{"unplugged", [](EmulatedHand& hand) { hand.unplug(true, false); }},
-                      Death{"both silent", [](EmulatedHand& hand) { hand.mute(true); }}),
+    ::testing::Values(Death{"unplugged_to_stop",
+                            [](EmulatedHand& hand) { hand.unplug(true, false); }},
+                      Death{"silent_to_stop", [](EmulatedHand& hand) { hand.mute(true); }}),
     [](const auto& instance) {
       return instance.param.name[0] == 'u' ? std::string("Unplugged") : std::string("BothSilent");
     });

@@ -12,6 +12,7 @@
 
 #include "emulator/hand_session.h"
 #include "emulator/still_hand.h"
+#include "testing/awaited.h"
 #include "testing/testing.h"
 
 namespace palpate::emulated_accidents_test {
@@ -234,9 +235,7 @@ TEST(EmulatedAccidents, PullsItsPlugsAtTheGivenTime) {
   for (std::uint64_t time = 1; time <= 2; ++time) {
     ASSERT_TRUE(
         eventually(hand, [&](const auto& counts) { return counts.faults.unplugs >= time; }));
-    const auto end = std::chrono::steady_clock::now() + 5s;
-    while (!fs::exists(folder / "tactile") && std::chrono::steady_clock::now() < end)
-      std::this_thread::sleep_for(1ms);
+    ASSERT_TRUE(testing::awaited([&] { return fs::exists(folder / "tactile"); }));
     LineClient client(folder / "tactile");
     EXPECT_EQ(client.ask(0x01)->size(), 18u);
   }

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <chrono>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "palpate/emulator/emulated_hand.h"
 
 #include "emulator/line_client.h"
+#include "testing/awaited.h"
 
 namespace palpate::testing {
 
@@ -38,12 +38,7 @@ inline std::vector<DecodedFrame> readFrames(LineClient& client, std::size_t coun
 // Waits until the hand's counters say so, at most five seconds.
 template <typename Condition>
 bool eventually(const EmulatedHand& hand, Condition&& condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-  while (!condition(hand.counts())) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
+  return awaited([&] { return condition(hand.counts()); }, std::chrono::seconds(5));
 }
 
 }  // namespace palpate::testing

@@ -7,12 +7,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
+
+#include "testing/awaited.h"
 
 namespace palpate::testing {
 
@@ -79,12 +80,7 @@ class RawClient {
 // Waits until the condition holds, ten seconds at most.
 template <typename Condition>
 bool soon(Condition&& condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
+  return awaited(condition, std::chrono::seconds(10));
 }
 
 }  // namespace palpate::testing

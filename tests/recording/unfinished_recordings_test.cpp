@@ -12,8 +12,8 @@
 #include "palpate/recording/recording.h"
 
 #include "recording/palpate_faults.h"
+#include "testing/punctuality.h"
 #include "testing/testing.h"
-#include "testing/timely.h"
 
 namespace palpate::unfinished_recordings_test {
 namespace {
@@ -271,15 +271,11 @@ TEST(UnfinishedRecordings, aThousandFinishedOnesTakeNoTime) {
   for (int i = 1; i < 1000; ++i)
     fs::create_hard_link(folder / "0.palpate", folder / (std::to_string(i) + ".palpate"));
   writeSamples(folder / "last.palpate", 30, false);
-  constexpr std::int64_t kLimitUs = 2'000'000;
-  const Timely timely = inTime(kLimitUs, 5, [&]() -> std::optional<std::int64_t> {
-    const std::int64_t beginUs = systemClock().monotonicUs();
-    EXPECT_EQ(namesIn(folder.path()), Names{"last.palpate"});
-    return systemClock().monotonicUs() - beginUs;
-  });
-  RecordProperty("us", static_cast<int>(timely.bestUs.value_or(0)));
-  std::printf("1001 files: %lld us\n", static_cast<long long>(timely.bestUs.value_or(0)));
-  EXPECT_LE(timely.bestUs.value_or(INT64_MAX), kLimitUs);
+  Punctuality searches("unfinished_among_1001", {2'000'000, 1.0, 2'000'000});
+  const std::int64_t beginUs = systemClock().monotonicUs();
+  EXPECT_EQ(namesIn(folder.path()), Names{"last.palpate"});
+  searches.took(beginUs, systemClock().monotonicUs());
+  searches.judge();
 }
 
 }  // namespace
