@@ -42,7 +42,7 @@ CommandSpec graspSpec() {
                   {"close", "R", "close ratio, 0..1"},
                   {"velocity", "V", "of the joints, 1..100 deg/s, default 10"},
                   {"mode", "plain|reactive|slip", "default plain"},
-                  {"limit", "N", "of 'reactive' and 'slip', 3..3600 counts, default 200"},
+                  {"limit", "N", "of 'reactive' and 'slip', 3..3300 counts, default 200"},
                   {"most", "N", "of 'slip': the limit rises up to N counts, default 2200"},
                   {"hold", "S", "of 'slip': ends after S seconds; the hand goes on holding"},
                   {"calm",

@@ -140,6 +140,7 @@ std::string recordJsonText(const RecordingReport& report, const DeviceStatus& de
       .set("bad_checksums", static_cast<std::int64_t>(badChecksumsOf(device)))
       .set("suspect", static_cast<std::int64_t>(device.tactile.suspect))
       .set("lost", static_cast<std::int64_t>(device.tactile.lost) + report.lost)
+      .set("lost_estimated", static_cast<std::int64_t>(device.tactile.estimatedLost))
       .set("recorder_lost", report.lost)
       .set("gaps", report.gaps)
       .set("events", report.events)

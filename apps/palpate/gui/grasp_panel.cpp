@@ -69,7 +69,7 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   limit_->setObjectName("limit");
   limit_->setToolTip(
       "A reactive grasp stops at the first taxel above, a slip-aware one begins there; an SDH-2 "
-      "saturates at 3560");
+      "is saturated from 3500 on");
   limit_->showValue(remembered(
       settings, kLimit, kLeastGraspLimitCounts, kMostGraspLimitCounts, usual.limitCounts));
 
