@@ -1,0 +1,704 @@
+"""What scripts/measure measures, and the tables it writes of it into README.md and docs/*.md.
+
+A part is one command, run once; its figures are taken from what it prints. A row of a table names figures in braces.
+"""
+import json
+import re
+from dataclasses import dataclass, field
+
+
+class Output:
+    """What one command printed, and what it took."""
+
+    def __init__(self, text, wall_s, cpu_s, peak_mb):
+        self.text, self.wall_s, self.cpu_s, self.peak_mb = text, wall_s, cpu_s, peak_mb
+
+    def json(self):
+        return json.loads(self.text[self.text.index("{"):])
+
+    def benchmark(self, name):
+        for each in self.json()["benchmarks"]:
+            if re.sub(r"/(iterations:\d+|min_time:[\d.]+|manual_time|real_time|process_time)", "",
+                      each["name"]) == name:
+                if each.get("error_occurred"):
+                    raise ValueError(f"{name}: {each['error_message']}")
+                return each
+        raise ValueError(f"no benchmark {name} in the output")
+
+
+SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
+
+
+# How a figure is taken from an Output.
+def cpu(name):
+    return lambda out: (lambda b: b["cpu_time"] * SECONDS[b["time_unit"]])(out.benchmark(name))
+
+
+def wall(name):
+    return lambda out: (lambda b: b["real_time"] * SECONDS[b["time_unit"]])(out.benchmark(name))
+
+
+def counter(name, key, factor=1.0):
+    return lambda out: out.benchmark(name)[key] * factor
+
+
+def at(*path):
+    def take(out):
+        value = out.json()
+        for key in path:
+            value = value[key]
+        return value
+    return take
+
+
+def number(pattern, factor=1.0):
+    """The first group of the first match, as a number."""
+    def take(out):
+        match = re.search(pattern, out.text)
+        if not match:
+            raise ValueError(f"nothing in the output matches {pattern}")
+        return float(match[1].replace(",", "")) * factor
+    return take
+
+
+def sum_of(pattern):
+    """The sum of all first groups."""
+    return lambda out: sum(float(each) for each in re.findall(pattern, out.text))
+
+
+def stops(name, key):
+    """A figure of the line `measured {..}` that a test prints (tests/testing/punctuality.h)."""
+    def take(out):
+        for line in re.findall(r"^measured (\{.*\})$", out.text, re.M):
+            if json.loads(line)["name"] == name:
+                return json.loads(line)[key]
+        raise ValueError(f"no line `measured` of {name}")
+    return take
+
+
+def processor_s(out):
+    return out.cpu_s
+
+
+def wall_s(out):
+    return out.wall_s
+
+
+def peak_mb(out):
+    return out.peak_mb
+
+
+def digits(value):
+    """Two figures that count, or three where the first is a 1 and the number is short."""
+    size = abs(value)
+    if size >= 10:
+        return f"{value:,.0f}" if size >= 100 or value == int(value) else f"{value:.1f}"
+    for places in range(1, 9):
+        if size >= 10.0 ** (1 - places):
+            return f"{value:.{places}f}"
+    return "0"
+
+
+# How a figure is written.
+def in_unit(unit):
+    def write(value):
+        return f"{digits(value / SECONDS[unit])} {unit}"
+    return write
+
+
+US, MS, S, NS = in_unit("us"), in_unit("ms"), in_unit("s"), in_unit("ns")
+
+
+def fixed(places, unit=""):
+    return lambda value: f"{value:,.{places}f}{unit and ' ' + unit}"
+
+
+def share(places):
+    """.991"""
+    return lambda value: f"{value:.{places}f}".removeprefix("0")
+
+
+COUNT = fixed(0)
+PERCENT = fixed(1, "%")
+MEGABYTES = fixed(0, "MB")
+TIMES = fixed(2)
+
+
+@dataclass
+class Part:
+    name: str
+    seconds: int  # about, on an idle machine with 2 cores
+    command: str
+    figures: dict  # name -> (take, write)
+    idle: bool = True  # its figures are times: of an idle machine only
+    env: dict = field(default_factory=dict)
+    recordings: bool = False  # wants the real recordings
+    show: str = ""  # as a page shows the command, where that is not the command itself
+
+    def shown(self):
+        text = self.show or self.command
+        text = text.replace('xvfb-run -a -s "-screen 0 1600x1000x24" ', "xvfb-run -a ").replace(" --benchmark_format=json", "")
+        for name, word in WORDS.items():
+            text = text.replace("$" + name, word)
+        variables = "".join(f"{key}={value} " for key, value in self.env.items())
+        return f"`{variables}{text}`".replace("|", "\\|")
+
+
+WORDS = {"BENCH": "palpate_benchmarks", "PALPATE": "palpate", "TESTS": "build/release/tests",
+         "RECORDINGS": "FOLDER"}
+
+
+def bench(name, seconds, pattern, figures, display=False, **more):
+    screen = 'xvfb-run -a -s "-screen 0 1600x1000x24" ' if display else ""
+    quoted = pattern if re.fullmatch(r"[\w/]+", pattern) else f"'{pattern}'"
+    return Part(name, seconds,
+                f"{screen}$BENCH --benchmark_filter={quoted} --benchmark_format=json",
+                figures, **more)
+
+
+def slow_test(name, seconds, room, file, figures, **more):
+    return Part(name, seconds, f"$TESTS/{room}/{room}_tests --file={file}", figures, **more)
+
+
+METHODS = ["centroid", "alcazar", "ncc-paraboloid", "ncc-gauss3", "phase", "phase-normalized",
+           "register", "contest"]
+PIPELINES = {  # rows of the table of recognition.md
+    "diameter-svm": ("diameter", "svm", "--set diameter --classifier svm"),
+    "first4-svm": ("first4", "svm", "--set first4 --classifier svm"),
+    "moments-svm": ("moments", "svm", "--set moments --classifier svm"),
+    "study-svm": ("study", "svm", "--set study --classifier svm"),
+    "study-lda-svm": ("study", "LDA(14) + svm", "--set study --lda 14 --classifier svm"),
+    "study-lw-svm": ("study", "LDA(14, Ledoit-Wolf) + svm",
+                     "--set study --lda 14 --shrinkage auto --classifier svm"),
+    "study-lda-qda": ("study", "LDA(14) + qda", "--set study --lda 14 --classifier qda"),
+    "best-gauss": ("best", "gauss (default)", "--set best"),
+    "best-lda-svm": ("best", "LDA(11) + svm", "--set best --lda 11 --classifier svm"),
+    "best-lda-qda": ("best", "LDA(8) + qda", "--set best --lda 8 --classifier qda"),
+    "session-lda-svm": ("session", "LDA(14) + svm", "--set session --lda 14 --classifier svm"),
+    "session-lda-qda": ("session", "LDA(14) + qda", "--set session --lda 14 --classifier qda"),
+}
+# Mean of 50 splits with scikit-learn on the same grasps, from the literature of the project: not measured by Palpate.
+SCIKIT = {"diameter-svm": ".719", "first4-svm": ".859", "moments-svm": ".694", "study-svm": ".869",
+          "study-lda-svm": ".971"}
+
+
+ALARMS = {"centroid-step": "centroid, > 0.20 per frame", "centroid-windows": "centroid, windows",
+          "register-windows": "registration, windows", "contest": "**contest**",
+          "contest-joints": "contest, told of joints", "contest-held-out": "contest, held out"}
+
+
+def in_two(value):
+    return f"{value:.0f}" if value >= 10 else f"{value:.1f}"
+
+
+VALUE_FILTERS = {"mean": "runningMean", "kalman": "kalman", "kalman_smoother": "kalmanSmoother",
+                 "kelvin": "kelvinVoigt/whole_ms", "kelvin_any": "kelvinVoigt/any_interval",
+                 "em": "estimation/whole_ms", "em_any": "estimation/any_interval"}
+
+
+def one_value(name):
+    return lambda out: 1.0 / out.benchmark(name)["items_per_second"]
+
+
+def first_time(key):
+    return number(rf"(?m)^{key} (\d+)")
+
+
+def slip_figures():
+    figures = {}
+    for method in METHODS:
+        for key, places in (("rmse", 4), ("drift_100", 3), ("edge_1_5", 2), ("tilt_40", 3),
+                            ("gain_x", 2), ("gain_y", 2), ("rmse_deg", 2)):
+            figures[f"{method}.{key}"] = (at("methods", method, key), fixed(places))
+        figures[f"{method}.of_bound"] = (
+            lambda out, m=method: (lambda j: j["rmse"] / j["crb"])(out.json()["methods"][m]),
+            fixed(2))
+    figures["bound"] = (at("methods", "register", "crb"), fixed(4))
+    return figures
+
+
+def filter_figures():
+    names = ["median", "gaussian", "bilateral", "median3d", "minMedian", "box", "median5x5",
+             "opening", "nonLocalMeans", "runningMean", "temporalMin", "kalman", "savitzkyGolay"]
+    figures = {name: (cpu(f"filterHand/{name}"), US) for name in names}
+    for name in ("median", "gaussian", "bilateral"):
+        figures[f"{name}.opencv"] = (cpu(f"filterHandByOpenCv/{name}"), US)
+    figures["chain"] = (cpu("defaultChain"), US)
+    return figures
+
+
+def later(name, options):
+    return Part(f"another_day_{name}", 2, f"""
+mkdir -p later/hockey_ball later/foam_ball later/pen_thick
+ln -sf $RECORDINGS/grasps/hockey_ball.dsa later/hockey_ball/
+ln -sf $RECORDINGS/grasps/foam_ball.dsa later/foam_ball/
+ln -sf $RECORDINGS/classification_video/pen_thick.dsa later/pen_thick/
+$PALPATE train -q $RECORDINGS/grasps_by_class -o m.json > trained.json
+$PALPATE evaluate -q --model m.json later{options} 2> notes.txt || [ $? = 3 ]""".strip(),
+                {"grasps": (at("grasps"), COUNT), "right": (at("right"), COUNT),
+                 "share": (at("accuracy"), share(3)), "top3": (at("top3"), share(3)),
+                 "sure": (lambda out: out.json()["coverage"] * out.json()["grasps"], COUNT),
+                 "low": (lambda out: out.json()["interval"][0], share(2)),
+                 "high": (lambda out: out.json()["interval"][1], share(2))},
+                idle=False, recordings=True, show=f"palpate evaluate --model m.json LATER{options}")
+
+
+def recorder(seconds, rate, hands):
+    each = "\n".join(f"""
+$PALPATE emulate {rate} --dsa $PWD/d{i} --sdh $PWD/s{i} > e{i}.txt 2>&1 &
+hands="$hands $!"
+until [ -e d{i} ] && [ -e s{i} ]; do sleep 0.05; done""" for i in range(hands))
+    records = "\n".join(
+        f"$PALPATE record -q --dsa $PWD/d{i} --sdh $PWD/s{i} -o r{i}.palpate --duration {seconds} "
+        f"--json > r{i}.json &\nrecords=\"$records $!\"" for i in range(hands))
+    if hands == 1:
+        records = (f"TIMEFORMAT='processor %U %S'\ntime $PALPATE record -q --dsa $PWD/d0 "
+                   f"--sdh $PWD/s0 -o r0.palpate --duration {seconds} --json > r0.json")
+    return f"""{each}
+{records}
+[ -z "$records" ] || wait $records
+kill -TERM $hands
+wait $hands || true
+cat r*.json""".strip()
+
+
+PARTS = [
+    Part("machine", 1, """
+. /etc/os-release
+echo "$(nproc) cores, $(sed -n 's/^model name\\s*: //p' /proc/cpuinfo | head -n 1), $PRETTY_NAME"
+""".strip(), {"name": (lambda out: out.text.strip(), str)}, idle=False),
+    Part("first_time", 1, "cat cmake/first_time.txt", show="scripts/test fresh", figures={
+        key: (first_time(key), COUNT) for key in
+        ("cores", "packages_minutes", "program_minutes", "program_mb", "tests_minutes", "tests_mb",
+         "suite_minutes")}, idle=False),
+    Part("call", 5, "scripts/run --version && TIMEFORMAT='call %R' && time scripts/run --version",
+         show="time scripts/run --version", figures={
+        "unchanged": (number(r"call ([\d.]+)"), S)}),
+    Part("suite", 300, "scripts/test", {
+        "passed": (number(r"(\d+) passed, 0 failed"), COUNT), "wall": (wall_s, fixed(0, "s"))}),
+
+    bench("dsa", 60, "Reference/(all|large|small)_vs_bzip2/", {
+        which: (counter(f"readBesideReference/{which}_vs_bzip2", "ratio"), TIMES)
+        for which in ("all", "large", "small")}, recordings=True),
+    bench("load_all", 20, "loadAll", {
+        "files": (counter("loadAllBesideDsa", "files"), COUNT),
+        "times": (counter("loadAllBesideDsa", "times_faster"), fixed(1))}, recordings=True),
+    bench("day", 120, "^day", {
+        "file": (counter("dayOpens", "file_MB"), MEGABYTES),
+        "open": (wall("dayOpens"), S),
+        "frame": (counter("dayRandomFrame", "slowest_ms", 1e-3), MS),
+        "summary": (wall("daySeconds"), MS),
+        "peak": (counter("dayRandomFrame", "peak_MB"), MEGABYTES)},
+        env={"PALPATE_BENCHMARK_DAY": "1"}),
+    bench("timeline", 150, "timelineOfADay", {
+        "drawn": (counter("timelineOfADay", "drawn_s"), S),
+        "zoom_median": (counter("timelineOfADay", "zoom_p50_ms", 1e-3), MS),
+        "zoom_worst": (counter("timelineOfADay", "zoom_max_ms", 1e-3), MS),
+        "all_read": (counter("timelineOfADay", "all_read_s"), S)},
+        display=True, env={"PALPATE_BENCHMARK_DAY": "1"}),
+] + [
+    Part(f"folder_{command}", 4, f"$PALPATE {command} -q $RECORDINGS > out.txt",
+         show=f"palpate {command} FOLDER", figures={
+        "processor": (processor_s, S), "peak": (peak_mb, MEGABYTES)}, recordings=True)
+    for command in ("info", "signals", "verify", "grasps")
+] + [
+    bench("start", 20, "processTo", {
+        "picture": (wall("processToPicture"), S),
+        "version": (wall("processToVersion"), MS)}, display=True),
+    bench("playback", 60, "^window/", {
+        "playback": (counter("window/playback", "cpu_percent"), PERCENT),
+        "repaints": (counter("window/playback", "repaints_per_s"), COUNT),
+        "everything": (counter("window/repainting_everything", "cpu_percent"), PERCENT),
+        "paused": (counter("window/paused", "cpu_percent"), PERCENT)}, display=True),
+    bench("wire", 45, "wireTo", {
+        "median": (counter("wireToPixel", "age_p50_ms", 1e-3), MS),
+        "p99": (counter("wireToPixel", "age_p99_ms", 1e-3), MS),
+        "worst": (counter("wireToPixel", "age_max_ms", 1e-3), MS),
+        "core": (counter("wireToPixel", "core_share", 100.0), PERCENT),
+        "away": (counter("wireToPixel", "window_away_max_ms", 1e-3), MS),
+        "mailbox_p99": (counter("wireToMailbox", "age_p99_ms", 1e-3), MS)}, display=True),
+    bench("window_load", 20, "windowUnderLoad", {
+        "away": (counter("windowUnderLoad", "window_away_max_ms", 1e-3), MS),
+        "turn_p99": (counter("windowUnderLoad", "turn_p99_ms", 1e-3), MS),
+        "painted_p99": (counter("windowUnderLoad", "age_p99_ms", 1e-3), MS),
+        "lost": (counter("windowUnderLoad", "lost"), COUNT)}, display=True),
+    bench("window_replug", 420, "windowReplug", {
+        "cycles": (counter("windowReplug", "cycles"), COUNT),
+        "noticed_worst": (counter("windowReplug", "noticed_max_ms", 1e-3), MS),
+        "back_p99": (counter("windowReplug", "returned_p99_ms", 1e-3), MS),
+        "back_worst": (counter("windowReplug", "returned_max_ms", 1e-3), MS),
+        "away": (counter("windowReplug", "window_away_max_ms", 1e-3), MS),
+        "descriptors": (counter("windowReplug", "descriptors_more"), COUNT),
+        "threads": (counter("windowReplug", "threads_more"), COUNT)},
+        display=True, env={"PALPATE_BENCHMARK_CYCLES": "500"}),
+    bench("window_soak", 735, "windowSoak", {
+        **{f"mb_{i}": (counter("windowSoak", f"mb_{i}"), fixed(1)) for i in range(1, 7)},
+        "p99": (counter("windowSoak", "age_p99_ms", 1e-3), MS),
+        "descriptors": (counter("windowSoak", "descriptors_more"), COUNT),
+        "threads": (counter("windowSoak", "threads_more"), COUNT)},
+        display=True, env={"PALPATE_BENCHMARK_MINUTES": "12"}),
+    bench("hand_view", 25, "^hand[RG]", {
+        "raster": (cpu("handRaster/whole"), MS), "repaint": (cpu("handRepaint"), MS),
+        "gl": (wall("handGl/whole"), MS), "gl_near": (wall("handGl/near"), MS)}, display=True),
+
+    Part("record", 25, recorder(20, "--scene ball", 1), show="palpate emulate --scene ball`, "
+         "`time palpate record --duration 20 --json", figures={
+        "processor": (lambda out: sum(map(float, re.search(
+            r"processor ([\d.]+) ([\d.]+)", out.text).groups())), S),
+        "core": (lambda out: 5.0 * sum(map(float, re.search(
+            r"processor ([\d.]+) ([\d.]+)", out.text).groups())), PERCENT),
+        "frames": (number(r'"frames": ?(\d+)'), COUNT),
+        "lost": (number(r'"lost": ?(\d+)'), COUNT)}),
+    Part("record_fast", 25, recorder(20, "--rate 300", 2), show="palpate emulate --rate 300`, "
+         "`palpate record --duration 20 --json", figures={
+        "frames": (sum_of(r'"frames": ?(\d+)'), COUNT),
+        "lost": (sum_of(r'"lost": ?(\d+)'), COUNT)}),
+    bench("packet", 10, "framePacket|textbookChecksum", {
+        **{f"{kind}": (cpu(f"framePacket/{kind}"), US) for kind in ("grasp", "noise", "raw")},
+        **{f"{kind}.textbook": (cpu(f"textbookChecksum/{kind}"), US)
+           for kind in ("grasp", "noise", "raw")}}),
+
+    bench("geometry", 10, "^pose|4x4|sphere|Welzl|contact", {
+        "pose": (cpu("pose"), US), "products": (cpu("textbook4x4"), US),
+        "sphere": (cpu("sphere/30"), US), "welzl": (cpu("textbookWelzl/30"), US),
+        "contact": (cpu("contact/spheres:1"), US), "bare": (cpu("contact/spheres:0"), US)}),
+    bench("filters", 30, "filterHand|defaultChain", filter_figures()),
+    bench("steps", 20, "Step|TenMinutes|LiveFrame", {
+        "fit": (cpu("BM_StepFitOf500Samples"), MS),
+        "ceres": (cpu("BM_StepFitOf500SamplesByCeres"), MS),
+        "ten_minutes": (cpu("BM_TenMinutesWithThirtySteps"), MS),
+        "live": (cpu("BM_CalibrationOfALiveFrame"), US)}),
+    bench("slip_time", 25, "slipOfSix|ontest|studyConvolutions", {
+        **{m.replace("_", "-"): (cpu(f"slipOfSixMatrices/{m}"), US) for m in
+           ("centroid", "alcazar", "ncc_paraboloid", "ncc_gauss3", "phase", "phase_normalized",
+            "register")},
+        "contest": (cpu("contestOfAPair"), US),
+        "study": (cpu("studyConvolutionsOfSixMatrices"), US)}),
+    bench("features_time", 10, "featuresOfGrasp|momentInvariants|verdictOfADay", {
+        "study": (cpu("featuresOfGrasp/study"), US), "best": (cpu("featuresOfGrasp/best"), US),
+        "session": (cpu("featuresOfGrasp/session"), US),
+        "verdict": (cpu("verdictOfADay"), MS)}, recordings=True),
+    bench("learning_time", 20, "protocolS|sameByLibsvm|oneVerdict", {
+        "ours": (wall("protocolS"), MS), "libsvm": (wall("sameByLibsvm"), MS),
+        "verdict_svm": (cpu("oneVerdict/svm"), US), "verdict_gauss": (cpu("oneVerdict/gauss"), MS)},
+        recordings=True),
+    bench("spectra_time", 30, "spectra|kalman|kelvin|estimation|runningMean", {
+        **{f"{n}": (cpu(f"spectra/{n}"), MS) for n in (32, 256, 251)},
+        **{f"{n}.opencv": (cpu(f"spectraByOpenCv/{n}"), MS) for n in (32, 256, 251)},
+        **{f"{n}.sum": (cpu(f"spectraNaively/{n}"), MS) for n in (32, 256, 251)},
+        **{key: (one_value(name), US if key.startswith("em") else NS)
+           for key, name in VALUE_FILTERS.items()}}),
+
+    Part("slip", 40, "$PALPATE slip-benchmark -q", slip_figures(), idle=False),
+    Part("slip_20", 40, "$PALPATE slip-benchmark -q --noise 20", slip_figures(), idle=False),
+    Part("alarms", 5, "$PALPATE slip-benchmark -q --trials 1 --shape disc --recordings $RECORDINGS", {
+        f"{alarm}.{key}": (at("alarms", "methods", alarm, key), write)
+        for alarm in ALARMS for key, write in (
+            ("per_hour", in_two), ("per_hour_settled", in_two), ("per_hour_quiet", in_two),
+            ("found_part", lambda part: f"{100 * part:.1f} %"), ("slips", COUNT),
+            ("delay_median_frames", COUNT), ("delay_p90_frames", COUNT))},
+        idle=False, recordings=True),
+    Part("nist", 2, "$TESTS/calibration/calibration_tests --file=least_squares_test", {
+        "digits": (number(r"mean ([\d.]+) digits"), fixed(1)),
+        "runs": (number(r"digits over (\d+) runs"), COUNT)}, idle=False),
+] + [
+    Part(f"evaluate_{name}_{protocol}", 3,
+         f"$PALPATE evaluate -q $RECORDINGS/grasps_by_class {options} "
+         f"{'--splits 100' if protocol == 'S' else '--protocol B'}",
+         {"mean": (at("accuracy_mean"), share(3)), "grasps": (at("grasps"), COUNT)},
+         idle=False, recordings=True)
+    for name, (_, _, options) in PIPELINES.items() for protocol in "SB"
+] + [
+    later("fresh", ""), later("none", " --session-offset none"),
+    later("batch", " --session-offset batch"), later("adapt", " --adapt 1"),
+
+    Part("python_import", 1, "PYTHONPATH=$PYTHON python3 -X importtime -c 'import palpate'", {
+        "import": (number(r"\| +(\d+) \| palpate\n", 1e-6), S)},
+        show="python3 -X importtime -c 'import palpate'"),
+    Part("package", 90, """
+scripts/package
+file=$(ls -t build/release/palpate_*.deb | head -n 1)
+echo "bytes $(stat -c %s "$file") installed $(dpkg-deb -f "$file" Installed-Size)"
+""".strip(), show="scripts/package", figures={
+        "size": (number(r"bytes (\d+)", 1e-6), fixed(1, "MB")),
+        "installed": (number(r"installed (\d+)", 1.024e-3), MEGABYTES),
+        "wall": (wall_s, fixed(0, "s"))}),
+
+    slow_test("stops", 700, "control", "safety_slow_test", {
+        **{key: (stops("stop_on_the_wire", key), COUNT)
+           for key in ("answers", "late", "late_excused", "lost", "in_motion")},
+        **{key: (stops("stop_on_the_wire", key + "_ms"), fixed(1, "ms"))
+           for key in ("median", "p99", "worst")}}),
+    Part("escapes", 700, 'xvfb-run -a -s "-screen 0 1600x1000x24" $TESTS/gui/gui_tests '
+         "--file=live_safety_slow_test", {
+        **{key: (stops("escape_to_the_wire", key), COUNT)
+           for key in ("answers", "late", "late_excused", "lost", "in_motion")},
+        **{key: (stops("escape_to_the_wire", key + "_ms"), fixed(1, "ms"))
+           for key in ("median", "p99", "worst")}}),
+    slow_test("reactions", 15, "control", "safety_test", {
+        "limit": (stops("frame_over_the_limit_to_stop", "worst_ms"), fixed(1, "ms")),
+        "unplugged": (stops("unplugged_to_stop", "worst_ms"), fixed(1, "ms")),
+        "silent": (stops("silent_to_stop", "worst_ms"), fixed(1, "ms"))}),
+    slow_test("reach", 15, "control", "grasp_reach_test", {
+        f"v{velocity}_limit{limit}_{key}": (
+            stops(f"reach_{velocity}_deg_per_s_limit_{limit}", field), write)
+        for velocity in (10, 2) for limit in (200, 1000, 2000)
+        for key, field, write in (("median", "median_counts", COUNT), ("worst", "worst_counts", COUNT),
+                                  ("times", "worst_times", fixed(1)))}, idle=False),
+    slow_test("kills", 900, "commands", "kill_recording_slow_test", {
+        "kills": (number(r"(\d+) kills"), COUNT), "open": (number(r"(\d+) files open"), COUNT),
+        "journals": (number(r"(\d+) journals"), COUNT),
+        "lost": (number(r"at most (\d+) ms lost"), fixed(0, "ms"))}),
+    slow_test("damage", 600, "recording", "palpate_long_test", {
+        "files": (sum_of(r"(\d+) files:"), COUNT),
+        "hoped": (sum_of(r"(\d+) frames lay"), COUNT),
+        "saved": (sum_of(r"not hit, (\d+) came back"), COUNT)}, idle=False),
+    slow_test("replugs", 600, "device", "replug_slow_test", {
+        "cycles": (number(r"(\d+) cycles"), COUNT),
+        "noticed": (number(r"noticed after (\d+) ms"), fixed(0, "ms")),
+        "back": (number(r"streaming (\d+) ms"), fixed(0, "ms"))}),
+    slow_test("noise", 900, "device", "wire_noise_slow_test", {
+        "frames": (number(r"noise 0.01 per byte: (\d+) frames"), COUNT),
+        "corrupt": (number(r"noise 0.01 per byte: \d+ frames, (\d+) corrupt"), COUNT),
+        "wrong": (number(r"noise 0.01 per byte: .* lost, (\d+) wrong"), COUNT),
+        "corrupt_less": (number(r"noise 0.001 per byte: \d+ frames, (\d+) corrupt"), COUNT),
+        "wrong_less": (number(r"noise 0.001 per byte: .* lost, (\d+) wrong"), COUNT)}, idle=False),
+    slow_test("babble", 60, "device", "babble_slow_test", {
+        "silent": (number(r"silent after (\d+) ms"), fixed(0, "ms"))}),
+    slow_test("soak", 200, "capture", "soak_slow_test", {
+        "frames": (number(r"(\d+) frames \("), COUNT), "seconds": (number(r"in (\d+) s"), COUNT),
+        "warm": (number(r"memory (\d+) ->"), COUNT), "end": (number(r"-> (\d+) MB"), COUNT),
+        "descriptors": (number(r"descriptors (\d+)"), COUNT),
+        "threads": (number(r"threads (\d+)"), COUNT)}),
+]
+
+
+@dataclass
+class Row:
+    what: str
+    figure: str
+    part: str  # whose command and date are shown
+    readme: bool = False
+    more: str = ""  # behind the command
+
+
+STOP_FIGURES = ("median {%s.median}, p99 {%s.p99}, worst {%s.worst}; {%s.late} of {%s.answers} late, "
+                "{%s.late_excused} of these while the machine stood still")
+
+SECTIONS = {
+    "building": [
+        Row("first call on an empty Debian 12: packages, program", "{first_time.packages_minutes} min, "
+            "{first_time.program_minutes} min, {first_time.program_mb} MB", "first_time", True),
+        Row("the rest of the build for the tests; the suite", "{first_time.tests_minutes} min, "
+            "{first_time.tests_mb} MB; {first_time.suite_minutes} min", "first_time"),
+        Row("call when nothing has changed", "{call.unchanged}", "call"),
+        Row("fast suite", "{suite.passed} tests in {suite.wall}", "suite", True),
+    ],
+    "files": [
+        Row("reading `.dsa` beside `bzip2 -dc` on the same files, wall time, times as long (target 1.3; "
+            "needs the second core): all shared files; the large, the small ones",
+            "{dsa.all}; {dsa.large}, {dsa.small}", "dsa", True),
+        Row("loading all of them from `.palpate` (target: 10 times faster than from `.dsa`)",
+            "{load_all.times} times, {load_all.files} files", "load_all"),
+        Row("a recording of 24 h: size; open; slowest of 2000 random frames; its summary; peak memory",
+            "{day.file}; {day.open}; {day.frame}; {day.summary}; {day.peak}", "day", True),
+        Row("timeline of the same 24 hours: from the file to curves on screen (target 3 s); 300 zooms "
+            "anywhere while it is being read (target 100 ms); all read after", "{timeline.drawn}; median "
+            "{timeline.zoom_median}, worst {timeline.zoom_worst}; {timeline.all_read}", "timeline"),
+    ] + [
+        Row(f"all shared recordings: `{command}` of the folder, processor time, peak memory",
+            f"{{folder_{command}.processor}}, {{folder_{command}.peak}}", f"folder_{command}")
+        for command in ("info", "signals", "verify", "grasps")
+    ],
+    "window": [
+        Row("from process start to a picture of the window with a recording open (bounds the first "
+            "paint; target 1 s); `--version` alone", "{start.picture}; {start.version}", "start", True),
+        Row("playback, every one of {playback.repaints} repaints/s another frame: part of one core "
+            "(target 15 %); repainting everything instead; paused",
+            "{playback.playback}; {playback.everything}; {playback.paused}", "playback"),
+        Row("live window: wire to pixel (target p99 50 ms); the same without a window", "median "
+            "{wire.median}, p99 {wire.p99}, worst {wire.worst}; p99 {wire.mailbox_p99}", "wire", True),
+        Row("the whole program meanwhile, with the emulated hand in it (target 20 % of a core); the "
+            "window away for at most", "{wire.core}; {wire.away}", "wire"),
+        Row("hand in space, without OpenGL: a whole new frame; the view painted again; OpenGL by Mesa "
+            "on the processor, far, near", "{hand_view.raster}; {hand_view.repaint}; {hand_view.gl}, "
+            "{hand_view.gl_near}", "hand_view"),
+        Row("the window with two hands at 300 frames/s and a fit beside it: away for at most (target "
+            "50 ms); p99 of a turn of its loop; p99 from wire to pixel",
+            "{window_load.away}; {window_load.turn_p99}; {window_load.painted_p99}", "window_load"),
+        Row("the window, {window_replug.cycles} times unplugged: noticed (target 500 ms), back (1 s), "
+            "more descriptors, threads", "worst {window_replug.noticed_worst}; p99 "
+            "{window_replug.back_p99}, worst {window_replug.back_worst}; {window_replug.descriptors}, "
+            "{window_replug.threads}", "window_replug"),
+        Row("12 minutes on the emulated hand: memory after each two minutes; more descriptors, threads",
+            "{window_soak.mb_1}, {window_soak.mb_2}, {window_soak.mb_3}, {window_soak.mb_4}, "
+            "{window_soak.mb_5}, {window_soak.mb_6} MB; {window_soak.descriptors}, "
+            "{window_soak.threads}", "window_soak"),
+    ],
+    "disk": [
+        Row("recording one emulated hand at 31.7 frames/s and 110 samples of the angles per second for "
+            "20 s (target 3 % of a core)", "{record.core} of a core, {record.frames} frames, "
+            "{record.lost} lost", "record", True),
+        Row("two emulated hands at 300 frames/s, recorded for 20 s (target: nothing lost)",
+            "{record_fast.frames} frames, {record_fast.lost} lost", "record_fast"),
+        Row("a frame packet, framing to counts (target 3 us), beside its checksum alone in the textbook "
+            "form: grasp, noise, raw", "{packet.grasp} beside {packet.grasp.textbook}, {packet.noise} "
+            "beside {packet.noise.textbook}, {packet.raw} beside {packet.raw.textbook}", "packet"),
+    ],
+    "computing": [
+        Row("a new pose: 486 positions and normals (target 2 us), beside 4x4 products (positions only)",
+            "{geometry.pose} beside {geometry.products}", "geometry"),
+        Row("smallest sphere of 30 points (target 5 us), beside a textbook Welzl; all contact figures of "
+            "60 active taxels", "{geometry.sphere} beside {geometry.welzl}; {geometry.contact}",
+            "geometry"),
+        Row("six loaded matrices per frame: median 3x3 and Gaussian (target 2 us each), bilateral (15), "
+            "beside OpenCV; 3x3x3 median (10); the default chain", "{filters.median} beside "
+            "{filters.median.opencv}, {filters.gaussian} beside {filters.gaussian.opencv}, "
+            "{filters.bilateral} beside {filters.bilateral.opencv}; {filters.median3d}; {filters.chain}",
+            "filters"),
+        Row("fit of a step of 500 samples (target 0.3 ms), beside Ceres; ten minutes with 30 steps "
+            "(100 ms); calibration of a live frame (2 us)", "{steps.fit} beside {steps.ceres}; "
+            "{steps.ten_minutes}; {steps.live}", "steps"),
+        Row("slip of six loaded matrices per frame, translation and rotation: centroid (target 3 us), "
+            "ncc-gauss3 (60), phase (150), register (150); one contest of slip and load shift (25 per "
+            "matrix); the study's way, two full convolutions", "{slip_time.centroid}, "
+            "{slip_time.ncc-gauss3}, {slip_time.phase}, {slip_time.register}; {slip_time.contest}; "
+            "{slip_time.study}", "slip_time", True),
+        Row("features of a grasp of 46 frames: study, best, session; a verdict on another day",
+            "{features_time.study}, {features_time.best}, {features_time.session}; "
+            "{features_time.verdict}", "features_time"),
+        Row("cross-validation of 571 grasps, 10 splits, wall time; LIBSVM's training alone; a verdict, "
+            "svm, gauss", "{learning_time.ours}; {learning_time.libsvm}; {learning_time.verdict_svm}, "
+            "{learning_time.verdict_gauss}", "learning_time"),
+        Row("3205 spectra of 32 samples, beside OpenCV; the sum as it is written",
+            "{spectra_time.32} beside {spectra_time.32.opencv}; {spectra_time.32.sum}",
+            "spectra_time"),
+    ],
+    "accuracy": [
+        Row("a step of slip, rms, `register`; Cramer-Rao bound", "{slip.register.rmse}; {slip.bound} "
+            "taxels", "slip"),
+        Row("a load of 40 % that tilts, read as motion: `contest`; `centroid`",
+            "{slip.contest.tilt_40}; {slip.centroid.tilt_40} taxels", "slip"),
+        Row("real recordings, {alarms.contest.slips} slips: false alarms of `contest` per matrix-hour of "
+            "settled contact; slips found", "{alarms.contest.per_hour_settled}; "
+            "{alarms.contest.found_part}", "alarms", True),
+        Row("NIST StRD, {nist.runs} runs from both starts: digits on average", "{nist.digits}", "nist"),
+        Row("{evaluate_best-gauss_S.grasps} grasps, 36 classes, cross-validated (S, 100 splits): `best`; "
+            "the study's features with LDA(14) and svm, with qda", "{evaluate_best-gauss_S.mean}; "
+            "{evaluate_study-lda-svm_S.mean}, {evaluate_study-lda-qda_S.mean}", "evaluate_best-gauss_S",
+            True),
+        Row("another day, offset estimated unlabelled", "{another_day_batch.right} of "
+            "{another_day_batch.grasps}", "another_day_batch", True),
+        Row("another day, one labelled grasp each", "{another_day_adapt.right} of "
+            "{another_day_adapt.grasps}", "another_day_adapt", True),
+    ],
+    "reliability": [
+        Row("recorder killed at random moments: recordings that open; lost at most", "{kills.open} of "
+            "{kills.kills}; {kills.lost}", "kills", True),
+        Row("{damage.files} damaged `.palpate` files: frames in blocks that were not hit that came back",
+            "{damage.saved} of {damage.hoped}", "damage"),
+        Row("both plugs pulled {replugs.cycles} times: noticed, back after at most",
+            "{replugs.noticed}, {replugs.back}", "replugs"),
+        Row("noise of 1 % of the bytes, {noise.frames} frames: damaged ones taken for good ones",
+            "{noise.wrong} of {noise.corrupt}", "noise"),
+        Row("a day at full speed, {soak.frames} frames recorded as sent: time; memory warm, at the end",
+            "{soak.seconds} s; {soak.warm}, {soak.end} MB", "soak"),
+        Row("stops at random moments, each measured once (target 20 ms)",
+            STOP_FIGURES.replace("%s", "stops"), "stops", True),
+        Row("Esc in the window at random moments, each measured once (target 20 ms)",
+            STOP_FIGURES.replace("%s", "escapes"), "escapes", True),
+    ],
+}
+
+
+def rows_table(rows):
+    """rows_table(rows)(book): the lines of a table of figures."""
+    def write(book):
+        lines = ["| what | figure | command | measured |", "|---|---|---|---|"]
+        for row in rows:
+            command = book.part(row.part).shown() + (f" {row.more}" if row.more else "")
+            lines.append(f"| {book.fill(row.what)} | {book.fill(row.figure)} | {command} | "
+                         f"{book.when(row.part)} |")
+        return lines
+    return write
+
+
+def slip_table(book):
+    lines = ["| method | step, rms | x bound | after 100 frames | over a side edge, of 1.5 | tilt |",
+             "|---|---|---|---|---|---|"]
+    for method in METHODS:
+        cells = " | ".join(book.text(f"slip.{method}.{key}") for key in
+                           ("rmse", "of_bound", "drift_100", "edge_1_5", "tilt_40"))
+        lines.append(f"| `{method}` | {cells} |")
+    return lines
+
+
+def slip_both_noises_table(book):
+    bounds = book.text("slip.bound"), book.text("slip_20.bound")
+    lines = [f"| method | step, sd 5 (CRB {bounds[0]}) | x CRB | step, sd 20 ({bounds[1]}) | x CRB | "
+             "gain x, y | after 100, sd 5 | turn, sd 5 (deg) | edge | tilt |",
+             "|---|---|---|---|---|---|---|---|---|---|"]
+    for method in METHODS:
+        text = lambda key, part="slip": book.text(f"{part}.{method}.{key}")
+        lines.append(f"| `{method}` | {text('rmse')} | {text('of_bound')} | {text('rmse', 'slip_20')} | "
+                     f"{text('of_bound', 'slip_20')} | {text('gain_x')}, {text('gain_y')} | "
+                     f"{text('drift_100')} | {text('rmse_deg')} | {text('edge_1_5')} | "
+                     f"{text('tilt_40')} |")
+    return lines
+
+
+def recognition_table(book):
+    lines = ["| features | classifier | S | reference | B |", "|---|---|---|---|---|"]
+    for name, (features, classifier, _) in PIPELINES.items():
+        lines.append(f"| {features} | {classifier} | {book.text(f'evaluate_{name}_S.mean')} | "
+                     f"{SCIKIT.get(name, '')} | {book.text(f'evaluate_{name}_B.mean')} |")
+    return lines
+
+
+def another_day_table(book):
+    lines = ["| | right (figures) | 95 % | top-3 | sure |", "|---|---|---|---|---|"]
+    for label, name in (("fresh model (offset 0)", "fresh"),
+                        ("`--session-offset none`", "none"),
+                        ("`--session-offset batch`", "batch"), ("`--adapt 1`", "adapt")):
+        text = lambda key: book.text(f"another_day_{name}.{key}")
+        lines.append(f"| {label} | {text('right')} of {text('grasps')} = {text('share')} | "
+                     f"{text('low')} .. {text('high')} | {text('top3')} | {text('sure')} |")
+    return lines
+
+
+def alarms_table(book):
+    lines = ["| alarm | false per hour | slips found | delay, median / 90 %, frames |",
+             "|---|---|---|---|"]
+    for name, label in ALARMS.items():
+        text = lambda key: book.text(f"alarms.{name}.{key}")
+        lines.append(f"| {label} | {text('per_hour')} / {text('per_hour_settled')} / "
+                     f"{text('per_hour_quiet')} | {text('found_part')} | "
+                     f"{text('delay_median_frames')} / {text('delay_p90_frames')} |")
+    return lines
+
+
+def filters_table(book):
+    names = [("`median` (target 2)", "median"), ("`gaussian` (target 2)", "gaussian"),
+             ("`box`", "box"), ("`bilateral` (target 15)", "bilateral"),
+             ("`median3d` (target 10)", "median3d"), ("`min-median`", "minMedian"),
+             ("`opening:shape=ellipse,size=5`", "opening"), ("`nlm`", "nonLocalMeans"),
+             ("`median:size=5`", "median5x5"), ("`kalman`", "kalman"),
+             ("`temporal-min`", "temporalMin"), ("`running-mean`", "runningMean"),
+             ("`savitzky-golay:window=7`", "savitzkyGolay"),
+             ("the default chain of high sensitivity", "chain")]
+    lines = ["| filter | figure, per frame | OpenCV |", "|---|---|---|"]
+    for label, name in names:
+        beside = book.text(f"filters.{name}.opencv") if name in ("median", "gaussian",
+                                                                 "bilateral") else ""
+        lines.append(f"| {label} | {book.text(f'filters.{name}')} | {beside} |")
+    return lines
+
+
+TABLES = {name: rows_table(rows) for name, rows in SECTIONS.items()}
+TABLES["readme"] = rows_table([row for rows in SECTIONS.values() for row in rows if row.readme])
+TABLES["slip_methods"] = slip_table
+TABLES["slip_both_noises"] = slip_both_noises_table
+TABLES["recognition_pipelines"] = recognition_table
+TABLES["another_day"] = another_day_table
+TABLES["alarms"] = alarms_table
+TABLES["filter_times"] = filters_table
