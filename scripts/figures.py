@@ -582,7 +582,8 @@ SECTIONS = {
         Row("real recordings, {alarms.contest.slips} slips: false alarms of `contest` per matrix-hour of "
             "settled contact; slips found", "{alarms.contest.per_hour_settled}; "
             "{alarms.contest.found_part}", "alarms", True),
-        Row("NIST StRD, {nist.runs} runs from both starts: digits on average", "{nist.digits}", "nist"),
+        Row("NIST StRD by the library's general solver (the step fits have their own), {nist.runs} runs "
+            "from both starts: digits on average", "{nist.digits}", "nist"),
         Row("{evaluate_best-gauss_S.grasps} grasps, 36 classes, cross-validated (S, 100 splits): `best`; "
             "the study's features with LDA(14) and svm, with qda", "{evaluate_best-gauss_S.mean}; "
             "{evaluate_study-lda-svm_S.mean}, {evaluate_study-lda-qda_S.mean}", "evaluate_best-gauss_S",
