@@ -167,6 +167,38 @@ INSTANTIATE_TEST_SUITE_P(Faults, MotionFault, ::testing::Bool(), [](const auto& 
   return instance.param ? std::string("OutOfMemory") : std::string("Bug");
 });
 
+// C-A10: what the status counts is of this session alone.
+TEST(MotionRestart, CountsFromItself) {
+  SharedSdh shared;
+  Faults faults;
+  CollectingSink sink;
+  LiveHandOptions options;
+  options.sdhPort = "motion";
+  options.open = [&](const std::string&) {
+    return std::make_unique<FaultyMotionPort>(shared, faults);
+  };
+  LiveHand hand(options);
+  const auto samples = [&] {
+    std::size_t count = 0;
+    sink.await([&] {
+      count = sink.angles.size();
+      return true;
+    });
+    return count;
+  };
+  hand.start(sink);
+  ASSERT_TRUE(sink.await([&] { return sink.angles.size() > 20; }));
+  hand.stop();
+  const std::size_t before = samples();
+  EXPECT_EQ(hand.status().motion->items, before);
+  const std::uint64_t bytesBefore = hand.status().motion->bytes;
+  hand.start(sink);
+  ASSERT_TRUE(sink.await([&] { return sink.angles.size() > before + 2; }));
+  hand.stop();
+  EXPECT_EQ(hand.status().motion->items, samples() - before);
+  EXPECT_LT(hand.status().motion->bytes, bytesBefore);
+}
+
 // A rogue controller tells of more taxels than a frame can carry: 6 x 256 x 256.
 TEST(TactileFault, AControllerWithTooManyTaxelsIsRefused) {
   CollectingSink sink;
