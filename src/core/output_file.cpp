@@ -116,13 +116,32 @@ void OutputFile::nameTemporarily() {
   temporary_ = name;
 }
 
-void OutputFile::commit() {
+void OutputFile::sync() {
   if (::fsync(descriptor_) != 0) throwCantWrite(path_, errno);
+}
+
+void OutputFile::commit() {
+  sync();
   if (temporary_.empty()) nameTemporarily();
   const int descriptor = std::exchange(descriptor_, -1);
   if (::close(descriptor) != 0) throwCantWrite(path_, errno);
   publishFile(temporary_, path_, overwrite_);
   temporary_.clear();
+}
+
+void commitTogether(std::span<OutputFile* const> files) {
+  for (OutputFile* file : files) file->sync();
+  std::size_t named = 0;
+  try {
+    for (OutputFile* file : files) {
+      file->commit();
+      ++named;
+    }
+  } catch (const FileError&) {
+    for (const OutputFile* file : files.first(named))
+      if (file->overwrite() == Overwrite::kRefuse) ::unlink(file->path().c_str());
+    throw;
+  }
 }
 
 }  // namespace palpate

@@ -2,23 +2,21 @@
 
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 
 namespace palpate {
 namespace {
 
 class SystemClock final : public Clock {
  public:
-  std::int64_t monotonicUs() const override {
-    return microseconds(std::chrono::steady_clock::now().time_since_epoch());
-  }
-  std::int64_t wallUs() const override {
-    return microseconds(std::chrono::system_clock::now().time_since_epoch());
-  }
+  std::int64_t monotonicUs() const override { return read(CLOCK_BOOTTIME); }
+  std::int64_t wallUs() const override { return read(CLOCK_REALTIME); }
 
  private:
-  template <typename Duration>
-  static std::int64_t microseconds(Duration duration) {
-    return std::chrono::duration_cast<std::chrono::microseconds>(duration).count();
+  static std::int64_t read(clockid_t clock) {
+    timespec now{};
+    ::clock_gettime(clock, &now);
+    return std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000;
   }
 };
 

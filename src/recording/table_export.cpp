@@ -32,7 +32,7 @@ void tableExportWriteSamples(OutputFile& out,
   for (std::size_t i = 0; i < count; ++i) {
     appendNumber(text, static_cast<std::int64_t>(i));
     text += ',';
-    appendNumber(text, timeOf(i) / kUsPerMs);
+    appendNumber(text, floorMs(timeOf(i)));
     for (double value : valuesOf(i)) {
       text += ',';
       appendNumber(text, value);
@@ -84,7 +84,7 @@ void writeCsv(const Profile& profile,
         for (Eigen::Index x = 0; x < values.cols(); ++x) {
           if (!(values(y, x) > 0.0F)) continue;
           appendInteger(text, static_cast<std::int64_t>(i));
-          appendInteger(text, frame.hostUs / kUsPerMs);
+          appendInteger(text, floorMs(frame.hostUs));
           appendInteger(text, static_cast<std::int64_t>(m));
           appendInteger(text, y);
           appendInteger(text, x);
@@ -110,9 +110,10 @@ void writeCsv(const Profile& profile,
         profile.numTemperatures(),
         [&](std::size_t i) { return profile.temperatureTimeUs(i); },
         [&](std::size_t i) { return profile.temperatures(i).degC; });
-  if (angles) angles->commit();
-  if (temperatures) temperatures->commit();
-  taxels.commit();
+  std::vector<OutputFile*> files{&taxels};
+  if (angles) files.push_back(&*angles);
+  if (temperatures) files.push_back(&*temperatures);
+  commitTogether(files);
 }
 
 }  // namespace palpate

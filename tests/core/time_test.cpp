@@ -1,5 +1,7 @@
 #include "palpate/core/time.h"
 
+#include <ctime>
+
 #include "testing/testing.h"
 
 namespace palpate::time_test {
@@ -33,6 +35,27 @@ TEST(UtcText, WritesDatesLikePeople) {
   EXPECT_EQ(utcText(0), "1970-01-01 00:00:00.000");
   EXPECT_EQ(utcText(1'417'170'971'302'000), "2014-11-28 10:36:11.302");  // date -u -d @1417170971
   EXPECT_EQ(utcText(-1'000), "1969-12-31 23:59:59.999");
+}
+
+// C-A13: stamps go on while the machine sleeps.
+TEST(HostTime, TheSystemClockCountsTheTimeAsleep) {
+  const auto bootUs = [] {
+    timespec now{};
+    clock_gettime(CLOCK_BOOTTIME, &now);
+    return std::int64_t{now.tv_sec} * 1'000'000 + now.tv_nsec / 1000;
+  };
+  const std::int64_t before = bootUs();
+  const std::int64_t now = systemClock().monotonicUs();
+  EXPECT_LE(before, now);
+  EXPECT_LE(now, bootUs());
+}
+
+TEST(FloorMs, RoundsDownBefore1970Too) {
+  EXPECT_EQ(floorMs(1'999), 1);
+  EXPECT_EQ(floorMs(0), 0);
+  EXPECT_EQ(floorMs(-1), -1);
+  EXPECT_EQ(floorMs(-1'000), -1);
+  EXPECT_EQ(floorMs(-1'001), -2);
 }
 
 }  // namespace

@@ -53,5 +53,39 @@ TEST(NpzExport, IsAZipOfArrays) {
   EXPECT_NE(bytes.find("'shape': (2, 13, 6, )"), std::string::npos);
 }
 
+// C-A14: whole milliseconds are rounded down before 1970, too.
+TEST(CsvExport, RoundsTimesBefore1970Down) {
+  const testing::TemporaryFolder folder;
+  ProfileBuilder builder(sdh2().layout);
+  std::vector<float> values(486, 0.0F);
+  values[0] = 3.0F;
+  builder.addFrame(-1'500, values);
+  builder.addFrame(-500, values);
+  writeCsv(builder.finish({}), folder / "a.csv");
+  EXPECT_EQ(testing::readFile(folder / "a.csv"),
+            "frame,time_ms,matrix,y,x,value\n0,-2,0,0,0,3\n1,-1,0,0,0,3\n");
+}
+
+// C-A14: of the files of one export none appears when one can't be written.
+TEST(CsvExport, TheFilesAppearTogetherOrNotAtAll) {
+  const testing::TemporaryFolder folder;
+  ProfileBuilder builder(sdh2().layout);
+  builder.addFrame(0, std::vector<float>(486, 1.0F));
+  builder.addAngles(0, std::vector<double>(7, 1.0));
+  builder.addTemperatures(0, std::vector<double>(9, 30.0));
+  const Profile profile = builder.finish({});
+  // The name of one is taken while the files are being written.
+  EXPECT_THROW(writeCsv(profile,
+                        folder / "a.csv",
+                        Overwrite::kRefuse,
+                        [&](double) {
+                          testing::writeFile(folder / "a.csv", "mine");
+                          return true;
+                        }),
+               FileError);
+  EXPECT_EQ(testing::readFile(folder / "a.csv"), "mine");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
 }  // namespace
 }  // namespace palpate::table_export_test

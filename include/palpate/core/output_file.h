@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 namespace palpate {
@@ -29,9 +30,12 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   void write(std::string_view bytes);  // throws FileError (disk full, ..)
+  // What was written is on disk, still without its name. Throws FileError (disk full, ..).
+  void sync();
   // Syncs file and folder and gives the file its name. Throws FileError; then nothing was left.
   void commit();
   const std::filesystem::path& path() const noexcept { return path_; }
+  Overwrite overwrite() const noexcept { return overwrite_; }
   // For another program that writes it: /proc/self/fd/N there, opened anew; see write() for our own bytes.
   int descriptor() const noexcept { return descriptor_; }
 
@@ -43,5 +47,9 @@ class OutputFile {
   Overwrite overwrite_;
   int descriptor_ = -1;
 };
+
+// Files that belong together: every one is on disk before the first has its name. Throws FileError; then
+// none of them was left, but for those that had replaced another by then.
+void commitTogether(std::span<OutputFile* const> files);
 
 }  // namespace palpate

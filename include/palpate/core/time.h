@@ -11,12 +11,17 @@ inline constexpr std::int64_t kUsPerMs = 1000;
 inline constexpr double kUsPerS = 1e6;
 inline constexpr double kMsPerS = 1e3;
 constexpr std::int64_t usOf(std::chrono::milliseconds time) { return kUsPerMs * time.count(); }
+// Whole milliseconds of a time [us], rounded down before 1970, too.
+constexpr std::int64_t floorMs(std::int64_t us) {
+  return us / kUsPerMs - (us % kUsPerMs < 0 ? 1 : 0);
+}
 
 // Where time comes from; tests hand in one they move by hand.
 class Clock {
  public:
   virtual ~Clock() = default;
-  // Monotonic time [us] since an arbitrary start; never goes back.
+  // Monotonic time [us] since an arbitrary start; never goes back. The machine's own goes on while the
+  // machine sleeps (CLOCK_BOOTTIME), so that stamps don't lag after it.
   virtual std::int64_t monotonicUs() const = 0;
   // Wall clock [us since 1970, UTC]; may jump.
   virtual std::int64_t wallUs() const = 0;
