@@ -1,18 +1,17 @@
 #include "palpate/calibration/calibration.h"
 
 #include <cstdint>
-#include <fstream>
-#include <iterator>
-#include <stdexcept>
+#include <exception>
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/text_file.h"
 
 namespace palpate {
 namespace {
 
 constexpr const char* kKind = "palpate calibration";
-constexpr std::uintmax_t kMostBytes = 16u << 20;
+constexpr std::uint64_t kMostBytes = 16u << 20;
 
 Json calibrationOrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
@@ -121,21 +120,12 @@ Calibration calibrationFrom(const Json& json) {
 }
 
 Calibration loadCalibration(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path, "can't be opened");
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw FileError(path, "is a folder");
-  if (std::filesystem::file_size(path, ignored) > kMostBytes && !ignored)
-    throw FormatError(path, "is no calibration: larger than 16 MB");
-  const std::string text((std::istreambuf_iterator<char>(in)), {});
-  if (in.bad()) throw FileError(path, "can't be read");
+  const std::string text = readTextFile(path, kMostBytes);
   try {
     return calibrationFrom(Json::parse(text));
   } catch (const FormatError&) {
     throw;
-  } catch (const Error& error) {
-    throw FormatError(path, error.what());
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::exception& error) {
     throw FormatError(path, error.what());
   }
 }

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/text_file.h"
 
 namespace palpate {
 namespace {
@@ -110,12 +109,8 @@ PressureSample unusedSample(const PressureTableRow& row, const std::string& why)
 }
 
 std::vector<PressureTableRow> readPressureTable(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::error_code ignored;
-  if (!in || std::filesystem::is_directory(path, ignored)) throw FileError(path, "can't be opened");
-  const std::string text((std::istreambuf_iterator<char>(in)), {});
-  if (in.bad()) throw FileError(path, "can't be read");
-  return parsePressureTable(text, path);
+  constexpr std::uint64_t kMostBytes = 16u << 20;
+  return parsePressureTable(readTextFile(path, kMostBytes), path);
 }
 
 std::vector<PressureSample> samplesOf(const PressureTableRow& row,

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <initializer_list>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 
 #include <Eigen/Geometry>
@@ -13,6 +11,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/text_file.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/preshape.h"
 
@@ -307,12 +306,7 @@ Scene loadScene(const std::string& nameOrFile, const fs::path& folder) {
     throw FileError(path, "no scene '" + nameOrFile + "'; there are: " + known);
   }
   if (!fs::is_regular_file(path, failure)) throw FileError(path, "no such file");
-  if (fs::file_size(path, failure) > kMostBytes) throw FileError(path, "too large for a scene");
-  std::ifstream in(path);
-  std::stringstream text;
-  text << in.rdbuf();
-  if (!in) throw FileError(path, "can't be read");
-  return parseScene(text.str(), path);
+  return parseScene(readTextFile(path, kMostBytes), path);
 }
 
 }  // namespace palpate

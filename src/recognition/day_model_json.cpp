@@ -71,11 +71,13 @@ Eigen::MatrixXd matrixIn(const Json& json, const char* key) {
   if (!array.isArray() || array.size() == 0)
     throw Error(std::string("a damaged model: '") + key + "' is no matrix");
   const auto size = static_cast<Eigen::Index>(array.size());
+  // Before anything is allocated by it: a small file may claim a large matrix.
+  for (std::size_t row = 0; row < array.size(); ++row)
+    if (array.at(row).size() != array.size())
+      throw Error(std::string("a damaged model: '") + key + "' is no square matrix");
   Eigen::MatrixXd out(size, size);
   for (Eigen::Index row = 0; row < size; ++row) {
     const Eigen::VectorXd values = vectorIn(array.at(static_cast<std::size_t>(row)), key);
-    if (values.size() != size)
-      throw Error(std::string("a damaged model: '") + key + "' is no square matrix");
     out.row(row) = values.transpose();
   }
   return out;

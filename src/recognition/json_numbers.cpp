@@ -88,11 +88,15 @@ Eigen::MatrixXd matrix(const Json& object,
   const Json list = member(object, key);
   if (!list.isArray()) refuseJsonNumbers(key, "is no list");
   requireSize(list.size(), rows, key);
+  // Before anything is allocated by them: a small file may claim a large matrix.
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Json row = list.at(i);
+    if (!row.isArray()) refuseJsonNumbers(key, "has a row that is no list");
+    requireSize(row.size(), columns, key);
+  }
   Eigen::MatrixXd result(rows, columns);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const Json row = list.at(static_cast<std::size_t>(i));
-    if (!row.isArray()) refuseJsonNumbers(key, "has a row that is no list");
-    requireSize(row.size(), columns, key);
     for (Eigen::Index j = 0; j < columns; ++j)
       result(i, j) = finite(row.at(static_cast<std::size_t>(j)), key);
   }

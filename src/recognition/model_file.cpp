@@ -1,9 +1,10 @@
 // The trained model as a file.
-#include <fstream>
-#include <iterator>
+#include <cstdint>
+#include <exception>
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/text_file.h"
 #include "palpate/recognition/trained_model.h"
 
 #include "json_numbers.h"
@@ -131,13 +132,12 @@ TrainedModel trainedModelFrom(const Json& json) {
 }
 
 TrainedModel loadModel(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::error_code ignored;
-  if (!in || fs::is_directory(path, ignored)) throw FileError(path, "can't be opened");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  // The largest one of the study's 36 objects has 0.3 MB.
+  constexpr std::uint64_t kMostBytes = 64u << 20;
+  const std::string text = readTextFile(path, kMostBytes);
   try {
     return trainedModelFrom(Json::parse(text));
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     throw FormatError(path, error.what());
   }
 }

@@ -1,12 +1,12 @@
 #include "recording/event_notes.h"
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/text_file.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -54,11 +54,7 @@ void forEachNote(const fs::path& recording, const std::function<void(const Json&
   const fs::path path = notesPathOf(recording);
   std::error_code failure;
   if (!fs::exists(path, failure)) return;
-  const std::uintmax_t size = fs::file_size(path, failure);
-  if (failure || size > kLargestSidecar) throw FileError(path, "is no file of notes");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(path, "can't be opened for reading");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = readTextFile(path, kLargestSidecar);
   try {
     const Json json = Json::parse(text);
     if (!json.isObject() || json.at("format").asString() != kEventNotesFormat)

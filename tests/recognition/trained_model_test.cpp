@@ -295,5 +295,41 @@ TEST(TrainedModel, HashesEveryInputOnce) {
   EXPECT_THROW(inputsOf(table, [](double) { return false; }), Cancelled);
 }
 
+// C-A7: what a file claims is looked at before memory is taken for it.
+TEST(TrainedModel, ASmallFileThatClaimsALargeMatrixIsRefused) {
+  const TemporaryFolder folder;
+  std::string rows = "[";
+  std::string ones = "[";
+  constexpr int kClaimed = 60'000;  // its square in doubles: 29 GB
+  for (int i = 0; i < kClaimed; ++i) {
+    rows += i == 0 ? "[]" : ",[]";
+    ones += i == 0 ? "1" : ",1";
+  }
+  rows += "]";
+  ones += "]";
+  const std::string claimed = std::to_string(kClaimed);
+  const std::string text =
+      R"({"kind":"palpate recognition model","format_version":2,"program_version":"","made_at":"",)"
+      R"("sensor":"","feature_set":"best","features":[],"classes":[],"options":{},"validation":{},)"
+      R"("sure_confidence":2,"most_novelty":0,"session_offset":)" +
+      sessionOffsetJson(noOffset()).text(-1) +
+      R"(,"training_zero":null,"today_zero":null,"inputs":[],"adapted_from":[],"pipeline":)"
+      R"({"classifier":"svm","classes":2,"features":)" +
+      claimed + R"(,"mean":)" + ones + R"(,"scale":)" + ones + R"(,"discriminant":{"components":)" +
+      claimed + R"(,"mean":)" + ones + R"(,"directions":)" + rows + R"(,"separation":)" + ones +
+      R"(,"shrinkage":0}}})";
+  testing::writeFile(folder / "claims.json", text);
+  try {
+    loadModel(folder / "claims.json");
+    FAIL();
+  } catch (const FormatError& error) {
+    const std::string what = error.what();
+    EXPECT_EQ(what.rfind((folder / "claims.json").string(), 0), 0u) << what;
+    EXPECT_NE(what.find("'directions' has 0 entries instead of 60000"), std::string::npos) << what;
+  }
+  // Nor is a file without end read.
+  EXPECT_THROW(loadModel("/dev/zero"), FormatError);
+}
+
 }  // namespace
 }  // namespace palpate::trained_model_test
