@@ -11,27 +11,58 @@ namespace palpate {
 
 using Value = nlohmann::ordered_json;
 
+// A value inside of a tree that several may read; who changes it, changes it alone.
 struct Json::Impl {
-  Value value;
+  explicit Impl(Value given) : root(std::make_shared<Value>(std::move(given))), value(root.get()) {}
+  // A part of `of`: nothing is copied.
+  Impl(const Impl& of, Value& part, std::string name)
+      : root(of.root), value(&part), where(std::move(name)) {}
+
+  // To be written to: a tree that somebody else reads is copied first.
+  Value& own() {
+    if (root.use_count() != 1) {
+      root = std::make_shared<Value>(*value);
+      value = root.get();
+    }
+    return *value;
+  }
+
+  // What was moved from is null.
+  static const Value& of(const Json& json) {
+    static const Value null;
+    return json.impl_ ? *json.impl_->value : null;
+  }
+
+  std::shared_ptr<Value> root;
+  Value* value;
+  std::string where;  // the key it stands under, for messages; may be empty
 };
 
 namespace {
-[[noreturn]] void wrongKind(const char* wanted, const Value& value) {
-  throw Error(std::string("JSON: expected ") + wanted + ", found " + value.type_name());
-}
 
 // The parser below is recursive-free, but destruction and dump() are not: bound the nesting.
 constexpr int kMaxDepth = 512;
+
+[[noreturn]] void throwWrongKind(const std::string& where, const char* wanted, const Value& value) {
+  throw Error("JSON: " + (where.empty() ? where : "'" + where + "': ") + "expected " + wanted +
+              ", found " + value.type_name());
+}
+
 }  // namespace
 
-Json::Json() : impl_(std::make_unique<Impl>()) {}
+Json::Json() = default;
 Json::Json(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Json::Json(bool value) : impl_(std::make_unique<Impl>(Impl{Value(value)})) {}
+Json::Json(bool value) : impl_(std::make_unique<Impl>(Value(value))) {}
 Json::Json(double value)
-    : impl_(std::make_unique<Impl>(Impl{std::isfinite(value) ? Value(value) : Value()})) {}
-Json::Json(std::int64_t value) : impl_(std::make_unique<Impl>(Impl{Value(value)})) {}
-Json::Json(std::string_view value) : impl_(std::make_unique<Impl>(Impl{Value(value)})) {}
-Json::Json(const Json& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
+    : impl_(std::make_unique<Impl>(std::isfinite(value) ? Value(value) : Value())) {}
+Json::Json(std::int64_t value) : impl_(std::make_unique<Impl>(Value(value))) {}
+Json::Json(std::string_view value) : impl_(std::make_unique<Impl>(Value(value))) {}
+// A copy shares nothing: it may go to another thread.
+Json::Json(const Json& other) {
+  if (!other.impl_) return;
+  impl_ = std::make_unique<Impl>(*other.impl_->value);
+  impl_->where = other.impl_->where;
+}
 Json::Json(Json&& other) noexcept = default;
 Json& Json::operator=(Json other) noexcept {
   impl_.swap(other.impl_);
@@ -39,8 +70,8 @@ Json& Json::operator=(Json other) noexcept {
 }
 Json::~Json() = default;
 
-Json Json::object() { return Json(std::make_unique<Impl>(Impl{Value::object()})); }
-Json Json::array() { return Json(std::make_unique<Impl>(Impl{Value::array()})); }
+Json Json::object() { return Json(std::make_unique<Impl>(Value::object())); }
+Json Json::array() { return Json(std::make_unique<Impl>(Value::array())); }
 
 Json Json::parse(std::string_view text) {
   const auto bounded = [](int depth, Value::parse_event_t, Value&) {
@@ -48,7 +79,7 @@ Json Json::parse(std::string_view text) {
     return true;
   };
   try {
-    return Json(std::make_unique<Impl>(Impl{Value::parse(text, bounded)}));
+    return Json(std::make_unique<Impl>(Value::parse(text, bounded)));
   } catch (const Value::parse_error& error) {
     // "[json.exception.parse_error.101] parse error at line 1, column 2: ..." without its number
     const std::string what = error.what();
@@ -59,66 +90,80 @@ Json Json::parse(std::string_view text) {
   }
 }
 
-bool Json::isNull() const { return impl_->value.is_null(); }
-bool Json::isObject() const { return impl_->value.is_object(); }
-bool Json::isArray() const { return impl_->value.is_array(); }
-bool Json::isNumber() const { return impl_->value.is_number(); }
-bool Json::isString() const { return impl_->value.is_string(); }
-bool Json::isBool() const { return impl_->value.is_boolean(); }
+bool Json::isNull() const { return Impl::of(*this).is_null(); }
+bool Json::isObject() const { return Impl::of(*this).is_object(); }
+bool Json::isArray() const { return Impl::of(*this).is_array(); }
+bool Json::isNumber() const { return Impl::of(*this).is_number(); }
+bool Json::isString() const { return Impl::of(*this).is_string(); }
+bool Json::isBool() const { return Impl::of(*this).is_boolean(); }
+
+void Json::wrongKind(const char* wanted) const {
+  throwWrongKind(impl_ ? impl_->where : std::string(), wanted, Impl::of(*this));
+}
 
 bool Json::asBool() const {
-  if (!isBool()) wrongKind("true or false", impl_->value);
-  return impl_->value.get<bool>();
+  if (!isBool()) wrongKind("true or false");
+  return Impl::of(*this).get<bool>();
 }
 double Json::asDouble() const {
-  if (!isNumber()) wrongKind("a number", impl_->value);
-  return impl_->value.get<double>();
+  if (!isNumber()) wrongKind("a number");
+  return Impl::of(*this).get<double>();
 }
 std::int64_t Json::asInteger() const {
-  const Value& value = impl_->value;
+  const Value& value = Impl::of(*this);
   if (value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX)
-    wrongKind("a whole number below 2^63", value);
-  if (!value.is_number_integer()) wrongKind("a whole number", value);
+    wrongKind("a whole number below 2^63");
+  if (!value.is_number_integer()) wrongKind("a whole number");
   return value.get<std::int64_t>();
 }
 std::string Json::asString() const {
-  if (!isString()) wrongKind("a string", impl_->value);
-  return impl_->value.get<std::string>();
+  if (!isString()) wrongKind("a string");
+  return Impl::of(*this).get<std::string>();
 }
 
-std::size_t Json::size() const { return isArray() || isObject() ? impl_->value.size() : 0; }
+std::size_t Json::size() const { return isArray() || isObject() ? Impl::of(*this).size() : 0; }
 std::vector<std::string> Json::keys() const {
   std::vector<std::string> names;
   if (isObject())
-    for (const auto& item : impl_->value.items()) names.push_back(item.key());
+    for (const auto& item : Impl::of(*this).items()) names.push_back(item.key());
   return names;
 }
 bool Json::contains(std::string_view key) const {
-  return isObject() && impl_->value.contains(std::string(key));
+  return isObject() && Impl::of(*this).contains(std::string(key));
 }
 Json Json::at(std::string_view key) const {
-  if (!contains(key)) return {};
-  return Json(std::make_unique<Impl>(Impl{impl_->value.at(std::string(key))}));
+  std::string name(key);
+  if (contains(key)) {
+    Value& part = impl_->value->at(name);
+    return Json(std::make_unique<Impl>(*impl_, part, std::move(name)));
+  }
+  Json absent(std::make_unique<Impl>(Value()));
+  absent.impl_->where = std::move(name);
+  return absent;
 }
 Json Json::at(std::size_t index) const {
-  if (!isArray() || index >= impl_->value.size())
+  if (!isArray() || index >= Impl::of(*this).size())
     throw std::out_of_range("JSON: no item " + std::to_string(index));
-  return Json(std::make_unique<Impl>(Impl{impl_->value.at(index)}));
+  return Json(std::make_unique<Impl>(*impl_, impl_->value->at(index), impl_->where));
 }
 
 Json& Json::set(std::string_view key, Json value) {
-  if (!isNull() && !isObject()) wrongKind("an object", impl_->value);
-  impl_->value[std::string(key)] = std::move(value.impl_->value);
+  if (!isNull() && !isObject()) wrongKind("an object");
+  Value part = value.impl_ ? std::move(value.impl_->own()) : Value();
+  if (!impl_) impl_ = std::make_unique<Impl>(Value());
+  impl_->own()[std::string(key)] = std::move(part);
   return *this;
 }
 Json& Json::push(Json value) {
-  if (!isNull() && !isArray()) wrongKind("an array", impl_->value);
-  impl_->value.push_back(std::move(value.impl_->value));
+  if (!isNull() && !isArray()) wrongKind("an array");
+  Value part = value.impl_ ? std::move(value.impl_->own()) : Value();
+  if (!impl_) impl_ = std::make_unique<Impl>(Value());
+  impl_->own().push_back(std::move(part));
   return *this;
 }
 
 std::string Json::text(int indent) const {
-  return impl_->value.dump(indent, ' ', false, Value::error_handler_t::replace);
+  return Impl::of(*this).dump(indent, ' ', false, Value::error_handler_t::replace);
 }
 
 }  // namespace palpate

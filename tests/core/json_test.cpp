@@ -54,5 +54,69 @@ TEST(Json, NoNumberBecomesNullAndBadUtf8IsReplaced) {
   EXPECT_EQ(Json(std::string("a\xFF")).text(), "\"a\xEF\xBF\xBD\"");
 }
 
+// C-A14.
+TEST(Json, WhatWasMovedFromIsNull) {
+  Json from = Json::object().set("a", 1);
+  const Json to = std::move(from);
+  EXPECT_TRUE(from.isNull());  // NOLINT(bugprone-use-after-move)
+  EXPECT_EQ(from.size(), 0u);
+  EXPECT_EQ(from.text(), "null");
+  EXPECT_EQ(Json(from).text(), "null");
+  EXPECT_EQ(from.set("b", 2).text(-1), R"({"b":2})");
+  EXPECT_EQ(to.text(-1), R"({"a":1})");
+}
+
+TEST(Json, AnErrorNamesTheKey) {
+  const auto messageOf = [](auto read) {
+    try {
+      read();
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const Json json = Json::parse(R"({"mean": [1, "two"]})");
+  EXPECT_EQ(messageOf([&] { json.at("mean").asDouble(); }),
+            "JSON: 'mean': expected a number, found array");
+  EXPECT_EQ(messageOf([&] { json.at("mean").at(1).asDouble(); }),
+            "JSON: 'mean': expected a number, found string");
+  EXPECT_EQ(messageOf([&] { json.at("scale").asDouble(); }),
+            "JSON: 'scale': expected a number, found null");
+}
+
+TEST(Json, APartOutlivesItsWholeAndChangesAlone) {
+  Json part;
+  {
+    Json whole = Json::parse(R"({"list": [1, [2]]})");
+    part = whole.at("list");
+    whole.set("list", 7);
+    EXPECT_EQ(whole.text(-1), R"({"list":7})");
+  }
+  Json copy = part;
+  part.push(3);
+  EXPECT_EQ(part.text(-1), "[1,[2],3]");
+  EXPECT_EQ(copy.text(-1), "[1,[2]]");
+  const Json inner = part.at(1);
+  part.push(inner);
+  EXPECT_EQ(inner.text(-1), "[2]");
+  EXPECT_EQ(part.text(-1), "[1,[2],3,[2]]");
+}
+
+// A matrix is read row by row and value by value: no part may cost as much as its whole.
+TEST(Json, ReadingEveryItemOfALargeArrayIsLinear) {
+  constexpr std::size_t kRows = 300;
+  Json matrix = Json::array();
+  for (std::size_t i = 0; i < kRows; ++i) {
+    Json row = Json::array();
+    for (std::size_t k = 0; k < kRows; ++k) row.push(k);
+    matrix.push(std::move(row));
+  }
+  const Json whole = Json::object().set("matrix", std::move(matrix));
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kRows; ++i)
+    for (std::size_t k = 0; k < kRows; ++k) sum += whole.at("matrix").at(i).at(k).asDouble();
+  EXPECT_EQ(sum, 300.0 * (299.0 * 300.0 / 2.0));
+}
+
 }  // namespace
 }  // namespace palpate::json_test

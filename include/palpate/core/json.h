@@ -24,7 +24,7 @@ class Json {
   Json(const std::string& value) : Json(std::string_view(value)) {}
   Json(const char* value) : Json(std::string_view(value)) {}
   Json(const Json& other);
-  Json(Json&& other) noexcept;
+  Json(Json&& other) noexcept;  // `other` is null then
   Json& operator=(Json other) noexcept;
   ~Json();
 
@@ -41,7 +41,7 @@ class Json {
   bool isString() const;
   bool isBool() const;
 
-  // Typed reading; throws palpate::Error when the value is of another kind.
+  // Typed reading; throws palpate::Error when the value is of another kind, with the key it stands under.
   bool asBool() const;
   double asDouble() const;
   std::int64_t asInteger() const;
@@ -50,7 +50,8 @@ class Json {
   std::size_t size() const;               // items of an array or object, else 0
   std::vector<std::string> keys() const;  // of an object, in order
   bool contains(std::string_view key) const;
-  // The value under `key` (null when absent or no object), or at `index` of an array.
+  // The value under `key` (null when absent or no object), or at `index` of an array. Nothing below it is
+  // copied, and it stays valid whatever becomes of this one.
   Json at(std::string_view key) const;
   Json at(std::size_t index) const;  // throws std::out_of_range
 
@@ -64,7 +65,8 @@ class Json {
  private:
   struct Impl;
   explicit Json(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  [[noreturn]] void wrongKind(const char* wanted) const;
+  std::unique_ptr<Impl> impl_;  // none: null
 };
 
 }  // namespace palpate
