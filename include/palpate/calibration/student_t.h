@@ -3,8 +3,8 @@
 
 namespace palpate {
 
-// 97.5 % quantile: mean +- this many standard deviations hold 95 %. `dof` degrees of freedom; below 1: NaN. Within
-// 2e-4 relative (Cornish-Fisher series from 5 on, closed forms and linear between whole numbers below).
+// 97.5 % quantile: mean +- this many standard deviations hold 95 %. `dof` degrees of freedom, whole or
+// not; below 1: NaN.
 double studentQuantile975(double dof);
 
 }  // namespace palpate
