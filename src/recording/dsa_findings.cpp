@@ -49,6 +49,7 @@ Profile DsaDocument::handOver() {
   info.format = "dsa";
   info.serial = sensor_.serial();
   info.firmware = sensor_.firmware();
+  info.sensorRevision = sensor_.firmware();
   info.warnings = sensor_.warnings();
   info.warnings.insert(info.warnings.end(), warnings_.begin(), warnings_.end());
   return builder_->finish(std::move(info));

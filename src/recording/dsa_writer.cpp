@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdint>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/xml.h"
+#include "palpate/core/time.h"
 #include "palpate/recording/frame_text.h"
 
 namespace palpate {
@@ -24,9 +25,8 @@ constexpr std::string_view kDataIndent = "        ";  // of lines within masks a
 constexpr std::string_view kDataLineEnd = "\r\n";
 constexpr std::size_t kTextBytes = 256u << 10;  // gathered before they are compressed
 constexpr std::size_t kSamplesPerReport = 256;
-// What the prior program writes, whatever the hand: revision of the firmware, and a serial number
-// of eight digits. Used where the profile doesn't know them.
-constexpr std::string_view kDefaultFirmware = "105";
+// What the prior program writes, whatever the hand. Used where the profile doesn't know them.
+constexpr std::string_view kDefaultRevision = "105";
 constexpr std::string_view kDefaultSerial = "00000000";
 
 // Where the prior program draws the matrices of an SDH-2 [mm]; no real geometry.
@@ -128,20 +128,33 @@ void addMatrix(std::string& out, const MatrixLayout& matrix, std::size_t index, 
   out += "    </matrix>\n";
 }
 
+// `generated_by`: the prior program reads a whole number there. A controller's firmware ("2.9.0.0") is
+// none.
+std::string revisionText(const ProfileInfo& info) {
+  constexpr std::int64_t kLargest = 65'535;  // the sensor's description holds 16 bits
+  for (const std::string& text : {info.sensorRevision, info.firmware})
+    if (const auto number = parseInteger(text); number && *number >= 0 && *number <= kLargest)
+      return std::to_string(*number);
+  return std::string(kDefaultRevision);
+}
+
+// `serial_nr`: up to eight hexadecimal digits.
+std::string serialText(const ProfileInfo& info) {
+  constexpr std::string_view kDigits = "0123456789abcdefABCDEF";
+  const std::string& serial = info.serial;
+  const bool fits = !serial.empty() && serial.size() <= kDefaultSerial.size() &&
+                    serial.find_first_not_of(kDigits) == std::string::npos;
+  return fits ? serial : std::string(kDefaultSerial);
+}
+
 std::string headerText(const Profile& profile) {
   constexpr std::string_view kIndent = "    ";
   const ProfileInfo& info = profile.info();
   const SensorLayout& layout = profile.layout();
   std::string out = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<root>\n  <sensor name=\"\">\n";
-  addLine(out,
-          kIndent,
-          "generated_by",
-          info.firmware.empty() ? std::string(kDefaultFirmware) : xmlEscaped(info.firmware));
+  addLine(out, kIndent, "generated_by", revisionText(info));
   addLine(out, kIndent, "hw_revision", "1");
-  addLine(out,
-          kIndent,
-          "serial_nr",
-          info.serial.empty() ? std::string(kDefaultSerial) : xmlEscaped(info.serial));
+  addLine(out, kIndent, "serial_nr", serialText(info));
   addLine(out, kIndent, "num_matrices", std::to_string(layout.numMatrices()));
   addLine(out, kIndent, "converter_resolution", "12");
   const bool known = looksLikeSdh2(layout);
@@ -149,11 +162,6 @@ std::string headerText(const Profile& profile) {
     addMatrix(out, layout.matrix(i), i, known ? kSdh2Centres[i] : Centre{0, 0});
   out += "  </sensor>\n";
   return out;
-}
-
-// Time of a profile in whole milliseconds, rounded down.
-std::string stampText(std::int64_t us) {
-  return std::to_string(us >= 0 ? us / 1000 : -((999 - us) / 1000));
 }
 
 // As printf's "%.*f": unlike fixedText() it keeps the sign of a value that rounds to zero, as the
@@ -186,9 +194,11 @@ class Writer {
     text_ += "</root>\n";
     output_.write(text_);
   }
+  const DsaWriteReport& report() const noexcept { return report_; }
 
  private:
   void writeFrames() {
+    lastMs_.reset();
     text_ += "  <data>\n";
     addLine(text_, "    ", "frame_count", std::to_string(profile_.numFrames()));
     TactileFrame frame;
@@ -203,6 +213,7 @@ class Writer {
     text_ += "  </data>\n";
   }
   void writeTemperatures() {
+    lastMs_.reset();
     text_ += "  <temperatures>\n";
     addLine(text_, "    ", "temp_count", std::to_string(profile_.numTemperatures()));
     for (std::size_t i = 0; i < profile_.numTemperatures(); ++i) {
@@ -215,6 +226,7 @@ class Writer {
     text_ += "  </temperatures>\n";
   }
   void writeAngles() {
+    lastMs_.reset();
     text_ += "  <joint_angles>\n";
     addLine(text_, "    ", "angle_count", std::to_string(profile_.numAngles()));
     for (std::size_t i = 0; i < profile_.numAngles(); ++i) {
@@ -230,7 +242,13 @@ class Writer {
   void beginSample(std::string_view name, std::size_t index, std::int64_t hostUs) {
     text_.append("    <").append(name).append(" index=\"");
     text_.append(std::to_string(index)).append("\">\n");
-    addLine(text_, "      ", "time_stamp", stampText(hostUs));
+    std::int64_t ms = floorMs(hostUs);
+    if (lastMs_ && ms <= *lastMs_) {
+      ms = *lastMs_ + 1;
+      ++report_.movedStamps;
+    }
+    lastMs_ = ms;
+    addLine(text_, "      ", "time_stamp", std::to_string(ms));
   }
   void endSample(std::string_view name) {
     text_.append("    </").append(name).append(">\n");
@@ -244,6 +262,8 @@ class Writer {
   Bzip2Output& output_;
   const Progress& progress_;
   std::string text_;
+  std::optional<std::int64_t> lastMs_;  // of the stream that is being written
+  DsaWriteReport report_;
   std::size_t done_ = 0;
   std::size_t all_ = 0;
 };
@@ -266,14 +286,16 @@ void dsaWriterRequireStorable(const Profile& profile, const std::filesystem::pat
 
 }  // namespace
 
-void writeDsa(const Profile& profile,
-              const std::filesystem::path& path,
-              Overwrite overwrite,
-              const Progress& progress) {
+DsaWriteReport writeDsa(const Profile& profile,
+                        const std::filesystem::path& path,
+                        Overwrite overwrite,
+                        const Progress& progress) {
   dsaWriterRequireStorable(profile, path);
   Bzip2Output output(path, overwrite);
-  Writer(profile, output, progress).write();
+  Writer writer(profile, output, progress);
+  writer.write();
   output.commit();
+  return writer.report();
 }
 
 }  // namespace palpate

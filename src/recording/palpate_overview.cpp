@@ -5,10 +5,12 @@
 
 #include "palpate/core/byte_reader.h"
 #include "palpate/core/error.h"
+#include "palpate/recording/dsa_reader.h"
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/palpate_access.h"
 #include "recording/palpate_rows.h"
+#include "recording/recording_form.h"
 
 namespace palpate {
 namespace {
@@ -112,6 +114,18 @@ std::optional<std::vector<SecondSummary>> readOverview(SqliteDatabase& database,
 }
 
 std::vector<SecondSummary> readSeconds(const std::filesystem::path& path) {
+  if (!isNativeRecording(path)) {
+    std::vector<SecondSummary> seconds;
+    SecondSummarizer summarizer([&](const SecondSummary& row) { seconds.push_back(row); });
+    const Profile profile = readDsa(path);
+    TactileFrame frame;
+    for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+      profile.readFrame(i, frame);
+      summarizer.add(frame);
+    }
+    summarizer.flush();
+    return seconds;
+  }
   PalpateAccess access(path);
   const std::size_t numMatrices = readLayout(access.database()).numMatrices();
   auto seconds =

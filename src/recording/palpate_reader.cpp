@@ -127,6 +127,7 @@ Profile readPalpate(const fs::path& path, const Progress& progress) {
   info.format = "palpate";
   info.serial = access.meta()["serial"];
   info.firmware = access.meta()["firmware"];
+  info.sensorRevision = access.meta()["sensor_revision"];
   info.valueType = valueTypeOf(access);
   access.database().unlimitWork();
   if (access.unfinished())

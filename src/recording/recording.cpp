@@ -35,7 +35,9 @@ std::string damageText(const PalpateSalvage& salvage) {
   add(salvage.lostAngles, "lost angle sample");
   add(salvage.lostTemperatures, "lost temperature sample");
   add(salvage.damagedBlocks, "damaged block");
-  add(salvage.blocksFromPages, "block found in the raw pages");
+  if (salvage.blocksFromPages > 0)
+    text += (text.empty() ? "" : ", ") + counted(salvage.blocksFromPages, "block") +
+            " found in the raw pages";
   add(salvage.damagedRows, "damaged row");
   if (salvage.layoutLost) text += (text.empty() ? "" : ", ") + std::string("layout lost");
   if (salvage.layoutAssumed) text += (text.empty() ? "" : ", ") + std::string("layout assumed");
@@ -126,6 +128,64 @@ Profile openRecording(const std::filesystem::path& path, const Progress& progres
   return isNativeRecording(path) ? readPalpate(path, progress) : readDsa(path, progress);
 }
 
+namespace {
+
+// Opens every block once: the samples of a native recording are read when they are asked for.
+void readThrough(const Profile& profile, const Progress& progress) {
+  constexpr std::size_t kSamplesPerReport = 4096;
+  const std::size_t all = profile.numFrames() + profile.numAngles() + profile.numTemperatures();
+  std::size_t read = 0;
+  const auto report = [&] {
+    if (read++ % kSamplesPerReport == 0 && progress &&
+        !progress(static_cast<double>(read) / static_cast<double>(all + 1)))
+      throw Cancelled();
+  };
+  TactileFrame frame;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i, report()) profile.readFrame(i, frame);
+  for (std::size_t i = 0; i < profile.numAngles(); ++i, report()) profile.angles(i);
+  for (std::size_t i = 0; i < profile.numTemperatures(); ++i, report()) profile.temperatures(i);
+}
+
+// The events, or why there are none.
+std::vector<RecordingEvent> eventsOrDamage(const std::filesystem::path& path, std::string& damage) {
+  try {
+    EventsReport report = readEvents(path);
+    if (report.damaged > 0) damage = counted(report.damaged, "damaged row");
+    return std::move(report.events);
+  } catch (const FormatError& error) {
+    damage = error.what();
+    return {};
+  }
+}
+
+}  // namespace
+
+ReadableRecording readableRecording(const std::filesystem::path& path, const Progress& progress) {
+  try {
+    Profile profile = openRecording(path, progress);
+    readThrough(profile, progress);
+    std::string damage;
+    std::vector<RecordingEvent> events = eventsOrDamage(path, damage);
+    return {std::move(profile), std::move(events), std::move(damage)};
+  } catch (const FormatError&) {
+    if (!isNativeRecording(path)) {
+      DsaSalvage salvage = salvageDsa(path, progress);
+      if (!salvage.profile) throw;
+      std::string damage;
+      std::vector<RecordingEvent> events = eventsOrDamage(path, damage);
+      damage =
+          "damaged; readable: " + countsText(salvage.frames, salvage.angles, salvage.temperatures);
+      return {std::move(*salvage.profile), std::move(events), std::move(damage)};
+    }
+    PalpateSalvage salvage = salvagePalpate(path, progress);
+    if (!salvage.profile) throw;
+    return {std::move(*salvage.profile),
+            std::move(salvage.events),
+            damageText(salvage) +
+                "; readable: " + countsText(salvage.frames, salvage.angles, salvage.temperatures)};
+  }
+}
+
 VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& progress) {
   VerifyReport report;
   try {
@@ -173,27 +233,34 @@ void requireOther(const std::filesystem::path& in, const std::filesystem::path& 
     throw FileError(out, "is the input itself; give another name");
 }
 
-void saveRecording(const Profile& profile,
-                   std::span<const RecordingEvent> events,
-                   const std::filesystem::path& path,
-                   Overwrite overwrite,
-                   const Progress& progress) {
+SaveReport saveRecording(const Profile& profile,
+                         std::span<const RecordingEvent> events,
+                         const std::filesystem::path& path,
+                         Overwrite overwrite,
+                         const Progress& progress) {
+  SaveReport report;
   switch (formOf(path)) {
     case RecordingForm::kDsa: {
       // Checked first: a .dsa must not come to notes that were made for another one.
       const EventNotes notes(path, events, overwrite);
-      writeDsa(profile, path, overwrite, progress);
-      return notes.commit();
+      report.movedStamps = writeDsa(profile, path, overwrite, progress).movedStamps;
+      notes.commit();
+      break;
     }
     case RecordingForm::kPalpate:
-      return writePalpate(profile, events, path, overwrite, progress);
+      writePalpate(profile, events, path, overwrite, progress);
+      break;
     case RecordingForm::kCsv:
-      return writeCsv(profile, path, overwrite, progress);
+      writeCsv(profile, path, overwrite, progress);
+      break;
     case RecordingForm::kNpz:
-      return writeNpz(profile, events, path, overwrite, progress);
+      writeNpz(profile, events, path, overwrite, progress);
+      break;
     case RecordingForm::kJsonLines:
-      return writeTactileSensorLines(profile, path, overwrite, progress);
+      writeTactileSensorLines(profile, path, overwrite, progress);
+      break;
   }
+  return report;
 }
 
 RecoverReport recoverRecording(const std::filesystem::path& in,

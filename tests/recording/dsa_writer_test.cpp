@@ -6,6 +6,7 @@
 #include "palpate/recording/dsa_reader.h"
 
 #include "recording/dsa_corpus.h"
+#include "testing/program.h"
 #include "testing/testing.h"
 
 namespace palpate::dsa_writer_test {
@@ -129,6 +130,60 @@ TEST(DsaWriter, roundTripsRealRecordings) {
   EXPECT_EQ(identical, comparable);
   EXPECT_GE(comparable, files - 10);
   EXPECT_GE(files, testing::exhaustive() ? 600u : 60u);
+}
+
+// What the reader of the prior program's rules (tests/recording/prior_program_reader.py) counts: "frames
+// temperatures angles"; what it refuses is a failure.
+std::string readByThePriorProgram(const std::filesystem::path& path) {
+  const auto reader =
+      std::filesystem::path(PALPATE_INDEPENDENT_READER).parent_path() / "prior_program_reader.py";
+  const auto result = testing::runProgram("/usr/bin/python3", {reader.string(), path.string()});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  return result.out;
+}
+
+// A profile as of a live hand: its controller's firmware, stamps in microseconds.
+Profile liveProfile(const ProfileInfo& info, std::int64_t stepUs) {
+  ProfileBuilder builder(sdh2().layout);
+  constexpr std::int64_t kBeginUs = 1'400'000'000'000'900;
+  for (std::int64_t i = 0; i < 5; ++i) {
+    std::vector<float> values(486, 0.0F);
+    values[static_cast<std::size_t>(i)] = 7.0F;
+    builder.addFrame(kBeginUs + i * stepUs, values);
+    builder.addAngles(kBeginUs + i * stepUs, std::vector<double>(7, 1.25));
+    builder.addTemperatures(kBeginUs + i * stepUs, std::vector<double>(9, 30.0));
+  }
+  return builder.finish(info);
+}
+
+TEST(DsaWriter, aRecordingOfALiveHandIsReadByThePriorProgram) {
+  const testing::TemporaryFolder folder;
+  ProfileInfo info;
+  info.serial = "1D9B0057";
+  info.firmware = "2.9.0.0";
+  writeDsa(liveProfile(info, 32'000), folder / "a.dsa");
+  EXPECT_EQ(readByThePriorProgram(folder / "a.dsa"), "5 5 5\n");
+  info.serial = "a <hand> with a long name";
+  writeDsa(liveProfile(info, 32'000), folder / "b.dsa");
+  EXPECT_EQ(readByThePriorProgram(folder / "b.dsa"), "5 5 5\n");
+}
+
+// C-A6: frames that were read in one burst are a microsecond apart.
+TEST(DsaWriter, stampsGrowStrictly) {
+  const testing::TemporaryFolder folder;
+  writeDsa(liveProfile({}, 1), folder / "burst.dsa");
+  EXPECT_EQ(readByThePriorProgram(folder / "burst.dsa"), "5 5 5\n");
+  const Profile back = readDsa(folder / "burst.dsa");
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_EQ(back.frameTimeUs(i), 1'400'000'000'000'000 + static_cast<std::int64_t>(i) * 1000);
+}
+
+TEST(DsaWriter, realRecordingsRewrittenAreReadByThePriorProgram) {
+  const auto recordings = testing::recordingsFolder();
+  PALPATE_NEED(recordings);
+  const testing::TemporaryFolder folder;
+  writeDsa(readDsa(*recordings / "grasps/foam_ball.dsa"), folder / "a.dsa");
+  EXPECT_EQ(readByThePriorProgram(folder / "a.dsa").substr(0, 5), "3289 ");
 }
 
 }  // namespace

@@ -235,5 +235,17 @@ TEST(PalpateRecording, theWriterRefusesWhatNoReaderCouldRead) {
   EXPECT_EQ(verifyRecording(folder / "w.palpate").state, VerifyReport::State::kSound);
 }
 
+// O-A6.
+TEST(PalpateRecording, theSummaryOfADsaIsThatOfItsFrames) {
+  const TemporaryFolder folder;
+  writeSamples(folder / "s.palpate", 100);
+  saveRecording(openRecording(folder / "s.palpate"), {}, folder / "s.dsa");
+  // Of the .dsa again: it holds no values where the sensor has no taxels.
+  saveRecording(openRecording(folder / "s.dsa"), {}, folder / "again.palpate");
+  const std::vector<SecondSummary> rows = readSeconds(folder / "s.dsa");
+  EXPECT_EQ(rows.size(), 4u * 6);
+  EXPECT_TRUE(rows == readSeconds(folder / "again.palpate"));
+}
+
 }  // namespace
 }  // namespace palpate::palpate_recording_test

@@ -24,6 +24,13 @@ std::string doneText(const fs::path& out, const Profile& profile) {
   return out.string() + ": " + std::to_string(profile.numFrames()) + " frames";
 }
 
+// What a .dsa could not hold as it was.
+std::string movedText(std::size_t stamps) {
+  if (stamps == 0) return "";
+  return "; " + std::to_string(stamps) +
+         " time stamps moved behind the one before: whole milliseconds must grow";
+}
+
 int convertOne(const CommandLine& given, const std::string& in, const std::string& out) {
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
   formOf(out);
@@ -46,11 +53,12 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
     profile = cropped(profile, first, last);
     events.events = eventsWithin(events.events, profile);
   }
-  {
+  const SaveReport saved = [&] {
     ProgressLine progress("writing " + out, given.quiet());
-    saveRecording(profile, events.events, out, overwrite, progress.callback());
-  }
-  if (!given.quiet()) std::printf("%s\n", doneText(out, profile).c_str());
+    return saveRecording(profile, events.events, out, overwrite, progress.callback());
+  }();
+  if (!given.quiet())
+    std::printf("%s\n", (doneText(out, profile) + movedText(saved.movedStamps)).c_str());
   if (events.damaged == 0) return kDone;
   std::fprintf(stderr, "palpate: %s\n", oneLine(damagedText(in, events.damaged)).c_str());
   return kPartlyDone;
@@ -93,12 +101,14 @@ int convertFolder(const CommandLine& given,
             openRecording(file, [&](double fraction) { return progress(0.5 * fraction); });
         const EventsReport events = readEvents(file);
         convertMakeFolder(out.parent_path());
-        saveRecording(profile, events.events, out, overwrite, [&](double fraction) {
-          return progress(0.5 + 0.5 * fraction);
-        });
+        const SaveReport saved =
+            saveRecording(profile, events.events, out, overwrite, [&](double fraction) {
+              return progress(0.5 + 0.5 * fraction);
+            });
         made.insert(out);
         FileOutcome outcome;
-        if (!given.quiet()) outcome.said = oneLine(doneText(out, profile));
+        if (!given.quiet())
+          outcome.said = oneLine(doneText(out, profile) + movedText(saved.movedStamps));
         if (events.damaged > 0) outcome.trouble = damagedText(file.string(), events.damaged);
         return outcome;
       });

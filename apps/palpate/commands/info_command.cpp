@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
@@ -11,6 +13,8 @@
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
 #include "palpate/model/timing.h"
+#include "palpate/recording/recording.h"
+#include "palpate/recording/recording_meta.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
@@ -39,6 +43,72 @@ ValueReport valuesOf(const Profile& profile, const Progress& progress) {
   return report;
 }
 
+// What a person said of a recording, and what happened in it.
+struct NotesReport {
+  std::map<std::string, std::string> meta;
+  EventsReport events;
+  std::string failure;  // why they can't be read; empty: they could
+
+  std::string said(const std::string& key) const {
+    const auto at = meta.find(key);
+    return at == meta.end() ? std::string() : at->second;
+  }
+  // Texts of events "label" and "segment", each once, in order of time.
+  std::vector<std::string> labels() const {
+    std::vector<std::string> texts;
+    for (const RecordingEvent& event : events.events)
+      if ((event.kind == "label" || event.kind == "segment") && !event.text.empty() &&
+          std::find(texts.begin(), texts.end(), event.text) == texts.end())
+        texts.push_back(event.text);
+    return texts;
+  }
+};
+
+// A damaged recording has what of them can be read.
+NotesReport notesOf(const std::filesystem::path& file) {
+  NotesReport notes;
+  try {
+    notes.meta = readRecordingMeta(file);
+    notes.events = readEvents(file);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    notes.failure = error.what();
+  }
+  return notes;
+}
+
+// What operators are asked before a recording (docs/palpate_format.md).
+constexpr const char* kSaid[] = {"operator", "object", "run", "notes"};
+
+Json detailsOf(const RecordingEvent& event) {
+  if (event.json.empty()) return {};
+  try {
+    return Json::parse(event.json);
+  } catch (const Error&) {
+    return event.json;
+  }
+}
+
+Json eventsJson(const NotesReport& notes) {
+  Json events = Json::array();
+  for (const RecordingEvent& event : notes.events.events)
+    events.push(Json::object()
+                    .set("time_ms", event.tUs / kUsPerMs)
+                    .set("end_ms", event.t1Us / kUsPerMs)
+                    .set("kind", event.kind)
+                    .set("matrix", event.matrix ? Json(*event.matrix) : Json())
+                    .set("text", event.text)
+                    .set("json", detailsOf(event)));
+  return events;
+}
+
+std::string joinedTexts(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : "; ") + text;
+  return all;
+}
+
 const char* valueTypeText(const Profile& profile) {
   return profile.info().valueType == ValueType::kCounts ? "counts" : "float";
 }
@@ -65,13 +135,15 @@ Json matricesJson(const SensorLayout& layout) {
 Json infoJsonOf(Json report,
                 const Profile& profile,
                 const TimingReport& timing,
-                const ValueReport& values) {
+                const ValueReport& values,
+                const NotesReport& notes) {
   const ProfileInfo& info = profile.info();
   Json gaps = Json::array();
   for (const Gap& gap : timing.gaps)
     gaps.push(Json::object().set("frame", gap.frame).set("seconds", gap.seconds));
   Json warnings = Json::array();
   for (const std::string& warning : info.warnings) warnings.push(warning);
+  if (!notes.failure.empty()) warnings.push(notes.failure);
   report.set("format", info.format)
       .set("value_type", valueTypeText(profile))
       .set("frames", profile.numFrames())
@@ -90,6 +162,12 @@ Json infoJsonOf(Json report,
       .set("hand", profile.hand().name)
       .set("start_utc", profile.numFrames() ? Json(utcText(profile.frameTimeUs(0))) : Json())
       .set("warnings", warnings);
+  for (const char* key : kSaid) report.set(key, notes.said(key));
+  Json labels = Json::array();
+  for (const std::string& label : notes.labels()) labels.push(label);
+  report.set("labels", labels)
+      .set("events", eventsJson(notes))
+      .set("damaged_events", notes.events.damaged);
   return report;
 }
 
@@ -114,10 +192,42 @@ std::string matricesText(const Profile& profile) {
   return text;
 }
 
+// What was said and noted, then every event at its time since the first frame.
+std::string notesText(const Profile& profile, const NotesReport& notes) {
+  constexpr std::size_t kMostListed = 200;
+  std::string text;
+  for (const char* key : kSaid)
+    if (const std::string said = notes.said(key); !said.empty()) text += row(key, said);
+  if (const auto labels = notes.labels(); !labels.empty())
+    text += row("labels", joinedTexts(labels));
+  const auto& events = notes.events.events;
+  text += row("events", std::to_string(events.size()));
+  const std::int64_t beginUs = profile.numFrames() > 0 ? profile.frameTimeUs(0) : 0;
+  const auto seconds = [&](std::int64_t us) {
+    return fixedText(static_cast<double>(us - beginUs) / kUsPerS, 2);
+  };
+  for (std::size_t i = 0; i < std::min(events.size(), kMostListed); ++i) {
+    const RecordingEvent& event = events[i];
+    std::string when = seconds(event.tUs);
+    if (event.t1Us != event.tUs) when += " to " + seconds(event.t1Us);
+    std::string what = event.kind;
+    if (event.matrix) what += ", matrix " + std::to_string(*event.matrix);
+    if (!event.text.empty()) what += ": " + event.text;
+    text += row("  " + when + " s", what);
+  }
+  if (events.size() > kMostListed)
+    text += row("", "and " + std::to_string(events.size() - kMostListed) + " more: --json has all");
+  if (notes.events.damaged > 0)
+    text += row("warning", std::to_string(notes.events.damaged) + " damaged events are left out");
+  if (!notes.failure.empty()) text += row("warning", notes.failure);
+  return text;
+}
+
 std::string plainText(const std::string& file,
                       const Profile& profile,
                       const TimingReport& timing,
-                      const ValueReport& values) {
+                      const ValueReport& values,
+                      const NotesReport& notes) {
   const ProfileInfo& info = profile.info();
   std::string text = row("file", file);
   text += row("format", info.format + ", values are " + valueTypeText(profile));
@@ -145,24 +255,27 @@ std::string plainText(const std::string& file,
               ")");
   text += row("matrices", std::to_string(profile.layout().numMatrices()));
   text += matricesText(profile);
+  text += notesText(profile, notes);
   for (const std::string& warning : info.warnings) text += row("warning", warning);
   return text;
 }
 
 constexpr const char* kTableHeader =
     "file,format,value_type,frames,duration_s,rate_hz,mean_rate_hz,gaps,temperatures,joint_angles,"
-    "max_value,saturated_frames,serial,warnings\n";
+    "max_value,saturated_frames,serial,warnings,operator,object,run,notes,labels,events\n";
 
 // One row of the table over several recordings; what is not known is empty.
 std::string tableRow(const std::filesystem::path& file,
                      const Profile& profile,
                      const TimingReport& timing,
-                     const ValueReport& values) {
+                     const ValueReport& values,
+                     const NotesReport& notes) {
   const ProfileInfo& info = profile.info();
   const auto rate = [](double hz) { return hz > 0.0 ? numberText(hz) : std::string(); };
   std::string warnings;
   for (const std::string& warning : info.warnings)
     warnings += (warnings.empty() ? "" : "; ") + warning;
+  if (!notes.failure.empty()) warnings += (warnings.empty() ? "" : "; ") + notes.failure;
   return csvLine({file.string(),
                   info.format,
                   valueTypeText(profile),
@@ -176,7 +289,13 @@ std::string tableRow(const std::filesystem::path& file,
                   profile.numFrames() > 0 ? numberText(values.maximum) : std::string(),
                   std::to_string(values.saturatedFrames),
                   info.serial,
-                  warnings});
+                  warnings,
+                  notes.said("operator"),
+                  notes.said("object"),
+                  notes.said("run"),
+                  notes.said("notes"),
+                  joinedTexts(notes.labels()),
+                  std::to_string(notes.events.events.size())});
 }
 
 int infoOfOne(const RecordingList& recordings, bool quiet, bool json) {
@@ -187,10 +306,12 @@ int infoOfOne(const RecordingList& recordings, bool quiet, bool json) {
       [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
         const TimingReport timing = timingOf(profile);
         const ValueReport values = valuesOf(profile, progress);
-        out.write(json ? infoJsonOf(Json::object(), profile, timing, values).text() + "\n"
-                       : plainText(file.string(), profile, timing, values));
+        const NotesReport notes = notesOf(file);
+        out.write(json ? infoJsonOf(Json::object(), profile, timing, values, notes).text() + "\n"
+                       : plainText(file.string(), profile, timing, values, notes));
         out.finish();
-      });
+      },
+      Damaged::kTaken);
 }
 
 // A table with a row each, or one object with an item each: written as it goes.
@@ -204,16 +325,18 @@ int infoOfSeveral(const RecordingList& recordings, bool quiet, bool json) {
       [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
         const TimingReport timing = timingOf(profile);
         const ValueReport values = valuesOf(profile, progress);
+        const NotesReport notes = notesOf(file);
         if (json) {
           const Json report =
-              infoJsonOf(Json::object().set("file", file.string()), profile, timing, values);
+              infoJsonOf(Json::object().set("file", file.string()), profile, timing, values, notes);
           out.write(between + report.text(-1));
           between = ",\n";
         } else {
-          out.write(tableRow(file, profile, timing, values));
+          out.write(tableRow(file, profile, timing, values, notes));
         }
         out.finish();
-      });
+      },
+      Damaged::kTaken);
   if (json && !recordings.files.empty()) out.write("\n]}\n");
   out.finish();
   return code;
@@ -226,11 +349,15 @@ int infoCommand(const Words& words) {
       {.synopsis = "palpate info PATH... [--json]",
        .purpose =
            "Says what is in a recording: frames, rates, gaps, matrices, angles, temperatures, "
-           "largest value.\nThe rate comes from the median interval; a gap is longer than "
+           "largest value,\nwho recorded what (operator, object, run, notes), labels and events "
+           "(of a "
+           ".dsa those of its notes).\nThe rate comes from the median interval; a gap is longer "
+           "than "
            "max(1 s, 5 median intervals).\nOf several PATHs or a folder (every recording below "
            "it): "
            "a table as CSV, a row each; a file that\ncan't be read is said, and the others are "
-           "there: exit code 3.",
+           "there: exit code 3. Of a damaged one it says\nwhat can be read, and what is missing: "
+           "exit code 3, too.",
        .options = {{"json", "", "one JSON object; of several: with a list, recordings"}},
        .example = "palpate info foam_ball.dsa --json",
        .fewestWords = 1},

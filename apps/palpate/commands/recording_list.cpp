@@ -163,20 +163,29 @@ int forEachRecording(const RecordingList& list, bool quiet, const FileWork& work
   return ListRun(list, quiet).through(work);
 }
 
-int forEachProfile(const RecordingList& list, bool quiet, const ProfileWork& work) {
+int forEachProfile(const RecordingList& list,
+                   bool quiet,
+                   const ProfileWork& work,
+                   Damaged damaged) {
   ListRun run(list, quiet);
   return run.through([&](const fs::path& file, const Progress& progress) {
     const auto half = [&](double begin) {
       return [&progress, begin](double fraction) { return progress(begin + 0.5 * fraction); };
     };
-    const Profile profile = openRecording(file, half(0.0));
+    std::string damage;
+    const Profile profile = [&] {
+      if (damaged == Damaged::kRefused) return openRecording(file, half(0.0));
+      ReadableRecording readable = readableRecording(file, half(0.0));
+      damage = std::move(readable.damage);
+      return std::move(readable.profile);
+    }();
     // What a native recording warns of is that it has no end; the oddities of a .dsa cost nothing.
     if (profile.info().format == "palpate")
       for (const std::string& warning : profile.info().warnings)
         run.note(file.string() + ": " + warning);
     run.leaveTheTerminal();
     work(file, profile, half(0.5));
-    return FileOutcome{};
+    return FileOutcome{.trouble = damage.empty() ? "" : file.string() + ": " + damage};
   });
 }
 

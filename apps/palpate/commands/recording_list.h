@@ -41,7 +41,12 @@ using ProfileWork =
 // wrong with which file. Returns the exit code: 0 all done; 1 none (or there is no file); 3 some, also when it was
 // interrupted (then it says how many were done). Throws what is no file's fault: UsageError, OutputError.
 int forEachRecording(const RecordingList& list, bool quiet, const FileWork& work);
+// What becomes of a damaged recording: it fails, or what can be read of it is taken, and the rest is told.
+enum class Damaged { kRefused, kTaken };
 // The same with every recording opened. That one is unfinished or still being written is said, where there are several.
-int forEachProfile(const RecordingList& list, bool quiet, const ProfileWork& work);
+int forEachProfile(const RecordingList& list,
+                   bool quiet,
+                   const ProfileWork& work,
+                   Damaged damaged = Damaged::kRefused);
 
 }  // namespace palpate::commands

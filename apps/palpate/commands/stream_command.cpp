@@ -66,7 +66,8 @@ CommandSpec streamSpec() {
           "UDP\ndatagrams to 127.0.0.1 or as lines on standard output. STREAM: signals (default; "
           "for PlotJuggler,\nport 9870) or tactile (all taxels as schunk_sdh/TactileSensor, port "
           "9871), with another port as\nsignals:9999. FILE: a recording, played in its own time "
-          "(with --lines at once). Runs until Ctrl-C.",
+          "(with --lines at once). Runs until Ctrl-C. Of a damaged recording "
+          "what can be read is sent, and\nthe rest told: exit code 3.",
       .options = {{"dsa", "PORT", "tactile controller"},
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
                   {"to", "STREAM", "what to send, and where to; may be repeated"},
@@ -77,13 +78,26 @@ CommandSpec streamSpec() {
       .mostWords = 1};
 }
 
-std::unique_ptr<Device> streamDeviceOf(const CommandLine& given) {
-  if (!given.words().empty()) {
-    ProgressLine progress("reading " + given.words()[0], given.quiet());
-    Profile profile = openRecording(given.words()[0], progress.callback());
-    if (profile.numFrames() == 0) throw Error(given.words()[0] + ": has no frames");
-    return std::make_unique<Replay>(std::move(profile), ReplayOptions{});
-  }
+// What can be read of a recording; `damage` says what is missing.
+ReadableRecording streamedRecording(const CommandLine& given, std::string& damage) {
+  const std::string& file = given.words()[0];
+  ProgressLine progress("reading " + file, given.quiet());
+  ReadableRecording readable = readableRecording(file, progress.callback());
+  if (readable.profile.numFrames() == 0) throw Error(file + ": has no frames");
+  if (!readable.damage.empty()) damage = file + ": " + readable.damage;
+  return readable;
+}
+
+// Says what was missing in the recording. Returns the exit code of work that is done otherwise.
+int endOf(const std::string& damage) {
+  if (damage.empty()) return kDone;
+  std::fprintf(stderr, "palpate: %s\n", oneLine(damage).c_str());
+  return kPartlyDone;
+}
+
+std::unique_ptr<Device> streamDeviceOf(const CommandLine& given, std::string& damage) {
+  if (!given.words().empty())
+    return std::make_unique<Replay>(streamedRecording(given, damage).profile, ReplayOptions{});
   LiveHandOptions hand;
   hand.dsaPort = given.text("dsa").value();
   hand.sdhPort = given.text("sdh").value_or("");
@@ -119,7 +133,8 @@ int streamDatagrams(const CommandLine& given, std::vector<StreamTarget> targets)
   if (targets.empty()) targets.push_back(streamTargetOf("signals", "to"));
   const auto calibration = streamCalibrationOf(given);
   Interruption interruption;
-  CaptureSession session(streamDeviceOf(given));
+  std::string damage;
+  CaptureSession session(streamDeviceOf(given, damage));
   LiveStreams streams(session, targets, calibration);
   runSession(given, session, interruption, [&] { return !streams.failure().empty(); });
   requireFrames(session, given);
@@ -127,13 +142,14 @@ int streamDatagrams(const CommandLine& given, std::vector<StreamTarget> targets)
   if (const std::string failure = streams.failure(); !failure.empty()) throw Error(failure);
   if (!given.quiet())
     for (const std::string& line : streams.lines()) std::printf("%s\n", line.c_str());
-  return kDone;
+  return endOf(damage);
 }
 
 // The whole recording, as fast as it goes.
-int streamLinesOf(const CommandLine& given, const std::string& file, StreamKind kind) {
-  const Profile profile = openRecording(file);
-  const EventsReport events = readEvents(file);
+int streamLinesOf(const CommandLine& given, StreamKind kind) {
+  std::string damage;
+  const ReadableRecording recording = streamedRecording(given, damage);
+  const Profile& profile = recording.profile;
   Lines lines(kind, false);
   ChainOptions options;
   options.onResults = [&lines](const LiveResults& results) { lines.write(results, nullptr); };
@@ -145,14 +161,15 @@ int streamLinesOf(const CommandLine& given, const std::string& file, StreamKind 
                         std::move(options));
   Interruption interruption;
   try {
-    chain.runOver(
-        profile, events.events, [&](double) { return !interruption.came(0) && !lines.failed(); });
+    chain.runOver(profile, recording.events, [&](double) {
+      return !interruption.came(0) && !lines.failed();
+    });
   } catch (const Cancelled&) {
     lines.finish();
     return kPartlyDone;
   }
   lines.finish();
-  return kDone;
+  return endOf(damage);
 }
 
 int streamLines(const CommandLine& given, const std::vector<StreamTarget>& targets) {
@@ -160,9 +177,10 @@ int streamLines(const CommandLine& given, const std::vector<StreamTarget>& targe
   if (!targets.empty() && given.text("to")->find(':') != std::string::npos)
     throw UsageError("--lines goes to standard output: no port");
   const StreamKind kind = targets.empty() ? StreamKind::kSignals : targets.front().kind;
-  if (!given.words().empty()) return streamLinesOf(given, given.words()[0], kind);
+  if (!given.words().empty()) return streamLinesOf(given, kind);
   Interruption interruption;
-  CaptureSession session(streamDeviceOf(given));
+  std::string damage;  // of no recording
+  CaptureSession session(streamDeviceOf(given, damage));
   Lines lines(kind, true);
   ChainOptions options;
   options.onResults = [&](const LiveResults& results) {

@@ -20,9 +20,11 @@ enum class ValueType { kCounts, kFloat };
 
 // What a recording says about itself.
 struct ProfileInfo {
-  std::string format;    // "dsa", "palpate", "synthetic"
-  std::string serial;    // tactile controller, as written ("1D9B0057"); may be empty
-  std::string firmware;  // generated_by, as written; may be empty
+  std::string format;  // "dsa", "palpate", "synthetic"
+  std::string serial;  // tactile controller, as written ("1D9B0057"); may be empty
+  std::string
+      firmware;  // of the tactile controller ("2.9.0.0"); of a .dsa its generated_by; may be empty
+  std::string sensorRevision;  // generated_by of the sensor's description ("105"); may be empty
   ValueType valueType = ValueType::kCounts;
   std::vector<std::string> warnings;  // oddities that cost nothing ("declared 12 frames, found 10")
 };

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
@@ -15,6 +16,17 @@ namespace palpate {
 // Reads a recording; its form is told by its first bytes, never by its name (a .dsa is bzip2 or
 // XML). Throws FileError, FormatError, Cancelled; what() is one line that says what to do.
 Profile openRecording(const std::filesystem::path& path, const Progress& progress = {});
+
+// A recording as far as it can be read.
+struct ReadableRecording {
+  Profile profile;                     // what damage has taken is not in it
+  std::vector<RecordingEvent> events;  // in order of time
+  std::string damage;                  // one line: what is missing; empty: nothing
+};
+// Opens a recording and reads it through: what verifyRecording() counts as readable, damaged or not.
+// Throws FileError, FormatError (nothing can be read), Cancelled.
+ReadableRecording readableRecording(const std::filesystem::path& path,
+                                    const Progress& progress = {});
 
 struct VerifyReport {
   enum class State { kSound, kDamaged, kUnreadable };
@@ -37,14 +49,18 @@ EventsReport readEvents(const std::filesystem::path& path);
 // Throws FileError when both name the same file (by a link, too): nothing is written onto its source.
 void requireOther(const std::filesystem::path& in, const std::filesystem::path& out);
 
+// What the form could not hold as it was.
+struct SaveReport {
+  std::size_t movedStamps = 0;  // of a .dsa: see DsaWriteReport
+};
 // Saves a profile in the form of PATH's ending: whole or not at all. Events go into a .palpate, into
 // the sidecar of a .dsa, into `meta` of an .npz; a .csv or .jsonl has no place for them. Throws FileError,
 // Cancelled.
-void saveRecording(const Profile& profile,
-                   std::span<const RecordingEvent> events,
-                   const std::filesystem::path& path,
-                   Overwrite overwrite = Overwrite::kRefuse,
-                   const Progress& progress = {});
+SaveReport saveRecording(const Profile& profile,
+                         std::span<const RecordingEvent> events,
+                         const std::filesystem::path& path,
+                         Overwrite overwrite = Overwrite::kRefuse,
+                         const Progress& progress = {});
 
 struct RecoverReport {
   enum class State { kWhole, kPart, kNothing };

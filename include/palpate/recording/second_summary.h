@@ -35,9 +35,9 @@ class SecondSummarizer {
   std::vector<SecondSummary> rows_;
 };
 
-// The summary of a native recording without reading its frames: ordered by time, then matrix; seconds
-// without a frame are not there. Of an unfinished recording the last second is missing. Rows with a
-// wrong checksum are left out. Throws FileError, FormatError.
+// The summary of a recording, ordered by time, then matrix; seconds without a frame are not there. A
+// native recording holds it: its frames are not read, of an unfinished one the last second is missing,
+// and rows with a wrong checksum are left out. A .dsa is read for it. Throws FileError, FormatError.
 std::vector<SecondSummary> readSeconds(const std::filesystem::path& path);
 
 }  // namespace palpate
