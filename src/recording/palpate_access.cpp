@@ -1,10 +1,15 @@
 #include "recording/palpate_access.h"
 
 #include <array>
+#include <cerrno>
 #include <cstdlib>
 #include <fstream>
+#include <system_error>
+#include <vector>
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "palpate/core/error.h"
 #include "palpate/recording/palpate_schema.h"
@@ -32,20 +37,90 @@ std::array<std::int64_t, 5> palpateAccessStampOf(const fs::path& path) {
           facts.st_mtim.tv_nsec};
 }
 
-// What a rollback journal that is more than an empty shell looks like: its header's magic.
+// What a rollback journal that is more than an empty shell looks like: its header's magic. Throws
+// FileError when something else than a file has its name: whoever opens that may wait for ever.
 bool hasHotJournal(const fs::path& recording) {
-  std::ifstream journal(journalPathOf(recording), std::ios::binary);
+  const fs::path path = journalPathOf(recording);
+  std::error_code failure;
+  const auto status = fs::status(path, failure);
+  if (!fs::exists(status)) return false;
+  if (!fs::is_regular_file(status))
+    throw FileError(path, "is not a regular file, and has the name of the recording's journal");
+  std::ifstream journal(path, std::ios::binary);
   char first = 0;
   return journal.get(first) && first != 0;
 }
 
+// Whether SQLite would read it through a write-ahead log, and make files of its own for that: a
+// recording never has one (the database file format of SQLite, section 1.3.3).
+bool asksForWriteAheadLog(const fs::path& recording) {
+  constexpr std::size_t kVersionsAt = 18;
+  constexpr char kWriteAhead = 2;
+  fs::path log = recording;
+  log += "-wal";
+  std::error_code ignored;
+  if (fs::exists(fs::symlink_status(log, ignored))) return true;
+  std::array<char, kVersionsAt + 2> header{};
+  std::ifstream in(recording, std::ios::binary);
+  return in.read(header.data(), header.size()) &&
+         (header[kVersionsAt] == kWriteAhead || header[kVersionsAt + 1] == kWriteAhead);
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  ~Descriptor() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const noexcept { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+// Copies all of a file. False: errno says why.
+bool copyBytes(int from, int to) {
+  std::vector<char> buffer(1u << 20);
+  for (;;) {
+    const ssize_t got = ::read(from, buffer.data(), buffer.size());
+    if (got == 0) return true;
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return false;
+    for (ssize_t done = 0; done < got;) {
+      const ssize_t written =
+          ::write(to, buffer.data() + done, static_cast<std::size_t>(got - done));
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) return false;
+      done += written;
+    }
+  }
+}
+
+[[noreturn]] void throwNoCopy(const fs::path& recording) {
+  throw FileError(recording,
+                  "can't be copied for opening: " + std::generic_category().message(errno));
+}
+
+// A copy in a folder of its own, for SQLite to play the journal back into. While it is being made it has
+// no name where the file system allows that: a process that is killed leaves nothing.
 fs::path copyWithJournal(const fs::path& recording) {
-  std::string pattern = (fs::temp_directory_path() / "palpate-open-XXXXXX").string();
+  const fs::path parent = fs::temp_directory_path();
+  const Descriptor from(::open(recording.c_str(), O_RDONLY | O_CLOEXEC));
+  if (from.get() < 0) throwNoCopy(recording);
+  const Descriptor to(::open(parent.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+  if (to.get() >= 0 && !copyBytes(from.get(), to.get())) throwNoCopy(recording);
+  std::string pattern = (parent / "palpate-open-XXXXXX").string();
   if (!mkdtemp(pattern.data())) throw FileError(recording, "no temporary folder to copy it to");
   const fs::path folder = pattern;
+  const fs::path copy = folder / "copy.palpate";
+  const std::string self = "/proc/self/fd/" + std::to_string(to.get());
   std::error_code failure;
-  fs::copy_file(recording, folder / "copy.palpate", failure);
-  if (!failure) fs::copy_file(journalPathOf(recording), folder / "copy.palpate-journal", failure);
+  if (to.get() < 0 ||
+      ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, copy.c_str(), AT_SYMLINK_FOLLOW) != 0)
+    fs::copy_file(recording, copy, failure);
+  if (!failure) fs::copy_file(journalPathOf(recording), journalPathOf(copy), failure);
   if (failure) {
     std::error_code ignored;
     fs::remove_all(folder, ignored);
@@ -83,10 +158,17 @@ void PalpateAccess::open(const fs::path& path) {
     database_ = std::make_unique<SqliteDatabase>(copyFolder_ / "copy.palpate",
                                                  SqliteDatabase::Mode::kReadWrite);
   } else {
-    database_ = std::make_unique<SqliteDatabase>(path, SqliteDatabase::Mode::kReadOnly);
+    const bool locks = isHeld || !asksForWriteAheadLog(path);
+    database_ = std::make_unique<SqliteDatabase>(
+        path, locks ? SqliteDatabase::Mode::kReadOnly : SqliteDatabase::Mode::kUnlocked);
   }
   database_->limitWork(size);
   database_->execute("PRAGMA cell_size_check=ON");
+  if (!copyFolder_.empty()) {
+    // Plays the journal back. From then on the copy needs no name: it goes with whoever reads it.
+    database_->integerOf("SELECT count(*) FROM sqlite_schema");
+    fs::remove_all(copyFolder_, failure);
+  }
   if (!isHeld) database_->execute("BEGIN");
   if (database_->integerOf("PRAGMA application_id") != kPalpateApplicationId)
     throw FormatError(path, "is an SQLite file, but not a palpate recording");

@@ -40,7 +40,7 @@ void refuseForeignJournal(const fs::path& recording) {
 
 RecordingLock::RecordingLock(const fs::path& recording) : path_(lockPathOf(recording)) {
   for (;;) {
-    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
     if (descriptor_ < 0)
       throw FileError(recording,
                       "can't be written: " + std::generic_category().message(errno) +
@@ -80,9 +80,13 @@ RecordingLock::~RecordingLock() {
 }
 
 bool RecordingLock::isHeld(const fs::path& recording) {
-  const int descriptor = ::open(lockPathOf(recording).c_str(), O_RDONLY | O_CLOEXEC);
+  // Never waits, whatever has that name; a writer's lock is a file.
+  const int descriptor =
+      ::open(lockPathOf(recording).c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (descriptor < 0) return false;
-  const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  struct stat facts {};
+  const bool held = ::fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode) &&
+                    ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   ::close(descriptor);
   return held;
 }

@@ -267,11 +267,14 @@ void buildProfile(const fs::path& path,
   salvage.angles = storage->numAngles();
   salvage.temperatures = storage->numTemperatures();
   const bool empty = salvage.frames + salvage.angles + salvage.temperatures == 0;
-  if (empty && !(found.layout && salvage.whole())) return;  // a recording may have no sample yet
+  // A recording may have no sample yet, whatever is damaged beside.
+  const bool lostAny = lost[0] + lost[1] + lost[2] + salvage.damagedBlocks > 0;
+  if (empty && (!found.layout || lostAny)) return;
   ProfileInfo info;
   info.format = "palpate";
   info.serial = found.meta["serial"];
   info.firmware = found.meta["firmware"];
+  info.sensorRevision = found.meta["sensor_revision"];
   for (const BlockPlace& place : storage->places(Stream::kTactile))
     if (found.blocks->load(place.id).coding != BlockCoding::kCountsRuns)
       info.valueType = ValueType::kFloat;

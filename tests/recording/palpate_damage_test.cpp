@@ -163,5 +163,64 @@ INSTANTIATE_TEST_SUITE_P(
                 " DELETE FROM block WHERE id=3"}),
     [](const auto& of) { return of.param.name; });
 
+// C-A1: a recording is read as far as verify counts it as readable.
+TEST(PalpateDamage, whatIsReadableIsGivenAndTheRestTold) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "r.palpate";
+  writeSamples(path, 60);
+  const ReadableRecording sound = readableRecording(path);
+  EXPECT_EQ(sound.damage, "");
+  EXPECT_EQ(sound.events.size(), 2u);
+  EXPECT_TRUE(dumped(sound.profile) == dumped(openRecording(path)));
+  const BlockBytes block = blockBytes(path).at(2);
+  std::string bytes = readFile(path);
+  bytes[block.end - 1] = static_cast<char>(bytes[block.end - 1] ^ 1);
+  writeFile(path, bytes);
+  const ReadableRecording damaged = readableRecording(path);
+  EXPECT_EQ(framesOf(damaged.profile).size(), 60 - block.n);
+  EXPECT_EQ(damaged.events.size(), 2u);
+  EXPECT_NE(damaged.damage.find(std::to_string(block.n) + " lost frame"), std::string::npos)
+      << damaged.damage;
+  writeFile(path, bytes.substr(0, 3000));
+  EXPECT_THROW(readableRecording(path), FormatError);
+}
+
+// what info reads, recover saves, whatever bytes are wrong.
+TEST(PalpateDamage, whatCanBeReadCanBeSaved) {
+  const TemporaryFolder folder;
+  std::mt19937 random(5);
+  std::size_t readable = 0;
+  for (const std::size_t frames : {std::size_t{0}, std::size_t{3}, std::size_t{40}}) {
+    const fs::path path = folder / "r.palpate";
+    fs::remove(path);
+    writeSamples(path, frames);
+    const std::string sound = readFile(path);
+    for (int round = 0; round < 150; ++round) {
+      SCOPED_TRACE(std::to_string(frames) + " frames, round " + std::to_string(round));
+      std::string bytes = sound;
+      for (unsigned flips = 1 + random() % 4; flips > 0; --flips) {
+        const std::size_t at = random() % bytes.size();
+        bytes[at] = static_cast<char>(bytes[at] ^ static_cast<char>(1 + random() % 255));
+      }
+      writeFile(path, bytes);
+      bool read = true;
+      try {
+        readableRecording(path);
+      } catch (const Error&) {
+        read = false;
+      }
+      bool saved = false;
+      try {
+        saved = recoverRecording(path, folder / "out.palpate", Overwrite::kReplace).state !=
+                RecoverReport::State::kNothing;
+      } catch (const Error&) {
+      }
+      EXPECT_EQ(read, saved);
+      readable += read ? 1 : 0;
+    }
+  }
+  EXPECT_GT(readable, 300u);
+}
+
 }  // namespace
 }  // namespace palpate::palpate_damage_test

@@ -1,11 +1,16 @@
 // Native recordings among other programs: locks, growing files, links, journals, names.
 #include <algorithm>
+#include <csignal>
 
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "palpate/core/error.h"
 #include "palpate/recording/recording.h"
 
+#include "recording/palpate_damage.h"
 #include "recording/palpate_faults.h"
 #include "testing/testing.h"
 
@@ -144,6 +149,155 @@ TEST(PalpateFiles, aFinishedRecordingOpensFromAReadOnlyFolder) {
   EXPECT_GE(openRecording(folder / "r.palpate").numFrames(), hot);
   EXPECT_NE(fileErrorOf([&] { PalpateWriter writer(folder / "b.palpate", sdh2().layout); }), "");
   fs::permissions(folder.path(), fs::perms::owner_all);
+}
+
+// Names of all that lies in a folder.
+std::vector<std::string> namesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// C-A8: whoever replaces an unfinished recording and fails has taken nothing from it.
+TEST(PalpateFiles, aRecordingThatCouldNotBeReplacedIsAsItWas) {
+  const TemporaryFolder folder;
+  const std::size_t committed = makeHot(folder.path());
+  writeSamples(folder / "other.palpate", 5);
+  const Profile other = openRecording(folder / "other.palpate");
+  // The new one is whole, but can't get the name: the old one stays, with all that was committed.
+  EXPECT_THROW(saveRecording(other,
+                             {},
+                             folder / "r.palpate",
+                             Overwrite::kReplace,
+                             [&](double) {
+                               throw FileError(folder / "r.palpate", "no");
+                               return true;
+                             }),
+               FileError);
+  EXPECT_EQ(openRecording(folder / "r.palpate").numFrames(), committed);
+  // Replaced, it is the new one, and nothing of the old one is left beside it.
+  saveRecording(other, {}, folder / "r.palpate", Overwrite::kReplace);
+  EXPECT_TRUE(dumped(openRecording(folder / "r.palpate")) == dumped(other));
+  EXPECT_EQ(namesIn(folder.path()), (std::vector<std::string>{"other.palpate", "r.palpate"}));
+}
+
+// C-A8: the journal is needed until the new file has the name.
+TEST(PalpateFiles, aProcessThatDiesWhileItReplacesLeavesTheOldOneWhole) {
+  const TemporaryFolder folder;
+  const std::size_t committed = makeHot(folder.path());
+  writeSamples(folder / "other.palpate", 5);
+  const Profile other = openRecording(folder / "other.palpate");
+  std::size_t replaced = 0;
+  for (unsigned spin = 0; spin < 60; ++spin) {
+    const TemporaryFolder run;
+    for (const char* name : {"r.palpate", "r.palpate-journal"})
+      fs::copy_file(folder / name, run / name);
+    const pid_t child = fork();
+    if (child == 0) {
+      saveRecording(other, {}, run / "r.palpate", Overwrite::kReplace);
+      _exit(0);
+    }
+    volatile unsigned wait = spin * 400'000;
+    while (wait > 0) wait = wait - 1;
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    const std::size_t frames = openRecording(run / "r.palpate").numFrames();
+    EXPECT_TRUE(frames == committed || frames == 5) << frames << " at spin " << spin;
+    replaced += frames == 5 ? 1 : 0;
+  }
+  std::printf("%zu of 60 replaced before they were killed\n", replaced);
+}
+
+// what reading meets in a header or beside the file makes it write nothing there.
+TEST(PalpateFiles, readingWritesNothingBesideWhatItReads) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "r.palpate";
+  writeSamples(path, 100);
+  const std::string sound = readFile(path);
+  for (const bool header : {true, false}) {
+    SCOPED_TRACE(header ? "a header that says WAL" : "a write-ahead log beside it");
+    std::string bytes = sound;
+    if (header) bytes[18] = bytes[19] = 2;  // sqlite.org/fileformat2.html, section 1.3.3
+    writeFile(path, bytes);
+    std::vector<std::string> names{"r.palpate"};
+    if (!header) {
+      writeFile(folder / "r.palpate-wal", "");
+      names.emplace_back("r.palpate-wal");
+    }
+    EXPECT_EQ(framesOf(openRecording(path)).size(), 100u);
+    EXPECT_EQ(namesIn(folder.path()), names);
+    verifyRecording(path);
+    readEvents(path);
+    EXPECT_EQ(namesIn(folder.path()), names);
+    EXPECT_TRUE(readFile(path) == bytes);
+  }
+}
+
+// the copy that an unfinished recording is opened from has no name that could stay behind.
+TEST(PalpateFiles, anInterruptedReadingLeavesNothingInTheTemporaryFolder) {
+  const TemporaryFolder folder;
+  const std::size_t committed = makeHot(folder.path());
+  const TemporaryFolder temporary;
+  const pid_t child = fork();
+  if (child == 0) {
+    setenv("TMPDIR", temporary.path().c_str(), 1);
+    const Profile profile = openRecording(folder / "r.palpate");
+    if (profile.numFrames() != committed) _exit(1);
+    raise(SIGKILL);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(namesIn(temporary.path()), std::vector<std::string>{});
+}
+
+// O-A27: something else than a file beside a recording keeps nobody waiting.
+TEST(PalpateFiles, aPipeNamedAsASideFileIsNotWaitedFor) {
+  for (const char* ending : {".lock", "-journal"}) {
+    SCOPED_TRACE(ending);
+    const TemporaryFolder folder;
+    const fs::path path = folder / "r.palpate";
+    writeSamples(path, 20);
+    ASSERT_EQ(mkfifo((path.string() + ending).c_str(), 0600), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      alarm(10);
+      const bool sound = verifyRecording(path).state == VerifyReport::State::kSound;
+      const std::size_t frames = sound ? openRecording(path).numFrames() : 0;
+      _exit(frames == 20 || std::string(ending) == "-journal" ? 0 : 1);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "status " << status;
+  }
+}
+
+// O-A24: a message names the file that was asked for.
+TEST(PalpateFiles, aDiskThatIsFullIsToldUnderTheNameThatWasGiven) {
+  const TemporaryFolder folder;
+  writeSamples(folder / "a.palpate", 400);
+  const Profile profile = openRecording(folder / "a.palpate");
+  const pid_t child = fork();
+  if (child == 0) {
+    // As a full disk: nothing longer than this can be written.
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{20'000, 20'000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    const std::string message =
+        fileErrorOf([&] { saveRecording(profile, {}, folder / "b.palpate"); });
+    const bool named = message.rfind((folder / "b.palpate").string() + ": ", 0) == 0 &&
+                       message.find("recording.palpate") == std::string::npos;
+    if (!named) std::printf("%s\n", message.c_str());
+    std::fflush(stdout);
+    _exit(named ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_EQ(namesIn(folder.path()), std::vector<std::string>{"a.palpate"});
 }
 
 }  // namespace

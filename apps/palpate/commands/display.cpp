@@ -1,6 +1,7 @@
 #include "commands/display.h"
 
 #include <QLibraryInfo>
+#include <QString>
 #include <cstdlib>
 #include <string>
 #include <string_view>
@@ -87,7 +88,16 @@ bool hasDisplay() {
   return xServerAnswers() || (waylandAnswers() && hasPlugin("wayland"));
 }
 
-void drawWithoutDisplay() { ::setenv("QT_QPA_PLATFORM", "offscreen", 1); }
+void drawWithoutDisplay() {
+  ::setenv("QT_QPA_PLATFORM", "offscreen", 1);
+  // Where there is no display nobody can be told how large a window may become: Qt says so at each
+  // dialogue, which is no news for whoever wants a picture.
+  static QtMessageHandler usual = nullptr;
+  usual = qInstallMessageHandler(
+      [](QtMsgType type, const QMessageLogContext& context, const QString& message) {
+        if (!message.contains(QLatin1String("propagateSizeHints"))) usual(type, context, message);
+      });
+}
 
 RuntimeFolder::RuntimeFolder() {
   if (isSet("XDG_RUNTIME_DIR")) return;
