@@ -25,6 +25,8 @@ std::map<std::string, std::string> describe(const Device& device) {
   const DeviceFacts facts = device.facts();
   meta["serial"] = facts.serial;
   meta["firmware"] = facts.firmware;
+  if (facts.sensorRevision > 0) meta["sensor_revision"] = std::to_string(facts.sensorRevision);
+  if (!facts.sensorSerial.empty()) meta["sensor_serial"] = facts.sensorSerial;
   if (!facts.motionFirmware.empty()) meta["motion_firmware"] = facts.motionFirmware;
   if (facts.matrices.empty()) return meta;
   Json settings = Json::array();
