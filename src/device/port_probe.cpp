@@ -1,6 +1,7 @@
 #include "palpate/device/port_probe.h"
 
 #include <algorithm>
+#include <exception>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -211,6 +212,9 @@ PortProbe probePort(const std::string& port, const PortProbeOptions& options, co
   } catch (const Error& error) {
     probe.answer = PortAnswer::kNotFound;
     probe.message = error.what();
+  } catch (const std::exception& failure) {
+    probe.answer = PortAnswer::kNotFound;
+    probe.message = std::string("the program failed while it asked: ") + failure.what();
   }
   probe.port = port;
   return probe;

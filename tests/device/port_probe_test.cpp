@@ -1,5 +1,7 @@
 #include "palpate/device/port_probe.h"
 
+#include <stdexcept>
+
 #include <gtest/gtest.h>
 
 #include "palpate/core/error.h"
@@ -43,6 +45,15 @@ class PortProbeTest : public ::testing::Test {
   }
   double seconds() const { return static_cast<double>(clock.nowUs) * 1e-6; }
 };
+
+// C-A2: a probe runs on a thread of its own, beside a hand that moves.
+TEST_F(PortProbeTest, WhatIsThrownIsAnAnswerToo) {
+  answer = [](const Bytes&, ScriptedChannel&) { throw std::runtime_error("a bug in the driver"); };
+  PortProbe found;
+  ASSERT_NO_THROW(found = probe());
+  EXPECT_EQ(found.port, "some port");
+  EXPECT_NE(found.message.find("a bug in the driver"), std::string::npos) << found.message;
+}
 
 TEST_F(PortProbeTest, RecognisesAMotionControllerAndSendsItNoTactileByte) {
   FakeSdhHand hand;
