@@ -424,12 +424,12 @@ echo "bytes $(stat -c %s "$file") installed $(dpkg-deb -f "$file" Installed-Size
         "installed": (number(r"installed (\d+)", 1.024e-3), MEGABYTES),
         "wall": (wall_s, fixed(0, "s"))}),
 
-    slow_test("stops", 700, "control", "safety_slow_test", {
+    slow_test("stops", 240, "control", "safety_slow_test", {
         **{key: (stops("stop_on_the_wire", key), COUNT)
            for key in ("answers", "late", "late_excused", "lost", "in_motion")},
         **{key: (stops("stop_on_the_wire", key + "_ms"), fixed(1, "ms"))
            for key in ("median", "p99", "worst")}}),
-    Part("escapes", 700, 'xvfb-run -a -s "-screen 0 1600x1000x24" $TESTS/gui/gui_tests '
+    Part("escapes", 400, 'xvfb-run -a -s "-screen 0 1600x1000x24" $TESTS/gui/gui_tests '
          "--file=live_safety_slow_test", {
         **{key: (stops("escape_to_the_wire", key), COUNT)
            for key in ("answers", "late", "late_excused", "lost", "in_motion")},

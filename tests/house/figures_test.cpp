@@ -93,7 +93,8 @@ TEST(MeasureScript, NamesItsPartsAndRefusesOthers) {
 TEST(Tests, MeasureOnce) {
   for (const SourceFile& file : cppFiles({"tests"})) {
     if (file.path == "tests/house/figures_test.cpp") continue;
-    for (const char* words : {"inTime(", "kTries", "best of", "Best of", "bestUs", "bestMs"})
+    for (const char* words :
+         {"timely.h", " inTime(", "kTries", "best of", "Best of", "bestUs", "bestMs"})
       EXPECT_EQ(file.text.find(words), std::string::npos) << file.path << ": " << words;
   }
 }
