@@ -1,10 +1,11 @@
-# Read by scripts/run, scripts/test, scripts/tidy and scripts/package: installs packages, configures, builds.
-# Every message goes to standard error, so that the output of a command stays clean. Whatever fails says in one
-# line what is to be done; the next call goes on where this one stopped.
+# Read by scripts/run, scripts/test, scripts/tidy and scripts/package: installs packages, configures,
+# builds. Every message goes to standard error, so that the output of a command stays clean. Whatever
+# fails says in one line what is to be done; the next call goes on where this one stopped.
 #
 # Expects $root, the checkout. PALPATE_PACKAGES=keep installs nothing: for machines without apt,
-# or where somebody else looks after the packages. PALPATE_TIMES=FILE gets a line "STAGE SECONDS" per stage, and what is
-# installed: "planned PACKAGES MB_TO_FETCH MB_ON_DISK". PALPATE_OS_RELEASE takes the place of /etc/os-release (for tests).
+# or where somebody else looks after the packages. PALPATE_TIMES=FILE gets a line "STAGE SECONDS" per
+# stage, and what is installed: "planned PACKAGES MB_TO_FETCH MB_ON_DISK". PALPATE_OS_RELEASE takes
+# the place of /etc/os-release (for tests).
 
 # Without a standard error messages go nowhere, and no file that is opened later takes its place.
 (: >&2) 2>/dev/null || exec 2>/dev/null
@@ -18,7 +19,7 @@ took() { # STAGE SECONDS_AT_BEGIN
   [ -z "${PALPATE_TIMES-}" ] || echo "$1 $((SECONDS - $2))" >>"$PALPATE_TIMES"
 }
 
-# How long it took and how much it was the last time, on an empty machine (scripts/test fresh): one figure.
+# How long it took and how much it was the last time, on an empty machine: one figure.
 firstTime() { # NAME
   awk -v name="$1" '$1 == name { print $2 }' "$root/cmake/first_time.txt" 2>/dev/null
 }
@@ -56,10 +57,12 @@ missingPackages() { # NAME...
     }
     !($1 in have)'
 }
-# Those of the names given that no installed package provides: on other systems files have moved between packages.
+# Those of the names given that no installed package provides: on other systems files have moved
+# between packages.
 unprovided() { # NAME...
   local provided
-  provided=$(dpkg-query -W -f '${db:Status-Status}, ${Provides}\n' | sed -n 's/^installed, *//; s/ ([^)]*)//gp; t; p')
+  provided=$(dpkg-query -W -f '${db:Status-Status}, ${Provides}\n' |
+    sed -n 's/^installed, *//; s/ ([^)]*)//gp; t; p')
   printf '%s\n' "$@" | awk -v provided="$provided" '
     BEGIN { n = split(provided, names, /[,\n ]+/); for (i = 1; i <= n; i++) have[names[i]] }
     !($1 in have)'
@@ -89,24 +92,27 @@ space No space left on device|enough free space
 interrupted dpkg was interrupted|dpkg --configure -a|--fix-broken install
 locked Could not get lock|Unable to acquire the dpkg
 unknown Unable to locate package|no installation candidate
-network Temporary failure resolving|Could not resolve|Could not connect|Unable to connect|Connection (failed|timed out|refused)|(Network is|host) unreachable|No route to host
+network Temporary failure resolving|Could not resolve|Could not connect|Unable to connect
+network Connection (failed|timed out|refused)|(Network is|host) unreachable|No route to host
 PATTERNS
   echo other
 }
 
-# Runs a command of apt or dpkg as root. What it says goes to a log; on a terminal a line tells how far it is.
-# No descriptor of ours: a service that a package starts must not keep the set-up's lock.
+# Runs a command of apt or dpkg as root. What it says goes to a log; on a terminal a line tells how
+# far it is. No descriptor of ours: a service that a package starts must not keep the set-up's lock.
 asRoot=()
 aptLog=$root/build/packages.log
 runAsRoot() { # COMMAND...
-  LC_ALL=C.UTF-8 "${asRoot[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 "$@" </dev/null 2>&1 9>&- |
+  LC_ALL=C.UTF-8 "${asRoot[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 "$@" \
+    </dev/null 2>&1 9>&- |
     tee "$aptLog" 2>/dev/null | awk -v terminal="$([ -t 2 ] && echo 1)" '
       /^Waiting for cache lock/ && !waited++ {
         print "palpate: waiting for another installation on this machine" > "/dev/stderr"
       }
       terminal && /^(Get:|Unpacking |Setting up )/ {
         n[substr($1, 1, 3)]++
-        printf "\rpalpate: %d packages fetched, %d unpacked, %d set up ", n["Get"], n["Unp"], n["Set"] > "/dev/stderr"
+        printf "\rpalpate: %d packages fetched, %d unpacked, %d set up ",
+          n["Get"], n["Unp"], n["Set"] > "/dev/stderr"
         shown = 1
       }
       END { if (shown) printf "\n" > "/dev/stderr" }'
@@ -121,7 +127,8 @@ installPackages() { # NAME...
   fi
   local missing=() begin=$SECONDS trouble mended=
   mapfile -t missing < <(missingPackages "$@")
-  [ "${#missing[@]}" -eq 0 ] || [ "$(system)" = "debian 12" ] || mapfile -t missing < <(unprovided "${missing[@]}")
+  [ "${#missing[@]}" -eq 0 ] || [ "$(system)" = "debian 12" ] ||
+    mapfile -t missing < <(unprovided "${missing[@]}")
   [ "${#missing[@]}" -gt 0 ] || return 0
 
   byHand="apt-get install --no-install-recommends ${missing[*]}"
@@ -176,14 +183,17 @@ planInstallation() { # NAME...
   fi
   if [ "$(system)" != "debian 12" ]; then
     while read -r name wanted; do
-      has=$(apt-cache policy "$name" 2>/dev/null | awk '$1 == "Candidate:" && $2 != "(none)" { print $2 }')
+      has=$(apt-cache policy "$name" 2>/dev/null |
+        awk '$1 == "Candidate:" && $2 != "(none)" { print $2 }')
       [ -z "$has" ] || ! isOlder "$has" "$wanted" || unfit+=("$name $has (wanted: $wanted)")
     done < <(versionsIn "$root/cmake/debian-packages.txt")
-    [ "${#unfit[@]}" -eq 0 ] || fail "this is $(system), not Debian 12, and nothing was installed: it has$(printf ' %s;' "${unfit[@]}")" \
+    [ "${#unfit[@]}" -eq 0 ] || fail "this is $(system), not Debian 12, and nothing was installed:" \
+      "it has$(printf ' %s;' "${unfit[@]}")" \
       "with these from elsewhere call again with PALPATE_PACKAGES=keep"
     say "this is $(system), not Debian 12: packages may be others than those Palpate was tried with"
   elif [ "${#unfit[@]}" -gt 0 ]; then
-    fail "apt has$(printf ' %s;' "${unfit[@]}") do its sources (/etc/apt) name all of Debian 12, main?"
+    fail "apt has$(printf ' %s;' "${unfit[@]}")" \
+      "do its sources (/etc/apt) name all of Debian 12, main?"
   fi
 
   read -r packages fetch disk < <(awk '
@@ -198,8 +208,11 @@ planInstallation() { # NAME...
   minutes=
   [ "$packages" -lt 100 ] || minutes=$(firstTime packages_minutes)
   [ "$packages" -gt 0 ] || packages=
-  [ -z "${PALPATE_TIMES-}" ] || [ -z "$packages" ] || echo "planned $packages $fetch $disk" >>"$PALPATE_TIMES"
-  say "installing $# packages${packages:+ and what they need ($packages together, $fetch MB to fetch, $disk MB on disk${minutes:+; $minutes min the last time})}: $*"
+  [ -z "${PALPATE_TIMES-}" ] || [ -z "$packages" ] ||
+    echo "planned $packages $fetch $disk" >>"$PALPATE_TIMES"
+  local together="$packages together, $fetch MB to fetch, $disk MB on disk"
+  together+="${minutes:+; $minutes min the last time}"
+  say "installing $# packages${packages:+ and what they need ($together)}: $*"
   room "the packages" "$disk" /usr "$fetch" /var/cache/apt
 }
 
@@ -216,7 +229,8 @@ room() { # WHAT MB FOLDER [MB FOLDER]
     fi
     free=$(freeMb "$where")
     [ -z "$free" ] || [ "$need" -le "$free" ] ||
-      fail "not enough space: $what take $need MB in $where, $free MB are free there. Make room and call again"
+      fail "not enough space: $what take $need MB in $where, $free MB are free there." \
+        "Make room and call again"
     shift 2
   done
 }
@@ -226,10 +240,14 @@ explainApt() { # TROUBLE
   local why
   case "$1" in
     sudo) fail "$(grep -i '^sudo: ' "$aptLog" | grep -vm 1 'resolve host'); as root: $byHand" ;;
-    space) fail "no space left for the packages: $(freeMb /usr) MB are free. Make room and call again" ;;
+    space)
+      fail "no space left for the packages: $(freeMb /usr) MB are free. Make room and call again"
+      ;;
     network)
-      why=$(grep -m 1 -oE "(Temporary failure resolving|Could not resolve|Could not connect to|Unable to connect to) [^ ]*" "$aptLog")
-      fail "no network: ${why:-the package archive does not answer}. Call again when there is one (or set apt's proxy); log: $aptLog"
+      why=$(grep -m 1 -oE "(Temporary failure resolving|Could not resolve|(Could not|Unable to) connect to) [^ ]*" \
+        "$aptLog")
+      fail "no network: ${why:-the package archive does not answer}. Call again when there is one" \
+        "(or set apt's proxy); log: $aptLog"
       ;;
     locked) fail "another program installs packages at the moment. Call again when it is done" ;;
   esac
@@ -298,16 +316,20 @@ buildRoom() { # PRESET [OPTION=VALUE...]
   local folder="$root/build/$1" need have free here temporary=${TMPDIR:-/tmp}
   need=$(firstTime tests_mb)
   case "$* $(grep -s '^PALPATE_TESTS:' "$folder/CMakeCache.txt")" in
-    "release "*PALPATE_TESTS=OFF* | "release "*PALPATE_TESTS:BOOL=OFF*) need=$(firstTime program_mb) ;;
+    "release "*PALPATE_TESTS=OFF* | "release "*PALPATE_TESTS:BOOL=OFF*)
+      need=$(firstTime program_mb)
+      ;;
   esac
   free=$(freeMb "$root/build")
   if [ -n "$need" ] && [ -n "$free" ] && [ "$free" -lt "$need" ]; then
     have=$(du -sm "$folder" 2>/dev/null | awk '{ print $1 }')
     room "the files of the build" $((need > ${have:-0} ? need - ${have:-0} : 0)) "$root/build"
   fi
-  # Two compilers write half a gigabyte of assembler at most; a small file system in memory doesn't hold it.
+  # Two compilers write half a gigabyte of assembler at most; a small file system in memory doesn't
+  # hold it.
   here=$(freeMb "$temporary")
-  if [ ! -d "$temporary" ] || [ ! -w "$temporary" ] || { [ -n "$here" ] && [ "$here" -lt 500 ] && [ "$here" -lt "${free:-0}" ]; }; then
+  if [ ! -d "$temporary" ] || [ ! -w "$temporary" ] ||
+    { [ -n "$here" ] && [ "$here" -lt 500 ] && [ "$here" -lt "${free:-0}" ]; }; then
     say "$temporary can't be used or is small (${here:-0} MB free): temporary files go to build/tmp"
     mkdir -p "$root/build/tmp" || fail "can't write to $root/build"
     export TMPDIR="$root/build/tmp"
@@ -335,12 +357,14 @@ build() { # PRESET [TARGET...]
   [ "${steps:-0}" -gt 20 ] || steps= # a few are CMake's own, after which there may be more
   # The first time this takes long: say how long.
   [ -x "$folder/palpate" ] || [ "$preset" != release ] || minutes=$(firstTime program_minutes)
-  say "building build/$preset${steps:+, $steps steps}${minutes:+ (the last time from nothing: $minutes min on $(firstTime cores) cores, this machine has $(nproc))}"
+  [ -z "$minutes" ] || minutes+=" min on $(firstTime cores) cores, this machine has $(nproc)"
+  say "building build/$preset${steps:+, $steps steps}${minutes:+ (the last time from nothing: $minutes)}"
   if [ -t 2 ]; then
     NINJA_STATUS='palpate: %f of %t  ' ninja -C "$folder" "$@" </dev/null >&2 9>&-
   else
     # A line per tenth, and whatever isn't progress; all of it goes to a log.
-    NINJA_STATUS='[%f/%t] ' ninja -C "$folder" "$@" </dev/null 2>&1 9>&- | tee "$folder/build.log" 2>/dev/null | awk '
+    NINJA_STATUS='[%f/%t] ' ninja -C "$folder" "$@" </dev/null 2>&1 9>&- |
+      tee "$folder/build.log" 2>/dev/null | awk '
       /^ninja: Entering directory/ { next }
       match($0, /^\[[0-9]+\/[0-9]+\] /) {
         split(substr($0, 2, RLENGTH - 3), f, "/")
@@ -357,7 +381,8 @@ build() { # PRESET [TARGET...]
   [ "$status" -eq 0 ] || {
     local free
     free=$(freeMb "$folder")
-    [ -z "$free" ] || [ "$free" -ge 20 ] || fail "no space left in $folder. Make room and call again: what is built already stays"
+    [ -z "$free" ] || [ "$free" -ge 20 ] ||
+      fail "no space left in $folder. Make room and call again: what is built already stays"
     fail "the build failed: its first error stands above"
   }
   built=1
