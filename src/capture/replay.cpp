@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
 
 namespace palpate {
 namespace {
@@ -49,21 +50,48 @@ struct Replay::Impl {
     ended = false;
   }
 
-  // Stamp of what comes next; kNever at the end.
-  std::int64_t nextUs() const {
-    return std::min({eventUs(), temperatureUs(), angleUs(), frameUs()});
+  // Stamp of what comes next; kNever at the end. Samples whose stamps can't be read are passed over.
+  std::int64_t nextUs() { return std::min({eventUs(), temperatureUs(), angleUs(), frameUs()}); }
+  std::int64_t frameUs() {
+    return stampUs(
+        frame, profile.numFrames(), true, [this](std::size_t i) { return profile.frameTimeUs(i); });
   }
-  std::int64_t frameUs() const {
-    return frame < profile.numFrames() ? profile.frameTimeUs(frame) : kNever;
+  std::int64_t angleUs() {
+    return stampUs(angle, profile.numAngles(), false, [this](std::size_t i) {
+      return profile.angleTimeUs(i);
+    });
   }
-  std::int64_t angleUs() const {
-    return angle < profile.numAngles() ? profile.angleTimeUs(angle) : kNever;
-  }
-  std::int64_t temperatureUs() const {
-    return temperature < profile.numTemperatures() ? profile.temperatureTimeUs(temperature)
-                                                   : kNever;
+  std::int64_t temperatureUs() {
+    return stampUs(temperature, profile.numTemperatures(), false, [this](std::size_t i) {
+      return profile.temperatureTimeUs(i);
+    });
   }
   std::int64_t eventUs() const { return event < events.size() ? events[event].tUs : kNever; }
+
+  template <typename TimeOf>
+  std::int64_t stampUs(std::size_t& next, std::size_t count, bool tactile, TimeOf timeOf) {
+    for (; next < count; ++next) {
+      try {
+        return timeOf(next);
+      } catch (const Error& error) {
+        lose(lastUs, tactile, error.what());
+      }
+    }
+    return kNever;
+  }
+
+  // A sample that can't be read: counted, and told the first time.
+  void lose(std::int64_t atUs, bool tactile, const std::string& fault) {
+    {
+      const std::lock_guard lock(mutex);
+      PortStatus& port = tactile ? status.tactile : *status.motion;
+      ++port.lost;
+      port.message = fault;
+    }
+    if (warned) return;
+    warned = true;
+    sink->onEvent({atUs, atUs, "alarm", {}, fault, ""});
+  }
 
   // Delivers what comes next, stamped `atUs`.
   void deliver(std::int64_t atUs) {
@@ -84,24 +112,35 @@ struct Replay::Impl {
 
   template <typename Read>
   void read(std::int64_t atUs, bool tactile, Read delivers) {
-    std::string fault;
     try {
       delivers();
     } catch (const Error& error) {
-      fault = error.what();
+      return lose(atUs, tactile, error.what());
     }
-    {
-      const std::lock_guard lock(mutex);
-      PortStatus& port = tactile ? status.tactile : *status.motion;
-      ++(fault.empty() ? port.items : port.lost);
-      if (fault.empty())
-        port.lastItemUs = atUs;
-      else
-        port.message = fault;
+    const std::lock_guard lock(mutex);
+    PortStatus& port = tactile ? status.tactile : *status.motion;
+    ++port.items;
+    port.lastItemUs = atUs;
+  }
+
+  // Nothing that goes wrong in the delivering thread may end the process: the replay ends instead.
+  void runGuarded(const std::stop_token& stop) noexcept {
+    std::string fault;
+    try {
+      return run(stop);
+    } catch (const std::exception& error) {
+      fault = std::string("the replay has ended: ") + error.what();
     }
-    if (fault.empty() || warned) return;
-    warned = true;
-    sink->onEvent({atUs, atUs, "alarm", {}, fault, ""});
+    try {
+      sink->onEvent({lastUs, lastUs, "alarm", {}, fault, ""});
+    } catch (const std::exception&) {
+      // The sink itself fails: the status says it.
+    }
+    const std::lock_guard lock(mutex);
+    ended = true;
+    status.tactile.state = PortState::kFault;
+    status.tactile.message = fault;
+    if (status.motion) status.motion->state = PortState::kFault;
   }
 
   void end() {
@@ -207,6 +246,8 @@ DeviceFacts Replay::facts() const {
   DeviceFacts facts;
   facts.serial = impl_->profile.info().serial;
   facts.firmware = impl_->profile.info().firmware;
+  facts.sensorRevision =
+      static_cast<int>(parseInteger(impl_->profile.info().sensorRevision).value_or(0));
   return facts;
 }
 
@@ -215,10 +256,12 @@ void Replay::start(DeviceSink& sink) {
   if (impl.sink) throw std::logic_error("Replay::start: it was started already");
   impl.sink = &sink;
   impl.rewind();
-  impl.lastUs = impl.firstUs = impl.nextUs() == kNever ? 0 : impl.nextUs();
+  impl.lastUs = 0;
+  const std::int64_t firstUs = impl.nextUs();
+  impl.lastUs = impl.firstUs = firstUs == kNever ? 0 : firstUs;
   impl.handUs = 0;
   if (impl.pace == ReplayPace::kByHand) return;
-  impl.thread = std::jthread([&impl](const std::stop_token& stop) { impl.run(stop); });
+  impl.thread = std::jthread([&impl](const std::stop_token& stop) { impl.runGuarded(stop); });
 }
 
 void Replay::stop() noexcept {

@@ -8,6 +8,7 @@
 #include "palpate/recording/recording.h"
 
 #include "capture/scripted_device.h"
+#include "recording/palpate_damage.h"
 #include "testing/testing.h"
 
 namespace palpate::replay_test {
@@ -256,6 +257,65 @@ TEST(Replay, aSyntheticRecordingReplayedAndRecordedIsTheSameBitByBit) {
   options.noiseCounts = 8.0;
   const Profile original = synthesize(options);
   expectSame(original, recordedAgain(original, folder / "1.palpate"));
+}
+
+// A recording of `frames` frames with one byte flipped inside the data of its third tactile block.
+// Returns how many frames that block holds.
+std::size_t writeDamaged(const std::filesystem::path& path, std::size_t frames) {
+  writeSamples(path, frames);
+  const BlockBytes block = blockBytes(path).at(2);
+  std::string bytes = readFile(path);
+  bytes[block.end - 1] = static_cast<char>(bytes[block.end - 1] ^ 1);
+  writeFile(path, bytes);
+  return block.n;
+}
+
+// C-A1.
+TEST(Replay, whatADamagedBlockHeldIsCountedToldAndPassedOver) {
+  constexpr std::size_t kFrames = 60;
+  const TemporaryFolder folder;
+  const std::size_t lost = writeDamaged(folder / "damaged.palpate", kFrames);
+  ASSERT_GE(lost, 3u);  // a frame in the middle of the block has no stamp in the index
+  for (const ReplayOptions& options :
+       {byHand(), ReplayOptions{ReplayPace::kAsFastAsTaken, 1.0}, ReplayOptions{}}) {
+    Listener listener;
+    Replay replay(openRecording(folder / "damaged.palpate"), options);
+    if (options.pace == ReplayPace::kRecorded) replay.setSpeed(16.0);
+    replay.start(listener);
+    if (options.pace == ReplayPace::kByHand) replay.advance(60'000'000);
+    while (!replay.finished()) std::this_thread::yield();
+    replay.stop();
+    EXPECT_EQ(listener.frames.size(), kFrames - lost);
+    EXPECT_EQ(replay.status().tactile.items, kFrames - lost);
+    EXPECT_EQ(replay.status().tactile.lost, lost);
+    EXPECT_EQ(listener.angles.size(), 4 * kFrames);
+    std::size_t alarms = 0;
+    for (const DeviceEvent& event : listener.events) alarms += event.kind == "alarm" ? 1 : 0;
+    EXPECT_EQ(alarms, 1u);
+    for (std::size_t i = 1; i < listener.items.size(); ++i)
+      EXPECT_LE(listener.items[i - 1].tUs, listener.items[i].tUs);
+  }
+}
+
+// C-A2: nothing that goes wrong in the delivering thread ends the process.
+TEST(Replay, aSinkThatFailsEndsTheReplayNotTheProcess) {
+  class Failing : public Listener {
+   public:
+    void onFrame(TactileFrame&& frame) override {
+      if (frames.size() == 2) throw std::runtime_error("the sink is broken");
+      Listener::onFrame(std::move(frame));
+    }
+  };
+  Failing listener;
+  Replay replay(shortProfile(), {ReplayPace::kAsFastAsTaken, 1.0});
+  replay.start(listener);
+  while (!replay.finished()) std::this_thread::yield();
+  replay.stop();
+  EXPECT_EQ(listener.frames.size(), 2u);
+  ASSERT_FALSE(listener.events.empty());
+  EXPECT_EQ(listener.events.back().kind, "alarm");
+  EXPECT_NE(listener.events.back().text.find("the sink is broken"), std::string::npos);
+  EXPECT_NE(replay.status().tactile.message.find("the sink is broken"), std::string::npos);
 }
 
 }  // namespace

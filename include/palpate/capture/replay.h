@@ -40,8 +40,10 @@ class Replay : public Device {
 
   HandDescription hand() const override;
   DeviceFacts facts() const override;
-  // From the beginning. A sample that can't be read (the file is damaged) is counted as lost, told by
-  // an event "alarm", and passed over; at the end comes an event "link".
+  // From the beginning. A sample that can't be read (the file is damaged) is counted as lost and passed
+  // over; the first one is told by an event "alarm". At the end comes an event "link". What else goes
+  // wrong in the delivering thread, in the sink too, ends the replay with an event "alarm" and the state
+  // kFault: it never leaves the thread.
   void start(DeviceSink& sink) override;
   void stop() noexcept override;
   DeviceStatus status() const override;
