@@ -109,7 +109,7 @@ bool CaptureFeed::put(CaptureItem item) {
   return taken;
 }
 
-std::size_t CaptureFeed::take(std::vector<CaptureItem>& out) {
+std::size_t CaptureFeed::take(std::vector<CaptureItem>& out, std::vector<RecordingEvent>* ownGaps) {
   const auto before = static_cast<std::ptrdiff_t>(out.size());
   // Frames first: whoever put angles before a frame finds them taken with it.
   moveAll(tactile_, out);
@@ -117,6 +117,7 @@ std::size_t CaptureFeed::take(std::vector<CaptureItem>& out) {
   moveAll(events_, out);
   {
     const std::lock_guard lock(lossMutex_);
+    if (ownGaps) ownGaps->insert(ownGaps->end(), ended_.begin(), ended_.end());
     std::move(ended_.begin(), ended_.end(), std::back_inserter(out));
     ended_.clear();
   }
@@ -124,12 +125,15 @@ std::size_t CaptureFeed::take(std::vector<CaptureItem>& out) {
   return out.size() - static_cast<std::size_t>(before);
 }
 
-void CaptureFeed::takeOpenGaps(std::vector<CaptureItem>& out) {
+void CaptureFeed::takeOpenGaps(std::vector<CaptureItem>& out,
+                               std::vector<RecordingEvent>* ownGaps) {
   const std::lock_guard lock(lossMutex_);
   for (std::size_t i = 0; i < kCaptureStreams; ++i) {
     if (!open_.at(i)) continue;
-    out.emplace_back(
-        gapEvent(static_cast<CaptureStream>(i), *open_.at(i), consumer_ + " could not keep up"));
+    RecordingEvent gap =
+        gapEvent(static_cast<CaptureStream>(i), *open_.at(i), consumer_ + " could not keep up");
+    if (ownGaps) ownGaps->push_back(gap);
+    out.emplace_back(std::move(gap));
     open_.at(i).reset();
   }
 }

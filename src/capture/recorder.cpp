@@ -75,7 +75,8 @@ struct Recorder::Impl {
     if (options.notice) options.notice(event);
   }
 
-  void checkClock() {
+  // What the recorder itself notes goes past its queue: it alone makes room there.
+  void checkClock(std::vector<CaptureItem>& out) {
     const std::int64_t offsetUs = host->wallOffsetUs();
     if (std::abs(offsetUs - wallOffsetUs) <= kClockJumpUs) return;
     const double seconds = static_cast<double>(offsetUs - wallOffsetUs) / 1e6;
@@ -89,7 +90,7 @@ struct Recorder::Impl {
         "the wall clock moved by " + fixedText(seconds, 3) + " s; time stamps go on without a jump",
         "{\"wall_offset_us\":" + std::to_string(offsetUs) + "}"};
     notify(event);
-    feed.put(event);
+    out.emplace_back(event);
   }
 
   void beginWhenAsked() {
@@ -114,15 +115,10 @@ struct Recorder::Impl {
   void handle(std::vector<CaptureItem>& taken) {
     const RoundTime time = now();
     for (const CaptureItem& item : taken) {
-      const auto* event = std::get_if<RecordingEvent>(&item);
-      if (event && event->kind == "gap" && feedMade(*event)) notify(*event);
       if (parts) parts->add(item, time);
       keep(item);
     }
     taken.clear();
-  }
-  static bool feedMade(const RecordingEvent& event) {
-    return event.json.find("\"reason\":\"the recorder") != std::string::npos;
   }
 
   // One round; see step().
@@ -134,11 +130,13 @@ struct Recorder::Impl {
       stopping = stopRequested;
     }
     beginWhenAsked();
-    checkClock();
     // However long the disk kept us: what came meanwhile is as old as that.
     const std::int64_t takingMonoUs = clock.monotonicUs();
-    feed.take(items);
-    if (stopping) feed.takeOpenGaps(items);
+    std::vector<RecordingEvent> ownGaps;
+    feed.take(items, &ownGaps);
+    if (stopping) feed.takeOpenGaps(items, &ownGaps);
+    for (const RecordingEvent& gap : ownGaps) notify(gap);
+    checkClock(items);
     handle(items);
     takenMonoUs = takingMonoUs;
     if (parts) {

@@ -63,8 +63,12 @@ fs::path partPath(const fs::path& path, int part) {
 }
 
 std::optional<std::uint64_t> freeBytesOf(const fs::path& folder) {
+  // Of a folder that is yet to be made: of the one it will lie in.
+  std::error_code failure;
+  fs::path there = fs::absolute(folder, failure);
+  while (!fs::exists(there, failure) && there.has_relative_path()) there = there.parent_path();
   struct statvfs found {};
-  if (::statvfs(folder.c_str(), &found) != 0) return {};
+  if (::statvfs(there.c_str(), &found) != 0) return {};
   return static_cast<std::uint64_t>(found.f_bavail) * found.f_frsize;
 }
 

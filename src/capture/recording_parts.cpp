@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
@@ -74,16 +75,24 @@ void RecordingParts::add(const CaptureItem& item, RoundTime time) {
   const auto* frame = std::get_if<SharedFrame>(&item);
   if (!writer_) {
     hold(item);
-    if (frame && time.monoUs >= nextTryMonoUs_) open((*frame)->layout, time);
+    if (frame && time.monoUs >= nextTryMonoUs_) open(time);
     return;
   }
-  if (frame && splitDue(**frame)) split(**frame, time);
+  take(item, time);
+}
+
+// Into the part it belongs to, which is a new one when the part that is open is full or of another layout.
+void RecordingParts::take(const CaptureItem& item, RoundTime time) {
+  if (const auto* frame = std::get_if<SharedFrame>(&item)) {
+    if (splitDue(**frame)) split(**frame, time);
+    // A part says which taxels were scanned: a frame of another layout would be read wrongly there.
+    if (isOfOtherLayout(**frame)) return lose(item);
+  }
   write(item, time);
 }
 
 void RecordingParts::hold(const CaptureItem& item) {
   frameHeld_ = frameHeld_ || streamOf(item) == CaptureStream::kTactile;
-  if (const auto* frame = std::get_if<SharedFrame>(&item)) layout_ = (*frame)->layout;
   held_.push_back(item);
   // Before the first frame nothing is being recorded yet: old angles may go.
   while (!frameHeld_ && stampOf(held_.front()) < stampOf(item) - kHeldWithoutFrameUs)
@@ -116,7 +125,13 @@ std::unique_ptr<PalpateWriter> RecordingParts::makeWriter(
   return writer;
 }
 
-void RecordingParts::open(const std::shared_ptr<const SensorLayout>& layout, RoundTime time) {
+// With the layout of the first frame that is held.
+void RecordingParts::open(RoundTime time) {
+  const auto first = std::find_if(held_.begin(), held_.end(), [](const CaptureItem& item) {
+    return streamOf(item) == CaptureStream::kTactile;
+  });
+  if (first == held_.end()) return;
+  const std::shared_ptr<const SensorLayout> layout = std::get<SharedFrame>(*first)->layout;
   try {
     writer_ = makeWriter(layout);
   } catch (const std::exception& error) {  // the disk, or a sensor that no recording can hold
@@ -124,25 +139,27 @@ void RecordingParts::open(const std::shared_ptr<const SensorLayout>& layout, Rou
   }
   layout_ = layout;
   lastCounters_.clear();
-  for (const CaptureItem& item : held_) write(item, time);
-  held_.clear();
+  for (const CaptureItem& item : std::exchange(held_, {})) take(item, time);
   worked(time);
   commit(time);  // from its first moment on the file holds what came
 }
 
+bool RecordingParts::isOfOtherLayout(const TactileFrame& frame) const {
+  return frame.layout != layout_ && !(*frame.layout == *layout_);
+}
+
 bool RecordingParts::splitDue(const TactileFrame& frame) const {
+  if (isOfOtherLayout(frame)) return true;  // another sensor, or other masks
   if (!partHasFrames_ || closing_) return false;
-  if (frame.values.size() != layout_->numPlaces())
-    return true;  // another sensor: a file of its own
   if (options_.splitS && frame.hostUs >= partFirstUs_ + microseconds(*options_.splitS)) return true;
   return options_.splitBytes && writer_->bytesOnDisk() >= *options_.splitBytes;
 }
 
 void RecordingParts::split(const TactileFrame& frame, RoundTime time) {
-  if (time.monoUs < nextTryMonoUs_) return;
+  if (time.monoUs < nextTryMonoUs_ || !closeOldPart(time)) return;
   try {
+    writeOwed();  // first: when that fails there must not be a part yet
     std::unique_ptr<PalpateWriter> next = makeWriter(frame.layout);
-    writeOwed();
     closing_ = std::exchange(writer_, std::move(next));
     layout_ = frame.layout;
     partHasFrames_ = false;
@@ -254,14 +271,17 @@ void RecordingParts::updateCounters(RoundTime time) {
 void RecordingParts::round(RoundTime time) {
   if (closing_ && time.monoUs >= nextTryMonoUs_ && closeOldPart(time)) worked(time);
   if (!writer_) {
-    if (frameHeld_ && time.monoUs >= nextTryMonoUs_) open(layout_, time);
+    if (frameHeld_ && time.monoUs >= nextTryMonoUs_) open(time);
     return;
   }
   if (options_.stopAfterBytes && bytesOnDisk() >= *options_.stopAfterBytes) ended_ = true;
-  if (!countersMonoUs_ || time.monoUs - *countersMonoUs_ >= kCountersUs) updateCounters(time);
   const bool due = (dirtySinceMonoUs_ && time.monoUs - *dirtySinceMonoUs_ >= commitIntervalUs_) ||
                    dirtyItems_ >= kMostDirty || !owed_.empty();
-  if (due && time.monoUs >= nextTryMonoUs_) commit(time);
+  const bool commits = due && time.monoUs >= nextTryMonoUs_;
+  // With every commit: what the link lost before a frame is on disk as soon as the frame is.
+  if (commits || !countersMonoUs_ || time.monoUs - *countersMonoUs_ >= kCountersUs)
+    updateCounters(time);
+  if (commits) commit(time);
 }
 
 void RecordingParts::commit(RoundTime time) {
@@ -307,7 +327,7 @@ bool RecordingParts::ended(RoundTime time) const {
 }
 
 bool RecordingParts::finish(RoundTime time) {
-  if (!writer_ && frameHeld_) open(layout_, time);
+  if (!writer_ && frameHeld_) open(time);
   if (!writer_) {
     unfinished_ = frameHeld_;
     return !frameHeld_;

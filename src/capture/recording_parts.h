@@ -56,7 +56,9 @@ class RecordingParts {
  private:
   bool belongs(const CaptureItem& item);
   void hold(const CaptureItem& item);
-  void open(const std::shared_ptr<const SensorLayout>& layout, RoundTime time);
+  void take(const CaptureItem& item, RoundTime time);
+  void open(RoundTime time);
+  bool isOfOtherLayout(const TactileFrame& frame) const;
   std::unique_ptr<PalpateWriter> makeWriter(const std::shared_ptr<const SensorLayout>& layout);
   bool splitDue(const TactileFrame& frame) const;
   void split(const TactileFrame& frame, RoundTime time);

@@ -72,8 +72,12 @@ TEST(CaptureSession, RecordsWhatTheDeviceDelivers) {
 TEST(CaptureSession, notesWhatTheDeviceSaysAboutItselfAndWhatTheLinkCounted) {
   const TemporaryFolder folder;
   ScriptedSession scripted;
-  scripted.device->says = {
-      "1D9B0057", "0x2900", "0.0.3.3", std::vector<MatrixSettings>(6, {0.5, 150})};
+  DeviceFacts& says = scripted.device->says;
+  says.serial = "1D9B0057";
+  says.firmware = "2.9.0.0";
+  says.sensorRevision = 105;
+  says.motionFirmware = "0.0.3.3";
+  says.matrices = std::vector<MatrixSettings>(6, {0.5, 150});
   scripted.device->state.tactile.badChecksums = 10;  // before the recording
   RecordingOptions options = to(folder / "a.palpate");
   options.meta = {{"operator", "Ada"}, {"object", "cup"}, {"run", "3"}, {"notes", "a\nb"}};
@@ -88,7 +92,8 @@ TEST(CaptureSession, notesWhatTheDeviceSaysAboutItselfAndWhatTheLinkCounted) {
   EXPECT_EQ(meta.at("run"), "3");
   EXPECT_EQ(meta.at("notes"), "a\nb");
   EXPECT_EQ(meta.at("serial"), "1D9B0057");
-  EXPECT_EQ(meta.at("firmware"), "0x2900");
+  EXPECT_EQ(meta.at("firmware"), "2.9.0.0");
+  EXPECT_EQ(meta.at("sensor_revision"), "105");
   EXPECT_EQ(meta.at("motion_firmware"), "0.0.3.3");
   EXPECT_EQ(meta.at("program").rfind("palpate ", 0), 0u);
   const Json settings = Json::parse(meta.at("settings"));
@@ -271,6 +276,17 @@ TEST(CaptureSession, marksAreInTheTimeOfTheStamps) {
   scripted.device->frame(1, longAgo);
   scripted.session->mark("then");
   EXPECT_EQ(scripted.session->takeEvents().at(0).tUs, longAgo);
+}
+
+// a process that is killed now leaves a file that says what the link lost, and not only what came.
+TEST(CaptureSession, whatTheLinkLostIsOnDiskWithTheFrameBehindIt) {
+  const TemporaryFolder folder;
+  ScriptedSession scripted;
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  scripted.run(0.5);
+  scripted.device->state.tactile.lost = 1;
+  scripted.run(0.1);
+  EXPECT_EQ(readTable(folder / "a.palpate", "SELECT name, value FROM counter").at("lost"), "1");
 }
 
 }  // namespace

@@ -306,5 +306,50 @@ TEST(RecorderFaults, afterASlowCommitTheNextOneFollowsAtOnce) {
   EXPECT_EQ(scripted.session->recorderStatus().framesOnDisk, 30);
 }
 
+// C-A12: a part that can't be begun leaves neither a file nor a name in the list.
+TEST(RecorderFaults, aPartThatCanNotBeBegunLeavesNothing) {
+  const TemporaryFolder folder;
+  FaultyVfs vfs;
+  CaptureOptions options = onFaultyDisk();
+  options.recorder.feed.eventItems = 4096;
+  ScriptedSession scripted(options);
+  RecordingOptions recording = to(folder / "a.palpate");
+  recording.splitS = 20.0;
+  scripted.session->startRecording(recording);
+  scripted.run(0.5);
+  // Large events fill the 64 MB that may wait, and one is lost.
+  const std::string longText(200'000, 'x');
+  const auto fill = [&](int events) {
+    for (int i = 0; i < events; ++i) scripted.session->mark(longText);
+  };
+  vfs.failAt(Fault::kFull, vfs.operations() + 1);
+  for (int i = 0; i < 400; ++i) {
+    fill(1);
+    scripted.run(0.02);
+  }
+  ASSERT_GT(scripted.session->recorderStatus().lost, 0);
+  vfs.heal();
+  scripted.run(0.15, true);
+  // In one round: room, so that the gap is owed to the file; then none any more; then time for a new part.
+  vfs.failAt(Fault::kFull, vfs.operations() + 1);
+  fill(400);
+  scripted.session->step();
+  for (int i = 0; i < 20; ++i) {
+    fill(400);
+    scripted.clock.pass(1'000'000);
+    scripted.device->frame(scripted.frames++, scripted.clock.hostUs());
+    scripted.session->step();
+  }
+  vfs.heal();
+  scripted.run(0.5);
+  const RecordingReport report = scripted.session->stopRecording();
+  for (const fs::path& path : report.paths)
+    EXPECT_GT(openRecording(path).numFrames(), 0u) << path.filename();
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(folder.path()))
+    files += entry.path().extension() == ".palpate" ? 1 : 0;
+  EXPECT_EQ(files, report.paths.size());
+}
+
 }  // namespace
 }  // namespace palpate::recorder_faults_test

@@ -1,8 +1,11 @@
 #include "palpate/capture/recorder.h"
 
+#include <sys/statvfs.h>
+
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/recording/recording.h"
+#include "palpate/recording/recording_details.h"
 
 #include "capture/scripted_device.h"
 #include "testing/testing.h"
@@ -307,6 +310,125 @@ TEST(Recorder, rateAndGapsOfTheReportAreThoseOfTheFile) {
   EXPECT_EQ(report.gaps, 1);
   EXPECT_DOUBLE_EQ(report.durationS, 4.49);
   EXPECT_DOUBLE_EQ(report.meanRateHz, 199.0 / 4.49);
+}
+
+// A frame of the SDH-2 with one taxel of the first matrix switched off, when asked.
+TactileFrame maskedFrame(std::size_t n, std::int64_t hostUs, bool masked) {
+  static const auto maskedLayout = [] {
+    std::vector<MatrixLayout> matrices = sdh2().layout->matrices();
+    matrices[0].dynamicMask[40] = 0;
+    return std::make_shared<const SensorLayout>(std::move(matrices));
+  }();
+  TactileFrame frame = numberedFrame(n, hostUs);
+  if (masked) frame.layout = maskedLayout;
+  return frame;
+}
+
+// C-A4: a part says of every taxel whether it was scanned.
+TEST(Recorder, aMaskThatChangesBeginsANewPart) {
+  const TemporaryFolder folder;
+  ScriptedSession scripted;
+  std::size_t n = 0;
+  const auto send = [&](std::size_t count, bool masked) {
+    for (std::size_t i = 0; i < count; ++i) {
+      scripted.clock.pass(10'000);
+      scripted.device->sink->onFrame(maskedFrame(n++, scripted.clock.hostUs(), masked));
+    }
+  };
+  // What was kept from before the start has two layouts already.
+  send(5, false);
+  send(5, true);
+  scripted.session->step();
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  send(10, true);
+  scripted.session->step();
+  send(10, false);
+  scripted.session->step();
+  const RecordingReport report = scripted.session->stopRecording();
+  EXPECT_TRUE(report.complete) << report.message;
+  ASSERT_EQ(report.paths.size(), 3u);
+  std::vector<std::size_t> all;
+  for (std::size_t part = 0; part < 3; ++part) {
+    const Profile profile = openRecording(report.paths[part]);
+    EXPECT_EQ(profile.layout().matrix(0).dynamicMask[40], part == 1 ? 0 : 1) << part;
+    for (const std::size_t number : numbersIn(report.paths[part])) all.push_back(number);
+  }
+  EXPECT_EQ(all, upTo(0, 30));
+}
+
+// C-A11.
+TEST(Recorder, onlyItsOwnGapsAreToldAsItsOwn) {
+  std::vector<RecordingEvent> told;
+  CaptureOptions options;
+  options.recorder.notice = [&told](const RecordingEvent& event) { told.push_back(event); };
+  ScriptedSession scripted(options);
+  const std::int64_t atUs = scripted.clock.hostUs();
+  scripted.device->sink->onEvent(
+      {atUs, atUs, "gap", {}, "of the device", R"({"reason":"the recorder could not keep up"})"});
+  scripted.session->step();
+  EXPECT_TRUE(told.empty());
+}
+
+// C-A11: the recorder alone empties its queues, so it must not wait for room in them.
+TEST(Recorder, aClockThatJumpsWhileTheEventsWaitIsTold) {
+  std::vector<RecordingEvent> told;
+  CaptureOptions options;
+  options.recorder.feed.waitForRoom = true;
+  options.recorder.feed.eventItems = 2;
+  options.recorder.notice = [&told](const RecordingEvent& event) { told.push_back(event); };
+  const TemporaryFolder folder;
+  ScriptedSession scripted(options);
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  scripted.run(0.1);
+  scripted.session->mark("one");
+  scripted.session->mark("two");
+  scripted.clock.jumpWall(5'000'000);
+  scripted.session->step();
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].kind, "clock");
+  EXPECT_TRUE(scripted.session->stopRecording().complete);
+  std::size_t recorded = 0;
+  for (const RecordingEvent& event : readEvents(folder / "a.palpate").events)
+    recorded += event.kind == "clock" ? 1 : 0;
+  EXPECT_EQ(recorded, 1u);
+}
+
+// R-10: a wrong clock may stand before 1970.
+TEST(Recorder, aRecordingBegunBefore1970HasItsDuration) {
+  const TemporaryFolder folder;
+  for (const std::int64_t beginUs : {std::int64_t{-3'000'000}, std::int64_t{-500'000}}) {
+    ScriptedSession scripted;
+    scripted.clock.jumpWall(beginUs - kWallStartUs);
+    scripted.session->stop();
+    scripted.session->start();
+    const fs::path path = folder / (std::to_string(beginUs) + ".palpate");
+    scripted.session->startRecording(to(path));
+    for (std::size_t n = 0; n < 91; ++n) {
+      scripted.clock.pass(10'000);
+      scripted.device->frame(n, beginUs + static_cast<std::int64_t>(n) * 10'000);
+      scripted.session->step();
+    }
+    const RecordingReport report = scripted.session->stopRecording();
+    EXPECT_EQ(report.frames, 91);
+    EXPECT_NEAR(report.durationS, 0.9, 1e-9);
+    EXPECT_EQ(openRecording(path).durationUs(), 900'000);
+    const RecordingDetails details = readDetails(path);
+    EXPECT_EQ(details.startUs, beginUs);
+    EXPECT_EQ(details.durationUs, 900'000);
+  }
+}
+
+TEST(Recorder, freeSpaceIsThatOfTheFileSystem) {
+  const TemporaryFolder folder;
+  struct statvfs facts {};
+  ASSERT_EQ(statvfs(folder.path().c_str(), &facts), 0);
+  const auto free = freeBytesOf(folder.path());
+  ASSERT_TRUE(free);
+  EXPECT_NEAR(static_cast<double>(*free),
+              static_cast<double>(facts.f_bavail) * static_cast<double>(facts.f_frsize),
+              1e9);
+  // A folder that is yet to be made lies there, too.
+  EXPECT_TRUE(freeBytesOf(folder / "not/made/yet"));
 }
 
 }  // namespace

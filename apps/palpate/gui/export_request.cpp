@@ -3,10 +3,11 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QStandardPaths>
-#include <QStorageInfo>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+
+#include <palpate/capture/recorder.h>
 
 #include "gui/captions.h"
 #include "gui/ffmpeg.h"
@@ -238,9 +239,9 @@ QString problemOf(const ExportRequest& request, const ExportedView& view) {
 }
 
 QString spaceProblemOf(const ExportRequest& request, double bytes) {
-  const QStorageInfo disk(request.folder);
-  if (!disk.isValid() || bytes <= static_cast<double>(disk.bytesAvailable())) return {};
-  return "Only " + bytesText(static_cast<double>(disk.bytesAvailable())) + " are free there.";
+  const auto freeBytes = freeBytesOf(request.folder.toStdString());
+  if (!freeBytes || bytes <= static_cast<double>(*freeBytes)) return {};
+  return "Only " + bytesText(static_cast<double>(*freeBytes)) + " are free there.";
 }
 
 QString bytesText(double bytes) {

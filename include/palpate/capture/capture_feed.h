@@ -84,10 +84,11 @@ class CaptureFeed {
   // False: lost (and counted), or the feed is closed.
   bool put(CaptureItem item);
   // Appends what waits to `out`, in order of time (at one instant: events, temperatures, angles, then
-  // the frame they belong to), ended gaps among them. Never waits. Returns how many.
-  std::size_t take(std::vector<CaptureItem>& out);
+  // the frame they belong to), ended gaps among them. Never waits. Returns how many. `ownGaps`: takes
+  // copies of the gaps that this queue itself made; those of a device stand in `out` alone.
+  std::size_t take(std::vector<CaptureItem>& out, std::vector<RecordingEvent>* ownGaps = nullptr);
   // Ends gaps that no later item has ended yet, and appends them.
-  void takeOpenGaps(std::vector<CaptureItem>& out);
+  void takeOpenGaps(std::vector<CaptureItem>& out, std::vector<RecordingEvent>* ownGaps = nullptr);
   // Waits until `wakeAtItems` are there, wake(), close(), a stop request or the timeout.
   void wait(std::chrono::microseconds timeout, const std::stop_token& stop = {});
   void wake();
@@ -108,7 +109,7 @@ class CaptureFeed {
 
   mutable std::mutex lossMutex_;
   std::array<std::optional<CaptureLoss>, kCaptureStreams> open_;
-  std::vector<CaptureItem> ended_;  // gap events to hand out
+  std::vector<RecordingEvent> ended_;  // gap events to hand out
   std::array<std::uint64_t, kCaptureStreams> lost_{};
 
   std::mutex wakeMutex_;

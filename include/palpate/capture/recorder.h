@@ -40,7 +40,8 @@ struct RecordingOptions {
   std::map<std::string, std::string> meta;  // operator, object, run, notes, program, ..
   // More of it, asked for when the file is made (serial number, settings); may be empty.
   std::function<std::map<std::string, std::string>()> describe;
-  // Counters of the recording (bad checksums, ..), asked for once a second and at the end; may be empty.
+  // Counters of the recording (bad checksums, ..), asked for with every commit, at least once a second,
+  // and at the end; may be empty.
   std::function<std::map<std::string, std::int64_t>()> counters;
   double preTriggerS = 2.0;                     // [s], at most what the recorder keeps
   std::optional<double> splitS;                 // a new part after so long [s], >= 1
@@ -139,7 +140,8 @@ class Recorder {
   std::unique_ptr<Impl> impl_;
 };
 
-// Bytes that may still be written in a folder; nothing when it can't be asked.
+// Bytes that may still be written in a folder, or in the one it is going to be made in; asked of the file
+// system itself (statvfs), so that it is known without a mount table, too. Nothing when it can't be asked.
 std::optional<std::uint64_t> freeBytesOf(const std::filesystem::path& folder);
 
 }  // namespace palpate
