@@ -48,7 +48,7 @@ bool noData(const LinkInputs& inputs, const HealthOptions& options) {
   if (!inputs.started) return false;
   if (!inputs.frames.ageMs) {
     const PortState state = inputs.device.tactile.state;
-    return state == PortState::kSilent || state == PortState::kLost;
+    return state == PortState::kSilent || state == PortState::kLost || state == PortState::kFault;
   }
   const double periodS = inputs.frames.meanRateHz > 0.0 ? 1.0 / inputs.frames.meanRateHz : 0.0;
   return *inputs.frames.ageMs / 1000.0 > std::max(options.noDataS, 3.0 * periodS);

@@ -224,10 +224,15 @@ void GraspControl::heedAnswers() {
 
 void GraspControl::heedPorts() {
   if (!machine_.active()) return;
-  if (const std::string why = motionProblem(); !why.empty()) return machine_.onMotionPortGone(why);
   const std::int64_t nowUs = clock_.monotonicUs();
-  const PortStatus tactile = session_.device().status().tactile;
-  if (tactile.state == PortState::kLost || tactile.state == PortState::kClosed)
+  const DeviceStatus status = session_.device().status();
+  // Its thread has tried to stop the hand, and opens the port anew: the stop goes out again until it is answered.
+  if (status.motion && status.motion->state == PortState::kFault)
+    return machine_.fault("the motion port failed", nowUs);
+  if (const std::string why = motionProblem(); !why.empty()) return machine_.onMotionPortGone(why);
+  const PortStatus& tactile = status.tactile;
+  if (tactile.state == PortState::kLost || tactile.state == PortState::kFault ||
+      tactile.state == PortState::kClosed)
     machine_.onTactilePortGone(tactile.message.empty() ? "closed" : tactile.message, nowUs);
   machine_.onAxisStates(session_.device().axisStates(), nowUs);
 }

@@ -102,6 +102,39 @@ TEST(GraspFault, AnotherLayoutInASlipAwareGraspStopsIt) {
       << bench.control->status().last->text;
 }
 
+// At once, not when the stream has been silent for long enough.
+TEST(GraspFault, ATactilePortThatFailedStopsAGraspThatFeels) {
+  GraspBench bench;
+  bench.control->grasp(slipAware());
+  bench.hand->states.assign(7, 1);
+  bench.feel(2);
+  EXPECT_EQ(bench.hand->count<StopMotion>(), 0u);
+  bench.hand->state.tactile.state = PortState::kFault;
+  bench.wait(5000);
+  EXPECT_EQ(bench.hand->count<StopMotion>(), 1u);
+}
+
+// The port comes back within a second: the hand is not left to itself.
+TEST(GraspFault, AMotionPortThatFailedIsToldToStopUntilItAnswers) {
+  GraspBench bench;
+  bench.control->grasp({});
+  bench.hand->states.assign(7, 1);
+  bench.feel(2);
+  bench.hand->answers = false;
+  bench.hand->state.motion->state = PortState::kFault;
+  bench.wait(5000);
+  ASSERT_EQ(bench.hand->count<StopMotion>(), 1u);
+  bench.hand->waiting[0].set_exception(
+      std::make_exception_ptr(DeviceError(DeviceFault::kSilent, "/dev/motion", "not connected")));
+  bench.wait(300'000);
+  ASSERT_EQ(bench.hand->count<StopMotion>(), 2u);
+  bench.hand->state.motion->state = PortState::kStreaming;
+  bench.hand->waiting[1].set_value({});
+  bench.wait(5000);
+  EXPECT_EQ(bench.control->status().phase, GraspPhase::kIdle);
+  EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kFailed);
+}
+
 TEST(GraspFault, AnotherLayoutBetweenGraspsIsLearned) {
   GraspBench bench;
   for (int i = 0; i < 20; ++i) feelOther(bench, 0.0F);
