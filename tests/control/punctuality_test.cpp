@@ -31,6 +31,15 @@ TEST(LateWakeUps, WhatTheProcessItselfComputedIsNoStandstill) {
   EXPECT_EQ(late.standstillUs(50'000, 60'000), 0);
 }
 
+TEST(LateWakeUps, OfTwoCoresAtOnceCountOnce) {
+  LateWakeUps late;
+  late.note(30'000, 60'000, 0);
+  late.note(10'000, 40'000, 0);
+  late.note(35'000, 38'000, 0);
+  EXPECT_EQ(late.standstillUs(0, 100'000), 50'000);
+  EXPECT_EQ(late.standstillUs(35'000, 50'000), 15'000);
+}
+
 TEST(LateWakeUps, AnIdleMachineIsNotExact) {
   LateWakeUps late;
   for (int i = 0; i < 1000; ++i) late.note(i * 1000, i * 1000 + 300, 0);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <ctime>
 
+#include <pthread.h>
+#include <sched.h>
+
 namespace palpate::testing {
 namespace {
 
@@ -28,29 +31,51 @@ void sleepUntilUs(std::int64_t monotonicUs) {
 
 void LateWakeUps::note(std::int64_t dueUs, std::int64_t wokeUs, std::int64_t ownWorkUs) {
   const std::int64_t lengthUs = wokeUs - dueUs - std::max<std::int64_t>(ownWorkUs, 0);
-  if (lengthUs > kUsualUs) standstills_.push_back({dueUs, wokeUs, lengthUs});
+  if (lengthUs > kUsualUs) standstills_.push_back({wokeUs - lengthUs, wokeUs});
 }
 
 std::int64_t LateWakeUps::standstillUs(std::int64_t beginUs, std::int64_t endUs) const {
-  std::int64_t sum = 0;
+  std::vector<Standstill> parts;
   for (const Standstill& each : standstills_) {
-    const std::int64_t common = std::min(endUs, each.endUs) - std::max(beginUs, each.beginUs);
-    if (common > 0) sum += std::min(common, each.lengthUs);
+    const Standstill part{std::max(beginUs, each.beginUs), std::min(endUs, each.endUs)};
+    if (part.beginUs < part.endUs) parts.push_back(part);
+  }
+  std::sort(parts.begin(), parts.end(), [](const Standstill& a, const Standstill& b) {
+    return a.beginUs < b.beginUs;
+  });
+  std::int64_t sum = 0, countedUs = beginUs;
+  for (const Standstill& part : parts) {
+    sum += std::max<std::int64_t>(part.endUs - std::max(part.beginUs, countedUs), 0);
+    countedUs = std::max(countedUs, part.endUs);
   }
   return sum;
 }
 
-Heartbeat::Heartbeat() : thread_([this] { beat(); }) {}
+Heartbeat::Heartbeat() {
+  cpu_set_t ours;
+  CPU_ZERO(&ours);
+  sched_getaffinity(0, sizeof ours, &ours);
+  std::vector<int> cores;
+  for (int core = 0; core < CPU_SETSIZE; ++core)
+    if (CPU_ISSET(core, &ours)) cores.push_back(core);
+  lastUs_.assign(cores.size(), 0);
+  for (std::size_t i = 0; i < cores.size(); ++i)
+    threads_.emplace_back([this, i, core = cores[i]] { beat(i, core); });
+}
 
 Heartbeat::~Heartbeat() {
   {
     const std::lock_guard lock(mutex_);
     ends_ = true;
   }
-  thread_.join();
+  for (std::thread& thread : threads_) thread.join();
 }
 
-void Heartbeat::beat() {
+void Heartbeat::beat(std::size_t at, int core) {
+  cpu_set_t only;
+  CPU_ZERO(&only);
+  CPU_SET(core, &only);
+  pthread_setaffinity_np(pthread_self(), sizeof only, &only);
   for (;;) {
     const std::int64_t workedUs = microsecondsOf(CLOCK_PROCESS_CPUTIME_ID);
     const std::int64_t dueUs = microsecondsOf(CLOCK_MONOTONIC) + kBeatUs;
@@ -59,7 +84,7 @@ void Heartbeat::beat() {
     const std::int64_t ownWorkUs = microsecondsOf(CLOCK_PROCESS_CPUTIME_ID) - workedUs;
     const std::lock_guard lock(mutex_);
     late_.note(dueUs, wokeUs, ownWorkUs);
-    lastUs_ = wokeUs;
+    lastUs_[at] = wokeUs;
     beaten_.notify_all();
     if (ends_) return;
   }
@@ -67,7 +92,10 @@ void Heartbeat::beat() {
 
 std::int64_t Heartbeat::standstillUs(std::int64_t beginUs, std::int64_t endUs) {
   std::unique_lock lock(mutex_);
-  beaten_.wait(lock, [&] { return lastUs_ >= endUs; });
+  beaten_.wait(lock, [&] {
+    return std::all_of(
+        lastUs_.begin(), lastUs_.end(), [&](auto lastUs) { return lastUs >= endUs; });
+  });
   return late_.standstillUs(beginUs, endUs);
 }
 
