@@ -14,7 +14,7 @@ class Output:
         self.text, self.wall_s, self.cpu_s, self.peak_mb = text, wall_s, cpu_s, peak_mb
 
     def json(self):
-        return json.loads(self.text[self.text.index("{"):])
+        return json.JSONDecoder().raw_decode(self.text, self.text.index("{"))[0]
 
     def benchmark(self, name):
         for each in self.json()["benchmarks"]:
