@@ -256,7 +256,10 @@ void PortLink::eventNow(const std::string& kind, const std::string& text) {
 }
 
 std::int64_t PortLink::stampAfter(std::int64_t& lastUs) const {
-  lastUs = std::max(lastUs + 1, time_.nowUs());
+  // 0: none yet. A wrong clock may stand before 1970.
+  const std::int64_t nowUs = time_.nowUs();
+  lastUs = lastUs == 0 ? nowUs : std::max(lastUs + 1, nowUs);
+  if (lastUs == 0) lastUs = 1;
   return lastUs;
 }
 

@@ -1,13 +1,17 @@
 #include "palpate/capture/capture_session.h"
 
 #include <map>
+#include <thread>
 
 #include <sqlite3.h>
 
 #include "palpate/core/json.h"
+#include "palpate/device/live_hand.h"
+#include "palpate/emulator/emulated_hand.h"
 #include "palpate/recording/recording.h"
 
 #include "capture/scripted_device.h"
+#include "emulator/numbered_hand.h"
 #include "testing/testing.h"
 
 namespace palpate::capture_session_test {
@@ -287,6 +291,35 @@ TEST(CaptureSession, whatTheLinkLostIsOnDiskWithTheFrameBehindIt) {
   scripted.device->state.tactile.lost = 1;
   scripted.run(0.1);
   EXPECT_EQ(readTable(folder / "a.palpate", "SELECT name, value FROM counter").at("lost"), "1");
+}
+
+// of a hand on its ports, by a clock that stands in 1969.
+TEST(CaptureSession, aHandIsStampedBefore1970WhenTheClockStandsThere) {
+  class WrongClock : public Clock {
+   public:
+    std::int64_t monotonicUs() const override { return systemClock().monotonicUs(); }
+    // However long the machine runs: some three centuries before 1970.
+    std::int64_t wallUs() const override { return monotonicUs() - 10'000'000'000'000'000; }
+  };
+  const TemporaryFolder folder;
+  const WrongClock clock;
+  EmulatedHandOptions emulated;
+  emulated.rate = EmulationRate::kHz;
+  emulated.hz = 100.0;
+  const EmulatedHand hand(std::make_unique<NumberedHand>(), emulated);
+  LiveHandOptions ports;
+  ports.dsaPort = hand.dsaPort();
+  CaptureSession session(std::make_unique<LiveHand>(ports, clock), {}, clock);
+  RecordingOptions options = to(folder / "a.palpate");
+  options.stopAfterFrames = 30;
+  session.startRecording(options);
+  session.start();
+  while (session.recording()) std::this_thread::yield();
+  session.stop();
+  const RecordingReport report = session.stopRecording();
+  EXPECT_EQ(report.frames, 30);
+  EXPECT_GT(report.durationS, 0.1);
+  EXPECT_LT(openRecording(folder / "a.palpate").frameTimeUs(0), 0);
 }
 
 }  // namespace
