@@ -22,7 +22,8 @@ inline QApplication& windowApplication() {
   static int count = 1;
   static char name[] = "palpate";
   static char* arguments[] = {name, nullptr};
-  static const auto application = gui::makeApplication(count, arguments);
+  // Never destroyed: at the end of the process Qt's own statics are gone before ours, and its destructor needs them.
+  static QApplication* const application = gui::makeApplication(count, arguments).release();
   return *application;
 }
 
