@@ -259,7 +259,7 @@ std::vector<double> SdhLink::askRecord(SdhCommand command,
 void SdhLink::stop() {
   ++stats_.stops;
   constexpr milliseconds kWaits[] = {milliseconds(150), milliseconds(300), milliseconds(500)};
-  bool first = true;
+  bool first = true, heard = false;
   for (const milliseconds timeout : kWaits) {
     replies_.clear();
     parser_.reset();
@@ -275,12 +275,17 @@ void SdhLink::stop() {
         const auto* line = std::get_if<SdhLine>(&reply);
         if (!line || line->kind == SdhLine::Kind::kDebug || line->kind == SdhLine::Kind::kError)
           continue;
-        // Another line than STOP may answer an earlier question: the next one starts by a resync.
-        outOfStep_ = !line->text.starts_with("STOP") && line->name != "STOP";
-        return;
+        if (line->text.starts_with("STOP") || line->name == "STOP") {
+          outOfStep_ = false;
+          return;
+        }
+        heard = true;
       }
       replies_.clear();
     }
+    // Another line may answer an earlier question, or be how this hand confirms: the line is alive, and the next
+    // question starts by a resync.
+    if (heard) return;
   }
   fail(DeviceFault::kSilent,
        "'stop' was sent, but the hand doesn't confirm it: use its emergency stop if it moves");

@@ -41,7 +41,8 @@ class SdhLink {
   std::vector<double> askRecord(SdhCommand command,
                                 std::span<const double> values,
                                 const RecordCheck& check);
-  // Puts `stop` on the wire before anything else; any line is an answer.
+  // Puts `stop` on the wire before anything else, and waits for STOP; where that doesn't come in time, any
+  // other line will do.
   void stop();
   // Ends a command of the hand that was received in part, and waits until nothing comes any more.
   // `thorough` also fills up a binary record that was received in part.

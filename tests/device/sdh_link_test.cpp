@@ -146,6 +146,18 @@ TEST_F(SdhLinkTest, APulledPlugIsSaidAtOnce) {
 
 // --- motion and stop -----------------------------------------------------------------------------------
 
+// The answer to a motion that is on its way says nothing of the stop behind it: the hand begins to move, still.
+TEST_F(SdhLinkTest, AStopIsNotTakenForDoneByTheAnswerToWhatWasAskedBefore) {
+  controller.open();
+  line.arrive(bytesOf("4D 3D 34 2E 35 31 0D 0A"), 500);  // "M=4.51"
+  const std::int64_t before = clock.nowUs;
+  controller.stop();
+  EXPECT_GE(clock.nowUs - before, answerAfterUs) << "STOP comes then";
+  EXPECT_EQ(hand.stops, 1);
+  EXPECT_EQ(controller.angles(), hand.pos);
+  EXPECT_EQ(controller.stats().retries, 0u);
+}
+
 TEST_F(SdhLinkTest, ALostAnswerToMoveDoesNotStartTheMotionTwice) {
   controller.open();
   hand.silentAnswers = 1;
