@@ -95,7 +95,7 @@ py::dict recipes() {
 class Collector final : public FrameSink {
  public:
   void take(TactileFrame& frame) override {
-    values.push_back(static_cast<double>(frame.values.front()));
+    values.push_back(static_cast<double>(frame.allValues().front()));
   }
   std::vector<double> values;
 };

@@ -29,7 +29,7 @@ FloatArray frames(const Profile& profile, std::int64_t start, Stop stop) {
   TactileFrame frame;
   for (std::size_t i = first; i < last; ++i) {
     profile.readFrame(i, frame);
-    out = std::copy(frame.values.begin(), frame.values.end(), out);
+    out = std::copy(frame.allValues().begin(), frame.allValues().end(), out);
   }
   return array;
 }
@@ -47,7 +47,7 @@ FloatArray matrix(const Profile& profile, std::int64_t index, std::int64_t start
   TactileFrame frame;
   for (std::size_t i = first; i < last; ++i) {
     profile.readFrame(i, frame);
-    const float* values = frame.values.data() + layout.offset(m);
+    const float* values = frame.allValues().data() + layout.offset(m);
     out = std::copy(values, values + shape.numPlaces(), out);
   }
   return array;
@@ -73,7 +73,7 @@ FloatArray taxel(const Profile& profile,
   TactileFrame frame;
   for (std::size_t i = first; i < last; ++i) {
     profile.readFrame(i, frame);
-    *out++ = frame.values[place];
+    *out++ = frame.allValues()[place];
   }
   return array;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 
 namespace palpate {
 namespace {
@@ -52,8 +53,38 @@ class FilterChain::Link final : public FrameSink {
   FrameSink* next_ = nullptr;
 };
 
+// Remembers which taxels were active in the frames that went in, and says so in those that come out: they come in the
+// same order, every one of them.
+class FilterChain::Contact final : public FrameSink {
+ public:
+  explicit Contact(FrameSink& out) : out_(out) {}
+
+  void goesIn(TactileFrame& frame) {
+    std::vector<bool> active = std::move(spare_);
+    active.resize(frame.values.size());
+    for (std::size_t i = 0; i < active.size(); ++i) active[i] = frame.values[i] > 0.0F;
+    active_.push_back(std::move(active));
+    if (frame.filtered.empty()) return;
+    frame.values.swap(frame.filtered);
+    frame.filtered.clear();
+  }
+  void take(TactileFrame& frame) override {
+    frame.setFiltered(std::move(frame.values), active_.front());
+    spare_ = std::move(active_.front());
+    active_.pop_front();
+    out_.take(frame);
+  }
+
+ private:
+  FrameSink& out_;
+  std::deque<std::vector<bool>> active_;  // of the frames that are inside
+  std::vector<bool> spare_;
+};
+
 FilterChain::FilterChain(Recipe recipe, FrameSink& out)
-    : recipe_(std::move(recipe)), out_(out), spentNs_(recipe_.steps.size(), 0.0) {
+    : recipe_(std::move(recipe)),
+      out_(std::make_unique<Contact>(out)),
+      spentNs_(recipe_.steps.size(), 0.0) {
   recipe_.validate();
 }
 
@@ -65,7 +96,7 @@ void FilterChain::build(const std::shared_ptr<const SensorLayout>& layout) {
     if (recipe_.steps[i].enabled)
       links.push_back(std::make_unique<Link>(*this, i, makeFrameFilter(recipe_.steps[i], layout)));
   for (std::size_t i = 0; i < links.size(); ++i)
-    links[i]->setNext(i + 1 < links.size() ? static_cast<FrameSink&>(*links[i + 1]) : out_);
+    links[i]->setNext(i + 1 < links.size() ? static_cast<FrameSink&>(*links[i + 1]) : *out_);
   links_ = std::move(links);
   layout_ = layout;
 }
@@ -81,8 +112,9 @@ void FilterChain::push(TactileFrame& frame) {
   }
   if (gaps_.afterGap(frame.hostUs)) endStretch();
   if (measuring_) ++frames_;
+  out_->goesIn(frame);
   if (links_.empty()) {
-    out_.take(frame);
+    out_->take(frame);
   } else {
     links_.front()->take(frame);
   }

@@ -185,8 +185,7 @@ Profile computedWhole(const Profile& source,
     if (progress && i % kFilteredProfileFramesPerReport == 0 &&
         !progress(static_cast<double>(i) / static_cast<double>(numFrames)))
       throw Cancelled();
-    while (const auto next = cursor.advance(i, i))
-      builder.addFrame(next->second.hostUs, next->second.values, next->second.deviceMs);
+    while (const auto next = cursor.advance(i, i)) builder.addFrame(next->second);
   }
   return builder.finish(source.info());
 }

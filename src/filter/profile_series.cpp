@@ -118,7 +118,7 @@ double meanOf(const TactileFrame& frame, const TaxelSelection& taxels) {
   std::size_t count = 0;
   const std::size_t matrices = std::min(taxels.numMatrices(), frame.layout->numMatrices());
   for (std::size_t m = 0; m < matrices; ++m) {
-    const auto values = frame.matrix(m);
+    const auto values = frame.allValues(m);
     const Mask& mask = taxels.mask(m);
     const auto places = std::min(mask.size(), static_cast<std::size_t>(values.size()));
     for (std::size_t i = 0; i < places; ++i)

@@ -37,7 +37,7 @@ class SignalFilter::Impl final : public FrameSink {
   void take(TactileFrame& frame) override {
     for (std::size_t m = 0; m < rows_.size(); ++m)
       for (std::size_t k = 0; k < kAllSignalKinds.size(); ++k)
-        rows_[m][k] = static_cast<double>(frame.values[m * kAllSignalKinds.size() + k]);
+        rows_[m][k] = static_cast<double>(frame.allValues()[m * kAllSignalKinds.size() + k]);
     emit_(frame.hostUs, rows_);
   }
   FilterChain& chain() noexcept { return chain_; }

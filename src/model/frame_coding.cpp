@@ -44,6 +44,8 @@ FrameCoding codingFor(std::span<const float> values) noexcept {
 }
 
 void encodeFrame(std::span<const float> values, FrameCoding coding, std::vector<std::byte>& out) {
+  if (coding == FrameCoding::kFiltered)
+    throw std::invalid_argument("encodeFrame: values alone don't say which of them count");
   const bool counts = coding == FrameCoding::kCounts;
   const std::size_t longest = counts ? kLongestCountsRun : kLongestFloatsRun;
   if (counts && codingFor(values) != FrameCoding::kCounts)
@@ -68,6 +70,20 @@ void encodeFrame(std::span<const float> values, FrameCoding coding, std::vector<
   out.resize(static_cast<std::size_t>(at - out.data()));
 }
 
+FrameCoding codingFor(const TactileFrame& frame) noexcept {
+  return frame.filtered.empty() ? codingFor(std::span(frame.values)) : FrameCoding::kFiltered;
+}
+
+void encodeFrame(const TactileFrame& frame, FrameCoding coding, std::vector<std::byte>& out) {
+  if (coding != FrameCoding::kFiltered) return encodeFrame(std::span(frame.values), coding, out);
+  const std::vector<float>& all = frame.allValues();
+  const std::size_t bits = out.size();
+  out.resize(bits + activeBytes(all.size()), std::byte{0});
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (same(frame.values[i], all[i])) out[bits + i / 8] |= static_cast<std::byte>(1U << i % 8);
+  encodeFrame(std::span(all), FrameCoding::kFloats, out);
+}
+
 namespace {
 
 // Calls fill(filled, run, value) for every run until `numValues` values are there. Returns the bytes
@@ -78,6 +94,11 @@ std::size_t eachRun(std::span<const std::byte> bytes,
                     std::size_t numValues,
                     Fill fill) noexcept {
   ByteReader in(bytes);
+  if (coding == FrameCoding::kFiltered) {
+    std::uint8_t bits = 0;
+    for (std::size_t i = 0; i < activeBytes(numValues); ++i) bits = in.u8();
+    if (numValues % 8 != 0 && bits >> numValues % 8 != 0) return 0;
+  }
   std::size_t filled = 0;
   while (filled < numValues) {
     std::size_t run = 0;
@@ -106,6 +127,16 @@ std::size_t decodeFrame(std::span<const std::byte> bytes,
       bytes, coding, values.size(), [&](std::size_t filled, std::size_t run, float value) {
         std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(filled), run, value);
       });
+}
+
+std::size_t decodeFrame(std::span<const std::byte> bytes, FrameCoding coding, TactileFrame& out) {
+  out.filtered.clear();
+  const std::size_t used = decodeFrame(bytes, coding, std::span(out.values));
+  if (coding != FrameCoding::kFiltered || used == 0) return used;
+  out.filtered = out.values;
+  for (std::size_t i = 0; i < out.values.size(); ++i)
+    if ((bytes[i / 8] & static_cast<std::byte>(1U << i % 8)) == std::byte{0}) out.values[i] = 0.0F;
+  return used;
 }
 
 std::size_t codedFrameBytes(std::span<const std::byte> bytes,

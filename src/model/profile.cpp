@@ -49,6 +49,7 @@ void Profile::readFrame(std::size_t frame, TactileFrame& out) const {
   check("frame", frame, numFrames());
   out.layout = data_->hand.layout;
   out.values.resize(layout().numPlaces());
+  out.filtered.clear();
   out.hostUs = data_->storage->frameTimeUs(frame);
   data_->storage->readFrame(frame, out);
 }

@@ -69,7 +69,7 @@ class ProfileBuilder::Storage final : public ProfileStorage {
     const FrameChunk& chunk = chunks_[frame / kFramesPerChunk];
     const std::size_t i = frame % kFramesPerChunk;
     out.deviceMs = i < chunk.deviceMs.size() ? chunk.deviceMs[i] : std::nullopt;
-    decodeFrame(std::span(chunk.bytes).subspan(chunk.begin[i]), chunk.coding[i], out.values);
+    decodeFrame(std::span(chunk.bytes).subspan(chunk.begin[i]), chunk.coding[i], out);
   }
   std::size_t numAngles() const override { return angleSeries.size(); }
   std::int64_t angleTimeUs(std::size_t sample) const override { return angleSeries.timeUs(sample); }
@@ -84,9 +84,9 @@ class ProfileBuilder::Storage final : public ProfileStorage {
     return {temperatureSeries.timeUs(sample), temperatureSeries.values(sample)};
   }
 
-  void addFrame(std::int64_t hostUs,
-                std::span<const float> values,
-                std::optional<std::int64_t> deviceMs) {
+  // `Values`: a span of values, or a frame with what filters gave beside them.
+  template <typename Values>
+  void addFrame(std::int64_t hostUs, const Values& values, std::optional<std::int64_t> deviceMs) {
     if (numFrames_ % kFramesPerChunk == 0) chunks_.emplace_back();
     FrameChunk& chunk = chunks_.back();
     const FrameCoding coding = codingFor(values);
@@ -121,9 +121,7 @@ ProfileBuilder::ProfileBuilder(std::shared_ptr<const SensorLayout> layout)
 ProfileBuilder::~ProfileBuilder() = default;
 ProfileBuilder::ProfileBuilder(ProfileBuilder&&) noexcept = default;
 
-void ProfileBuilder::addFrame(std::int64_t hostUs,
-                              std::span<const float> values,
-                              std::optional<std::int64_t> deviceMs) {
+void ProfileBuilder::require(std::int64_t hostUs, std::span<const float> values) const {
   if (values.size() != layout_->numPlaces())
     throw std::invalid_argument("frame: expected " + std::to_string(layout_->numPlaces()) +
                                 " values, got " + std::to_string(values.size()));
@@ -132,7 +130,19 @@ void ProfileBuilder::addFrame(std::int64_t hostUs,
     throw std::invalid_argument("frame: time must be later than the last frame's");
   if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }))
     throw std::invalid_argument("frame: a value is not a number");
+}
+
+void ProfileBuilder::addFrame(std::int64_t hostUs,
+                              std::span<const float> values,
+                              std::optional<std::int64_t> deviceMs) {
+  require(hostUs, values);
   storage_->addFrame(hostUs, values, deviceMs);
+}
+
+void ProfileBuilder::addFrame(const TactileFrame& frame) {
+  require(frame.hostUs, frame.values);
+  if (!frame.filtered.empty()) require(frame.hostUs, frame.filtered);
+  storage_->addFrame(frame.hostUs, frame, frame.deviceMs);
 }
 
 void ProfileBuilder::addAngles(std::int64_t hostUs, std::span<const double> deg) {

@@ -1,6 +1,7 @@
 #include "palpate/model/tactile_frame.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace palpate {
 
@@ -15,6 +16,26 @@ ConstMatrixMap TactileFrame::matrix(std::size_t index) const {
 MatrixMap TactileFrame::matrix(std::size_t index) {
   const MatrixLayout& shape = layout->matrix(index);
   return {values.data() + layout->offset(index), shape.rows, shape.columns};
+}
+
+ConstMatrixMap TactileFrame::allValues(std::size_t index) const {
+  const MatrixLayout& shape = layout->matrix(index);
+  return {allValues().data() + layout->offset(index), shape.rows, shape.columns};
+}
+
+void TactileFrame::setFiltered(std::vector<float> all, const std::vector<bool>& active) {
+  if (all.size() != layout->numPlaces() || active.size() != all.size())
+    throw std::invalid_argument("TactileFrame: " + std::to_string(all.size()) + " values and " +
+                                std::to_string(active.size()) + " marks for " +
+                                std::to_string(layout->numPlaces()) + " places");
+  filtered.clear();
+  bool same = true;
+  for (std::size_t i = 0; i < all.size() && same; ++i) same = active[i] || all[i] == 0.0F;
+  if (!same) filtered = all;
+  values = std::move(all);
+  if (same) return;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!active[i]) values[i] = 0.0F;
 }
 
 bool TactileFrame::isCounts(float maxCounts) const noexcept {

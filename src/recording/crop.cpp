@@ -22,7 +22,7 @@ Profile cropped(const Profile& profile,
     const double done = static_cast<double>(i - begin) / static_cast<double>(end - begin + 1);
     if (progress && i % kFramesPerReport == 0 && !progress(done)) throw Cancelled();
     profile.readFrame(i, frame);
-    builder.addFrame(frame.hostUs, frame.values, frame.deviceMs);
+    builder.addFrame(frame);
   }
   const std::int64_t lastUs = profile.frameTimeUs(end);
   // From the sample that belongs to the first frame: the last one at or before it.

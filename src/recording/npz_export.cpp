@@ -75,7 +75,7 @@ class NpyArray {
 template <typename TimeOf>
 void writeTimes(ZipWriter& zip, const std::string& name, std::size_t count, TimeOf timeOf) {
   NpyArray array(zip, name, "<i8", 8, {count});
-  for (std::size_t i = 0; i < count; ++i) array.i64(timeOf(i) / kUsPerMs);
+  for (std::size_t i = 0; i < count; ++i) array.i64(floorMs(timeOf(i)));
   array.end();
 }
 
@@ -110,7 +110,7 @@ void writeMatrix(ZipWriter& zip, const Profile& profile, std::size_t m, const Pr
         !progress((static_cast<double>(m) + within) / numMatrices))
       throw Cancelled();
     profile.readFrame(i, frame);
-    const auto values = frame.matrix(m);
+    const auto values = frame.allValues(m);
     for (Eigen::Index k = 0; k < values.size(); ++k) {
       if (counts)
         array.u16(static_cast<std::uint64_t>(values.data()[k]));

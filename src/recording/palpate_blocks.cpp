@@ -23,7 +23,9 @@ void palpateBlocksPutLittle(std::vector<std::byte>& out, std::uint64_t value, in
 
 bool exactAsFloat(double value) { return static_cast<double>(static_cast<float>(value)) == value; }
 
-bool allFinite(std::span<const std::byte> bytes, BlockCoding coding) {
+bool allFinite(std::span<const std::byte> bytes, BlockCoding coding, std::size_t numValues) {
+  if (coding == BlockCoding::kFilteredRuns)
+    return allFinite(bytes.subspan(activeBytes(numValues)), BlockCoding::kFloatRuns, numValues);
   ByteReader in(bytes);
   bool finite = true;
   while (finite && in.remaining() > 0) {
@@ -35,6 +37,7 @@ bool allFinite(std::span<const std::byte> bytes, BlockCoding coding) {
 }
 
 FrameCoding frameCoding(BlockCoding coding) {
+  if (coding == BlockCoding::kFilteredRuns) return FrameCoding::kFiltered;
   return coding == BlockCoding::kCountsRuns ? FrameCoding::kCounts : FrameCoding::kFloats;
 }
 
@@ -59,6 +62,13 @@ void BlockPacker::addFrame(std::int64_t hostUs,
         deviceMs,
         coding == FrameCoding::kCounts ? BlockCoding::kCountsRuns : BlockCoding::kFloatRuns);
   }
+}
+
+void BlockPacker::addFrame(const TactileFrame& frame) {
+  if (frame.filtered.empty()) return addFrame(frame.hostUs, frame.deviceMs, frame.values);
+  item_.clear();
+  encodeFrame(frame, FrameCoding::kFiltered, item_);
+  add(frame.hostUs, frame.deviceMs, BlockCoding::kFilteredRuns);
 }
 
 void BlockPacker::addSample(std::int64_t hostUs, std::span<const double> values) {
@@ -103,7 +113,7 @@ void BlockPacker::flush() {
 }
 
 bool plausible(const Block& block) noexcept {
-  return static_cast<int>(block.stream) <= 2 && static_cast<int>(block.coding) <= 3 &&
+  return static_cast<int>(block.stream) <= 2 && static_cast<int>(block.coding) <= 4 &&
          block.first >= 0 && block.first <= std::numeric_limits<std::int64_t>::max() - kMostItems &&
          block.n >= 1 && block.n <= kMostItems && block.t0Us >= -kLatestUs &&
          block.t1Us <= kLatestUs && block.t1Us >= block.t0Us &&
@@ -144,6 +154,7 @@ bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
     switch (block.coding) {
       case BlockCoding::kCountsRuns:
       case BlockCoding::kFloatRuns:
+      case BlockCoding::kFilteredRuns:
         if (block.stream != Stream::kTactile) return false;
         size = codedFrameBytes(bytes.subspan(at), frameCoding(block.coding), numValues);
         if (size == 0) return false;
@@ -157,7 +168,7 @@ bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
     }
     if (size > bytes.size() - at) return false;
     if (block.coding != BlockCoding::kCountsRuns &&
-        !allFinite(bytes.subspan(at, size), block.coding))
+        !allFinite(bytes.subspan(at, size), block.coding, numValues))
       return false;
     at += size;
   }
@@ -165,15 +176,16 @@ bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index) {
          index.hostUs.back() == block.t1Us;
 }
 
-void readFrameValues(const Block& block, std::uint32_t begin, std::span<float> values) {
+void readFrameValues(const Block& block, std::uint32_t begin, TactileFrame& out) {
   const auto bytes = std::span(block.data).subspan(begin);
-  if (block.coding == BlockCoding::kCountsRuns || block.coding == BlockCoding::kFloatRuns) {
-    decodeFrame(bytes, frameCoding(block.coding), values);
+  if (block.coding != BlockCoding::kPlainF32 && block.coding != BlockCoding::kPlainF64) {
+    decodeFrame(bytes, frameCoding(block.coding), out);
     return;
   }
+  out.filtered.clear();
   ByteReader in(bytes);
   const bool wide = block.coding == BlockCoding::kPlainF64;
-  for (float& value : values) value = wide ? static_cast<float>(in.f64()) : in.f32();
+  for (float& value : out.values) value = wide ? static_cast<float>(in.f64()) : in.f32();
 }
 
 void readSampleValues(const Block& block, std::uint32_t begin, std::span<double> values) {

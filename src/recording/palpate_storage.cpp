@@ -38,7 +38,7 @@ void BlockStorage::readFrame(std::size_t frame, TactileFrame& out) const {
   const auto [block, item] = open(Stream::kTactile, frame);
   lock.unlock();  // decoding needs none: the block is ours as long as we hold it
   out.deviceMs = block->index.deviceMs[item];
-  readFrameValues(block->block, block->index.begin[item], out.values);
+  readFrameValues(block->block, block->index.begin[item], out);
 }
 
 std::int64_t BlockStorage::angleTimeUs(std::size_t sample) const {

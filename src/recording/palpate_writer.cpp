@@ -218,13 +218,15 @@ void PalpateWriter::addFrame(const TactileFrame& frame) {
   if (frame.values.size() != impl_->layout->numPlaces())
     throw std::invalid_argument("frame: expected " + std::to_string(impl_->layout->numPlaces()) +
                                 " values, got " + std::to_string(frame.values.size()));
-  if (!std::all_of(
-          frame.values.begin(), frame.values.end(), [](float v) { return std::isfinite(v); }))
+  if (frame.allValues().size() != frame.values.size())
+    throw std::invalid_argument("frame: another number of filtered values than of values");
+  const std::vector<float>& all = frame.allValues();
+  if (!std::all_of(all.begin(), all.end(), [](float v) { return std::isfinite(v); }))
     throw std::invalid_argument("frame: a value is not a number");
   requireLater("frame", impl_->lastFrameUs, frame.hostUs);
   impl_->requireRoom();
   impl_->lastFrameUs = frame.hostUs;
-  impl_->tactile.addFrame(frame.hostUs, frame.deviceMs, frame.values);
+  impl_->tactile.addFrame(frame);
   impl_->seconds.add(frame);
   impl_->commitWhenDue(frame.hostUs);
 }

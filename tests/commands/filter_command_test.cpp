@@ -196,5 +196,47 @@ TEST(FilterCommand, SignalsThemselvesAreSmoothedToo) {
   expectOneLineError(palpate({"signals", in, "--smooth", "median"}), 2, {"median", "neighbours"});
 }
 
+// Lines of a table, without the columns behind the first `columns`.
+std::vector<std::string> firstColumns(const std::string& table, int columns) {
+  std::vector<std::string> lines;
+  std::istringstream stream(table);
+  for (std::string line; std::getline(stream, line);) {
+    std::size_t end = 0;
+    for (int i = 0; i < columns && end != std::string::npos; ++i)
+      end = line.find(',', end == 0 ? 0 : end + 1);
+    lines.push_back(line.substr(0, end));
+  }
+  return lines;
+}
+
+// O-A1: grasps, numbers of active taxels and spheres of a filtered copy are those of the recording, by every way to them.
+TEST(FilterCommand, WhatIsTouchedStaysAsRecorded) {
+  const testing::TemporaryFolder folder;
+  const std::string in = writeGrasps(folder);
+  const auto signals = palpate({"signals", in, "--matrix", "1"});
+  const auto grasps = palpate({"grasps", in});
+  const auto contact = palpate({"contact", in});
+  ASSERT_EQ(signals.exitCode + grasps.exitCode + contact.exitCode, 0) << contact.err;
+  ASSERT_EQ(firstColumns(grasps.out, 2).size(), 3u) << grasps.out;
+  for (const char* filter : {"kalman", "rts", "gaussian", "running-mean"}) {
+    SCOPED_TRACE(filter);
+    const std::string copy = folder / "copy.palpate";
+    ASSERT_EQ(palpate({"filter", in, copy, "--filter", filter, "--force"}).exitCode, 0);
+    EXPECT_EQ(firstColumns(palpate({"grasps", copy}).out, 5), firstColumns(grasps.out, 5));
+    // frame, time, active, centre and radius of the sphere: all but the force.
+    EXPECT_EQ(firstColumns(palpate({"contact", copy}).out, 7), firstColumns(contact.out, 7));
+    // Of the copy, and of the recording seen through the filter: the same to the digit.
+    const auto ofCopy = palpate({"signals", copy, "--matrix", "1"});
+    const auto seen = palpate({"signals", in, "--matrix", "1", "--filter", filter});
+    EXPECT_EQ(ofCopy.out, seen.out);
+    std::istringstream was(signals.out), is(ofCopy.out);
+    std::string before, after;
+    std::size_t others = 0;
+    while (std::getline(was, before) && std::getline(is, after))
+      others += before.substr(before.rfind(',')) == after.substr(after.rfind(',')) ? 0 : 1;
+    EXPECT_EQ(others, 0u) << "area_mm2, the last column, differs";
+  }
+}
+
 }  // namespace
 }  // namespace palpate::filter_command_test

@@ -49,7 +49,7 @@ void expectSame(const std::vector<TactileFrame>& a,
   ASSERT_EQ(a.size(), b.size()) << what;
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(a[i].hostUs, b[i].hostUs) << what << " " << i;
-    ASSERT_EQ(a[i].values, b[i].values) << what << " frame " << i;
+    ASSERT_EQ(a[i].allValues(), b[i].allValues()) << what << " frame " << i;
   }
 }
 

@@ -34,14 +34,18 @@ def block_crc(stream, first, n, t0_us, t1_us, coding, data):
 
 
 def values_of(coding, data, at, width):
-    """Values of the item at `at`, and where the next one begins."""
+    """Values of the item at `at`, those of them that count as contact, and where the next one begins."""
     values = []
     if coding == 0:
         while len(values) < width:
             (unit,) = struct.unpack_from("<H", data, at)
             values += [float(unit & 0xFFF)] * (unit >> 12)
             at += 2
-    elif coding == 1:
+    elif coding in (1, 4):
+        if coding == 4:
+            counting = [data[at + i // 8] >> i % 8 & 1 for i in range(width)]
+            at += (width + 7) // 8
+            assert not any(data[at - 1] >> i & 1 for i in range(width % 8 or 8, 8))
         while len(values) < width:
             run, value = struct.unpack_from("<Bf", data, at)
             values += [value] * run
@@ -51,7 +55,7 @@ def values_of(coding, data, at, width):
         values = list(struct.unpack_from(f"<{width}{letter}", data, at))
         at += struct.calcsize(f"<{width}{letter}")
     assert len(values) == width
-    return values, at
+    return values, [v if c else 0.0 for v, c in zip(values, counting)] if coding == 4 else values, at
 
 
 def read(path):
@@ -94,8 +98,8 @@ def read(path):
             at = 0
             for i in range(n):
                 offset, device = struct.unpack_from("<Iq", data, at)
-                values, at = values_of(coding, data, at + 12, width)
-                items.append((t0 + offset, device, values))
+                values, contact, at = values_of(coding, data, at + 12, width)
+                items.append((t0 + offset, device, values, contact))
             assert at == len(data)
             assert items[first][0] == t0 and items[-1][0] == t1
         assert all(a[0] < b[0] for a, b in zip(items, items[1:]))
@@ -103,7 +107,7 @@ def read(path):
 
     # The summary, from the frames.
     seconds = {}
-    for t_us, _, values in streams[0]:
+    for t_us, _, _, values in streams[0]:
         begin = 0
         for m, (rows, columns) in enumerate(shapes):
             active = [v for v in values[begin:begin + rows * columns] if v > 0]
@@ -120,7 +124,7 @@ def read(path):
         assert (n, active_max) == (frames, most), key
         assert (low, high) == (min(active, default=0), max(active, default=0)), key
         assert abs(total - sum(active)) <= 1e-9 * max(1.0, abs(total)), key
-    return streams
+    return [[item[:3] for item in items] for items in streams]
 
 
 def dump(streams, path):

@@ -317,7 +317,7 @@ void FilterPanel::showTotals() {
     if (rateHz_ > 0.0) text += " (" + figure(*figures_->latency * 1e3 / rateHz_, 0) + " ms)";
     text += " later.";
   }
-  totals_->setText(text);
+  totals_->setText(text + " What counts as touched stays as recorded.");
 }
 
 }  // namespace palpate::gui

@@ -199,7 +199,7 @@ void HandDrawing::addTaxels(HandScene& scene, const HandLook& look) const {
   const SensorLayout& layout = *hand_->layout;
   eachTaxel(layout, look, [&](std::size_t place, std::size_t m, int y, int x) {
     const TaxelPatch& patch = places[place];
-    const float value = moment_.frame ? moment_.frame->values[place] : 0.0F;
+    const float value = moment_.frame ? moment_.frame->allValues()[place] : 0.0F;
     const bool active = value > 0.0F;
     const bool scanned = layout.matrix(m).enabled(y, x);
     const QRgb color =

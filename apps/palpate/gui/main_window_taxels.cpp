@@ -76,7 +76,7 @@ QString MainWindow::selectionText() const {
   if (frame.values.empty() || !matrices_->hand()) return text;
   double sum = 0.0, largest = 0.0;
   for (std::size_t m = 0; m < selection.numMatrices(); ++m) {
-    const auto values = frame.matrix(m);
+    const auto values = frame.allValues(m);
     for (int y = 0; y < values.rows(); ++y)
       for (int x = 0; x < values.cols(); ++x)
         if (selection.contains(m, y, x)) {

@@ -18,6 +18,7 @@ constexpr double kGridLine = 1.0;        // [px] between squares
 constexpr double kValuesFrom = 11.0;     // [px] below this side numbers can't be read
 constexpr double kSmallestFontPx = 5.0;  // of values
 constexpr double kLargestFontPx = 15.0;
+constexpr float kLeastSeenCounts = 0.5F;  // of taxels that weren't active as recorded
 
 QRectF squareOf(const QRectF& taxel) {
   if (taxel.width() < kGridFrom) return taxel;
@@ -163,7 +164,7 @@ void paintTitle(QPainter& painter, const QRectF& rect, const MatricesPictureOpti
 ValueRange rangeOf(const MatricesPictureOptions& options, const TactileFrame& frame) {
   if (options.rangeMax > options.rangeMin) return {options.rangeMin, options.rangeMax};
   float largest = 0.0F;
-  for (const float value : frame.values) largest = std::max(largest, value);
+  for (const float value : frame.allValues()) largest = std::max(largest, value);
   return {0.0, largest > 0.0F ? static_cast<double>(largest) : 1.0};
 }
 
@@ -205,7 +206,8 @@ void paintMatrixValues(QPainter& painter,
                        const ValueRange& range,
                        const MatricesPictureOptions& options) {
   const MatrixLayout& layout = hand.layout->matrix(matrix);
-  const ConstMatrixMap values = frame.matrix(matrix);
+  const ConstMatrixMap values = frame.allValues(matrix);
+  const ConstMatrixMap contact = frame.matrix(matrix);
   const ColorTable& table = tableOf(options);
   const double side = geometry.taxelSide(matrix);
   const auto saturation = hand.saturationCounts;
@@ -225,7 +227,9 @@ void paintMatrixValues(QPainter& painter,
   for (int y = 0; y < layout.rows; ++y) {
     for (int x = 0; x < layout.columns; ++x) {
       const float value = values(y, x);
-      const bool seen = options.difference ? value != 0.0F : value > 0.0F;
+      // Of what filters left in taxels that nothing presses on, less than half a count is nothing to see.
+      const bool seen =
+          options.difference ? value != 0.0F : contact(y, x) > 0.0F || value >= kLeastSeenCounts;
       if (!seen || !layout.enabled(y, x)) continue;
       const int index = colorIndex(static_cast<double>(value), range.minimum, range.maximum);
       const QColor color = QColor::fromRgb(table[static_cast<std::size_t>(index)]);

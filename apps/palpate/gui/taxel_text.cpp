@@ -31,7 +31,7 @@ QString taxelText(const HandDescription& hand,
                         ", y " + QString::number(y) + " · ";
   if (!layout.enabled(y, x)) return where + "masked: not scanned";
   if (!frame) return where + "no frame yet";
-  const float value = frame->matrix(m)(y, x);
+  const float value = frame->allValues(m)(y, x);
   if (!(value > 0.0F)) return where + "0 counts, at rest";
   const QString number = value == std::round(value)
                              ? QString::number(std::lround(value))

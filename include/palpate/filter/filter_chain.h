@@ -1,6 +1,10 @@
 // A recipe at work: frames go in as they come, filtered ones come out. The same class runs live, on recordings and
 // on the command line; it looks at stamps and values alone, so all three give the same results bit by bit.
 //
+// What counts as touched is said by the frames as they went in: a taxel that was 0 there is 0 in the `values` that come
+// out, and what the filters gave it stands in `filtered` (model/tactile_frame.h). A filter can so end a contact, and
+// never make, lengthen or widen one. A frame that was filtered before is filtered on as a whole.
+//
 // Filters over time restart after a gap (gap_detector.h), where the layout changes (other masks), and where the
 // caller says so. What no filter knows: saturation. A filtered value may lie below it while the taxel was saturated;
 // saturation is always looked for in the frames as they came.
@@ -41,11 +45,12 @@ class FilterChain {
 
  private:
   class Link;
+  class Contact;
   void build(const std::shared_ptr<const SensorLayout>& layout);
   void endStretch();
 
   const Recipe recipe_;
-  FrameSink& out_;
+  const std::unique_ptr<Contact> out_;          // behind the last step
   std::shared_ptr<const SensorLayout> layout_;  // that the filters were made for
   GapDetector gaps_;
   std::vector<std::unique_ptr<Link>> links_;  // one per step that is on

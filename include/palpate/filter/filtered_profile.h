@@ -1,5 +1,6 @@
 // A profile seen through a recipe: the same frames at the same times, filtered when they are asked for. Angles,
-// temperatures and stamps are those of the source; values are floats.
+// temperatures and stamps are those of the source; values are floats. Active is what was active in the source
+// (filter_chain.h).
 #pragma once
 
 #include <cstdint>

@@ -24,6 +24,8 @@ class ProfileBuilder {
   void addFrame(std::int64_t hostUs,
                 std::span<const float> values,
                 std::optional<std::int64_t> deviceMs = {});
+  // A frame of another profile, with what filters gave beside its values.
+  void addFrame(const TactileFrame& frame);
   void addAngles(std::int64_t hostUs, std::span<const double> deg);
   void addTemperatures(std::int64_t hostUs, std::span<const double> degC);
 
@@ -40,6 +42,7 @@ class ProfileBuilder {
 
  private:
   class Storage;
+  void require(std::int64_t hostUs, std::span<const float> values) const;
   std::shared_ptr<const SensorLayout> layout_;
   std::shared_ptr<Storage> storage_;
 };

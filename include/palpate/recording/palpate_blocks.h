@@ -24,6 +24,8 @@ class BlockPacker {
                 std::span<const float> values);
   // Values of angles or temperatures.
   void addSample(std::int64_t hostUs, std::span<const double> values);
+  // A frame with what filters gave beside its values.
+  void addFrame(const TactileFrame& frame);
   // Hands over what is gathered.
   void flush();
   std::int64_t numItems() const noexcept { return numItems_; }
@@ -55,8 +57,8 @@ struct BlockIndex {
 };
 bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index);
 
-// Values of the item that begins at `begin`.
-void readFrameValues(const Block& block, std::uint32_t begin, std::span<float> values);
+// Values of the item that begins at `begin`; of a frame whose `values` has the right size already.
+void readFrameValues(const Block& block, std::uint32_t begin, TactileFrame& out);
 void readSampleValues(const Block& block, std::uint32_t begin, std::span<double> values);
 
 }  // namespace palpate

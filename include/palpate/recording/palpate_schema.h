@@ -34,6 +34,8 @@ enum class BlockCoding : std::uint8_t {
   kFloatRuns = 1,   // pairs (u8 run, f32 value)
   kPlainF32 = 2,
   kPlainF64 = 3,
+  kFilteredRuns =
+      4,  // a bit per value (it counts as active), then as kFloatRuns (frame_coding.h, kFiltered)
 };
 
 struct Block {

@@ -1,0 +1,153 @@
+// What counts as touched in filtered values: what was active as recorded. Expected numbers are computed here from the
+// frames as they came and from what the filters gave, taxel by taxel.
+#include <algorithm>
+#include <cmath>
+
+#include "palpate/emulator/synthetic_profile.h"
+#include "palpate/filter/characteristic_signals.h"
+#include "palpate/filter/filter_chain.h"
+#include "palpate/filter/filtered_profile.h"
+#include "palpate/model/hand_description.h"
+#include "palpate/model/profile_builder.h"
+#include "palpate/recording/recording.h"
+
+#include "testing/testing.h"
+
+namespace palpate::filtered_contact_test {
+namespace {
+
+const char* const kEach[] = {"box",
+                             "gaussian",
+                             "median",
+                             "bilateral",
+                             "nlm",
+                             "opening",
+                             "running-mean",
+                             "running-mean:centred=1",
+                             "temporal-gaussian",
+                             "temporal-min",
+                             "kalman",
+                             "kalman:centred=1",
+                             "rts",
+                             "kelvin-voigt:m=1,e=400,eta=40,q=1e8,r=1",
+                             "savitzky-golay",
+                             "median3d",
+                             "min-median",
+                             "median | kalman | gaussian"};
+
+Recipe recipeOf(const std::string& text) { return parseRecipe(std::vector<std::string>{text}); }
+
+Profile grasps() { return synthesize({.durationS = 5.0, .grasps = 2, .noiseCounts = 12.0}); }
+
+// A taxel of a frame: as recorded, and all that the filters gave.
+struct Taxel {
+  float recorded, given;
+  bool active() const { return recorded > 0.0F && given > 0.0F; }
+};
+
+std::vector<Taxel> taxelsOf(const TactileFrame& recorded, const TactileFrame& filtered) {
+  std::vector<Taxel> taxels;
+  for (std::size_t i = 0; i < recorded.values.size(); ++i)
+    taxels.push_back({recorded.values[i], filtered.allValues()[i]});
+  return taxels;
+}
+
+TEST(FilteredContact, IsWhatWasActiveAsRecorded) {
+  const Profile source = grasps();
+  for (const char* text : kEach) {
+    SCOPED_TRACE(text);
+    const Profile filtered = filteredProfile(source, recipeOf(text));
+    std::size_t wrong = 0;
+    for (std::size_t f = 0; f < source.numFrames(); ++f) {
+      const TactileFrame seen = filtered.frame(f);
+      const std::vector<Taxel> taxels = taxelsOf(source.frame(f), seen);
+      int active = 0;
+      double sum = 0.0;
+      for (std::size_t i = 0; i < taxels.size(); ++i) {
+        wrong += seen.values[i] == (taxels[i].recorded > 0.0F ? taxels[i].given : 0.0F) ? 0 : 1;
+        if (!taxels[i].active()) continue;
+        ++active;
+        sum += static_cast<double>(taxels[i].given);
+      }
+      const CharacteristicSignals whole = wholeFrameSignals(seen);
+      ASSERT_EQ(whole.active, active) << f;
+      ASSERT_NEAR(whole.sum, sum, 1e-9 * sum) << f;
+    }
+    EXPECT_EQ(wrong, 0u);
+  }
+}
+
+TEST(FilteredContact, NoContactOutlivesTheRecordedOneAndTheTailIsStillThere) {
+  // A taxel is pressed with 1000 counts for 10 frames, then let go.
+  ProfileBuilder builder(sdh2().layout);
+  for (int i = 0; i < 40; ++i) {
+    std::vector<float> values(sdh2().layout->numPlaces(), 0.0F);
+    if (i >= 10 && i < 20) values[40] = 1000.0F;
+    builder.addFrame(31'546 * i + 1, values);
+  }
+  const Profile source = builder.finish({});
+  const Profile filtered = filteredProfile(source, recipeOf("kalman"));
+  for (std::size_t i = 0; i < 40; ++i) {
+    const TactileFrame frame = filtered.frame(i);
+    EXPECT_EQ(wholeFrameSignals(frame).active, i >= 10 && i < 20 ? 1 : 0) << i;
+    // What the filter makes of it is the recursion itself: it decays by a constant factor.
+    if (i > 25) {
+      EXPECT_NEAR(frame.allValues()[40] / filtered.frame(i - 1).allValues()[40], 0.729844, 1e-4);
+    }
+  }
+}
+
+TEST(FilteredContact, IsThatOfTheFirstRecordingWhenAFilteredOneIsFilteredAgain) {
+  const Profile source = grasps();
+  const Profile once = filteredProfile(source, recipeOf("kalman"));
+  const Profile twice = filteredProfile(once, recipeOf("running-mean"));
+  const Profile together = filteredProfile(source, recipeOf("kalman | running-mean"));
+  for (std::size_t f = 0; f < source.numFrames(); ++f) {
+    ASSERT_EQ(twice.frame(f).allValues(), together.frame(f).allValues()) << f;
+    ASSERT_EQ(twice.frame(f).values, together.frame(f).values) << f;
+  }
+}
+
+TEST(FilteredContact, IsKeptInACopyAndInItsPart) {
+  const Profile source = grasps();
+  const testing::TemporaryFolder folder;
+  for (const char* text : {"kalman", "rts", "gaussian"}) {
+    const Profile filtered = filteredProfile(source, recipeOf(text));
+    saveRecording(filtered, {}, folder / "copy.palpate", Overwrite::kReplace);
+    const Profile copy = openRecording(folder / "copy.palpate");
+    EXPECT_EQ(copy.info().valueType, ValueType::kFloat);
+    for (std::size_t f = 0; f < source.numFrames(); ++f) {
+      ASSERT_EQ(copy.frame(f).values, filtered.frame(f).values) << text << " " << f;
+      ASSERT_EQ(copy.frame(f).allValues(), filtered.frame(f).allValues()) << text << " " << f;
+    }
+    EXPECT_EQ(verifyRecording(folder / "copy.palpate").state, VerifyReport::State::kSound);
+  }
+}
+
+// The plateau of the tenth grasp of the ball, pads of two fingers (study, recordings of 2014).
+TEST(FilteredContact, HasTheGraspsAreasAndMeansOfTheRecording) {
+  const auto folder = testing::recordingsFolder();
+  PALPATE_NEED(folder);
+  const Profile source = openRecording(*folder / "grasps/foam_ball.dsa");
+  for (const char* text : {"kalman", "rts", "kelvin-voigt", "running-mean"}) {
+    SCOPED_TRACE(text);
+    const Profile filtered = filteredProfile(source, recipeOf(text));
+    // The ball was let go with frame 586.
+    EXPECT_EQ(wholeFrameSignals(source.frame(600)).active, 0);
+    EXPECT_EQ(wholeFrameSignals(filtered.frame(600)).active, 0);
+    EXPECT_GT(wholeFrameSignals(filtered.frame(585)).active, 0);
+    double before = 0.0, after = 0.0;
+    for (std::size_t f = 2820; f < 2920; ++f) {
+      const MatrixLayout& layout = source.layout().matrix(1);
+      const auto raw = characteristicSignals(std::as_const(source).frame(f).matrix(1), layout);
+      const auto smooth = characteristicSignals(std::as_const(filtered).frame(f).matrix(1), layout);
+      EXPECT_EQ(smooth.active, raw.active) << f;
+      before += raw.mean / 100.0;
+      after += smooth.mean / 100.0;
+    }
+    EXPECT_NEAR(after, before, 3.0);  // counts of about 620; before: 592 (kalman), 557 (rts)
+  }
+}
+
+}  // namespace
+}  // namespace palpate::filtered_contact_test
