@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "palpate/core/json.h"
+#include "palpate/device/live_hand.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -72,6 +73,7 @@ CaptureSession::CaptureSession(std::unique_ptr<Device> device,
           }(),
           clock),
       meter_(options_.health),
+      scansItself_(dynamic_cast<const LiveHand*>(device_.get()) != nullptr),
       saturationCounts_(device_->hand().saturationCounts) {}
 
 CaptureSession::~CaptureSession() {
@@ -150,7 +152,13 @@ void CaptureSession::onFrame(TactileFrame&& frame) {
   const float limit = saturationCounts_;
   bool saturated = false;
   for (const float value : frame.values) saturated |= value >= limit;
-  meter_.frame(clock_.monotonicUs(), saturated);
+  if (scansItself_ && frame.layout != expectedFor_) {
+    expectedFor_ = frame.layout;
+    std::size_t enabled = 0;
+    for (const MatrixLayout& matrix : frame.layout->matrices()) enabled += matrix.numEnabled();
+    meter_.expect(scanRateHz(enabled));
+  }
+  meter_.frame(clock_.monotonicUs(), saturated, runsOf(frame));
   auto shared = std::make_shared<const TactileFrame>(std::move(frame));
   screenFrame_.put(shared);
   pass(CaptureItem(std::move(shared)));

@@ -86,12 +86,58 @@ void addRecorderAlarms(const RecorderStatus& recorder,
                           " items are missing in the recording; its gap events tell which"});
 }
 
+// What is wrong with the rate, and what to do about it where the operator sits.
+std::string lowRateText(const LinkMeter::Reading& frames, const HealthOptions& options) {
+  const std::string text = "only " + fixedText(frames.rateHz, 1) + " frames/s instead of " +
+                           fixedText(frames.expectedRateHz, 1);
+  if (frames.lineRateHz <= 0.0) return text;
+  if (frames.lineRateHz < options.lowRateShare * frames.expectedRateHz)
+    return text + ": noise fills the line; raise the threshold (dock Hand), or scan fewer taxels";
+  return text +
+         ": frames come late or not at all; see lost and bad checksums (dock Link), try "
+         "another USB port or cable, end other programs";
+}
+
 std::optional<double> hottestOf(const LinkInputs& inputs) {
   if (!inputs.temperatures || inputs.temperatures->degC.empty()) return std::nullopt;
   return *std::max_element(inputs.temperatures->degC.begin(), inputs.temperatures->degC.end());
 }
 
 }  // namespace
+
+double scanRateHz(std::size_t enabledTaxels) {
+  struct Measured {
+    double taxels, scanMs;
+  };
+  // The places of a matrix of 78 that are taxels: 68. All taxels of an SDH-2: 456.
+  constexpr Measured kMeasured[] = {{2.0, 13.2}, {68.0, 17.7}, {456.0, 31.55}};
+  const double taxels =
+      std::clamp(static_cast<double>(enabledTaxels), kMeasured[0].taxels, kMeasured[2].taxels);
+  const int above = taxels > kMeasured[1].taxels ? 2 : 1;
+  const Measured& low = kMeasured[above - 1];
+  const Measured& high = kMeasured[above];
+  return 1000.0 / (low.scanMs +
+                   (high.scanMs - low.scanMs) * (taxels - low.taxels) / (high.taxels - low.taxels));
+}
+
+double lineRateHz(double runs) {
+  constexpr double kBytesPerS = 115'200.0 / 10.0;
+  return kBytesPerS / (13.0 + 2.0 * runs);
+}
+
+std::size_t runsOf(const TactileFrame& frame) {
+  constexpr std::size_t kLongest = 15;
+  std::size_t runs = 0, length = 0;
+  for (std::size_t i = 0; i < frame.values.size(); ++i) {
+    if (i > 0 && length < kLongest && frame.values[i] == frame.values[i - 1]) {
+      ++length;
+      continue;
+    }
+    ++runs;
+    length = 1;
+  }
+  return runs;
+}
 
 const LinkMeter::Arrival& LinkMeter::arrival(std::size_t age) const {
   return ring_[(frames_ - 1 - age) % kRing];
@@ -103,12 +149,18 @@ void LinkMeter::reset() {
   lowSinceUs_.reset();
 }
 
-void LinkMeter::frame(std::int64_t monoUs, bool saturated) {
+void LinkMeter::expect(std::optional<double> rateHz) {
+  const std::lock_guard lock(mutex_);
+  if (rateHz != expectedHz_) lowSinceUs_.reset();
+  expectedHz_ = rateHz;
+}
+
+void LinkMeter::frame(std::int64_t monoUs, bool saturated, std::size_t runs) {
   const std::lock_guard lock(mutex_);
   if (frames_ == 0) firstUs_ = monoUs;
   ++frames_;
   saturated_ += saturated ? 1 : 0;
-  ring_[(frames_ - 1) % kRing] = {monoUs, saturated};
+  ring_[(frames_ - 1) % kRing] = {monoUs, saturated, static_cast<std::uint32_t>(runs)};
   // Looking once in a while is enough, and costs less.
   constexpr std::uint64_t kEvery = 8;
   if (frames_ % kEvery != 0) return;
@@ -154,10 +206,19 @@ LinkMeter::Reading LinkMeter::readLocked(std::int64_t monoUs) const {
     if (overS > 0.0) reading.rateHz = static_cast<double>(n - 1) / overS;
   }
   std::size_t saturated = 0;
-  for (std::size_t age = 0; age < n; ++age) saturated += arrival(age).saturated ? 1 : 0;
+  std::size_t runs = 0;
+  bool known = n > 0;
+  for (std::size_t age = 0; age < n; ++age) {
+    saturated += arrival(age).saturated ? 1 : 0;
+    runs += arrival(age).runs;
+    known = known && arrival(age).runs > 0;
+  }
+  if (known) reading.lineRateHz = lineRateHz(static_cast<double>(runs) / static_cast<double>(n));
   if (n > 0) reading.saturatedShare = static_cast<double>(saturated) / static_cast<double>(n);
   if (options_.expectedRateHz)
     reading.expectedRateHz = *options_.expectedRateHz;
+  else if (expectedHz_)
+    reading.expectedRateHz = *expectedHz_;
   else if (seconds(newestUs - firstUs_) >= kExpectationS)
     reading.expectedRateHz = reading.meanRateHz;
   if (lowSinceUs_) reading.lowRateS = std::max(0.0, seconds(monoUs - *lowSinceUs_));
@@ -184,10 +245,7 @@ LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options) 
   const bool silent = noData(inputs, options);
   if (silent) health.alarms.push_back({AlarmKind::kNoData, noDataText(inputs)});
   if (!silent && inputs.frames.lowRateS > options.lowRateS)
-    health.alarms.push_back({AlarmKind::kLowRate,
-                             "only " + fixedText(inputs.frames.rateHz, 1) +
-                                 " frames/s instead of " +
-                                 fixedText(inputs.frames.expectedRateHz, 1)});
+    health.alarms.push_back({AlarmKind::kLowRate, lowRateText(inputs.frames, options)});
   addRecorderAlarms(inputs.recorder, options, health.alarms);
   if (health.diskHours && *health.diskHours < options.lowDiskHours)
     health.alarms.push_back({AlarmKind::kLowDisk,
@@ -216,8 +274,7 @@ BeforeRun checkBeforeRun(const LinkInputs& inputs,
   if (!inputs.frames.ageMs || noData(inputs, options)) return red(noDataText(inputs));
   const LinkMeter::Reading& frames = inputs.frames;
   if (frames.expectedRateHz > 0.0 && frames.rateHz < options.lowRateShare * frames.expectedRateHz)
-    return red("only " + fixedText(frames.rateHz, 1) + " frames/s instead of " +
-               fixedText(frames.expectedRateHz, 1));
+    return red(lowRateText(frames, options));
   const std::string where = folder.path.string();
   if (!folder.writable)
     return red(where + " can't be written: choose another folder, or change its permissions");

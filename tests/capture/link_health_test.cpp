@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "palpate/model/hand_description.h"
+
 #include "testing/testing.h"
 
 namespace palpate::link_health_test {
@@ -78,6 +80,62 @@ TEST(LinkMeter, lowIsMeasuredByTheExpectedRateAndLasts) {
   EXPECT_LT(reading.lowRateS, 10.0);
   for (int i = 0; i < 200; ++i) meter.frame(monoUs += 32'000, false);
   EXPECT_EQ(meter.read(monoUs).lowRateS, 0.0);
+}
+
+TEST(LinkMeter, lowStaysLowHoweverLongItLasts) {
+  // As with thresholds of 0: 17.3 frames/s for ten minutes, of a hand that gives 31.7.
+  LinkMeter meter;
+  meter.expect(scanRateHz(456));
+  std::int64_t monoUs = 0;
+  for (int i = 0; i < 10'000; ++i) meter.frame(monoUs += 57'800, false, 330);
+  const auto reading = meter.read(monoUs);
+  EXPECT_NEAR(reading.expectedRateHz, 31.7, 0.05);
+  EXPECT_NEAR(reading.rateHz, 17.3, 0.05);
+  EXPECT_GT(reading.lowRateS, 500.0);
+  EXPECT_NEAR(reading.lineRateHz, 17.1, 0.1);  // 11,520 bytes/s, 13 + 2 * 330 bytes each
+  LinkInputs inputs = streaming();
+  inputs.frames = reading;
+  const LinkHealth health = assessHealth(inputs);
+  ASSERT_EQ(kindsOf(health), std::vector{AlarmKind::kLowRate});
+  EXPECT_EQ(health.alarms[0].text,
+            "only 17.3 frames/s instead of 31.7: noise fills the line; raise the threshold (dock "
+            "Hand), or scan fewer taxels");
+  const BeforeRun before = checkBeforeRun(inputs, {"/tmp", true, 1'000'000'000'000});
+  EXPECT_FALSE(before.ready);
+  EXPECT_NE(before.text.find("raise the threshold"), std::string::npos) << before.text;
+}
+
+TEST(LinkMeter, fewFramesOfALineThatHasRoomAreAnotherTrouble) {
+  LinkMeter meter;
+  meter.expect(scanRateHz(456));
+  std::int64_t monoUs = 0;
+  for (int i = 0; i < 1000; ++i) meter.frame(monoUs += 57'800, false, 40);
+  LinkInputs inputs = streaming();
+  inputs.frames = meter.read(monoUs);
+  const LinkHealth health = assessHealth(inputs);
+  ASSERT_EQ(kindsOf(health), std::vector{AlarmKind::kLowRate});
+  EXPECT_NE(health.alarms[0].text.find("late or not at all"), std::string::npos);
+  // Masks change what the hand gives: what was low before is judged anew.
+  meter.expect(scanRateHz(2));
+  EXPECT_EQ(meter.read(monoUs).lowRateS, 0.0);
+}
+
+// reference of the protocol, 1.6.1 (real hand): 31.7 frames/s with all, 55 to 58 with one matrix of 78, 76 with two.
+TEST(LinkMeter, knowsWhatAHandGivesBySettings) {
+  EXPECT_NEAR(scanRateHz(456), 31.7, 0.05);
+  EXPECT_GT(scanRateHz(68), 55.0);
+  EXPECT_LT(scanRateHz(68), 58.0);
+  EXPECT_NEAR(scanRateHz(2), 76.0, 0.5);
+  EXPECT_EQ(scanRateHz(0), scanRateHz(2));
+  EXPECT_EQ(scanRateHz(1000), scanRateHz(456));
+  for (std::size_t n = 3; n <= 456; ++n) EXPECT_LT(scanRateHz(n), scanRateHz(n - 1)) << n;
+  // The same, 3.1: packets of 79 bytes (nothing touched) 146 frames/s, of 985 (486 runs) 11.7.
+  EXPECT_NEAR(lineRateHz(33), 146.0, 0.5);
+  EXPECT_NEAR(lineRateHz(486), 11.7, 0.05);
+  TactileFrame frame(sdh2().layout);
+  EXPECT_EQ(runsOf(frame), 33u);  // 486 zeros in runs of 15
+  for (std::size_t i = 0; i < frame.values.size(); ++i) frame.values[i] = static_cast<float>(i);
+  EXPECT_EQ(runsOf(frame), 486u);
 }
 
 TEST(LinkMeter, staysBoundedAtAnyRate) {

@@ -14,12 +14,13 @@
 #include <palpate/capture/recorder.h>
 #include <palpate/device/device.h>
 #include <palpate/model/hand_state.h>
+#include <palpate/model/tactile_frame.h>
 
 namespace palpate {
 
 struct HealthOptions {
-  std::optional<double>
-      expectedRateHz;                  // frames per second; nothing: the mean rate since the start
+  // Frames per second that are expected; nothing: what LinkMeter::expect() says, else the mean since the start.
+  std::optional<double> expectedRateHz;
   double lowRateShare = 0.8;           // of the expected rate: below is low ..
   double lowRateS = 2.0;               // .. when it lasts longer [s]
   double noDataS = 1.0;                // no frame for longer (and for 3 periods) is an alarm [s]
@@ -28,6 +29,15 @@ struct HealthOptions {
   double nominalBytesPerS = 18'000.0;  // until measured: an SDH-2 with angles writes 1.5 GB a day
   double hottestDegC = 65.0;           // recorded hands reached 61 [deg C]
 };
+
+// Frames per second that a DSACON32-M scans, by the number of its taxels that are enabled. Measured on a real hand
+// (recordings of 2014): 2 taxels 13.2 ms, a matrix of 78 places 17.7 ms, all of an SDH-2 31.55 ms; between them linear.
+double scanRateHz(std::size_t enabledTaxels);
+// Frames per second that 115200 baud carry, of frames with so many runs of equal counts (a run is 15 long at most):
+// 13 bytes of packet and 2 per run, 10 bits per byte.
+double lineRateHz(double runs);
+// Runs of the values of a frame, as the controller sends them.
+std::size_t runsOf(const TactileFrame& frame);
 
 // Rates and saturation of the frames that came, by the clock of their arrival. Thread-safe.
 class LinkMeter {
@@ -43,10 +53,14 @@ class LinkMeter {
     double saturatedShare = 0.0;        // of the last 2 s, 0..1
     double lowRateS = 0.0;              // for how long the rate has been low [s]
     double expectedRateHz = 0.0;        // what low is measured by; 0: not known yet
+    double lineRateHz =
+        0.0;  // that the line carries of frames like those of the last 2 s; 0: not known
   };
 
-  // monoUs: monotonic time of arrival [us], never decreasing.
-  void frame(std::int64_t monoUs, bool saturated);
+  // What the device gives as it is set now [Hz]; nothing: not known.
+  void expect(std::optional<double> rateHz);
+  // monoUs: monotonic time of arrival [us], never decreasing; runs: of runsOf(), 0: not known.
+  void frame(std::int64_t monoUs, bool saturated, std::size_t runs = 0);
   Reading read(std::int64_t monoUs) const;
   void reset();
 
@@ -55,6 +69,7 @@ class LinkMeter {
   struct Arrival {
     std::int64_t monoUs = 0;
     bool saturated = false;
+    std::uint32_t runs = 0;
   };
   const Arrival& arrival(std::size_t age) const;  // 0: the newest
   Reading readLocked(std::int64_t monoUs) const;
@@ -66,6 +81,7 @@ class LinkMeter {
   std::uint64_t saturated_ = 0;
   std::int64_t firstUs_ = 0;
   std::optional<std::int64_t> lowSinceUs_;
+  std::optional<double> expectedHz_;
 };
 
 enum class AlarmKind {
