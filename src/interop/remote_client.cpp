@@ -9,13 +9,15 @@
 #include <sys/socket.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/json.h"
 
 #include "interop/remote_socket.h"
 
 namespace palpate {
 namespace {
 using SteadyTime = std::chrono::steady_clock;
-}
+constexpr std::size_t kLongestAnswer = 1u << 20;  // [bytes]; those of a Palpate have some hundred
+}  // namespace
 
 struct RemoteClient::Impl {
   [[noreturn]] void gone() const {
@@ -44,8 +46,14 @@ struct RemoteClient::Impl {
     }
   }
 
+  [[noreturn]] void noPalpate() const {
+    throw FileError(path,
+                    "what answers there is no Palpate: another program listens on this socket");
+  }
+
   std::string receiveLine(SteadyTime::time_point end) {
     while (received.find('\n') == std::string::npos) {
+      if (received.size() > kLongestAnswer) noPalpate();
       await(POLLIN, end);
       std::array<char, 4096> bytes{};
       const ssize_t n = ::recv(socket.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
@@ -55,7 +63,12 @@ struct RemoteClient::Impl {
     const auto at = received.find('\n');
     std::string line = received.substr(0, at);
     received.erase(0, at + 1);
-    return line;
+    try {
+      const Json answer = Json::parse(line);
+      if (answer.isObject() && answer.at("ok").isBool()) return line;
+    } catch (const Error&) {  // no JSON
+    }
+    noPalpate();
   }
 
   std::filesystem::path path;

@@ -1,6 +1,12 @@
 #include "palpate/interop/remote_client.h"
 
 #include <string>
+#include <string_view>
+#include <thread>
+
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include "palpate/core/error.h"
 #include "palpate/interop/remote_server.h"
@@ -38,6 +44,60 @@ TEST(RemoteClient, GivesUpInTime) {
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_THROW(client.ask("status", 100ms), FileError);
   EXPECT_GE(std::chrono::steady_clock::now() - begin, 95ms);
+}
+
+// A program of somebody else on the socket: says its line to whoever connects.
+class OtherProgram {
+ public:
+  OtherProgram(const std::filesystem::path& path, std::string says)
+      : listener_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path.string().copy(address.sun_path, sizeof address.sun_path - 1);
+    EXPECT_EQ(::bind(listener_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    EXPECT_EQ(::listen(listener_, 1), 0);
+    thread_ = std::thread([this, says = std::move(says)] {
+      const int peer = ::accept(listener_, nullptr, nullptr);
+      std::string_view left = says;
+      while (!left.empty()) {
+        const ssize_t sent = ::send(peer, left.data(), left.size(), MSG_NOSIGNAL);
+        if (sent <= 0) break;
+        left.remove_prefix(static_cast<std::size_t>(sent));
+      }
+      char byte = 0;
+      while (::recv(peer, &byte, 1, 0) > 0) {  // until the client goes
+      }
+      ::close(peer);
+    });
+  }
+  ~OtherProgram() {
+    thread_.join();
+    ::close(listener_);
+  }
+
+ private:
+  const int listener_;
+  std::thread thread_;
+};
+
+TEST(RemoteClient, SaysThatSomebodyElseAnswers) {
+  const std::string endless(2u << 20, 'x');
+  for (const std::string& says : {std::string("220 mail.example.org ESMTP\n"),
+                                  std::string("\x01\xff\x00 garbage\n", 12),
+                                  std::string("[1, 2]\n"),
+                                  std::string("{\"status\": 7}\n"),
+                                  std::string("\n"),
+                                  endless}) {
+    const testing::TemporaryFolder folder;
+    OtherProgram other(folder / "s", says);
+    RemoteClient client(folder / "s");
+    try {
+      client.ask("status", 5000ms);
+      FAIL() << says.substr(0, 40);
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find("no Palpate"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(RemoteClient, NoticesThatTheOtherEndHasGone) {
