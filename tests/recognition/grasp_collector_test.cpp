@@ -50,6 +50,33 @@ TEST(GraspCollector, KeepsAGraspWithALittleBeforeAndAfterIt) {
   EXPECT_EQ(whole.features.begin, 50u);
 }
 
+TEST(GraspCollector, KeepsNoMoreOfAContactThatNeverEnds) {
+  GraspCollectorOptions options;
+  options.mostFrames = 100;
+  GraspCollector collector(sdh2(), options);
+  // Angles come three times as often as frames, as from a hand.
+  const Profile held = pinchProfile(steps({{1, true}}));
+  std::size_t keptAngles = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      JointAngles angles = held.angles(0);
+      angles.hostUs = 1'000'000 + i * 32'000LL + k * 10'000LL;
+      collector.addAngles(std::move(angles));
+    }
+    TactileFrame frame = held.frame(0);
+    frame.hostUs = 1'000'000 + i * 32'000LL + 25'000;
+    collector.addFrame(std::make_shared<const TactileFrame>(std::move(frame)));
+    if (i == 200) keptAngles = collector.keptAngles();
+  }
+  EXPECT_LE(collector.keptFrames(), 100u + 16u);
+  EXPECT_LE(collector.keptAngles(), 3u * 100u + 3u);
+  EXPECT_EQ(collector.keptAngles(), keptAngles);
+  // The angles of the kept frames are all there.
+  ASSERT_TRUE(collector.now());
+  EXPECT_EQ(collector.now()->numFrames(), 100u);
+  EXPECT_GE(collector.now()->numAngles(), 300u);
+}
+
 TEST(GraspCollector, TellsWhatIsHeldNow) {
   GraspCollector collector(sdh2());
   feed(pinchProfile(steps({{30, false}, {20, true}})), collector);

@@ -50,6 +50,9 @@ class GraspCollector {
   std::optional<Profile> now() const;
   // Grasps that ended since the last call.
   std::vector<Profile> takeEnded();
+  // Samples kept now: bounded however long a contact lasts.
+  std::size_t keptFrames() const noexcept { return frames_.size(); }
+  std::size_t keptAngles() const noexcept { return angles_.size(); }
 
  private:
   bool contactIn(const TactileFrame& frame) const;
