@@ -192,15 +192,16 @@ py::dict sizeOf(const Profile& profile,
   result["pads"] = py::make_tuple(report.pads.first, report.pads.second);
   result["start_frame"] = report.startFrame;
   result["plateau_frame"] = report.plateauFrame;
-  result["start_mm"] = report.startMm;
-  result["plateau_mm"] = report.plateauMm;
-  result["shrink_mm"] = report.shrinkMm;
-  result["foam_mm"] = report.foamMm;
-  result["compression_mm"] = report.compressionMm;
-  result["compression_sd_mm"] = report.compressionSdMm;
-  result["diameter_mm"] = report.diameterMm;
-  result["diameter_sd_mm"] = report.diameterSdMm;
-  result["sphere_mm"] = report.spherePlateauMm;
+  const auto known = [&](double mm) { return report.valid ? mm : kContactUnknown; };
+  result["start_mm"] = known(report.startMm);
+  result["plateau_mm"] = known(report.plateauMm);
+  result["shrink_mm"] = known(report.shrinkMm);
+  result["foam_mm"] = known(report.foamMm);
+  result["compression_mm"] = known(report.compressionMm);
+  result["compression_sd_mm"] = known(report.compressionSdMm);
+  result["diameter_mm"] = known(report.diameterMm);
+  result["diameter_sd_mm"] = known(report.diameterSdMm);
+  result["sphere_mm"] = known(report.spherePlateauMm);
   const std::vector<SizeSample>& all = report.samples;
   result["frame"] = column<std::int64_t>(all.size(), [&](std::size_t i) { return all[i].frame; });
   result["distance_mm"] =
@@ -240,7 +241,8 @@ void bindContact(py::module_& module) {
              py::kw_only(),
              py::arg("fingertip") = "effective",
              "How large what is held in frames begin..end (both inclusive) is, and how much it "
-             "gives way: dict valid, trouble (why not), pads, start_frame, plateau_frame, "
+             "gives way: dict valid, trouble (why not; the sizes are NaN then), pads, start_frame, "
+             "plateau_frame, "
              "start_mm, plateau_mm, shrink_mm, foam_mm, compression_mm, compression_sd_mm, "
              "diameter_mm, diameter_sd_mm, sphere_mm [mm]; its course: frame, distance_mm, "
              "sphere_diameter_mm [mm], load (0..1): (n,).");

@@ -5,6 +5,8 @@
 #include <pybind11/stl.h>
 
 #include "palpate/kinematics/bounding_sphere.h"
+#include "palpate/kinematics/joint_range.h"
+#include "palpate/model/hand_description.h"
 #include "palpate/model/preshape.h"
 
 #include "python/arrays.h"
@@ -39,6 +41,13 @@ Poses posesOf(const Numbers& angles, std::size_t numAxes) {
   const py::ssize_t count = poses.several ? angles.shape(0) : 1;
   for (py::ssize_t i = 0; i < count; ++i)
     poses.anglesDeg.emplace_back(angles.data() + i * width, angles.data() + (i + 1) * width);
+  // As the command refuses it: no hand of this kind has such a pose.
+  for (std::size_t i = 0; i < poses.anglesDeg.size(); ++i) {
+    const AnglesCheck check = checkAngles(poses.anglesDeg[i], sdh2().axes);
+    if (check.state == AnglesState::kFine) continue;
+    throw py::value_error("angles_deg" + (poses.several ? "[" + std::to_string(i) + "]" : "") +
+                          ": " + check.trouble);
+  }
   return poses;
 }
 
@@ -139,7 +148,8 @@ void bindKinematics(py::module_& module) {
              py::arg("angles_deg"),
              py::kw_only(),
              py::arg("fingertip") = "study",
-             "Where the taxels of an SDH-2 are: angles_deg (7,) or (n, 7) [deg]. dict matrix, x, "
+             "Where the taxels of an SDH-2 are: angles_deg (7,) or (n, 7) [deg], within the range "
+             "of its axes and a degree beyond, else ValueError. dict matrix, x, "
              "y, exists (486,): which taxel; position_mm (486, 3) or (n, 486, 3) [mm] in the "
              "hand's base frame (z up from the palm), normal: unit vectors out of the sensor, of "
              "the same shape. fingertip: radius of the bent fingertips, 'study' (58 mm) or "

@@ -1,4 +1,6 @@
 // import palpate
+#include <string>
+
 #include "palpate/core/error.h"
 
 #include "python/bindings.h"
@@ -7,13 +9,21 @@ namespace py = pybind11;
 
 namespace {
 
+// What to do is said for the command line; here it is an argument.
+std::string forPython(std::string text) {
+  const std::string option = "--force";
+  if (const auto at = text.find(option); at != std::string::npos)
+    text.replace(at, option.size(), "force=True");
+  return text;
+}
+
 void translate(std::exception_ptr pending) {
   try {
     if (pending) std::rethrow_exception(pending);
   } catch (const palpate::FormatError& error) {
     PyErr_SetString(PyExc_ValueError, error.what());
   } catch (const palpate::FileError& error) {
-    PyErr_SetString(PyExc_OSError, error.what());
+    PyErr_SetString(PyExc_OSError, forPython(error.what()).c_str());
   } catch (const py::cast_error&) {  // of a value inside an argument: a list's item, a dict's entry
     PyErr_SetString(PyExc_TypeError, "an argument holds a value of another type than it should");
   }
@@ -27,7 +37,8 @@ PYBIND11_MODULE(palpate, module) {
       "    import palpate\n"
       "    profile = palpate.load('foam_ball.dsa')\n"
       "    profile.matrix(1).max(axis=(1, 2))   # largest value of finger 0 distal, per frame\n\n"
-      "A table is a dict of arrays of the same length (pandas.DataFrame(table) takes it); a report "
+      "A table is a dict of arrays of the same length, some of them with a value per matrix or "
+      "axis: pandas.DataFrame(palpate.flat(table)) has a column for each. A report "
       "is a dict with the keys that the command of the same name prints. Taxels are those of the "
       "pitch (3.4 mm), x = column, y = row, row 0 at the fingertip. Wrong values raise ValueError "
       "or IndexError, wrong types TypeError, files OSError (can't be read or written) or "

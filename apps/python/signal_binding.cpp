@@ -132,6 +132,14 @@ py::dict spectrum(const Numbers& timeS,
   const Segments found = unlocked(
       [&](const Progress& progress) { return segmentsOf(times, series, options, progress); });
   const std::size_t bins = options.numBins(), count = found.timeS.size();
+  if (count == 0) {
+    std::size_t longest = 0;
+    for (const SpectrumStretch& stretch : found.report.stretches)
+      longest = std::max(longest, stretch.gridSamples);
+    throw py::value_error("the longest stretch without a gap has " + std::to_string(longest) +
+                          " samples, a window takes " + std::to_string(window) +
+                          ": take a smaller window");
+  }
   const auto table = [&](const std::vector<double>& all) {
     return grid<double>(
         count, bins, [&](std::size_t i, std::size_t k) { return all[i * bins + k]; });
@@ -145,7 +153,7 @@ py::dict spectrum(const Numbers& timeS,
   result["magnitude"] = table(found.magnitude);
   result["mean_psd"] = arrayOf(found.mean.psd);
   result["mean_magnitude"] = arrayOf(found.mean.magnitude);
-  result["strongest_hz"] = found.mean.magnitude.empty() ? 0.0 : found.mean.strongestHz();
+  result["strongest_hz"] = found.mean.strongestHz();
   result["rate_hz"] = found.report.rateHz;
   result["nyquist_hz"] = found.report.nyquistHz;
   result["jitter"] = found.report.jitter;
@@ -197,7 +205,7 @@ void bindSignals(py::module_& module) {
              "mean_magnitude (B,), strongest_hz, rate_hz, nyquist_hz [Hz] (nothing above can be "
              "seen), jitter (sd of the intervals / mean), not_finite, in_no_segment (samples). "
              "overlap: default window - 1; detrend: 'mean', 'line', 'none'; rate of the grid: "
-             "'mean', 'median'. A series shorter than the window has no segment.");
+             "'mean', 'median'. ValueError for a series without a stretch as long as the window.");
   module.def("strongest_taxel",
              &strongest,
              py::arg("profile"),

@@ -1,4 +1,5 @@
 // palpate.fit_step(), step_response(), calibrate_step().
+#include <limits>
 #include <string>
 
 #include <pybind11/stl.h>
@@ -26,7 +27,14 @@ StepFitOptions fitOptions(const std::string& loss, const std::string& damping) {
 }
 
 py::dict stepToPython(const StepFit& fit) {
-  const StepParameters& p = fit.parameters;
+  StepParameters p = fit.parameters;
+  double rmse = fit.rmse, residualSd = fit.residualSd;
+  // Nothing was fitted: parameters are at their defaults, which are no result.
+  if (!fit.converged && fit.rmse == 0.0) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    p = {.gainCounts = kNone, .driftPerS = kNone, .timeConstantS = kNone, .damping = kNone};
+    rmse = residualSd = kNone;
+  }
   py::dict result;
   result["K"] = p.gainCounts;
   result["m"] = p.driftPerS;
@@ -34,8 +42,8 @@ py::dict stepToPython(const StepFit& fit) {
   result["T2"] = p.t2S();
   result["T"] = p.timeConstantS;
   result["d"] = p.damping;
-  result["rmse"] = fit.rmse;
-  result["residual_sd"] = fit.residualSd;
+  result["rmse"] = rmse;
+  result["residual_sd"] = residualSd;
   result["converged"] = fit.converged;
   result["identifiable"] = fit.identifiable;
   result["gain_reached"] = fit.gainReached;
@@ -160,8 +168,8 @@ void bindSteps(py::module_& module) {
       "half widths, samples, dropped, downweighted, notes; inflection_s, inflection_counts, "
       "tangent_per_s, dead_time_s, t_k_s, equivalent_tangent_per_s, steady_s: what is read off "
       "it. loss: 'squares', 'huber', 'cauchy' (beyond loss_scale sd; 0: the customary); damping: "
-      "'over' (d >= 1) or 'any'. Data that can't be fitted raises nothing: converged is False and "
-      "notes say why.");
+      "'over' (d >= 1) or 'any'. Data that can't be fitted raises nothing: converged is False, "
+      "what isn't known NaN, and notes say why.");
   module.def("step_response",
              &response,
              py::arg("t"),

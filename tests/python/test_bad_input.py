@@ -29,7 +29,8 @@ WRONG_VALUES = [
     lambda: palpate.filter(PROFILE, "median:matrices=9").frames(), lambda: palpate.filter(PROFILE, "|"),
     lambda: palpate.signals(PROFILE, 6), lambda: palpate.signals(PROFILE, "finger"),
     lambda: palpate.kinematics([1, 2, 3]), lambda: palpate.kinematics(np.zeros((2, 3, 7))),
-    lambda: palpate.kinematics([NAN] * 7), lambda: palpate.kinematics(1.0), lambda: palpate.kinematics(None),
+    lambda: palpate.kinematics([1000] * 7), lambda: palpate.kinematics([[0] * 7, [0, 0, 92, 0, 0, 0, 0]]),
+    lambda: palpate.surface_points([1000] * 7, [[0, 0, 0]]), lambda: palpate.kinematics([NAN] * 7), lambda: palpate.kinematics(1.0), lambda: palpate.kinematics(None),
     lambda: palpate.kinematics([0] * 7, fingertip="soft"),
     lambda: palpate.surface_points([0] * 7, [[9, 0, 0]]), lambda: palpate.surface_points([0] * 7, [[0.5, 0, 0]]),
     lambda: palpate.surface_points([0] * 7, [[0, NAN, 0]]), lambda: palpate.surface_points([0] * 7, [0, 0, 0]),
@@ -240,3 +241,18 @@ def test_ctrl_c_ends_long_work():
     assert time.monotonic() - begin < 20
     timer.join()
     assert len(palpate.slip(PROFILE, 1)["dx"]) > 0  # all is well afterwards
+
+
+def test_what_could_not_be_computed_is_nan():
+    size = palpate.object_size(PROFILE, 0, 3)  # nothing is held yet
+    assert not size["valid"] and size["trouble"]
+    assert all(np.isnan(size[key]) for key in ("start_mm", "plateau_mm", "diameter_mm", "compression_mm"))
+    fit = palpate.fit_step([], [])
+    assert not fit["converged"] and fit["notes"]
+    assert all(np.isnan(fit[key]) for key in ("K", "m", "T1", "T2", "T", "d", "rmse", "steady_s"))
+
+
+def test_messages_name_the_argument_of_python(tmp_path):
+    PROFILE.save(tmp_path / "a.palpate")
+    with pytest.raises(OSError, match="force=True"):
+        PROFILE.save(tmp_path / "a.palpate")

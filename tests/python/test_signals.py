@@ -55,8 +55,8 @@ def test_spectrum_is_that_of_numpy():
     expected = np.abs(np.fft.rfft(part * window)) ** 2 * 2 / (64 * (window ** 2).sum())
     np.testing.assert_allclose(found["psd"][0][1:-1], expected[1:-1], atol=1e-9)
     np.testing.assert_allclose(found["time_s"], (np.arange(7) * 32 + 32) / 64)
-    short = palpate.spectrum(t[:10], y[:10])
-    assert short["psd"].shape[0] == 0
+    with pytest.raises(ValueError, match="has 10 samples, a window takes 32"):
+        palpate.spectrum(t[:10], y[:10])
 
 
 def test_places_and_first_contact():
@@ -102,3 +102,42 @@ def test_profiles_of_arrays(tmp_path):
     assert seconds["frames"].sum() == 8 * 6
     pads = [{"rows": m["rows"], "columns": m["columns"]} for m in profile.matrices]
     assert pads == [{"rows": 14 - m % 2, "columns": 6} for m in range(6)]
+
+
+def test_tables_are_flat_for_pandas():
+    values = np.random.default_rng(5).integers(0, 2000, (4, 486)).astype(float)
+    profile = palpate.from_arrays(1_000_000 + 32 * np.arange(4), values)
+    table = palpate.signals(profile)
+    flat = palpate.flat(table)
+    assert [one.ndim for one in flat.values()] == [1] * len(flat)
+    assert {len(one) for one in flat.values()} == {4}
+    np.testing.assert_array_equal(flat["mean_3"], table["mean"][:, 3])
+    np.testing.assert_array_equal(flat["time_ms"], table["time_ms"])
+    contact = palpate.contact(profile, angles_deg=palpate.preshape("parallel"))
+    flat = palpate.flat(contact)
+    np.testing.assert_array_equal(flat["sphere_mm_y"], contact["sphere_mm"][:, 1])
+    np.testing.assert_array_equal(flat["centroid_mm_5_z"], contact["centroid_mm"][:, 5, 2])
+    np.testing.assert_array_equal(flat["area_mm2_0"], contact["area_mm2"][:, 0])
+    places = palpate.flat(palpate.kinematics([0] * 7))
+    assert len(places["position_mm_x"]) == 486 and all(one.ndim == 1 for one in places.values())
+    slip = palpate.slip(profile)
+    assert set(palpate.flat(slip)) == set(slip)
+    with pytest.raises(ValueError, match="no array|no table"):
+        palpate.flat(palpate.info(profile))
+    with pytest.raises(ValueError, match="rows"):
+        palpate.flat({"a": np.zeros(3), "b": np.zeros(4)})
+
+
+def test_contact_of_filtered_values_is_that_of_the_recording():
+    values = np.zeros((60, 6, 4))
+    values[10:20, 2:4, 1:3] = 1000
+    profile = profile_of(values)
+    for spec in ("kalman", "rts", "gaussian", "running-mean"):
+        filtered = palpate.filter(profile, spec)
+        found = palpate.signals(filtered, 0)
+        np.testing.assert_array_equal(found["active"], palpate.signals(profile, 0)["active"])
+        given = filtered.matrix(0)  # all that the filter gave, the tail and the neighbours, too
+        assert (given > 0).sum() > (values > 0).sum()
+        held = np.where(values > 0, given, 0).astype(float)
+        np.testing.assert_allclose(found["sum"], held.sum(axis=(1, 2)), rtol=1e-6)
+        np.testing.assert_allclose(found["mean"][10:20], held[10:20].sum(axis=(1, 2)) / 4, rtol=1e-6)

@@ -1,5 +1,6 @@
 """The type stub says what the module has: every name, argument and default; and everything is explained."""
 import ast
+import re
 
 import palpate
 import pytest
@@ -52,6 +53,22 @@ def test_members_are_those_of_the_class(name):
 @pytest.mark.parametrize("name", sorted(functions_of(TREE.body)))
 def test_arguments_are_those_of_the_function(name):
     assert arguments(functions_of(TREE.body)[name]) == arguments(signature(getattr(palpate, name)))
+
+
+def test_the_manual_shows_which_arguments_are_given_by_name():
+    functions = functions_of(TREE.body)
+    for node in CLASSES.values():
+        functions.update(functions_of(node.body))
+    calls = re.findall(r"`(\w+)\(([^()`]*)\)", (SOURCE / "docs/python.md").read_text())
+    assert len(calls) > 40
+    for name, text in calls:
+        if name not in functions:
+            continue
+        by_name = {one.arg for one in functions[name].args.kwonlyargs}
+        behind = False
+        for part in (one.strip() for one in text.split(",")):
+            behind = behind or part.startswith("*")
+            assert behind or part.split("=")[0] not in by_name, (name, part)
 
 
 def test_everything_is_explained():
