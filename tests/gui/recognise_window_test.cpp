@@ -1,6 +1,9 @@
 // The dock Recognise in the real window, of recordings and live on the emulated hand.
+#include <QCheckBox>
 #include <QDockWidget>
 #include <QPushButton>
+
+#include <palpate/control/grasp_control.h>
 
 #include "gui/answer_view.h"
 #include "gui/ask_page.h"
@@ -71,6 +74,66 @@ TEST_F(RecogniseWindowTest, AGraspOfTheCheckIsOpenedAndSelected) {
 }
 
 TEST_F(RecogniseWindowTest, NamesWhatTheEmulatedHandHolds) { EXPECT_EQ(heldName("pen"), "pen"); }
+
+class RecogniseLiveTest : public RecogniseWindowTest {
+ protected:
+  // The emulated hand with a pen before its open fingers; it moves when it is told.
+  RecogniseLiveTest() {
+    Connection connection;
+    connection.kind = Connection::Kind::kEmulated;
+    connection.scene = "pen";
+    window().connectTo(connection);
+    EXPECT_TRUE(QTest::qWaitFor(
+        [&] { return window().liveShown() && control().status().cannotReact.empty(); }, 20'000));
+  }
+  GraspControl& control() { return *window().live().source()->control; }
+  void moveTo(double closeRatio) {
+    GraspRequest request;
+    request.preshape = "pinch-parallel";
+    request.closeRatio = closeRatio;
+    request.velocityDegPerS = 60.0;
+    control().grasp(request);
+    EXPECT_TRUE(
+        QTest::qWaitFor([&] { return control().status().phase == GraspPhase::kIdle; }, 20'000));
+  }
+  static bool await(const std::function<bool()>& condition) {
+    return QTest::qWaitFor(condition, 20'000);
+  }
+};
+
+// L-B1: it asked itself without an end.
+TEST_F(RecogniseLiveTest, AskedByItselfWhileSomethingIsHeldItAnswers) {
+  window().showDock("Recognise");
+  find<QCheckBox>("recogniseByItself")->setChecked(true);
+  moveTo(1.0);
+  EXPECT_TRUE(await([&] { return answer().name() == "pen" && answer().of == "held now"; }))
+      << answer().spoken().toStdString();
+}
+
+// L-B1, L-M16.
+TEST_F(RecogniseLiveTest, TheShowNamesWhatIsHeldNowAndNothingThatWasLetGo) {
+  moveTo(1.0);
+  press(Qt::Key_Q, Qt::ShiftModifier);
+  auto* full = window().findChild<ShowWindow*>("showWindow");
+  ASSERT_NE(full, nullptr);
+  ASSERT_TRUE(await([&] { return full->view().answer().name() == "pen"; }));
+  moveTo(0.0);
+  EXPECT_TRUE(await([&] {
+    return full->view().answer().kind == RecognitionAnswer::Kind::kNothing &&
+           full->view().answer().text == "Hold something.";
+  })) << full->view().answer().spoken().toStdString();
+  // Asked for, the last grasp is named in the dock, which says so; an audience sees an empty hand.
+  QTest::keyClick(full, Qt::Key_Q);
+  ASSERT_TRUE(await([&] { return answer().name() == "pen" && answer().of == "the last grasp"; }));
+  EXPECT_EQ(full->view().answer().name(), "");
+  // A show that begins with an empty hand names nothing either.
+  QTest::keyClick(full, Qt::Key_Escape);
+  ASSERT_TRUE(await([&] { return window().findChild<ShowWindow*>("showWindow") == nullptr; }));
+  press(Qt::Key_Q, Qt::ShiftModifier);
+  full = window().findChild<ShowWindow*>("showWindow");
+  ASSERT_NE(full, nullptr);
+  EXPECT_EQ(full->view().answer().name(), "");
+}
 
 }  // namespace
 }  // namespace palpate::gui::recognise_window_test

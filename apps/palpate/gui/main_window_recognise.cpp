@@ -103,6 +103,7 @@ void MainWindow::RecogniseView::show() {
   panel_->setTheme(resolved(window_.view_.theme));
   if (!dock_->isVisible() && !full_) return;
   const LiveSource* source = window_.live_.source();
+  if (full_) full_->setLive(window_.liveShown_ && source);
   panel_->desk().setEmulated(window_.liveShown_ && source && source->emulated);
   panel_->ask().setLive(window_.liveShown_ && source, collector_ && collector_->touched());
   panel_->teach().setLive(source != nullptr);
@@ -151,13 +152,14 @@ void MainWindow::RecogniseView::askOfRecording() {
 
 // What is held now; else the last grasp.
 void MainWindow::RecogniseView::askOfHand() {
-  hear();
+  takeItems();
   RecogniseDesk& desk = panel_->desk();
   if (!collector_) return desk.sayTrouble("No hand is connected.");
   sinceAsked_ = 0;
-  if (auto held = collector_->now()) return desk.ask({std::move(*held), std::nullopt, "held now"});
-  if (collector_->touched()) return desk.sayTrouble("Held too short yet: ask again in a second.");
-  if (lastGrasp_) return desk.ask({*lastGrasp_, std::nullopt, "the last grasp"});
+  if (auto held = collector_->now()) return desk.ask({std::move(*held), std::nullopt, kHeldNow});
+  if (collector_->touched())
+    return desk.sayTrouble("Held too short yet: ask again in a second.", kHeldNow);
+  if (lastGrasp_) return desk.ask({*lastGrasp_, std::nullopt, kLastGrasp});
   desk.sayTrouble("Nothing is held, and nothing was.");
 }
 
@@ -168,6 +170,8 @@ void MainWindow::RecogniseView::listen(bool on) {
   lastGrasp_.reset();
   zeroStep_ = Zero::kNone;
   zero_.reset();
+  panel_->desk().letGo();
+  if (full_) full_->setLive(on && window_.liveShown_);
   if (!on) panel_->teach().setLive(false);
   LiveSource* source = window_.live_.source();
   if (!on || !source) return;
@@ -178,8 +182,9 @@ void MainWindow::RecogniseView::listen(bool on) {
   hearing_.start();
 }
 
-void MainWindow::RecogniseView::hear() {
+void MainWindow::RecogniseView::takeItems() {
   if (!feed_) return;
+  const bool held = collector_->touched();
   items_.clear();
   feed_->take(items_);
   for (CaptureItem& item : items_) {
@@ -190,8 +195,15 @@ void MainWindow::RecogniseView::hear() {
   }
   items_.clear();
   for (Profile& ended : collector_->takeEnded()) takeEnded(std::move(ended));
+  if (held && !collector_->touched()) panel_->desk().letGo();
+}
+
+void MainWindow::RecogniseView::hear() {
+  if (!feed_) return;
+  takeItems();
   goOnWithZero();
   ++sinceAsked_;
+  if (full_) full_->setLive(window_.liveShown_);
   if (!window_.liveShown_ || (!dock_->isVisible() && !full_)) return;
   panel_->ask().setLive(true, collector_->touched());
   if ((panel_->ask().byItself() || full_) && sinceAsked_ >= kAskAgainRounds &&
@@ -204,7 +216,10 @@ void MainWindow::RecogniseView::showFull() {
     full_->close();
     return;
   }
-  full_ = new ShowWindow(panel_->desk(), resolved(window_.view_.theme), &window_);
+  full_ = new ShowWindow(panel_->desk(),
+                         window_.liveShown_ && window_.live_.source(),
+                         resolved(window_.view_.theme),
+                         &window_);
   connect(full_, &ShowWindow::asked, this, &RecogniseView::ask);
   full_->showFullScreen();
   show();

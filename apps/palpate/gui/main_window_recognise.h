@@ -34,6 +34,9 @@ class MainWindow::RecogniseView : public QObject {
   void askOfRecording();
   void askOfHand();
   void listen(bool on);
+  // Takes in what has come from the hand since the last time; asks nothing.
+  void takeItems();
+  // A round: takes in what has come, goes on with a zero, and asks by itself where that is wanted.
   void hear();
   void showFull();
   void makeRoom();

@@ -27,7 +27,9 @@ RecogniseDesk::RecogniseDesk(QSettings& settings, std::filesystem::path dataFold
     emit modelChanged();
     sayTrouble(message);
   });
-  connect(&asking_, &BackgroundJob::failed, this, &RecogniseDesk::sayTrouble);
+  connect(&asking_, &BackgroundJob::failed, this, [this](const QString& message) {
+    sayTrouble(message);
+  });
 }
 
 const char* RecogniseDesk::settingsKey() const { return emulated_ ? kEmulatedModelKey : kModelKey; }
@@ -149,7 +151,7 @@ void RecogniseDesk::ask(const RecogniseQuestion& question) {
                                     progress)
                       : graspOf(question.profile, set, sdh2PinchHand(), progress);
       },
-      [this, chosen, of = question.of, generation = ++generation_] {
+      [this, chosen, of = question.of, generation = ++generation_, contact = contact_] {
         if (generation != generation_ || !day_) return;
         if (chosen->features.trouble.empty()) {
           try {
@@ -159,7 +161,7 @@ void RecogniseDesk::ask(const RecogniseQuestion& question) {
             return;  // of the model before
           }
         }
-        judge(*chosen, of);
+        judge(*chosen, of == kHeldNow && contact != contact_ ? QString(kLastGrasp) : of);
       });
 }
 
@@ -186,11 +188,20 @@ void RecogniseDesk::judge(const ChosenGrasp& chosen, const QString& of) {
   tell(answer);
 }
 
-void RecogniseDesk::sayTrouble(const QString& text) {
+void RecogniseDesk::letGo() {
+  ++contact_;
+  if (answer_.of != kHeldNow) return;
+  if (last_) last_->second = kLastGrasp;
+  answer_.of = kLastGrasp;
+  emit answered(answer_);
+}
+
+void RecogniseDesk::sayTrouble(const QString& text, const QString& of) {
   ++generation_;
   RecognitionAnswer answer;
   answer.kind = RecognitionAnswer::Kind::kTrouble;
   answer.text = text;
+  answer.of = of;
   last_.reset();
   tell(answer);
 }

@@ -49,8 +49,10 @@ class RecogniseDesk : public QObject {
 
   // Answered by answered(), later. Replaces a question that is at work.
   void ask(const RecogniseQuestion& question);
-  // There is nothing to ask about: why.
-  void sayTrouble(const QString& text);
+  // There is nothing to ask about: why. `of` as RecognitionAnswer::of; may be empty.
+  void sayTrouble(const QString& text, const QString& of = {});
+  // Nothing is held any more: what was asked of "held now" is from here on of "the last grasp".
+  void letGo();
   const RecognitionAnswer& answer() const noexcept { return answer_; }
   PhotoShelf& photos() noexcept { return photos_; }
   void setPhotoFolder(const std::filesystem::path& folder);  // of teaching
@@ -83,6 +85,7 @@ class RecogniseDesk : public QObject {
   std::optional<std::pair<ChosenGrasp, QString>> last_;  // that was judged, and what it is of
   std::optional<RecogniseQuestion> waiting_;             // for the model
   int generation_ = 0;
+  int contact_ = 0;  // counts what the hand held: one more with each letGo()
   PhotoShelf photos_;
   BackgroundJob opening_;
   BackgroundJob asking_;

@@ -16,6 +16,10 @@ class QPainter;
 
 namespace palpate::gui {
 
+// RecognitionAnswer::of, for a grasp of the connected hand.
+inline constexpr const char* kHeldNow = "held now";
+inline constexpr const char* kLastGrasp = "the last grasp";
+
 struct RecognitionAnswer {
   enum class Kind { kNothing, kTrouble, kNamed, kUnknown };
   struct Place {

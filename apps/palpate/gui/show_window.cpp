@@ -8,8 +8,8 @@
 
 namespace palpate::gui {
 
-ShowWindow::ShowWindow(RecogniseDesk& desk, Theme theme, QWidget* parent)
-    : QWidget(parent, Qt::Window) {
+ShowWindow::ShowWindow(RecogniseDesk& desk, bool live, Theme theme, QWidget* parent)
+    : QWidget(parent, Qt::Window), desk_(desk), live_(live) {
   setObjectName("showWindow");
   setWindowTitle("What is it? – Palpate");
   setAttribute(Qt::WA_DeleteOnClose);
@@ -20,17 +20,27 @@ ShowWindow::ShowWindow(RecogniseDesk& desk, Theme theme, QWidget* parent)
   view_ = new AnswerView(desk.photos(), 0.0, this);
   view_->setObjectName("showAnswer");
   view_->setTheme(theme);
-  const auto show = [this](RecognitionAnswer answer) {
-    answer.of.clear();
-    // An audience is asked for nothing.
-    if (answer.kind == RecognitionAnswer::Kind::kNothing) answer.text = "Hold something.";
-    view_->setAnswer(answer);
-  };
-  show(desk.answer());
-  connect(&desk, &RecogniseDesk::answered, this, show);
+  showAnswer();
+  connect(&desk, &RecogniseDesk::answered, this, &ShowWindow::showAnswer);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(view_);
+}
+
+void ShowWindow::setLive(bool live) {
+  if (live == live_) return;
+  live_ = live;
+  showAnswer();
+}
+
+void ShowWindow::showAnswer() {
+  RecognitionAnswer answer = desk_.answer();
+  const bool ofNow = answer.of.isEmpty() || answer.of == kHeldNow;
+  if (answer.of == kLastGrasp || (live_ && !ofNow)) answer = {};
+  answer.of.clear();
+  // An audience is asked for nothing.
+  if (answer.kind == RecognitionAnswer::Kind::kNothing) answer.text = "Hold something.";
+  view_->setAnswer(answer);
 }
 
 void ShowWindow::keyPressEvent(QKeyEvent* event) {

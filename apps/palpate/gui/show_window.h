@@ -1,4 +1,5 @@
-// The show mode: the answer alone, as large as the screen, for an audience. Any of Esc and its own key close it.
+// The show mode: the answer alone, as large as the screen, for an audience. Of a connected hand it names what is held
+// now, and nothing else. Any of Esc and its own key close it.
 #pragma once
 
 #include <QWidget>
@@ -12,8 +13,10 @@ class AnswerView;
 class ShowWindow : public QWidget {
   Q_OBJECT
  public:
-  ShowWindow(RecogniseDesk& desk, Theme theme, QWidget* parent = nullptr);
+  ShowWindow(RecogniseDesk& desk, bool live, Theme theme, QWidget* parent = nullptr);
   AnswerView& view() noexcept { return *view_; }
+  // A connected hand is shown: answers about recordings aren't for now.
+  void setLive(bool live);
 
  signals:
   void asked();
@@ -24,6 +27,10 @@ class ShowWindow : public QWidget {
   void closeEvent(QCloseEvent* event) override;
 
  private:
+  void showAnswer();
+
+  RecogniseDesk& desk_;
+  bool live_;
   AnswerView* view_;
 };
 
