@@ -127,11 +127,15 @@ TEST(PortScan, PortsThatMustNotBeOpenedAreNotAsked) {
   ASSERT_EQ(heard.list.size(), 4);
   EXPECT_TRUE(heard.list[0].notAsked.contains("Bluetooth"));
   EXPECT_TRUE(heard.list[1].notAsked.contains("dialout"));
-  EXPECT_TRUE(heard.list[2].notAsked.contains("in use by this window"));
+  EXPECT_TRUE(heard.list[2].notAsked.contains("this window is connected to it"));
   EXPECT_TRUE(heard.list[3].notAsked.isEmpty());
   // Nor when it is typed, under either name.
+  heard.probes.clear();
   scan.ask("my-stable-name");
   EXPECT_FALSE(scan.running());
+  EXPECT_EQ(fake.asked(), std::vector<std::string>{"fine"});
+  ASSERT_EQ(heard.probes.size(), 1);
+  EXPECT_EQ(heard.probes[0].answer, PortAnswer::kBusy);
 }
 
 TEST(PortScan, ABusyPortIsKnownByEveryNameOfIt) {

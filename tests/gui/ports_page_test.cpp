@@ -190,8 +190,33 @@ TEST_F(PortsPageTest, OurOwnPortIsNotAsked) {
   openPorts(kTactileLink, kMotionLink);
   ASSERT_TRUE(awaitAnswers());
   EXPECT_EQ(fake_.asked(), std::vector<std::string>{kMotion});
-  EXPECT_EQ(text("tactileAnswer"), "In use by this window");
+  EXPECT_EQ(text("tactileAnswer"), "This window is connected to it");
   EXPECT_TRUE(canConnect());
+}
+
+// L-M15: a port that was typed is in no list; it said "Asking…" for ever.
+TEST_F(PortsPageTest, OurOwnTypedPortsAreSaidAndNotAsked) {
+  plugIn();
+  scan_->setBusy({"tcp:hand:4001", "tcp:hand:4002"});
+  openPorts("tcp:hand:4001", "tcp:hand:4002");
+  ASSERT_TRUE(awaitAnswers());
+  EXPECT_EQ(text("tactileAnswer"), "This window is connected to it");
+  EXPECT_EQ(text("motionAnswer"), "This window is connected to it");
+  EXPECT_EQ(fake_.asked().size(), 2u) << "only those that are listed";
+  EXPECT_TRUE(canConnect());
+}
+
+// L-M15: what our own connection has found out is known.
+TEST_F(PortsPageTest, SwappedPortsOfOurOwnConnectionAreSaidAndSwapped) {
+  plugIn();
+  scan_->setBusy({"tcp:hand:4001", "tcp:hand:4002"},
+                 {{"tcp:hand:4001", motionAnswer()}, {"tcp:hand:4002", tactileAnswer()}});
+  openPorts("tcp:hand:4001", "tcp:hand:4002");
+  ASSERT_TRUE(awaitAnswers());
+  ASSERT_TRUE(find<QWidget>("swapRow")->isVisible());
+  click("swapPorts");
+  EXPECT_EQ(port("tactilePort"), "tcp:hand:4002");
+  EXPECT_EQ(port("motionPort"), "tcp:hand:4001");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kAtOnce = 8;  // ports asked at the same time
+constexpr const char* kOurPort = "this window is connected to it";
 
 PortScan::Functions realFunctions() {
   return {[] { return listPorts(); },
@@ -121,7 +122,11 @@ void PortScan::scan() {
 }
 
 void PortScan::ask(const QString& port) {
-  if (port.isEmpty() || isBusy(port)) return;
+  if (port.isEmpty()) return;
+  if (isBusy(port)) {
+    emit probed(port, probeOfBusy(port));
+    return;
+  }
   currentRound();
   ++pending_;
   waiting_.append(port);
@@ -141,7 +146,7 @@ void PortScan::takeList(std::vector<PortInfo> found) {
   for (PortInfo& info : found) {
     const bool busy = isBusy(QString::fromStdString(info.name)) ||
                       isBusy(QString::fromStdString(info.stableName));
-    QString why = busy ? QString("in use by this window") : whyNotAsked(info);
+    QString why = busy ? QString(kOurPort) : whyNotAsked(info);
     ports.append({std::move(info), std::move(why)});
   }
   for (const ScannedPort& port : ports)
@@ -151,9 +156,26 @@ void PortScan::takeList(std::vector<PortInfo> found) {
     }
   const auto round = round_;
   emit listed(ports);
-  if (round != round_) return;  // who heard it has cancelled
+  for (const ScannedPort& port : ports) {
+    if (round != round_) return;  // who heard it has cancelled
+    const QString name = QString::fromStdString(port.info.name);
+    if (isBusy(name) && probeOfBusy(name).answer != PortAnswer::kBusy)
+      emit probed(name, probeOfBusy(name));
+  }
+  if (round != round_) return;
   askNext();
   conclude();
+}
+
+PortProbe PortScan::probeOfBusy(const QString& port) const {
+  const QString device = deviceOf(port);
+  for (auto known = known_.begin(); known != known_.end(); ++known)
+    if (known.key() == port || deviceOf(known.key()) == device) return known.value();
+  PortProbe ours;
+  ours.port = port.toStdString();
+  ours.answer = PortAnswer::kBusy;
+  ours.message = kOurPort;
+  return ours;
 }
 
 void PortScan::askNext() {

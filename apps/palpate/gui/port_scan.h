@@ -2,6 +2,7 @@
 // thread of this object.
 #pragma once
 
+#include <QHash>
 #include <QList>
 #include <QObject>
 #include <QStringList>
@@ -40,11 +41,15 @@ class PortScan : public QObject {
   // As cancel(). A thread that the system holds up longer ends by itself later, and is heard no more.
   ~PortScan() override;
 
-  // Ports (by any of their names) that aren't asked: those of our own connection.
-  void setBusy(const QStringList& ports) { busyPorts_ = ports; }
+  // Ports (by any of their names) that aren't asked: those of our own connection; and what is known to answer there.
+  void setBusy(const QStringList& ports, const QHash<QString, PortProbe>& known = {}) {
+    busyPorts_ = ports;
+    known_ = known;
+  }
+  bool isBusy(const QString& port) const;
   // Lists the ports, then asks them, several at a time. Does nothing while it is running.
   void scan();
-  // Asks one port more that isn't listed: a pty, "tcp:HOST:PORT". Nothing for one of setBusy().
+  // Asks one port more that isn't listed: a pty, "tcp:HOST:PORT". One of setBusy() is answered for at once.
   void ask(const QString& port);
   // Ends what is running, without finished(). Returns when the ports are free again (usually
   // after 20 ms), at the latest after `patience`; false: one isn't yet.
@@ -53,7 +58,7 @@ class PortScan : public QObject {
   bool running() const noexcept { return pending_ > 0; }
 
  signals:
-  // In the order of listPorts(); one probed() follows for each that is asked.
+  // In the order of listPorts(); one probed() follows for each that is asked, or of which setBusy() knows.
   void listed(const QList<palpate::gui::ScannedPort>& ports);
   // `port` as listed (PortInfo::name) or as handed to ask().
   void probed(const QString& port, const palpate::PortProbe& probe);
@@ -67,10 +72,11 @@ class PortScan : public QObject {
   void takeList(std::vector<PortInfo> found);
   void takeProbe(const QString& port, const PortProbe& probe);
   void conclude();
-  bool isBusy(const QString& port) const;
+  PortProbe probeOfBusy(const QString& port) const;
 
   Functions functions_;
   QStringList busyPorts_;
+  QHash<QString, PortProbe> known_;
   QStringList waiting_;  // to be asked as soon as a thread is free
   int pending_ = 0;      // the list, and the ports that are asked or wait
   int asking_ = 0;       // ports that are asked now

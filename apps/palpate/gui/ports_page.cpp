@@ -267,7 +267,9 @@ PortState PortsPage::stateOf(const PortField& field, PortAnswer wanted) const {
   if (const auto probe = probeOf(field)) {
     const bool other =
         probe->answer == PortAnswer::kMotion || probe->answer == PortAnswer::kTactile;
+    const bool ours = probe->answer == PortAnswer::kBusy && scan_.isBusy(field.port());
     const PortsPageState mark = probe->answer == wanted ? PortsPageState::kGood
+                                : ours                  ? PortsPageState::kNone
                                 : other                 ? PortsPageState::kBad
                                                         : PortsPageState::kWarning;
     return {mark, sentence(probe->message)};
