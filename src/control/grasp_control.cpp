@@ -134,58 +134,6 @@ void GraspControl::fault(const char* what) noexcept {
   whateverHappens([&] { report(); });
 }
 
-// --- what is told to the session ------------------------------------------------------------------
-
-void GraspControl::note(RecordingEvent event) {
-  owed_.push_back(std::move(event));
-  ++undelivered_;
-  owes_.notify_one();
-}
-
-void GraspControl::deliver() {
-  while (true) {
-    RecordingEvent event;
-    {
-      const std::lock_guard lock(mutex_);
-      if (owed_.empty()) return;
-      event = std::move(owed_.front());
-      owed_.pop_front();
-    }
-    try {
-      session_.note(event);
-    } catch (const std::exception&) {
-      // No memory: what moves a hand goes on without this line.
-    }
-    const std::lock_guard lock(mutex_);
-    --undelivered_;
-  }
-}
-
-void GraspControl::deliverLoop(const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
-    {
-      std::unique_lock lock(mutex_);
-      if (!owes_.wait(lock, stop, [this] { return !owed_.empty(); })) return;
-    }
-    deliver();
-  }
-}
-
-// Without a thread for it, in the call itself.
-void GraspControl::deliverHere() {
-  if (!delivery_.joinable()) deliver();
-}
-
-void GraspControl::round() {
-  hear();
-  send();
-  heedAnswers();
-  heedPorts();
-  machine_.onTime(clock_.monotonicUs());
-  send();
-  report();
-}
-
 void GraspControl::hear() {
   items_.clear();
   feed_->take(items_);

@@ -6,62 +6,18 @@
 #include "palpate/core/error.h"
 #include "palpate/model/preshape.h"
 
+#include "control/machine_bench.h"
 #include "testing/testing.h"
 
 namespace palpate::grasp_machine_test {
 namespace {
 
-constexpr std::int64_t kPeriodUs = 31'546;
-const std::vector<int> kIdle(7, 0);
-const std::vector<int> kMoving{0, 1, 1, 0, 0, 1, 1};
-const std::vector<int> kHeld{0, 4, 0, 0, 0, 4, 0};
-
-// A machine, time, and frames that come as from a hand.
-struct Bench {
-  GraspMachine machine{sdh2()};
-  std::int64_t us = 1'000'000;
-
-  Bench() { frames(20); }
-  void frame(float counts = 0.0F, std::size_t matrix = 1, int row = 3, int column = 2) {
-    TactileFrame felt(sdh2().layout);
-    felt.hostUs = 1'700'000'000'000'000 + us;
-    felt.matrix(matrix)(row, column) = counts;
-    machine.onFrame(felt, us);
-  }
-  void frames(int count, float counts = 0.0F) {
-    for (int i = 0; i < count; ++i) {
-      us += kPeriodUs;
-      frame(counts);
-    }
-  }
-  void begin(const GraspRequest& request) { machine.begin(request, us, 42); }
-  // The motion goes out and the hand takes it.
-  MoveJoints take(double durationS = 2.0) {
-    const auto command = machine.takeCommand();
-    const MoveJoints move = std::get<MoveJoints>(command.value());
-    machine.onMoveTaken(durationS, us);
-    return move;
-  }
-  // The half second after the stop at a limit.
-  void lookOn(float counts = 0.0F) {
-    for (int i = 0; i < 17; ++i) {
-      frames(1, counts);
-      machine.onTime(us);
-    }
-  }
-  bool takeStop() {
-    const auto command = machine.takeCommand();
-    return command && std::holds_alternative<StopMotion>(*command);
-  }
-};
-
-GraspRequest reactive(int limit = 200) {
-  GraspRequest request;
-  request.mode = GraspMode::kReactive;
-  request.closeRatio = 1.0;
-  request.limitCounts = limit;
-  return request;
-}
+using testing::kHeld;
+using testing::kIdle;
+using testing::kMoving;
+using testing::kPeriodUs;
+using testing::reactive;
+using Bench = testing::MachineBench;
 
 TEST(GraspMachine, MovesNothingUnasked) {
   Bench bench;
@@ -160,132 +116,6 @@ TEST(GraspMachine, ReactiveGraspStopsAtTheFirstTaxelOverTheLimit) {
     EXPECT_EQ(report->peak.column, 4);
     EXPECT_EQ(report->peak.counts, 201.0F);
   }
-}
-
-// L-M14
-TEST(GraspMachine, WhatIsReachedAfterTheStopIsSaidBesideWhatWasAsked) {
-  Bench bench;
-  bench.begin(reactive(200));
-  bench.take();
-  bench.frames(1, 250.0F);
-  EXPECT_TRUE(bench.takeStop());
-  bench.frames(2, 700.0F);  // until the hand has answered
-  bench.machine.onStopTaken(bench.us);
-  EXPECT_EQ(bench.machine.phase(), GraspPhase::kSettling);
-  EXPECT_TRUE(bench.machine.underTactileControl());
-  bench.frames(3, 1200.0F);
-  bench.frames(3, 1100.0F);
-  EXPECT_FALSE(bench.machine.takeReport().has_value());
-  bench.lookOn(900.0F);
-  EXPECT_FALSE(bench.machine.takeCommand().has_value()) << "nothing moves any more";
-  const auto report = bench.machine.takeReport();
-  ASSERT_TRUE(report.has_value());
-  EXPECT_EQ(report->outcome, GraspOutcome::kLimitReached);
-  EXPECT_EQ(report->peak.counts, 250.0F);
-  ASSERT_TRUE(report->reached.has_value());
-  EXPECT_EQ(report->reached->counts, 1200.0F);
-  EXPECT_EQ(report->text,
-            "limit reached: finger 0 distal, x 2, y 3: 250 counts; rose to 1200 after the stop, "
-            "6.0 times the limit: close more slowly");
-}
-
-TEST(GraspMachine, LookingOnEndsAtOnceWhenTheUserOrAPortEndsIt) {
-  for (int how = 0; how < 4; ++how) {
-    Bench bench;
-    bench.begin(reactive(200));
-    bench.take();
-    bench.frames(1, 250.0F);
-    EXPECT_TRUE(bench.takeStop());
-    bench.machine.onStopTaken(bench.us);
-    if (how == 0) bench.machine.stop(bench.us);
-    if (how == 1) bench.machine.onMotionPortGone("unplugged");
-    if (how == 2) bench.machine.onTactilePortGone("unplugged", bench.us);
-    if (how == 3) bench.machine.fault("a bug", bench.us);
-    EXPECT_FALSE(bench.machine.active()) << how;
-    EXPECT_EQ(bench.machine.takeReport()->outcome, GraspOutcome::kLimitReached) << how;
-  }
-}
-
-// C-A5, L-M2
-TEST(GraspMachine, RefusesALimitThatCannotBeFeltNamingTheMatrix) {
-  const std::vector<MatrixSettings> usual = {
-      {0.5, 150}, {0.5, 300}, {0.5, 150}, {0.5, 300}, {0.5, 150}, {0.5, 300}};
-  const auto refusal = [&](const std::vector<MatrixSettings>& settings, GraspRequest request) {
-    Bench bench;
-    bench.machine.setSettings(settings);
-    try {
-      bench.begin(request);
-      return std::string();
-    } catch (const DeviceError& error) {
-      EXPECT_EQ(error.fault(), DeviceFault::kRefused);
-      EXPECT_FALSE(bench.machine.takeCommand().has_value());
-      return std::string(error.what());
-    }
-  };
-  EXPECT_EQ(refusal(usual, reactive(200)), "");
-  auto settings = usual;
-  for (MatrixSettings& each : settings) each.thresholdCounts = 4095;
-  EXPECT_NE(refusal(settings, reactive(200)).find("finger 0 proximal can't tell"),
-            std::string::npos);
-  settings = usual;
-  settings[3].sensitivity = 0.0;
-  EXPECT_NE(refusal(settings, reactive(200)).find("finger 1 distal can't tell"), std::string::npos)
-      << refusal(settings, reactive(200));
-  GraspRequest pinch = reactive(200);
-  pinch.preshape = "pinch-parallel";  // finger 1 stays folded away
-  EXPECT_EQ(refusal(settings, pinch), "");
-  GraspRequest slip = reactive(200);
-  slip.mode = GraspMode::kSlip;
-  settings = usual;
-  settings[0].thresholdCounts = 2000;  // the first limit is felt, the highest (2200) isn't
-  EXPECT_EQ(refusal(settings, reactive(200)), "");
-  EXPECT_NE(refusal(settings, slip).find("2200 counts would not be felt"), std::string::npos);
-}
-
-TEST(GraspMachine, RefusesWhereNoTaxelOfAMatrixIsScanned) {
-  std::vector<MatrixLayout> matrices = sdh2().layout->matrices();
-  matrices[5].dynamicMask.assign(matrices[5].numPlaces(), 0);
-  const auto layout = std::make_shared<const SensorLayout>(SensorLayout(matrices));
-  Bench bench;
-  for (int i = 0; i < 20; ++i) {
-    TactileFrame felt(layout);
-    felt.hostUs = 1'700'000'000'000'000 + (bench.us += kPeriodUs);
-    bench.machine.onFrame(felt, bench.us);
-  }
-  try {
-    bench.begin(reactive(200));
-    FAIL();
-  } catch (const DeviceError& error) {
-    EXPECT_NE(std::string(error.what()).find("finger 2 distal can't tell: no taxel"),
-              std::string::npos)
-        << error.what();
-  }
-}
-
-TEST(GraspMachine, ASaturatedTaxelIsOverTheHighestLimit) {
-  EXPECT_LT(static_cast<float>(kMostGraspLimitCounts), sdh2().saturationCounts);
-  Bench bench;
-  bench.begin(reactive(kMostGraspLimitCounts));
-  bench.take();
-  bench.frames(1, sdh2().saturationCounts);
-  EXPECT_TRUE(bench.takeStop());
-  EXPECT_THROW(bench.begin(reactive(3500)), std::invalid_argument);
-}
-
-TEST(GraspMachine, AFaultStopsWhateverRuns) {
-  Bench bench;
-  bench.begin({});
-  bench.take();
-  bench.machine.fault("out of memory", bench.us);
-  EXPECT_TRUE(bench.takeStop());
-  bench.machine.fault("again", bench.us);
-  bench.machine.onStopTaken(bench.us);
-  const auto report = bench.machine.takeReport();
-  ASSERT_TRUE(report.has_value());
-  EXPECT_EQ(report->outcome, GraspOutcome::kFailed);
-  EXPECT_EQ(report->text, "failed: out of memory: stopped");
-  bench.machine.fault("idle", bench.us);
-  EXPECT_FALSE(bench.machine.active());
 }
 
 TEST(GraspMachine, ItStopsWhileGoingToTheStart) {
