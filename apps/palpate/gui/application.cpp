@@ -5,6 +5,9 @@
 #include <clocale>
 #include <exception>
 
+#include "gui/button_keys.h"
+#include "gui/wheel_guard.h"
+
 // A static library's resources are there only when asked for, and by a function of no namespace.
 static void initIcons() { Q_INIT_RESOURCE(icons); }
 
@@ -41,7 +44,11 @@ class GuardedApplication : public QApplication {
 
 std::unique_ptr<QApplication> makeApplication(int& argc, char** argv) {
   std::unique_ptr<QApplication> application;
-  if (!QApplication::instance()) application = std::make_unique<GuardedApplication>(argc, argv);
+  if (!QApplication::instance()) {
+    application = std::make_unique<GuardedApplication>(argc, argv);
+    new WheelGuard(application.get());
+    new ButtonKeys(application.get());
+  }
   QApplication::setApplicationName("palpate");
   QApplication::setApplicationDisplayName("Palpate");
   QApplication::setApplicationVersion(PALPATE_VERSION);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/wheel_guard.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -15,6 +17,7 @@ constexpr double kGroove = 4.0;        // [px]
 }  // namespace
 
 SeekBar::SeekBar(QWidget* parent) : QSlider(Qt::Horizontal, parent) {
+  setProperty(kTakesWheel, true);
   setRange(0, 0);
   setMinimumWidth(120);
   setFixedHeight(22);

@@ -1,7 +1,6 @@
 #include "gui/value_slider.h"
 
 #include <QDoubleSpinBox>
-#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -23,7 +22,6 @@ ValueSlider::ValueSlider(const QString& name, const SliderRange& range, QWidget*
   slider_->setRange(ticksOf(range.least), ticksOf(range.sliderMost));
   slider_->setPageStep(5);
   slider_->setMinimumWidth(48);
-  slider_->installEventFilter(this);
   field_ = new SecondsField(this);
   field_->setAccessibleName(name);
   field_->setDecimals(range.decimals);
@@ -80,15 +78,6 @@ void ValueSlider::choose() {
   if (field_->value() == shown_) return;
   shown_ = field_->value();
   emit chosen(shown_);
-}
-
-// A wheel scrolls the panel, it changes no hand.
-bool ValueSlider::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == slider_ && event->type() == QEvent::Wheel) {
-    event->ignore();
-    return true;
-  }
-  return QWidget::eventFilter(watched, event);
 }
 
 }  // namespace palpate::gui

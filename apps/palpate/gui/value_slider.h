@@ -32,9 +32,6 @@ class ValueSlider : public QWidget {
  signals:
   void chosen(double value);
 
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override;
-
  private:
   void choose();
   int ticksOf(double value) const;
