@@ -211,6 +211,8 @@ TEST_F(HandDockTest, ReactiveGraspSaysWhereItStopped) {
   click("reactiveGrasp");
   EXPECT_TRUE(await([&] { return state().startsWith("limit reached: finger "); }))
       << state().toStdString();
+  // L-M14: a hard ball at 60 deg/s is pressed far beyond.
+  EXPECT_TRUE(state().contains("after the stop")) << state().toStdString();
   // Once more: it is over the limit, and says so.
   ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
   click("reactiveGrasp");
@@ -317,10 +319,170 @@ TEST_F(HandDockTest, AGoneMotionPortIsSaidAndNothingIsOffered) {
   connectTo(stillHand());
   ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
   bench_->hand->unplug(false, true);
-  EXPECT_TRUE(await([&] { return state().startsWith("The hand can't move:"); }));
+  EXPECT_TRUE(await([&] { return state().startsWith("The hand can't be moved:"); }));
   EXPECT_FALSE(isEnabled("graspHand"));
   EXPECT_FALSE(isEnabled("reactiveGrasp"));
   EXPECT_TRUE(isEnabled("stopHand"));  // always
+}
+
+// L-M2: a matrix that is set to feel nothing is marked, and a grasp that stands on it is refused by name.
+TEST_F(HandDockTest, AMatrixThatCannotTellTheLimitIsMarkedAndNamed) {
+  connectTo(testing::handWith("ball"));
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  auto* name = find<QLabel>("matrixName1");
+  EXPECT_EQ(name->toolTip(), "");
+  type("sensitivity1", "0");
+  ASSERT_TRUE(await([&] { return onTheHand()[1].sensitivity == 0.0; }));
+  EXPECT_TRUE(await([&] { return name->toolTip().contains("finger 0 distal can't tell"); }))
+      << name->toolTip().toStdString();
+  EXPECT_FALSE(name->styleSheet().isEmpty());
+  EXPECT_EQ(find<QLabel>("matrixName3")->toolTip(), "");
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  click("reactiveGrasp");
+  EXPECT_TRUE(await([&] { return state().startsWith("reactive grasp refused"); }))
+      << state().toStdString();
+  EXPECT_TRUE(state().contains("finger 0 distal")) << state().toStdString();
+  type("sensitivity1", "0.5");
+  EXPECT_TRUE(await([&] { return name->toolTip().isEmpty(); }));
+}
+
+// L-M3: the hand goes on to its target, and nobody can tell it anything meanwhile.
+TEST_F(HandDockTest, DuringAnUnplugInAMotionItSaysThatTheHandGoesOnAndNothingOfItAfterwards) {
+  connectTo(stillHand());
+  type("velocity", "10");
+  type("closeRatio", "1");
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  click("graspHand");
+  ASSERT_TRUE(bench_->awaitMotion());
+  bench_->hand->unplug(false, true);
+  ASSERT_TRUE(await([&] { return !isEnabled("relaxHand"); })) << "the port is known to be gone";
+  ASSERT_TRUE(bench_->handMoves());
+  EXPECT_TRUE(state().contains("goes on to its target by itself")) << state().toStdString();
+  EXPECT_FALSE(state().contains("can't move")) << state().toStdString();
+  bench_->hand->replug();
+  ASSERT_TRUE(await([&] { return isEnabled("relaxHand") && !bench_->handMoves(); }));
+  dock_->refresh();
+  EXPECT_FALSE(state().contains("by itself")) << state().toStdString();
+  EXPECT_TRUE(state().startsWith("Ready")) << state().toStdString();
+}
+
+// L-M8
+TEST_F(HandDockTest, ReturnPressesTheFocusedButtonAndSpaceNever) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  auto* grasp = find<QPushButton>("graspHand");
+  grasp->setFocus();
+  QTest::keyClick(grasp, Qt::Key_Space);
+  EXPECT_EQ(bench_->control->status().phase, GraspPhase::kIdle) << "Space moves nothing";
+  QTest::keyClick(grasp, Qt::Key_Return);
+  EXPECT_NE(bench_->control->status().phase, GraspPhase::kIdle);
+  auto* stop = find<QPushButton>("stopHand");
+  stop->setFocus();
+  QTest::keyClick(stop, Qt::Key_Enter, Qt::KeypadModifier);
+  EXPECT_TRUE(await([&] { return state() == "stopped by the user"; })) << state().toStdString();
+}
+
+// L-M8: what Tab meets comes in the order in which it is read.
+TEST_F(HandDockTest, TabGoesThroughTheButtonsAsTheyStand) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand") && isEnabled("reactiveGrasp"); }));
+  QStringList met;
+  QWidget* stop = find<QPushButton>("stopHand");
+  for (QWidget* at = stop->nextInFocusChain(); at != stop; at = at->nextInFocusChain())
+    if (qobject_cast<QPushButton*>(at) && dock_->isAncestorOf(at)) met.append(at->objectName());
+  EXPECT_EQ(met.mid(0, 5).join(" ").toStdString(),
+            "graspHand reactiveGrasp slipAwareGrasp openHand relaxHand");
+}
+
+// L-M9
+TEST_F(HandDockTest, ButtonsStandStillWhateverIsSaid) {
+  dock_->resize(380, 800);
+  connectTo(testing::handWith("ball"));
+  type("velocity", "60");
+  type("limit", "300");
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  const auto places = [&] {
+    QCoreApplication::processEvents();
+    QMap<QString, QPoint> at;
+    for (const QPushButton* each : dock_->findChildren<QPushButton*>())
+      at[each->objectName()] = each->mapTo(dock_.get(), QPoint());
+    return at;
+  };
+  const auto before = places();
+  click("reactiveGrasp");
+  ASSERT_TRUE(await([&] { return state().startsWith("limit reached: finger "); }));
+  EXPECT_EQ(places(), before) << state().toStdString();
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  click("reactiveGrasp");
+  ASSERT_TRUE(await([&] { return state().contains("already"); }));
+  EXPECT_EQ(places(), before) << state().toStdString();
+}
+
+// L-M9: a warning moves no button either.
+TEST_F(HandDockTest, AHotMotorMovesNoButton) {
+  const auto place = [&] {
+    QCoreApplication::processEvents();
+    return find<QPushButton>("graspHand")->mapTo(dock_.get(), QPoint());
+  };
+  const QPoint before = place();
+  connectTo(std::make_unique<HotHand>());
+  ASSERT_TRUE(await([&] { return find<QLabel>("handHeat")->isVisible(); }));
+  EXPECT_EQ(place(), before);
+}
+
+// L-M13
+TEST_F(HandDockTest, OpeningIsCalledOpening) {
+  connectTo(stillHand());
+  type("velocity", "10");
+  type("closeRatio", "1");
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  click("graspHand");
+  ASSERT_TRUE(bench_->awaitMotion());
+  EXPECT_TRUE(await([&] { return state().startsWith("closing"); })) << state().toStdString();
+  click("stopHand");
+  ASSERT_TRUE(await([&] { return isEnabled("openHand"); }));
+  click("openHand");
+  ASSERT_TRUE(await([&] { return bench_->control->status().phase == GraspPhase::kClosing; }));
+  dock_->refresh();
+  EXPECT_TRUE(state().startsWith("opening")) << state().toStdString();
+  EXPECT_FALSE(state().contains("closing")) << state().toStdString();
+  EXPECT_FALSE(state().contains("grasp")) << state().toStdString();
+}
+
+// L-minor 9
+TEST_F(HandDockTest, AButtonThatIsGreySaysWhy) {
+  const std::vector<const char*> names{
+      "graspHand", "reactiveGrasp", "slipAwareGrasp", "openHand", "relaxHand"};
+  for (const char* name : names)
+    EXPECT_EQ(find<QPushButton>(name)->toolTip(), "No hand is connected") << name;
+  EXPECT_EQ(find<QPushButton>("stopHand")->toolTip(), "No hand is connected");
+  connectTo(stillHand());
+  type("velocity", "5");
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand") && isEnabled("reactiveGrasp"); }));
+  click("graspHand");
+  ASSERT_TRUE(bench_->awaitMotion());
+  dock_->refresh();
+  for (const char* name : names) {
+    const QString tip = find<QPushButton>(name)->toolTip();
+    EXPECT_TRUE(isEnabled(name) || tip.contains("stop it first")) << name << tip.toStdString();
+  }
+  EXPECT_FALSE(isEnabled("openHand"));
+}
+
+// L-M10: what was refused is no state.
+TEST_F(HandDockTest, ARefusalOfAModeGoesWithTheNextChoice) {
+  connectTo(testing::handWith("empty"));
+  find<QToolButton>("sensitivityHigh")->click();
+  ASSERT_TRUE(await([&] { return state().contains("noise lines"); }));
+  find<QToolButton>("sensitivityAdaptive")->click();
+  dock_->refresh();
+  EXPECT_FALSE(state().contains("noise lines")) << state().toStdString();
+  find<QToolButton>("sensitivityHigh")->click();
+  dock_->refresh();
+  ASSERT_TRUE(state().contains("noise lines"));
+  find<QToolButton>("sensitivityManual")->click();
+  dock_->refresh();
+  EXPECT_FALSE(state().contains("noise lines")) << state().toStdString();
 }
 
 TEST_F(HandDockTest, ChoicesAreRemembered) {

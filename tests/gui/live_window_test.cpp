@@ -1,7 +1,11 @@
 // The window on a hand that isn't there: connect, watch, record, mark, stop, accidents, leaving.
+#include <QComboBox>
+#include <QDockWidget>
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
+#include <QSlider>
 #include <QToolButton>
 #include <set>
 
@@ -9,6 +13,7 @@
 
 #include "control/emulated_bench.h"
 #include "gui/hand_dock.h"
+#include "gui/hand_panel.h"
 #include "gui/live_chart.h"
 #include "gui/matrices_view.h"
 #include "gui/matrix_table.h"
@@ -251,7 +256,7 @@ TEST_F(LiveWindowTest, AMotionPortThatGoesAwayInAGraspIsSaidAndStoppedOnReturn) 
   click("graspHand");
   ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
   bench_->hand->unplug(false, true);
-  ASSERT_TRUE(await([&] { return find<QLabel>("handState")->text().contains("can't move"); }));
+  ASSERT_TRUE(await([&] { return find<QLabel>("handState")->text().contains("by itself"); }));
   EXPECT_FALSE(find<QPushButton>("graspHand")->isEnabled());
   EXPECT_TRUE(find<QPushButton>("stopHand")->isEnabled()) << "Stop is always there";
   EXPECT_TRUE(view().notice().isEmpty()) << "the tactile stream goes on";
@@ -291,6 +296,7 @@ TEST_F(LiveWindowTest, ThePictureIsHeldAndGoesOn) {
   connectEmulated("ball");
   ASSERT_TRUE(await([&] { return view().paintedUs() > 0; }));
   press(Qt::Key_P);
+  QCoreApplication::processEvents();  // the newest frame, with the line that it is held
   const auto held = view().paintedUs();
   const auto frames = live().health().frames.frames;
   ASSERT_TRUE(await([&] { return live().health().frames.frames > frames + 10; }));
@@ -298,6 +304,190 @@ TEST_F(LiveWindowTest, ThePictureIsHeldAndGoesOn) {
   press(Qt::Key_P);
   click("reactiveGrasp");
   EXPECT_TRUE(await([&] { return view().paintedUs() > held; }));
+}
+
+// As a picture of the screen has it.
+QImage pictureOf(QWidget& widget) { return widget.grab().toImage(); }
+
+// L-M4
+TEST_F(LiveWindowTest, TheHandInSpaceIsMarkedWhenItsPictureIsOld) {
+  connectBench();
+  HandView& hand = window().handPanel().view();
+  ASSERT_TRUE(await([&] { return hand.isVisible() && hand.drawing().moment().frame; }));
+  const QImage live = pictureOf(hand);
+  bench_->hand->unplug();
+  ASSERT_TRUE(await([&] { return !view().notice().isEmpty(); }));
+  EXPECT_NE(pictureOf(hand), live) << "a hand that is gone looks like one that is there";
+  bench_->hand->replug();
+  ASSERT_TRUE(await([&] { return view().notice().isEmpty(); }));
+  EXPECT_TRUE(await([&] { return pictureOf(hand) == live; }));
+}
+
+// L-M4
+TEST_F(LiveWindowTest, APictureThatIsHeldSaysSoInEveryView) {
+  connectEmulated("empty");
+  HandView& hand = window().handPanel().view();
+  ASSERT_TRUE(await([&] { return hand.drawing().moment().frame && view().paintedUs() > 0; }));
+  const auto corner = [](QWidget& widget) {
+    const QImage whole = pictureOf(widget);
+    return whole.copy(0, 0, whole.width(), whole.height() / 4);
+  };
+  const QImage matricesBefore = corner(view()), handBefore = corner(hand);
+  press(Qt::Key_P);
+  EXPECT_TRUE(view().notice().contains("held")) << view().notice().toStdString();
+  EXPECT_NE(corner(view()), matricesBefore);
+  EXPECT_NE(corner(hand), handBefore);
+  const QImage chartHeld = pictureOf(chart());
+  EXPECT_EQ(find<StatusStrip>("statusStrip")->status().lamp, Status::Lamp::kWarning);
+  press(Qt::Key_P);
+  EXPECT_TRUE(view().notice().isEmpty());
+  EXPECT_EQ(corner(view()), matricesBefore);
+  EXPECT_NE(pictureOf(chart()), chartHeld);
+}
+
+// L-M10
+TEST_F(LiveWindowTest, WhyNothingWasRecordedGoesAsSoonAsItRecords) {
+  connectEmulated("empty");
+  const auto mended = window().askForRecording;
+  window().askForRecording = [&](RecordingSettings settings, const QString& button) {
+    settings = *mended(settings, button);
+    settings.folder = "/proc/no_such_folder";
+    return std::optional(settings);
+  };
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return bannerText().contains("Not recording"); }));
+  window().askForRecording = mended;
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 0; }));
+  EXPECT_EQ(bannerText().toStdString(), "");
+}
+
+// L-M1: in every field, slider and box that can be seen, of every dock.
+TEST_F(LiveWindowTest, TheWheelChangesNothingThatHasNoFocus) {
+  connectEmulated("empty");
+  ASSERT_TRUE(await([&] { return live().source()->control->status().cannotReact.empty(); }));
+  int tried = 0;
+  const auto turn = [&](QWidget* widget, const std::function<double()>& value) {
+    if (!widget->isVisible() || !widget->isEnabled()) return;
+    if (QWidget* focused = QApplication::focusWidget()) focused->clearFocus();
+    const double before = value();
+    for (const int notch : {120, -120, -120}) {
+      const QPointF middle = QRectF(widget->rect()).center();
+      QWheelEvent wheel(middle,
+                        widget->mapToGlobal(middle),
+                        {},
+                        {0, notch},
+                        Qt::NoButton,
+                        Qt::NoModifier,
+                        Qt::NoScrollPhase,
+                        false);
+      QCoreApplication::sendEvent(widget, &wheel);
+      EXPECT_EQ(value(), before) << widget->metaObject()->className() << " "
+                                 << widget->objectName().toStdString() << " "
+                                 << widget->accessibleName().toStdString();
+    }
+    EXPECT_FALSE(widget->hasFocus()) << widget->objectName().toStdString();
+    ++tried;
+  };
+  for (const QString& dock : window().dockNames()) {
+    window().showDock(dock);
+    QCoreApplication::processEvents();
+    for (auto* field : window().findChildren<QSpinBox*>())
+      turn(field, [field] { return field->value(); });
+    for (auto* field : window().findChildren<QDoubleSpinBox*>())
+      turn(field, [field] { return field->value(); });
+    for (auto* slider : window().findChildren<QSlider*>())
+      turn(slider, [slider] { return slider->value(); });
+    for (auto* box : window().findChildren<QComboBox*>())
+      turn(box, [box] { return box->currentIndex(); });
+  }
+  EXPECT_GT(tried, 40);
+  const auto settings = live().source()->session->device().facts().matrices;
+  EXPECT_EQ(settings.at(1).thresholdCounts, 300);
+}
+
+// L-M1: with the focus it is the field's.
+TEST_F(LiveWindowTest, TheWheelTurnsAFieldThatHasTheFocus) {
+  connectEmulated("empty");
+  auto* velocity = find<QWidget>("velocity")->findChild<QDoubleSpinBox*>();
+  velocity->setFocus();
+  const double before = velocity->value();
+  QWheelEvent wheel({5, 5},
+                    velocity->mapToGlobal(QPointF(5, 5)),
+                    {},
+                    {0, 120},
+                    Qt::NoButton,
+                    Qt::NoModifier,
+                    Qt::NoScrollPhase,
+                    false);
+  QCoreApplication::sendEvent(velocity, &wheel);
+  EXPECT_EQ(velocity->value(), before + 1.0);
+}
+
+// L-M8
+TEST_F(LiveWindowTest, TheHandIsMovedByKeysOfItsMenu) {
+  connectBench();
+  const auto action = [&](const QString& text) -> QAction* {
+    for (QAction* each : window().actions())
+      if (plainText(*each) == text) return each;
+    return nullptr;
+  };
+  for (const char* text :
+       {"Grasp", "Reactive grasp", "Slip-aware grasp", "Open the hand", "Relax"}) {
+    QAction* each = action(text);
+    ASSERT_NE(each, nullptr) << text;
+    EXPECT_FALSE(each->shortcut().isEmpty()) << text;
+    EXPECT_TRUE(await([&] { return each->isEnabled(); })) << text;
+  }
+  press(Qt::Key_G, Qt::ControlModifier | Qt::AltModifier);
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  ASSERT_TRUE(await([&] { return !action("Open the hand")->isEnabled(); })) << "it moves";
+  press(Qt::Key_Escape);
+  ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
+  const std::vector<QString> texts{"Grasp", "Reactive grasp", "Slip-aware grasp", "Open the hand"};
+  press(Qt::Key_K, Qt::ControlModifier | Qt::ShiftModifier);
+  ASSERT_TRUE(await([&] { return live().state() == State::kNone; }));
+  for (const QString& text : texts) EXPECT_FALSE(action(text)->isEnabled()) << text.toStdString();
+}
+
+// L-M2
+TEST_F(LiveWindowTest, ABlindMatrixIsMarkedInTheHeatMaps) {
+  connectBench();
+  ASSERT_TRUE(await([&] { return view().paintedUs() > 0; }));
+  const QImage seeing = pictureOf(view());
+  live().source()->control->change(SetThreshold{1, 4095});
+  ASSERT_TRUE(await([&] { return view().blind().size() == 2; }));
+  EXPECT_TRUE(view().blind()[0].isEmpty());
+  EXPECT_TRUE(view().blind()[1].contains("finger 0 distal")) << view().blind()[1].toStdString();
+  EXPECT_NE(pictureOf(view()), seeing);
+  open({"good.dsa"});
+  EXPECT_TRUE(view().blind().empty()) << "of a recording nothing is to be grasped";
+  press(Qt::Key_F6);
+  EXPECT_EQ(view().blind().size(), 2u);
+}
+
+// L-M13: what the chart marks and the log says.
+TEST_F(LiveWindowTest, OpeningAndRefusalsAreNamedInTheLog) {
+  connectBench();
+  QStringList logged;
+  QObject::connect(&live(),
+                   &LiveController::eventsCame,
+                   &window(),
+                   [&](const std::vector<RecordingEvent>& came) {
+                     for (const RecordingEvent& event : came)
+                       if (event.kind == "grasp") logged.append(QString::fromStdString(event.text));
+                   });
+  click("openHand");
+  ASSERT_TRUE(await([&] { return !logged.isEmpty(); }));
+  EXPECT_TRUE(logged.front().startsWith("opening")) << logged.front().toStdString();
+  ASSERT_TRUE(await([&] { return live().source()->control->status().phase == GraspPhase::kIdle; }));
+  logged.clear();
+  GraspRequest wrong;
+  wrong.mode = GraspMode::kReactive;
+  wrong.limitCounts = 1;
+  EXPECT_THROW(live().source()->control->grasp(wrong), std::invalid_argument);
+  ASSERT_TRUE(await([&] { return !logged.isEmpty(); }));
+  EXPECT_TRUE(logged.front().startsWith("reactive grasp refused")) << logged.front().toStdString();
 }
 
 TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {

@@ -163,6 +163,7 @@ TEST_F(RecognisePanelTest, CapturedGraspsGoIntoTheFolderAndOutAgain) {
   EXPECT_FALSE(capture->isEnabled()) << "nobody said what it is";
   find<QLineEdit>("teachObject")->setText("hard ball");
   capture->click();
+  EXPECT_FALSE(capture->text().contains("Stop")) << "L-minor 22: there is one Stop, the hand's";
   const Profile ball = graspsOf("ball", 1);
   panel_->teach().take(ball);
   settle();

@@ -181,6 +181,12 @@ Actions::Actions(QWidget* window) : window_(window) {
   whatIsIt = make("Hand", "&What is it?", {key("Q")});
   whatIsIt->setToolTip("Recognises the selected grasp, or what is held (Q)");
   showMode = make("Hand", "The answer on the whole &screen", {key("Shift+Q")});
+  graspHand = make("Hand", "&Grasp", {key("Ctrl+Alt+G")});
+  reactiveGrasp = make("Hand", "&Reactive grasp", {key("Ctrl+Alt+R")});
+  slipAwareGrasp = make("Hand", "Slip-&aware grasp", {key("Ctrl+Alt+S")});
+  openHand = make("Hand", "&Open the hand", {key("Ctrl+Alt+O")});
+  relaxHand = make("Hand", "Rela&x", {key("Ctrl+Alt+X")});
+  stopHand = make("Hand", "&Stop the hand (Esc)");
   live = make("Hand", "Show &live", {key("F6")}, true);
   live->setToolTip("Back to what is connected (F6)");
   hold = make("Hand", "&Hold the live picture", {key("P")}, true);

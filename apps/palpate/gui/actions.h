@@ -99,6 +99,13 @@ struct Actions {
   QAction* disconnectHand;
   QAction* whatIsIt;  // recognition of the selection, or of what is held
   QAction* showMode;  // its answer on the whole screen
+  // What moves the hand: as the buttons of the dock Hand.
+  QAction* graspHand;
+  QAction* reactiveGrasp;
+  QAction* slipAwareGrasp;
+  QAction* openHand;
+  QAction* relaxHand;
+  QAction* stopHand;  // Esc does the same, wherever the keyboard is
   QAction* live;      // checked: what is connected is shown, not a recording
   QAction* hold;
   QAction* record;

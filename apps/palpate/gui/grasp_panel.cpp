@@ -12,6 +12,7 @@
 #include <palpate/core/error.h>
 #include <palpate/model/preshape.h>
 
+#include "gui/button_keys.h"
 #include "gui/value_slider.h"
 
 namespace palpate::gui {
@@ -34,6 +35,7 @@ QPushButton* button(const QString& text, const QString& name, QWidget* parent) {
   made->setObjectName(name);
   made->setFocusPolicy(Qt::TabFocus);
   made->setAutoDefault(false);
+  made->setProperty(kMovesHand, true);
   return made;
 }
 
@@ -87,13 +89,12 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
     widest = std::max(widest, each->field()->sizeHint().width());
   for (const ValueSlider* each : {close_, velocity_, limit_}) each->field()->setFixedWidth(widest);
 
-  open_ = button("Open", "openHand", this);
-  open_->setToolTip("To the open hand of this preshape");
+  // Tab meets them in this order.
   grasp_ = button("Grasp", "graspHand", this);
   reactive_ = button("Reactive", "reactiveGrasp", this);
   slipAware_ = button("Slip-aware", "slipAwareGrasp", this);
+  open_ = button("Open", "openHand", this);
   relax_ = button("Relax", "relaxHand", this);
-  relax_->setToolTip("Motors off: fingers can be moved by hand, what is held may fall");
   auto* grasps = new QHBoxLayout;
   grasps->setSpacing(6);
   for (QPushButton* each : {grasp_, reactive_, slipAware_}) grasps->addWidget(each, 1);
@@ -119,6 +120,7 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   connect(reactive_, &QPushButton::clicked, this, [this] { begin(request(GraspMode::kReactive)); });
   connect(slipAware_, &QPushButton::clicked, this, [this] { begin(request(GraspMode::kSlip)); });
   connect(relax_, &QPushButton::clicked, this, [this] {
+    emit begins();
     if (control_) control_->relax();
     emit asked();
   });
@@ -127,6 +129,8 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
     connect(each, &ValueSlider::chosen, this, &GraspPanel::remember);
   showStatus({});
 }
+
+int GraspPanel::limitCounts() const { return static_cast<int>(limit_->value()); }
 
 void GraspPanel::remember() {
   settings_.setValue(kPreshape, preshape_->currentData());
@@ -149,10 +153,13 @@ GraspRequest GraspPanel::request(GraspMode mode) const {
 
 void GraspPanel::begin(const GraspRequest& request) {
   if (!control_) return;
+  emit begins();
   try {
     control_->grasp(request);
   } catch (const std::exception& error) {
-    emit refused(error.what());
+    const auto last = control_->status().last;
+    const bool told = last && last->outcome == GraspOutcome::kRefused;
+    emit refused(told ? QString::fromStdString(last->text) : QString(error.what()));
   }
   emit asked();
 }
@@ -170,12 +177,21 @@ void GraspPanel::showStatus(const GraspStatus& status) {
     which->setEnabled(enabled);
     if (which->toolTip() != tip) which->setToolTip(tip);
   };
-  open_->setEnabled(canMove && idle);
-  relax_->setEnabled(canMove);
-  const QString busy = "The hand moves: stop it first";
+  const bool holds = status.phase == GraspPhase::kHolding || status.phase == GraspPhase::kSettling;
+  const QString busy = holds ? "The hand holds what it has grasped: stop it first (Esc)"
+                             : "The hand moves: stop it first (Esc)";
   const auto why = [&](const std::string& problem) {
     return !control_ ? QString("No hand is connected") : QString::fromStdString(problem);
   };
+  set(open_,
+      canMove && idle,
+      !canMove ? why(status.cannotMove)
+      : idle   ? "To the open hand of this preshape"
+               : busy);
+  set(relax_,
+      canMove,
+      canMove ? "Motors off: fingers can be moved by hand, what is held may fall"
+              : why(status.cannotMove));
   set(grasp_,
       canMove && idle,
       !idle     ? busy

@@ -24,8 +24,12 @@ class GraspPanel : public QWidget {
   // What may be begun now, and why not.
   void showStatus(const GraspStatus& status);
   GraspRequest request(GraspMode mode) const;
+  int limitCounts() const;  // as it is chosen
+  // As they stand: Grasp, Reactive, Slip-aware, Open, Relax.
+  QList<QPushButton*> buttons() const { return {grasp_, reactive_, slipAware_, open_, relax_}; }
 
  signals:
+  void begins();  // something is asked for now
   void refused(const QString& why);
   void asked();  // something was begun, or refused
 

@@ -1,5 +1,6 @@
 #include "gui/hand_dock.h"
 
+#include <QAction>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -7,9 +8,13 @@
 #include <QScrollBar>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 #include <palpate/capture/link_health.h>
+#include <palpate/core/time.h>
 
+#include "gui/actions.h"
 #include "gui/captions.h"
 #include "gui/facts_view.h"
 #include "gui/grasp_panel.h"
@@ -22,7 +27,32 @@ namespace {
 
 constexpr int kHandDockRefreshMs = 50;
 constexpr int kHandDockMargin = 12;
+constexpr int kStateLines = 4;              // room that is kept for what is said
+constexpr double kWidestTravelDeg = 180.0;  // of an axis
+constexpr double kStartAndStopS = 0.5;      // of a motion: longer than by its velocity alone
+constexpr const char* kStopTip =
+    "Stops the hand now; the motors stay on and hold (Esc, wherever the keyboard is)";
 constexpr const char* kHandDockNothing = "–";
+
+// How long the motion of a grasp takes at most from a pose; no pose: from anywhere [s].
+double longestMotionS(const GraspRequest& request,
+                      const std::vector<double>& fromDeg,
+                      const HandDescription& hand) {
+  double seconds = kWidestTravelDeg / request.velocityDegPerS;
+  try {
+    const MoveJoints motion = motionTo(request, request.closeRatio, hand);
+    if (fromDeg.size() == motion.targetDeg.size()) {
+      seconds = 0.0;
+      for (std::size_t axis = 0; axis < fromDeg.size(); ++axis)
+        seconds = std::max(seconds,
+                           std::abs(motion.targetDeg[axis] - fromDeg[axis]) /
+                               std::max(1e-3, motion.velocityDegPerS[axis]));
+    }
+  } catch (const std::invalid_argument&) {
+    // Of a hand that is described otherwise by now.
+  }
+  return seconds + kStartAndStopS;
+}
 
 FeedOptions smallFeed() {
   FeedOptions options;
@@ -41,13 +71,27 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   column->setSpacing(0);
   column->addWidget(makeHead());
   column->addWidget(makeBody(settings), 1);
+  // Below everything: it comes and goes, and moves nothing.
+  heat_ = new QLabel(this);
+  heat_->setObjectName("handHeat");
+  heat_->setWordWrap(true);
+  heat_->setContentsMargins(kHandDockMargin, 6, kHandDockMargin, 8);
+  column->addWidget(heat_);
   connect(stop_, &QPushButton::clicked, this, [this] {
+    said_.clear();
     if (control_) control_->stop();
     emit stopPressed();
     refresh();
   });
-  connect(stopKey_, &StopKey::pressed, this, &HandDock::stopPressed);
+  connect(stopKey_, &StopKey::pressed, this, [this] {
+    said_.clear();
+    emit stopPressed();
+  });
   const auto refused = [this](const QString& why) { said_ = why; };
+  const auto asked = [this] { said_.clear(); };
+  connect(grasp_, &GraspPanel::begins, this, asked);
+  connect(tactile_, &TactileSettingsPanel::changedByHand, this, asked);
+  connect(sensitivity_, &SensitivityModes::asked, this, asked);
   connect(grasp_, &GraspPanel::refused, this, refused);
   connect(grasp_, &GraspPanel::asked, this, &HandDock::refresh);
   connect(tactile_, &TactileSettingsPanel::refused, this, refused);
@@ -66,18 +110,15 @@ QWidget* HandDock::makeHead() {
   state_->setObjectName("handState");
   state_->setWordWrap(true);
   state_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  state_->setMinimumHeight(2 * fontMetrics().lineSpacing());
+  // Whatever is said, no button moves: what a robot's buttons mean is learned by where they are.
+  const int stateHeight = kStateLines * fontMetrics().lineSpacing() + 2;
+  state_->setFixedHeight(stateHeight);
   stop_ = new QPushButton("Stop  (Esc)", head);
   stop_->setObjectName("stopHand");
   stop_->setProperty("danger", true);
-  stop_->setToolTip(
-      "Stops the hand now; the motors stay on and hold (Esc, wherever the keyboard is)");
   stop_->setFocusPolicy(Qt::TabFocus);
-  stop_->setMinimumHeight(40);
+  stop_->setFixedHeight(stateHeight);
   stop_->setMinimumWidth(120);
-  heat_ = new QLabel(head);
-  heat_->setObjectName("handHeat");
-  heat_->setWordWrap(true);
   auto* row = new QHBoxLayout;
   row->setSpacing(12);
   row->addWidget(state_, 1);
@@ -86,7 +127,6 @@ QWidget* HandDock::makeHead() {
   column->setContentsMargins(kHandDockMargin, 10, kHandDockMargin, 8);
   column->setSpacing(6);
   column->addLayout(row);
-  column->addWidget(heat_);
   return head;
 }
 
@@ -146,12 +186,15 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   session_ = session;
   control_ = control;
   said_.clear();
+  anglesDeg_.clear();
+  goneReturnedUs_ = 0;
   feed_ = session ? session->subscribe("the dock Hand", smallFeed()) : nullptr;
   grasp_->setControl(control);
   sensitivity_->setHand(session, control);
   tactile_->setHand(session, control);
   stopKey_->setControl(control);
   stop_->setEnabled(control != nullptr);
+  stop_->setToolTip(control ? kStopTip : "No hand is connected");
   const HandDescription hand = session ? session->device().hand() : sdh2();
   std::vector<Fact> facts;
   for (const AxisDescription& axis : hand.axes)
@@ -173,13 +216,59 @@ void HandDock::refresh() {
   const GraspStatus status = control_ ? control_->status() : GraspStatus{};
   grasp_->showStatus(status);
   sensitivity_->refresh();
+  showBlind();
   tactile_->refresh(status);
-  showState(status);
   showSamples();
+  showState(status);
+  showBound();
+}
+
+void HandDock::bind(const Actions& actions) {
+  QList<QPushButton*> buttons = grasp_->buttons();
+  buttons.append(stop_);
+  const QList<QAction*> all{actions.graspHand,
+                            actions.reactiveGrasp,
+                            actions.slipAwareGrasp,
+                            actions.openHand,
+                            actions.relaxHand,
+                            actions.stopHand};
+  for (qsizetype i = 0; i < all.size(); ++i) {
+    bound_.emplace_back(all[i], buttons[i]);
+    connect(all[i], &QAction::triggered, buttons[i], &QPushButton::click);
+  }
+  showBound();
+}
+
+// As the grasp would judge them that is chosen now.
+void HandDock::showBlind() {
+  std::vector<QString> why;
+  const int limit = grasp_->limitCounts();
+  if (session_ && control_) {
+    const std::vector<MatrixSettings> settings = session_->device().facts().matrices;
+    if (!settings.empty())
+      for (const UnfeltLimit& unfelt : unfeltLimits(session_->device().hand(), settings, limit)) {
+        why.resize(std::max(why.size(), unfelt.matrix + 1));
+        why[unfelt.matrix] = QString::fromStdString(unfelt.why);
+      }
+  }
+  tactile_->showBlind(why, limit);
+  if (why == blind_) return;
+  blind_ = why;
+  emit blindChanged(blind_);
+}
+
+void HandDock::showBound() {
+  for (const auto& [action, button] : bound_) {
+    action->setEnabled(button->isEnabled());
+    action->setToolTip(button->toolTip());
+  }
 }
 
 void HandDock::say(const QString& text, bool bad) {
-  if (state_->text() != text) state_->setText(text);
+  if (state_->text() != text) {
+    state_->setText(text);
+    state_->setToolTip(text);  // all of it, should it be longer than its room
+  }
   const QColor color = bad ? colorsOf(theme_).danger : colorsOf(theme_).text;
   const QString style = "color: " + color.name() + ";";
   if (state_->styleSheet() != style) state_->setStyleSheet(style);
@@ -189,25 +278,59 @@ void HandDock::showState(const GraspStatus& status) {
   if (!session_) return say("No hand is connected.", false);
   if (!control_) return say("A recording is replayed: there is nothing to move.", false);
   if (status.phase != GraspPhase::kIdle) {
-    said_.clear();
-    const std::string_view phase = nameOf(status.phase);
-    return say(QString::fromUtf8(phase.data(), static_cast<qsizetype>(phase.size())) + " · " +
-                   QString::fromStdString(status.request ? describe(*status.request) : ""),
-               false);
+    if (status.request) said_.clear();  // else the end of one is just being told
+    return say(doing(status), false);
   }
-  if (!status.cannotMove.empty())
-    return say("The hand can't move: " + QString::fromStdString(status.cannotMove), true);
+  if (!status.cannotMove.empty()) return say(whyNotMoved(status), true);
+  if (status.last && status.last->outcome == GraspOutcome::kPortGone)
+    goneReturnedUs_ = status.last->beginUs;
   if (!said_.isEmpty()) return say(said_, true);
   if (!status.last) return say("Ready.", false);
+  const QString text = ending(*status.last, status);
+  const bool isPast = text.startsWith("Ready");
   switch (status.last->outcome) {
     case GraspOutcome::kFinished:
     case GraspOutcome::kLimitReached:
     case GraspOutcome::kStopped:
     case GraspOutcome::kRelaxed:
-      return say(QString::fromStdString(status.last->text), false);
+      return say(text, false);
     default:
-      return say(QString::fromStdString(status.last->text), true);
+      return say(text, !isPast);
   }
+}
+
+QString HandDock::doing(const GraspStatus& status) const {
+  const std::string_view name = nameOf(status.phase);
+  const QString phase = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+  if (!status.request) return phase;
+  QString what = QString::fromStdString(describe(*status.request));
+  // "opening: centrical, 10 deg/s" says what is done by itself.
+  if (isOpening(*status.request) && status.phase == GraspPhase::kClosing)
+    return what.replace(": ", " · ");
+  return phase + " · " + what;
+}
+
+QString HandDock::whyNotMoved(const GraspStatus& status) {
+  const QString why = QString::fromStdString(status.cannotMove);
+  const bool inAMotion = status.last && status.last->outcome == GraspOutcome::kPortGone &&
+                         status.last->beginUs != goneReturnedUs_;
+  if (!inAMotion) return "The hand can't be moved: " + why;
+  const GraspReport& last = *status.last;
+  const double sinceS = static_cast<double>(session_->nowUs() - last.endUs) / kUsPerS;
+  const double longestS = longestMotionS(last.request, anglesDeg_, session_->device().hand());
+  const QString gone = "The motion port is gone (" + why + "). ";
+  if (sinceS < longestS)
+    return gone + "The hand goes on to its target by itself, " + figure(longestS, 0) +
+           " s at most: no stop reaches it.";
+  return gone + "The motion that ran is over, and the motors hold.";
+}
+
+QString HandDock::ending(const GraspReport& report, const GraspStatus& status) const {
+  if (report.outcome == GraspOutcome::kPortGone)
+    return "Ready. The motion port was gone during a motion, and is back.";
+  if (report.outcome == GraspOutcome::kStreamDead && status.cannotReact.empty())
+    return "Ready. The last grasp was stopped: no tactile frames came. Now they come.";
+  return QString::fromStdString(report.text);
 }
 
 void HandDock::showSamples() {
@@ -220,6 +343,7 @@ void HandDock::showSamples() {
     if (const auto* sample = std::get_if<JointAngles>(&item)) angles = sample;
     if (const auto* sample = std::get_if<Temperatures>(&item)) temperatures = sample;
   }
+  if (angles) anglesDeg_ = angles->deg;
   if (angles)
     for (std::size_t i = 0; i < std::min(angles->deg.size(), angles_->facts().size()); ++i)
       angles_->setValue(i, figure(angles->deg[i], 1) + "°");

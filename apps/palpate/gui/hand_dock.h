@@ -5,19 +5,24 @@
 #include <QSettings>
 #include <QTimer>
 #include <QWidget>
+#include <cstdint>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <palpate/capture/capture_session.h>
 #include <palpate/control/grasp_control.h>
 
 #include "gui/theme.h"
 
+class QAction;
 class QLabel;
 class QPushButton;
 class QScrollArea;
 
 namespace palpate::gui {
 
+struct Actions;
 class FactsView;
 class GraspPanel;
 class SensitivityModes;
@@ -32,8 +37,11 @@ class HandDock : public QWidget {
   ~HandDock() override;
   // The hand that is connected, null: none. Both must outlive this, or be taken away by null before they end.
   void setHand(CaptureSession* session, GraspControl* control);
+  // Menu entries and keys do what the buttons do, and can be chosen when those can. Once.
+  void bind(const Actions& actions);
   void setTheme(Theme theme);
   TactileSettingsPanel& tactileSettings() noexcept { return *tactile_; }
+  const std::vector<QString>& blind() const noexcept { return blind_; }  // as blindChanged()
   SensitivityModes& sensitivity() noexcept { return *sensitivity_; }
   // What the timer does while a hand is connected.
   void refresh();
@@ -41,6 +49,8 @@ class HandDock : public QWidget {
 
  signals:
   void stopPressed();
+  // Why matrices can't tell the limit that is chosen: one text per matrix, empty: it can; none: all can.
+  void blindChanged(const std::vector<QString>& why);
 
  protected:
   void showEvent(QShowEvent* event) override;
@@ -50,6 +60,12 @@ class HandDock : public QWidget {
   QWidget* makeBody(QSettings& settings);
   void say(const QString& text, bool bad);
   void showState(const GraspStatus& status);
+  void showBound();
+  void showBlind();
+  QString doing(const GraspStatus& status) const;
+  QString whyNotMoved(const GraspStatus& status);
+  // How a grasp ended, as long as that is still so.
+  QString ending(const GraspReport& report, const GraspStatus& status) const;
   void showSamples();
   void showTemperatures(const Temperatures& temperatures);
 
@@ -68,7 +84,12 @@ class HandDock : public QWidget {
   FactsView* temperatures_;
   StopKey* stopKey_;
   QTimer timer_;
-  QString said_;  // a refusal, until something else happens
+  QString said_;  // a refusal, until something else is asked for
+  std::vector<std::pair<QAction*, QPushButton*>> bound_;
+  std::vector<QString> blind_;
+  std::vector<double> anglesDeg_;  // the newest; empty: none came
+  std::int64_t goneReturnedUs_ =
+      0;  // begin of the newest grasp after whose port the port came back
   Theme theme_ = Theme::kDark;
 };
 

@@ -70,6 +70,7 @@ void HandView::setHand(const HandDescription& hand) {
 
 void HandView::clear() {
   drawing_.clear();
+  old_ = {};
   selection_ = {};
   setHover(std::nullopt);
   drawAnew();
@@ -226,6 +227,15 @@ void HandView::paintEvent(QPaintEvent*) {
 void HandView::paintOver(QPainter& painter) {
   ++numPaints_;
   if (drawing_.hasHand()) paintHandOverlay(painter, rect(), drawing_, scene_, options());
+  painter.setFont(font());
+  paintOldPicture(painter, rect(), old_, look_.theme);
+}
+
+void HandView::setOld(const OldPicture& old) {
+  if (old == old_) return;
+  old_ = old;
+  update();
+  if (canvas_) canvas_->update();
 }
 
 void HandView::resizeEvent(QResizeEvent*) {

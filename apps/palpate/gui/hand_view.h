@@ -11,6 +11,7 @@
 #include "gui/hand_drawing.h"
 #include "gui/hand_picture.h"
 #include "gui/hand_raster.h"
+#include "gui/old_picture.h"
 
 namespace palpate {
 struct PressureFrame;
@@ -42,6 +43,10 @@ class HandView : public QWidget {
   void setColorBar(bool shown);
   void select(const TaxelSelection& selection);
   const TaxelSelection& selection() const noexcept { return selection_; }
+
+  // Over an old picture, as in the heat maps.
+  void setOld(const OldPicture& old);
+  const QString& notice() const noexcept { return old_.notice; }
 
   const HandDrawing& drawing() const noexcept { return drawing_; }
   const HandCamera& camera() const noexcept { return camera_; }
@@ -109,6 +114,7 @@ class HandView : public QWidget {
   bool colorBar_ = false;
   std::vector<double> assumedDeg_;
   bool assumed_ = false;
+  OldPicture old_;
   TaxelSelection selection_;
   std::optional<TaxelPlace> hover_;
   std::shared_ptr<const PressureFrame> pressure_;

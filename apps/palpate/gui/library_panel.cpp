@@ -150,9 +150,9 @@ void LibraryPanel::buildBottom() {
   bar_->setFixedSize(90, 8);
   stop_ = new QToolButton(this);
   stop_->setObjectName("libraryStop");
-  stop_->setText("Stop");
+  stop_->setText("End search");
   stop_->setProperty("flat", true);
-  stop_->setToolTip("Stop looking into the folder");
+  stop_->setToolTip("Looks no further into the folder");
   auto* row = new QHBoxLayout;
   row->setContentsMargins(12, 4, 8, 4);
   row->addWidget(summary_, 1);

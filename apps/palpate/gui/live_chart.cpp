@@ -1,5 +1,6 @@
 #include "gui/live_chart.h"
 
+#include <QPainter>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <palpate/core/time.h>
 
 #include "gui/chart_style.h"
+#include "gui/old_picture.h"
 
 namespace palpate::gui {
 namespace {
@@ -32,7 +34,7 @@ QString nameOfEvent(const RecordingEvent& event) {
   if (event.kind == "mark") return "mark";
   if (event.kind == "label") return text;
   if (event.kind == "gap") return "gap";
-  if (event.kind == "grasp") return text.section(':', 0, 0);
+  if (event.kind == "grasp") return text.section(':', 0, 0);  // "opening", "reactive grasp refused"
   return QString::fromStdString(event.kind);
 }
 
@@ -56,7 +58,7 @@ void LiveChart::setHistory(const SignalHistory* history, std::size_t numMatrices
   history_ = history;
   originUs_.reset();
   newestUs_ = 0;
-  held_ = false;
+  setHeld(false);
   largest_ = 0.0;
   plotted_.assign(history ? numMatrices + 1 : 0, true);
   if (!plotted_.empty()) plotted_.back() = false;
@@ -92,7 +94,17 @@ void LiveChart::setWindowS(double seconds) {
   emit windowChanged(windowS_);
 }
 
-void LiveChart::setHeld(bool held) { held_ = held; }
+void LiveChart::setHeld(bool held) {
+  held_ = held;
+  update();
+}
+
+void LiveChart::paintEvent(QPaintEvent* event) {
+  QCustomPlot::paintEvent(event);
+  if (!held_) return;
+  QPainter painter(this);
+  paintOldPicture(painter, rect(), {kHeldText, true}, theme_);
+}
 
 void LiveChart::rebuild() {
   clearGraphs();

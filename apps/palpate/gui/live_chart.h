@@ -31,7 +31,7 @@ class LiveChart : public QCustomPlot {
   void setTheme(Theme theme);
   void setWindowS(double seconds);  // clamped to 2..300
   double windowS() const noexcept { return windowS_; }
-  // Held, nothing rolls; what comes meanwhile is there afterwards.
+  // Held, nothing rolls, and it says so; what comes meanwhile is there afterwards.
   void setHeld(bool held);
 
   // Takes what is new; when nothing came for `silentS` the picture rolls on by itself.
@@ -51,6 +51,7 @@ class LiveChart : public QCustomPlot {
   void windowChanged(double seconds);
 
  protected:
+  void paintEvent(QPaintEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void changeEvent(QEvent* event) override;

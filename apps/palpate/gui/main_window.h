@@ -55,6 +55,7 @@ class LogPanel;
 class MatricesPanel;
 class MatricesView;
 class MessageBanner;
+struct OldPicture;
 class OfferStrip;
 class OpeningStrip;
 class PlaybackBar;
@@ -257,6 +258,7 @@ class MainWindow : public QMainWindow {
   void showLive();
   void showLook();
   void showStale();
+  void setPictureOld(const OldPicture& old);  // of heat maps and hand
   void updateLiveStatus();
   // main_window_taxels.cpp
   void connectScanActions();

@@ -40,6 +40,28 @@ std::vector<Fact> mainWindowLiveFactsOf(const Connection& connection,
   return facts;
 }
 
+// What our own connection has found behind its ports; of a port that doesn't answer yet nothing.
+QHash<QString, PortProbe> knownAnswers(const Connection& connection, const DeviceStatus& status) {
+  const PortStatus motion = status.motion.value_or(PortStatus{});
+  const auto saysSwapped = [](const PortStatus& port) {
+    return port.message.find("swapped") != std::string::npos;
+  };
+  const bool swapped = saysSwapped(status.tactile) || saysSwapped(motion);
+  QHash<QString, PortProbe> known;
+  const auto add = [&](const QString& name, const PortStatus& port, PortAnswer answer) {
+    if (name.isEmpty() || (!swapped && port.state != PortState::kStreaming)) return;
+    PortProbe probe;
+    probe.port = name.toStdString();
+    probe.answer = answer;
+    probe.message = std::string(answer == PortAnswer::kTactile ? "tactile" : "motion") +
+                    " controller; this window is connected to it";
+    known.insert(name, probe);
+  };
+  add(connection.dsaPort, status.tactile, swapped ? PortAnswer::kMotion : PortAnswer::kTactile);
+  add(connection.sdhPort, motion, swapped ? PortAnswer::kTactile : PortAnswer::kMotion);
+  return known;
+}
+
 // It lives as long as `live`.
 void connectOtherPrograms(const Actions& actions,
                           LiveController& live,
@@ -69,7 +91,8 @@ void MainWindow::connectLive() {
     // What is connected now answers us, not a probe.
     const Connection& now = live_.connection();
     if (live_.source() && now.kind == Connection::Kind::kPorts)
-      scan.setBusy({now.dsaPort, now.sdhPort});
+      scan.setBusy({now.dsaPort, now.sdhPort},
+                   knownAnswers(now, live_.source()->session->device().status()));
     ConnectDialog dialog({.last = last,
                           .scenesFolder = demoPath_.parent_path() / "scenes",
                           .recentRecordings = recent_.paths(),
@@ -170,6 +193,10 @@ void MainWindow::connectLive() {
   connect(liveChart_, &LiveChart::windowChanged, this, [this](double seconds) {
     settings_.setValue("live/window_s", seconds);
   });
+  hand_->bind(actions_);
+  connect(hand_, &HandDock::blindChanged, this, [this](const std::vector<QString>& why) {
+    if (liveShown_ || why.empty()) matrices_->view().setBlind(why);
+  });
   connectScanActions();
   connectOtherPrograms(
       actions_, live_, settings_, *link_, *banner_, [this] { return recordingSettings_; });
@@ -257,7 +284,7 @@ void MainWindow::liveLeaving() {
   link_->log("disconnected: " + describe(live_.connection()));
   shownHistory_ = nullptr;
   scanAnswers_.clear();
-  if (liveShown_) matrices_->view().setNotice("not connected any more");
+  if (liveShown_) setPictureOld({"not connected any more"});
 }
 
 void MainWindow::liveEnded() {
@@ -271,7 +298,7 @@ void MainWindow::liveEnded() {
   liveShown_ = false;
   held_ = false;
   actions_.hold->setChecked(false);
-  matrices_->view().setNotice({});
+  setPictureOld({});
   const OpenedRecordingPtr recording = current_;
   current_.reset();
   showRecording(recording);
@@ -291,6 +318,7 @@ void MainWindow::showLive() {
     shownHistory_ = source->history.get();
     matrices_->setRecording(nullptr);
     matrices_->setHand(hand);
+    matrices_->view().setBlind(hand_->blind());
     handPanel_->setHand(hand);
     if (another) liveChart_->setHistory(source->history.get(), hand.layout->numMatrices());
     inspect_->setHand(hand);
@@ -309,9 +337,7 @@ void MainWindow::showLive() {
 void MainWindow::showStale() {
   if (!liveShown_) return;
   QString notice;
-  if (held_) {
-    // What is held is meant to be old.
-  } else if (live_.source() && live_.source()->finished()) {
+  if (live_.source() && live_.source()->finished()) {
     notice = "the replay has ended";
   } else if (live_.stale()) {
     const PortStatus& port = live_.health().device.tactile;
@@ -319,8 +345,14 @@ void MainWindow::showStale() {
                                     : "no frame for " + figure(live_.silentS(), 1) + " s";
     if (!port.message.empty()) notice += ": " + QString::fromStdString(withoutPort(port));
   }
+  if (held_) notice = notice.isEmpty() ? QString(kHeldText) : kHeldText + ("; " + notice);
   inspect_->table().setOld(!notice.isEmpty());
-  matrices_->view().setNotice(notice);
+  setPictureOld({notice, held_});
+}
+
+void MainWindow::setPictureOld(const OldPicture& old) {
+  matrices_->view().setOld(old);
+  handPanel_->view().setOld(old);
 }
 
 // Four times a second: everything but the frames.
@@ -353,11 +385,12 @@ void MainWindow::showLook() {
   // Other taxels are scanned now, or another hand was found.
   if (matrices_->hand() && !(*matrices_->hand()->layout == *hand.layout)) {
     matrices_->setHand(hand);
+    matrices_->view().setBlind(hand_->blind());
     handPanel_->setHand(hand);
   }
-  if (live_.stale() && !held_) {
+  if (live_.stale()) {
     showStale();
-    if (live_.framesCameYet() && !finished) liveChart_->refresh(live_.silentS());
+    if (!held_ && live_.framesCameYet() && !finished) liveChart_->refresh(live_.silentS());
   }
   updateStatus();
 }
@@ -365,7 +398,7 @@ void MainWindow::showLook() {
 void MainWindow::updateLiveStatus() {
   Status now;
   const LinkHealth& health = live_.health();
-  now.lamp = live_.stale() ? Status::Lamp::kWarning : Status::Lamp::kGood;
+  now.lamp = live_.stale() || held_ ? Status::Lamp::kWarning : Status::Lamp::kGood;
   const RecorderStatus& recorder = health.recorder;
   if (live_.source() && live_.source()->finished())
     now.state = "the replay has ended";
@@ -377,7 +410,8 @@ void MainWindow::updateLiveStatus() {
             ? "all frames on disk"
             : "frames to write: " + QString::number(recorder.frames - recorder.framesOnDisk);
   else
-    now.state = held_ ? "live · held (P goes on)" : "live";
+    now.state = "live";
+  if (held_) now.state = "held (P goes on) · " + now.state;
   now.figures = {
       "rate " + figure(health.frames.rateHz, 1) + " fps",
       "age " + (live_.stale() ? QString("–") : figure(health.device.tactile.ageMs, 0)) + " ms",

@@ -13,6 +13,9 @@
 namespace palpate::gui {
 namespace {
 
+// Messages that the next recording answers.
+constexpr const char* kRecordingTopic = "recording";
+
 // "01:16", "1:02:03"
 QString clockText(double seconds) {
   constexpr int kSixty = 60;
@@ -70,11 +73,12 @@ void MainWindow::connectRecording() {
       markNow(label.isEmpty() ? "mark " + QString::number(key) : label, key);
     });
   connect(&live_, &LiveController::recordingStarted, this, [this] {
+    banner_->withdraw(kRecordingTopic);
     link_->log("recording begins");
     showRecordingState();
   });
   connect(&live_, &LiveController::recordingFailed, this, [this](const QString& message) {
-    banner_->showMessage("Not recording: " + message);
+    banner_->showAbout(kRecordingTopic, "Not recording: " + message);
     link_->log("not recording: " + message);
     showRecordingState();
   });
@@ -191,7 +195,7 @@ void MainWindow::recordingEnded(const RecordingReport& report) {
   if (report.paths.empty()) {
     const QString why = report.message.empty() ? QString("no frame came while it ran")
                                                : QString::fromStdString(report.message);
-    banner_->showMessage("Nothing was recorded: " + why);
+    banner_->showAbout(kRecordingTopic, "Nothing was recorded: " + why);
     link_->log("nothing was recorded: " + why);
     return;
   }

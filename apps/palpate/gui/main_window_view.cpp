@@ -108,10 +108,10 @@ void MainWindow::showFrame(std::size_t frame) {
     matrices_->showFrame(frame);
     if (!handPanel_->isHidden()) handPanel_->showFrame(frame);
     inspect_->showFrame(frame);
-    matrices_->view().setNotice({});
+    setPictureOld({});
   } catch (const Error& error) {
     // A damaged block: what is seen is of another frame, or a part of it is.
-    matrices_->view().setNotice(error.what());
+    setPictureOld({error.what()});
   }
 }
 

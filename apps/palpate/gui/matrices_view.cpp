@@ -11,6 +11,11 @@
 #include "gui/taxel_text.h"
 
 namespace palpate::gui {
+namespace {
+
+constexpr const char* kBlind = "blind";
+
+}  // namespace
 
 MatricesView::MatricesView(QWidget* parent) : QWidget(parent) {
   setMouseTracking(true);
@@ -24,6 +29,7 @@ void MatricesView::setHand(const HandDescription& hand) {
   if (selection_.numMatrices() != fresh.numMatrices()) selection_ = fresh;
   hand_ = hand;
   frame_.reset();
+  blind_.clear();
   paintedUs_ = 0;
   setHover(std::nullopt);
   renew();
@@ -32,7 +38,8 @@ void MatricesView::setHand(const HandDescription& hand) {
 void MatricesView::clear() {
   hand_.reset();
   selection_ = {};
-  notice_.clear();
+  old_ = {};
+  blind_.clear();
   paintedUs_ = 0;
   frame_.reset();
   setHover(std::nullopt);
@@ -110,8 +117,9 @@ void MatricesView::paintEvent(QPaintEvent* event) {
     painter.setBrush(Qt::NoBrush);
     painter.drawRect(geometry_.taxelRect(hover_->matrix, hover_->y, hover_->x));
   }
+  paintBlind(painter);
   paintSelection(painter);
-  if (!notice_.isEmpty()) paintNotice(painter);
+  paintOldPicture(painter, rect(), old_, look_.theme);
   if (!frame_ || frame_->hostUs == paintedUs_) return;
   paintedUs_ = frame_->hostUs;
   emit painted(paintedUs_);
@@ -139,28 +147,33 @@ void MatricesView::paintSelection(QPainter& painter) const {
   }
 }
 
-void MatricesView::paintNotice(QPainter& painter) const {
-  const ThemeColors& colors = colorsOf(look_.theme);
-  QColor veil = colors.window;
-  constexpr int kVeil = 150;  // of 255
-  veil.setAlpha(kVeil);
-  painter.fillRect(rect(), veil);
-  const QFontMetrics metrics(font());
-  constexpr int kAround = 12;
-  QRect box = metrics.boundingRect(
-      rect().adjusted(40, 0, -40, 0), Qt::AlignCenter | Qt::TextWordWrap, notice_);
-  box.adjust(-kAround, -kAround / 2, kAround, kAround / 2);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(colors.warning, 1.0));
-  painter.setBrush(colors.panel);
-  painter.drawRoundedRect(box, 6, 6);
-  painter.setPen(colors.warning);
-  painter.drawText(box, Qt::AlignCenter | Qt::TextWordWrap, notice_);
+void MatricesView::setBlind(const std::vector<QString>& why) {
+  if (why == blind_) return;
+  blind_ = why;
+  update();
 }
 
-void MatricesView::setNotice(const QString& notice) {
-  if (notice == notice_) return;
-  notice_ = notice;
+// A frame around it, and a word in its middle: what is dark there says nothing.
+void MatricesView::paintBlind(QPainter& painter) const {
+  const QColor& color = colorsOf(look_.theme).danger;
+  for (std::size_t m = 0; m < std::min(blind_.size(), geometry_.numMatrices()); ++m) {
+    if (blind_[m].isEmpty()) continue;
+    const QRectF rect = geometry_.matrixRect(m);
+    painter.setPen(QPen(color, 3.0));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRect(rect.adjusted(1.5, 1.5, -1.5, -1.5));
+    const QRectF word = QFontMetricsF(font())
+                            .boundingRect(rect, Qt::AlignHCenter | Qt::AlignBottom, kBlind)
+                            .adjusted(-6.0, -6.0, 6.0, -3.0);
+    painter.fillRect(word, color);
+    painter.setPen(colorsOf(look_.theme).window);
+    painter.drawText(word, Qt::AlignCenter, kBlind);
+  }
+}
+
+void MatricesView::setOld(const OldPicture& old) {
+  if (old == old_) return;
+  old_ = old;
   update();
 }
 
@@ -242,7 +255,10 @@ void MatricesView::mouseMoveEvent(QMouseEvent* event) {
 void MatricesView::leaveEvent(QEvent*) { setHover(std::nullopt); }
 
 QString MatricesView::hoverText() const {
-  return hover_ && hand_ ? taxelText(*hand_, *hover_, frame_, pressure_.get()) : QString();
+  if (!hover_ || !hand_) return {};
+  const QString text = taxelText(*hand_, *hover_, frame_, pressure_.get());
+  const std::size_t m = hover_->matrix;
+  return m < blind_.size() && !blind_[m].isEmpty() ? text + " · " + blind_[m] : text;
 }
 
 }  // namespace palpate::gui

@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <palpate/model/taxel_selection.h>
 
 #include "gui/matrices_painter.h"
+#include "gui/old_picture.h"
 
 namespace palpate {
 struct PressureFrame;
@@ -49,9 +51,13 @@ class MatricesView : public QWidget {
   const TaxelSelection& selection() const noexcept { return selection_; }
   void select(const TaxelSelection& selection);
   void clearSelection();
-  // Over an old picture: greyed, with a line that says so. Empty: the picture is of now.
-  void setNotice(const QString& notice);
-  const QString& notice() const noexcept { return notice_; }
+  // Why a matrix can't tell the limit of a grasp, as it is set: marked, and told beside its counts. One text per
+  // matrix, empty: it can; none at all: all can, or nothing is connected.
+  void setBlind(const std::vector<QString>& why);
+  const std::vector<QString>& blind() const noexcept { return blind_; }
+  // Over an old picture, one that is held, too.
+  void setOld(const OldPicture& old);
+  const QString& notice() const noexcept { return old_.notice; }
   // Of the newest frame that is wholly on screen [us since 1970]; 0: none yet.
   std::int64_t paintedUs() const noexcept { return paintedUs_; }
   QSize sizeHint() const override { return {560, 560}; }
@@ -80,7 +86,7 @@ class MatricesView : public QWidget {
   void setHover(std::optional<TaxelPlace> place);
   void choose(const TaxelPlace& from, const TaxelPlace& to);
   void paintSelection(QPainter& painter) const;
-  void paintNotice(QPainter& painter) const;
+  void paintBlind(QPainter& painter) const;
 
   std::optional<HandDescription> hand_;
   std::optional<TactileFrame> frame_;
@@ -92,7 +98,8 @@ class MatricesView : public QWidget {
   TaxelSelection selection_;
   TaxelSelection selectedBefore_;      // what a drag adds to
   std::optional<TaxelPlace> pressed_;  // where the drag began
-  QString notice_;
+  OldPicture old_;
+  std::vector<QString> blind_;
   std::int64_t paintedUs_ = 0;
 };
 

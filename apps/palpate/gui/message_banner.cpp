@@ -36,24 +36,36 @@ MessageBanner::MessageBanner(QWidget* parent, const QString& name, const QString
   hide();
 }
 
-void MessageBanner::showMessage(const QString& message) {
-  QStringList lines = isHidden() ? QStringList() : text_->text().split('\n');
-  lines.removeAll(message);
-  lines.append(message);
-  text_->setText(
-      lines.mid(std::max<qsizetype>(0, lines.size() - kMessageBannerMostLines)).join('\n'));
-  show();
+void MessageBanner::showAbout(const QString& topic, const QString& message) {
+  if (isHidden()) lines_.clear();
+  lines_.removeIf([&](const Line& line) { return line.text == message; });
+  lines_.append({topic, message});
+  lines_ = lines_.mid(std::max<qsizetype>(0, lines_.size() - kMessageBannerMostLines));
+  showLines();
   emit said(message);
 }
 
+void MessageBanner::withdraw(const QString& topic) {
+  lines_.removeIf([&](const Line& line) { return line.topic == topic; });
+  showLines();
+}
+
 void MessageBanner::showAll(const QStringList& messages) {
-  text_->setText(messages.join('\n'));
-  setVisible(!messages.isEmpty());
+  lines_.clear();
+  for (const QString& message : messages) lines_.append({{}, message});
+  showLines();
 }
 
 void MessageBanner::dismiss() {
-  text_->clear();
-  hide();
+  lines_.clear();
+  showLines();
+}
+
+void MessageBanner::showLines() {
+  QStringList texts;
+  for (const Line& line : lines_) texts.append(line.text);
+  text_->setText(texts.join('\n'));
+  setVisible(!texts.isEmpty());
 }
 
 QString MessageBanner::message() const { return text_->text(); }

@@ -1,6 +1,7 @@
 // One message inside the window: it blocks nothing, and what is open stays open.
 #pragma once
 
+#include <QList>
 #include <QWidget>
 
 #include "gui/theme.h"
@@ -18,7 +19,11 @@ class MessageBanner : public QWidget {
                          const QString& name = "MessageBanner",
                          const QString& part = "banner");
   // Failures of several files are shown together.
-  void showMessage(const QString& message);
+  void showMessage(const QString& message) { showAbout({}, message); }
+  // One that is withdrawn with its topic.
+  void showAbout(const QString& topic, const QString& message);
+  // What was said about a topic isn't so any more.
+  void withdraw(const QString& topic);
   // Exactly these, instead of what was shown; none: hides. Of these nothing is said().
   void showAll(const QStringList& messages);
   void dismiss();
@@ -29,6 +34,13 @@ class MessageBanner : public QWidget {
   void said(const QString& message);  // a message, each time it comes
 
  private:
+  struct Line {
+    QString topic;
+    QString text;
+  };
+  void showLines();
+
+  QList<Line> lines_;
   QLabel* text_;
   QToolButton* close_;
 };

@@ -45,6 +45,7 @@ SensitivityModes::SensitivityModes(QWidget* parent) : QWidget(parent) {
   text_->setObjectName("sensitivityStatus");
   text_->setProperty("role", "muted");
   text_->setWordWrap(true);
+  text_->setMinimumHeight(2 * fontMetrics().lineSpacing());  // what is below stays where it is
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(4);
@@ -79,7 +80,9 @@ void SensitivityModes::showMode(SensitivityMode mode) {
 }
 
 void SensitivityModes::choose(SensitivityMode mode) {
-  if (!control_ || mode == control_->status().mode) return;
+  if (!control_) return;
+  emit asked();
+  if (mode == control_->status().mode) return;
   try {
     switch (mode) {
       case SensitivityMode::kManual:

@@ -31,6 +31,7 @@ class SensitivityModes : public QWidget {
   std::function<std::optional<NoiseFloor>(const std::string& hand)> noiseLines;
 
  signals:
+  void asked();  // a mode was chosen
   void refused(const QString& why);
   // High sensitivity begins or ends: ghosts want a filter.
   void highChanged(bool on);

@@ -79,7 +79,9 @@ QWidget* TactileSettingsPanel::makeRow(int row, const QString& name) {
   made.sensitivity->field()->setFixedWidth(4 * digit + kFrame);
   made.threshold->field()->setFixedWidth(4 * digit + kFrame);
   grid->addWidget(made.square, row + 1, kSquare);
-  grid->addWidget(new QLabel(name, table_), row + 1, kName);
+  made.name = new QLabel(name, table_);
+  made.name->setObjectName("matrixName" + QString::number(row - 1));
+  grid->addWidget(made.name, row + 1, kName);
   grid->addWidget(made.sensitivity, row + 1, kSensitivity);
   grid->addWidget(made.threshold, row + 1, kThreshold);
   const std::optional<int> matrix = row == 0 ? std::optional<int>() : std::optional<int>(row - 1);
@@ -205,8 +207,9 @@ void TactileSettingsPanel::refresh(const GraspStatus& status) {
     why = "Not now: " + QString::fromStdString(status.cannotChange) + ".";
   else if (!pending_.empty())
     why = "Being changed: the stream pauses for half a second.";
-  if (note_->text() != why) note_->setText(why);
   const bool may = why.isEmpty() || !pending_.empty();
+  if (why.isEmpty()) why = blindText_;
+  if (note_->text() != why) note_->setText(why);
   table_->setEnabled(may);
   reset_->setEnabled(may);
   names_->setEnabled(may && names_->count() > 1);
@@ -232,7 +235,26 @@ void TactileSettingsPanel::showValues(const TactileSettings& values) {
   rows_[0].threshold->showValue(values[0].thresholdCounts);
 }
 
+void TactileSettingsPanel::showBlind(const std::vector<QString>& why, int limitCounts) {
+  int blind = 0;
+  for (std::size_t m = 0; m + 1 < rows_.size(); ++m) {
+    const QString reason = m < why.size() ? why[m] : QString();
+    blind += reason.isEmpty() ? 0 : 1;
+    QLabel* name = rows_[m + 1].name;
+    if (name->toolTip() != reason) name->setToolTip(reason);
+    const QString style = reason.isEmpty()
+                              ? QString()
+                              : "color: " + colorsOf(theme_).danger.name() + "; font-weight: bold;";
+    if (name->styleSheet() != style) name->setStyleSheet(style);
+  }
+  blindText_ = blind == 0 ? QString()
+                          : "Blind to a limit of " + QString::number(limitCounts) +
+                                " counts: " + QString::number(blind) +
+                                (blind == 1 ? " matrix (red)." : " matrices (red).");
+}
+
 void TactileSettingsPanel::setTheme(Theme theme) {
+  theme_ = theme;
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     const QColor color = row == 0 ? wholeColor(theme) : matrixColor(row - 1, theme);
     rows_[row].square->setStyleSheet("background: " + color.name() + "; border-radius: 2px;");

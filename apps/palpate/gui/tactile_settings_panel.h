@@ -30,6 +30,8 @@ class TactileSettingsPanel : public QWidget {
   // Shows what the hand says, and whether it may be changed now. Now and then.
   void refresh(const GraspStatus& status);
   void setTheme(Theme theme);
+  // Marks the matrices that can't tell a limit [counts], as they are set: why, one text per matrix; empty: it can.
+  void showBlind(const std::vector<QString>& why, int limitCounts);
   // How a name is asked for; an empty answer means cancelled. Tests answer themselves.
   std::function<QString(const QString& suggestion)> askForName;
 
@@ -40,6 +42,7 @@ class TactileSettingsPanel : public QWidget {
  private:
   struct Row {
     QWidget* square;
+    QLabel* name;
     ValueSlider* sensitivity;
     ValueSlider* threshold;
   };
@@ -63,6 +66,8 @@ class TactileSettingsPanel : public QWidget {
   QPushButton* save_;
   QPushButton* remove_;
   QString listedFor_;  // serial number
+  QString blindText_;  // which can't tell the limit; empty: all can
+  Theme theme_ = Theme::kDark;
   std::vector<std::shared_future<CommandAnswer>> pending_;
 };
 

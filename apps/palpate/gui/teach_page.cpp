@@ -203,7 +203,7 @@ void TeachPage::showState() {
   capture_->setEnabled(folder && live_ && (!object().isEmpty() || capturing()));
   object_->setEnabled(!capturing());
   train_->setEnabled(folder && !desk_.busy());
-  capture_->setText(capturing() ? "Stop" : "Capture");
+  capture_->setText(capturing() ? "End capture" : "Capture");
   state_->setText(!folder       ? "Choose a folder first: captured grasps go there."
                   : capturing() ? "Capturing " + object() + ": grasp it, again and again."
                   : !desk_.trouble().isEmpty() ? desk_.trouble()

@@ -102,6 +102,15 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   QMenu* hand = window.menuBar()->addMenu("H&and");
   hand->addActions({actions.connectHand, actions.tryEmulated, actions.disconnectHand});
   hand->addSeparator();
+  QMenu* move = hand->addMenu("Mo&ve the hand");
+  move->setToolTipsVisible(true);
+  move->addActions({actions.graspHand,
+                    actions.reactiveGrasp,
+                    actions.slipAwareGrasp,
+                    actions.openHand,
+                    actions.relaxHand});
+  hand->addAction(actions.stopHand);
+  hand->addSeparator();
   hand->addActions({actions.whatIsIt, actions.showMode});
   hand->addSeparator();
   hand->addActions({actions.live, actions.hold});
