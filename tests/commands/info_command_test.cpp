@@ -3,6 +3,10 @@
 
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/model/hand_description.h"
+#include "palpate/recording/event_store.h"
+#include "palpate/recording/palpate_writer.h"
+#include "palpate/recording/recording.h"
 
 #include "commands/palpate_program.h"
 
@@ -173,9 +177,11 @@ TEST(InfoCommand, OfSeveralItPrintsOneTable) {
   EXPECT_EQ(result.exitCode, 0) << result.err;
   const auto lines = linesOf(result.out);
   ASSERT_EQ(lines.size(), 3u) << result.out;
-  EXPECT_EQ(lines[0],
-            "file,format,value_type,frames,duration_s,rate_hz,mean_rate_hz,gaps,temperatures,"
-            "joint_angles,max_value,saturated_frames,serial,warnings");
+  EXPECT_EQ(
+      lines[0],
+      "file,format,value_type,frames,duration_s,rate_hz,mean_rate_hz,gaps,temperatures,"
+      "joint_angles,max_value,saturated_frames,serial,warnings,operator,object,run,notes,labels,"
+      "events");
   const std::string quoted = "\"" + (folder / "one, frame.dsa").string() + "\"";
   EXPECT_EQ(lines[1].rfind(quoted + ",dsa,counts,1,0,,,0,0,0,100,0,00000001,", 0), 0u) << lines[1];
   EXPECT_NE(lines[1].find("says \"\"7\"\", found 1", quoted.size()), std::string::npos) << lines[1];
@@ -189,6 +195,67 @@ TEST(InfoCommand, OfSeveralItPrintsOneTable) {
   EXPECT_EQ(last.at("file").asString(), (folder / "z.dsa").string());
   EXPECT_EQ(last.at("frames").asInteger(), 21);
   EXPECT_EQ(last.at("matrices").size(), 6u);
+}
+
+// A recording as the recorder makes it, with what was asked before and marked during it.
+void writeWithNotes(const fs::path& path) {
+  PalpateWriter writer(path,
+                       sdh2().layout,
+                       {{"operator", "Ada"},
+                        {"object", "tennis ball"},
+                        {"run", "7"},
+                        {"notes", "first line\nsecond"}});
+  constexpr std::int64_t kStartUs = 1'400'000'000'000'000;
+  for (int i = 0; i < 4; ++i) {
+    TactileFrame frame(sdh2().layout);
+    frame.hostUs = kStartUs + i * 500'000;
+    writer.addFrame(frame);
+  }
+  writer.addEvent(
+      {kStartUs + 250'000, kStartUs + 250'000, "label", {}, "touched", "{\"digit\":3}"});
+  writer.addEvent({kStartUs + 500'000, kStartUs + 1'500'000, "gap", 2, "no data", ""});
+  writer.finish();
+}
+
+TEST(InfoCommand, SaysWhoRecordedWhatAndWhatWasNoted) {
+  const testing::TemporaryFolder folder;
+  writeWithNotes(folder / "a.palpate");
+  const Json info = infoOf(folder / "a.palpate");
+  EXPECT_EQ(info.at("operator").asString(), "Ada");
+  EXPECT_EQ(info.at("object").asString(), "tennis ball");
+  EXPECT_EQ(info.at("run").asString(), "7");
+  EXPECT_EQ(info.at("notes").asString(), "first line\nsecond");
+  ASSERT_EQ(info.at("labels").size(), 1u);
+  EXPECT_EQ(info.at("labels").at(0).asString(), "touched");
+  ASSERT_EQ(info.at("events").size(), 2u);
+  const Json label = info.at("events").at(0), gap = info.at("events").at(1);
+  EXPECT_EQ(label.at("time_ms").asInteger(), 1'400'000'000'250);
+  EXPECT_EQ(label.at("kind").asString(), "label");
+  EXPECT_EQ(label.at("json").at("digit").asInteger(), 3);
+  EXPECT_TRUE(label.at("matrix").isNull());
+  EXPECT_EQ(gap.at("end_ms").asInteger(), 1'400'000'001'500);
+  EXPECT_EQ(gap.at("matrix").asInteger(), 2);
+  const std::string text = palpate({"info", folder / "a.palpate"}).out;
+  for (const char* line : {"operator          Ada\n",
+                           "object            tennis ball\n",
+                           "run               7\n",
+                           "labels            touched\n",
+                           "  0.25 s          label: touched\n",
+                           "  0.50 to 1.50 s  gap, matrix 2: no data\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+}
+
+TEST(InfoCommand, ReadsTheNotesBesideADsa) {
+  const testing::TemporaryFolder folder;
+  ASSERT_EQ(palpate({"synthesize", "-o", folder / "z.dsa", "--duration", "1"}).exitCode, 0);
+  EXPECT_EQ(infoOf(folder / "z.dsa").at("events").size(), 0u);
+  const std::int64_t us = openRecording(folder / "z.dsa").frameTimeUs(3);
+  saveEvents(folder / "z.dsa", {}, std::vector<RecordingEvent>{{us, us, "label", {}, "held", ""}});
+  const Json info = infoOf(folder / "z.dsa");
+  ASSERT_EQ(info.at("labels").size(), 1u);
+  EXPECT_EQ(info.at("labels").at(0).asString(), "held");
+  EXPECT_EQ(info.at("events").at(0).at("time_ms").asInteger(), us / 1000);
+  EXPECT_EQ(info.at("operator").asString(), "");
 }
 
 TEST(InfoCommand, OneBadFileOfSeveralDoesNotStopTheOthers) {

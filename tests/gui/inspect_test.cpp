@@ -2,6 +2,8 @@
 #include <set>
 
 #include <palpate/emulator/synthetic_profile.h>
+#include <palpate/model/hand_description.h>
+#include <palpate/recording/palpate_writer.h>
 
 #include "gui/facts_view.h"
 #include "gui/inspect_panel.h"
@@ -127,6 +129,33 @@ TEST_F(InspectTest, IsEmptyAfterTheLastRecordingIsClosed) {
   press(Qt::Key_W, Qt::ControlModifier);
   EXPECT_EQ(table().rowCount(), 0);
   EXPECT_TRUE(find<FactsView>("recordingFacts")->facts().empty());
+}
+
+TEST_F(InspectTest, SaysWhoRecordedWhatAndWhatWasNoted) {
+  // The frames are those that the fixture gives for the name; what was said and noted is read from the file.
+  const std::string path = (folder_ / "good_noted.palpate").string();
+  const std::int64_t us = twentyFrames().frameTimeUs(0);
+  {
+    PalpateWriter writer(
+        path, sdh2().layout, {{"operator", "Ada"}, {"object", "ball"}, {"run", "7"}});
+    for (int i = 0; i < 10; ++i) {
+      TactileFrame frame(sdh2().layout);
+      frame.hostUs = us + i * 30'000;
+      writer.addFrame(frame);
+    }
+    writer.addEvent({us + 60'000, us + 60'000, "label", {}, "touched", ""});
+    writer.finish();
+  }
+  open({"good_noted.palpate"});
+  EXPECT_EQ(fact("recordingFacts", "operator"), "Ada");
+  EXPECT_EQ(fact("recordingFacts", "object"), "ball");
+  EXPECT_EQ(fact("recordingFacts", "run"), "7");
+  EXPECT_EQ(fact("recordingFacts", "notes"), "no such fact");
+  EXPECT_EQ(fact("eventFacts", "0.06 s"), "label: touched");
+  EXPECT_FALSE(find<FactsView>("eventFacts")->isHidden());
+  open({"good.dsa"});
+  EXPECT_EQ(fact("recordingFacts", "operator"), "no such fact");
+  EXPECT_TRUE(find<FactsView>("eventFacts")->isHidden());
 }
 
 }  // namespace

@@ -60,8 +60,37 @@ std::vector<Fact> inspectPanelFactsOf(const OpenedRecording& recording,
                    saturated ? QString::number(*saturated) : QString("being counted"),
                    saturated.value_or(0) > 0});
   facts.push_back({"calibration", calibration});
+  for (const char* key : {"operator", "object", "run", "notes"})
+    if (const auto said = recording.meta.find(key);
+        said != recording.meta.end() && !said->second.empty())
+      facts.push_back({key, QString::fromStdString(said->second).simplified()});
   for (const std::string& warning : info.warnings)
     facts.push_back({"warning", QString::fromStdString(warning), true});
+  return facts;
+}
+
+// At its time, what it is. Labels stand as they are; of other kinds the kind is said.
+std::vector<Fact> inspectPanelEventFacts(const OpenedRecording& recording,
+                                         const std::vector<RecordingEvent>& events) {
+  constexpr std::size_t kMostListed = 200;
+  std::vector<Fact> facts;
+  const Profile& profile = recording.profile;
+  const std::int64_t beginUs = profile.numFrames() > 0 ? profile.frameTimeUs(0) : 0;
+  const auto seconds = [&](std::int64_t us) {
+    return figure(static_cast<double>(us - beginUs) / kUsPerS, 2);
+  };
+  for (std::size_t i = 0; i < std::min(events.size(), kMostListed); ++i) {
+    const RecordingEvent& event = events[i];
+    QString when = seconds(event.tUs);
+    if (event.t1Us != event.tUs) when += " – " + seconds(event.t1Us);
+    const QString text = QString::fromStdString(event.text).simplified();
+    const QString kind = QString::fromStdString(event.kind);
+    facts.push_back({when + " s", text.isEmpty() ? kind : kind + ": " + text});
+  }
+  if (events.size() > kMostListed)
+    facts.push_back({"more", QString::number(events.size() - kMostListed)});
+  if (!recording.eventsFailure.empty())
+    facts.push_back({"not read", QString::fromStdString(recording.eventsFailure), true});
   return facts;
 }
 
@@ -79,6 +108,9 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
   matrices_ = new MatrixTable(model_, content);
   facts_ = new FactsView(content);
   facts_->setObjectName("recordingFacts");
+  events_ = new FactsView(content);
+  events_->setObjectName("eventFacts");
+  eventsHeading_ = sectionHeading("Events", content);
   angles_ = new FactsView(content);
   angles_->setObjectName("angleFacts");
   temperatures_ = new FactsView(content);
@@ -108,6 +140,11 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
   column->setSpacing(14);
   column->addWidget(matrices_);
   column->addLayout(columns_);
+  auto* below = new QVBoxLayout;
+  below->setSpacing(4);
+  below->addWidget(eventsHeading_);
+  below->addWidget(events_);
+  column->addLayout(below);
   column->addStretch(1);
   setWidget(content);
 }
@@ -115,6 +152,7 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
 void InspectPanel::setRecording(const OpenedRecordingPtr& recording) {
   recording_ = recording;
   model_->setRecording(recording);
+  showEvents(recording ? recording->events.events : std::vector<RecordingEvent>());
   if (!recording) {
     facts_->setFacts({});
     angles_->setFacts({});
@@ -126,6 +164,14 @@ void InspectPanel::setRecording(const OpenedRecordingPtr& recording) {
   listSensors(recording->profile.hand(),
               recording->profile.numAngles() > 0,
               recording->profile.numTemperatures() > 0);
+}
+
+void InspectPanel::showEvents(const std::vector<RecordingEvent>& events) {
+  std::vector<Fact> facts;
+  if (recording_) facts = inspectPanelEventFacts(*recording_, events);
+  eventsHeading_->setVisible(!facts.empty());
+  events_->setVisible(!facts.empty());
+  events_->setFacts(std::move(facts));
 }
 
 void InspectPanel::setCalibration(const QString& text) {
@@ -140,6 +186,7 @@ void InspectPanel::renewFacts() {
 
 void InspectPanel::setHand(const HandDescription& hand) {
   recording_.reset();
+  showEvents({});
   model_->setHand(hand);
   heading_->setText("LINK");
   facts_->setFacts({});
@@ -191,7 +238,7 @@ void InspectPanel::showTemperatures(const Temperatures& temperatures) {
 void InspectPanel::setTheme(Theme theme) {
   model_->setTheme(theme);
   matrices_->setTheme(theme);
-  for (FactsView* facts : {facts_, angles_, temperatures_}) facts->setTheme(theme);
+  for (FactsView* facts : {facts_, events_, angles_, temperatures_}) facts->setTheme(theme);
 }
 
 void InspectPanel::resizeEvent(QResizeEvent* event) {

@@ -21,6 +21,8 @@ class InspectPanel : public QScrollArea {
   explicit InspectPanel(QWidget* parent = nullptr);
   void setRecording(const OpenedRecordingPtr& recording);
   void showFrame(std::size_t frame);
+  // Events of the recording, as they were edited, too.
+  void showEvents(const std::vector<RecordingEvent>& events);
   // What values are told in beside counts: "none: values are counts", or the calibration's name.
   void setCalibration(const QString& text);
   // More is known of a long recording now.
@@ -47,6 +49,8 @@ class InspectPanel : public QScrollArea {
   MatrixTable* matrices_;
   QLabel* heading_;
   FactsView* facts_;
+  QLabel* eventsHeading_;
+  FactsView* events_;
   FactsView* angles_;
   FactsView* temperatures_;
   QBoxLayout* columns_;

@@ -6,6 +6,7 @@
 #include <palpate/core/error.h>
 #include <palpate/recording/event_store.h>
 
+#include "gui/inspect_panel.h"
 #include "gui/main_window_calibrate.h"
 #include "gui/main_window_slip.h"
 #include "gui/message_banner.h"
@@ -129,6 +130,7 @@ void MainWindow::showEvents() {
     marks = marksOf(*current_, editor->events(), graspsOf(current_));
     calibrate_->addSteps(marks);
     slip_->addSlips(marks);
+    inspect_->showEvents(editor->events());
   }
   rows.setMarks(std::move(marks));
   enableEventActions();
