@@ -100,9 +100,17 @@ py::object evaluateWith(const TrainedModel& model,
 }
 
 TrainedModel adapted(const TrainedModel& model, const py::object& source) {
-  const FeatureTable table = featuresOf(source, model.set);
+  FeatureTable table = featuresOf(source, model.set);
   requireRows(table);
   requireFits(model, table);
+  const std::size_t earlier = keepNewestSession(table);
+  if (earlier > 0 &&
+      PyErr_WarnEx(PyExc_UserWarning,
+                   (std::to_string(earlier) +
+                    " grasps of an earlier session, more than 8 h before the others, are left out")
+                       .c_str(),
+                   1) != 0)
+    throw py::error_already_set();
   const SampleSet today = samplesOf(table, model.classes);
   return unlocked([&](const Progress& progress) {
     TrainedModel result = model;

@@ -87,6 +87,17 @@ void addFolder(const fs::path& folder,
 
 }  // namespace
 
+std::size_t keepNewestSession(FeatureTable& table) {
+  std::vector<std::int64_t> timesUs;
+  for (const FeatureRow& row : table.rows) timesUs.push_back(row.timeUs);
+  std::sort(timesUs.begin(), timesUs.end());
+  std::size_t first = timesUs.empty() ? 0 : timesUs.size() - 1;
+  while (first > 0 && timesUs[first] - timesUs[first - 1] <= kSessionPauseUs) --first;
+  if (first == 0) return 0;
+  const std::int64_t fromUs = timesUs[first];
+  return std::erase_if(table.rows, [&](const FeatureRow& row) { return row.timeUs < fromUs; });
+}
+
 std::optional<std::size_t> FeatureTable::column(std::string_view name) const noexcept {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) return std::nullopt;

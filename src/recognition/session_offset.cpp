@@ -197,13 +197,16 @@ std::string SessionOffset::text() const {
     return "no session offset: the hand is taken to read as it did in training";
   if (origin == OffsetOrigin::kUnknown)
     return "the session offset is not known (+- " + fixedText(sdMm, 1) + " mm)";
-  std::string out = "today the hand reads " + fixedText(std::abs(mm), 1) + " mm " +
-                    (mm < 0.0 ? "small" : "large") + " (";
+  constexpr double kLeastSaidMm = 0.05;
+  std::string out = "today the hand reads sizes as it did in training (";
+  if (!(std::abs(mm) < kLeastSaidMm))
+    out = "today the hand reads " + fixedText(std::abs(mm), 1) + " mm " +
+          (mm < 0.0 ? "small" : "large") + " (";
   if (sdMm > 0.0) out += "+- " + fixedText(sdMm, 1) + " mm, ";
   if (origin == OffsetOrigin::kGiven) return out + "given)";
   if (origin == OffsetOrigin::kEmptyHand && objects == 0) return out + "from the empty hand)";
   return out + "from " + std::to_string(objects) + (objects == 1 ? " object" : " objects") + ")" +
-         (trusted ? "" : "; that is not enough to be sure of anything");
+         (trusted ? "" : "; too little is known by that to call a verdict sure");
 }
 
 SessionOffset noOffset() { return oneValue(0.0, OffsetOrigin::kNone); }

@@ -44,6 +44,26 @@ TEST_F(AdaptCommand, StoresTheOffsetOfTheSession) {
     EXPECT_EQ(said.at("grasps").at(i).at("label").asString(), "small box");
 }
 
+TEST_F(AdaptCommand, OfTwoDaysTheNewestCountsAndTheOtherIsSaid) {
+  // 28 hours apart, read 1 mm small, then 4 mm small.
+  saveThings(folder_ / "later", 1, 50, -1.0, kLaterUs);
+  for (const char* thing : {"pen", "bottle"})
+    saveGrasps(folder_ / "later" / thing / "b.dsa",
+               (thing == std::string("pen") ? 8.0 : 32.0) - 4.0,
+               2,
+               70,
+               kLaterUs + 28 * (kOneDayUs / 24));
+  const auto both = palpate({"adapt", model(), folder_ / "later", "-o", adapted()});
+  EXPECT_EQ(both.exitCode, 3) << both.err;
+  EXPECT_NE(both.err.find("4 grasps are of an earlier session, more than 8 h before"),
+            std::string::npos)
+      << both.err;
+  const Json json = Json::parse(both.out);
+  EXPECT_NEAR(json.at("session_offset").at("mm").asDouble(), -4.0, 0.8);
+  EXPECT_EQ(json.at("session_offset").at("grasps").asInteger(), 4);
+  EXPECT_EQ(json.at("classes").size(), 2u);
+}
+
 TEST_F(AdaptCommand, OneObjectIsNotEnoughToBeSure) {
   saveGrasps(folder_ / "today/pen/a.dsa", 8.0 + 2.5, 3, 50, kLaterUs);
   const auto result = palpate({"adapt", model(), folder_ / "today", "-o", adapted()});

@@ -22,8 +22,13 @@ int adaptByGrasps(const CommandLine& given,
                   const std::optional<EmptyHandZero>& zero,
                   TrainedModel& model,
                   Json& classes) {
-  const FeatureTable table = gatherTable(given, {given.words()[1]}, model.set);
+  FeatureTable table = gatherTable(given, {given.words()[1]}, model.set);
   requireFits(model, table);
+  const std::size_t earlier = keepNewestSession(table);
+  if (earlier > 0)
+    sayLine(std::to_string(earlier) + (earlier == 1 ? " grasp is" : " grasps are") +
+            " of an earlier session, more than 8 h before the others, and left out: the hand reads "
+            "sizes anew in each session");
   if (zero) requireSameDay(*zero, table);
   const SampleSet today = samplesOf(table, model.classes);
   forgetAnotherDay(model, table.rows.front().timeUs);
@@ -37,7 +42,7 @@ int adaptByGrasps(const CommandLine& given,
   for (std::size_t c = 0; c < counts.size(); ++c)
     if (counts[c] > 0)
       classes.push(Json::object().set("name", today.classes[c]).set("grasps", counts[c]));
-  return codeFor(table);
+  return earlier > 0 ? static_cast<int>(kPartlyDone) : codeFor(table);
 }
 
 }  // namespace
@@ -56,7 +61,10 @@ int adaptCommand(const Words& words) {
            "grasps, which also tell\n        what the objects feel like today. One grasp of each "
            "object at hand is nearly all the gain; two\n        different objects are the least "
            "for verdicts that may be called sure.\n\n"
-           "What the model stored of the same day is kept, of another day forgotten. Prints the "
+           "Of grasps of several sessions (more than 8 h apart) the newest counts, and what is "
+           "left out is "
+           "said: exit code 3.\nWhat the model stored of the same day is kept, of another day "
+           "forgotten. Prints the "
            "offset and the classes as\nJSON.",
        .options = {{"output,o", "MODEL2.json", "write the adapted model there"},
                    zeroOptionSpec(),

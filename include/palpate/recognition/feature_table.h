@@ -46,6 +46,11 @@ struct FeatureTable {
   std::vector<std::string> classes() const;
 };
 
+// A session ends where no grasp comes for longer: the hand reads sizes differently in the next one.
+constexpr std::int64_t kSessionPauseUs = 8LL * 3600 * 1'000'000;
+// Keeps the rows of the newest session; returns how many rows of earlier ones were left out.
+std::size_t keepNewestSession(FeatureTable& table);
+
 // "6x14 3.4 mm, ..": what must agree between a model and a recording.
 std::string sensorText(const SensorLayout& layout);
 
