@@ -10,6 +10,9 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kSignalOverviewFramesPerReport = 512;
+// Of all series together: 49 of an SDH-2 with a bucket per second for 47 hours take 64 MB. What claims to be longer, or
+// to have more matrices, has longer buckets.
+constexpr double kMostBucketsOfAll = 8'388'608.0;
 
 }  // namespace
 
@@ -18,8 +21,13 @@ SignalOverview::SignalOverview(const Profile& profile, double bucketS)
   if (profile.numFrames() == 0)
     throw std::invalid_argument("SignalOverview: the profile holds no frame");
   const double durationS = static_cast<double>(profile.durationUs()) / kUsPerS;
-  for (std::size_t i = 0; i < numRows_ * kAllSignalKinds.size(); ++i)
-    series_.push_back(std::make_unique<BucketSeries>(durationS, bucketS));
+  const std::size_t count = numRows_ * kAllSignalKinds.size();
+  if (!(bucketS > 0.0))
+    throw std::invalid_argument("SignalOverview: buckets of " + std::to_string(bucketS) + " s");
+  const double most = kMostBucketsOfAll / static_cast<double>(count);
+  const double lengthS = std::max(bucketS, durationS / most);
+  for (std::size_t i = 0; i < count; ++i)
+    series_.push_back(std::make_unique<BucketSeries>(durationS, lengthS));
 }
 
 void SignalOverview::compute(const Progress& progress) {

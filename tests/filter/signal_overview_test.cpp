@@ -79,5 +79,20 @@ TEST(SignalOverview, RefusesWhatMakesNoSense) {
   EXPECT_THROW((void)overview.of(7, SignalKind::kMean), std::out_of_range);
 }
 
+TEST(SignalOverview, HasABoundWhateverTimeIsClaimed) {
+  // Two frames, a hundred years apart: a bucket per second would be 3.2 billion of them in each series.
+  ProfileBuilder builder(sdh2().layout);
+  std::vector<float> values(sdh2().layout->numPlaces(), 0.0F);
+  values[5] = 70.0F;
+  builder.addFrame(1, values);
+  builder.addFrame(1 + 100LL * 365 * 86'400 * 1'000'000, values);
+  SignalOverview overview(builder.finish({}));
+  overview.compute();
+  const BucketSeries& sums = overview.of(6, SignalKind::kSum);
+  EXPECT_LE(sums.numReady() * 7 * 7, 8'388'608u + 49u);
+  EXPECT_EQ(sums.maximum(0), 70.0F);
+  EXPECT_EQ(sums.maximum(sums.numReady() - 1), 70.0F);
+}
+
 }  // namespace
 }  // namespace palpate::signal_overview_test

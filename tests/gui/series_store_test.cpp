@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <palpate/emulator/synthetic_profile.h>
+#include <palpate/model/profile_builder.h>
 #include <palpate/recording/recording.h>
 
 #include "window_fixture.h"
@@ -147,6 +148,25 @@ TEST_F(SeriesStoreTest, TheOverviewTellsTheExactFacts) {
   EXPECT_EQ(recording->timingNow().gaps.size(), whole->timing.gaps.size());
   EXPECT_EQ(recording->at(77, 1).mean, whole->at(77, 1).mean);
   EXPECT_NEAR(recording->timeAt(77), whole->timeAt(77), 1e-9);
+}
+
+// what a file claims of its matrices is bounded before anything is drawn.
+TEST_F(SeriesStoreTest, OfManyMatricesOrPlacesFewerFramesAreLong) {
+  const auto opened = [](std::vector<MatrixLayout> matrices, int frames) {
+    const auto layout = std::make_shared<const SensorLayout>(std::move(matrices));
+    ProfileBuilder builder(layout);
+    const std::vector<float> values(layout->numPlaces(), 7.0F);
+    for (int i = 0; i < frames; ++i) builder.addFrame(1 + i * 30'000LL, values);
+    return makeOpenedRecording("none.palpate", builder.finish({}));
+  };
+  const MatrixLayout single = MatrixLayout::full(1, 1, 3.4);
+  EXPECT_FALSE(opened({single}, 25'000)->isLong());
+  const auto many = opened(std::vector<MatrixLayout>(64, single), 25'000);
+  ASSERT_TRUE(many->isLong()) << "a table of 64 signals of each frame would take 90 MB";
+  EXPECT_EQ(many->table.numFrames(), 0u);
+  EXPECT_EQ(many->at(3, 5).sum, 7.0);
+  EXPECT_NEAR(many->timingNow().meanRateHz, 1e6 / 30'000.0, 0.01);
+  EXPECT_TRUE(opened({MatrixLayout::full(256, 256, 3.4)}, 1500)->isLong());
 }
 
 }  // namespace

@@ -46,16 +46,27 @@ void takeSummary(OpenedRecording& opened, const std::vector<SecondSummary>& seco
   opened.timing.rateHz = static_cast<double>(*middle);
 }
 
-// Of a long one; false: it has no summary.
-bool openBySummary(OpenedRecording& opened) {
+// Of a long one. Without a summary (a .dsa, a damaged one) nothing is known but how long it is: all is taken for touched,
+// until the overview tells.
+void openBySummary(OpenedRecording& opened) {
+  std::vector<SecondSummary> seconds;
   try {
-    const std::vector<SecondSummary> seconds = readSeconds(opened.path);
-    if (seconds.empty()) return false;
-    takeSummary(opened, seconds);
-    return true;
+    seconds = readSeconds(opened.path);
   } catch (const Error&) {
-    return false;
+    seconds.clear();
   }
+  takeSummary(opened, seconds);
+  if (!seconds.empty()) return;
+  opened.timing.rateHz = opened.timing.meanRateHz;
+  opened.touched.assign(opened.numMatrices(), true);
+}
+
+bool isLongRecording(const Profile& profile, std::size_t longFrom) {
+  const std::size_t frames = profile.numFrames();
+  return frames > 0 &&
+         (frames >= longFrom ||
+          frames * (profile.layout().numMatrices() + 1) >= OpenedRecording::kLongFromRows ||
+          frames * profile.layout().numPlaces() >= OpenedRecording::kLongFromPlaces);
 }
 
 void readThrough(OpenedRecording& opened, const Progress& progress) {
@@ -158,7 +169,6 @@ OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
                                        Profile profile,
                                        const Progress& progress,
                                        std::size_t longFrom) {
-  const std::size_t numFrames = profile.numFrames();
   auto opened = std::make_shared<OpenedRecording>(OpenedRecording{.path = std::move(path),
                                                                   .profile = std::move(profile),
                                                                   .timing = {},
@@ -171,10 +181,12 @@ OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
                                                                   .eventsFailure = {},
                                                                   .overview = {}});
   opened->touched.assign(opened->numMatrices(), false);
-  if (numFrames >= longFrom && numFrames > 0 && openBySummary(*opened))
+  if (isLongRecording(opened->profile, longFrom)) {
+    openBySummary(*opened);
     opened->overview = std::make_shared<SignalOverview>(opened->profile);
-  else
+  } else {
     readThrough(*opened, progress);
+  }
   for (const Gap& gap : opened->timing.gaps) opened->gapFrames.push_back(gap.frame);
   readTheirEvents(*opened);
   return opened;

@@ -21,8 +21,11 @@
 namespace palpate::gui {
 
 struct OpenedRecording {
-  // Longer ones (an hour and three quarters of a hand) aren't read through before they are shown.
-  static constexpr std::size_t kLongFrom = 200'000;  // frames
+  // Longer ones (an hour and three quarters of a hand) aren't read through before they are shown, nor are those whose
+  // matrices make as much of fewer frames: a file may claim 64 matrices or 65,536 places.
+  static constexpr std::size_t kLongFrom = 200'000;           // frames
+  static constexpr std::size_t kLongFromRows = 1'600'000;     // frames x (matrices + 1)
+  static constexpr std::size_t kLongFromPlaces = 97'200'000;  // frames x places
 
   std::filesystem::path path;
   Profile profile;

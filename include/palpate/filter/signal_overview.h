@@ -1,5 +1,5 @@
-// All characteristic signals of a long recording in one pass over its frames: smallest and largest value per second,
-// and what only such a pass can tell. One thread computes, others look at what is ready.
+// All characteristic signals of a long recording in one pass over its frames: smallest and largest value per second
+// (longer than two days, or of many matrices: per as many seconds as 64 MB allow), and what only such a pass can tell. One thread computes, others look at what is ready.
 #pragma once
 
 #include <cstddef>
