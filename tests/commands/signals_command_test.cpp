@@ -7,6 +7,7 @@
 namespace palpate::signals_command_test {
 namespace {
 
+namespace fs = std::filesystem;
 using testing::expectOneLineError;
 using testing::palpate;
 
