@@ -211,12 +211,14 @@ void bindRecordings(py::module_& module) {
       py::arg("path"),
       "What was said of a recording as a whole: dict of texts ('serial', 'operator', "
       "'settings', ..); of a .dsa nothing. OSError, ValueError.");
-  module.def("seconds",
-             &seconds,
-             py::arg("path"),
-             "The per-second summary of a .palpate, without reading its frames: dict of columns "
-             "t_s [s since 1970], matrix, frames, min, max, sum [counts], active_max. OSError, "
-             "ValueError.");
+  module.def(
+      "seconds",
+      &seconds,
+      py::arg("path"),
+      "The per-second summary of a recording (a .palpate holds it: its frames are not read): "
+      "dict of columns "
+      "t_s [s since 1970], matrix, frames, min, max, sum [counts], active_max. OSError, "
+      "ValueError.");
 }
 
 }  // namespace palpate::python

@@ -161,5 +161,32 @@ TEST(StreamCommand, RefusesWrongUsage) {
   expectOneLineError(palpate({"stream", "no.dsa", "--lines"}), 1, {"no.dsa"});
 }
 
+// C-A1: of a damaged recording what can be read is sent, and the rest told.
+TEST(StreamCommand, ADamagedRecordingIsReadAsFarAsVerifyReadsIt) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "damaged.palpate";
+  ASSERT_EQ(palpate({"convert", demoFile(), path}).exitCode, 0);
+  std::string bytes = readFile(path);
+  // The data of a block in the middle: whichever it is.
+  for (std::size_t at = bytes.size() / 2; at < bytes.size() / 2 + 4096; at += 64)
+    bytes[at] = static_cast<char>(bytes[at] ^ 1);
+  writeFile(path, bytes);
+  const ProgramResult verified = palpate({"verify", path});
+  ASSERT_EQ(verified.exitCode, 3) << verified.out;
+  const ProgramResult lines = palpate({"stream", path, "--lines"});
+  EXPECT_EQ(lines.exitCode, 3) << lines.err;
+  const ProgramResult info = palpate({"info", path, "--json"});
+  EXPECT_EQ(info.exitCode, 3) << info.err;
+  const auto frames = Json::parse(info.out).at("frames").asInteger();
+  EXPECT_EQ(static_cast<std::int64_t>(linesOf(lines.out).size()), frames);
+  EXPECT_NE(verified.out.find("readable: " + std::to_string(frames) + " frames"), std::string::npos)
+      << verified.out;
+  UdpReceiver receiver;
+  const ProgramResult sent = palpate(
+      {"stream", path, "--to", "signals:" + std::to_string(receiver.port()), "--duration", "1"});
+  EXPECT_EQ(sent.exitCode, 3) << sent.err;
+  EXPECT_TRUE(receiver.receive());
+}
+
 }  // namespace
 }  // namespace palpate::stream_command_test
