@@ -210,7 +210,7 @@ void GraspControl::report() {
   if (auto ended = machine_.takeReport()) {
     ended->endUs = session_.nowUs();
     asked_.reset();
-    note(endEvent(*ended));
+    note(endEvent(*ended), /*ends=*/true);
     tell(GraspPhase::kIdle, ended->text, ended);
     last_ = std::move(ended);
   }
@@ -338,7 +338,7 @@ GraspStatus GraspControl::status() const {
   GraspStatus status;
   status.phase = machine_.phase();
   // Ended is a grasp when the session was told so, too.
-  if (!machine_.active() && undelivered_ > 0) status.phase = GraspPhase::kStopping;
+  if (!machine_.active() && endsOwed_ > 0) status.phase = GraspPhase::kStopping;
   if (machine_.active()) status.request = machine_.running().request;
   status.last = last_;
   status.cannotMove = motionProblem();

@@ -6,28 +6,29 @@
 
 namespace palpate {
 
-void GraspControl::note(RecordingEvent event) {
-  owed_.push_back(std::move(event));
-  ++undelivered_;
+void GraspControl::note(RecordingEvent event, bool ends) {
+  owed_.push_back({std::move(event), ends});
+  if (ends) ++endsOwed_;
   owes_.notify_one();
 }
 
 void GraspControl::deliver() {
   while (true) {
-    RecordingEvent event;
+    Owed owed;
     {
       const std::lock_guard lock(mutex_);
       if (owed_.empty()) return;
-      event = std::move(owed_.front());
+      owed = std::move(owed_.front());
       owed_.pop_front();
     }
     try {
-      session_.note(event);
+      session_.note(owed.event);
     } catch (const std::exception&) {
       // No memory: what moves a hand goes on without this line.
     }
+    if (!owed.ends) continue;
     const std::lock_guard lock(mutex_);
-    --undelivered_;
+    --endsOwed_;
   }
 }
 

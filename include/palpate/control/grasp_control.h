@@ -90,7 +90,7 @@ class GraspControl {
   void round();
   void guardedRound() noexcept;
   void fault(const char* what) noexcept;
-  void note(RecordingEvent event);
+  void note(RecordingEvent event, bool ends = false);
   void hear();         // frames
   void heedAnswers();  // of the hand
   void heedPorts();
@@ -120,8 +120,12 @@ class GraspControl {
   std::optional<GraspReport> last_;
   std::deque<GraspChange> changes_;
   std::string lastFault_;  // said once; empty after a good round
-  std::deque<RecordingEvent> owed_;
-  std::size_t undelivered_ = 0;  // owed, or being handed over
+  struct Owed {
+    RecordingEvent event;
+    bool ends = false;  // of a grasp
+  };
+  std::deque<Owed> owed_;
+  std::size_t endsOwed_ = 0;  // ends that the session wasn't told yet
   std::condition_variable_any owes_;
   std::jthread delivery_;
   std::jthread thread_;
