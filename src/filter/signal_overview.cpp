@@ -9,7 +9,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kSignalOverviewFramesPerReport = 512;
+constexpr std::size_t kSignalOverviewPlacesPerReport = 250'000;  // some milliseconds
 // Of all series together: 49 of an SDH-2 with a bucket per second for 47 hours take 64 MB. What claims to be longer, or
 // to have more matrices, has longer buckets.
 constexpr double kMostBucketsOfAll = 8'388'608.0;
@@ -32,13 +32,15 @@ SignalOverview::SignalOverview(const Profile& profile, double bucketS)
 
 void SignalOverview::compute(const Progress& progress) {
   const std::size_t frames = profile_.numFrames();
+  const std::size_t framesPerReport =
+      std::max<std::size_t>(1, kSignalOverviewPlacesPerReport / profile_.layout().numPlaces());
   const auto saturation = static_cast<double>(profile_.hand().saturationCounts);
   std::vector<std::int64_t> stampsUs;
   stampsUs.reserve(frames);
   std::vector<CharacteristicSignals> rows;
   TactileFrame frame;
   for (std::size_t i = 0; i < frames; ++i) {
-    if (progress && i % kSignalOverviewFramesPerReport == 0 &&
+    if (progress && i % framesPerReport == 0 &&
         !progress(static_cast<double>(i) / static_cast<double>(frames)))
       throw Cancelled();
     profile_.readFrame(i, frame);

@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t kReadAtOnce = 3000;   // samples, in the window's thread (a few milliseconds)
 constexpr std::size_t kMostExact = 16'000;  // samples that are read for what is seen
 constexpr std::size_t kSpread = 1500;       // samples of the first look at a long recording
+constexpr std::size_t kMostLookedAt =
+    5'000'000;  // places in those samples: fewer of a sensor that claims many
 constexpr int kNewsMs = 200;
 constexpr double kForever = 1e12;  // [s]
 
@@ -95,9 +97,11 @@ std::shared_future<void> SeriesStore::lookAtFrames() {
     auto look = std::make_shared<FirstLook>();
     try {
       const std::size_t frames = profile.numFrames();
+      const std::size_t spread =
+          std::clamp<std::size_t>(kMostLookedAt / profile.layout().numPlaces(), 1, kSpread);
       TactileFrame frame;
-      for (std::size_t i = 0; i <= kSpread && !*stop; ++i) {
-        profile.readFrame((frames - 1) * i / kSpread, frame);
+      for (std::size_t i = 0; i <= spread && !*stop; ++i) {
+        profile.readFrame((frames - 1) * i / spread, frame);
         look->timeS.push_back(static_cast<double>(frame.hostUs - profile.frameTimeUs(0)) / kUsPerS);
         allSignals(frame, look->rows.emplace_back());
       }
