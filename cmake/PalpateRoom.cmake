@@ -78,8 +78,16 @@ function(palpate_test_entry room name)
       list(APPEND entry_ENVIRONMENT QT_QPA_PLATFORM=offscreen)
     endif()
   endif()
+  # ctest starts the dearest first: windows and whole programs, which take longest.
+  set(cost 1)
+  if(entry_GUI OR room MATCHES "^(commands|emulator|control|device)$")
+    set(cost 10)
+    if(name MATCHES "live|hand_dock|recognise|screenshot|slip_window|demo_command|emulated_hand|safety|sdh_emulated")
+      set(cost 100)
+    endif()
+  endif()
   add_test(NAME ${room}/${name} COMMAND ${command})
-  set_tests_properties(${room}/${name} PROPERTIES LABELS "${labels}" TIMEOUT ${entry_TIMEOUT}
+  set_tests_properties(${room}/${name} PROPERTIES LABELS "${labels}" TIMEOUT ${entry_TIMEOUT} COST ${cost}
                        ENVIRONMENT "${entry_ENVIRONMENT}")
 endfunction()
 

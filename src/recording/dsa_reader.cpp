@@ -29,10 +29,10 @@ void blameContainer(DsaText& text) {
   }
 }
 
-Profile read(ByteSource& source,
-             const std::filesystem::path& path,
-             const Progress& progress,
-             const DsaReadOptions& options) {
+Profile readDocument(ByteSource& source,
+                     const std::filesystem::path& path,
+                     const Progress& progress,
+                     const DsaReadOptions& options) {
   DsaText text(source, path);
   const std::uint64_t maxBytes = boundFor(options.freeBytes, options.maxRatio, source.numBytes());
   DsaDocument document(options, memoryBound(options, text.compressed(), source.numBytes()));
@@ -84,14 +84,14 @@ Profile readDsa(const std::filesystem::path& path,
                 const Progress& progress,
                 const DsaReadOptions& options) {
   FileSource source(path);
-  return read(source, path, progress, options);
+  return readDocument(source, path, progress, options);
 }
 
 Profile readDsaBytes(std::span<const std::byte> bytes,
                      const std::filesystem::path& name,
                      const DsaReadOptions& options) {
   MemorySource source(bytes);
-  return read(source, name, {}, options);
+  return readDocument(source, name, {}, options);
 }
 
 }  // namespace palpate

@@ -97,7 +97,7 @@ TEST(Recipe, IsAFile) {
   testing::writeFile(folder / "bad.json", "{\"format\": ");
   EXPECT_THROW(readRecipe(folder / "bad.json"), FormatError);
   testing::writeFile(folder / "large.json", std::string(2 << 20, ' '));
-  EXPECT_THROW(readRecipe(folder / "large.json"), FileError);
+  EXPECT_THROW(readRecipe(folder / "large.json"), FormatError);
 }
 
 TEST(Recipe, PresetsAreSoundAndTheFirstRunsLive) {

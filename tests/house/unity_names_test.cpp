@@ -15,7 +15,7 @@ namespace {
 std::set<std::string> anonymousNames(const std::string& text) {
   static const std::regex type("^(?:struct|class|enum class|enum|union)\\s+(\\w+)");
   static const std::regex alias("^using (\\w+) =");
-  static const std::regex function("^[^(=\"]*?\\b(\\w+)\\(");
+  static const std::regex function("^[^(=\":]*(?:::[^(=\":]+)*[ *&](\\w+)\\(");
   static const std::regex variable("^[^()=\"]*?\\b(\\w+)(?:\\[[^\\]]*\\])?\\s*(?:=|\\{|;)");
   static const std::regex other("^(?:[ })/#]|template|using|static_assert|namespace)");
   std::set<std::string> names;

@@ -61,6 +61,11 @@ Heartbeat::Heartbeat() {
   lastUs_.assign(cores.size(), 0);
   for (std::size_t i = 0; i < cores.size(); ++i)
     threads_.emplace_back([this, i, core = cores[i]] { beat(i, core); });
+  // A thread that hasn't begun notices nothing.
+  std::unique_lock lock(mutex_);
+  beaten_.wait(lock, [&] {
+    return std::all_of(lastUs_.begin(), lastUs_.end(), [](auto lastUs) { return lastUs > 0; });
+  });
 }
 
 Heartbeat::~Heartbeat() {

@@ -34,6 +34,7 @@ class LateWakeUps {
 // chain of threads that needs each of its links.
 class Heartbeat {
  public:
+  // Returns when each core's thread has woken once.
   Heartbeat();
   ~Heartbeat();
   Heartbeat(const Heartbeat&) = delete;

@@ -40,7 +40,7 @@ Json recipeJson(const Recipe& recipe);
 // Throws Error saying which step and key is wrong: unknown keys and names list the known ones.
 Recipe recipeFromJson(const Json& json);
 
-// Throws FileError (gone, unreadable, larger than a megabyte), FormatError or Error (no recipe), with the path.
+// Throws FileError (gone, unreadable), FormatError (larger than a megabyte, no recipe) or Error, with the path.
 Recipe readRecipe(const std::filesystem::path& path);
 // The file appears whole or not at all. Throws FileError.
 void writeRecipe(const std::filesystem::path& path, const Recipe& recipe, bool overwrite);
