@@ -58,6 +58,8 @@ class EagerDevice : public ScriptedDevice {
     done = true;
   }
   void deliverAngles(const std::stop_token& stop) {
+    // A recording begins with its first frame: of angles before it, it keeps those of the last minute only.
+    while (sentFrames == 0 && !stop.stop_requested()) std::this_thread::yield();
     for (std::size_t n = 0; n < 3 * frames_ && !stop.stop_requested(); ++n) {
       const std::int64_t atUs = kWallStartUs + static_cast<std::int64_t>(n) * 9'000;
       sink_->onAngles(numberedAngles(n, atUs));
