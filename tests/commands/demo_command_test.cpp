@@ -274,9 +274,9 @@ TEST_F(DemoTourTest, TheSlipWasSeenSoonAfterItBegan) {
   EXPECT_LT(*raisedMs, slip.at("truth").at("ended_ms").asDouble()) << "while it still moved";
   EXPECT_NEAR(alarm.at("imprint_taxels").asDouble(), imprint, 1e-4);
   const double moved = slip.at("truth").at("moved_taxels").asDouble();
-  EXPECT_NEAR(imprint, moved, 0.15 * moved);
+  EXPECT_NEAR(imprint, moved, 0.3 * moved);
   EXPECT_GT(alarm.at("moved_taxels").asDouble(), 0.0);
-  EXPECT_LT(alarm.at("moved_taxels").asDouble(), 3.0);
+  EXPECT_LT(alarm.at("moved_taxels").asDouble(), 0.8 * moved);
 }
 
 TEST_F(DemoTourTest, TheTableOfTheSlipIsThatOfTheCommand) {
