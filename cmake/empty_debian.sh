@@ -41,7 +41,7 @@ makeEmptyDebian() { # FILE
     debootstrap --variant=minbase bookworm "$place" "$mirror" >>"$log" 2>&1 || fail "debootstrap failed"
     tar -C "$place" -czf "$base.part" . && mv "$base.part" "$base" || fail "can't keep $base"
   fi
-  mount -t proc proc "$place/proc" &&
+  mount -t proc proc "$place/proc" && mount -t sysfs -o ro sysfs "$place/sys" &&
     mount -t devpts -o newinstance,ptmxmode=0666,gid=5,mode=620 devpts "$place/dev/pts" &&
     mkdir -p "$place/dev/shm" && mount -t tmpfs -o mode=1777 shm "$place/dev/shm" || fail "can't mount into $place"
   rm -f "$place/dev/ptmx" && ln -s pts/ptmx "$place/dev/ptmx"
