@@ -61,13 +61,20 @@ function(palpate_precompiled target kind)
   endif()
 endfunction()
 
-# palpate_precompile(KIND lib...) makes that form; LIBs are those whose headers are in it.
+# palpate_precompile(KIND [THOROUGH | LIGHT] LIBS lib...) makes that form, as optimised as those who read it; LIBs are
+# those whose headers are in it.
 function(palpate_precompile kind)
+  cmake_parse_arguments(form "THOROUGH;LIGHT" "" "LIBS" ${ARGN})
   if(PALPATE_PRECOMPILED)
     set(target palpate_precompiled_${kind})
     add_library(${target} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled/nothing.cpp)
-    target_link_libraries(${target} PRIVATE palpate_warnings ${ARGN})
+    target_link_libraries(${target} PRIVATE palpate_warnings ${form_LIBS})
     palpate_like_precompiled(${target})
+    if(form_THOROUGH)
+      palpate_thorough(${target})
+    elseif(form_LIGHT)
+      palpate_light(${target})
+    endif()
     target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled/${kind}.h)
   endif()
 endfunction()
@@ -84,7 +91,7 @@ function(palpate_like_precompiled target)
 endfunction()
 
 # palpate_unity(TARGET) compiles the sources of TARGET several at a time, so that headers are read once for
-# all of them. Names in anonymous namespaces of one folder have to differ (house/include_rule_test).
+# all of them. Names in anonymous namespaces of one folder have to differ (house/unity_names_test).
 # PALPATE_UNITY=OFF compiles each source by itself: for clang-tidy, editors, and the proof that every
 # source names what it uses (preset `separate`).
 function(palpate_unity target)
@@ -95,21 +102,26 @@ function(palpate_unity target)
   endif()
 endfunction()
 
-# palpate_light(TARGET): no time is won by optimising what runs for milliseconds, much by compiling it fast.
-function(palpate_light target)
+# palpate_optimise(TARGET LEVEL): in a release, -O1 or -O3 instead of -O2. A target that reads a precompiled header
+# has the level of that header: GCC goes back to the one that stands in it, behind Eigen's `#pragma GCC optimize`
+# (house/compile_options_test).
+function(palpate_optimise target level)
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
-    target_compile_options(${target} PRIVATE -O1)
-  endif()
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # Needs the whole optimiser to be right.
-    target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
+    target_compile_options(${target} PRIVATE ${level})
   endif()
 endfunction()
 
 # palpate_thorough(TARGET): the core library, in whose loops the program spends its time. GCC vectorises most of
 # them from -O3 on only.
 function(palpate_thorough target)
-  if(CMAKE_BUILD_TYPE STREQUAL "Release")
-    target_compile_options(${target} PRIVATE -O3)
+  palpate_optimise(${target} -O3)
+endfunction()
+
+# palpate_light(TARGET): no time is won by optimising what runs for milliseconds, much by compiling it fast.
+function(palpate_light target)
+  palpate_optimise(${target} -O1)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # Needs the whole optimiser to be right.
+    target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
   endif()
 endfunction()
