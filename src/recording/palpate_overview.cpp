@@ -114,18 +114,7 @@ std::optional<std::vector<SecondSummary>> readOverview(SqliteDatabase& database,
 }
 
 std::vector<SecondSummary> readSeconds(const std::filesystem::path& path) {
-  if (!isNativeRecording(path)) {
-    std::vector<SecondSummary> seconds;
-    SecondSummarizer summarizer([&](const SecondSummary& row) { seconds.push_back(row); });
-    const Profile profile = readDsa(path);
-    TactileFrame frame;
-    for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-      profile.readFrame(i, frame);
-      summarizer.add(frame);
-    }
-    summarizer.flush();
-    return seconds;
-  }
+  if (!isNativeRecording(path)) return secondsOf(readDsa(path));
   PalpateAccess access(path);
   const std::size_t numMatrices = readLayout(access.database()).numMatrices();
   auto seconds =

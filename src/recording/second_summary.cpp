@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "palpate/core/error.h"
+
 namespace palpate {
 
 void SecondSummarizer::add(const TactileFrame& frame) {
@@ -38,6 +40,23 @@ void SecondSummarizer::add(const TactileFrame& frame) {
 void SecondSummarizer::flush() {
   for (const SecondSummary& row : rows_) sink_(row);
   rows_.clear();
+}
+
+std::vector<SecondSummary> secondsOf(const Profile& profile, const Progress& progress) {
+  constexpr std::size_t kFramesPerReport = 1024;
+  std::vector<SecondSummary> seconds;
+  SecondSummarizer summarizer([&](const SecondSummary& row) { seconds.push_back(row); });
+  TactileFrame frame;
+  const std::size_t numFrames = profile.numFrames();
+  for (std::size_t i = 0; i < numFrames; ++i) {
+    if (progress && i % kFramesPerReport == 0 &&
+        !progress(static_cast<double>(i) / static_cast<double>(numFrames)))
+      throw Cancelled();
+    profile.readFrame(i, frame);
+    summarizer.add(frame);
+  }
+  summarizer.flush();
+  return seconds;
 }
 
 }  // namespace palpate

@@ -245,6 +245,9 @@ TEST(PalpateRecording, theSummaryOfADsaIsThatOfItsFrames) {
   const std::vector<SecondSummary> rows = readSeconds(folder / "s.dsa");
   EXPECT_EQ(rows.size(), 4u * 6);
   EXPECT_TRUE(rows == readSeconds(folder / "again.palpate"));
+  const Profile open = openRecording(folder / "s.dsa");
+  EXPECT_TRUE(rows == secondsOf(open));
+  EXPECT_THROW(secondsOf(open, [](double) { return false; }), Cancelled);
 }
 
 }  // namespace

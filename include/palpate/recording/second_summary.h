@@ -6,6 +6,8 @@
 #include <functional>
 #include <vector>
 
+#include <palpate/core/progress.h>
+#include <palpate/model/profile.h>
 #include <palpate/model/tactile_frame.h>
 
 namespace palpate {
@@ -34,6 +36,10 @@ class SecondSummarizer {
   Sink sink_;
   std::vector<SecondSummary> rows_;
 };
+
+// The summary of a profile, every frame of it read, in the order of readSeconds(): for whoever has a .dsa open
+// already. Throws Cancelled, and what reading a frame throws.
+std::vector<SecondSummary> secondsOf(const Profile& profile, const Progress& progress = {});
 
 // The summary of a recording, ordered by time, then matrix; seconds without a frame are not there. A
 // native recording holds it: its frames are not read, of an unfinished one the last second is missing,
