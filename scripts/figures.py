@@ -61,9 +61,14 @@ def number(pattern, factor=1.0):
     return take
 
 
-def sum_of(pattern):
-    """The sum of all first groups."""
-    return lambda out: sum(float(each) for each in re.findall(pattern, out.text))
+def sum_of(pattern, matches=None):
+    """The sum of all first groups; of as many matches as are expected, where that is known."""
+    def take(out):
+        found = re.findall(pattern, out.text)
+        if not found or matches not in (None, len(found)):
+            raise ValueError(f"{len(found)} places in the output match {pattern}")
+        return sum(float(each) for each in found)
+    return take
 
 
 def stops(name, key):
@@ -89,7 +94,8 @@ def peak_mb(out):
 
 
 def digits(value):
-    """Two figures that count, or three where the first is a 1 and the number is short."""
+    """Below 10 two figures that count; from 10 on one behind the point, where the number isn't whole; from 100 on
+    whole numbers."""
     size = abs(value)
     if size >= 10:
         return f"{value:,.0f}" if size >= 100 or value == int(value) else f"{value:.1f}"
@@ -134,12 +140,14 @@ class Part:
     env: dict = field(default_factory=dict)
     recordings: bool = False  # wants the real recordings
     show: str = ""  # as a page shows the command, where that is not the command itself
+    # Of an Output: "date" and "commit" of the measurement, as far as the command reports an earlier one.
+    origin: object = lambda out: {}
 
     def shown(self):
         text = self.show or self.command
         text = text.replace('xvfb-run -a -s "-screen 0 1600x1000x24" ', "xvfb-run -a ").replace(" --benchmark_format=json", "")
         for name, word in WORDS.items():
-            text = text.replace("$" + name, word)
+            text = text.replace(f'"${name}"', word)
         variables = "".join(f"{key}={value} " for key, value in self.env.items())
         return f"`{variables}{text}`".replace("|", "\\|")
 
@@ -152,12 +160,12 @@ def bench(name, seconds, pattern, figures, display=False, **more):
     screen = 'xvfb-run -a -s "-screen 0 1600x1000x24" ' if display else ""
     quoted = pattern if re.fullmatch(r"[\w/]+", pattern) else f"'{pattern}'"
     return Part(name, seconds,
-                f"{screen}$BENCH --benchmark_filter={quoted} --benchmark_format=json",
+                f'{screen}"$BENCH" ' f"--benchmark_filter={quoted} --benchmark_format=json",
                 figures, **more)
 
 
 def slow_test(name, seconds, room, file, figures, **more):
-    return Part(name, seconds, f"$TESTS/{room}/{room}_tests --file={file}", figures, **more)
+    return Part(name, seconds, f'"$TESTS"/{room}/{room}_tests --file={file}', figures, **more)
 
 
 METHODS = ["centroid", "alcazar", "ncc-paraboloid", "ncc-gauss3", "phase", "phase-normalized",
@@ -201,7 +209,16 @@ def one_value(name):
 
 
 def first_time(key):
-    return number(rf"(?m)^{key} (\d+)")
+    """None where the file doesn't have it."""
+    def take(out):
+        match = re.search(rf"(?m)^{key} (\d+)$", out.text)
+        return float(match[1]) if match else None
+    return take
+
+
+def first_time_origin(out):
+    """When and of what `scripts/test fresh` wrote the file."""
+    return dict(re.findall(r"(?m)^(date|commit) (\S+)$", out.text))
 
 
 def slip_figures():
@@ -230,11 +247,11 @@ def filter_figures():
 def later(name, options):
     return Part(f"another_day_{name}", 2, f"""
 mkdir -p later/hockey_ball later/foam_ball later/pen_thick
-ln -sf $RECORDINGS/grasps/hockey_ball.dsa later/hockey_ball/
-ln -sf $RECORDINGS/grasps/foam_ball.dsa later/foam_ball/
-ln -sf $RECORDINGS/classification_video/pen_thick.dsa later/pen_thick/
-$PALPATE train -q $RECORDINGS/grasps_by_class -o m.json > trained.json
-$PALPATE evaluate -q --model m.json later{options} 2> notes.txt || [ $? = 3 ]""".strip(),
+ln -sf "$RECORDINGS"/grasps/hockey_ball.dsa later/hockey_ball/
+ln -sf "$RECORDINGS"/grasps/foam_ball.dsa later/foam_ball/
+ln -sf "$RECORDINGS"/classification_video/pen_thick.dsa later/pen_thick/
+"$PALPATE" train -q "$RECORDINGS"/grasps_by_class -o m.json > trained.json
+"$PALPATE" evaluate -q --model m.json later{options} 2> notes.txt || [ $? = 3 ]""".strip(),
                 {"grasps": (at("grasps"), COUNT), "right": (at("right"), COUNT),
                  "share": (at("accuracy"), share(3)), "top3": (at("top3"), share(3)),
                  "sure": (lambda out: out.json()["coverage"] * out.json()["grasps"], COUNT),
@@ -245,18 +262,19 @@ $PALPATE evaluate -q --model m.json later{options} 2> notes.txt || [ $? = 3 ]"""
 
 def recorder(seconds, rate, hands):
     each = "\n".join(f"""
-$PALPATE emulate {rate} --dsa $PWD/d{i} --sdh $PWD/s{i} > e{i}.txt 2>&1 &
+"$PALPATE" emulate {rate} --dsa "$PWD"/d{i} --sdh "$PWD"/s{i} > e{i}.txt 2>&1 &
 hands="$hands $!"
-until [ -e d{i} ] && [ -e s{i} ]; do sleep 0.05; done""" for i in range(hands))
+until [ -e d{i} ] && [ -e s{i} ]; do kill -0 $!; sleep 0.05; done""" for i in range(hands))
     records = "\n".join(
-        f"$PALPATE record -q --dsa $PWD/d{i} --sdh $PWD/s{i} -o r{i}.palpate --duration {seconds} "
+        f'"$PALPATE" record -q --dsa "$PWD"/d{i} --sdh "$PWD"/s{i} -o r{i}.palpate --duration {seconds} '
         f"--json > r{i}.json &\nrecords=\"$records $!\"" for i in range(hands))
     if hands == 1:
-        records = (f"TIMEFORMAT='processor %U %S'\ntime $PALPATE record -q --dsa $PWD/d0 "
-                   f"--sdh $PWD/s0 -o r0.palpate --duration {seconds} --json > r0.json")
-    return f"""{each}
+        records = (f"TIMEFORMAT='processor %U %S'\n" 'time "$PALPATE" record -q --dsa "$PWD"/d0 '
+                   f'--sdh "$PWD"/s0 -o r0.palpate --duration {seconds} --json > r0.json')
+    return f"""hands= records=
+{each}
 {records}
-[ -z "$records" ] || wait $records
+for record in $records; do wait $record; done
 kill -TERM $hands
 wait $hands || true
 cat r*.json""".strip()
@@ -268,9 +286,9 @@ PARTS = [
 echo "$(nproc) cores, $(sed -n 's/^model name\\s*: //p' /proc/cpuinfo | head -n 1), $PRETTY_NAME"
 """.strip(), {"name": (lambda out: out.text.strip(), str)}, idle=False),
     Part("first_time", 1, "cat cmake/first_time.txt", show="scripts/test fresh", figures={
-        key: (first_time(key), COUNT) for key in
+        key: (first_time(key), MEGABYTES if key.endswith("_mb") else COUNT) for key in
         ("cores", "packages_minutes", "program_minutes", "program_mb", "tests_minutes", "tests_mb",
-         "suite_minutes")}, idle=False),
+         "suite_minutes")}, idle=False, origin=first_time_origin),
     Part("call", 5, "scripts/run --version && TIMEFORMAT='call %R' && time scripts/run --version",
          show="time scripts/run --version", figures={
         "unchanged": (number(r"call ([\d.]+)"), S)}),
@@ -297,7 +315,7 @@ echo "$(nproc) cores, $(sed -n 's/^model name\\s*: //p' /proc/cpuinfo | head -n 
         "all_read": (counter("timelineOfADay", "all_read_s"), S)},
         display=True, env={"PALPATE_BENCHMARK_DAY": "1"}),
 ] + [
-    Part(f"folder_{command}", 4, f"$PALPATE {command} -q $RECORDINGS > out.txt",
+    Part(f"folder_{command}", 4, f'"$PALPATE" {command} -q "$RECORDINGS" > out.txt',
          show=f"palpate {command} FOLDER", figures={
         "processor": (processor_s, S), "peak": (peak_mb, MEGABYTES)}, recordings=True)
     for command in ("info", "signals", "verify", "grasps")
@@ -351,8 +369,8 @@ echo "$(nproc) cores, $(sed -n 's/^model name\\s*: //p' /proc/cpuinfo | head -n 
         "lost": (number(r'"lost": ?(\d+)'), COUNT)}),
     Part("record_fast", 25, recorder(20, "--rate 300", 2), show="palpate emulate --rate 300`, "
          "`palpate record --duration 20 --json", figures={
-        "frames": (sum_of(r'"frames": ?(\d+)'), COUNT),
-        "lost": (sum_of(r'"lost": ?(\d+)'), COUNT)}),
+        "frames": (sum_of(r'"frames": ?(\d+)', 2), COUNT),
+        "lost": (sum_of(r'"lost": ?(\d+)', 2), COUNT)}),
     bench("packet", 10, "framePacket|textbookChecksum", {
         **{f"{kind}": (cpu(f"framePacket/{kind}"), US) for kind in ("grasp", "noise", "raw")},
         **{f"{kind}.textbook": (cpu(f"textbookChecksum/{kind}"), US)
@@ -389,21 +407,21 @@ echo "$(nproc) cores, $(sed -n 's/^model name\\s*: //p' /proc/cpuinfo | head -n 
         **{key: (one_value(name), US if key.startswith("em") else NS)
            for key, name in VALUE_FILTERS.items()}}),
 
-    Part("slip", 40, "$PALPATE slip-benchmark -q", slip_figures(), idle=False),
-    Part("slip_20", 40, "$PALPATE slip-benchmark -q --noise 20", slip_figures(), idle=False),
-    Part("alarms", 5, "$PALPATE slip-benchmark -q --trials 1 --shape disc --recordings $RECORDINGS", {
+    Part("slip", 40, '"$PALPATE" slip-benchmark -q', slip_figures(), idle=False),
+    Part("slip_20", 40, '"$PALPATE" slip-benchmark -q --noise 20', slip_figures(), idle=False),
+    Part("alarms", 5, '"$PALPATE" slip-benchmark -q --trials 1 --shape disc --recordings "$RECORDINGS"', {
         f"{alarm}.{key}": (at("alarms", "methods", alarm, key), write)
         for alarm in ALARMS for key, write in (
             ("per_hour", in_two), ("per_hour_settled", in_two), ("per_hour_quiet", in_two),
             ("found_part", lambda part: f"{100 * part:.1f} %"), ("slips", COUNT),
             ("delay_median_frames", COUNT), ("delay_p90_frames", COUNT))},
         idle=False, recordings=True),
-    Part("nist", 2, "$TESTS/calibration/calibration_tests --file=least_squares_test", {
+    Part("nist", 2, '"$TESTS"/calibration/calibration_tests --file=least_squares_test', {
         "digits": (number(r"mean ([\d.]+) digits"), fixed(1)),
         "runs": (number(r"digits over (\d+) runs"), COUNT)}, idle=False),
 ] + [
     Part(f"evaluate_{name}_{protocol}", 3,
-         f"$PALPATE evaluate -q $RECORDINGS/grasps_by_class {options} "
+         f'"$PALPATE" evaluate -q "$RECORDINGS"/grasps_by_class {options} '
          f"{'--splits 100' if protocol == 'S' else '--protocol B'}",
          {"mean": (at("accuracy_mean"), share(3)), "grasps": (at("grasps"), COUNT)},
          idle=False, recordings=True)
@@ -412,12 +430,12 @@ echo "$(nproc) cores, $(sed -n 's/^model name\\s*: //p' /proc/cpuinfo | head -n 
     later("fresh", ""), later("none", " --session-offset none"),
     later("batch", " --session-offset batch"), later("adapt", " --adapt 1"),
 
-    Part("python_import", 1, "PYTHONPATH=$PYTHON python3 -X importtime -c 'import palpate'", {
+    Part("python_import", 1, "PYTHONPATH=\"$PYTHON\" python3 -X importtime -c 'import palpate'", {
         "import": (number(r"\| +(\d+) \| palpate\n", 1e-6), S)},
         show="python3 -X importtime -c 'import palpate'"),
     Part("package", 90, """
-scripts/package
-file=$(ls -t build/release/palpate_*.deb | head -n 1)
+file=$(scripts/package)
+file=${file##*$'\n'}
 echo "bytes $(stat -c %s "$file") installed $(dpkg-deb -f "$file" Installed-Size)"
 """.strip(), show="scripts/package", figures={
         "size": (number(r"bytes (\d+)", 1e-6), fixed(1, "MB")),
@@ -429,7 +447,7 @@ echo "bytes $(stat -c %s "$file") installed $(dpkg-deb -f "$file" Installed-Size
            for key in ("answers", "late", "late_excused", "lost", "in_motion")},
         **{key: (stops("stop_on_the_wire", key + "_ms"), fixed(1, "ms"))
            for key in ("median", "p99", "worst")}}),
-    Part("escapes", 400, 'xvfb-run -a -s "-screen 0 1600x1000x24" $TESTS/gui/gui_tests '
+    Part("escapes", 400, 'xvfb-run -a -s "-screen 0 1600x1000x24" "$TESTS"/gui/gui_tests '
          "--file=live_safety_slow_test", {
         **{key: (stops("escape_to_the_wire", key), COUNT)
            for key in ("answers", "late", "late_excused", "lost", "in_motion")},
@@ -488,9 +506,9 @@ STOP_FIGURES = ("median {%s.median}, p99 {%s.p99}, worst {%s.worst}; {%s.late} o
 SECTIONS = {
     "building": [
         Row("first call on an empty Debian 12: packages, program", "{first_time.packages_minutes} min, "
-            "{first_time.program_minutes} min, {first_time.program_mb} MB", "first_time", True),
+            "{first_time.program_minutes} min, {first_time.program_mb}", "first_time", True),
         Row("the rest of the build for the tests; the suite", "{first_time.tests_minutes} min, "
-            "{first_time.tests_mb} MB; {first_time.suite_minutes} min", "first_time"),
+            "{first_time.tests_mb}; {first_time.suite_minutes} min", "first_time"),
         Row("call when nothing has changed", "{call.unchanged}", "call"),
         Row("fast suite", "{suite.passed} tests in {suite.wall}", "suite", True),
     ],

@@ -3,8 +3,11 @@
 #include <set>
 
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include "house/source_tree.h"
+#include "testing/awaited.h"
+#include "testing/background_program.h"
 #include "testing/program.h"
 #include "testing/testing.h"
 
@@ -87,6 +90,87 @@ TEST(MeasureScript, NamesItsPartsAndRefusesOthers) {
   const ProgramResult wrong = measure({"--no-build", "everything"});
   EXPECT_EQ(wrong.exitCode, 2);
   EXPECT_NE(wrong.err.find("no such part: everything"), std::string::npos) << wrong.err;
+}
+
+// The script as a module of Python, with parts of the test's own.
+class MeasuredParts : public ::testing::Test {
+ protected:
+  std::vector<std::string> words(const std::string& code) const {
+    return {"-c",
+            "import importlib.machinery, importlib.util, os, re, sys, tempfile\n"
+            "sys.dont_write_bytecode = True\n"
+            "loader = importlib.machinery.SourceFileLoader('measure', sys.argv[1])\n"
+            "measure = importlib.util.module_from_spec(importlib.util.spec_from_loader('measure', "
+            "loader))\n"
+            "loader.exec_module(measure)\n"
+            "figures, tempfile.tempdir = measure.figures, sys.argv[2]\n"
+            "def run(part):\n"
+            "  measurer = measure.Measurer(True)\n"
+            "  try: return measurer.run(part)\n"
+            "  finally: measurer.close()\n" +
+                code,
+            (projectFolder() / "scripts/measure").string(),
+            folder_.path().string()};
+  }
+  // What it prints.
+  std::string python(const std::string& code) const {
+    const ProgramResult result = runProgram("/usr/bin/python3", words(code));
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return result.out;
+  }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(MeasuredParts, StandInACheckoutWithABlankInItsPath) {
+  EXPECT_EQ(python("names = 'BENCH|PALPATE|TESTS|RECORDINGS|PYTHON|PWD'\n"
+                   "for part in figures.PARTS:\n"
+                   "  if re.search(rf'(?<!\")\\$({names})\\b', part.command): print(part.name)\n"
+                   "  if re.search(rf'\\$({names})\\b', part.shown()): print(part.shown())\n"),
+            "");
+}
+
+TEST_F(MeasuredParts, FailWithTheFirstCommandThatFails) {
+  const std::string part =
+      "print(run(figures.Part('x', 1, COMMAND, {'n': (figures.number('(1)'), str)}, idle=False)))";
+  EXPECT_EQ(python("COMMAND = 'false\\necho 1'\n" + part), "None\n");
+  EXPECT_NE(python("COMMAND = 'true\\necho 1'\n" + part).find("{'n': 1.0}"), std::string::npos);
+}
+
+TEST_F(MeasuredParts, OfSeveralOutputsHaveTheFigureOfEach) {
+  EXPECT_EQ(
+      python("def total(text, *more):\n"
+             "  try: return figures.sum_of(r'lost (\\d)', *more)(figures.Output(text, 0, 0, 0))\n"
+             "  except ValueError: return None\n"
+             "print(total('found 1'), total('lost 1', 2), total('lost 1 lost 2', 2))"),
+      "None None 3.0\n");
+}
+
+// The first call on an empty machine is measured by another script, at its time.
+TEST_F(MeasuredParts, OfAFileHaveItsDateAndCommitAndWhatItHolds) {
+  EXPECT_EQ(python("part = next(part for part in figures.PARTS if part.name == 'first_time')\n"
+                   "lines = ['date 2026-01-02', 'commit 12345678'] + [\n"
+                   "  f'{name} 7' for name in part.figures if name != 'program_mb']\n"
+                   "part.command = 'printf \"' + '\\\\n'.join(lines) + '\"'\n"
+                   "entry = run(part)\n"
+                   "print(entry['date'], entry['commit'], entry['figures'].get('program_mb'),\n"
+                   "      entry['figures']['tests_mb'])"),
+            "2026-01-02 12345678 None 7.0\n");
+}
+
+TEST_F(MeasuredParts, LeaveNothingBehindWhenTheScriptIsEnded) {
+  BackgroundProgram script(
+      "/usr/bin/python3",
+      words("figures.PARTS = [figures.Part('x', 60, f'echo $$ > {sys.argv[2]}/pid.part; '\n"
+            "  f'mv {sys.argv[2]}/pid.part {sys.argv[2]}/pid; sleep 600', {}, idle=False)]\n"
+            "sys.argv = ['measure', '--no-build', 'x']\n"
+            "sys.exit(measure.main())"));
+  ASSERT_TRUE(awaited([&] { return fs::exists(folder_ / "pid"); })) << script.err();
+  script.signal(SIGTERM);
+  EXPECT_EQ(script.wait(), 143);
+  const pid_t command = std::stoi(readFile(folder_ / "pid"));
+  fs::remove(folder_ / "pid");
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
+  EXPECT_NE(::kill(command, 0), 0) << "its command still runs";
 }
 
 // C-D1: the least of several tries says nothing about the others.

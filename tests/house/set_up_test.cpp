@@ -1,5 +1,8 @@
 // What the scripts say where a machine lacks something, in one line each, and that the next call goes on.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include "house/checkout_of_scripts.h"
 #include "house/source_tree.h"
@@ -354,6 +357,29 @@ TEST_F(ScriptsSetUp, StagesAndTheirSecondsAreWrittenDown) {
   EXPECT_TRUE(lines[0].starts_with("packages ")) << lines[0];
   EXPECT_TRUE(lines[1].starts_with("configuring ")) << lines[1];
   EXPECT_TRUE(lines[2].starts_with("building ")) << lines[2];
+}
+
+// ---- The trial on an empty machine
+
+TEST_F(ScriptsSetUp, TrialThatCannotBeginSaysSoInItsLastLine) {
+  const std::string count = "0 passed, 1 failed, 0 skipped\n";
+  writeFile(folder_ / "file", "");
+  const ProgramResult place = call("../cmake/fresh_machine",
+                                   {(folder_ / "file/trial").string()},
+                                   {{"PALPATE_PACKAGES", "keep"}});
+  EXPECT_EQ(place.exitCode, 1);
+  EXPECT_EQ(place.out, count) << place.err;
+  EXPECT_NE(place.err.find("can't make "), std::string::npos) << place.err;
+
+  fs::create_directories(folder_ / "trial");
+  const int lock = ::open((folder_ / "trial/.lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
+  ASSERT_EQ(::flock(lock, LOCK_EX), 0);
+  const ProgramResult other = call(
+      "../cmake/fresh_machine", {(folder_ / "trial").string()}, {{"PALPATE_PACKAGES", "keep"}});
+  ::close(lock);
+  EXPECT_EQ(other.exitCode, 1);
+  EXPECT_EQ(other.out, count) << other.err;
+  EXPECT_NE(other.err.find("another trial runs"), std::string::npos) << other.err;
 }
 
 }  // namespace
