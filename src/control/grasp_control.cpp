@@ -14,7 +14,8 @@ namespace {
 using std::chrono::microseconds;
 
 constexpr std::int64_t kRoundUs = 5000;  // while something moves: looks at answers, axes and ports
-constexpr std::int64_t kIdleUs = 100'000;  // else, when nothing comes
+constexpr std::int64_t kIdleUs = 100'000;           // else, when nothing comes
+constexpr std::int64_t kFaultAgainUs = 10'000'000;  // then the same failure is said again
 constexpr std::chrono::milliseconds kGoodbye{300};
 constexpr std::size_t kMostChanges = 1000;
 constexpr std::size_t kWaitingFrames = 64;  // two seconds: then this thread didn't run at all
@@ -97,7 +98,6 @@ void GraspControl::step() {
 void GraspControl::guardedRound() noexcept {
   try {
     round();
-    lastFault_.clear();
   } catch (const std::exception& failure) {
     fault(failure.what());
   } catch (...) {
@@ -125,8 +125,10 @@ void GraspControl::fault(const char* what) noexcept {
     send();
   });
   whateverHappens([&] {
-    if (lastFault_ == what) return;
+    // One that comes and goes must not fill a recording.
+    if (lastFault_ == what && nowUs - lastFaultUs_ < kFaultAgainUs) return;
     lastFault_ = what;
+    lastFaultUs_ = nowUs;
     const std::string text = std::string("the program failed while it watched the hand (") + what +
                              "); what moved was stopped";
     note({session_.nowUs(), session_.nowUs(), "alarm", {}, text, {}});
@@ -139,7 +141,10 @@ void GraspControl::hear() {
   feed_->take(items_);
   const std::int64_t nowUs = clock_.monotonicUs();
   for (const CaptureItem& item : items_)
-    if (const auto* frame = std::get_if<SharedFrame>(&item)) machine_.onFrame(**frame, nowUs);
+    if (const auto* frame = std::get_if<SharedFrame>(&item))
+      machine_.onFrame(**frame, nowUs);
+    else if (const auto* angles = std::get_if<JointAngles>(&item))
+      machine_.onAngles(angles->deg);
   items_.clear();
 }
 
@@ -171,13 +176,17 @@ void GraspControl::heedAnswers() {
 }
 
 void GraspControl::heedPorts() {
-  if (!machine_.active()) return;
+  if (!machine_.active()) {
+    if (portGone_ && motionProblem(session_.device().status()).empty()) portGone_.reset();
+    return;
+  }
   const std::int64_t nowUs = clock_.monotonicUs();
   const DeviceStatus status = session_.device().status();
   // Its thread has tried to stop the hand, and opens the port anew: the stop goes out again until it is answered.
   if (status.motion && status.motion->state == PortState::kFault)
     return machine_.fault("the motion port failed", nowUs);
-  if (const std::string why = motionProblem(); !why.empty()) return machine_.onMotionPortGone(why);
+  if (const std::string why = motionProblem(status); !why.empty())
+    return machine_.onMotionPortGone(why, nowUs);
   const PortStatus& tactile = status.tactile;
   if (tactile.state == PortState::kLost || tactile.state == PortState::kFault ||
       tactile.state == PortState::kClosed)
@@ -185,8 +194,8 @@ void GraspControl::heedPorts() {
   machine_.onAxisStates(session_.device().axisStates(), nowUs);
 }
 
-std::string GraspControl::motionProblem() const {
-  const auto motion = session_.device().status().motion;
+std::string GraspControl::motionProblem(const DeviceStatus& status) {
+  const std::optional<PortStatus>& motion = status.motion;
   if (!motion) return "no motion port is connected";
   switch (motion->state) {
     case PortState::kStreaming:
@@ -212,6 +221,7 @@ void GraspControl::report() {
     asked_.reset();
     note(endEvent(*ended), /*ends=*/true);
     tell(GraspPhase::kIdle, ended->text, ended);
+    if (ended->outcome == GraspOutcome::kPortGone) portGone_ = ended;
     last_ = std::move(ended);
   }
   if (machine_.phase() == told_) return;
@@ -253,7 +263,7 @@ void GraspControl::grasp(const GraspRequest& request) {
     guardedRound();  // what has come by now counts
     try {
       request.validate();
-      if (const std::string why = motionProblem(); !why.empty())
+      if (const std::string why = motionProblem(session_.device().status()); !why.empty())
         throw DeviceError(DeviceFault::kRefused, "grasp", "refused: the hand can't move: " + why);
       if (request.mode != GraspMode::kPlain && settingsPending())
         throw DeviceError(
@@ -262,6 +272,8 @@ void GraspControl::grasp(const GraspRequest& request) {
             "refused: a tactile setting is just being changed; once more in a second");
       machine_.setSettings(session_.device().facts().matrices);
       machine_.begin(request, clock_.monotonicUs(), session_.nowUs());
+      lastFault_.clear();
+      portGone_.reset();
     } catch (const std::exception& error) {
       refused(request, error.what());
       throw;
@@ -293,6 +305,8 @@ void GraspControl::stop() noexcept {
       report();
     } catch (const std::exception& failure) {
       fault(failure.what());
+    } catch (...) {
+      fault("an exception of no known kind");
     }
   }
   deliverHere();
@@ -309,6 +323,8 @@ void GraspControl::relax() noexcept {
       report();
     } catch (const std::exception& failure) {
       fault(failure.what());
+    } catch (...) {
+      fault("an exception of no known kind");
     }
   }
   deliverHere();
@@ -341,7 +357,8 @@ GraspStatus GraspControl::status() const {
   if (!machine_.active() && endsOwed_ > 0) status.phase = GraspPhase::kStopping;
   if (machine_.active()) status.request = machine_.running().request;
   status.last = last_;
-  status.cannotMove = motionProblem();
+  status.cannotMove = motionProblem(session_.device().status());
+  if (!status.cannotMove.empty()) status.portGone = portGone_;
   status.cannotReact = status.cannotMove;
   if (status.cannotReact.empty() && !machine_.stream().alive(clock_.monotonicUs()))
     status.cannotReact = "no tactile frames come";

@@ -23,7 +23,7 @@ void GraspControl::deliver() {
     }
     try {
       session_.note(owed.event);
-    } catch (const std::exception&) {
+    } catch (...) {
       // No memory: what moves a hand goes on without this line.
     }
     if (!owed.ends) continue;

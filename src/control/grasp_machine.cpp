@@ -17,6 +17,8 @@ constexpr int kStops = 20;                      // .. so often, then it is given
 // A motion may take so much longer than announced: fingers slow down at what they press.
 constexpr double kDurationFactor = 3.0;
 constexpr double kDurationMoreS = 5.0;
+// A motion without resistance may take so much longer than announced, or than by its velocity alone.
+constexpr double kStartAndStopS = 0.5;
 // The rubber answers with a lag of 0.16 s: after three of them little comes.
 constexpr std::int64_t kLookOnUs = 500'000;
 constexpr float kRiseCounts = 10.0F;   // less is noise
@@ -133,11 +135,16 @@ bool GraspMachine::learnLayout(const TactileFrame& frame) {
 }
 
 void GraspMachine::move(double closeRatio, GraspPhase phase, std::int64_t monoUs) {
-  command_ = motionTo(report_.request, closeRatio, hand_);
+  send(motionTo(report_.request, closeRatio, hand_), phase, monoUs);
+}
+
+void GraspMachine::send(MoveJoints motion, GraspPhase phase, std::int64_t monoUs) {
+  underWay_ = motion;
+  command_ = std::move(motion);
   phase_ = phase;
   sentUs_ = monoUs;
   taken_ = false;
-  announcedUs_ = 0;
+  announcedUs_ = takenUs_ = 0;
   patienceUs_ = monoUs + kAnswerUs;
 }
 
@@ -171,6 +178,7 @@ void GraspMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) {
 void GraspMachine::onMoveTaken(double durationS, std::int64_t monoUs) {
   if (!moves() || taken_) return;
   taken_ = true;
+  takenUs_ = monoUs;
   // What is no duration announces nothing.
   const double seconds = std::isfinite(durationS) ? std::clamp(durationS, 0.0, 1e4) : 0.0;
   announcedUs_ = monoUs + std::llround(seconds * 1e6);
@@ -191,6 +199,7 @@ void GraspMachine::onAxisStates(const std::vector<int>& states, std::int64_t mon
 
 void GraspMachine::motionEnded(const std::vector<int>& states, std::int64_t monoUs) {
   std::string axes;
+  underWay_.reset();
   report_.heldAxes.clear();
   for (std::size_t axis = 0; axis < states.size(); ++axis) {
     if (states[axis] != kBlockedClockwise && states[axis] != kBlockedCounterClockwise) continue;
@@ -212,12 +221,12 @@ void GraspMachine::motionEnded(const std::vector<int>& states, std::int64_t mono
 
 void GraspMachine::halt(GraspOutcome outcome, const std::string& text, std::int64_t monoUs) {
   report_.outcome = outcome;
-  report_.text = text;
   phase_ = GraspPhase::kStopping;
   next_ = Next::kEnd;
   command_ = StopMotion{};  // instead of a motion that wasn't taken yet
   sentUs_ = monoUs;
   ++stops_;
+  report_.text = text;  // last: it may find no memory
 }
 
 void GraspMachine::end(GraspOutcome outcome, const std::string& text) {
@@ -230,9 +239,11 @@ void GraspMachine::end(GraspOutcome outcome, const std::string& text) {
 
 void GraspMachine::onStopTaken(std::int64_t monoUs) {
   if (phase_ != GraspPhase::kStopping) return;
+  underWay_.reset();
   if (next_ == Next::kSettle) return settle(monoUs);
-  if (report_.outcome == GraspOutcome::kLimitReached) return lookOn(monoUs);
   if (next_ == Next::kClose) return move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
+  // One that is slip-aware was not closing yet, but on its way to the start: it has nothing to hold, and must not close.
+  if (report_.outcome == GraspOutcome::kLimitReached && !isSlipAware()) return lookOn(monoUs);
   end(report_.outcome, report_.text);
 }
 
@@ -264,13 +275,37 @@ void GraspMachine::onCommandFailed(const std::string& why, bool sent, std::int64
   if (moves()) halt(GraspOutcome::kFailed, "failed: " + why, monoUs);
 }
 
-void GraspMachine::onMotionPortGone(const std::string& why) {
+// How long the motion that was sent last can go on without anybody [s]; 0: none is under way.
+double GraspMachine::goesOnS(std::int64_t monoUs) const {
+  if (!underWay_) return 0.0;
+  if (announcedUs_ > takenUs_)
+    return std::max(0.0, static_cast<double>(announcedUs_ - monoUs) / 1e6 + kStartAndStopS);
+  double seconds = 0.0;
+  for (std::size_t axis = 0; axis < underWay_->targetDeg.size(); ++axis) {
+    const double target = underWay_->targetDeg[axis];
+    // Where no angle has come it may stand anywhere.
+    const double travel =
+        anglesDeg_.size() == underWay_->targetDeg.size()
+            ? std::abs(target - anglesDeg_[axis])
+            : std::max(target - hand_.axes[axis].minimumDeg, hand_.axes[axis].maximumDeg - target);
+    seconds = std::max(seconds, travel / std::max(1e-3, underWay_->velocityDegPerS[axis]));
+  }
+  return seconds + kStartAndStopS;
+}
+
+void GraspMachine::onMotionPortGone(const std::string& why, std::int64_t monoUs) {
   if (!active()) return;
   if (looksOn()) return endLooking();  // it has stopped
-  const std::string gone =
-      "the motion port is gone: " + why + "; the hand finishes its motion by itself";
+  report_.goesOnS = goesOnS(monoUs);
+  const std::string gone = "the motion port is gone: " + why;
+  if (underWay_) {
+    const std::string text = gone + "; the hand finishes its motion by itself";
+    return end(GraspOutcome::kPortGone,
+               phase_ == GraspPhase::kStopping ? report_.text + ", but " + text : text);
+  }
   end(GraspOutcome::kPortGone,
-      phase_ == GraspPhase::kStopping ? report_.text + ", but " + gone : gone);
+      phase_ == GraspPhase::kStopping ? report_.text + ", and " + gone
+                                      : gone + "; the hand holds, nobody watches");
 }
 
 void GraspMachine::onTactilePortGone(const std::string& why, std::int64_t monoUs) {
@@ -282,20 +317,22 @@ void GraspMachine::onTactilePortGone(const std::string& why, std::int64_t monoUs
         "the tactile port is gone: " + why + "; the hand holds, nobody watches");
 }
 
-void GraspMachine::fault(const std::string& why, std::int64_t monoUs) {
+// The text comes last: it may find no memory, and the stop must go out all the same.
+void GraspMachine::fault(std::string_view why, std::int64_t monoUs) {
   if (looksOn()) return endLooking();  // it has stopped
   if (phase_ == GraspPhase::kStopping) {
     // The stop is on its way; nothing may follow it.
     if (next_ == Next::kEnd && report_.outcome != GraspOutcome::kNone) return;
     next_ = Next::kEnd;
     report_.outcome = GraspOutcome::kFailed;
-    report_.text = "failed: " + why + ": stopped";
+    report_.text = "failed: " + std::string(why) + ": stopped";
     return;
   }
-  if (active())
-    halt(GraspOutcome::kFailed,
-         "failed: " + why + (holds() ? ": the hand holds, nobody watches" : ": stopped"),
-         monoUs);
+  if (!active()) return;
+  const bool held = holds();
+  halt(GraspOutcome::kFailed, {}, monoUs);
+  report_.text =
+      "failed: " + std::string(why) + (held ? ": the hand holds, nobody watches" : ": stopped");
 }
 
 void GraspMachine::stop(std::int64_t monoUs) {

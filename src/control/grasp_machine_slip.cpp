@@ -119,8 +119,7 @@ void GraspMachine::loosen(const char* action, const std::string& text, std::int6
   grip_.setReference();
   MoveJoints open = motionTo(report_.request, 0.0, hand_);
   for (double& velocity : open.velocityDegPerS) velocity = std::min(velocity, kLooseningDegPerS);
-  move(0.0, GraspPhase::kLoosening, monoUs);
-  command_ = std::move(open);
+  send(std::move(open), GraspPhase::kLoosening, monoUs);
   settledUs_ = monoUs + microsecondsOf(kLongestLooseningS);
 }
 

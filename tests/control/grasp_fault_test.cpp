@@ -88,6 +88,34 @@ TEST(GraspFault, EndsTheGraspAlsoWhereItIsThrownInEveryRound) {
   EXPECT_NO_THROW(bench.control->grasp({}));
 }
 
+// One that comes and goes with every other round must not fill the recording.
+TEST(GraspFault, TheSameIsSaidAgainAfterTenSecondsOrInANewGrasp) {
+  GraspBench bench;
+  std::size_t round = 0;
+  bool works = true;
+  bench.hand->statusFails = [&] {
+    if (!works && ++round % 2 == 0) throw std::runtime_error("again and again");
+  };
+  const auto alarmsOf = [&](std::int64_t us) {
+    for (std::int64_t passed = 0; passed < us; passed += 100'000) bench.wait(100'000);
+    std::size_t found = 0;
+    for (const RecordingEvent& event : bench.session->takeEvents()) found += event.kind == "alarm";
+    return found;
+  };
+  bench.control->grasp({});
+  bench.hand->state.motion->state = PortState::kLost;
+  EXPECT_EQ(alarmsOf(200'000), 0u);  // from now on it is looked whether the port is back
+  works = false;
+  EXPECT_EQ(alarmsOf(9'000'000), 1u);
+  EXPECT_EQ(alarmsOf(5'000'000), 1u) << "ten seconds later";
+  works = true;
+  bench.hand->state.motion->state = PortState::kStreaming;
+  bench.control->grasp({});
+  bench.hand->state.motion->state = PortState::kLost;
+  works = false;
+  EXPECT_EQ(alarmsOf(2'000'000), 1u) << "of another grasp";
+}
+
 TEST(GraspFault, AnotherLayoutInASlipAwareGraspStopsIt) {
   GraspBench bench;
   bench.control->grasp(slipAware());

@@ -1,6 +1,7 @@
 // The limit of a grasp under tactile control: whether it can be felt, what is reached after the stop, and what becomes
 // of a grasp in which the program fails.
 #include <stdexcept>
+#include <string_view>
 
 #include "palpate/core/error.h"
 
@@ -40,6 +41,26 @@ TEST(GraspMachine, WhatIsReachedAfterTheStopIsSaidBesideWhatWasAsked) {
             "6.0 times the limit: close more slowly");
 }
 
+// It was not closing yet: there is nothing to hold, and nothing may close any more.
+TEST(GraspMachine, ASlipAwareGraspThatIsOverItsLimitOnTheWayToItsStartEndsThere) {
+  Bench bench;
+  GraspRequest request = reactive(200);
+  request.mode = GraspMode::kSlip;
+  request.startRatio = 0.0;
+  bench.begin(request);
+  bench.take();
+  bench.frames(1, 250.0F);
+  EXPECT_TRUE(bench.takeStop());
+  bench.machine.onStopTaken(bench.us);
+  EXPECT_FALSE(bench.machine.active());
+  const auto report = bench.machine.takeReport();
+  ASSERT_TRUE(report.has_value());
+  EXPECT_EQ(report->outcome, GraspOutcome::kLimitReached);
+  bench.lookOn(300.0F);
+  EXPECT_FALSE(bench.machine.takeCommand().has_value());
+  EXPECT_FALSE(bench.machine.active());
+}
+
 TEST(GraspMachine, LookingOnEndsAtOnceWhenTheUserOrAPortEndsIt) {
   for (int how = 0; how < 4; ++how) {
     Bench bench;
@@ -49,7 +70,7 @@ TEST(GraspMachine, LookingOnEndsAtOnceWhenTheUserOrAPortEndsIt) {
     EXPECT_TRUE(bench.takeStop());
     bench.machine.onStopTaken(bench.us);
     if (how == 0) bench.machine.stop(bench.us);
-    if (how == 1) bench.machine.onMotionPortGone("unplugged");
+    if (how == 1) bench.machine.onMotionPortGone("unplugged", bench.us);
     if (how == 2) bench.machine.onTactilePortGone("unplugged", bench.us);
     if (how == 3) bench.machine.fault("a bug", bench.us);
     EXPECT_FALSE(bench.machine.active()) << how;
@@ -137,6 +158,19 @@ TEST(GraspMachine, AFaultStopsWhateverRuns) {
   EXPECT_EQ(report->text, "failed: out of memory: stopped");
   bench.machine.fault("idle", bench.us);
   EXPECT_FALSE(bench.machine.active());
+}
+
+// No memory for its text, as with one that is longer than any string.
+TEST(GraspMachine, AFaultThatFindsNoMemoryForItsTextStopsAllTheSame) {
+  Bench bench;
+  bench.begin({});
+  bench.take();
+  const char one = 'x';
+  const std::string_view endless(&one, std::string().max_size() + 1);
+  EXPECT_THROW(bench.machine.fault(endless, bench.us), std::length_error);
+  EXPECT_TRUE(bench.takeStop());
+  bench.machine.onStopTaken(bench.us);
+  EXPECT_EQ(bench.machine.takeReport()->outcome, GraspOutcome::kFailed);
 }
 
 }  // namespace

@@ -280,7 +280,7 @@ TEST(GraspMachine, AGoneMotionPortEndsIt) {
   Bench bench;
   bench.begin(reactive());
   bench.take();
-  bench.machine.onMotionPortGone("unplugged");
+  bench.machine.onMotionPortGone("unplugged", bench.us);
   EXPECT_FALSE(bench.machine.active());
   EXPECT_FALSE(bench.machine.takeCommand().has_value());
   EXPECT_EQ(bench.machine.takeReport()->outcome, GraspOutcome::kPortGone);

@@ -36,6 +36,11 @@ class ScriptedHand : public ScriptedDevice {
     return states;
   }
 
+  DeviceStatus status() const override {
+    if (statusFails) statusFails();
+    return state;
+  }
+
   template <typename Command>
   std::size_t count() const {
     std::size_t found = 0;
@@ -43,8 +48,9 @@ class ScriptedHand : public ScriptedDevice {
     return found;
   }
 
-  std::function<void()> fails;  // throws where the axes are asked
-  bool answers = true;          // at once; else the test answers what is waiting
+  std::function<void()> fails;        // throws where the axes are asked ..
+  std::function<void()> statusFails;  // .. and where the ports are
+  bool answers = true;                // at once; else the test answers what is waiting
   double durationS = 1.0;
   std::vector<DeviceCommand> commands;  // all that were handed in
   std::vector<std::promise<CommandAnswer>> waiting;

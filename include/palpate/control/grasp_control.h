@@ -30,7 +30,9 @@ struct GraspStatus {
   std::optional<GraspRequest> request;  // of the grasp that runs
   std::optional<GraspReport> last;      // of the one that ended last, a refused one too
   std::string cannotMove;               // why no motion can begin, one line; empty: it can
-  std::string cannotReact;              // why no reactive grasp can begin; empty: it can
+  // The grasp whose motion port went away, as long as it has not come back, whatever was refused since.
+  std::optional<GraspReport> portGone;
+  std::string cannotReact;  // why no reactive grasp can begin; empty: it can
   std::string
       cannotChange;       // why sensitivity, threshold and masks can't be changed; empty: they can
   double periodMs = 0.0;  // median period of the frames [ms]; 0: not known
@@ -98,7 +100,7 @@ class GraspControl {
   void report();
   void refused(const GraspRequest& request, const std::string& why);
   void tell(GraspPhase phase, const std::string& text, std::optional<GraspReport> report = {});
-  std::string motionProblem() const;
+  static std::string motionProblem(const DeviceStatus& status);
   bool settingsPending() const;
 
   // Hands over to the session what is owed to it; without mutex_: a consumer of the session may be in no hurry.
@@ -119,7 +121,9 @@ class GraspControl {
   GraspPhase told_ = GraspPhase::kIdle;
   std::optional<GraspReport> last_;
   std::deque<GraspChange> changes_;
-  std::string lastFault_;  // said once; empty after a good round
+  std::optional<GraspReport> portGone_;  // see GraspStatus
+  std::string lastFault_;                // said, and not again for a while in this grasp
+  std::int64_t lastFaultUs_ = 0;         // [monotonic us]
   struct Owed {
     RecordingEvent event;
     bool ends = false;  // of a grasp

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -51,13 +52,15 @@ class GraspMachine {
   void onCommandFailed(const std::string& why, bool sent, std::int64_t monoUs);
   // Device::axisStates(): ends a motion when none moves.
   void onAxisStates(const std::vector<int>& states, std::int64_t monoUs);
-  void onMotionPortGone(const std::string& why);
+  // Joint angles as last read: how far a motion still goes when its port goes away.
+  void onAngles(const std::vector<double>& deg) { anglesDeg_ = deg; }
+  void onMotionPortGone(const std::string& why, std::int64_t monoUs);
   void onTactilePortGone(const std::string& why, std::int64_t monoUs);
   // The user: stops what runs, does nothing when idle (but a stop is to be sent whatever this says).
   void stop(std::int64_t monoUs);
   void relax();
   // The program failed in the middle of this: what moves is stopped, and the grasp ends as failed.
-  void fault(const std::string& why, std::int64_t monoUs);
+  void fault(std::string_view why, std::int64_t monoUs);
   void onTime(std::int64_t monoUs);
   // When onTime() has something to do [monotonic us]; nothing: not before something happens.
   std::optional<std::int64_t> nextUs() const;
@@ -81,6 +84,8 @@ class GraspMachine {
 
  private:
   void move(double closeRatio, GraspPhase phase, std::int64_t monoUs);
+  void send(MoveJoints motion, GraspPhase phase, std::int64_t monoUs);
+  double goesOnS(std::int64_t monoUs) const;
   void halt(GraspOutcome outcome, const std::string& text, std::int64_t monoUs);
   void end(GraspOutcome outcome, const std::string& text);
   void motionEnded(const std::vector<int>& states, std::int64_t monoUs);
@@ -125,9 +130,12 @@ class GraspMachine {
   GraspPhase phase_ = GraspPhase::kIdle;
   GraspReport report_;  // of the grasp that runs
   std::optional<DeviceCommand> command_;
+  std::optional<MoveJoints> underWay_;  // sent, and neither ended nor stopped as far as is known
+  std::vector<double> anglesDeg_;       // empty: not known
   std::optional<GraspReport> ended_;
   std::int64_t sentUs_ = 0;       // the motion, or the last stop
-  bool taken_ = false;            // the hand has answered the motion
+  bool taken_ = false;            // the hand has answered the motion ..
+  std::int64_t takenUs_ = 0;      // .. then
   std::int64_t announcedUs_ = 0;  // end of the motion by the hand's announcement
   std::int64_t patienceUs_ = 0;   // then it is given up
   int stops_ = 0;

@@ -99,6 +99,9 @@ struct GraspReport {
   // The largest taxel in the half second after the stop of a grasp under tactile control: the rubber answers late,
   // so a reading goes on rising. Nothing: not measured.
   std::optional<TaxelPeak> reached = {};
+  // Of kPortGone: how long from endUs on the motion that was under way can go on without anybody [s], at most; 0: none
+  // was under way, the hand stands still and holds.
+  std::optional<double> goesOnS = {};
   // Of a slip-aware grasp:
   bool held = false;    // it came to hold
   int limitCounts = 0;  // the last limit
