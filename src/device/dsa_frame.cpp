@@ -125,6 +125,8 @@ constexpr std::size_t kEnough = 8;   // of them before anything is called lost
 constexpr double kMissing = 1.75;    // periods; stamps of real hands jitter by a quarter
 }  // namespace
 
+bool DsaLossEstimate::known() const noexcept { return recentMs_.size() >= kEnough; }
+
 void DsaLossEstimate::reset() noexcept {
   lastMs_.reset();
   recentMs_.clear();
@@ -142,7 +144,7 @@ std::uint64_t DsaLossEstimate::next(std::int64_t deviceMs, std::size_t packetByt
   const double lineMs = static_cast<double>(packetBytes) * byteUs_ / 1000.0;
   const double expected = std::max(scanPeriodMs_, lineMs);
   std::uint64_t missing = 0;
-  if (recentMs_.size() >= kEnough && interval > kMissing * expected)
+  if (known() && interval > kMissing * expected)
     missing = static_cast<std::uint64_t>(std::llround(interval / expected)) - 1;
   // Frames that the line held up say nothing about the scan, except that it is no slower.
   const double scanned = interval / static_cast<double>(missing + 1);

@@ -215,6 +215,9 @@ PortProbe probePort(const std::string& port, const PortProbeOptions& options, co
   } catch (const std::exception& failure) {
     probe.answer = PortAnswer::kNotFound;
     probe.message = std::string("the program failed while it asked: ") + failure.what();
+  } catch (...) {
+    probe.answer = PortAnswer::kNotFound;
+    probe.message = "the program failed while it asked: an exception of no known kind";
   }
   probe.port = port;
   return probe;

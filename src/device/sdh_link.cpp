@@ -284,8 +284,8 @@ void SdhLink::stop() {
       replies_.clear();
     }
     // Another line may answer an earlier question, or be how this hand confirms: the line is alive, and the next
-    // question starts by a resync.
-    if (heard) return;
+    // question starts by a resync. But a stop that was lost must not pass for taken by such a line: not the first one.
+    if (heard && timeout != kWaits[0]) return;
   }
   fail(DeviceFault::kSilent,
        "'stop' was sent, but the hand doesn't confirm it: use its emergency stop if it moves");

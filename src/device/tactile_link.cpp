@@ -25,8 +25,6 @@ constexpr double kBadShare = 0.1;
 constexpr std::uint64_t kBadEnough = 10;
 constexpr std::int64_t kCureEveryUs = 15'000'000;
 constexpr std::int64_t kOffsetWindowUs = 30'000'000;
-constexpr std::uint64_t kFramesToCount =
-    9;  // before the controller's clock can count what is missing
 
 }  // namespace
 
@@ -196,12 +194,11 @@ void TactileLink::judge(TactileFrame&& frame, const DsaFrame& packet) {
 void TactileLink::deliver(TactileFrame&& frame, std::int64_t deviceMs, std::size_t packetBytes) {
   frame.deviceMs = deviceMs;
   const std::int64_t hostUs = frame.hostUs;
+  const bool counts = session_.loss.known();
   const std::uint64_t counted = session_.loss.next(deviceMs, packetBytes);
-  ++session_.framesOfClock;
   Missing missing{counted, false};
   if (session_.gapFromUs) {
-    if (session_.framesOfClock <= kFramesToCount)
-      missing = missingSince(*session_.gapFromUs, hostUs, /*frameCame=*/true);
+    if (!counts) missing = missingSince(*session_.gapFromUs, hostUs, /*frameCame=*/true);
     endGap(hostUs, missing);
   } else {
     updateStatus([&](PortStatus& status) { status.lost += counted; });
@@ -260,15 +257,14 @@ void TactileLink::watchSilence() {
   // Perhaps it was switched off and on, and waits for a start.
   if (controller_->stopStreamOnce(milliseconds(400))) {
     session_.deviceClock.reset();
+    // Then its clock began anew, and it may show any time: what is missing is estimated by ours.
+    rateMayChange();
     controller_->startStream();
   }
 }
 
 // The controller's rate, and what its clock says, are to be learned anew: what isn't sent meanwhile is no loss.
-void TactileLink::rateMayChange() {
-  session_.loss.reset();
-  session_.framesOfClock = 0;
-}
+void TactileLink::rateMayChange() { session_.loss.reset(); }
 
 // By the usual rate: nobody heard the controller's clock over all of the gap.
 TactileLink::Missing TactileLink::missingSince(std::int64_t fromUs,

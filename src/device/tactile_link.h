@@ -85,8 +85,7 @@ class TactileLink : public PortLink {
   struct Session {
     DsaClock deviceClock;
     DsaLossEstimate loss{kTactileByteUs};
-    double periodMs = 0.0;            // usual time between two frames; 0: not known
-    std::uint64_t framesOfClock = 0;  // since the controller's clock and rate were known last
+    double periodMs = 0.0;  // usual time between two frames; 0: not known
     std::optional<Held> held;
 
     std::int64_t lastStampUs = 0;           // host time of the newest frame

@@ -7,8 +7,7 @@
 
 namespace palpate {
 
-// Takes the line for this program alone; throws DeviceError (kBusy). With `forAll`, also for programs
-// that know no flock (TIOCEXCL). `name` is for the message.
+// Takes the line for this program alone (flock); throws DeviceError (kBusy). `name` is for the message.
 void lockLine(int fd, const std::string& name);
 // Raw and 8-bit clean whatever was set before: no translation, no flow control, no signals by control
 // characters or modem lines, no DTR drop on close. The speed stays. False: errno says why.

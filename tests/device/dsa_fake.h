@@ -18,7 +18,8 @@ class FakeDsa {
   int swallow = 0;               // requests it doesn't answer
   std::int64_t framePeriodUs = 31'500;
   std::int64_t answerUs = 500;
-  int rowsTold = 0;  // of each matrix, instead of its own; 0: its own
+  std::int64_t clockAheadMs = 20'000;  // its clock before that of the test
+  int rowsTold = 0;                    // of each matrix, instead of its own; 0: its own
   int columnsTold = 0;
   // What it was told.
   std::vector<unsigned> thresholds = {150, 300, 150, 300, 150, 300};
@@ -122,7 +123,7 @@ class FakeDsa {
       sendFrame(line, at);
   }
   void sendFrame(ScriptedChannel& line, std::int64_t delayUs) {
-    const auto ms = static_cast<std::uint32_t>((clock_.nowUs + delayUs) / 1000 + 20'000);
+    const auto ms = static_cast<std::uint32_t>((clock_.nowUs + delayUs) / 1000 + clockAheadMs);
     line.arrive(wirePacket(0, framePayload(ms, std::vector<unsigned>(486, 0), runLength)), delayUs);
   }
 

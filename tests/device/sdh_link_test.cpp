@@ -192,6 +192,20 @@ TEST_F(SdhLinkTest, StopIsSentAgainUntilItIsConfirmed) {
   EXPECT_LT(clock.nowUs - before, 1'500'000);
 }
 
+// The line answers something else, while the stop got lost on its way to the hand.
+TEST_F(SdhLinkTest, AStopThatGotLostDoesNotPassForTakenByAnotherLine) {
+  controller.open();
+  hand.dead = true;
+  line.requests.clear();
+  line.arrive(bytesOf("4D 3D 34 2E 35 31 0D 0A"), 500);  // "M=4.51", of the question before
+  controller.stop();
+  EXPECT_EQ(line.requests.size(), 2u) << "sent again";
+  hand.dead = false;
+  line.requests.clear();
+  controller.stop();
+  EXPECT_EQ(line.requests.size(), 1u) << "the answer that names it is enough at once";
+}
+
 TEST_F(SdhLinkTest, StopEndsARecordThatTheHandGotInPart) {
   controller.open();
   hand.receive(bytesOf("85 1F 07 00 00"));

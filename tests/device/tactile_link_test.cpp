@@ -120,6 +120,24 @@ TEST(TactileLink, AGapOnAnOpenPortIsCountedByTheControllersClock) {
   EXPECT_EQ(static_cast<std::int64_t>(bench.link.status().lost), json.at("lost").asInteger());
 }
 
+// Switched off and on, it may show a later time than before: its clock doesn't tell how long it was away.
+TEST(TactileLink, AGapThatNeededAWakeIsEstimatedByOurClock) {
+  Bench bench;
+  bench.dsa.clockAheadMs = 0;
+  bench.begin();
+  bench.frames(50);
+  bench.silence(1'400'000);
+  EXPECT_GT(bench.dsa.stops, 0) << "it was woken";
+  bench.dsa.clockAheadMs = -1'000;
+  bench.frames(20);
+  const auto gaps = bench.events("gap");
+  ASSERT_EQ(gaps.size(), 1u);
+  EXPECT_GT(expectedLost(gaps[0]), 40.0);
+  const Json json = Json::parse(gaps[0].json);
+  EXPECT_NEAR(json.at("lost").asDouble(), expectedLost(gaps[0]), 1.0);
+  EXPECT_TRUE(json.at("estimated").asBool());
+}
+
 TEST(TactileLink, AGapThatTheEndFindsOpenIsCountedToo) {
   Bench bench;
   bench.begin();

@@ -76,6 +76,8 @@ class DsaLossEstimate {
   explicit DsaLossEstimate(double byteUs = 86.8) : byteUs_(byteUs) {}
   // Returns how many frames are missing before this one; 0 for the first ones and after reset().
   std::uint64_t next(std::int64_t deviceMs, std::size_t packetBytes);
+  // Enough frames have come since reset() that next() tells what is missing; else its 0 says nothing.
+  bool known() const noexcept;
   // The rate may change from here on (masks, thresholds, acquisition stopped).
   void reset() noexcept;
   // Estimated scan period [ms]; 0: not known yet.
