@@ -241,6 +241,8 @@ void Recorder::run() {
         impl.round();
       } catch (const std::exception& error) {  // out of memory: what was committed is safe
         impl.giveUp(error.what());
+      } catch (...) {
+        impl.giveUp("an exception of no known kind");
       }
     }
   });

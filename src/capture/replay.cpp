@@ -130,10 +130,12 @@ struct Replay::Impl {
       return run(stop);
     } catch (const std::exception& error) {
       fault = std::string("the replay has ended: ") + error.what();
+    } catch (...) {
+      fault = "the replay has ended: an exception of no known kind";
     }
     try {
       sink->onEvent({lastUs, lastUs, "alarm", {}, fault, ""});
-    } catch (const std::exception&) {
+    } catch (...) {
       // The sink itself fails: the status says it.
     }
     const std::lock_guard lock(mutex);

@@ -129,13 +129,33 @@ struct RemoteRecorder::Impl {
     return answer;
   }
 
+  // The answer is given once, whatever goes wrong behind it.
   void hand(const RemoteRequest& request, Done done) {
+    Done once = [given = std::make_shared<bool>(false),
+                 done = std::move(done)](RemoteAnswer answer) {
+      if (!std::exchange(*given, true)) done(std::move(answer));
+    };
     const std::lock_guard lock(mutex);
-    jobs.push_back({request, std::move(done)});
+    jobs.push_back({request, std::move(once)});
     wake.notify_one();
   }
 
   // On the own thread.
+
+  // In a handler: what is being thrown is the answer.
+  static void sayFailed(const Done& done) noexcept {
+    try {
+      try {
+        throw;
+      } catch (const std::exception& failure) {
+        done(RemoteAnswer::refused("failed", failure.what()));
+      } catch (...) {
+        done(RemoteAnswer::refused("failed", "an exception of no known kind"));
+      }
+    } catch (...) {
+      // No memory, most likely. Where nobody holds `done` any more, its server answers.
+    }
+  }
 
   void run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
@@ -154,10 +174,14 @@ struct RemoteRecorder::Impl {
           start(job->request.text, job->done);
         else if (job)
           stopRecording(job->done);
+      } catch (...) {
+        // The process that moves a hand goes on; whoever waits is told.
+        if (job) sayFailed(job->done);
+      }
+      try {
         look();
-      } catch (const std::exception& failure) {
-        // The process that moves a hand goes on; whoever waits is told. An answer is given once.
-        if (job) job->done(RemoteAnswer::refused("failed", failure.what()));
+      } catch (...) {
+        // Looked at again in the next round; the request of this round has nothing to do with it.
       }
     }
     if (starting) starting->done(RemoteAnswer::refused("shutting_down", "remote control ends"));
@@ -233,7 +257,7 @@ struct RemoteRecorder::Impl {
     become(State::kIdle);
     try {
       if (options.onFinished) options.onFinished(report);
-    } catch (const std::exception&) {
+    } catch (...) {
       // Whoever is told may fail: the recording is finished all the same.
     }
     return report;
@@ -252,10 +276,14 @@ struct RemoteRecorder::Impl {
     const auto verdict = startVerdict(session.recorderStatus(), recording, waitedS, options.limits);
     if (!verdict) return;
     const Done done = std::exchange(starting, std::nullopt)->done;
-    if (verdict->ok())
-      become(State::kRecording);
-    else
-      finish();
+    try {
+      if (verdict->ok())
+        become(State::kRecording);
+      else
+        finish();
+    } catch (...) {
+      return sayFailed(done);
+    }
     done(*verdict);
   }
 

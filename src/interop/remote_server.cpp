@@ -114,7 +114,7 @@ struct RemoteServer::Impl {
         for (AnswerBox::Item& item : box->take()) deliver(item);
         const std::lock_guard lock(mutex);
         stats.clients = clients.size();
-      } catch (const std::exception&) {
+      } catch (...) {
         resting = true;  // no memory, most likely: the process that moves a hand goes on
       }
     }
@@ -148,7 +148,7 @@ struct RemoteServer::Impl {
   bool isServed(Client& client, short events) {
     try {
       return serve(client, events);
-    } catch (const std::exception&) {
+    } catch (...) {
       return false;
     }
   }
@@ -214,6 +214,8 @@ struct RemoteServer::Impl {
                       [promise](RemoteAnswer answer) { promise->keep(std::move(answer)); });
     } catch (const std::exception& failure) {
       promise->keep(RemoteAnswer::refused("failed", failure.what()));
+    } catch (...) {
+      promise->keep(RemoteAnswer::refused("failed", "an exception of no known kind"));
     }
   }
 
@@ -238,12 +240,12 @@ struct RemoteServer::Impl {
     try {
       if (options.onAnswer && request.verb != RemoteServerVerb::kStatus)
         options.onAnswer(request, item.answer);
-    } catch (const std::exception&) {
+    } catch (...) {
       // Whoever is told may fail: the client has its answer all the same.
     }
     try {
       if (answer(*client, item.answer, nameOf(request.verb)) && heed(*client)) return;
-    } catch (const std::exception&) {
+    } catch (...) {
       // No memory, most likely: this client goes without.
     }
     clients.erase(client);

@@ -70,13 +70,15 @@ void ProcessingChain::run(const std::stop_token& stop) {
       if (feed->closed()) return;
       feed->wait(kLook, stop);
     }
+    return;
   } catch (const std::exception& error) {
-    {
-      const std::lock_guard lock(mutex_);
-      failure_ = error.what();
-    }
-    feed->close();  // a lossless source would wait for ever
+    const std::lock_guard lock(mutex_);
+    failure_ = error.what();
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    failure_ = "an exception of no known kind";
   }
+  feed->close();  // a lossless source would wait for ever
 }
 
 std::size_t ProcessingChain::step() {

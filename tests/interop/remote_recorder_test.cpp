@@ -1,6 +1,7 @@
 // Over a real socket, on an emulated hand: what is acknowledged must be so.
 #include "palpate/interop/remote_recorder.h"
 
+#include <atomic>
 #include <future>
 #include <mutex>
 #include <stdexcept>
@@ -261,6 +262,30 @@ TEST_F(RemoteRecorderTest, ARecordingThatEndedByItselfIsToldByTheNextStop) {
   EXPECT_EQ(error("label late"), "not_recording");
   EXPECT_EQ(ask("stop").at("frames").asInteger(), 20);
   EXPECT_EQ(error("stop"), "not_recording");
+}
+
+TEST_F(RemoteRecorderTest, AnAnswerIsGivenOnceAlsoWhereItsReceiverThrows) {
+  beginWithFrames();
+  std::atomic<int> started = 0, stopped = 0;
+  const auto carryOut = [&](RemoteRequest::Verb verb, RemoteTarget::Done done) {
+    RemoteRequest request;
+    request.verb = verb;
+    recorder_->carryOut(request, std::move(done));
+  };
+  carryOut(RemoteRequest::Verb::kStop, [&](const RemoteAnswer&) {
+    ++stopped;
+    throw std::runtime_error("nobody listens any more");
+  });
+  carryOut(RemoteRequest::Verb::kStart, [&](const RemoteAnswer&) {
+    ++started;
+    throw std::runtime_error("nobody listens any more");
+  });
+  ASSERT_TRUE(soon([&] { return started > 0; }));
+  std::promise<RemoteAnswer> last;
+  carryOut(RemoteRequest::Verb::kStop, [&](RemoteAnswer answer) { last.set_value(answer); });
+  EXPECT_TRUE(last.get_future().get().ok());
+  EXPECT_EQ(stopped, 1);
+  EXPECT_EQ(started, 1);
 }
 
 TEST_F(RemoteRecorderTest, RefusesOptionsThatMakeNoSense) {
