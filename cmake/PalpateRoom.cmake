@@ -17,7 +17,7 @@ function(palpate_room name)
 endfunction()
 
 # palpate_tests(ROOM [GUI] FILES file... [DISPLAY file...] [SLOW file...] [SOURCES extra...] [LIBS lib...])
-# One test program per room, ROOM_tests, of tests/ROOM/FILE.cpp; it is linked to the whole core library,
+# One test program per room, ROOM_tests, of tests/ROOM/FILE.cpp (FILE may lie in a folder: slip/slip_panel_test); it is linked to the whole core library,
 # of which the linker takes what the tests use. Each FILE is one ctest entry ROOM/FILE: a process of its
 # own, which runs the tests of that file (tests/testing/test_selection.h). Labels: fast, or slow for the
 # files called *_slow_test and those after SLOW. GUI: main() is in the sources; Qt draws to memory but for
@@ -49,7 +49,8 @@ function(palpate_tests room)
     if(file IN_LIST tests_SLOW OR file MATCHES "_slow_test$")
       list(APPEND options SLOW)
     endif()
-    palpate_test_entry(${room} ${file} ${file} ${options})
+    get_filename_component(name ${file} NAME)
+    palpate_test_entry(${room} ${file} ${name} ${options})
   endforeach()
 endfunction()
 

@@ -26,5 +26,5 @@
 #include <QToolTip>
 #include <QVBoxLayout>
 
-#include "../../apps/palpate/gui/plot.h"
+#include "../../apps/palpate/gui/chart/plot.h"
 #include "core.h"

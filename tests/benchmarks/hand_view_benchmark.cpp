@@ -7,11 +7,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include "gui/gl_probe.h"
-#include "gui/hand_drawing.h"
-#include "gui/hand_gl.h"
-#include "gui/hand_raster.h"
-#include "gui/sample_scene.h"
+#include "gui/space/gl_probe.h"
+#include "gui/space/hand_drawing.h"
+#include "gui/space/hand_gl.h"
+#include "gui/space/hand_raster.h"
+#include "gui/space/sample_scene.h"
 #include "window_bench.h"
 
 namespace {

@@ -21,8 +21,8 @@
 
 #include "benchmarks/window_bench.h"
 #include "emulator/numbered_hand.h"
-#include "gui/main_window.h"
-#include "gui/matrices_view.h"
+#include "gui/matrices/matrices_view.h"
+#include "gui/shell/main_window.h"
 #include "testing/process_facts.h"
 #include "testing/testing.h"
 

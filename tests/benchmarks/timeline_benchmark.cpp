@@ -14,7 +14,7 @@
 
 #include <palpate/recording/recording.h>
 
-#include "gui/timeline_chart.h"
+#include "gui/timeline/timeline_chart.h"
 #include "window_bench.h"
 
 namespace {

@@ -6,7 +6,7 @@
 
 #include <sys/resource.h>
 
-#include "gui/application.h"
+#include "gui/desktop/application.h"
 
 namespace palpate::testing {
 

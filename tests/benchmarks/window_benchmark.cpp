@@ -12,8 +12,8 @@
 #include "palpate/recording/dsa_writer.h"
 
 #include "benchmarks/window_bench.h"
-#include "gui/main_window.h"
-#include "gui/matrices_view.h"
+#include "gui/matrices/matrices_view.h"
+#include "gui/shell/main_window.h"
 #include "testing/program.h"
 #include "testing/testing.h"
 

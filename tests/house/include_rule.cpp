@@ -20,8 +20,8 @@ std::set<std::string> wordsOf(std::string list) {
   return {std::istream_iterator<std::string>(in), {}};
 }
 
-// "gui/x.h" and "commands/x.h" stand for folders of apps/palpate, "python/x.h" for apps/python, any
-// other for private headers.
+// "gui/FOLDER/x.h" and "commands/x.h" stand for folders of apps/palpate, "python/x.h" for apps/python, any
+// other for private headers. "gui/x.h", a header of no folder, stands for apps/palpate/gui.
 std::string roomOfInclude(const std::string& name) {
   const std::string first = name.substr(0, name.find('/'));
   if (first == "palpate") {
@@ -29,8 +29,12 @@ std::string roomOfInclude(const std::string& name) {
     return rest.substr(0, rest.find('/'));
   }
   if (first == "python") return "apps/python";
-  return first == "gui" || first == "commands" ? "apps/palpate/" + first : first;
+  if (first == "gui") return "apps/palpate/" + name.substr(0, name.rfind('/'));
+  return first == "commands" ? "apps/palpate/" + first : first;
 }
+
+// What lies in its folders; no file lies in it.
+const std::string kWindow = "apps/palpate/gui";
 
 bool isPublic(std::string_view path) { return path.starts_with("include/"); }
 
@@ -42,7 +46,8 @@ class Judge {
   // Empty when the include is right.
   std::string faultOf(const std::string& name, bool quoted) const {
     if (room_.empty()) return "lies in no room";
-    if (!room_.starts_with("apps/") && !rules_.rooms.contains(room_))
+    if (room_ == kWindow) return "lies in no folder of the window";
+    if (room_ != "apps/palpate" && !rules_.rooms.contains(room_))
       return "the room " + room_ + " isn't in the table of docs/architecture.md";
     if (name.find('/') == std::string::npos && isStandardHeader(name)) return {};
     if (quoted && isNeighbour(name)) return {};
@@ -61,6 +66,7 @@ class Judge {
 
   std::string faultOfOurs(const std::string& name, const std::string& target) const {
     const bool targetIsPublic = name.starts_with("palpate/");
+    if (target == kWindow) return name + " lies in no folder of the window";
     if (target == room_)
       return isPublic(path_) && !targetIsPublic ? "a public header includes the private " + name
                                                 : "";
@@ -69,8 +75,9 @@ class Judge {
     if (room_ == "apps/palpate") return {};  // main.cpp
     const auto& allowed = rules_.rooms.at(room_);
     if (target == "core" || allowed.contains(target)) return {};
-    if (allowed.contains("all") && !target.starts_with("apps/") && rules_.rooms.contains(target))
-      return {};
+    const bool isRoom = rules_.rooms.contains(target);
+    if (allowed.contains("all") && !target.starts_with("apps/") && isRoom) return {};
+    if (allowed.contains(kWindow) && target.starts_with(kWindow + "/") && isRoom) return {};
     return room_ + " may not include " + name;
   }
 
@@ -101,6 +108,24 @@ IncludeRules IncludeRules::fromPage(std::string_view page) {
     if (cells.size() == 3 && cells[0].starts_with('`'))
       rules.rooms[codeWordsOf(cells[0]).at(0)] = wordsOf(cells[2]);
   }
+  // Folders of the window may include every room, and of each other what their row names.
+  std::set<std::string> ground;
+  for (const std::string& line : sectionOf(page, "Inside the window")) {
+    const auto cells = cellsOf(line);
+    if (cells.size() != 3 || !cells[0].starts_with('`')) continue;
+    const std::string folder = codeWordsOf(cells[0]).at(0);
+    std::set<std::string>& allowed = rules.rooms[kWindow + "/" + folder];
+    allowed = {"all"};
+    for (const std::string& word : wordsOf(cells[2])) {
+      if (word == "all")
+        allowed.insert(kWindow);
+      else if (word == "BASE")
+        for (const std::string& base : ground) allowed.insert(base);
+      else
+        allowed.insert(kWindow + "/" + word);
+    }
+    if (cells[0].find("BASE") != std::string::npos) ground.insert(kWindow + "/" + folder);
+  }
   for (const std::string& line : sectionOf(page, "Packages")) {
     const auto cells = cellsOf(line);
     if (cells.size() != 4) continue;
@@ -112,7 +137,9 @@ IncludeRules IncludeRules::fromPage(std::string_view page) {
 
 std::string roomOf(std::string_view path) {
   static const std::regex pattern(
-      "(?:include/palpate|src)/([^/]+)/.*|(apps/palpate(?:/[^/]+)?)/[^/]+|(apps/[^/]+)/.*");
+      "(?:include/palpate|src)/([^/]+)/.*|(apps/palpate/gui/[^/]+)/.*|(apps/palpate(?:/[^/]+)?)/[^/"
+      "]+|"
+      "(apps/[^/]+)/.*");
   std::cmatch match;
   if (!std::regex_match(path.data(), path.data() + path.size(), match, pattern)) return {};
   for (std::size_t group = 1; group < match.size(); ++group)

@@ -17,11 +17,11 @@ struct IncludeRules {
   // Start of a foreign header -> the parts (or folders of parts) whose sources may include it.
   std::map<std::string, std::set<std::string>> packages;
 
-  // Reads the tables of the sections "Rooms" and "Packages".
+  // Reads the tables of the sections "Rooms", "Inside the window" and "Packages".
   static IncludeRules fromPage(std::string_view page);
 };
 
-// "core" for include/palpate/core/x.h and src/core/x.cpp, "apps/palpate/gui" for a file in there.
+// "core" for include/palpate/core/x.h and src/core/x.cpp, "apps/palpate/gui/slip" for a file in there.
 std::string roomOf(std::string_view path);
 
 // One line for each #include that breaks a rule: "PATH:LINE: what is wrong".

@@ -1,5 +1,5 @@
-// Names in anonymous namespaces differ within a folder: its sources are compiled several at a time, and which of
-// them meet changes with every file that is added.
+// Names in anonymous namespaces differ within a folder, the window with its folders being one: its sources are compiled
+// several at a time, and which of them meet changes with every file that is added.
 #include <map>
 #include <regex>
 #include <set>
@@ -54,7 +54,9 @@ std::vector<std::string> clashesIn(const std::vector<SourceFile>& files) {
   std::vector<std::string> clashes;
   for (const SourceFile& file : files) {
     if (!file.path.ends_with(".cpp")) continue;
-    const std::string folder = file.path.substr(0, file.path.rfind('/'));
+    const std::string folder = file.path.starts_with("apps/palpate/gui/")
+                                   ? "apps/palpate/gui"
+                                   : file.path.substr(0, file.path.rfind('/'));
     for (const std::string& name : anonymousNames(file.text)) {
       if (kOverloaded.contains(name)) continue;
       const auto [at, isNew] = seen.try_emplace({folder, name}, file.path);
@@ -88,6 +90,10 @@ TEST(UnityNames, APlantedClashIsFound) {
   EXPECT_EQ(clashesIn({a, source("src/core/b.cpp", "constexpr int kPart = 2;")}),
             (std::vector<std::string>{"kPart: src/core/a.cpp and src/core/b.cpp"}));
   EXPECT_TRUE(clashesIn({a, source("src/model/b.cpp", "constexpr int kPart = 2;")}).empty());
+  EXPECT_EQ(clashesIn({source("apps/palpate/gui/slip/a.cpp", "constexpr int kPart = 2;"),
+                       source("apps/palpate/gui/hand/b.cpp", "constexpr int kPart = 2;")})
+                .size(),
+            1u);
   const auto f = source("src/core/f.cpp", "int sum(int a) {\n  return kPart;\n}\nclass Line {\n};");
   EXPECT_EQ(clashesIn({f, source("src/core/g.cpp", "double sum() { return 0; }")}).size(), 1u);
   EXPECT_EQ(clashesIn({f, source("src/core/g.cpp", "struct Line {\n};")}).size(), 1u);

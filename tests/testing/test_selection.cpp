@@ -45,7 +45,7 @@ bool selectTests(int& argc, char** argv) {
   const std::string pattern = variableText("TEST_FILTER");
   const std::regex wanted(pattern);
   const std::string module = entry.empty() ? std::filesystem::path(argv[0]).stem().string()
-                                           : entry.substr(0, entry.find('/'));
+                                           : entry.substr(0, entry.rfind('/'));
   const ::testing::UnitTest& all = *::testing::UnitTest::GetInstance();
   std::string chosen;
   std::string left;
@@ -62,6 +62,9 @@ bool selectTests(int& argc, char** argv) {
       list += (list.empty() ? "" : ":") + name;
     }
   }
+  if (chosen.empty() && pattern.empty() && GTEST_FLAG_GET(filter) == "*")
+    throw std::invalid_argument("no test is selected" +
+                                (file.empty() ? std::string() : ": no source is named " + file));
   // An own --gtest_filter narrows what the file has; else the file's tests are the filter.
   if (GTEST_FLAG_GET(filter) == "*") {
     GTEST_FLAG_SET(filter, chosen.empty() ? "-*" : chosen);

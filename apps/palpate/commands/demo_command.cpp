@@ -6,11 +6,11 @@
 #include <system_error>
 
 #include "palpate/core/error.h"
+#include "palpate/core/interruption.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/demo_run.h"
-#include "gui/interruption.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
@@ -65,7 +65,7 @@ int demoCommand(const Words& words) {
       words);
   if (given.helpShown()) return kDone;
   const fs::path folder = makeDemoFolder(given.text("output").value_or("palpate-demo"));
-  gui::Interruption interruption;  // before the first thread
+  Interruption interruption;  // before the first thread
   std::atomic<bool> interrupted = false;
   const DemoGoOn goOn = [&] {
     if (interruption.came(0)) interrupted = true;

@@ -4,9 +4,9 @@
 
 #include "commands/commands.h"
 #include "commands/render_hand.h"
-#include "gui/application.h"
-#include "gui/picture_export.h"
-#include "gui/workbench.h"
+#include "gui/desktop/application.h"
+#include "gui/picture/picture_export.h"
+#include "gui/shell/workbench.h"
 
 namespace palpate::commands {
 namespace {

@@ -19,7 +19,7 @@
 #include "commands/commands.h"
 #include "commands/demo_pictures.h"
 #include "commands/slip_rows.h"
-#include "gui/workbench.h"
+#include "gui/shell/workbench.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;

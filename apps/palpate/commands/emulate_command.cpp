@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
 #include "palpate/emulator/emulated_hand.h"
 #include "palpate/emulator/physical_hand.h"
@@ -15,11 +16,9 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
-#include "gui/interruption.h"
 
 namespace palpate::commands {
 namespace {
-using gui::Interruption;
 
 void setRate(const std::string& text, EmulatedHandOptions& options) {
   if (text == "real") {

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/one_line.h"
 #include "palpate/core/text_table.h"
@@ -9,7 +10,6 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
-#include "gui/interruption.h"
 
 namespace palpate::commands {
 namespace {
@@ -19,7 +19,7 @@ void sayFeatures(const std::string& message) {
 }
 
 FeatureTable gather(const CommandLine& given, const FeatureGatherOptions& options) {
-  gui::Interruption interruption;
+  Interruption interruption;
   ProgressLine line("features", given.quiet());
   const Progress show = line.callback();
   return gatherFeatures(

@@ -7,6 +7,7 @@
 #include "palpate/capture/capture_session.h"
 #include "palpate/control/grasp_control.h"
 #include "palpate/core/error.h"
+#include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/one_line.h"
 #include "palpate/core/time.h"
@@ -15,11 +16,9 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
-#include "gui/interruption.h"
 
 namespace palpate::commands {
 namespace {
-using gui::Interruption;
 
 constexpr int kGraspLookMs = 20;
 

@@ -7,12 +7,12 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/hash.h"
+#include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/one_line.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/calibrate_commands.h"
-#include "gui/interruption.h"
 
 namespace palpate::commands {
 
@@ -23,7 +23,7 @@ void sayLine(const std::string& message) {
 void runInterruptibly(const CommandLine& given,
                       const std::string& label,
                       const std::function<void(const Progress&)>& work) {
-  gui::Interruption interruption;
+  Interruption interruption;
   ProgressLine line(label, given.quiet());
   const Progress show = line.callback();
   work([&](double fraction) {

@@ -12,6 +12,7 @@
 #include "palpate/capture/capture_session.h"
 #include "palpate/capture/recording_name.h"
 #include "palpate/core/error.h"
+#include "palpate/core/interruption.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/one_line.h"
@@ -21,11 +22,9 @@
 #include "commands/commands.h"
 #include "commands/live_streams.h"
 #include "commands/remote_recording.h"
-#include "gui/interruption.h"
 
 namespace palpate::commands {
 namespace {
-using gui::Interruption;
 namespace fs = std::filesystem;
 
 // How it goes, on one line of a terminal.

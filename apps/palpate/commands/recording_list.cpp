@@ -10,12 +10,12 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/interruption.h"
 #include "palpate/core/one_line.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_folder.h"
 
 #include "commands/command_line.h"
-#include "gui/interruption.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
@@ -128,7 +128,7 @@ class ListRun {
   const RecordingList& list_;
   bool quiet_;
   ProgressLine line_;
-  std::optional<gui::Interruption> interruption_;  // of one file alone the end is as ever
+  std::optional<Interruption> interruption_;  // of one file alone the end is as ever
   std::size_t index_ = 0;
   std::size_t failed_ = 0;
   std::size_t inPart_ = 0;

@@ -72,7 +72,7 @@ fs::path remoteSocketOf(const CommandLine& given) {
 
 int recordRemotely(const CommandLine& given,
                    CaptureSession& session,
-                   gui::Interruption& interruption,
+                   Interruption& interruption,
                    RecordingOptions each) {
   RemoteRecorderOptions options = remoteRecordingOptionsOf(given, std::move(each));
   std::atomic<bool> whole = true;

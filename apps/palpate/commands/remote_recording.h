@@ -1,11 +1,11 @@
 // palpate record --remote: a headless hand whose recordings others start and stop.
 #pragma once
 
+#include "palpate/core/interruption.h"
 #include <palpate/capture/capture_session.h>
 #include <palpate/capture/recorder.h>
 
 #include "commands/command_line.h"
-#include "gui/interruption.h"
 
 namespace palpate::commands {
 
@@ -19,7 +19,7 @@ std::filesystem::path remoteSocketOf(const CommandLine& given);
 // it is ready, then a line per recording (--json: as the answer to stop). Returns the exit code.
 int recordRemotely(const CommandLine& given,
                    CaptureSession& session,
-                   gui::Interruption& interruption,
+                   Interruption& interruption,
                    RecordingOptions each);
 
 }  // namespace palpate::commands

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "palpate/core/error.h"
+#include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
 #include "palpate/filter/characteristic_signals.h"
 #include "palpate/recording/recording.h"
@@ -16,9 +17,8 @@
 #include "commands/picture_size.h"
 #include "commands/render_hand.h"
 #include "commands/render_movie.h"
-#include "gui/interruption.h"
-#include "gui/picture_export.h"
-#include "gui/picture_series.h"
+#include "gui/picture/picture_export.h"
+#include "gui/picture/picture_series.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
@@ -174,7 +174,7 @@ int drawSeries(const CommandLine& given,
                           .last = span.last};
   options.pixelRatio = paper.scale();
   useOneRange(profile, span, options);
-  gui::Interruption interruption;
+  Interruption interruption;
   gui::SeriesReport report;
   {
     ProgressLine progress("drawing", given.quiet());

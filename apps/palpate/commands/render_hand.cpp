@@ -6,9 +6,9 @@
 #include "palpate/core/error.h"
 
 #include "commands/hand_options.h"
-#include "gui/frame_painters.h"
-#include "gui/hand_drawing.h"
-#include "gui/hand_picture.h"
+#include "gui/space/frame_painters.h"
+#include "gui/space/hand_drawing.h"
+#include "gui/space/hand_picture.h"
 
 namespace palpate::commands {
 namespace {

@@ -6,12 +6,12 @@
 #include <filesystem>
 
 #include "palpate/core/error.h"
+#include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
 
 #include "commands/commands.h"
-#include "gui/ffmpeg.h"
-#include "gui/interruption.h"
-#include "gui/movie_writer.h"
+#include "gui/picture/ffmpeg.h"
+#include "gui/picture/movie_writer.h"
 
 namespace palpate::commands {
 namespace {
@@ -73,7 +73,7 @@ int drawMovie(const CommandLine& given,
               Overwrite overwrite) {
   const std::string out = *given.text("output");
   const auto timeUs = [&](std::size_t frame) { return profile.frameTimeUs(frame); };
-  gui::Interruption interruption;
+  Interruption interruption;
   gui::Movie movie;
   try {
     ProgressLine progress("drawing", given.quiet());

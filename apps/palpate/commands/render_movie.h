@@ -5,8 +5,8 @@
 #include "palpate/model/profile.h"
 
 #include "commands/command_line.h"
-#include "gui/exported_view.h"
-#include "gui/picture_export.h"
+#include "gui/picture/exported_view.h"
+#include "gui/picture/picture_export.h"
 
 namespace palpate::commands {
 

@@ -10,6 +10,7 @@
 
 #include "palpate/capture/replay.h"
 #include "palpate/core/error.h"
+#include "palpate/core/interruption.h"
 #include "palpate/core/one_line.h"
 #include "palpate/device/live_hand.h"
 #include "palpate/recording/recording.h"
@@ -17,11 +18,9 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/live_streams.h"
-#include "gui/interruption.h"
 
 namespace palpate::commands {
 namespace {
-using gui::Interruption;
 
 constexpr int kStreamLookMs = 50;
 

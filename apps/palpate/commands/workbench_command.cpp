@@ -12,8 +12,8 @@
 #include "commands/hand_options.h"
 #include "commands/picture_size.h"
 #include "commands/remote_recording.h"
-#include "gui/gl_probe.h"
-#include "gui/workbench.h"
+#include "gui/shell/workbench.h"
+#include "gui/space/gl_probe.h"
 
 namespace palpate::commands {
 namespace {

@@ -1,0 +1,66 @@
+#include "gui/calibrate/calibrate_panel.h"
+
+#include <QStackedWidget>
+#include <QVBoxLayout>
+
+#include "gui/calibrate/force_page.h"
+#include "gui/calibrate/noise_page.h"
+#include "gui/calibrate/pressure_page.h"
+#include "gui/calibrate/step_page.h"
+#include "gui/calibrate/tare_page.h"
+
+namespace palpate::gui {
+
+CalibratePanel::CalibratePanel(QSettings& settings, QWidget* parent)
+    : PagedPanel(settings, "calibrate", parent) {
+  setObjectName("CalibratePanel");
+  QWidget* parentOfPages = &pages();
+  steps_ = new StepPage(parentOfPages);
+  pressure_ = new PressurePage(parentOfPages);
+  noise_ = new NoisePage(parentOfPages);
+  tare_ = new TarePage(parentOfPages);
+  force_ = new ForcePage(settings, parentOfPages);
+  add(steps_, "Steps", "Responses to loads that are put on: gain, drift, time constants");
+  add(pressure_,
+      "Pressure",
+      "Pressure from gain and temperature, from recordings under known loads");
+  add(noise_, "Noise", "What an unloaded hand reads, over its temperature");
+  add(tare_, "Tare", "What taxels read when nothing touches them");
+  add(force_, "Force", "Kilopascals and newtons of this recording");
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(parentOfPages);
+  showLastPage();
+}
+
+void CalibratePanel::add(ComputedPage* page, const QString& name, const QString& tip) {
+  addPage(page, name, tip);
+  connect(page, &ComputedPage::said, this, &CalibratePanel::said);
+}
+
+void CalibratePanel::setSource(const OpenedRecordingPtr& recording, bool live) {
+  for (int i = 0; i < pages().count(); ++i)
+    static_cast<ComputedPage*>(pages().widget(i))->setSource(recording, live);
+}
+
+void CalibratePanel::setTheme(Theme theme) {
+  if (theme == theme_) return;
+  theme_ = theme;
+  for (int i = 0; i < pages().count(); ++i)
+    static_cast<ComputedPage*>(pages().widget(i))->setTheme(theme);
+}
+
+void CalibratePanel::setPosition(double seconds) {
+  for (int i = 0; i < pages().count(); ++i)
+    static_cast<ComputedPage*>(pages().widget(i))->setPosition(seconds);
+}
+
+bool CalibratePanel::cancel() { return page().cancel(); }
+
+void CalibratePanel::settle() { page().settle(); }
+
+ComputedPage& CalibratePanel::page() const {
+  return *static_cast<ComputedPage*>(pages().currentWidget());
+}
+
+}  // namespace palpate::gui

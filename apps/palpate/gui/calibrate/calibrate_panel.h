@@ -1,0 +1,50 @@
+// The content of the dock Calibrate: one page at a time of what leads from counts to kilopascals and newtons.
+#pragma once
+
+#include <optional>
+
+#include "gui/widgets/computed_page.h"
+#include "gui/widgets/paged_panel.h"
+
+namespace palpate::gui {
+
+class ForcePage;
+class NoisePage;
+class PressurePage;
+class StepPage;
+class TarePage;
+
+class CalibratePanel : public PagedPanel {
+  Q_OBJECT
+ public:
+  explicit CalibratePanel(QSettings& settings, QWidget* parent = nullptr);
+
+  void setSource(const OpenedRecordingPtr& recording, bool live);
+  void setTheme(Theme theme);
+  void setPosition(double seconds);
+  bool cancel();
+  void settle();
+
+  StepPage& steps() noexcept { return *steps_; }
+  PressurePage& pressure() noexcept { return *pressure_; }
+  NoisePage& noise() noexcept { return *noise_; }
+  TarePage& tare() noexcept { return *tare_; }
+  ForcePage& force() noexcept { return *force_; }
+  ComputedPage& page() const;  // that is seen
+  QSize sizeHint() const override { return {640, 560}; }
+
+ signals:
+  void said(const QString& text);
+
+ private:
+  void add(ComputedPage* page, const QString& name, const QString& tip);
+
+  std::optional<Theme> theme_;
+  StepPage* steps_;
+  PressurePage* pressure_;
+  NoisePage* noise_;
+  TarePage* tare_;
+  ForcePage* force_;
+};
+
+}  // namespace palpate::gui

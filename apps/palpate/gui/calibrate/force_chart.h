@@ -1,0 +1,53 @@
+// Force over time of one matrix or of the whole hand, with the band of its standard deviation; a cursor like the
+// timeline's. Greyed where the calibration is beyond what was measured.
+#pragma once
+
+#include <QString>
+#include <memory>
+
+#include <palpate/calibration/force_series.h>
+
+#include "gui/chart/plot.h"
+#include "gui/look/theme.h"
+#include "gui/picture/exported_view.h"
+
+namespace palpate::gui {
+
+class ForceChart : public QCustomPlot {
+  Q_OBJECT
+ public:
+  explicit ForceChart(QWidget* parent = nullptr);
+
+  void setSeries(const std::shared_ptr<const ForceSeries>& series);
+  void choose(std::size_t matrix, const QString& name);  // the number of matrices: the whole hand
+  void setSeen(double fromS, double toS);
+  void setPosition(double seconds);
+  void setTheme(Theme theme);
+  // As a picture of its own.
+  void paint(QPainter& painter, const PictureLook& look, const QString& title);
+
+  QSize sizeHint() const override { return {440, 220}; }
+  QSize minimumSizeHint() const override { return {220, 120}; }
+
+ signals:
+  void sought(double seconds);
+
+ protected:
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  bool event(QEvent* event) override;
+
+ private:
+  void fill();
+  void style();
+  void placeCursor();
+
+  std::shared_ptr<const ForceSeries> series_;
+  std::size_t matrix_ = 0;
+  QString name_;
+  Theme theme_ = Theme::kDark;
+  QWidget* cursor_;
+  double positionS_ = 0.0;
+};
+
+}  // namespace palpate::gui

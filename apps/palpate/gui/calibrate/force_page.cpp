@@ -1,0 +1,342 @@
+#include "gui/calibrate/force_page.h"
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <cmath>
+
+#include <palpate/core/error.h>
+#include <palpate/core/number_text.h>
+
+#include "gui/calibrate/force_chart.h"
+#include "gui/look/captions.h"
+#include "gui/widgets/figures_table.h"
+#include "gui/widgets/notes_label.h"
+#include "gui/widgets/number_field.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kQuantile = 1.96;  // 95 %
+constexpr double kFullScaleCounts = 4095.0;
+constexpr double kLeastSensitivity = 0.01;
+
+std::vector<FigureColumn> forcePageColumns() {
+  return {{"matrix", {}, 16, true},
+          {"taxels", "Active ones", 6},
+          {"K", "Gain that was used: the filtered mean, creep taken out [counts]", 8},
+          {"kPa", "Pressure of the contact; below: 95 % interval", 8},
+          {"N", "Force; below: 95 % interval", 8},
+          {"", "What speaks against it", 18, true}};
+}
+
+QString plusMinus(double sd) { return "± " + figure(kQuantile * sd, 2); }
+
+std::vector<FigureCell> forcePageRowOf(const QString& name, const MatrixForce& force) {
+  if (force.active == 0)
+    return {{.text = name}, {.text = "0"}, {.text = "–"}, {.text = "–"}, {.text = "0"}, {}};
+  QStringList flags;
+  if (!force.inRange) flags.append("outside range");
+  if (force.saturated) flags.append("saturated: more than this");
+  if (!force.temperatureKnown) flags.append("temperature assumed");
+  if (force.compensated) flags.append("creep taken out");
+  return {{.text = name},
+          {.text = QString::number(force.active)},
+          {.text = figure(static_cast<double>(force.gainCounts), 1)},
+          {.text = figure(static_cast<double>(force.kpa), 2),
+           .detail = plusMinus(static_cast<double>(force.sdKpa))},
+          {.text = figure(static_cast<double>(force.forceN), 2),
+           .detail = plusMinus(static_cast<double>(force.sdForceN))},
+          {.text = flags.value(0),
+           .detail = flags.mid(1).join(", "),
+           .tip = flags.join("\n"),
+           .warning = !force.inRange || force.saturated}};
+}
+
+// As `palpate calibrate apply` prints it, in seconds.
+TextTable forceTable(const std::shared_ptr<const ForceSeries>& found) {
+  return {.header = {"frame",
+                     "time_s",
+                     "matrix",
+                     "active",
+                     "K [counts]",
+                     "pressure_kpa",
+                     "pressure_sd_kpa",
+                     "force_n",
+                     "force_sd_n",
+                     "in_range",
+                     "temperature_known",
+                     "saturated"},
+          .numRows = found->rows.size(),
+          .row = [found](std::size_t row) {
+            const std::size_t frame = row / found->numMatrices;
+            const MatrixForce& force = found->rows[row];
+            std::vector<std::string> cells = {std::to_string(frame),
+                                              numberText(found->timeS[frame]),
+                                              std::to_string(row % found->numMatrices),
+                                              std::to_string(force.active)};
+            for (const float value :
+                 {force.gainCounts, force.kpa, force.sdKpa, force.forceN, force.sdForceN})
+              cells.push_back(numberText(value));
+            for (const bool flag : {force.inRange, force.temperatureKnown, force.saturated})
+              cells.emplace_back(flag ? "1" : "0");
+            return cells;
+          }};
+}
+
+}  // namespace
+
+ForcePage::ForcePage(QSettings& settings, QWidget* parent)
+    : ComputedPage("force", parent), settings_(settings) {
+  makeTop();
+  auto* content = new QWidget(this);
+  chart_ = new ForceChart(content);
+  table_ = new FiguresTable(forcePageColumns(), content);
+  table_->setObjectName("forceTable");
+  notes_ = notesLabel("forceNotes", content);
+  auto* column = new QVBoxLayout(content);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(table_, 3);
+  column->addWidget(chart_, 2);
+  column->addWidget(notes_);
+  setContent(content);
+  askForCalibration = [this] {
+    return QFileDialog::getOpenFileName(
+        this, "Apply a calibration", {}, "Calibrations (*.json);;All files (*)");
+  };
+  connect(table_, &FiguresTable::rowChosen, this, &ForcePage::showChosen);
+  connect(chart_, &ForceChart::sought, this, &ForcePage::sought);
+  showCalibration();
+}
+
+void ForcePage::makeTop() {
+  const auto button = [&](const char* name, const QString& text, const QString& tip) {
+    auto* made = new QPushButton(text, this);
+    made->setObjectName(name);
+    made->setToolTip(tip);
+    return made;
+  };
+  name_ = new QLabel(this);
+  name_->setObjectName("forceCalibration");
+  name_->setTextFormat(Qt::PlainText);
+  name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  drop_ = button("forceDrop", "Don't apply", "Counts stay counts");
+  choose_ = button("forceChoose", "Choose…", "A calibration of the page Pressure, as it was saved");
+  auto* files = new QHBoxLayout;
+  files->setSpacing(8);
+  files->addWidget(name_, 1);
+  files->addWidget(drop_);
+  files->addWidget(choose_);
+  const auto field = [&](const char* name, const QString& label, double least, double most) {
+    auto* made = new SecondsField(this);
+    made->setObjectName(name);
+    made->setAccessibleName(label);
+    made->setToolTip(label + " that this recording was made with; a .dsa doesn't tell");
+    made->setRange(least, most);
+    made->setFocusPolicy(Qt::StrongFocus);
+    made->setFixedWidth(made->fontMetrics().horizontalAdvance("00000.00") + 18);
+    return made;
+  };
+  sensitivity_ = field("forceSensitivity", "Sensitivity", kLeastSensitivity, 1.0);
+  threshold_ = field("forceThreshold", "Threshold in counts", 0.0, kFullScaleCounts);
+  threshold_->setDecimals(0);
+  keep_ = button("forceKeep", "Keep", "Note these settings in the recording (undo: Ctrl+Z)");
+  recordedWith_ = new QWidget(this);
+  auto* made = new QHBoxLayout(recordedWith_);
+  made->setContentsMargins(0, 0, 0, 0);
+  made->setSpacing(8);
+  made->addWidget(new QLabel("Recorded with sensitivity", this));
+  made->addWidget(sensitivity_);
+  made->addWidget(new QLabel("threshold", this));
+  made->addWidget(threshold_);
+  made->addWidget(keep_);
+  made->addStretch(1);
+  top().addLayout(files);
+  top().addWidget(recordedWith_);
+  connect(choose_, &QPushButton::clicked, this, &ForcePage::chooseCalibration);
+  connect(drop_, &QPushButton::clicked, this, [this] { applyThis({}); });
+  connect(keep_, &QPushButton::clicked, this, [this] {
+    emit keepAsked(sensitivity_->value(), threshold_->value());
+  });
+  for (QDoubleSpinBox* each : {sensitivity_, threshold_})
+    connect(each, &QDoubleSpinBox::valueChanged, this, [this] {
+      said_ = SensorSettings{sensitivity_->value(), threshold_->value(), true};
+      renew();
+    });
+}
+
+const HandDescription* ForcePage::hand() const {
+  if (live()) return liveHand_ ? &*liveHand_ : nullptr;
+  return recording() ? &recording()->profile.hand() : nullptr;
+}
+
+std::string ForcePage::handName() const { return hand() ? hand()->name : std::string(); }
+
+QString ForcePage::rowName(std::size_t row) const {
+  return row < hand()->layout->numMatrices() ? QString::fromStdString(hand()->matrixName(row))
+                                             : QString("whole hand");
+}
+
+void ForcePage::chooseCalibration() {
+  const QString path = askForCalibration();
+  if (!path.isEmpty() && hand()) applyThis(path);
+}
+
+void ForcePage::applyThis(const QString& path) {
+  applyCalibration(settings_, handName(), path);
+  calibrationChanged();
+  emit applied();
+}
+
+void ForcePage::setLiveHand(const HandDescription& hand) {
+  liveHand_ = hand;
+  calibrationChanged();
+}
+
+void ForcePage::calibrationChanged() {
+  found_.reset();
+  showCalibration();
+  renew();
+}
+
+void ForcePage::setKept(const KeptWithRecording& kept) {
+  if (kept == kept_) return;
+  kept_ = kept;
+  if (kept.settings) said_.reset();
+  renew();
+}
+
+void ForcePage::forget() {
+  found_.reset();
+  said_.reset();
+  kept_ = {};
+  showCalibration();
+}
+
+void ForcePage::showCalibration() {
+  const QString path = hand() ? appliedCalibration(settings_, handName()) : QString();
+  name_->setText(path.isEmpty() ? "no calibration" : QFileInfo(path).fileName());
+  name_->setToolTip(path);
+  drop_->setVisible(!path.isEmpty());
+  choose_->setEnabled(hand() != nullptr);
+  for (QWidget* each : std::initializer_list<QWidget*>{sensitivity_, threshold_, keep_})
+    each->setEnabled(!path.isEmpty());
+  recordedWith_->setVisible(!live());  // a controller says it
+  chart_->setVisible(!live());
+}
+
+QString ForcePage::whyNot() const {
+  if (QString why = ComputedPage::whyNot(); !why.isEmpty() && !live()) return why;
+  if (live() && !liveHand_) return "Waiting for the hand.";
+  if (appliedCalibration(settings_, handName()).isEmpty())
+    return "No calibration is applied to this hand: its values are counts.\n\nMake one on the page "
+           "Pressure, or choose one that was saved.";
+  return live() ? QString() : kept_.trouble;
+}
+
+void ForcePage::compute() {
+  if (live()) return;  // showLive()
+  const OpenedRecordingPtr of = recording();
+  const QString path = appliedCalibration(settings_, handName());
+  run("forces", [this, of, path, typed = said_, kept = kept_](const Progress& progress) -> Take {
+    const Calibration calibration = usableCalibration(path);
+    const PressureMapOptions options = pressureOptions(kept, typed);
+    auto found = std::make_shared<const ForceSeries>(
+        forceSeries(of->profile, calibration, options, kept.tare, progress));
+    const SensorSettings own = options.settings.empty()
+                                   ? calibration.settings
+                                   : options.settings[calibration.matrix % options.settings.size()];
+    return [this, found, own] { take(found, own); };
+  });
+}
+
+void ForcePage::take(const std::shared_ptr<const ForceSeries>& found, const SensorSettings& own) {
+  found_ = found;
+  {
+    const QSignalBlocker first(sensitivity_), second(threshold_);
+    sensitivity_->setValue(own.sensitivity);
+    threshold_->setValue(own.thresholdCounts);
+  }
+  chart_->setSeries(found);
+  showFrame();
+  QString notes = linesOf(found->assumptions);
+  if (found->beyond > 0)
+    notes.prepend(QString::number(found->beyond) + " of " + QString::number(found->contacts) +
+                  " contacts are beyond what was measured (amber): don't rely on them\n");
+  notes_->setText(notes);
+  const QSignalBlocker blocker(table_);
+  table_->selectRow(static_cast<int>(found->numMatrices));
+  showChosen(static_cast<int>(found->numMatrices));
+  table_->scrollToTop();
+  showContent();
+}
+
+void ForcePage::showChosen(int row) {
+  if (live()) return;
+  const auto chosen = static_cast<std::size_t>(row);
+  chart_->choose(chosen, rowName(chosen));
+}
+
+void ForcePage::setPosition(double seconds) {
+  positionS_ = seconds;
+  chart_->setPosition(seconds);
+  if (shown()) showFrame();
+}
+
+void ForcePage::showFrame() {
+  if (live() || !found_ || found_->timeS.empty()) return;
+  const std::size_t frame = found_->frameAt(positionS_);
+  std::vector<MatrixForce> forces;
+  for (std::size_t m = 0; m < found_->numMatrices; ++m) forces.push_back(found_->at(frame, m));
+  showForces(forces, found_->forceN(frame), found_->sdForceN(frame));
+}
+
+void ForcePage::showLive(const PressureFrame& pressure,
+                         const std::vector<std::string>& assumptions) {
+  if (!live() || !liveHand_ || !isVisible() || pressure.matrices.empty()) return;
+  std::vector<MatrixForce> forces;
+  for (const MatrixPressure& matrix : pressure.matrices) forces.push_back(matrixForce(matrix));
+  showForces(forces, pressure.forceN, pressure.sdForceN);
+  const QString notes = linesOf(assumptions);
+  if (notes_->text() != notes) notes_->setText(notes);
+  if (!shown()) showContent();
+}
+
+void ForcePage::showForces(const std::vector<MatrixForce>& forces, double sumN, double sdN) {
+  std::vector<std::vector<FigureCell>> rows;
+  int active = 0;
+  bool inRange = true;
+  for (std::size_t m = 0; m < forces.size(); ++m) {
+    rows.push_back(forcePageRowOf(rowName(m), forces[m]));
+    active += forces[m].active;
+    inRange = inRange && forces[m].inRange;
+  }
+  rows.push_back({{.text = rowName(forces.size())},
+                  {.text = QString::number(active)},
+                  {},
+                  {},
+                  {.text = figure(sumN, 2), .detail = active > 0 ? plusMinus(sdN) : QString()},
+                  {.text = inRange ? "" : "outside range", .warning = !inRange}});
+  table_->setRows(rows);
+}
+
+void ForcePage::setTheme(Theme theme) {
+  table_->setTheme(theme);
+  chart_->setTheme(theme);
+}
+
+std::vector<ExportedTable> ForcePage::tables() const {
+  if (!shown() || !found_) return {};
+  return {{"forces", [found = found_] { return forceTable(found); }}};
+}
+
+void ForcePage::paint(QPainter& painter, const PictureLook& look, const QString& title) {
+  chart_->paint(painter, look, title);
+}
+
+}  // namespace palpate::gui

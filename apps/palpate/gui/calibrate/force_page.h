@@ -1,0 +1,85 @@
+// The page Force of the dock Calibrate: pressures and forces of the recording by the calibration that is applied to this
+// hand; of the frame that is shown in figures, over time as a chart. Without a calibration there are none.
+#pragma once
+
+#include <QSettings>
+#include <memory>
+#include <optional>
+
+#include <palpate/calibration/force_series.h>
+
+#include "gui/calibrate/applied_calibration.h"
+#include "gui/widgets/computed_page.h"
+
+class QDoubleSpinBox;
+class QLabel;
+class QPushButton;
+
+namespace palpate::gui {
+
+class FiguresTable;
+class ForceChart;
+
+class ForcePage : public ComputedPage {
+  Q_OBJECT
+ public:
+  explicit ForcePage(QSettings& settings, QWidget* parent = nullptr);
+  void setTheme(Theme theme) override;
+  void setPosition(double seconds) override;
+  std::vector<ExportedTable> tables() const override;
+  void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
+
+  void setKept(const KeptWithRecording& kept);
+  // Another calibration is applied now.
+  void calibrationChanged();
+  // What is connected instead of a recording, and what it feels.
+  void setLiveHand(const HandDescription& hand);
+  void showLive(const PressureFrame& pressure, const std::vector<std::string>& assumptions);
+  // Null: none was computed.
+  const std::shared_ptr<const ForceSeries>& found() const noexcept { return found_; }
+
+  // How a calibration is asked for; empty: cancelled. Tests answer themselves.
+  std::function<QString()> askForCalibration;
+
+ signals:
+  void keepAsked(double sensitivity, double thresholdCounts);  // with the recording
+  void applied();                                              // another calibration, or none
+  void sought(double seconds);
+
+ protected:
+  QString whyNot() const override;
+  void compute() override;
+  void forget() override;
+
+ private:
+  void makeTop();
+  void take(const std::shared_ptr<const ForceSeries>& found, const SensorSettings& own);
+  void showFrame();
+  void showForces(const std::vector<MatrixForce>& forces, double sumN, double sdN);
+  void showChosen(int row);
+  void applyThis(const QString& path);
+  void showCalibration();
+  void chooseCalibration();
+  std::string handName() const;
+  QString rowName(std::size_t row) const;
+  const HandDescription* hand() const;
+
+  QSettings& settings_;
+  KeptWithRecording kept_;
+  std::optional<SensorSettings> said_;  // typed, not kept yet
+  std::optional<HandDescription> liveHand_;
+  double positionS_ = 0.0;
+  std::shared_ptr<const ForceSeries> found_;
+  QLabel* name_ = nullptr;
+  QWidget* recordedWith_ = nullptr;
+  QPushButton* choose_ = nullptr;
+  QPushButton* drop_ = nullptr;
+  QPushButton* keep_ = nullptr;
+  QDoubleSpinBox* sensitivity_ = nullptr;
+  QDoubleSpinBox* threshold_ = nullptr;
+  ForceChart* chart_;
+  FiguresTable* table_;
+  QLabel* notes_;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,42 @@
+// Noise of unloaded matrices over their temperature: every line, and of the chosen matrix its bins and the band of
+// three RMSE above and below.
+#pragma once
+
+#include <QString>
+#include <vector>
+
+#include <palpate/calibration/noise_floor.h>
+
+#include "gui/chart/plot.h"
+#include "gui/look/theme.h"
+#include "gui/picture/exported_view.h"
+
+namespace palpate::gui {
+
+class NoiseChart : public QCustomPlot {
+  Q_OBJECT
+ public:
+  explicit NoiseChart(QWidget* parent = nullptr);
+
+  void setFloor(const NoiseFloor& floor, const QStringList& names);
+  void choose(std::size_t matrix);
+  void setTheme(Theme theme);
+  // As a picture of its own.
+  void paint(QPainter& painter, const PictureLook& look, const QString& title);
+
+  QSize sizeHint() const override { return {440, 280}; }
+  QSize minimumSizeHint() const override { return {220, 150}; }
+
+ protected:
+  bool event(QEvent* event) override;
+
+ private:
+  void fill();
+
+  NoiseFloor floor_;
+  QStringList names_;
+  std::size_t chosen_ = 0;
+  Theme theme_ = Theme::kDark;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,284 @@
+#include "gui/calibrate/noise_page.h"
+
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include <palpate/core/error.h>
+#include <palpate/core/hash.h>
+#include <palpate/core/number_text.h>
+#include <palpate/core/output_file.h>
+
+#include "gui/calibrate/applied_calibration.h"
+#include "gui/calibrate/noise_chart.h"
+#include "gui/look/captions.h"
+#include "gui/widgets/figures_table.h"
+#include "gui/widgets/notes_label.h"
+#include "gui/widgets/number_field.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kFitShare = 0.9;  // of the work; the rest is the file's hash
+constexpr int kMostBins = 1000;
+
+std::vector<FigureColumn> noisePageColumns() {
+  return {{"matrix", {}, 15, true},
+          {"slope", "[counts/°C]", 6},
+          {"at 0 °C", "Intercept of the line [counts]", 6},
+          {"RMSE", "The study's [counts]; below: that of this very line", 9},
+          {"°C", "Temperatures it was measured at", 9},
+          {"threshold", "Line + 3 RMSE at the warmest [counts]: above it no noise shows", 8},
+          {"frames", "With a temperature; below: those far above the line", 7},
+          {"", {}, 6, true}};
+}
+
+std::vector<FigureCell> noisePageRowOf(const NoiseLine& line, const QString& name) {
+  const FigureCell none{.text = "–"};
+  std::vector<FigureCell> row{{.text = name}};
+  if (line.valid) {
+    row.push_back({.text = figure(line.slope, 3)});
+    row.push_back({.text = figure(line.intercept, 2)});
+    row.push_back({.text = figure(line.rmse, 3), .detail = "true " + figure(line.rmseTrue, 2)});
+    row.push_back({.text = figure(line.leastDegC, 1) + "–" + figure(line.mostDegC, 1)});
+    row.push_back({.text = figure(line.threshold(line.mostDegC), 1)});
+  } else {
+    row.insert(row.end(), 5, none);
+  }
+  const QString notes = linesOf(line.notes);
+  row.push_back({.text = QString::number(line.numFrames),
+                 .detail = line.numOutliers > 0 ? QString::number(line.numOutliers) + " far above"
+                                                : QString(),
+                 .warning = line.numOutliers > 0});
+  row.push_back({.text = line.valid ? (notes.isEmpty() ? "" : "notes") : "missing",
+                 .tip = notes,
+                 .warning = !line.valid});
+  return row;
+}
+
+std::string given(bool valid, double value) { return valid ? numberText(value) : std::string(); }
+
+TextTable lineTable(const std::shared_ptr<const FoundNoise>& found) {
+  return {
+      .header = {"matrix",
+                 "slope [counts/degC]",
+                 "intercept [counts]",
+                 "rmse [counts]",
+                 "rmse_true [counts]",
+                 "least_degC",
+                 "most_degC",
+                 "frames",
+                 "outliers",
+                 "notes"},
+      .numRows = found->floor.lines.size(),
+      .row = [found](std::size_t row) {
+        const NoiseLine& line = found->floor.lines[row];
+        std::vector<std::string> cells = {std::to_string(line.matrix)};
+        for (const double value :
+             {line.slope, line.intercept, line.rmse, line.rmseTrue, line.leastDegC, line.mostDegC})
+          cells.push_back(given(line.valid, value));
+        cells.push_back(std::to_string(line.numFrames));
+        cells.push_back(std::to_string(line.numOutliers));
+        cells.push_back(linesOf(line.notes).replace('\n', "; ").toStdString());
+        return cells;
+      }};
+}
+
+TextTable binTable(const std::shared_ptr<const FoundNoise>& found) {
+  std::vector<std::pair<std::size_t, NoiseBin>> bins;
+  for (const NoiseLine& line : found->floor.lines)
+    for (const NoiseBin& bin : line.bins) bins.emplace_back(line.matrix, bin);
+  const std::size_t count = bins.size();
+  return {.header = {"matrix", "centre_degC", "mean [counts]", "sd [counts]", "frames"},
+          .numRows = count,
+          .row = [bins = std::move(bins)](std::size_t row) {
+            const auto& [matrix, bin] = bins[row];
+            return std::vector<std::string>{std::to_string(matrix),
+                                            numberText(bin.centreDegC),
+                                            given(bin.count > 0, bin.mean),
+                                            given(bin.count > 0, bin.sd),
+                                            std::to_string(bin.count)};
+          }};
+}
+
+}  // namespace
+
+NoisePage::NoisePage(QWidget* parent) : ComputedPage("noise", parent) {
+  bins_ = new FrameField(this);
+  bins_->setObjectName("noiseBins");
+  bins_->setAccessibleName("Bins");
+  bins_->setToolTip("Equal bins over the temperatures; the study takes 20");
+  bins_->setRange(2, kMostBins);
+  bins_->setValue(static_cast<int>(NoiseFloorOptions{}.bins));
+  save_ = new QPushButton("Save…", this);
+  save_->setObjectName("noiseSave");
+  save_->setToolTip("As JSON, or as XML that the prior program reads");
+  save_->setEnabled(false);
+  apply_ = new QPushButton("Apply to this hand", this);
+  apply_->setObjectName("noiseApply");
+  apply_->setToolTip("High sensitivity (dock Hand) keeps thresholds just above these lines");
+  apply_->setProperty("primary", true);
+  apply_->setEnabled(false);
+  auto* openLines = new QPushButton("Apply a file…", this);
+  openLines->setObjectName("noiseOpen");
+  openLines->setToolTip("Lines that were saved (JSON), or the prior program's (XML)");
+  auto* row = new QHBoxLayout;
+  row->setSpacing(8);
+  row->addWidget(new QLabel("Bins", this));
+  row->addWidget(bins_);
+  row->addStretch(1);
+  row->addWidget(openLines);
+  row->addWidget(save_);
+  row->addWidget(apply_);
+  top().addLayout(row);
+
+  auto* content = new QWidget(this);
+  chart_ = new NoiseChart(content);
+  table_ = new FiguresTable(noisePageColumns(), content);
+  table_->setObjectName("noiseTable");
+  notes_ = notesLabel("noiseNotes", content);
+  auto* column = new QVBoxLayout(content);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(chart_, 1);
+  column->addWidget(table_);
+  column->addWidget(notes_);
+  setContent(content);
+
+  askForPlace = [this](const QString& suggestion) {
+    return std::filesystem::path(
+        QFileDialog::getSaveFileName(this,
+                                     "Save the noise lines",
+                                     suggestion,
+                                     "Noise lines (*.json);;For the prior program (*.xml)")
+            .toStdString());
+  };
+  askForLines = [this] {
+    return QFileDialog::getOpenFileName(
+        this, "Apply noise lines", {}, "Noise lines (*.json *.xml);;All files (*)");
+  };
+  connect(apply_, &QPushButton::clicked, this, [this] { emit applyAsked(found_->floor); });
+  connect(openLines, &QPushButton::clicked, this, [this] {
+    const QString path = askForLines();
+    if (path.isEmpty()) return;
+    try {
+      emit applyAsked(noiseFromFile(path));
+    } catch (const Error& error) {
+      emit said(error.what());
+    }
+  });
+  connect(bins_, &QSpinBox::valueChanged, this, &NoisePage::renew);
+  connect(table_, &FiguresTable::rowChosen, this, [this](int chosen) {
+    chart_->choose(static_cast<std::size_t>(chosen));
+    showNotes(static_cast<std::size_t>(chosen));
+  });
+  connect(save_, &QPushButton::clicked, this, [this] {
+    const auto path =
+        askForPlace(QString::fromStdString(found_->file.stem().string()) + "_noise.json");
+    if (path.empty()) return;
+    try {
+      save(path);
+      emit said("saved " + QString::fromStdString(path.filename().string()));
+    } catch (const Error& error) {
+      emit said(error.what());
+    }
+  });
+}
+
+void NoisePage::forget() {
+  found_.reset();
+  save_->setEnabled(false);
+  apply_->setEnabled(false);
+}
+
+QStringList NoisePage::names() const {
+  QStringList names;
+  for (const NoiseLine& line : found_->floor.lines)
+    names.append(QString::fromStdString(recording()->profile.hand().matrixName(line.matrix)));
+  return names;
+}
+
+void NoisePage::compute() {
+  const OpenedRecordingPtr of = recording();
+  NoiseFloorOptions options;
+  options.bins = static_cast<std::size_t>(bins_->value());
+  run("the noise floor", [this, of, options](const Progress& progress) -> Take {
+    auto found = std::make_shared<FoundNoise>();
+    found->options = options;
+    found->file = of->path;
+    found->floor = fitNoiseFloor(
+        of->profile, options, [&](double done) { return progress(kFitShare * done); });
+    std::error_code ignored;  // a recording that was never on disk has no hash
+    if (std::filesystem::exists(of->path, ignored)) found->sha256 = sha256OfFile(of->path);
+    return [this, found] { take(found); };
+  });
+}
+
+void NoisePage::take(const std::shared_ptr<const FoundNoise>& found) {
+  found_ = found;
+  const auto& lines = found->floor.lines;
+  const bool any =
+      std::any_of(lines.begin(), lines.end(), [](const NoiseLine& line) { return line.valid; });
+  save_->setEnabled(any);
+  apply_->setEnabled(any);
+  if (!any) {
+    QString why = linesOf(found->floor.notes);
+    if (why.isEmpty() && !lines.empty()) why = linesOf(lines.front().notes);
+    return say(why +
+               "\n\nNoise lines need a hand that nothing touches, recorded at threshold 0 while it "
+               "warms up.");
+  }
+  const QStringList all = names();
+  std::vector<std::vector<FigureCell>> rows;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    rows.push_back(noisePageRowOf(lines[i], all[static_cast<qsizetype>(i)]));
+  table_->setRows(rows);
+  chart_->setFloor(found->floor, all);
+  const QSignalBlocker blocker(table_);
+  table_->selectRow(0);
+  showNotes(0);
+  showContent();
+}
+
+void NoisePage::showNotes(std::size_t matrix) {
+  const QString lines = linesOf(found_->floor.notes, found_->floor.lines.at(matrix).notes);
+  notes_->setText(lines);
+  notes_->setVisible(!lines.isEmpty());
+}
+
+void NoisePage::save(const std::filesystem::path& path) const {
+  OutputFile file(path, Overwrite::kReplace);  // the dialog has asked
+  if (path.extension() == ".xml") {
+    file.write(noiseXml(found_->floor));
+  } else {
+    Json json = calibrationProvenance("noise");
+    json.set("file", found_->file.string()).set("sha256", found_->sha256);
+    json.set("options", Json::object().set("bins", found_->options.bins));
+    const Json lines = jsonOf(found_->floor);
+    for (const std::string& key : lines.keys()) json.set(key, lines.at(key));
+    file.write(json.text() + "\n");
+  }
+  file.commit();
+}
+
+void NoisePage::setTheme(Theme theme) {
+  table_->setTheme(theme);
+  chart_->setTheme(theme);
+}
+
+std::vector<ExportedTable> NoisePage::tables() const {
+  if (!shown()) return {};
+  return {{"noise lines", [found = found_] { return lineTable(found); }},
+          {"bins", [found = found_] { return binTable(found); }}};
+}
+
+void NoisePage::paint(QPainter& painter, const PictureLook& look, const QString& title) {
+  chart_->paint(painter, look, title);
+}
+
+}  // namespace palpate::gui

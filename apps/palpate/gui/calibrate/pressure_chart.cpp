@@ -1,0 +1,193 @@
+#include "gui/calibrate/pressure_chart.h"
+
+#include <QEvent>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <palpate/calibration/student_t.h>
+
+#include "gui/chart/chart_picture.h"
+#include "gui/chart/chart_style.h"
+#include "gui/look/captions.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kSlicePoints = 120;
+constexpr double kPressureChartHeadroom = 1.12;
+constexpr int kPressureChartBandAlpha = 36;
+constexpr double kPressureChartPointSize = 6.0;  // [px]
+constexpr double kChosenSize = 11.0;             // [px]
+constexpr double kSame = 0.05;                   // [deg C]
+constexpr std::size_t kCold = 5, kWarm = 3;      // as the colours of these matrices: blue, red
+
+}  // namespace
+
+double temperatureOf(const PressureSample& sample, const PressureModelOptions& options) {
+  const auto& degC = options.study ? sample.studyDegC : sample.nearestDegC;
+  return degC.value_or(options.assumedDegC);
+}
+
+std::vector<double> sliceTemperatures(const PressureModel& model,
+                                      const std::vector<PressureSample>& samples) {
+  double least = std::numeric_limits<double>::max(), most = std::numeric_limits<double>::lowest();
+  for (const PressureSample& sample : samples) {
+    if (!sample.used) continue;
+    least = std::min(least, temperatureOf(sample, model.options));
+    most = std::max(most, temperatureOf(sample, model.options));
+  }
+  if (least > most) return {model.options.assumedDegC};
+  if (most - least < kSame) return {least};
+  return {least, (least + most) / 2.0, most};
+}
+
+PressureChart::PressureChart(QWidget* parent) : QCustomPlot(parent) {
+  setObjectName("pressureChart");
+  setAccessibleName("Pressure over gain at three temperatures");
+  arrangeChart(*this);
+  xAxis->setLabel("gain K in counts");
+  legend->setVisible(true);
+  axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignLeft);
+}
+
+void PressureChart::setModel(const PressureModel& model,
+                             const std::vector<PressureSample>& samples) {
+  model_ = model;
+  samples_ = samples;
+  chosen_.reset();
+  fill();
+}
+
+void PressureChart::choose(std::optional<std::size_t> sample) {
+  if (sample == chosen_) return;
+  chosen_ = sample;
+  fill();
+}
+
+void PressureChart::setTheme(Theme theme) {
+  theme_ = theme;
+  fill();
+}
+
+void PressureChart::addSlice(
+    double degC, const QColor& color, double fromK, double toK, bool band) {
+  const double dof =
+      static_cast<double>(model_.gain.numPoints) - static_cast<double>(model_.gain.numTerms);
+  const double quantile = studentQuantile975(dof);
+  QVector<QCPGraphData> inside, outside, low, high;
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i <= kSlicePoints; ++i) {
+    const double k = fromK + (toK - fromK) * i / kSlicePoints;
+    const PressureEstimate estimate = model_.pressureAt(k, degC);
+    inside.append({k, estimate.inRange ? estimate.kpa : nothing});
+    outside.append({k, estimate.inRange ? nothing : estimate.kpa});
+    low.append({k, std::max(0.0, estimate.kpa - quantile * estimate.sdKpa)});
+    high.append({k, estimate.kpa + quantile * estimate.sdKpa});
+  }
+  const auto add = [&](const QVector<QCPGraphData>& samples, const QPen& pen, const QString& name) {
+    QCPGraph* made = addGraph();
+    made->data()->set(samples, true);
+    made->setPen(pen);
+    if (name.isEmpty()) {
+      made->removeFromLegend();
+    } else {
+      made->setName(name);
+    }
+    return made;
+  };
+  if (band && std::isfinite(quantile)) {
+    QColor shade = color;
+    shade.setAlpha(kPressureChartBandAlpha);
+    QCPGraph* under = add(low, Qt::NoPen, {});
+    QCPGraph* above = add(high, Qt::NoPen, {});
+    above->setBrush(shade);
+    above->setChannelFillGraph(under);
+  }
+  const bool measured = std::any_of(
+      inside.begin(), inside.end(), [](const QCPGraphData& at) { return !std::isnan(at.value); });
+  const QString name = figure(degC, 1) + " °C" + (band ? ", 95 % band" : "");
+  add(inside, QPen(color, 1.8), measured ? name : QString());
+  add(outside, QPen(color, 1.0, Qt::DashLine), measured ? QString() : name);
+}
+
+void PressureChart::fill() {
+  clearPlottables();
+  const ThemeColors& colors = colorsOf(theme_);
+  styleChart(*this, theme_);
+  yAxis->ticker()->setTickCount(6);
+  yAxis->setLabel(fittingName("pressure in kPa", "kPa", *this));
+  legend->setFont(font());
+  legend->setTextColor(colors.muted);
+  legend->setBrush(Qt::NoBrush);
+  legend->setBorderPen(Qt::NoPen);
+  legend->setRowSpacing(-4);
+  double mostK = 0.0, mostKpa = 0.0, leastK = std::numeric_limits<double>::max();
+  for (const PressureSample& sample : samples_) {
+    mostK = std::max(mostK, sample.gainCounts);
+    if (sample.used) leastK = std::min(leastK, sample.gainCounts);
+    mostKpa = std::max(mostKpa, sample.pressureKpa);
+  }
+  if (leastK > mostK) leastK = 0.0;
+  for (const SurfacePoint& corner : model_.gain.hull) {
+    mostK = std::max(mostK, corner.x);
+    leastK = std::min(leastK, corner.x);
+  }
+  if (!(mostK > 0.0)) mostK = 1.0;
+  const double fromK = std::max(0.0, leastK - 0.15 * (mostK - leastK)), toK = mostK * 1.06;
+  const std::vector<double> slices = sliceTemperatures(model_, samples_);
+  const auto colorAt = [&](std::size_t i) {
+    return slices.size() == 1 || i == 1 ? wholeColor(theme_)
+                                        : matrixColor(i == 0 ? kCold : kWarm, theme_);
+  };
+  if (model_.valid())
+    for (std::size_t i = 0; i < slices.size(); ++i) {
+      const bool band = slices.size() == 1 || i == 1;
+      addSlice(slices[i], colorAt(i), fromK, toK, band);
+      mostKpa = std::max(mostKpa, model_.pressureAt(mostK, slices[i]).kpa);
+    }
+  std::vector<QCPGraph*> points;
+  const auto scatter = [&](const QColor& color, QCPScatterStyle::ScatterShape shape) {
+    QCPGraph* made = addGraph();
+    made->setLineStyle(QCPGraph::lsNone);
+    made->setPen(QPen(color, 1.2));
+    made->setScatterStyle(QCPScatterStyle(shape, QPen(color, 1.2), color, kPressureChartPointSize));
+    made->removeFromLegend();
+    return made;
+  };
+  for (std::size_t i = 0; i < slices.size(); ++i)
+    points.push_back(scatter(colorAt(i), QCPScatterStyle::ssDisc));
+  QCPGraph* unused = scatter(colors.muted, QCPScatterStyle::ssCross);
+  for (std::size_t s = 0; s < samples_.size(); ++s) {
+    const PressureSample& sample = samples_[s];
+    std::size_t nearest = 0;
+    const double degC = temperatureOf(sample, model_.options);
+    for (std::size_t i = 1; i < slices.size(); ++i)
+      if (std::abs(slices[i] - degC) < std::abs(slices[nearest] - degC)) nearest = i;
+    if (sample.used)
+      points[nearest]->addData(sample.gainCounts, sample.pressureKpa);
+    else if (sample.gainCounts > 0.0)
+      unused->addData(sample.gainCounts, sample.pressureKpa);
+    if (chosen_ != s || (!sample.used && sample.gainCounts <= 0.0)) continue;
+    QCPGraph* ring = scatter(colors.accent, QCPScatterStyle::ssCircle);
+    ring->setScatterStyle(QCPScatterStyle(
+        QCPScatterStyle::ssCircle, QPen(colors.accent, 2.0), Qt::NoBrush, kChosenSize));
+    ring->addData(sample.gainCounts, sample.pressureKpa);
+  }
+  xAxis->setRange(fromK, toK);
+  yAxis->setRange(0.0, (mostKpa > 0.0 ? mostKpa : 1.0) * kPressureChartHeadroom);
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+void PressureChart::paint(QPainter& painter, const PictureLook& look, const QString& title) {
+  legend->setVisible(false);  // the picture has its own
+  paintChart(painter, look, *this, {.title = title, .caption = "P(K, T)"});
+  legend->setVisible(true);
+}
+
+bool PressureChart::event(QEvent* event) {
+  if (event->type() == QEvent::FontChange || event->type() == QEvent::Resize) fill();
+  return QCustomPlot::event(event);
+}
+
+}  // namespace palpate::gui

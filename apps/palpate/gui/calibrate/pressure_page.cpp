@@ -1,0 +1,364 @@
+#include "gui/calibrate/pressure_page.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QResizeEvent>
+#include <QScrollArea>
+#include <QSignalBlocker>
+#include <QStackedWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include <palpate/core/error.h>
+#include <palpate/core/number_text.h>
+
+#include "gui/calibrate/calibration_facts.h"
+#include "gui/calibrate/pressure_chart.h"
+#include "gui/calibrate/surface_chart.h"
+#include "gui/look/captions.h"
+#include "gui/widgets/facts_view.h"
+#include "gui/widgets/figures_table.h"
+#include "gui/widgets/notes_label.h"
+#include "gui/widgets/number_field.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kPressurePageWideFrom = 980;  // [px] chart and figures side by side
+constexpr double kLargestArea = 1e6;
+constexpr double kFullScale = 4095.0;
+
+std::vector<FigureColumn> pressurePageColumns() {
+  return {{"recording", {}, 15, true},
+          {"kPa", "Pressure that was put on", 7},
+          {"K", "Gain of the step [counts]", 8},
+          {"m", "Drift [counts/s]", 8},
+          {"°C", "Temperature that the model takes", 7},
+          {"off by", "What the surface says, less what was put on [kPa]", 8},
+          {"", "Why it is left out", 14, true}};
+}
+
+std::vector<FigureCell> pressurePageRowOf(const PressureSample& sample,
+                                          const PressureModel& model) {
+  const QString name = QString::fromStdString(std::filesystem::path(sample.file).filename());
+  const double degC = temperatureOf(sample, model.options);
+  const bool known = (model.options.study ? sample.studyDegC : sample.nearestDegC).has_value();
+  const bool measured = sample.used || sample.gainCounts > 0.0;
+  const auto value = [&](double of, int decimals) {
+    return measured ? figure(of, decimals) : QString("–");
+  };
+  QString off = "–";
+  if (model.valid() && measured)
+    off = figure(model.gain.at(sample.gainCounts, degC).value - sample.pressureKpa, 2);
+  return {
+      {.text = name, .tip = QString::fromStdString(sample.file + "\n" + sample.sha256)},
+      {.text = figure(sample.pressureKpa, 2)},
+      {.text = value(sample.gainCounts, 1)},
+      {.text = value(sample.driftPerS, 2)},
+      {.text = known ? figure(degC, 1) : QString("–"),
+       .tip = known ? QString() : "not recorded: " + figure(degC, 0) + " °C assumed"},
+      {.text = off},
+      {.text = sample.used            ? QString()
+               : sample.notes.empty() ? "left out"
+                                      : "left out: " + QString::fromStdString(sample.notes.back()),
+       .tip = linesOf(sample.notes),
+       .warning = !sample.used}};
+}
+
+}  // namespace
+
+PressurePage::PressurePage(QWidget* parent) : ComputedPage("pressure", parent) {
+  makeTop();
+  auto* content = new QWidget(this);
+  charts_ = new QStackedWidget(content);
+  chart_ = new PressureChart(charts_);
+  surface_ = new SurfaceChart(charts_);
+  charts_->addWidget(chart_);
+  charts_->addWidget(surface_);
+  connect(above_, &QCheckBox::toggled, charts_, [this](bool above) {
+    charts_->setCurrentIndex(above ? 1 : 0);
+  });
+  auto* figures = new QWidget(content);
+  samples_ = new FiguresTable(pressurePageColumns(), figures);
+  samples_->setObjectName("pressureSamples");
+  samples_->setSingleLine();
+  facts_ = new FactsView(figures);
+  facts_->setObjectName("pressureFacts");
+  auto* framed = new QWidget(figures);
+  auto* inner = new QVBoxLayout(framed);
+  inner->setContentsMargins(12, 6, 12, 6);
+  inner->addWidget(facts_);
+  inner->addStretch(1);
+  auto* scroll = new QScrollArea(figures);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(framed);
+  auto* column = new QVBoxLayout(figures);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(samples_, 3);
+  column->addWidget(scroll, 4);
+  halves_ = new QBoxLayout(QBoxLayout::TopToBottom, content);
+  halves_->setContentsMargins(0, 0, 0, 0);
+  halves_->setSpacing(0);
+  halves_->addWidget(charts_, 1);
+  halves_->addWidget(figures, 1);
+  setContent(content);
+  connect(samples_, &FiguresTable::rowChosen, this, [this](int row) {
+    chart_->choose(static_cast<std::size_t>(row));
+    surface_->choose(static_cast<std::size_t>(row));
+  });
+  askForTable = [this] {
+    return std::filesystem::path(
+        QFileDialog::getOpenFileName(this,
+                                     "Open a table of recordings and pressures, or a calibration",
+                                     {},
+                                     "Tables and calibrations (*.csv *.json);;All files (*)")
+            .toStdString());
+  };
+  askForPlace = [this](const QString& suggestion) {
+    QString path = QFileDialog::getSaveFileName(
+        this, "Save the calibration", suggestion, "Calibrations (*.json)");
+    if (!path.isEmpty() && !path.endsWith(".json")) path += ".json";
+    return std::filesystem::path(path.toStdString());
+  };
+  showOptions();
+}
+
+void PressurePage::makeTop() {
+  auto* files = new QHBoxLayout;
+  files->setSpacing(8);
+  const auto button = [&](const char* name, const QString& text, const QString& tip) {
+    auto* made = new QPushButton(text, this);
+    made->setObjectName(name);
+    made->setToolTip(tip);
+    return made;
+  };
+  auto* openIt = button("pressureOpen",
+                        "Open…",
+                        "A table (file,pressure_kpa[,temperature_c]) of recordings, or a "
+                        "calibration that was saved");
+  name_ = new QLabel(this);
+  name_->setObjectName("pressureName");
+  name_->setTextFormat(Qt::PlainText);
+  name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  save_ = button("pressureSave", "Save…", "As JSON, with all that it was made from");
+  apply_ = button("pressureApply",
+                  "Apply to this hand",
+                  "From now on this calibration tells pressures and forces of such hands");
+  apply_->setProperty("primary", true);
+  files->addWidget(openIt);
+  files->addWidget(name_, 1);
+  files->addWidget(save_);
+  files->addWidget(apply_);
+  auto* options = new QHBoxLayout;
+  options->setSpacing(8);
+  study_ = new QCheckBox("As the study", this);
+  study_->setObjectName("pressureStudy");
+  study_->setToolTip("All terms, and the study's temperatures; else only terms that hold up");
+  options->addWidget(study_);
+  robust_ = new QCheckBox("Robust", this);
+  robust_->setObjectName("pressureRobust");
+  robust_->setToolTip("Outliers within a step count less (Huber's loss)");
+  options->addWidget(robust_);
+  matrix_ = new QComboBox(this);
+  matrix_->setObjectName("pressureMatrix");
+  matrix_->setAccessibleName("Matrix");
+  matrix_->setToolTip("The matrix that was loaded");
+  matrix_->addItem("loaded matrix");
+  for (const MatrixDescription& matrix : sdh2().matrices)
+    matrix_->addItem(QString::fromStdString(matrix.shortName));
+  options->addWidget(matrix_);
+  options->addStretch(1);
+  above_ = new QCheckBox("From above", this);
+  above_->setObjectName("pressureAbove");
+  above_->setToolTip(
+      "The surface over gain and temperature, pressure as colour; else slices of it");
+  options->addWidget(above_);
+  auto* measured = new QHBoxLayout;
+  measured->setSpacing(8);
+  const auto field = [&](const char* name, const QString& label, const QString& tip, double most) {
+    auto* made = new SecondsField(this);
+    made->setObjectName(name);
+    made->setAccessibleName(label);
+    made->setToolTip(tip);
+    made->setRange(0.0, most);
+    made->setFocusPolicy(Qt::StrongFocus);
+    made->setFixedWidth(made->fontMetrics().horizontalAdvance("00000.00") + 18);
+    auto* words = new QLabel(label, this);
+    words->setToolTip(tip);
+    measured->addWidget(words);
+    measured->addWidget(made);
+    return made;
+  };
+  area_ = field("pressureArea",
+                "Stamp in mm²",
+                "Area that was loaded; forces then count what a load covers. 0: not known",
+                kLargestArea);
+  sensitivity_ = field("pressureSensitivity",
+                       "Sensitivity",
+                       "The recordings were made with; no recording tells",
+                       1.0);
+  sensitivity_->setMinimum(0.01);
+  sensitivity_->setValue(SensorSettings{}.sensitivity);
+  threshold_ = field("pressureThreshold",
+                     "Threshold",
+                     "The recordings were made with [counts]; no recording tells",
+                     kFullScale);
+  threshold_->setDecimals(0);
+  threshold_->setValue(SensorSettings{}.thresholdCounts);
+  top().addLayout(files);
+  measured->addStretch(1);
+  top().addLayout(options);
+  top().addLayout(measured);
+  connect(openIt, &QPushButton::clicked, this, [this] {
+    if (const auto path = askForTable(); !path.empty()) open(path);
+  });
+  connect(save_, &QPushButton::clicked, this, &PressurePage::saveAs);
+  connect(apply_, &QPushButton::clicked, this, &PressurePage::apply);
+  for (QCheckBox* each : {study_, robust_})
+    connect(each, &QCheckBox::toggled, this, &PressurePage::renew);
+  connect(matrix_, &QComboBox::activated, this, &PressurePage::renew);
+  for (QDoubleSpinBox* each : {area_, sensitivity_, threshold_})
+    connect(each, &QDoubleSpinBox::valueChanged, this, &PressurePage::renew);
+}
+
+CalibrationChoices PressurePage::choices() const {
+  CalibrationChoices choices;
+  choices.model.study = study_->isChecked();
+  choices.model.stampAreaMm2 = area_->value();
+  choices.settings = {sensitivity_->value(), threshold_->value(), true};
+  choices.robust = robust_->isChecked();
+  if (matrix_->currentIndex() > 0)
+    choices.matrix = static_cast<std::size_t>(matrix_->currentIndex() - 1);
+  return choices;
+}
+
+void PressurePage::open(const std::filesystem::path& path) {
+  path_ = path;
+  now_.reset();
+  renew();
+  showOptions();
+}
+
+QString PressurePage::whyNot() const {
+  if (!path_.empty()) return {};
+  return "Open a table of recordings that were made under known pressures "
+         "(file,pressure_kpa[,temperature_c]), or a calibration that was saved.";
+}
+
+void PressurePage::compute() {
+  saved_.clear();
+  if (path_.extension() == ".json") {
+    run("the calibration", [this, path = path_](const Progress&) -> Take {
+      const ShownCalibrationPtr read = calibrationFromFile(path);
+      return [this, read] {
+        saved_ = read->source;
+        take(read);
+      };
+    });
+    return;
+  }
+  run("the calibration",
+      [this, path = path_, known = now_, choices = choices()](const Progress& progress) -> Take {
+        auto shown = calibrationFromTable(path, choices, known, progress);
+        return [this, shown] { take(shown); };
+      });
+}
+
+void PressurePage::take(const ShownCalibrationPtr& shown) {
+  now_ = shown;
+  const Calibration& calibration = shown->calibration;
+  std::vector<std::vector<FigureCell>> rows;
+  for (const PressureSample& sample : calibration.samples)
+    rows.push_back(pressurePageRowOf(sample, calibration.pressure));
+  samples_->setRows(rows);
+  samples_->clearSelection();
+  chart_->setModel(calibration.pressure, calibration.samples);
+  surface_->setModel(calibration.pressure, calibration.samples);
+  facts_->setFacts(calibrationFacts(calibration));
+  showOptions();
+  showContent();
+}
+
+void PressurePage::showOptions() {
+  const bool there = now_ != nullptr;
+  const bool fromTable = !there || now_->gathered;
+  name_->setText(QString::fromStdString(path_.filename().string()));
+  name_->setToolTip(QString::fromStdString(path_.string()));
+  save_->setEnabled(there);
+  apply_->setEnabled(there && now_->calibration.pressure.valid());
+  for (QWidget* option :
+       std::initializer_list<QWidget*>{study_, robust_, matrix_, area_, sensitivity_, threshold_})
+    option->setEnabled(fromTable);
+  if (fromTable) return;
+  const Calibration& read = now_->calibration;
+  const QSignalBlocker study(study_), area(area_), first(sensitivity_), second(threshold_);
+  study_->setChecked(read.pressure.options.study);
+  area_->setValue(read.pressure.options.stampAreaMm2);
+  sensitivity_->setValue(read.settings.sensitivity);
+  threshold_->setValue(read.settings.thresholdCounts);
+}
+
+void PressurePage::save(const std::filesystem::path& path) {
+  saveCalibration(now_->calibration, path, Overwrite::kReplace);  // the dialog has asked
+  saved_ = path;
+}
+
+void PressurePage::saveAs() {
+  const auto path = askForPlace(
+      QString::fromStdString((now_->source.parent_path() / now_->source.stem()).string()) +
+      ".json");
+  if (path.empty()) return;
+  try {
+    save(path);
+    emit said("saved " + QString::fromStdString(path.filename().string()));
+  } catch (const Error& error) {
+    emit said(error.what());
+  }
+}
+
+// What is applied must be on disk: it is read again the next day.
+void PressurePage::apply() {
+  if (saved_.empty()) saveAs();
+  if (!saved_.empty()) emit applyAsked(QString::fromStdString(saved_.string()));
+}
+
+QStringList PressurePage::facts() const {
+  QStringList lines;
+  for (const Fact& fact : facts_->facts()) lines.append(fact.name + ": " + fact.value);
+  return lines;
+}
+
+void PressurePage::setTheme(Theme theme) {
+  chart_->setTheme(theme);
+  surface_->setTheme(theme);
+  samples_->setTheme(theme);
+  facts_->setTheme(theme);
+}
+
+std::vector<ExportedTable> PressurePage::tables() const {
+  if (!shown()) return {};
+  return {{"samples", [now = now_] { return sampleTable(now); }},
+          {"calibration", [facts = facts_->facts()] { return factTable(facts); }}};
+}
+
+void PressurePage::paint(QPainter& painter, const PictureLook& look, const QString&) {
+  if (above_->isChecked())
+    surface_->paint(painter, look, name_->text());
+  else
+    chart_->paint(painter, look, name_->text());
+}
+
+void PressurePage::resizeEvent(QResizeEvent* event) {
+  ComputedPage::resizeEvent(event);
+  halves_->setDirection(event->size().width() >= kPressurePageWideFrom ? QBoxLayout::LeftToRight
+                                                                       : QBoxLayout::TopToBottom);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,236 @@
+#include "gui/calibrate/tare_page.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include <palpate/core/number_text.h>
+
+#include "gui/look/captions.h"
+#include "gui/picture/table_picture.h"
+#include "gui/widgets/figures_table.h"
+#include "gui/widgets/notes_label.h"
+
+namespace palpate::gui {
+namespace {
+
+std::vector<FigureColumn> tarePageColumns() {
+  return {{"matrix", {}, 16, true},
+          {"unloaded", "Time in which nothing touches it; below: windows", 10},
+          {"largest zero", "Of its taxels [counts]", 10},
+          {"taxels", "With a zero above 0", 8},
+          {"", "What is missing", 16, true}};
+}
+
+double tarePageSecondsOf(const UnloadedWindow& window, const OpenedRecording& of) {
+  return of.timeAt(window.end) - of.timeAt(window.begin);
+}
+
+double tarePageSecondsOf(const MatrixTare& tare, const OpenedRecording& of) {
+  double sum = 0.0;
+  for (const UnloadedWindow& window : tare.windows) sum += tarePageSecondsOf(window, of);
+  return sum;
+}
+
+QString tarePageNameOf(std::size_t matrix, const OpenedRecording& of) {
+  return QString::fromStdString(of.profile.hand().matrixName(matrix));
+}
+
+std::vector<FigureCell> tarePageRowOf(std::size_t m,
+                                      const MatrixTare& tare,
+                                      const OpenedRecording& of) {
+  const auto count = static_cast<int>(tare.windows.size());
+  if (!tare.valid)
+    return {{.text = tarePageNameOf(m, of)},
+            {.text = "–"},
+            {.text = "–"},
+            {.text = "–"},
+            {.text = "never unloaded",
+             .detail = QString::fromStdString(tare.note),
+             .tip = QString::fromStdString(tare.note),
+             .warning = true}};
+  return {{.text = tarePageNameOf(m, of)},
+          {.text = figure(tarePageSecondsOf(tare, of), 1) + " s",
+           .detail = QString::number(count) + (count == 1 ? " window" : " windows")},
+          {.text = figure(tare.largestZero, 1)},
+          {.text = QString::number(tare.raisedTaxels)},
+          {.text = tare.raisedTaxels == 0 ? "reads nothing" : "",
+           .tip = QString::fromStdString(tare.note)}};
+}
+
+TextTable matrixTable(const std::shared_ptr<const Tare>& tare, const OpenedRecordingPtr& of) {
+  return {.header = {"matrix",
+                     "valid",
+                     "windows",
+                     "unloaded_s",
+                     "largest_zero [counts]",
+                     "raised_taxels",
+                     "note"},
+          .numRows = tare->matrices.size(),
+          .row = [tare, of](std::size_t row) {
+            const MatrixTare& matrix = tare->matrices[row];
+            return std::vector<std::string>{std::to_string(row),
+                                            matrix.valid ? "1" : "0",
+                                            std::to_string(matrix.windows.size()),
+                                            numberText(tarePageSecondsOf(matrix, *of)),
+                                            numberText(matrix.largestZero),
+                                            std::to_string(matrix.raisedTaxels),
+                                            matrix.note};
+          }};
+}
+
+// Every place of the layout, as events keep it.
+TextTable zeroTable(const std::shared_ptr<const Tare>& tare, const OpenedRecordingPtr& of) {
+  struct Place {
+    std::size_t matrix;
+    int y, x;
+  };
+  std::vector<Place> places;
+  const SensorLayout& layout = of->profile.layout();
+  for (std::size_t m = 0; m < layout.numMatrices(); ++m)
+    for (int y = 0; y < layout.matrix(m).rows; ++y)
+      for (int x = 0; x < layout.matrix(m).columns; ++x) places.push_back({m, y, x});
+  const std::size_t count = std::min(places.size(), tare->zero.size());
+  return {.header = {"matrix", "y", "x", "zero [counts]"},
+          .numRows = count,
+          .row = [tare, places = std::move(places)](std::size_t row) {
+            const Place& place = places[row];
+            return std::vector<std::string>{std::to_string(place.matrix),
+                                            std::to_string(place.y),
+                                            std::to_string(place.x),
+                                            numberText(tare->zero[row])};
+          }};
+}
+
+}  // namespace
+
+RecordingEvent tareEvent(const Tare& tare, const Profile& profile) {
+  std::size_t raised = 0;
+  for (const MatrixTare& matrix : tare.matrices) raised += matrix.raisedTaxels;
+  RecordingEvent event;
+  event.tUs = profile.frameTimeUs(0);
+  event.t1Us = profile.frameTimeUs(profile.numFrames() - 1);
+  event.kind = "tare";
+  event.text = "zero of " + std::to_string(raised) + " taxels";
+  event.json = jsonOf(tare, profile.layout()).text(-1);
+  return event;
+}
+
+TarePage::TarePage(QWidget* parent) : ComputedPage("tare", parent) {
+  state_ = new QLabel(this);
+  state_->setObjectName("tareState");
+  state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  remove_ = new QPushButton("Take it away", this);
+  remove_->setObjectName("tareRemove");
+  remove_->setToolTip("Forces are those of the values as they are again");
+  keep_ = new QPushButton("Keep with the recording", this);
+  keep_->setObjectName("tareKeep");
+  keep_->setToolTip("As an event: forces are told with it, values never change (undo: Ctrl+Z)");
+  keep_->setProperty("primary", true);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(8);
+  row->addWidget(state_, 1);
+  row->addWidget(remove_);
+  row->addWidget(keep_);
+  top().addLayout(row);
+  auto* content = new QWidget(this);
+  table_ = new FiguresTable(tarePageColumns(), content);
+  table_->setObjectName("tareTable");
+  notes_ = notesLabel("tareNotes", content);
+  notes_->setText(
+      "The zero of a taxel is the median over these windows of what it reads on average. It is "
+      "proposed; without it a taxel that reads something at rest counts as touched.");
+  auto* column = new QVBoxLayout(content);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(table_, 1);
+  column->addWidget(notes_);
+  setContent(content);
+  connect(keep_, &QPushButton::clicked, this, &TarePage::keepAsked);
+  connect(remove_, &QPushButton::clicked, this, &TarePage::removeAsked);
+  connect(table_, &FiguresTable::rowChosen, this, [this](int chosen) {
+    const auto& windows = found_->matrices[static_cast<std::size_t>(chosen)].windows;
+    if (windows.empty()) return;
+    const auto longest = std::max_element(windows.begin(), windows.end(), [&](auto& a, auto& b) {
+      return tarePageSecondsOf(a, *recording()) < tarePageSecondsOf(b, *recording());
+    });
+    emit spanChosen(recording()->timeAt(longest->begin), recording()->timeAt(longest->end));
+  });
+  showState();
+}
+
+void TarePage::forget() {
+  found_.reset();
+  showState();
+}
+
+void TarePage::compute() {
+  const OpenedRecordingPtr of = recording();
+  run("unloaded windows", [this, of](const Progress& progress) -> Take {
+    auto found = std::make_shared<const Tare>(findTare(of->profile, {}, progress));
+    return [this, found] { take(found); };
+  });
+}
+
+void TarePage::take(const std::shared_ptr<const Tare>& found) {
+  found_ = found;
+  showState();
+  const auto& all = found->matrices;
+  if (std::none_of(all.begin(), all.end(), [](const MatrixTare& each) { return each.valid; })) {
+    const QString why = all.empty() ? QString() : QString::fromStdString(all.front().note);
+    return say("No unloaded window was found: " + why +
+               "\n\nA zero needs a second in which nothing touches a matrix.");
+  }
+  std::vector<std::vector<FigureCell>> rows;
+  for (std::size_t m = 0; m < all.size(); ++m)
+    rows.push_back(tarePageRowOf(m, all[m], *recording()));
+  table_->setRows(rows);
+  showContent();
+}
+
+void TarePage::setKept(bool kept) {
+  kept_ = kept;
+  showState();
+}
+
+void TarePage::showState() {
+  const bool unloaded = found_ && std::any_of(found_->matrices.begin(),
+                                              found_->matrices.end(),
+                                              [](const MatrixTare& each) { return each.valid; });
+  state_->setText(kept_                        ? "A zero is kept with this recording."
+                  : unloaded && !found_->any() ? "At rest every taxel reads 0: nothing to take off."
+                                               : "");
+  keep_->setEnabled(found_ && found_->any());
+  remove_->setVisible(kept_);
+}
+
+void TarePage::setTheme(Theme theme) {
+  theme_ = theme;
+  table_->setTheme(theme);
+}
+
+std::vector<ExportedTable> TarePage::tables() const {
+  if (!shown()) return {};
+  return {{"unloaded windows", [tare = found_, of = recording()] { return matrixTable(tare, of); }},
+          {"zeros", [tare = found_, of = recording()] { return zeroTable(tare, of); }}};
+}
+
+void TarePage::paint(QPainter& painter, const PictureLook& look, const QString& title) {
+  TablePicture picture{
+      .title = title,
+      .caption = "zeros",
+      .header = {"matrix", "unloaded in s", "windows", "largest zero in counts", "taxels"}};
+  for (std::size_t m = 0; m < found_->matrices.size(); ++m) {
+    const MatrixTare& tare = found_->matrices[m];
+    picture.rows.push_back({tarePageNameOf(m, *recording()),
+                            tare.valid ? figure(tarePageSecondsOf(tare, *recording()), 1) : "–",
+                            QString::number(tare.windows.size()),
+                            tare.valid ? figure(tare.largestZero, 1) : "–",
+                            QString::number(tare.raisedTaxels)});
+  }
+  paintTable(painter, look, picture, font(), theme_);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,241 @@
+#include "gui/chart/chart_picture.h"
+
+#include <QFontInfo>
+#include <QFontMetricsF>
+#include <QPicture>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "gui/chart/plot.h"
+#include "gui/look/theme.h"
+#include "gui/picture/picture_export.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kChartPictureMargin = 12.0;  // [units] around the words
+constexpr double kChartPictureLine = 18.0;    // [units] length of a line in the legend
+constexpr double kChartPictureGap = 6.0;      // [units] between a line and its name
+constexpr double kEntryGap = 18.0;            // [units] between entries
+constexpr double kLineSpacing = 1.3;          // of the legend's rows
+constexpr double kLeastContrast = 3.0;
+
+double luminance(const QColor& color) {
+  const auto linear = [](double channel) {
+    return channel <= 0.03928 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) +
+         0.0722 * linear(color.blueF());
+}
+
+double contrastOnWhite(const QColor& color) { return 1.05 / (luminance(color) + 0.05); }
+
+// QCustomPlot tells nobody what its ground is.
+QBrush groundOf(const QCustomPlot& plot) {
+  struct Opened : QCustomPlot {
+    static QBrush of(const QCustomPlot& whose) { return whose.*(&Opened::mBackgroundBrush); }
+  };
+  return Opened::of(plot);
+}
+
+// Changes the look of a chart, and back again.
+class Restyled {
+ public:
+  Restyled(QCustomPlot& plot, const PictureLook& look, const QFont& font) : plot_(plot) {
+    look_ = look;
+    font_ = font;
+    background_ = groundOf(plot);
+    if (look.forPrint) plot.setBackground(QBrush(Qt::white));
+    for (QCPAxisRect* rect : plot.axisRects())
+      for (QCPAxis* axis : rect->axes()) style(*axis);
+    for (int i = 0; i < plot.plottableCount(); ++i) style(*plot.plottable(i));
+    for (int i = 0; i < plot.itemCount(); ++i) style(*plot.item(i));
+  }
+  ~Restyled() {
+    for (auto at = undo_.rbegin(); at != undo_.rend(); ++at) (*at)();
+    plot_.setBackground(background_);
+  }
+  Restyled(const Restyled&) = delete;
+  Restyled& operator=(const Restyled&) = delete;
+
+ private:
+  QPen ink(QPen pen) const {
+    if (look_.forPrint && pen.style() != Qt::NoPen) pen.setColor(inkOf(pen.color()));
+    return pen;
+  }
+  QBrush ink(QBrush brush) const {
+    if (look_.forPrint && brush.style() != Qt::NoBrush) brush.setColor(inkOf(brush.color()));
+    return brush;
+  }
+  QColor ink(const QColor& color) const { return look_.forPrint ? inkOf(color) : color; }
+
+  // Sets what `get` reads to `value`, and notes how to undo it.
+  template <class Object, class Get, class Set, class Value>
+  void change(Object& object, Get get, Set set, const Value& value) {
+    const auto before = (object.*get)();
+    (object.*set)(value);
+    undo_.emplace_back([&object, set, before] { (object.*set)(before); });
+  }
+
+  void style(QCPAxis& axis) {
+    change(axis, &QCPAxis::basePen, &QCPAxis::setBasePen, ink(axis.basePen()));
+    change(axis, &QCPAxis::tickPen, &QCPAxis::setTickPen, ink(axis.tickPen()));
+    change(axis, &QCPAxis::subTickPen, &QCPAxis::setSubTickPen, ink(axis.subTickPen()));
+    change(axis, &QCPAxis::labelColor, &QCPAxis::setLabelColor, ink(axis.labelColor()));
+    change(axis, &QCPAxis::tickLabelColor, &QCPAxis::setTickLabelColor, ink(axis.tickLabelColor()));
+    change(axis, &QCPAxis::labelFont, &QCPAxis::setLabelFont, font_);
+    change(axis, &QCPAxis::tickLabelFont, &QCPAxis::setTickLabelFont, font_);
+    QCPGrid& grid = *axis.grid();
+    change(grid, &QCPGrid::pen, &QCPGrid::setPen, ink(grid.pen()));
+    change(grid, &QCPGrid::subGridPen, &QCPGrid::setSubGridPen, ink(grid.subGridPen()));
+    change(grid, &QCPGrid::zeroLinePen, &QCPGrid::setZeroLinePen, ink(grid.zeroLinePen()));
+  }
+
+  void style(QCPAbstractPlottable& curve) {
+    change(curve, &QCPAbstractPlottable::pen, &QCPAbstractPlottable::setPen, ink(curve.pen()));
+    change(
+        curve, &QCPAbstractPlottable::brush, &QCPAbstractPlottable::setBrush, ink(curve.brush()));
+  }
+
+  void style(QCPAbstractItem& item) {
+    if (auto* word = qobject_cast<QCPItemText*>(&item)) {
+      change(*word, &QCPItemText::color, &QCPItemText::setColor, ink(word->color()));
+      change(*word, &QCPItemText::font, &QCPItemText::setFont, font_);
+      change(*word, &QCPItemText::pen, &QCPItemText::setPen, ink(word->pen()));
+      change(*word, &QCPItemText::brush, &QCPItemText::setBrush, ink(word->brush()));
+    } else if (auto* rect = qobject_cast<QCPItemRect*>(&item)) {
+      change(*rect, &QCPItemRect::pen, &QCPItemRect::setPen, ink(rect->pen()));
+      change(*rect, &QCPItemRect::brush, &QCPItemRect::setBrush, ink(rect->brush()));
+    } else if (auto* line = qobject_cast<QCPItemLine*>(&item)) {
+      change(*line, &QCPItemLine::pen, &QCPItemLine::setPen, ink(line->pen()));
+    } else if (auto* straight = qobject_cast<QCPItemStraightLine*>(&item)) {
+      change(
+          *straight, &QCPItemStraightLine::pen, &QCPItemStraightLine::setPen, ink(straight->pen()));
+    }
+  }
+
+  QCustomPlot& plot_;
+  PictureLook look_;
+  QFont font_;
+  QBrush background_;
+  std::vector<std::function<void()>> undo_;
+};
+
+std::vector<ChartLegendEntry> ownNames(const QCustomPlot& plot) {
+  std::vector<ChartLegendEntry> entries;
+  for (int i = 0; i < plot.graphCount(); ++i)
+    if (const QString name = plot.graph(i)->name(); !name.startsWith("Graph "))
+      entries.push_back({name, plot.graph(i)->pen()});
+  return entries;
+}
+
+// Paints the legend from `top` on, in as many rows as it takes; returns where it ends.
+double paintLegend(QPainter& painter,
+                   const std::vector<ChartLegendEntry>& entries,
+                   const PictureLook& look,
+                   const QFont& font,
+                   double top,
+                   const QColor& text) {
+  if (entries.empty()) return top;
+  const QFontMetricsF metrics(font);
+  const double row = metrics.height() * kLineSpacing;
+  double x = kChartPictureMargin;
+  painter.setFont(font);
+  for (const ChartLegendEntry& entry : entries) {
+    const double width =
+        kChartPictureLine + kChartPictureGap + metrics.horizontalAdvance(entry.name);
+    if (x > kChartPictureMargin && x + width > look.size.width() - kChartPictureMargin) {
+      x = kChartPictureMargin;
+      top += row;
+    }
+    QPen pen = entry.pen;
+    if (look.forPrint) pen.setColor(inkOf(pen.color()));
+    painter.setPen(pen);
+    painter.drawLine(QPointF(x, top + row / 2), QPointF(x + kChartPictureLine, top + row / 2));
+    painter.setPen(text);
+    painter.drawText(QRectF(x + kChartPictureLine + kChartPictureGap, top, width, row),
+                     Qt::AlignLeft | Qt::AlignVCenter | Qt::TextDontClip,
+                     entry.name);
+    x += width + kEntryGap;
+  }
+  return top + row;
+}
+
+}  // namespace
+
+QColor inkOf(const QColor& color) {
+  constexpr std::size_t kMatrices = 6;
+  const ThemeColors& paper = colorsOf(Theme::kLight);
+  for (const Theme theme : {Theme::kDark, Theme::kLight}) {
+    const ThemeColors& screen = colorsOf(theme);
+    for (std::size_t i = 0; i < kMatrices; ++i)
+      if (color == matrixColor(i, theme)) return matrixColor(i, Theme::kLight);
+    if (color == wholeColor(theme)) return wholeColor(Theme::kLight);
+    for (const QColor& ground : {screen.window, screen.panel, screen.raised})
+      if (color == ground) return Qt::white;
+    for (const QColor& words : {screen.text, screen.muted, screen.border})
+      if (color == words) return paper.text;
+    const std::pair<QColor, QColor> kin[] = {{screen.grid, paper.grid},
+                                             {screen.gap, paper.gap},
+                                             {screen.warning, paper.warning},
+                                             {screen.danger, paper.danger},
+                                             {screen.accent, paper.accent},
+                                             {screen.accentSoft, paper.accentSoft}};
+    for (const auto& [from, to] : kin)
+      if (color == from) return to;
+  }
+  if (color.alpha() < 255) return color;  // a shade lies over white as it does over black
+  QColor ink = color;
+  while (contrastOnWhite(ink) < kLeastContrast) ink = ink.darker(110);
+  return ink;
+}
+
+void paintChart(QPainter& painter,
+                const PictureLook& look,
+                QCustomPlot& plot,
+                const ChartPictureOptions& options) {
+  const ThemeColors& paper = colorsOf(Theme::kLight);
+  QFont font = plot.font();
+  font.setPixelSize(look.textUnits > 0 ? look.textUnits : QFontInfo(plot.font()).pixelSize());
+  const QFontMetricsF metrics(font);
+  const QBrush background = look.forPrint ? QBrush(Qt::white) : groundOf(plot);
+  const QColor text = look.forPrint ? paper.text : plot.xAxis->labelColor();
+  painter.save();
+  painter.fillRect(QRectF(QPointF(), look.size), background);
+  double top = kChartPictureMargin * 0.6;
+  if (look.titled && !(options.title.isEmpty() && options.caption.isEmpty())) {
+    const QRectF line(
+        kChartPictureMargin, top, look.size.width() - 2 * kChartPictureMargin, metrics.height());
+    QFont bold = font;
+    bold.setBold(true);
+    const double room = line.width() - metrics.horizontalAdvance(options.caption) - kEntryGap;
+    painter.setPen(text);
+    painter.setFont(bold);
+    painter.drawText(line,
+                     Qt::AlignLeft | Qt::AlignVCenter,
+                     QFontMetricsF(bold).elidedText(options.title, Qt::ElideMiddle, room));
+    painter.setFont(font);
+    painter.drawText(line, Qt::AlignRight | Qt::AlignVCenter, options.caption);
+    top = line.bottom() + kChartPictureGap / 2;
+  }
+  top = paintLegend(
+      painter, options.legend.empty() ? ownNames(plot) : options.legend, look, font, top, text);
+  QPicture picture;
+  {
+    const Restyled restyled(plot, look, font);
+    QCPPainter chart(&picture);
+    chart.setMode(QCPPainter::pmVectorized);
+    chart.setMode(QCPPainter::pmNoCaching);
+    chart.setMode(QCPPainter::pmNonCosmetic);
+    plot.toPainter(&chart,
+                   std::max(1, static_cast<int>(look.size.width())),
+                   std::max(1, static_cast<int>(look.size.height() - top)));
+  }
+  painter.translate(0.0, top);
+  replay(painter, picture);
+  painter.restore();
+  plot.replot(QCustomPlot::rpQueuedReplot);  // its layout was that of the picture
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,102 @@
+#include "gui/chart/chart_style.h"
+
+#include "gui/chart/plot.h"
+
+namespace palpate::gui {
+namespace {
+
+void styleAxis(QCPAxis& axis, const ThemeColors& colors, const QFont& font) {
+  axis.setBasePen(QPen(colors.border));
+  axis.setTickPen(QPen(colors.border));
+  axis.setSubTickPen(Qt::NoPen);
+  axis.setTickLabelColor(colors.muted);
+  axis.setLabelColor(colors.muted);
+  axis.setTickLabelFont(font);
+  axis.setLabelFont(font);
+  axis.grid()->setPen(QPen(colors.grid));
+  axis.grid()->setZeroLinePen(QPen(colors.grid));
+  axis.grid()->setSubGridVisible(false);
+}
+
+// Along the time, and in parts of the height.
+void anchor(QCPItemPosition& position) {
+  position.setTypeX(QCPItemPosition::ptPlotCoords);
+  position.setTypeY(QCPItemPosition::ptAxisRectRatio);
+}
+
+}  // namespace
+
+void arrangeChart(QCustomPlot& plot) {
+  plot.setLocale(QLocale::c());
+  plot.setPlottingHint(QCP::phFastPolylines, true);
+  plot.xAxis->ticker()->setTickCount(9);
+  plot.yAxis->ticker()->setTickCount(4);
+  plot.xAxis->grid()->setVisible(false);
+  plot.xAxis->setNumberFormat("gb");
+  plot.yAxis->setNumberFormat("gb");
+  plot.xAxis->setTickLengthIn(0);
+  plot.yAxis->setTickLengthIn(0);
+  plot.xAxis->setTickLengthOut(4);
+  plot.axisRect()->setMinimumMargins(QMargins(52, 10, 20, 10));
+}
+
+void styleChart(QCustomPlot& plot, Theme theme) {
+  const ThemeColors& colors = colorsOf(theme);
+  plot.setBackground(QBrush(colors.window));
+  styleAxis(*plot.xAxis, colors, plot.font());
+  styleAxis(*plot.yAxis, colors, plot.font());
+}
+
+QPen curvePen(std::size_t matrix, bool whole, Theme theme) {
+  QPen pen(whole ? wholeColor(theme) : matrixColor(matrix, theme), 1.4);
+  if (whole) pen.setStyle(Qt::DashLine);
+  return pen;
+}
+
+QString fittingName(const QString& name, const QString& shortName, const QWidget& plot) {
+  constexpr int kAroundAxis = 60;  // [px] above and below it
+  const bool fits = plot.fontMetrics().horizontalAdvance(name) < plot.height() - kAroundAxis;
+  return fits ? name : shortName;
+}
+
+QString signalAxisName(PlottedSignal signal, const QWidget& plot) {
+  QString whole = nameOf(signal);
+  if (!whole.endsWith(unitOf(signal))) whole += " in " + unitOf(signal);
+  return fittingName(whole, unitOf(signal), plot);
+}
+
+void styleExtraAxis(QCPAxis& axis, const QWidget& plot, Theme theme) {
+  styleAxis(axis, colorsOf(theme), plot.font());
+  axis.grid()->setVisible(false);
+  axis.ticker()->setTickCount(4);
+  axis.setNumberFormat("gb");
+  axis.setTickLengthIn(0);
+  axis.setTickLengthOut(4);
+}
+
+QCPItemRect* shadeSpan(QCustomPlot& plot, double beginS, double endS, Theme theme) {
+  auto* shade = new QCPItemRect(&plot);
+  anchor(*shade->topLeft);
+  anchor(*shade->bottomRight);
+  shade->topLeft->setCoords(beginS, 0.0);
+  shade->bottomRight->setCoords(endS, 1.0);
+  shade->setPen(Qt::NoPen);
+  shade->setBrush(colorsOf(theme).gap);
+  shade->setLayer("background");
+  return shade;
+}
+
+QCPItemText* wordAt(
+    QCustomPlot& plot, double atS, const QString& text, Qt::Alignment side, const QColor& color) {
+  constexpr double kTop = 0.04;  // part of the height
+  auto* word = new QCPItemText(&plot);
+  anchor(*word->position);
+  word->position->setCoords(atS, kTop);
+  word->setPositionAlignment(side | Qt::AlignTop);
+  word->setText(text);
+  word->setFont(plot.font());
+  word->setColor(color);
+  return word;
+}
+
+}  // namespace palpate::gui

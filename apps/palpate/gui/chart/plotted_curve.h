@@ -1,0 +1,39 @@
+// A curve of the timeline: what it shows, its name, unit and colour.
+#pragma once
+
+#include <QPen>
+#include <QString>
+#include <vector>
+
+#include <palpate/filter/profile_series.h>
+#include <palpate/model/hand_description.h>
+
+#include "gui/look/theme.h"
+
+namespace palpate::gui {
+
+struct PlottedCurve {
+  SeriesChoice choice;
+  QString name;  // "finger 0 distal", "thumb tip", "finger 1 distal (joint)", "motor 3"
+  QString unit;  // "counts", "°C"; the axis it belongs to
+  QString axis;  // what the axis is called: "mean in counts", "joint angle in °"
+  QPen pen;
+};
+
+QString unitOf(const SeriesChoice& choice);
+// Of the axis: "mean in counts", "taxels in counts", "joint angle in °", "temperature in °C".
+QString axisNameOf(const SeriesChoice& choice);
+
+PlottedCurve matrixCurve(const HandDescription& hand,
+                         std::size_t row,
+                         SignalKind signal,
+                         Theme theme);
+// The `place`-th of the taxel curves.
+PlottedCurve taxelCurve(const TaxelSelection& taxels,
+                        const QString& name,
+                        std::size_t place,
+                        Theme theme);
+PlottedCurve angleCurve(const HandDescription& hand, std::size_t axis, Theme theme);
+PlottedCurve temperatureCurve(const HandDescription& hand, std::size_t sensor, Theme theme);
+
+}  // namespace palpate::gui

@@ -1,0 +1,283 @@
+#include "gui/compare/compare_chart.h"
+
+#include <QHelpEvent>
+#include <QMouseEvent>
+#include <QToolTip>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+#include <palpate/filter/min_max_decimation.h>
+
+#include "gui/chart/chart_style.h"
+#include "gui/look/difference_map.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kCompareChartShortestSeenS = 0.05;
+constexpr double kLongestSeenS = 1e9;
+constexpr double kCompareChartHeadroom = 1.06;   // the highest curve stays below the frame
+constexpr double kCompareChartWheelStep = 1.25;  // zoom per notch
+constexpr double kCompareChartNotch = 120.0;     // angleDelta of one notch
+constexpr double kCompareChartPageRest = 0.1;    // part of the old page that a new page starts with
+constexpr int kCompareChartCursorWidth = 2;      // [px]
+
+double compareChartLargestOf(const std::shared_ptr<const Series>& series) {
+  double largest = 0.0;
+  if (series)
+    for (const double value : series->values)
+      if (value > largest) largest = value;
+  return largest;
+}
+
+std::vector<std::size_t> gapFramesOf(const std::shared_ptr<const TimedProfile>& timed) {
+  std::vector<std::size_t> frames;
+  if (timed)
+    for (const Gap& gap : timed->timing.gaps) frames.push_back(gap.frame);
+  return frames;
+}
+
+}  // namespace
+
+CompareChart::CompareChart(QWidget* parent) : QCustomPlot(parent) {
+  arrangeChart(*this);
+  setAccessibleName("Curves of A and B");
+  setMouseTracking(true);
+  xAxis->setLabel("time from A's first frame in s");
+  cursor_ = new QWidget(this);
+  cursor_->setAttribute(Qt::WA_TransparentForMouseEvents);
+  cursor_->setAutoFillBackground(true);
+  connect(this, &QCustomPlot::afterReplot, this, [this] {
+    placeCursor();
+    emit rangeChanged();
+  });
+}
+
+TimeSpan CompareChart::whole() const {
+  if (!curves_.a || !curves_.b) return {0.0, 1.0};
+  TimeSpan span = wholeSpan(*curves_.a, *curves_.b, curves_.offsetS);
+  if (span.lengthS() < kCompareChartShortestSeenS) span.toS = span.fromS + 1.0;
+  return span;
+}
+
+void CompareChart::setCurves(const CompareCurves& curves) {
+  const bool otherPair = curves.a != curves_.a || curves.b != curves_.b;
+  curves_ = curves;
+  rebuild();
+  if (otherPair) fit();
+}
+
+void CompareChart::setOffset(double offsetS) {
+  if (offsetS == curves_.offsetS) return;
+  curves_.offsetS = offsetS;
+  refill();
+}
+
+void CompareChart::settle() {
+  if (fitted_) fit();
+}
+
+void CompareChart::setTheme(Theme theme) {
+  theme_ = theme;
+  styleChart(*this, theme);
+  cursor_->setStyleSheet("background: " + colorsOf(theme).accent.name());
+  rebuild();
+}
+
+void CompareChart::rebuild() {
+  clearGraphs();
+  clearItems();
+  contact_ = nullptr;
+  yAxis->setLabel(signalAxisName(curves_.signal, *this));
+  for (const CompareSide side : {CompareSide::kA, CompareSide::kB}) {
+    QCPGraph* graph = addGraph();
+    QPen pen(sideColor(side, theme_), 1.6);
+    if (side == CompareSide::kB) pen.setStyle(Qt::DashLine);
+    graph->setPen(pen);
+    graph->setName(side == CompareSide::kA ? "A" : "B");
+    graph->setAdaptiveSampling(false);  // thinned already
+  }
+  const double largest =
+      std::max(compareChartLargestOf(curves_.curveA), compareChartLargestOf(curves_.curveB));
+  yAxis->setRange(0.0, largest > 0.0 ? largest * kCompareChartHeadroom : 1.0);
+  if (curves_.a && curves_.a->contact) {
+    contact_ = new QCPItemStraightLine(this);
+    contact_->setPen(QPen(colorsOf(theme_).muted, 1.0, Qt::DotLine));
+    const double at = curves_.a->timeS(*curves_.a->contact);
+    contact_->point1->setCoords(at, 0.0);
+    contact_->point2->setCoords(at, 1.0);
+    wordAt(*this, at, " first contact in A", Qt::AlignLeft, colorsOf(theme_).muted);
+  }
+  refill();
+}
+
+void CompareChart::refill() {
+  const QCPRange range = xAxis->range();
+  const auto fill = [&](int index,
+                        const std::shared_ptr<const Series>& series,
+                        const std::vector<std::size_t>& gaps,
+                        double shiftS) {
+    QVector<QCPGraphData> samples;
+    if (series) {
+      const DecimationOptions options{.from = range.lower - shiftS,
+                                      .to = range.upper - shiftS,
+                                      .columns = static_cast<std::size_t>(std::max(1, width())),
+                                      .breaks = gaps};
+      const auto points = minMaxDecimated(series->timeS, series->values, options);
+      samples.reserve(static_cast<qsizetype>(points.size()));
+      for (const SeriesPoint& point : points) samples.append({point.x + shiftS, point.y});
+    }
+    // One sample is no line: a dot.
+    const bool dot = series && series->timeS.size() == 1;
+    graph(index)->setScatterStyle(dot ? QCPScatterStyle(QCPScatterStyle::ssDisc, 7)
+                                      : QCPScatterStyle(QCPScatterStyle::ssNone));
+    graph(index)->data()->set(samples, true);
+  };
+  fill(0, curves_.curveA, gapFramesOf(curves_.a), 0.0);
+  fill(1, curves_.curveB, gapFramesOf(curves_.b), curves_.offsetS);
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+void CompareChart::setPosition(double seconds) {
+  positionS_ = seconds;
+  const QCPRange range = xAxis->range();
+  if (!fitted_ && drag_ == Drag::kNone && (seconds < range.lower || seconds > range.upper)) {
+    const double span = range.size();
+    const double from = seconds > range.upper ? seconds - kCompareChartPageRest * span
+                                              : seconds - (1.0 - kCompareChartPageRest) * span;
+    setSeen(from, from + span);
+  }
+  placeCursor();
+}
+
+void CompareChart::placeCursor() {
+  const QRect plot = axisRect()->rect();
+  const int x = static_cast<int>(std::lround(pixelOf(positionS_)));
+  const bool inside = x >= plot.left() - 1 && x <= plot.right() + 2;
+  const QRect place(
+      x - kCompareChartCursorWidth / 2, plot.top(), kCompareChartCursorWidth, plot.height());
+  if (cursor_->geometry() != place) cursor_->setGeometry(place);
+  if (cursor_->isHidden() == inside) cursor_->setVisible(inside);
+}
+
+void CompareChart::setSeen(double from, double to) {
+  const TimeSpan all = whole();
+  const double span =
+      std::clamp(to - from, kCompareChartShortestSeenS, std::min(all.lengthS(), kLongestSeenS));
+  const double start = std::clamp(from, all.fromS, all.toS - span);
+  xAxis->setRange(start, start + span);
+  fitted_ = span >= all.lengthS() * (1.0 - 1e-9);
+  refill();
+}
+
+void CompareChart::fit() {
+  const TimeSpan all = whole();
+  setSeen(all.fromS, all.toS);
+}
+
+void CompareChart::zoomAbout(double seconds, double factor) {
+  const QCPRange range = xAxis->range();
+  const double span =
+      std::clamp(range.size() / factor, kCompareChartShortestSeenS, whole().lengthS());
+  const double share = (seconds - range.lower) / range.size();
+  setSeen(seconds - share * span, seconds + (1.0 - share) * span);
+}
+
+void CompareChart::mousePressEvent(QMouseEvent* event) {
+  dragFromPixel_ = event->position().x();
+  dragFromRange_ = xAxis->range();
+  dragFromOffsetS_ = curves_.offsetS;
+  const bool left = event->button() == Qt::LeftButton;
+  if (event->button() == Qt::MiddleButton || (left && event->modifiers() & Qt::ShiftModifier)) {
+    drag_ = Drag::kPan;
+    setCursor(Qt::ClosedHandCursor);
+  } else if (left && event->modifiers() & Qt::ControlModifier) {
+    drag_ = Drag::kShift;
+    setCursor(Qt::SizeHorCursor);
+  } else if (left) {
+    drag_ = Drag::kSeek;
+    emit sought(secondsAt(event->position().x()));
+  }
+}
+
+void CompareChart::mouseMoveEvent(QMouseEvent* event) {
+  const double perPixel = dragFromRange_.size() / std::max(1, axisRect()->width());
+  const double moved = (event->position().x() - dragFromPixel_) * perPixel;
+  switch (drag_) {
+    case Drag::kSeek:
+      emit sought(secondsAt(event->position().x()));
+      break;
+    case Drag::kPan:
+      setSeen(dragFromRange_.lower - moved, dragFromRange_.upper - moved);
+      break;
+    case Drag::kShift:
+      emit shifted(dragFromOffsetS_ + moved);
+      break;
+    case Drag::kNone:
+      break;
+  }
+}
+
+void CompareChart::mouseReleaseEvent(QMouseEvent*) {
+  const bool shifting = drag_ == Drag::kShift;
+  drag_ = Drag::kNone;
+  unsetCursor();
+  if (shifting) emit shiftEnded();
+}
+
+void CompareChart::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton) fit();
+}
+
+void CompareChart::wheelEvent(QWheelEvent* event) {
+  const double notches = event->angleDelta().y() / kCompareChartNotch;
+  const double sideways = event->angleDelta().x() / kCompareChartNotch;
+  if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier) {
+    const QCPRange range = xAxis->range();
+    const double moved =
+        -(sideways != 0.0 ? sideways : notches) * kCompareChartPageRest * range.size();
+    setSeen(range.lower + moved, range.upper + moved);
+  } else {
+    zoomAbout(secondsAt(event->position().x()), std::pow(kCompareChartWheelStep, notches));
+  }
+  event->accept();
+}
+
+void CompareChart::resizeEvent(QResizeEvent* event) {
+  QCustomPlot::resizeEvent(event);
+  yAxis->setLabel(signalAxisName(curves_.signal, *this));
+  constexpr int kLow = 130;  // [px]
+  yAxis->ticker()->setTickCount(event->size().height() < kLow ? 2 : 4);
+  refill();
+}
+
+QString CompareChart::valuesAt(double seconds) const {
+  if (!curves_.a || !curves_.b) return {};
+  QString text = QString::number(seconds, 'f', 2) + " s";
+  const auto line = [&](const char* name,
+                        const TimedProfile& timed,
+                        const std::shared_ptr<const Series>& series,
+                        double at) {
+    text += "\n" + QString(name) + "  ";
+    const auto frame = timed.frameAt(at);
+    if (!frame || !series || *frame >= series->values.size()) return text += "no frame", void();
+    text += QString::number(series->values[*frame], 'f', 1) + " " + unitOf(curves_.signal) +
+            " · frame " + QString::number(*frame);
+  };
+  line("A", *curves_.a, curves_.curveA, seconds);
+  line("B", *curves_.b, curves_.curveB, seconds - curves_.offsetS);
+  return text;
+}
+
+bool CompareChart::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip) {
+    const auto* help = static_cast<QHelpEvent*>(event);
+    QToolTip::showText(help->globalPos(), valuesAt(secondsAt(help->pos().x())), this);
+    return true;
+  }
+  if (event->type() == QEvent::FontChange) setTheme(theme_);
+  return QCustomPlot::event(event);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,201 @@
+#include "gui/compare/compare_header.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QResizeEvent>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "gui/look/difference_map.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kCompareHeaderControlHeight = 26;  // [px]
+constexpr int kCompareHeaderCompactBelow = 760;  // [px] of width: buttons lose their text
+constexpr double kFurthestS = 1e9;               // of an offset: 30 years
+constexpr double kOffsetStepS = 0.05;            // of the arrow keys
+constexpr int kOffsetDecimals = 3;
+
+}  // namespace
+
+QString titleOf(Alignment alignment) {
+  switch (alignment) {
+    case Alignment::kStart:
+      return "start of both";
+    case Alignment::kClock:
+      return "clock time";
+    case Alignment::kByHand:
+      return "by hand";
+    case Alignment::kContact:
+      break;
+  }
+  return "first contact";
+}
+
+QComboBox* CompareHeader::recordingBox(const char* name, const QString& tip, QLabel*& swatch) {
+  auto* box = new QComboBox(this);
+  box->setObjectName(name);
+  box->setToolTip(tip);
+  box->setAccessibleName(tip);
+  box->setMinimumHeight(kCompareHeaderControlHeight);
+  box->setMinimumContentsLength(10);
+  box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  box->setMaximumWidth(380);
+  box->setFocusPolicy(Qt::TabFocus);
+  swatch = new QLabel(this);
+  return box;
+}
+
+CompareHeader::CompareHeader(QAction* leave,
+                             QAction* interpolated,
+                             QAction* values,
+                             QWidget* parent)
+    : QWidget(parent) {
+  setObjectName("ViewHeader");
+  setAttribute(Qt::WA_StyledBackground);
+  a_ = recordingBox("compareA", "Recording A: the one that is played", swatchA_);
+  b_ = recordingBox("compareB", "Recording B: what it is compared with", swatchB_);
+  swap_ = new QToolButton(this);
+  swap_->setObjectName("compareSwap");
+  swap_->setText("⇄");
+  swap_->setToolTip("Swap A and B");
+  swap_->setAccessibleName("Swap A and B");
+  swap_->setFocusPolicy(Qt::TabFocus);
+  alignment_ = new QComboBox(this);
+  alignment_->setObjectName("compareAlignment");
+  alignment_->setMinimumHeight(kCompareHeaderControlHeight);
+  alignment_->setToolTip("What comes on top of each other");
+  alignment_->setAccessibleName("Alignment");
+  alignment_->setFocusPolicy(Qt::TabFocus);
+  for (const Alignment each : kAllAlignments) alignment_->addItem(titleOf(each));
+  offset_ = new QDoubleSpinBox(this);
+  offset_->setObjectName("compareOffset");
+  offset_->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  offset_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  offset_->setDecimals(kOffsetDecimals);
+  offset_->setRange(-kFurthestS, kFurthestS);
+  offset_->setSingleStep(kOffsetStepS);
+  offset_->setSuffix(" s");
+  offset_->setKeyboardTracking(false);
+  offset_->setFixedWidth(offset_->fontMetrics().horizontalAdvance("-00000000.000 s") + 16);
+  offset_->setFocusPolicy(Qt::StrongFocus);
+  offset_->setToolTip("When B begins, in seconds from A's first frame (or drag B's bar)");
+  offset_->setAccessibleName("Offset of B in seconds");
+
+  const auto button = [this](QAction* action) {
+    auto* made = new QToolButton(this);
+    made->setDefaultAction(action);
+    made->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    made->setFocusPolicy(Qt::TabFocus);
+    return made;
+  };
+  withText_ = {button(interpolated), button(values)};
+  auto* back = new QToolButton(this);
+  back->setObjectName("compareBack");
+  back->setText("Back to the matrices");
+  back->setToolTip("Back to the matrices (" + leave->shortcut().toString(QKeySequence::NativeText) +
+                   ", Esc)");
+  back->setFocusPolicy(Qt::TabFocus);
+  connect(back, &QToolButton::clicked, leave, &QAction::trigger);
+
+  auto* first = new QHBoxLayout;
+  first->setSpacing(6);
+  auto* title = new QLabel("<b>Compare</b>", this);
+  first->addWidget(title);
+  first->addSpacing(10);
+  first->addWidget(swatchA_);
+  first->addWidget(a_, 1);
+  first->addWidget(swap_);
+  first->addWidget(swatchB_);
+  first->addWidget(b_, 1);
+  first->addStretch(0);
+  first->addSpacing(6);
+  first->addWidget(back);
+  auto* second = new QHBoxLayout;
+  second->setSpacing(6);
+  second->addWidget(new QLabel("Aligned by", this));
+  second->addWidget(alignment_);
+  second->addSpacing(8);
+  second->addWidget(new QLabel("B begins at", this));
+  second->addWidget(offset_);
+  second->addStretch(1);
+  for (QToolButton* each : withText_) second->addWidget(each);
+  auto* rows = new QVBoxLayout(this);
+  rows->setContentsMargins(12, 4, 10, 5);
+  rows->setSpacing(4);
+  rows->addLayout(first);
+  rows->addLayout(second);
+
+  connect(a_, &QComboBox::activated, this, [this](int index) { choose(a_, index, true); });
+  connect(b_, &QComboBox::activated, this, [this](int index) { choose(b_, index, false); });
+  connect(swap_, &QToolButton::clicked, this, &CompareHeader::swapAsked);
+  connect(alignment_, &QComboBox::activated, this, [this](int index) {
+    emit alignmentChosen(kAllAlignments[static_cast<std::size_t>(index)]);
+  });
+  connect(offset_, &QDoubleSpinBox::valueChanged, this, &CompareHeader::offsetTyped);
+  setOffset(std::nullopt);
+}
+
+void CompareHeader::choose(QComboBox* box, int index, bool isA) {
+  if (index == box->count() - 1) {
+    box->setCurrentIndex(isA ? chosenA_ : chosenB_);
+    emit openAsked();
+  } else if (isA) {
+    emit aChosen(index);
+  } else {
+    emit bChosen(index);
+  }
+}
+
+void CompareHeader::setRecordings(const QStringList& names, int a, int b) {
+  chosenA_ = a;
+  chosenB_ = b;
+  for (QComboBox* box : {a_, b_}) {
+    box->clear();
+    box->addItems(names);
+    box->insertSeparator(box->count());
+    box->addItem("open another…");
+    box->setCurrentIndex(box == a_ ? a : b);
+  }
+  const bool both = a >= 0 && b >= 0;
+  swap_->setEnabled(both && a != b);
+  alignment_->setEnabled(both);
+}
+
+void CompareHeader::setAlignment(Alignment alignment) {
+  alignment_->setCurrentIndex(static_cast<int>(
+      std::find(kAllAlignments.begin(), kAllAlignments.end(), alignment) - kAllAlignments.begin()));
+}
+
+void CompareHeader::setOffset(std::optional<double> offsetS) {
+  const QSignalBlocker blocked(offset_);
+  offset_->setEnabled(offsetS.has_value());
+  offset_->setValue(offsetS.value_or(0.0));
+}
+
+void CompareHeader::setTheme(Theme theme) {
+  const auto badge = [&](QLabel* label, const char* text, CompareSide side) {
+    label->setText(text);
+    label->setStyleSheet("font-weight: bold; padding: 2px 7px; border-radius: 4px; color: " +
+                         colorsOf(theme).window.name() +
+                         "; background: " + sideColor(side, theme).name() + ";");
+  };
+  badge(swatchA_, "A", CompareSide::kA);
+  badge(swatchB_, "B", CompareSide::kB);
+}
+
+void CompareHeader::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  const bool narrow = event->size().width() < kCompareHeaderCompactBelow;
+  for (QToolButton* each : withText_)
+    each->setToolButtonStyle(narrow ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
+}
+
+}  // namespace palpate::gui

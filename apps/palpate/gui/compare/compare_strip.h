@@ -1,0 +1,46 @@
+// Two bars over the chart of a comparison: when A and when B were recorded on the common axis, their gaps and first
+// contacts. B's bar is there to be dragged: that shifts B.
+#pragma once
+
+#include <QWidget>
+
+#include "gui/look/theme.h"
+
+namespace palpate::gui {
+
+class CompareChart;
+
+class CompareStrip : public QWidget {
+  Q_OBJECT
+ public:
+  // As wide as the chart, whose axis it shares; the chart must outlive it.
+  explicit CompareStrip(const CompareChart& chart, QWidget* parent = nullptr);
+  void setTheme(Theme theme);
+  // [px] of the widget; empty: nothing is known of it yet.
+  QRectF barRect(bool ofB) const;
+
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override { return sizeHint(); }
+
+ signals:
+  void shifted(double offsetS);
+  void shiftEnded();
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+
+ private:
+  void paintBar(QPainter& painter, bool ofB) const;
+
+  const CompareChart& chart_;
+  Theme theme_ = Theme::kDark;
+  bool dragging_ = false;
+  double dragFromPixel_ = 0.0;
+  double dragFromOffsetS_ = 0.0;
+  double dragSecondsPerPixel_ = 0.0;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,56 @@
+// The heat maps of a comparison as a widget: keeps what doesn't change as a pixmap; tells what lies under the mouse,
+// in A, in B and between them.
+#pragma once
+
+#include <QPixmap>
+#include <QWidget>
+#include <optional>
+
+#include "gui/compare/compare_painter.h"
+
+namespace palpate::gui {
+
+class CompareView : public QWidget {
+  Q_OBJECT
+ public:
+  explicit CompareView(QWidget* parent = nullptr);
+
+  void setHands(const ComparedHands& hands);
+  void clear();
+  void setFrames(ComparedFrames frames);
+  // Font and pixels are the widget's own.
+  void setOptions(const ComparePictureOptions& options);
+  const ComparePictureOptions& options() const noexcept { return options_; }
+  const ComparedFrames& frames() const noexcept { return frames_; }
+  const std::optional<ComparedHands>& hands() const noexcept { return hands_; }
+  const CompareGeometry& geometryOfGroups() const noexcept { return geometry_; }
+  // "finger 0 distal · x 3, y 5 · A 812 · B 640 · A − B +172 counts"; empty beside the taxels.
+  QString hoverText() const;
+
+  QSize sizeHint() const override { return {900, 340}; }
+  QSize minimumSizeHint() const override { return {420, 180}; }
+
+ signals:
+  void hovered(const QString& text);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void renew();
+  void setHover(std::optional<TaxelPlace> place);
+  QString valueText(CompareGroup group) const;
+
+  std::optional<ComparedHands> hands_;
+  ComparedFrames frames_;
+  ComparePictureOptions options_;
+  CompareGeometry geometry_;
+  QPixmap background_;
+  std::optional<TaxelPlace> hover_;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,190 @@
+#include "gui/compare/compare_worker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <palpate/core/error.h>
+#include <palpate/core/time.h>
+#include <palpate/filter/frame_difference.h>
+
+namespace palpate::gui {
+namespace {
+
+constexpr std::size_t kCompareWorkerMostKept = 12;  // recordings, and curves
+constexpr std::size_t kPairsLookedAt = 4000;        // of a long recording: for the range of colours
+constexpr double kCompareWorkerEverS = std::numeric_limits<double>::max();
+
+// How much of the whole work each part is.
+constexpr double kTimedShare = 0.2;
+constexpr double kCurveShare = 0.3;
+
+// Of A.
+std::size_t framesInCommon(const TimedProfile& a, const TimedProfile& b, double offsetS) {
+  const auto span = commonSpan(a, b, offsetS);
+  if (!span) return 0;
+  const auto at = [&](double seconds) {
+    return a.profile.frameAt(a.profile.frameTimeUs(0) + std::llround(seconds * kUsPerS))
+        .value_or(0);
+  };
+  return at(span->toS) - at(span->fromS) + 1;
+}
+
+}  // namespace
+
+// Recordings are compared by address: weak, so that a closed one isn't held here.
+struct CompareWorker::Kept {
+  struct Timed {
+    std::weak_ptr<const OpenedRecording> of;
+    std::shared_ptr<const TimedProfile> timed;
+  };
+  struct Curve {
+    std::weak_ptr<const OpenedRecording> of;
+    SeriesChoice choice;
+    std::shared_ptr<const Series> series;
+  };
+  std::deque<Timed> timed;
+  std::deque<Curve> curves;
+
+  void forgetClosed() {
+    std::erase_if(timed, [](const Timed& each) { return each.of.expired(); });
+    std::erase_if(curves, [](const Curve& each) { return each.of.expired(); });
+  }
+};
+
+ChosenOffset chosenOffset(const TimedProfile& a,
+                          const TimedProfile& b,
+                          Alignment alignment,
+                          double handOffsetS) {
+  if (alignment == Alignment::kByHand) return {alignment, handOffsetS};
+  if (const auto offsetS = offsetBetween(a, b, alignment)) return {alignment, *offsetS};
+  return {Alignment::kStart, 0.0};
+}
+
+CompareWorker::CompareWorker(QObject* parent) : QObject(parent), kept_(std::make_shared<Kept>()) {
+  pool_.setMaxThreadCount(1);
+}
+
+CompareWorker::~CompareWorker() {
+  giveUp();
+  pool_.waitForDone();
+}
+
+void CompareWorker::giveUp() {
+  ++generation_;
+  pool_.clear();
+}
+
+void CompareWorker::ask(const CompareQuestion& question) {
+  giveUp();
+  pool_.start([this, question, generation = generation_.load()] { work(question, generation); });
+}
+
+std::shared_ptr<const TimedProfile> CompareWorker::timed(const OpenedRecordingPtr& recording,
+                                                         const Progress& progress) {
+  for (const auto& each : kept_->timed)
+    if (each.of.lock() == recording) return each.timed;
+  auto timed = std::make_shared<TimedProfile>(timedProfile(recording->profile, {}, progress));
+  kept_->timed.push_back({recording, timed});
+  if (kept_->timed.size() > kCompareWorkerMostKept) kept_->timed.pop_front();
+  return timed;
+}
+
+std::shared_ptr<const Series> CompareWorker::curve(const OpenedRecordingPtr& recording,
+                                                   const SeriesChoice& choice,
+                                                   const Progress& progress) {
+  // "All matrices" is another number in another hand.
+  if (!hasSeries(recording->profile, choice)) return nullptr;
+  for (const auto& each : kept_->curves)
+    if (each.of.lock() == recording && each.choice == choice) return each.series;
+  auto series = std::make_shared<Series>(
+      readSeries(recording->profile, choice, -kCompareWorkerEverS, kCompareWorkerEverS, progress));
+  kept_->curves.push_back({recording, choice, series});
+  if (kept_->curves.size() > kCompareWorkerMostKept) kept_->curves.pop_front();
+  return series;
+}
+
+void CompareWorker::work(const CompareQuestion& question, int generation) {
+  CompareAnswer answer;
+  const auto report = [&] {
+    if (generation != generation_) throw Cancelled();
+    QMetaObject::invokeMethod(
+        this,
+        [this, generation, answer] {
+          if (generation == generation_) emit answered(answer);
+        },
+        Qt::QueuedConnection);
+  };
+  // Of one part of the work, which begins at what is done.
+  const auto part = [&](double share) {
+    return Progress([this, generation, base = answer.done, share, &answer, &report](double done) {
+      const double now = base + share * done;
+      constexpr double kStep = 0.02;
+      if (now - answer.done >= kStep) {
+        answer.done = now;
+        report();
+      }
+      return generation == generation_;
+    });
+  };
+  try {
+    kept_->forgetClosed();
+    answer.a = timed(question.a, part(kTimedShare / 2));
+    answer.done = kTimedShare / 2;
+    answer.b = timed(question.b, part(kTimedShare / 2));
+    answer.done = kTimedShare;
+    const auto [alignment, offsetS] =
+        chosenOffset(*answer.a, *answer.b, question.alignment, question.handOffsetS);
+    answer.alignment = alignment;
+    answer.offsetS = offsetS;
+    report();
+    const auto choiceFor = [&](const OpenedRecording& recording) {
+      SeriesChoice choice = question.choice;
+      // One past the last of A stands for all of them, in B too.
+      if (choice.index == question.a->numMatrices()) choice.index = recording.numMatrices();
+      return choice;
+    };
+    answer.curveA = curve(question.a, choiceFor(*question.a), part(kCurveShare));
+    answer.done = kTimedShare + kCurveShare;
+    answer.curveB = curve(question.b, choiceFor(*question.b), part(kCurveShare));
+    answer.done = kTimedShare + 2 * kCurveShare;
+    report();
+    if (answer.curveA && answer.curveB)
+      answer.figures = compareCurves(*answer.curveA,
+                                     *answer.curveB,
+                                     offsetS,
+                                     {gapFromS(answer.a->timing), gapFromS(answer.b->timing)});
+    report();
+    const FrameComparison comparison(question.a->profile.hand().layout,
+                                     question.b->profile.hand().layout);
+    double largest = 0.0;
+    float largestValue = 0.0F;
+    const std::size_t stride =
+        std::max<std::size_t>(1, framesInCommon(*answer.a, *answer.b, offsetS) / kPairsLookedAt);
+    visitFramePairs(
+        *answer.a,
+        *answer.b,
+        offsetS,
+        stride,
+        [&](const FramePair&, const TactileFrame& inA, const TactileFrame& inB) {
+          largest = std::max(largest, comparison.largest(inA, inB));
+          for (const TactileFrame* frame : {&inA, &inB})
+            for (const float value : frame->values) largestValue = std::max(largestValue, value);
+        },
+        part(1.0 - answer.done));
+    answer.largestDifference = largest;
+    answer.largestValue = static_cast<double>(largestValue);
+  } catch (const Cancelled&) {
+    return;
+  } catch (const std::exception& error) {
+    answer.failure = QString::fromUtf8(error.what());
+  }
+  answer.done = 1.0;
+  answer.complete = true;
+  try {
+    report();
+  } catch (const Cancelled&) {  // asked anew meanwhile
+  }
+}
+
+}  // namespace palpate::gui

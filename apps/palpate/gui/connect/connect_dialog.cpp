@@ -1,0 +1,220 @@
+#include "gui/connect/connect_dialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFrame>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QRadioButton>
+#include <QShowEvent>
+#include <QStackedWidget>
+#include <QVBoxLayout>
+
+#include "gui/connect/ports_page.h"
+#include "gui/connect/replay_page.h"
+#include "gui/connect/scene_page.h"
+#include "gui/widgets/state_mark.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr QSize kConnectDialogUsualSize(840, 500);
+constexpr int kKindsWidth = 236;          // [px]
+constexpr int kConnectDialogMargin = 20;  // [px]
+
+struct KindText {
+  const char* name;
+  const char* title;
+  const char* what;
+};
+
+KindText connectDialogTextOf(Connection::Kind kind) {
+  switch (kind) {
+    case Connection::Kind::kPorts:
+      return {"kindPorts", "Hand on &ports", "A real hand: serial adapters or network"};
+    case Connection::Kind::kReplay:
+      return {"kindReplay", "&Replay of a recording", "What a hand felt once, as if it came now"};
+    case Connection::Kind::kEmulated:
+      break;
+  }
+  return {"kindEmulated", "&Emulated hand", "No hand needed: it grasps objects that aren't there"};
+}
+
+std::size_t connectDialogIndexOf(Connection::Kind kind) {
+  std::size_t index = 0;
+  while (kAllConnectionKinds[index] != kind) ++index;
+  return index;
+}
+
+}  // namespace
+
+ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWidget* parent)
+    : QDialog(parent),
+      scan_(scan),
+      last_(choices.last),
+      theme_(choices.theme),
+      kind_(choices.last.kind) {
+  setWindowTitle("Connect");
+  ports_ = new PortsPage(scan, theme_, this);
+  scenes_ = new ScenePage(choices.scenesFolder, theme_, this);
+  replay_ = new ReplayPage(choices.recentRecordings, theme_, this);
+  ports_->setPorts(last_.dsaPort, last_.sdhPort);
+  scenes_->setScene(last_.scene);
+  scenes_->setActs(last_.sceneActs);
+  replay_->setRecording(last_.recording);
+  pages_ = new QStackedWidget(this);
+  for (const Connection::Kind kind : kAllConnectionKinds)
+    pages_->addWidget(kind == Connection::Kind::kPorts      ? static_cast<QWidget*>(ports_)
+                      : kind == Connection::Kind::kEmulated ? static_cast<QWidget*>(scenes_)
+                                                            : static_cast<QWidget*>(replay_));
+  auto* page = new QHBoxLayout;
+  page->setContentsMargins(kConnectDialogMargin, kConnectDialogMargin, kConnectDialogMargin, 16);
+  page->addWidget(pages_);
+  auto* middle = new QHBoxLayout;
+  middle->setSpacing(0);
+  middle->addWidget(makeKinds());
+  middle->addLayout(page, 1);
+  auto* whole = new QVBoxLayout(this);
+  whole->setContentsMargins(0, 0, 0, 0);
+  whole->setSpacing(0);
+  whole->addLayout(middle, 1);
+  whole->addWidget(makeFoot());
+  connect(ports_, &PortsPage::changed, this, &ConnectDialog::refresh);
+  connect(scenes_, &ScenePage::changed, this, &ConnectDialog::refresh);
+  connect(replay_, &ReplayPage::changed, this, &ConnectDialog::refresh);
+  kinds_[connectDialogIndexOf(kind_)]->setChecked(true);
+  pages_->setCurrentIndex(static_cast<int>(connectDialogIndexOf(kind_)));
+  refresh();
+  resize(kConnectDialogUsualSize);
+}
+
+ConnectDialog::~ConnectDialog() {
+  ports_->disconnect(this);
+  scenes_->disconnect(this);
+  replay_->disconnect(this);
+}
+
+QWidget* ConnectDialog::makeKinds() {
+  auto* side = new QFrame(this);
+  side->setObjectName("connectKinds");
+  const ThemeColors& colors = colorsOf(theme_);
+  side->setStyleSheet(QString("#connectKinds { background: %1; border-right: 1px solid %2; }")
+                          .arg(colors.window.name(), colors.border.name()));
+  side->setFixedWidth(kKindsWidth);
+  auto* column = new QVBoxLayout(side);
+  column->setContentsMargins(16, kConnectDialogMargin, 16, 14);
+  column->setSpacing(3);
+  for (const Connection::Kind kind : kAllConnectionKinds) {
+    const KindText text = connectDialogTextOf(kind);
+    auto* button = new QRadioButton(text.title, side);
+    button->setObjectName(text.name);
+    QFont bold = button->font();
+    bold.setBold(true);
+    button->setFont(bold);
+    connect(button, &QRadioButton::toggled, this, [this, kind](bool on) {
+      if (on) choose(kind);
+    });
+    auto* what = new QLabel(text.what, side);
+    what->setWordWrap(true);
+    what->setProperty("role", "muted");
+    what->setContentsMargins(22, 0, 0, 14);
+    column->addWidget(button);
+    column->addWidget(what);
+    kinds_[connectDialogIndexOf(kind)] = button;
+  }
+  column->addStretch(1);
+  auto* calm = new QLabel("Connecting never moves the hand.", side);
+  calm->setObjectName("connectIsCalm");
+  calm->setWordWrap(true);
+  calm->setProperty("role", "muted");
+  column->addWidget(calm);
+  return side;
+}
+
+QWidget* ConnectDialog::makeFoot() {
+  auto* foot = new QFrame(this);
+  foot->setObjectName("connectFoot");
+  foot->setStyleSheet(
+      QString("#connectFoot { border-top: 1px solid %1; }").arg(colorsOf(theme_).border.name()));
+  mark_ = new StateMark(theme_, foot);
+  problem_ = new QLabel(foot);
+  problem_->setObjectName("connectProblem");
+  problem_->setTextFormat(Qt::PlainText);
+  problem_->setWordWrap(true);
+  auto* cancel = new QPushButton("Cancel", foot);
+  cancel->setObjectName("connectCancel");
+  cancel->setAutoDefault(false);
+  connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
+  connect_ = new QPushButton("&Connect", foot);
+  connect_->setObjectName("connectNow");
+  connect_->setProperty("primary", true);
+  connect_->setDefault(true);
+  connect_->setMinimumWidth(110);
+  connect(connect_, &QPushButton::clicked, this, &QDialog::accept);
+  auto* row = new QHBoxLayout(foot);
+  row->setContentsMargins(16, 12, kConnectDialogMargin, 12);
+  row->setSpacing(8);
+  row->addWidget(mark_);
+  row->addWidget(problem_, 1);
+  row->addWidget(cancel);
+  row->addWidget(connect_);
+  return foot;
+}
+
+void ConnectDialog::choose(Connection::Kind kind) {
+  kind_ = kind;
+  pages_->setCurrentIndex(static_cast<int>(connectDialogIndexOf(kind)));
+  if (isVisible() && kind == Connection::Kind::kPorts && !looked_) {
+    looked_ = true;
+    ports_->look();
+  }
+  refresh();
+}
+
+void ConnectDialog::showEvent(QShowEvent* event) {
+  QDialog::showEvent(event);
+  kinds_[connectDialogIndexOf(kind_)]->setFocus();
+  choose(kind_);
+}
+
+Connection ConnectDialog::connection() const {
+  Connection connection = last_;
+  connection.kind = kind_;
+  connection.dsaPort = ports_->tactilePort();
+  connection.sdhPort = ports_->motionPort();
+  connection.scene = scenes_->scene();
+  connection.sceneActs = scenes_->acts();
+  connection.recording = replay_->recording();
+  return connection;
+}
+
+QString ConnectDialog::problem() const {
+  const QString missing = problemOf(connection());
+  if (!missing.isEmpty()) return missing;
+  switch (kind_) {
+    case Connection::Kind::kEmulated:
+      return scenes_->problem();
+    case Connection::Kind::kReplay:
+      return replay_->problem();
+    case Connection::Kind::kPorts:
+      return ports_->problem();
+  }
+  return {};
+}
+
+void ConnectDialog::refresh() {
+  if (!connect_) return;  // while it is built
+  const QString missing = problem();
+  problem_->setText(missing);
+  mark_->setState(missing.isEmpty() ? StateMark::State::kNone : StateMark::State::kWarning);
+  connect_->setEnabled(missing.isEmpty());
+  connect_->setToolTip(missing);
+}
+
+void ConnectDialog::done(int result) {
+  scan_.cancel();
+  QDialog::done(result);
+}
+
+}  // namespace palpate::gui

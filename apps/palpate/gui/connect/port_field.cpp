@@ -1,0 +1,104 @@
+#include "gui/connect/port_field.h"
+
+#include <QAbstractItemView>
+#include <QGridLayout>
+#include <QLineEdit>
+#include <QSignalBlocker>
+
+#include "gui/widgets/two_line_delegate.h"
+
+namespace palpate::gui {
+
+PortField::PortField(const QString& title,
+                     const QString& whenEmpty,
+                     const QString& name,
+                     Theme theme,
+                     QWidget* parent)
+    : QWidget(parent), whenEmpty_(whenEmpty) {
+  auto* label = new QLabel(title, this);
+  box_ = new QComboBox(this);
+  box_->setObjectName(name + "Port");
+  box_->setEditable(true);
+  box_->setInsertPolicy(QComboBox::NoInsert);
+  box_->setCompleter(nullptr);  // it would turn ttyUSB1 into ttyUSB10
+  box_->setItemDelegate(new TwoLineDelegate(theme, box_));
+  box_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box_->setMinimumContentsLength(30);
+  box_->lineEdit()->setPlaceholderText("none");
+  box_->setToolTip(
+      "A port of the list, another device such as /dev/pts/3, or a network name as "
+      "tcp:192.168.1.42:13000");
+  label->setBuddy(box_);
+  mark_ = new StateMark(theme, this);
+  answer_ = new QLabel(this);
+  answer_->setObjectName(name + "Answer");
+  answer_->setTextFormat(Qt::PlainText);
+  answer_->setWordWrap(true);
+  answer_->setProperty("role", "muted");
+  answer_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  answer_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  answer_->setMinimumHeight(2 * fontMetrics().lineSpacing());  // nothing jumps when it wraps
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(7);
+  grid->setVerticalSpacing(4);
+  grid->addWidget(label, 0, 0, 1, 2);
+  grid->addWidget(box_, 1, 0, 1, 2);
+  grid->addWidget(mark_, 2, 0, Qt::AlignTop);
+  grid->addWidget(answer_, 2, 1);
+  grid->setColumnStretch(1, 1);
+  connect(box_, &QComboBox::editTextChanged, this, &PortField::changed);
+  connect(box_->lineEdit(), &QLineEdit::textEdited, this, [this] { touched_ = true; });
+  connect(box_, &QComboBox::activated, this, [this] {
+    touched_ = true;
+    emit entered();
+  });
+  connect(box_->lineEdit(), &QLineEdit::editingFinished, this, &PortField::entered);
+}
+
+// Dying with the keyboard in it, the box says that typing has ended: nobody is there any more to hear it.
+PortField::~PortField() {
+  box_->lineEdit()->disconnect(this);
+  box_->disconnect(this);
+}
+
+QString PortField::port() const { return box_->currentText().trimmed(); }
+
+void PortField::setPort(const QString& port) {
+  const int choice = box_->findText(port);
+  const QSignalBlocker quiet(box_);
+  box_->setCurrentIndex(choice);
+  box_->setEditText(port);
+  box_->lineEdit()->setCursorPosition(0);
+  emit changed();
+}
+
+void PortField::setChoices(const QList<ScannedPort>& ports) {
+  const QString text = box_->currentText();
+  const int cursor = box_->lineEdit()->cursorPosition();
+  {
+    const QSignalBlocker quiet(box_);
+    box_->clear();
+    for (const ScannedPort& port : ports)
+      box_->addItem(QString::fromStdString(port.info.stableName));
+    box_->setCurrentIndex(box_->findText(text));
+    box_->setEditText(text);
+  }
+  box_->lineEdit()->setCursorPosition(cursor);
+}
+
+void PortField::setDetail(int choice, const QString& detail) {
+  {
+    // Told that an item changes, the box writes its text over what is being typed.
+    const QSignalBlocker quiet(box_->model());
+    box_->setItemData(choice, detail, TwoLineDelegate::kDetailRole);
+  }
+  if (box_->view()->isVisible()) box_->view()->viewport()->update();
+}
+
+void PortField::showState(const PortState& state) {
+  mark_->setState(state.mark);
+  answer_->setText(state.text.isEmpty() && port().isEmpty() ? whenEmpty_ : state.text);
+}
+
+}  // namespace palpate::gui

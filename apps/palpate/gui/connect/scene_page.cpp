@@ -1,0 +1,120 @@
+#include "gui/connect/scene_page.h"
+
+#include <QCheckBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QLabel>
+#include <QListWidget>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include <palpate/core/error.h>
+#include <palpate/emulator/scene.h>
+
+#include "gui/widgets/two_line_delegate.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kSceneRole = Qt::UserRole + 2;    // as loadScene() takes it
+constexpr int kProblemRole = Qt::UserRole + 3;  // why it can't be used
+constexpr int kScriptRole = Qt::UserRole + 4;   // whether there is a script
+
+}  // namespace
+
+ScenePage::ScenePage(const std::filesystem::path& folder, Theme theme, QWidget* parent)
+    : QWidget(parent), folder_(folder) {
+  auto* label = new QLabel("What is around the &hand", this);
+  list_ = new QListWidget(this);
+  list_->setObjectName("scenes");
+  list_->setItemDelegate(new TwoLineDelegate(theme, list_));
+  list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  list_->setStyleSheet(QString("#scenes { border: 1px solid %1; border-radius: 4px; }")
+                           .arg(colorsOf(theme).border.name()));
+  label->setBuddy(list_);
+  none_ = new QLabel(this);
+  none_->setObjectName("noScenes");
+  none_->setWordWrap(true);
+  none_->setTextFormat(Qt::PlainText);
+  acts_ = new QCheckBox("The scene moves the hand &by itself", this);
+  acts_->setObjectName("sceneActs");
+  auto* other = new QPushButton("&Other scene…", this);
+  other->setObjectName("otherScene");
+  other->setAutoDefault(false);
+  auto* below = new QHBoxLayout;
+  below->addWidget(acts_, 1);
+  below->addWidget(other);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(6);
+  column->addWidget(label);
+  column->addWidget(none_);
+  column->addWidget(list_, 1);
+  column->addSpacing(2);
+  column->addLayout(below);
+
+  for (const std::string& name : sceneNames(folder_)) {
+    const QString scene = QString::fromStdString(name);
+    addScene(scene, QString(scene).replace('_', ' '));
+  }
+  none_->setText("No scenes were found in " + QString::fromStdString(folder_.string()) +
+                 ". Choose the file of a scene.");
+  none_->setVisible(list_->count() == 0);
+  askForScene = [this] {
+    return QFileDialog::getOpenFileName(
+        this, "Choose a scene", QString::fromStdString(folder_.string()), "Scenes (*.json)");
+  };
+  connect(list_, &QListWidget::currentRowChanged, this, &ScenePage::showChosen);
+  connect(acts_, &QCheckBox::clicked, this, &ScenePage::changed);
+  connect(other, &QPushButton::clicked, this, [this] {
+    const QString chosen = askForScene();
+    if (!chosen.isEmpty()) setScene(chosen);
+  });
+  list_->setCurrentRow(0);
+}
+
+ScenePage::~ScenePage() { list_->disconnect(this); }
+
+void ScenePage::addScene(const QString& scene, const QString& title) {
+  auto* item = new QListWidgetItem(title, list_);
+  item->setData(kSceneRole, scene);
+  try {
+    const Scene loaded = loadScene(scene.toStdString(), folder_);
+    item->setData(TwoLineDelegate::kDetailRole, QString::fromStdString(loaded.description));
+    item->setData(kScriptRole, !loaded.script.empty());
+  } catch (const Error& error) {
+    const QString problem = QString::fromStdString(error.what());
+    item->setData(TwoLineDelegate::kDetailRole, problem);
+    item->setData(kProblemRole, "This scene can't be used: " + problem);
+  }
+  item->setToolTip(scene + "\n" + item->data(TwoLineDelegate::kDetailRole).toString());
+}
+
+void ScenePage::setScene(const QString& scene) {
+  if (scene.isEmpty()) return;
+  for (int row = 0; row < list_->count(); ++row)
+    if (list_->item(row)->data(kSceneRole) == scene) return list_->setCurrentRow(row);
+  addScene(scene, QFileInfo(scene).fileName());
+  none_->hide();
+  list_->setCurrentRow(list_->count() - 1);
+}
+
+QString ScenePage::scene() const {
+  const QListWidgetItem* item = list_->currentItem();
+  return item ? item->data(kSceneRole).toString() : QString();
+}
+
+void ScenePage::setActs(bool acts) { acts_->setChecked(acts); }
+bool ScenePage::acts() const { return acts_->isChecked(); }
+
+void ScenePage::showChosen() {
+  const QListWidgetItem* item = list_->currentItem();
+  problem_ = item ? item->data(kProblemRole).toString() : QString();
+  const bool canAct = item && item->data(kScriptRole).toBool();
+  acts_->setEnabled(canAct);
+  acts_->setToolTip(canAct ? "It grasps and lets go as its script says; you watch and record"
+                           : "This scene has no script");
+  emit changed();
+}
+
+}  // namespace palpate::gui

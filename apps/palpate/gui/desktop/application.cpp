@@ -1,0 +1,95 @@
+#include "gui/desktop/application.h"
+
+#include <QIcon>
+#include <QLocale>
+#include <clocale>
+#include <exception>
+
+#include "gui/desktop/button_keys.h"
+#include "gui/desktop/wheel_guard.h"
+
+// A static library's resources are there only when asked for, and by a function of no namespace.
+static void initIcons() { Q_INIT_RESOURCE(icons); }
+
+namespace palpate::gui {
+namespace {
+
+// What the window shows until the desktop entry of an installed program tells the desktop.
+QIcon programIcon() {
+  initIcons();
+  QIcon icon;
+  for (int size : {16, 24, 32, 48, 64, 128, 256})
+    icon.addFile(QString(":/icons/palpate_%1.png").arg(size), QSize(size, size));
+  return icon;
+}
+
+constexpr int kMostTold = 20;  // texts
+
+}  // namespace
+
+bool GuardedApplication::notify(QObject* receiver, QEvent* event) {
+  try {
+    return QApplication::notify(receiver, event);
+  } catch (const std::exception& failure) {
+    note(failure.what());
+  } catch (...) {
+    note("nobody knows what");
+  }
+  return false;
+}
+
+// In the thread whose event it was; telling is for the window's own one, when the event is over.
+void GuardedApplication::note(const char* what) noexcept {
+  ++numFailures_;
+  try {
+    QMetaObject::invokeMethod(
+        this, [this, text = QString::fromUtf8(what)] { tell(text); }, Qt::QueuedConnection);
+  } catch (...) {
+    qCritical("The window failed at an event, and goes on");  // there is no memory to say more
+  }
+}
+
+void GuardedApplication::tell(const QString& what) {
+  if (told_.contains(what) || told_.size() >= kMostTold) return;
+  told_.insert(what);
+  qCritical("The window failed at an event, and goes on: %s", qUtf8Printable(what));
+  emit failed("Something in the window failed, and it goes on without: " + what +
+              ". Save your work; if it happens again, start Palpate anew");
+}
+
+void GuardedApplication::forgetFailures() {
+  numFailures_ = 0;
+  told_.clear();
+}
+
+std::size_t failuresAtEvents() noexcept {
+  const auto* application = qobject_cast<GuardedApplication*>(QCoreApplication::instance());
+  return application ? application->numFailures() : 0;
+}
+
+void forgetFailuresAtEvents() {
+  if (auto* application = qobject_cast<GuardedApplication*>(QCoreApplication::instance()))
+    application->forgetFailures();
+}
+
+std::unique_ptr<QApplication> makeApplication(int& argc, char** argv) {
+  std::unique_ptr<QApplication> application;
+  if (!QApplication::instance()) {
+    application = std::make_unique<GuardedApplication>(argc, argv);
+    new WheelGuard(application.get());
+    new ButtonKeys(application.get());
+  }
+  QApplication::setApplicationName("palpate");
+  QApplication::setApplicationDisplayName("Palpate");
+  QApplication::setApplicationVersion(PALPATE_VERSION);
+  QApplication::setDesktopFileName("palpate");
+  if (QApplication::windowIcon().isNull()) QApplication::setWindowIcon(programIcon());
+  // QApplication has taken over the user's locale; '.' stays the decimal sign in files and fields.
+  std::setlocale(LC_NUMERIC, "C");
+  QLocale numbers = QLocale::c();
+  numbers.setNumberOptions(QLocale::OmitGroupSeparator);
+  QLocale::setDefault(numbers);
+  return application;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,385 @@
+#include "gui/export/export_dialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QFrame>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "gui/export/export_forms.h"
+#include "gui/export/export_movie_fields.h"
+#include "gui/export/export_place.h"
+#include "gui/export/export_preview.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr QSize kExportDialogUsualSize(900, 580);
+constexpr int kExportDialogMargin = 20;       // [px]
+constexpr int kFormWidth = 372;               // [px]
+constexpr int kExportDialogFieldHeight = 28;  // [px]
+
+constexpr const char* kExportDialogStyle = R"(
+QLineEdit { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; padding: 4px 6px; }
+QLineEdit:focus { border-color: palette(highlight); }
+#exportFoot { border-top: 1px solid palette(mid); }
+#exportProblem { color: palette(bright-text); }
+#exportSide { background: palette(window); border-left: 1px solid palette(mid); }
+)";
+
+QDoubleSpinBox* spinBox(const char* name, double least, double most, int decimals) {
+  auto* box = new QDoubleSpinBox;
+  box->setObjectName(name);
+  box->setRange(least, most);
+  box->setDecimals(decimals);
+  box->setMinimumHeight(kExportDialogFieldHeight);
+  box->setKeyboardTracking(false);
+  box->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  return box;
+}
+
+QComboBox* exportDialogComboBox(const char* name) {
+  auto* box = new QComboBox;
+  box->setObjectName(name);
+  box->setMinimumHeight(kExportDialogFieldHeight);
+  return box;
+}
+
+void exportDialogShowElided(QLabel* label, const QString& text, int width) {
+  label->setText(label->fontMetrics().elidedText(text, Qt::ElideMiddle, width));
+  label->setToolTip(label->text() == text ? QString() : text);
+  label->setAccessibleName(text);
+}
+
+}  // namespace
+
+ExportDialog::ExportDialog(std::vector<const ExportedView*> views,
+                           const ExportRequest& suggestion,
+                           QWidget* parent)
+    : QDialog(parent), views_(std::move(views)), first_(suggestion) {
+  setWindowTitle("Export");
+  setStyleSheet(kExportDialogStyle);
+  auto* side = new QFrame(this);
+  side->setObjectName("exportSide");
+  preview_ = new ExportPreview(side);
+  preview_->setObjectName("exportPreview");
+  summary_ = new QLabel(side);
+  summary_->setObjectName("exportSummary");
+  summary_->setTextFormat(Qt::PlainText);
+  target_ = new QLabel(side);
+  target_->setObjectName("exportTarget");
+  target_->setTextFormat(Qt::PlainText);
+  target_->setProperty("role", "muted");
+  for (QLabel* label : {summary_, target_}) {
+    label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    label->setAlignment(Qt::AlignHCenter);
+  }
+  auto* column = new QVBoxLayout(side);
+  column->setContentsMargins(4, 4, 4, 14);
+  column->setSpacing(3);
+  column->addWidget(preview_, 1);
+  column->addWidget(summary_);
+  column->addWidget(target_);
+  auto* middle = new QHBoxLayout;
+  middle->setSpacing(0);
+  middle->addWidget(makeForm());
+  middle->addWidget(side, 1);
+  auto* whole = new QVBoxLayout(this);
+  whole->setContentsMargins(0, 0, 0, 0);
+  whole->setSpacing(0);
+  whole->addLayout(middle, 1);
+  whole->addWidget(makeFoot());
+  fill(suggestion);
+  connectFields();
+  resize(kExportDialogUsualSize);
+  refresh();
+}
+
+QWidget* ExportDialog::makeForm() {
+  auto* form = new QWidget(this);
+  form->setFixedWidth(kFormWidth);
+  fields_ = new QFormLayout(form);
+  fields_->setContentsMargins(kExportDialogMargin, kExportDialogMargin, kExportDialogMargin, 14);
+  fields_->setHorizontalSpacing(12);
+  fields_->setVerticalSpacing(8);
+  fields_->setLabelAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+  fields_->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  view_ = exportDialogComboBox("exportView");
+  for (const ExportedView* each : views_) view_->addItem(each->name);
+  fields_->addRow("&View", view_);
+  form_ = new ExportForms(form);
+  fields_->addRow("Form", form_);
+  frames_ = exportDialogComboBox("exportFrames");
+  fields_->addRow("F&rames", frames_);
+  table_ = exportDialogComboBox("exportTable");
+  fields_->addRow("Ro&ws", table_);
+  preset_ = exportDialogComboBox("exportPreset");
+  for (const PaperPreset& preset : kPaperPresets) preset_->addItem(preset.name);
+  fields_->addRow("&Size", preset_);
+  size_ = makeSize();
+  fields_->addRow("", size_);
+  text_ = spinBox("exportText", 4.0, 40.0, 1);
+  text_->setSingleStep(0.5);
+  text_->setSuffix(" pt");
+  fields_->addRow("&Text", text_);
+  dpi_ = exportDialogComboBox("exportDpi");
+  for (const int dpi : kExportDpi) dpi_->addItem(QString::number(dpi) + " dpi", dpi);
+  fields_->addRow("Reso&lution", dpi_);
+  movie_ = new ExportMovieFields(*fields_);
+  colors_ = exportDialogComboBox("exportColors");
+  colors_->addItems({"for print: white ground, dark ink", "as on screen"});
+  fields_->addRow("&Colours", colors_);
+  titled_ = new QCheckBox("T&itle line", form);
+  titled_->setObjectName("exportTitled");
+  titled_->setToolTip("Name of the recording, frame and time above the picture");
+  fields_->addRow("", titled_);
+  // Which rows are shown changes; where they begin doesn't.
+  int labelWidth = 0;
+  for (int row = 0; row < fields_->rowCount(); ++row)
+    if (const auto* label = fields_->itemAt(row, QFormLayout::LabelRole))
+      labelWidth = std::max(labelWidth, label->widget()->sizeHint().width());
+  for (int row = 0; row < fields_->rowCount(); ++row)
+    if (const auto* label = fields_->itemAt(row, QFormLayout::LabelRole))
+      label->widget()->setMinimumWidth(labelWidth);
+  place_ = new ExportPlace(labelWidth, form);
+  fields_->addRow(place_);
+  return form;
+}
+
+QWidget* ExportDialog::makeSize() {
+  auto* row = new QWidget;
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(6);
+  width_ = spinBox("exportWidth", 20.0, 1200.0, 1);
+  height_ = spinBox("exportHeight", 20.0, 1200.0, 1);
+  width_->setAccessibleName("Width in mm");
+  height_->setAccessibleName("Height in mm");
+  layout->addWidget(width_, 1);
+  layout->addWidget(new QLabel("×", row));
+  layout->addWidget(height_, 1);
+  layout->addWidget(new QLabel("mm", row));
+  return row;
+}
+
+QWidget* ExportDialog::makeFoot() {
+  auto* foot = new QFrame(this);
+  foot->setObjectName("exportFoot");
+  problem_ = new QLabel(foot);
+  problem_->setObjectName("exportProblem");
+  problem_->setTextFormat(Qt::PlainText);
+  problem_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  replace_ = new QCheckBox("R&eplace", foot);
+  replace_->setObjectName("exportReplace");
+  auto* cancel = new QPushButton("Cancel", foot);
+  cancel->setObjectName("exportCancel");
+  cancel->setAutoDefault(false);
+  connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
+  ok_ = new QPushButton("Export", foot);
+  ok_->setObjectName("exportOk");
+  ok_->setProperty("primary", true);
+  ok_->setDefault(true);
+  ok_->setMinimumWidth(110);
+  connect(ok_, &QPushButton::clicked, this, &ExportDialog::accept);
+  auto* row = new QHBoxLayout(foot);
+  row->setContentsMargins(kExportDialogMargin, 12, kExportDialogMargin, 12);
+  row->setSpacing(8);
+  row->addWidget(problem_, 1);
+  row->addWidget(replace_);
+  row->addSpacing(8);
+  row->addWidget(cancel);
+  row->addWidget(ok_);
+  return foot;
+}
+
+void ExportDialog::fill(const ExportRequest& suggestion) {
+  filling_ = true;
+  view_->setCurrentIndex(std::max(0, view_->findText(suggestion.view)));
+  form_->choose(suggestion.form);
+  movie_->fill(suggestion);
+  wanted_ = suggestion.frames;
+  width_->setValue(suggestion.sizeMm.width());
+  height_->setValue(suggestion.sizeMm.height());
+  text_->setValue(suggestion.textPt);
+  preset_->setCurrentIndex(suggestion.preset);
+  dpi_->setCurrentIndex(std::max(0, dpi_->findData(suggestion.dpi)));
+  colors_->setCurrentIndex(suggestion.forPrint ? 0 : 1);
+  titled_->setChecked(suggestion.titled);
+  place_->setName(suggestion.name, suggestion.nameIsOwn);
+  place_->setFolder(suggestion.folder);
+  filling_ = false;
+  useView();
+  table_->setCurrentIndex(std::max(0, table_->findText(suggestion.table)));
+  suggestName();
+}
+
+void ExportDialog::connectFields() {
+  connect(view_, &QComboBox::currentIndexChanged, this, [this] {
+    useView();
+    usePreset();
+  });
+  connect(form_, &ExportForms::changed, this, [this] {
+    fillFrames();
+    suggestName();
+    refresh();
+  });
+  connect(movie_, &ExportMovieFields::changed, this, &ExportDialog::refresh);
+  connect(frames_, &QComboBox::currentIndexChanged, this, [this] {
+    wanted_ = static_cast<ExportFrames>(frames_->currentData().toInt());
+    suggestName();
+    refresh();
+  });
+  connect(preset_, &QComboBox::currentIndexChanged, this, &ExportDialog::usePreset);
+  connect(width_, &QDoubleSpinBox::valueChanged, this, [this] {
+    if (filling_) return;
+    const QSignalBlocker blocked(preset_);
+    preset_->setCurrentIndex(kOwnPreset);
+    refresh();
+  });
+  for (QDoubleSpinBox* box : {height_, text_})
+    connect(box, &QDoubleSpinBox::valueChanged, this, &ExportDialog::refresh);
+  for (QComboBox* box : {table_, dpi_, colors_})
+    connect(box, &QComboBox::currentIndexChanged, this, &ExportDialog::refresh);
+  connect(titled_, &QCheckBox::toggled, this, &ExportDialog::refresh);
+  connect(replace_, &QCheckBox::toggled, this, &ExportDialog::showProblem);
+  connect(place_, &ExportPlace::changed, this, &ExportDialog::showProblem);
+  connect(preview_, &ExportPreview::summaryChanged, this, &ExportDialog::showProblem);
+}
+
+const ExportedView& ExportDialog::view() const {
+  return *views_[static_cast<std::size_t>(std::max(0, view_->currentIndex()))];
+}
+
+// What can be chosen depends on the view.
+void ExportDialog::useView() {
+  const ExportedView& now = view();
+  const auto tables = now.tablesNow();
+  const QSignalBlocker blocked(table_);
+  table_->clear();
+  for (const ExportedTable& table : tables) table_->addItem(table.name);
+  form_->use(now);
+  fillFrames();
+  suggestName();
+}
+
+// Which frames can be chosen depends on the form, too.
+void ExportDialog::fillFrames() {
+  const auto pictures = view().framePicturesNow();
+  const QSignalBlocker blocked(frames_);
+  frames_->clear();
+  if (form_->chosen() != ExportForm::kMovie)
+    frames_->addItem("the one shown", static_cast<int>(ExportFrames::kShown));
+  if (pictures && pictures->selected) {
+    const FrameSpan span = *pictures->selected;
+    frames_->addItem(
+        QString("the selected %1, %2 to %3").arg(span.count()).arg(span.first).arg(span.last),
+        static_cast<int>(ExportFrames::kSelected));
+  }
+  if (pictures && pictures->numFrames > 0)
+    frames_->addItem(QString("all %1").arg(pictures->numFrames),
+                     static_cast<int>(ExportFrames::kAll));
+  frames_->setCurrentIndex(std::max(0, frames_->findData(static_cast<int>(wanted_))));
+}
+
+void ExportDialog::usePreset() {
+  const PaperPreset& preset = kPaperPresets[static_cast<std::size_t>(preset_->currentIndex())];
+  if (preset.widthMm > 0.0 && preset_->currentIndex() != kOwnPreset) {
+    filling_ = true;
+    const QSizeF shown = view().sizeOnScreen();
+    width_->setValue(preset.widthMm);
+    height_->setValue(preset.heightMm > 0.0 ? preset.heightMm
+                                            : preset.widthMm * shown.height() / shown.width());
+    text_->setValue(preset.textPt);
+    filling_ = false;
+  }
+  refresh();
+}
+
+void ExportDialog::suggestName() { place_->suggestName(suggestedName(request(), view())); }
+
+ExportRequest ExportDialog::request() const {
+  ExportRequest request = first_;
+  request.view = view().name;
+  request.form = form_->chosen();
+  movie_->read(request);
+  request.preset = preset_->currentIndex();
+  request.sizeMm = {width_->value(), height_->value()};
+  request.textPt = text_->value();
+  request.dpi = dpi_->currentData().toInt();
+  request.forPrint = colors_->currentIndex() == 0;
+  request.titled = titled_->isChecked();
+  request.frames = static_cast<ExportFrames>(frames_->currentData().toInt());
+  request.table = table_->currentText();
+  request.folder = place_->folder();
+  request.name = place_->name();
+  request.nameIsOwn = place_->nameIsOwn();
+  request.replace = replace_->isChecked();
+  return request;
+}
+
+void ExportDialog::refresh() {
+  if (filling_) return;
+  const ExportRequest now = request();
+  const bool isPicture = now.form != ExportForm::kCsv;
+  const bool asOnScreen = now.preset == kScreenPreset;
+  const auto show = [this](QWidget* field, bool on) {
+    field->setVisible(on);
+    if (QWidget* label = fields_->labelForField(field)) label->setVisible(on);
+  };
+  show(frames_, now.isMovie() || (now.form == ExportForm::kPng && frames_->count() > 1));
+  show(table_, !isPicture);
+  show(preset_, isPicture);
+  show(size_, isPicture && !asOnScreen);
+  show(text_, isPicture && !asOnScreen);
+  show(dpi_, now.form == ExportForm::kPng);
+  movie_->setVisible(now.isMovie());
+  show(colors_, isPicture);
+  show(titled_, isPicture);
+  place_->setEnding(now.isSeries() ? "_00000.png" : endingOf(now.form));
+  preview_->show(view(), now);
+  showProblem();
+}
+
+QString ExportDialog::problem() const { return problemOf(request(), view()); }
+
+void ExportDialog::showProblem() {
+  const ExportRequest now = request();
+  ExportRequest replacing = now;
+  replacing.replace = true;
+  ExportRequest keeping = now;
+  keeping.replace = false;
+  const QString inTheWay = problemOf(now, view());
+  // Offered only where there is something to replace.
+  replace_->setVisible(problemOf(keeping, view()) != problemOf(replacing, view()));
+  const double needed = preview_->bytes() * static_cast<double>(preview_->numFiles());
+  const QString text = inTheWay.isEmpty() ? spaceProblemOf(now, needed) : inTheWay;
+  problem_->setText(text);
+  problem_->setToolTip(text);
+  ok_->setEnabled(inTheWay.isEmpty());
+  summary_->setText(preview_->summary());
+  const QString path = QString::fromStdString(pathOf(now).string());
+  const bool makes = now.isSeries() && !QFileInfo::exists(path);
+  exportDialogShowElided(
+      target_,
+      "in " + (now.isSeries() ? path : now.folder) + (makes ? ", a new folder" : ""),
+      preview_->width());
+}
+
+void ExportDialog::accept() {
+  showProblem();  // a file may have come since
+  if (problem().isEmpty()) QDialog::accept();
+}
+
+void ExportDialog::resizeEvent(QResizeEvent* event) {
+  QDialog::resizeEvent(event);
+  layout()->activate();
+  showProblem();
+}
+
+}  // namespace palpate::gui

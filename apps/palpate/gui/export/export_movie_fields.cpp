@@ -1,0 +1,70 @@
+#include "gui/export/export_movie_fields.h"
+
+#include <QComboBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <algorithm>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kExportMovieFieldsFieldHeight = 28;  // [px]
+
+QComboBox* exportMovieFieldsComboBox(const char* name) {
+  auto* box = new QComboBox;
+  box->setObjectName(name);
+  box->setMinimumHeight(kExportMovieFieldsFieldHeight);
+  return box;
+}
+
+void chooseExportMovieFields(QComboBox* box, const QVariant& value) {
+  box->setCurrentIndex(std::max(0, box->findData(value)));
+}
+
+}  // namespace
+
+ExportMovieFields::ExportMovieFields(QFormLayout& form)
+    : QObject(form.parentWidget()), form_(form) {
+  speed_ = exportMovieFieldsComboBox("exportSpeed");
+  speed_->setToolTip("1× takes as long as it took. Gaps are shown as one second.");
+  for (const double speed : kMovieSpeeds) speed_->addItem(QString("%1×").arg(speed), speed);
+  rate_ = exportMovieFieldsComboBox("exportRate");
+  rate_->setAccessibleName("Pictures per second");
+  for (const int rate : kMovieRates) rate_->addItem(QString("%1 pictures/s").arg(rate), rate);
+  pace_ = new QWidget;
+  auto* row = new QHBoxLayout(pace_);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(8);
+  row->addWidget(speed_, 1);
+  row->addWidget(rate_, 2);
+  form.addRow("S&peed", pace_);
+  qobject_cast<QLabel*>(form.labelForField(pace_))->setBuddy(speed_);
+  height_ = exportMovieFieldsComboBox("exportMovieHeight");
+  for (const int height : kMovieHeights)
+    height_->addItem(QString("%1 px high").arg(height), height);
+  form.addRow("Resol&ution", height_);
+  for (QComboBox* box : {speed_, rate_, height_})
+    connect(box, &QComboBox::currentIndexChanged, this, &ExportMovieFields::changed);
+}
+
+void ExportMovieFields::fill(const ExportRequest& request) {
+  chooseExportMovieFields(speed_, request.movieSpeed);
+  chooseExportMovieFields(rate_, request.moviePicturesPerS);
+  chooseExportMovieFields(height_, request.movieHeightPx);
+}
+
+void ExportMovieFields::read(ExportRequest& request) const {
+  request.movieSpeed = speed_->currentData().toDouble();
+  request.moviePicturesPerS = rate_->currentData().toInt();
+  request.movieHeightPx = height_->currentData().toInt();
+}
+
+void ExportMovieFields::setVisible(bool on) {
+  for (QWidget* field : {pace_, static_cast<QWidget*>(height_)}) {
+    field->setVisible(on);
+    form_.labelForField(field)->setVisible(on);
+  }
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,35 @@
+// How a movie shall be: its speed, its pictures per second, its height.
+#pragma once
+
+#include <QObject>
+
+#include "gui/export/export_request.h"
+
+class QComboBox;
+class QFormLayout;
+class QWidget;
+
+namespace palpate::gui {
+
+class ExportMovieFields : public QObject {
+  Q_OBJECT
+ public:
+  // Adds rows to a form.
+  explicit ExportMovieFields(QFormLayout& form);
+
+  void fill(const ExportRequest& request);
+  void read(ExportRequest& request) const;
+  void setVisible(bool on);
+
+ signals:
+  void changed();
+
+ private:
+  QFormLayout& form_;
+  QWidget* pace_;
+  QComboBox* speed_;
+  QComboBox* rate_;
+  QComboBox* height_;
+};
+
+}  // namespace palpate::gui

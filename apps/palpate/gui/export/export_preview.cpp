@@ -1,0 +1,227 @@
+#include "gui/export/export_preview.h"
+
+#include <QFontDatabase>
+#include <QFontMetricsF>
+#include <QPainter>
+#include <algorithm>
+
+#include "gui/export/export_work.h"
+#include "gui/look/captions.h"
+#include "gui/picture/movie_writer.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kExportPreviewAround = 16.0;  // [px] around the paper
+constexpr int kMeasureAfterMs = 200;           // not at each step of a spin box
+constexpr std::size_t kPreviewRows = 40;
+constexpr std::size_t kMeasuredRows = 400;  // whose mean length stands for all
+
+}  // namespace
+
+ExportPreview::ExportPreview(QWidget* parent) : QWidget(parent) {
+  worker_.setMaxThreadCount(1);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+  soon_.setSingleShot(true);
+  soon_.setInterval(kMeasureAfterMs);
+  connect(&soon_, &QTimer::timeout, this, &ExportPreview::measure);
+}
+
+ExportPreview::~ExportPreview() {
+  ++generation_;  // nobody wants it any more
+  worker_.waitForDone();
+}
+
+void ExportPreview::show(const ExportedView& view, const ExportRequest& request) {
+  request_ = request;
+  isTable_ = request.form == ExportForm::kCsv;
+  bytes_ = 0.0;
+  numFiles_ = 1;
+  movie_ = {};
+  ++generation_;
+  soon_.stop();
+  if (isTable_) {
+    showTable(view, request);
+  } else if (view.paint) {
+    paper_ = paperOf(request, view.sizeOnScreen());
+    picture_ = pictureOf(view, lookOf(request, view.sizeOnScreen()));
+    const auto pictures = request.ofFrames() ? view.framePicturesNow() : std::nullopt;
+    const auto span = pictures ? spanOf(request, *pictures) : std::nullopt;
+    if (request.isSeries() && span) numFiles_ = span->count();
+    timeUs_ = span ? pictures->timeUs : nullptr;
+    if (span) frames_ = *span;
+    drawPreview();
+    soon_.start();
+  }
+  update();
+  emit summaryChanged();
+}
+
+void ExportPreview::showTable(const ExportedView& view, const ExportRequest& request) {
+  rows_.clear();
+  numRows_ = 0;
+  const auto tables = view.tablesNow();
+  const ExportedTable* chosen = nullptr;
+  for (const ExportedTable& table : tables)
+    if (!chosen || table.name == request.table) chosen = &table;
+  if (!chosen) return;
+  const TextTable table = chosen->make();
+  numRows_ = table.numRows;
+  rows_ = QString::fromStdString(csvText(table, kPreviewRows)).split('\n', Qt::SkipEmptyParts);
+  const std::size_t measured = std::min(table.numRows, kMeasuredRows);
+  double length = 0.0;
+  // From the whole table: later rows have longer numbers.
+  for (std::size_t i = 0; i < measured; ++i)
+    length += static_cast<double>(csvLine(table.row(i * table.numRows / measured)).size());
+  bytes_ = static_cast<double>(csvLine(table.header).size());
+  if (measured > 0)
+    bytes_ += length / static_cast<double>(measured) * static_cast<double>(table.numRows);
+}
+
+// Makes the file in memory, beside the window.
+void ExportPreview::measure() {
+  worker_.clear();
+  if (request_.isMovie()) return measureMovie();
+  worker_.start(
+      [this, picture = picture_, paper = paper_, form = request_.form, now = generation_.load()] {
+        const PictureForm pictureForm = form == ExportForm::kSvg   ? PictureForm::kSvg
+                                        : form == ExportForm::kPdf ? PictureForm::kPdf
+                                                                   : PictureForm::kPng;
+        double bytes = 0.0;
+        try {
+          bytes = static_cast<double>(pictureBytes(
+                                          pictureForm,
+                                          [&](QPainter& painter) { replay(painter, picture); },
+                                          paper,
+                                          "preview")
+                                          .size());
+        } catch (const std::exception&) {
+          return;  // too large for the memory: its size in pixels says so
+        }
+        QMetaObject::invokeMethod(
+            this,
+            [this, bytes, now] {
+              if (now != generation_) return;
+              bytes_ = bytes;
+              emit summaryChanged();
+            },
+            Qt::QueuedConnection);
+      });
+}
+
+// A recording of a day has millions of stamps.
+void ExportPreview::measureMovie() {
+  if (!timeUs_) return;
+  worker_.start([this,
+                 timeUs = timeUs_,
+                 frames = frames_,
+                 options = movieOptionsOf(request_),
+                 now = generation_.load()] {
+    MovieTiming timing;
+    try {
+      timing =
+          plannedMovie(frames, timeUs, options, [&](double) { return now == generation_; }).timing;
+    } catch (const std::exception&) {
+      return;  // cancelled; or its file is gone, which is said when it is written
+    }
+    timing.shots.clear();
+    QMetaObject::invokeMethod(
+        this,
+        [this, timing, now] {
+          if (now != generation_) return;
+          movie_ = timing;
+          emit summaryChanged();
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+QString ExportPreview::summary() const {
+  QStringList parts;
+  if (request_.isMovie()) {
+    const QSize pixels = moviePixels(paper_);
+    parts << QString("%1 × %2 px").arg(pixels.width()).arg(pixels.height());
+    if (movie_.numPictures > 0)
+      parts << figure(movie_.seconds, 1) + " s"
+            << (movie_.numPictures == 1 ? QString("1 picture")
+                                        : QString("%1 pictures").arg(movie_.numPictures));
+    if (movie_.numGaps > 0)
+      parts << (movie_.numGaps == 1 ? QString("1 gap shortened")
+                                    : QString("%1 gaps shortened").arg(movie_.numGaps));
+    return parts.join(" · ");
+  }
+  if (isTable_) {
+    parts << (numRows_ == 1 ? QString("1 row") : QString("%1 rows").arg(numRows_));
+  } else {
+    const QSizeF mm = paper_.sizeMm();
+    if (request_.form == ExportForm::kPng)
+      parts << QString("%1 × %2 px").arg(paper_.pixels().width()).arg(paper_.pixels().height());
+    parts << figure(mm.width(), 1) + " × " + figure(mm.height(), 1) + " mm";
+  }
+  if (numFiles_ > 1) parts << QString("%1 pictures").arg(numFiles_);
+  if (bytes_ > 0.0)
+    parts << "about " + bytesText(bytes_ * static_cast<double>(numFiles_)) +
+                 (numFiles_ > 1 ? " in all" : "");
+  return parts.join(" · ");
+}
+
+QRectF ExportPreview::paperRect() const {
+  const QRectF room = QRectF(rect()).adjusted(
+      kExportPreviewAround, kExportPreviewAround, -kExportPreviewAround, -kExportPreviewAround);
+  const QSizeF size = paper_.size.scaled(room.size(), Qt::KeepAspectRatio);
+  return {room.center() - QPointF(size.width() / 2, size.height() / 2), size};
+}
+
+// Larger than it is shown, then made smaller: what is finer than a pixel of the screen is seen as it will look.
+void ExportPreview::drawPreview() {
+  constexpr double kFiner = 3.0;
+  const QSizeF place = paperRect().size() * devicePixelRatioF();
+  if (isTable_ || place.width() < 1.0 || place.height() < 1.0) return;
+  PicturePaper larger = paper_;
+  larger.dpi = kFiner * place.width() / paper_.size.width() * paper_.unitsPerInch;
+  preview_ = pictureImage([this](QPainter& to) { replay(to, picture_); }, larger)
+                 .scaled(place.toSize(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+}
+
+void ExportPreview::resizeEvent(QResizeEvent*) { drawPreview(); }
+
+void ExportPreview::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  if (isTable_) return paintRows(painter);
+  const QRectF paper = paperRect();
+  constexpr int kShadow = 4;
+  for (int i = kShadow; i > 0; --i)
+    painter.fillRect(paper.adjusted(-i + 1, -i + 2, i - 1, i + 1), QColor(0, 0, 0, 14));
+  painter.drawImage(paper, preview_);
+  painter.setPen(palette().color(QPalette::Mid));
+  painter.drawRect(paper);
+}
+
+void ExportPreview::paintRows(QPainter& painter) const {
+  const QRectF room = QRectF(rect()).adjusted(
+      kExportPreviewAround, kExportPreviewAround, -kExportPreviewAround, -kExportPreviewAround);
+  painter.fillRect(room, palette().color(QPalette::Base));
+  painter.setPen(palette().color(QPalette::Mid));
+  painter.drawRect(room);
+  painter.setClipRect(room.adjusted(8, 6, -8, -6));
+  QFont font = QFontDatabase::systemFont(QFontDatabase::FixedFont);
+  font.setPixelSize(11);
+  painter.setFont(font);
+  const QFontMetricsF metrics(font);
+  double y = room.top() + 8.0;
+  bool isHeader = true;
+  for (const QString& row : rows_) {
+    if (y > room.bottom()) break;
+    painter.setPen(palette().color(isHeader ? QPalette::PlaceholderText : QPalette::Text));
+    painter.drawText(QRectF(room.left() + 10, y, room.width() - 20, metrics.height()),
+                     Qt::AlignLeft | Qt::AlignVCenter,
+                     metrics.elidedText(row, Qt::ElideRight, room.width() - 20));
+    y += metrics.height() * 1.25;
+    isHeader = false;
+  }
+  if (numRows_ > 0) return;
+  painter.setPen(palette().color(QPalette::PlaceholderText));
+  painter.drawText(room, Qt::AlignCenter, "no row");
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,258 @@
+#include "gui/export/export_request.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <QStandardPaths>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <palpate/capture/recorder.h>
+
+#include "gui/look/captions.h"
+#include "gui/picture/ffmpeg.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kExportRequestMmPerInch = 25.4;
+constexpr double kScreenPerInch = 96.0;
+// Half a point each: sizes of text, in whole units, are exact in halves of a point, and lines that are one
+// pixel on screen are half a point on paper.
+constexpr double kPaperPerInch = 144.0;
+constexpr double kUnitsPerPt = 2.0;
+constexpr double kExportRequestLeastMm = 20.0, kMostMm = 1200.0;
+constexpr double kLeastPt = 4.0, kMostPt = 40.0;
+constexpr int kMostPixels = 16384;  // on a side
+
+const QString kExportRequestGroup = "export/";
+
+// Of one that has a name already.
+QString fileProblemOf(const ExportRequest& request) {
+  const QFileInfo file(QString::fromStdString(pathOf(request).string()));
+  if (file.isDir()) return file.fileName() + " is a folder.";
+  if ((file.exists() || file.isSymLink()) && !request.replace)
+    return file.fileName() + " exists already.";
+  return {};
+}
+
+}  // namespace
+
+QString nameOf(ExportForm form) {
+  switch (form) {
+    case ExportForm::kSvg:
+      return "SVG";
+    case ExportForm::kPdf:
+      return "PDF";
+    case ExportForm::kCsv:
+      return "CSV";
+    case ExportForm::kMovie:
+      return "MP4";
+    case ExportForm::kPng:
+      break;
+  }
+  return "PNG";
+}
+
+QString endingOf(ExportForm form) { return "." + nameOf(form).toLower(); }
+
+QString descriptionOf(ExportForm form) {
+  switch (form) {
+    case ExportForm::kSvg:
+      return "A drawing that can be edited";
+    case ExportForm::kPdf:
+      return "A drawing with its fonts";
+    case ExportForm::kCsv:
+      return "The numbers that are shown";
+    case ExportForm::kMovie:
+      return "A movie of the frames, as they came";
+    case ExportForm::kPng:
+      break;
+  }
+  return "A picture made of pixels";
+}
+
+ExportRequest loadExportRequest(const QSettings& settings) {
+  ExportRequest request;
+  const auto value = [&](const char* key, const QVariant& usual) {
+    return settings.value(kExportRequestGroup + key, usual);
+  };
+  const auto number = [&](const char* key, double usual, double least, double most) {
+    bool good = false;
+    const double read = value(key, usual).toDouble(&good);
+    return good && read >= least && read <= most ? read : usual;
+  };
+  request.view = value("view", "").toString();
+  const QString form = value("form", "").toString();
+  for (const ExportForm each : kAllExportForms)
+    if (nameOf(each) == form) request.form = each;
+  const QString preset = value("size", "").toString();
+  for (std::size_t i = 0; i < kPaperPresets.size(); ++i)
+    if (kPaperPresets[i].name == preset) request.preset = static_cast<int>(i);
+  request.sizeMm = {number("width_mm", request.sizeMm.width(), kExportRequestLeastMm, kMostMm),
+                    number("height_mm", request.sizeMm.height(), kExportRequestLeastMm, kMostMm)};
+  request.textPt = number("text_pt", request.textPt, kLeastPt, kMostPt);
+  const int dpi = value("dpi", request.dpi).toInt();
+  if (std::find(kExportDpi.begin(), kExportDpi.end(), dpi) != kExportDpi.end()) request.dpi = dpi;
+  request.forPrint = value("for_print", request.forPrint).toBool();
+  request.titled = value("titled", request.titled).toBool();
+  const int frames = value("frames", 0).toInt();
+  if (frames == 1) request.frames = ExportFrames::kSelected;
+  if (frames == 2) request.frames = ExportFrames::kAll;
+  const auto oneOf = [&](const char* key, auto& usual, const auto& known) {
+    const double read = value(key, usual).toDouble();
+    for (const auto each : known)
+      if (static_cast<double>(each) == read) usual = each;
+  };
+  oneOf("movie_speed", request.movieSpeed, kMovieSpeeds);
+  oneOf("movie_pictures_per_s", request.moviePicturesPerS, kMovieRates);
+  oneOf("movie_height_px", request.movieHeightPx, kMovieHeights);
+  request.table = value("table", "").toString();
+  request.folder = value("folder", "").toString();
+  if (!QDir::isAbsolutePath(request.folder)) {
+    request.folder = QStandardPaths::writableLocation(QStandardPaths::PicturesLocation);
+    if (request.folder.isEmpty() || !QFileInfo::exists(request.folder))
+      request.folder = QDir::homePath();
+  }
+  request.nameIsOwn = value("name_is_own", false).toBool();
+  if (request.nameIsOwn) request.name = value("name", "").toString();
+  if (request.name.isEmpty()) request.nameIsOwn = false;
+  return request;
+}
+
+void saveExportRequest(const ExportRequest& request, QSettings& settings) {
+  const auto set = [&](const char* key, const QVariant& value) {
+    settings.setValue(kExportRequestGroup + key, value);
+  };
+  set("view", request.view);
+  set("form", nameOf(request.form));
+  set("size", kPaperPresets[static_cast<std::size_t>(request.preset)].name);
+  set("width_mm", request.sizeMm.width());
+  set("height_mm", request.sizeMm.height());
+  set("text_pt", request.textPt);
+  set("dpi", request.dpi);
+  set("for_print", request.forPrint);
+  set("titled", request.titled);
+  set("frames", static_cast<int>(request.frames));
+  set("movie_speed", request.movieSpeed);
+  set("movie_pictures_per_s", request.moviePicturesPerS);
+  set("movie_height_px", request.movieHeightPx);
+  set("table", request.table);
+  set("folder", request.folder);
+  set("name", request.name);
+  set("name_is_own", request.nameIsOwn);
+}
+
+PicturePaper paperOf(const ExportRequest& request, const QSizeF& sizeOnScreen) {
+  PicturePaper paper;
+  const bool asOnScreen = request.preset == kScreenPreset;
+  paper.unitsPerInch = asOnScreen ? kScreenPerInch : kPaperPerInch;
+  paper.size = asOnScreen ? sizeOnScreen : request.sizeMm / kExportRequestMmPerInch * kPaperPerInch;
+  paper.dpi = request.dpi;
+  if (request.isMovie())
+    paper.dpi = request.movieHeightPx / paper.size.height() * paper.unitsPerInch;
+  return paper;
+}
+
+PictureLook lookOf(const ExportRequest& request, const QSizeF& sizeOnScreen) {
+  const PicturePaper paper = paperOf(request, sizeOnScreen);
+  PictureLook look;
+  look.size = paper.size;
+  look.forPrint = request.forPrint;
+  if (request.preset != kScreenPreset)
+    look.textUnits = static_cast<int>(std::lround(request.textPt * kUnitsPerPt));
+  look.titled = request.titled;
+  const bool ofPixels = request.form == ExportForm::kPng || request.isMovie();
+  look.pixelRatio = ofPixels ? paper.scale() : 0.0;
+  return look;
+}
+
+std::filesystem::path pathOf(const ExportRequest& request) {
+  const std::filesystem::path folder = request.folder.toStdString();
+  if (request.isSeries()) return folder / request.name.toStdString();
+  return folder / (request.name + endingOf(request.form)).toStdString();
+}
+
+FileSeries seriesOf(const ExportRequest& request, const FrameSpan& span) {
+  return {.folder = pathOf(request),
+          .stem = request.name.toStdString(),
+          .ending = endingOf(request.form).toStdString(),
+          .first = span.first,
+          .last = span.last};
+}
+
+std::optional<FrameSpan> spanOf(const ExportRequest& request, const FramePictures& pictures) {
+  if (pictures.numFrames == 0) return std::nullopt;
+  const bool selectedAnyhow =
+      request.isMovie() && request.frames == ExportFrames::kShown && pictures.selected;
+  if (request.frames == ExportFrames::kSelected || selectedAnyhow) return pictures.selected;
+  return FrameSpan{0, pictures.numFrames - 1};
+}
+
+MovieOptions movieOptionsOf(const ExportRequest& request) {
+  return {.picturesPerS = static_cast<double>(request.moviePicturesPerS),
+          .speed = request.movieSpeed};
+}
+
+QString suggestedName(const ExportRequest& request, const ExportedView& view) {
+  const auto pictures = request.ofFrames() ? view.framePicturesNow() : std::nullopt;
+  return pictures ? pictures->fileName : view.fileName();
+}
+
+QString whyNoMovie(const ExportedView& view) {
+  const auto pictures = view.framePicturesNow();
+  if (!pictures || !pictures->timeUs || pictures->numFrames == 0)
+    return view.framePictures ? "A movie is of the frames of a recording"
+                              : "There is no movie of this view";
+  return findFfmpeg() ? QString() : QString::fromStdString(ffmpegMissing());
+}
+
+QString problemOf(const ExportRequest& request, const ExportedView& view) {
+  if (request.name.trimmed().isEmpty()) return "Give it a name.";
+  if (request.name.contains('/')) return "A name has no “/” in it; choose the folder below.";
+  if (!QDir::isAbsolutePath(request.folder)) return "Choose a folder.";
+  const QFileInfo folder(request.folder);
+  if (!folder.exists()) return "There is no folder " + request.folder + ".";
+  if (!folder.isDir()) return request.folder + " is no folder.";
+  if (!folder.isWritable()) return "Nothing may be written into " + request.folder + ".";
+  if (request.isMovie())
+    if (const QString reason = whyNoMovie(view); !reason.isEmpty()) return reason;
+  if (request.form == ExportForm::kPng || request.isMovie()) {
+    const QSize pixels = paperOf(request, view.sizeOnScreen()).pixels();
+    if (std::max(pixels.width(), pixels.height()) > kMostPixels)
+      return QString("%1 × %2 pixels are too many: choose %3.")
+          .arg(pixels.width())
+          .arg(pixels.height())
+          .arg(request.isMovie() ? "a lower resolution" : "fewer dpi");
+  }
+  if (request.ofFrames()) {
+    const auto pictures = view.framePicturesNow();
+    const auto span = pictures ? spanOf(request, *pictures) : std::nullopt;
+    if (!span) return "Nothing is selected in the timeline.";
+    if (request.isMovie()) return fileProblemOf(request);
+    const std::size_t there = numExisting(seriesOf(request, *span));
+    if (there > 0 && !request.replace)
+      return QString("%1 of these pictures are there already.").arg(there);
+    return {};
+  }
+  return fileProblemOf(request);
+}
+
+QString spaceProblemOf(const ExportRequest& request, double bytes) {
+  const auto freeBytes = freeBytesOf(request.folder.toStdString());
+  if (!freeBytes || bytes <= static_cast<double>(*freeBytes)) return {};
+  return "Only " + bytesText(static_cast<double>(*freeBytes)) + " are free there.";
+}
+
+QString bytesText(double bytes) {
+  constexpr double kKilo = 1000.0;
+  const char* const units[] = {"B", "kB", "MB", "GB", "TB"};
+  std::size_t unit = 0;
+  while (bytes >= kKilo && unit + 1 < std::size(units)) {
+    bytes /= kKilo;
+    ++unit;
+  }
+  return figure(bytes, unit > 0 && bytes < 10.0 ? 1 : 0) + " " + units[unit];
+}
+
+}  // namespace palpate::gui

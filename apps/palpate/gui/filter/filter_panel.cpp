@@ -1,0 +1,323 @@
+#include "gui/filter/filter_panel.h"
+
+#include <QCheckBox>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <numeric>
+
+#include <palpate/core/error.h>
+
+#include "gui/filter/filter_form.h"
+#include "gui/filter/filter_list.h"
+#include "gui/look/captions.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kFastestHz = 230.0;  // frames of a hand that is read by parts
+constexpr const char* kRecipeFiles = "Recipes (*.json)";
+
+QString quantity(int count, const QString& word) {
+  return QString::number(count) + " " + word + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+FilterPanel::FilterPanel(QWidget* parent) : QWidget(parent) {
+  list_ = new FilterList(this);
+  form_ = new FilterForm(this);
+  totals_ = new QLabel(this);
+  totals_->setObjectName("filterTotals");
+  totals_->setWordWrap(true);
+  progress_ = new QProgressBar(this);
+  progress_->setRange(0, 100);
+  progress_->setTextVisible(false);
+  progress_->setFixedHeight(4);
+  QSizePolicy keepsPlace = progress_->sizePolicy();
+  keepsPlace.setRetainSizeWhenHidden(true);
+  progress_->setSizePolicy(keepsPlace);
+  progress_->hide();
+
+  auto* content = new QWidget(this);
+  auto* inner = new QVBoxLayout(content);
+  inner->setContentsMargins(0, 0, 0, 0);
+  inner->setSpacing(8);
+  heading_ = sectionHeading("OPTIONS", content);
+  inner->addWidget(heading_);
+  inner->addWidget(form_);
+  inner->addStretch(1);
+  auto* scroll = new QScrollArea(this);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(content);
+
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(12, 8, 12, 8);
+  column->setSpacing(8);
+  column->addWidget(makeTop());
+  column->addWidget(list_, 2);
+  column->addWidget(makeButtons());
+  column->addWidget(progress_);
+  column->addWidget(scroll, 3);
+  column->addWidget(totals_);
+
+  askForRecipe = [this] {
+    return std::filesystem::path(
+        QFileDialog::getOpenFileName(this, "Open a recipe", {}, kRecipeFiles).toStdString());
+  };
+  askForPlace = [this](const QString& suggestion) {
+    QString path = QFileDialog::getSaveFileName(this, "Save the recipe", suggestion, kRecipeFiles);
+    if (!path.isEmpty() && !path.endsWith(".json")) path += ".json";
+    return std::filesystem::path(path.toStdString());
+  };
+  connect(&editor_, &RecipeEditor::changed, this, &FilterPanel::renew);
+  connect(list_, &FilterList::stepChosen, this, &FilterPanel::showForm);
+  connect(list_, &FilterList::enabledChanged, &editor_, &RecipeEditor::setEnabled);
+  connect(list_, &FilterList::moved, &editor_, &RecipeEditor::move);
+  connect(list_, &FilterList::removeAsked, &editor_, &RecipeEditor::remove);
+  connect(form_, &FilterForm::optionChosen, this, [this](const std::string& key, double value) {
+    if (const auto at = list_->chosen()) editor_.setOption(*at, key, value);
+  });
+  connect(
+      form_, &FilterForm::matricesChosen, this, [this](const std::vector<std::size_t>& matrices) {
+        if (const auto at = list_->chosen()) editor_.setMatrices(*at, matrices);
+      });
+  renew();
+}
+
+QWidget* FilterPanel::makeTop() {
+  auto* top = new QWidget(this);
+  auto* row = new QHBoxLayout(top);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(6);
+  onBox_ = new QCheckBox("Filter what is shown", top);
+  onBox_->setObjectName("filterOn");
+  onBox_->setToolTip("After, or before: A");
+  connect(onBox_, &QCheckBox::toggled, this, &FilterPanel::setOn);
+  const auto button = [&](const QString& text, const QString& tip) {
+    auto* made = new QToolButton(top);
+    made->setText(text);
+    made->setToolTip(tip);
+    made->setAccessibleName(tip);
+    return made;
+  };
+  undo_ = button("↶", "Undo a change of the chain");
+  redo_ = button("↷", "Redo it");
+  connect(undo_, &QToolButton::clicked, &editor_, &RecipeEditor::undo);
+  connect(redo_, &QToolButton::clicked, &editor_, &RecipeEditor::redo);
+  auto* presets = new QPushButton("Recipes", top);
+  auto* menu = new QMenu(presets);
+  fillMoreMenu(*menu);
+  presets->setMenu(menu);
+  row->addWidget(onBox_, 1);
+  row->addWidget(undo_);
+  row->addWidget(redo_);
+  row->addWidget(presets);
+  return top;
+}
+
+QWidget* FilterPanel::makeButtons() {
+  auto* line = new QWidget(this);
+  auto* row = new QHBoxLayout(line);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(6);
+  auto* add = new QPushButton("Add", line);
+  add->setObjectName("filterAdd");
+  auto* menu = new QMenu(add);
+  fillAddMenu(*menu);
+  add->setMenu(menu);
+  const auto button = [&](const QString& text, const QString& tip) {
+    auto* made = new QPushButton(text, line);
+    made->setToolTip(tip);
+    return made;
+  };
+  up_ = button("Up", "Earlier in the chain (Alt+Up)");
+  down_ = button("Down", "Later in the chain (Alt+Down)");
+  remove_ = button("Remove", "Take it out (Del)");
+  const auto step = [this](int way) {
+    const auto at = list_->chosen();
+    if (!at) return;
+    const std::size_t to = *at + static_cast<std::size_t>(way);
+    if (to >= editor_.recipe().steps.size()) return;
+    editor_.move(*at, to);
+    list_->choose(to);
+    showForm();
+  };
+  connect(up_, &QPushButton::clicked, this, [step] { step(-1); });
+  connect(down_, &QPushButton::clicked, this, [step] { step(1); });
+  connect(remove_, &QPushButton::clicked, this, [this] {
+    if (const auto at = list_->chosen()) editor_.remove(*at);
+  });
+  row->addWidget(add);
+  row->addStretch(1);
+  row->addWidget(up_);
+  row->addWidget(down_);
+  row->addWidget(remove_);
+  return line;
+}
+
+void FilterPanel::fillAddMenu(QMenu& menu) {
+  const std::pair<FilterDomain, const char*> parts[] = {
+      {FilterDomain::kSpatial, "Over space"},
+      {FilterDomain::kTemporal, "Over time"},
+      {FilterDomain::kSpatioTemporal, "Over both"}};
+  for (const auto& [domain, title] : parts) {
+    menu.addSection(title);
+    for (const FilterKind& kind : filterKinds()) {
+      if (kind.domain != domain) continue;
+      QAction* entry = menu.addAction(QString::fromStdString(kind.title));
+      entry->setToolTip(QString::fromStdString(kind.purpose));
+      connect(entry, &QAction::triggered, this, [this, name = kind.name] { addStep(name); });
+    }
+  }
+  menu.setToolTipsVisible(true);
+}
+
+void FilterPanel::fillMoreMenu(QMenu& menu) {
+  for (const Recipe& preset : recipePresets()) {
+    QAction* entry = menu.addAction(QString::fromStdString(preset.name));
+    entry->setToolTip(QString::fromStdString(recipeText(preset)));
+    connect(entry, &QAction::triggered, this, [this, preset] {
+      editor_.setRecipe(preset);
+      list_->choose(0);
+      showForm();
+      setOn(true);
+    });
+  }
+  menu.addSeparator();
+  connect(menu.addAction("Open a recipe…"), &QAction::triggered, this, &FilterPanel::openRecipe);
+  connect(menu.addAction("Save the recipe…"), &QAction::triggered, this, &FilterPanel::saveRecipe);
+  keep_ = menu.addAction("Keep it with the recording");
+  keep_->setToolTip(
+      "Whoever opens the recording finds the chain again; the frames stay as they are");
+  connect(keep_, &QAction::triggered, this, &FilterPanel::keepAsked);
+  menu.addSeparator();
+  connect(menu.addAction("Remove all filters"), &QAction::triggered, this, [this] {
+    editor_.setRecipe({});
+  });
+  menu.setToolTipsVisible(true);
+}
+
+void FilterPanel::addStep(const std::string& name) {
+  const auto at = list_->chosen();
+  const std::size_t index = at ? *at + 1 : editor_.recipe().steps.size();
+  try {
+    editor_.insert(index, {.name = name});
+  } catch (const std::invalid_argument& error) {
+    emit told(error.what());
+    return;
+  }
+  list_->choose(index);
+  showForm();
+  setOn(true);
+}
+
+void FilterPanel::openRecipe() {
+  const std::filesystem::path path = askForRecipe();
+  if (path.empty()) return;
+  try {
+    editor_.setRecipe(readRecipe(path));
+    setOn(true);
+  } catch (const Error& error) {
+    emit told(error.what());
+  }
+}
+
+void FilterPanel::saveRecipe() {
+  const std::filesystem::path path = askForPlace("recipe.json");
+  if (path.empty()) return;
+  try {
+    Recipe recipe = editor_.recipe();
+    recipe.name = path.stem().string();
+    writeRecipe(path, recipe, true);
+    emit told("saved " + QString::fromStdString(path.filename().string()));
+  } catch (const Error& error) {
+    emit told(error.what());
+  }
+}
+
+void FilterPanel::setOn(bool on) {
+  if (on == on_) return;
+  on_ = on;
+  onBox_->setChecked(on);
+  showTotals();
+  emit onChanged(on);
+}
+
+void FilterPanel::setSource(const QStringList& matrixNames, double rateHz, bool live) {
+  form_->setMatrixNames(matrixNames);
+  rateHz_ = rateHz;
+  live_ = live;
+  renew();
+}
+
+void FilterPanel::setKeepable(bool keepable) { keep_->setEnabled(keepable); }
+
+void FilterPanel::showFigures(const std::optional<FilterFigures>& figures) {
+  figures_ = figures;
+  failure_.clear();
+  list_->showFigures(figures_);
+  showTotals();
+}
+
+void FilterPanel::showProgress(const std::optional<double>& fraction) {
+  progress_->setVisible(fraction.has_value());
+  if (fraction) progress_->setValue(static_cast<int>(*fraction * 100.0));
+}
+
+void FilterPanel::showFailure(const QString& message) {
+  failure_ = message;
+  showProgress(std::nullopt);
+  showTotals();
+}
+
+void FilterPanel::renew() {
+  list_->showRecipe(editor_.recipe(), live_);
+  if (!list_->chosen() && !editor_.recipe().steps.empty()) list_->choose(0);
+  list_->showFigures(figures_);
+  undo_->setEnabled(editor_.canUndo());
+  redo_->setEnabled(editor_.canRedo());
+  showForm();
+  showTotals();
+}
+
+void FilterPanel::showForm() {
+  const auto at = list_->chosen();
+  const std::size_t count = editor_.recipe().steps.size();
+  form_->showStep(at && *at < count ? &editor_.recipe().steps[*at] : nullptr);
+  heading_->setVisible(at.has_value());
+  up_->setEnabled(at && *at > 0);
+  down_->setEnabled(at && *at + 1 < count);
+  remove_->setEnabled(at.has_value());
+}
+
+void FilterPanel::showTotals() {
+  const Recipe& recipe = editor_.recipe();
+  if (!failure_.isEmpty()) return totals_->setText(failure_);
+  if (recipe.empty()) return totals_->setText("Nothing is filtered.");
+  if (!figures_) return totals_->setText(on_ ? "…" : "Off: what is shown is as it was recorded.");
+  const double costUs = std::accumulate(figures_->costsUs.begin(), figures_->costsUs.end(), 0.0);
+  QString text = figure(costUs, 1) + " µs per frame, " + figure(costUs * kFastestHz / 1e4, 2) +
+                 " % of a core at 230 frames/s. ";
+  if (!recipe.causal() && !live_) {
+    text += "Needs later frames: for recordings, not for a live hand.";
+  } else if (!figures_->latency) {
+    text += "A step of load never comes through to half.";
+  } else {
+    text += "A contact is seen " + quantity(*figures_->latency, "frame");
+    if (rateHz_ > 0.0) text += " (" + figure(*figures_->latency * 1e3 / rateHz_, 0) + " ms)";
+    text += " later.";
+  }
+  totals_->setText(text + " What counts as touched stays as recorded.");
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,214 @@
+#include "gui/hand/grasp_panel.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <algorithm>
+#include <stdexcept>
+
+#include <palpate/core/error.h>
+#include <palpate/model/preshape.h>
+
+#include "gui/desktop/button_keys.h"
+#include "gui/widgets/value_slider.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kPreshape = "grasp/preshape";
+constexpr const char* kClose = "grasp/close";
+constexpr const char* kVelocity = "grasp/velocity_deg_per_s";
+constexpr const char* kLimit = "grasp/limit_counts";
+
+double remembered(
+    const QSettings& settings, const char* key, double least, double most, double usual) {
+  bool ok = false;
+  const double value = settings.value(key).toDouble(&ok);
+  return ok && value >= least && value <= most ? value : usual;
+}
+
+QPushButton* button(const QString& text, const QString& name, QWidget* parent) {
+  auto* made = new QPushButton(text, parent);
+  made->setObjectName(name);
+  made->setFocusPolicy(Qt::TabFocus);
+  made->setAutoDefault(false);
+  made->setProperty(kMovesHand, true);
+  return made;
+}
+
+}  // namespace
+
+GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
+    : QWidget(parent), settings_(settings) {
+  const GraspRequest usual;
+  preshape_ = new QComboBox(this);
+  preshape_->setObjectName("preshape");
+  for (const Preshape& each : sdh2Preshapes())
+    preshape_->addItem(QString::fromStdString(each.title), QString::fromStdString(each.name));
+  const int index = preshape_->findData(
+      settings.value(kPreshape, QString::fromStdString(usual.preshape)).toString());
+  preshape_->setCurrentIndex(std::max(0, index));
+  close_ = new ValueSlider("Close ratio", {0.0, 1.0, 1.0, 0.01, 2, " "}, this);
+  close_->setObjectName("closeRatio");
+  close_->setToolTip(
+      "How far the hand closes: 0 open, 1 closed. A reactive grasp goes to 1 at most");
+  close_->showValue(remembered(settings, kClose, 0.0, 1.0, usual.closeRatio));
+  velocity_ = new ValueSlider(
+      "Velocity",
+      {kSlowestGraspDegPerS, kFastestGraspDegPerS, kFastestGraspDegPerS, 1.0, 0, "deg/s"},
+      this);
+  velocity_->setObjectName("velocity");
+  velocity_->setToolTip("Of the joints; those that are slower go as fast as they can");
+  velocity_->showValue(remembered(
+      settings, kVelocity, kSlowestGraspDegPerS, kFastestGraspDegPerS, usual.velocityDegPerS));
+  limit_ = new ValueSlider(
+      "Limit",
+      {kLeastGraspLimitCounts, kMostGraspLimitCounts, kMostGraspLimitCounts, 1.0, 0, "counts"},
+      this);
+  limit_->setObjectName("limit");
+  limit_->setToolTip(
+      "A reactive grasp stops at the first taxel above, a slip-aware one begins there; an SDH-2 "
+      "is saturated from 3500 on");
+  limit_->showValue(remembered(
+      settings, kLimit, kLeastGraspLimitCounts, kMostGraspLimitCounts, usual.limitCounts));
+
+  auto* form = new QFormLayout;
+  form->setContentsMargins(0, 0, 0, 0);
+  form->setHorizontalSpacing(12);
+  form->setVerticalSpacing(6);
+  form->addRow("Preshape", preshape_);
+  form->addRow("Close ratio", close_);
+  form->addRow("Velocity", velocity_);
+  form->addRow("Limit", limit_);
+  // The fields end in one line.
+  int widest = 0;
+  for (const ValueSlider* each : {close_, velocity_, limit_})
+    widest = std::max(widest, each->field()->sizeHint().width());
+  for (const ValueSlider* each : {close_, velocity_, limit_}) each->field()->setFixedWidth(widest);
+
+  // Tab meets them in this order.
+  grasp_ = button("Grasp", "graspHand", this);
+  reactive_ = button("Reactive", "reactiveGrasp", this);
+  slipAware_ = button("Slip-aware", "slipAwareGrasp", this);
+  open_ = button("Open", "openHand", this);
+  relax_ = button("Relax", "relaxHand", this);
+  auto* grasps = new QHBoxLayout;
+  grasps->setSpacing(6);
+  for (QPushButton* each : {grasp_, reactive_, slipAware_}) grasps->addWidget(each, 1);
+  auto* others = new QHBoxLayout;
+  others->setSpacing(6);
+  for (QPushButton* each : {open_, relax_}) others->addWidget(each, 1);
+  auto* buttons = new QVBoxLayout;
+  buttons->setSpacing(6);
+  buttons->addLayout(grasps);
+  buttons->addLayout(others);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(10);
+  column->addLayout(form);
+  column->addLayout(buttons);
+
+  connect(open_, &QPushButton::clicked, this, [this] {
+    GraspRequest request = this->request(GraspMode::kPlain);
+    request.closeRatio = 0.0;
+    begin(request);
+  });
+  connect(grasp_, &QPushButton::clicked, this, [this] { begin(request(GraspMode::kPlain)); });
+  connect(reactive_, &QPushButton::clicked, this, [this] { begin(request(GraspMode::kReactive)); });
+  connect(slipAware_, &QPushButton::clicked, this, [this] { begin(request(GraspMode::kSlip)); });
+  connect(relax_, &QPushButton::clicked, this, [this] {
+    emit begins();
+    if (control_) control_->relax();
+    emit asked();
+  });
+  connect(preshape_, &QComboBox::currentIndexChanged, this, &GraspPanel::remember);
+  for (ValueSlider* each : {close_, velocity_, limit_})
+    connect(each, &ValueSlider::chosen, this, &GraspPanel::remember);
+  showStatus({});
+}
+
+int GraspPanel::limitCounts() const { return static_cast<int>(limit_->value()); }
+
+void GraspPanel::remember() {
+  settings_.setValue(kPreshape, preshape_->currentData());
+  settings_.setValue(kClose, close_->value());
+  settings_.setValue(kVelocity, velocity_->value());
+  settings_.setValue(kLimit, limit_->value());
+}
+
+GraspRequest GraspPanel::request(GraspMode mode) const {
+  GraspRequest request;
+  request.mode = mode;
+  request.preshape = preshape_->currentData().toString().toStdString();
+  request.closeRatio = mode == GraspMode::kPlain ? close_->value() : 1.0;
+  request.velocityDegPerS = velocity_->value();
+  request.limitCounts = static_cast<int>(limit_->value());
+  // A limit that is chosen above the usual highest one stays where it is.
+  request.holding.mostLimitCounts = std::max(request.holding.mostLimitCounts, request.limitCounts);
+  return request;
+}
+
+void GraspPanel::begin(const GraspRequest& request) {
+  if (!control_) return;
+  emit begins();
+  try {
+    control_->grasp(request);
+  } catch (const std::exception& error) {
+    const auto last = control_->status().last;
+    const bool told = last && last->outcome == GraspOutcome::kRefused;
+    emit refused(told ? QString::fromStdString(last->text) : QString(error.what()));
+  }
+  emit asked();
+}
+
+void GraspPanel::setControl(GraspControl* control) {
+  control_ = control;
+  showStatus(control ? control->status() : GraspStatus{});
+}
+
+void GraspPanel::showStatus(const GraspStatus& status) {
+  const bool idle = status.phase == GraspPhase::kIdle;
+  const bool canMove = control_ && status.cannotMove.empty();
+  const bool canReact = control_ && status.cannotReact.empty();
+  const auto set = [](QPushButton* which, bool enabled, const QString& tip) {
+    which->setEnabled(enabled);
+    if (which->toolTip() != tip) which->setToolTip(tip);
+  };
+  const bool holds = status.phase == GraspPhase::kHolding || status.phase == GraspPhase::kSettling;
+  const QString busy = holds ? "The hand holds what it has grasped: stop it first (Esc)"
+                             : "The hand moves: stop it first (Esc)";
+  const auto why = [&](const std::string& problem) {
+    return !control_ ? QString("No hand is connected") : QString::fromStdString(problem);
+  };
+  set(open_,
+      canMove && idle,
+      !canMove ? why(status.cannotMove)
+      : idle   ? "To the open hand of this preshape"
+               : busy);
+  set(relax_,
+      canMove,
+      canMove ? "Motors off: fingers can be moved by hand, what is held may fall"
+              : why(status.cannotMove));
+  set(grasp_,
+      canMove && idle,
+      !idle     ? busy
+      : canMove ? "To the close ratio, whatever is felt"
+                : why(status.cannotMove));
+  set(reactive_,
+      canReact && idle,
+      !idle      ? busy
+      : canReact ? "Closes until the first taxel is over the limit"
+                 : why(status.cannotReact));
+  set(slipAware_,
+      canReact && idle,
+      !idle ? busy
+      : canReact
+          ? "Closes to the limit and holds: when it slips, closes again to a higher one. Ends "
+            "by Stop; what is held stays held"
+          : why(status.cannotReact));
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,380 @@
+#include "gui/hand/hand_dock.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <palpate/capture/link_health.h>
+#include <palpate/core/time.h>
+
+#include "gui/bench/actions.h"
+#include "gui/hand/grasp_panel.h"
+#include "gui/hand/sensitivity_modes.h"
+#include "gui/hand/stop_key.h"
+#include "gui/hand/tactile_settings_panel.h"
+#include "gui/look/captions.h"
+#include "gui/widgets/facts_view.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kHandDockRefreshMs = 50;
+constexpr int kHandDockMargin = 12;
+constexpr int kStateLines = 4;              // room that is kept for what is said
+constexpr double kWidestTravelDeg = 180.0;  // of an axis
+constexpr double kStartAndStopS = 0.5;      // of a motion: longer than by its velocity alone
+constexpr const char* kStopTip =
+    "Stops the hand now; the motors stay on and hold (Esc, wherever the keyboard is)";
+constexpr const char* kHandDockNothing = "–";
+
+// How long the motion of a grasp takes at most from a pose; no pose: from anywhere [s].
+double longestMotionS(const GraspRequest& request,
+                      const std::vector<double>& fromDeg,
+                      const HandDescription& hand) {
+  double seconds = kWidestTravelDeg / request.velocityDegPerS;
+  try {
+    const MoveJoints motion = motionTo(request, request.closeRatio, hand);
+    if (fromDeg.size() == motion.targetDeg.size()) {
+      seconds = 0.0;
+      for (std::size_t axis = 0; axis < fromDeg.size(); ++axis)
+        seconds = std::max(seconds,
+                           std::abs(motion.targetDeg[axis] - fromDeg[axis]) /
+                               std::max(1e-3, motion.velocityDegPerS[axis]));
+    }
+  } catch (const std::invalid_argument&) {
+    // Of a hand that is described otherwise by now.
+  }
+  return seconds + kStartAndStopS;
+}
+
+FeedOptions smallFeed() {
+  FeedOptions options;
+  options.tactileItems = 256;
+  options.motionItems = 256;
+  options.eventItems = 64;
+  return options;
+}
+
+}  // namespace
+
+HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
+  stopKey_ = new StopKey(this);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(makeHead());
+  column->addWidget(makeBody(settings), 1);
+  // Below everything: it comes and goes, and moves nothing.
+  heat_ = new QLabel(this);
+  heat_->setObjectName("handHeat");
+  heat_->setWordWrap(true);
+  heat_->setContentsMargins(kHandDockMargin, 6, kHandDockMargin, 8);
+  column->addWidget(heat_);
+  connect(stop_, &QPushButton::clicked, this, [this] {
+    said_.clear();
+    if (control_) control_->stop();
+    emit stopPressed();
+    refresh();
+  });
+  connect(stopKey_, &StopKey::pressed, this, [this] {
+    said_.clear();
+    emit stopPressed();
+  });
+  const auto refused = [this](const QString& why) { said_ = why; };
+  const auto asked = [this] { said_.clear(); };
+  connect(grasp_, &GraspPanel::begins, this, asked);
+  connect(tactile_, &TactileSettingsPanel::changedByHand, this, asked);
+  connect(sensitivity_, &SensitivityModes::asked, this, asked);
+  connect(grasp_, &GraspPanel::refused, this, refused);
+  connect(grasp_, &GraspPanel::asked, this, &HandDock::refresh);
+  connect(tactile_, &TactileSettingsPanel::refused, this, refused);
+  connect(sensitivity_, &SensitivityModes::refused, this, refused);
+  connect(tactile_, &TactileSettingsPanel::changedByHand, sensitivity_, &SensitivityModes::letGo);
+  timer_.setInterval(kHandDockRefreshMs);
+  connect(&timer_, &QTimer::timeout, this, &HandDock::refresh);
+  setHand(nullptr, nullptr);
+}
+
+HandDock::~HandDock() = default;
+
+QWidget* HandDock::makeHead() {
+  auto* head = new QWidget(this);
+  state_ = new QLabel(head);
+  state_->setObjectName("handState");
+  state_->setWordWrap(true);
+  state_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  // Whatever is said, no button moves: what a robot's buttons mean is learned by where they are.
+  const int stateHeight = kStateLines * fontMetrics().lineSpacing() + 2;
+  state_->setFixedHeight(stateHeight);
+  stop_ = new QPushButton("Stop  (Esc)", head);
+  stop_->setObjectName("stopHand");
+  stop_->setProperty("danger", true);
+  stop_->setFocusPolicy(Qt::TabFocus);
+  stop_->setFixedHeight(stateHeight);
+  stop_->setMinimumWidth(120);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(12);
+  row->addWidget(state_, 1);
+  row->addWidget(stop_);
+  auto* column = new QVBoxLayout(head);
+  column->setContentsMargins(kHandDockMargin, 10, kHandDockMargin, 8);
+  column->setSpacing(6);
+  column->addLayout(row);
+  return head;
+}
+
+QWidget* HandDock::makeBody(QSettings& settings) {
+  auto* area = new QScrollArea(this);
+  area->setWidgetResizable(true);
+  area->setFrameShape(QFrame::NoFrame);
+  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  area->setFocusPolicy(Qt::NoFocus);
+  auto* content = new QWidget(area);
+  grasp_ = new GraspPanel(settings, content);
+  sensitivity_ = new SensitivityModes(content);
+  tactile_ = new TactileSettingsPanel(settings, content);
+  angles_ = new FactsView(content);
+  angles_->setObjectName("liveAngles");
+  temperatures_ = new FactsView(content);
+  temperatures_->setObjectName("liveTemperatures");
+  auto* left = new QVBoxLayout;
+  left->setSpacing(4);
+  left->addWidget(sectionHeading("Joint angles", content));
+  left->addWidget(angles_);
+  left->addStretch(1);
+  auto* right = new QVBoxLayout;
+  right->setSpacing(4);
+  right->addWidget(sectionHeading("Temperatures", content));
+  right->addWidget(temperatures_);
+  right->addStretch(1);
+  auto* measured = new QHBoxLayout;
+  measured->setSpacing(20);
+  measured->addLayout(left, 1);
+  measured->addLayout(right, 1);
+  auto* column = new QVBoxLayout(content);
+  column->setContentsMargins(kHandDockMargin, 4, kHandDockMargin, 10);
+  column->setSpacing(8);
+  column->addWidget(sectionHeading("Grasp", content));
+  column->addWidget(grasp_);
+  column->addSpacing(8);
+  column->addWidget(sectionHeading("Matrices", content));
+  column->addWidget(sensitivity_);
+  column->addWidget(tactile_);
+  column->addSpacing(8);
+  column->addLayout(measured);
+  column->addStretch(1);
+  area->setWidget(content);
+  body_ = area;
+  return area;
+}
+
+// Nothing is cut off at the side, where it can't be scrolled: only what is shown knows how wide it is.
+void HandDock::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  body_->setMinimumWidth(body_->widget()->minimumSizeHint().width() +
+                         body_->verticalScrollBar()->sizeHint().width());
+}
+
+void HandDock::setHand(CaptureSession* session, GraspControl* control) {
+  session_ = session;
+  control_ = control;
+  said_.clear();
+  anglesDeg_.clear();
+  goneReturnedUs_ = 0;
+  feed_ = session ? session->subscribe("the dock Hand", smallFeed()) : nullptr;
+  grasp_->setControl(control);
+  sensitivity_->setHand(session, control);
+  tactile_->setHand(session, control);
+  stopKey_->setControl(control);
+  stop_->setEnabled(control != nullptr);
+  stop_->setToolTip(control ? kStopTip : "No hand is connected");
+  const HandDescription hand = session ? session->device().hand() : sdh2();
+  std::vector<Fact> facts;
+  for (const AxisDescription& axis : hand.axes)
+    facts.push_back({QString::fromStdString(axis.name), kHandDockNothing});
+  angles_->setFacts(std::move(facts));
+  facts.clear();
+  for (const TemperatureSensorDescription& sensor : hand.temperatureSensors)
+    facts.push_back({QString::fromStdString(sensor.name), kHandDockNothing});
+  temperatures_->setFacts(std::move(facts));
+  heat_->hide();
+  if (session)
+    timer_.start();
+  else
+    timer_.stop();
+  refresh();
+}
+
+void HandDock::refresh() {
+  const GraspStatus status = control_ ? control_->status() : GraspStatus{};
+  grasp_->showStatus(status);
+  sensitivity_->refresh();
+  showBlind();
+  tactile_->refresh(status);
+  showSamples();
+  showState(status);
+  showBound();
+}
+
+void HandDock::bind(const Actions& actions) {
+  QList<QPushButton*> buttons = grasp_->buttons();
+  buttons.append(stop_);
+  const QList<QAction*> all{actions.graspHand,
+                            actions.reactiveGrasp,
+                            actions.slipAwareGrasp,
+                            actions.openHand,
+                            actions.relaxHand,
+                            actions.stopHand};
+  for (qsizetype i = 0; i < all.size(); ++i) {
+    bound_.emplace_back(all[i], buttons[i]);
+    connect(all[i], &QAction::triggered, buttons[i], &QPushButton::click);
+  }
+  showBound();
+}
+
+// As the grasp would judge them that is chosen now.
+void HandDock::showBlind() {
+  std::vector<QString> why;
+  const int limit = grasp_->limitCounts();
+  if (session_ && control_) {
+    const std::vector<MatrixSettings> settings = session_->device().facts().matrices;
+    if (!settings.empty())
+      for (const UnfeltLimit& unfelt : unfeltLimits(session_->device().hand(), settings, limit)) {
+        why.resize(std::max(why.size(), unfelt.matrix + 1));
+        why[unfelt.matrix] = QString::fromStdString(unfelt.why);
+      }
+  }
+  tactile_->showBlind(why, limit);
+  if (why == blind_) return;
+  blind_ = why;
+  emit blindChanged(blind_);
+}
+
+void HandDock::showBound() {
+  for (const auto& [action, button] : bound_) {
+    action->setEnabled(button->isEnabled());
+    action->setToolTip(button->toolTip());
+  }
+}
+
+void HandDock::say(const QString& text, bool bad) {
+  if (state_->text() != text) {
+    state_->setText(text);
+    state_->setToolTip(text);  // all of it, should it be longer than its room
+  }
+  const QColor color = bad ? colorsOf(theme_).danger : colorsOf(theme_).text;
+  const QString style = "color: " + color.name() + ";";
+  if (state_->styleSheet() != style) state_->setStyleSheet(style);
+}
+
+void HandDock::showState(const GraspStatus& status) {
+  if (!session_) return say("No hand is connected.", false);
+  if (!control_) return say("A recording is replayed: there is nothing to move.", false);
+  if (status.phase != GraspPhase::kIdle) {
+    if (status.request) said_.clear();  // else the end of one is just being told
+    return say(doing(status), false);
+  }
+  if (!status.cannotMove.empty()) return say(whyNotMoved(status), true);
+  if (status.last && status.last->outcome == GraspOutcome::kPortGone)
+    goneReturnedUs_ = status.last->beginUs;
+  if (!said_.isEmpty()) return say(said_, true);
+  if (!status.last) return say("Ready.", false);
+  const QString text = ending(*status.last, status);
+  const bool isPast = text.startsWith("Ready");
+  switch (status.last->outcome) {
+    case GraspOutcome::kFinished:
+    case GraspOutcome::kLimitReached:
+    case GraspOutcome::kStopped:
+    case GraspOutcome::kRelaxed:
+      return say(text, false);
+    default:
+      return say(text, !isPast);
+  }
+}
+
+QString HandDock::doing(const GraspStatus& status) const {
+  const std::string_view name = nameOf(status.phase);
+  const QString phase = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+  if (!status.request) return phase;
+  QString what = QString::fromStdString(describe(*status.request));
+  // "opening: centrical, 10 deg/s" says what is done by itself.
+  if (isOpening(*status.request) && status.phase == GraspPhase::kClosing)
+    return what.replace(": ", " · ");
+  return phase + " · " + what;
+}
+
+QString HandDock::whyNotMoved(const GraspStatus& status) {
+  const QString why = QString::fromStdString(status.cannotMove);
+  const bool inAMotion = status.last && status.last->outcome == GraspOutcome::kPortGone &&
+                         status.last->beginUs != goneReturnedUs_;
+  if (!inAMotion) return "The hand can't be moved: " + why;
+  const GraspReport& last = *status.last;
+  const double sinceS = static_cast<double>(session_->nowUs() - last.endUs) / kUsPerS;
+  const double longestS = longestMotionS(last.request, anglesDeg_, session_->device().hand());
+  const QString gone = "The motion port is gone (" + why + "). ";
+  if (sinceS < longestS)
+    return gone + "The hand goes on to its target by itself, " + figure(longestS, 0) +
+           " s at most: no stop reaches it.";
+  return gone + "The motion that ran is over, and the motors hold.";
+}
+
+QString HandDock::ending(const GraspReport& report, const GraspStatus& status) const {
+  if (report.outcome == GraspOutcome::kPortGone)
+    return "Ready. The motion port was gone during a motion, and is back.";
+  if (report.outcome == GraspOutcome::kStreamDead && status.cannotReact.empty())
+    return "Ready. The last grasp was stopped: no tactile frames came. Now they come.";
+  return QString::fromStdString(report.text);
+}
+
+void HandDock::showSamples() {
+  if (!feed_) return;
+  items_.clear();
+  feed_->take(items_);
+  const JointAngles* angles = nullptr;
+  const Temperatures* temperatures = nullptr;
+  for (const CaptureItem& item : items_) {
+    if (const auto* sample = std::get_if<JointAngles>(&item)) angles = sample;
+    if (const auto* sample = std::get_if<Temperatures>(&item)) temperatures = sample;
+  }
+  if (angles) anglesDeg_ = angles->deg;
+  if (angles)
+    for (std::size_t i = 0; i < std::min(angles->deg.size(), angles_->facts().size()); ++i)
+      angles_->setValue(i, figure(angles->deg[i], 1) + "°");
+  if (temperatures) showTemperatures(*temperatures);
+  items_.clear();
+}
+
+void HandDock::showTemperatures(const Temperatures& temperatures) {
+  const double hottest = HealthOptions{}.hottestDegC;
+  std::vector<Fact> facts = temperatures_->facts();
+  QString hot;
+  for (std::size_t i = 0; i < std::min(temperatures.degC.size(), facts.size()); ++i) {
+    const double value = temperatures.degC[i];
+    facts[i].value = value == 0.0 ? QString(kHandDockNothing) : figure(value, 1) + " °C";
+    facts[i].warning = value > hottest;
+    if (facts[i].warning) hot += (hot.isEmpty() ? "" : ", ") + facts[i].name + " " + facts[i].value;
+  }
+  temperatures_->setFacts(std::move(facts));
+  heat_->setVisible(!hot.isEmpty());
+  heat_->setText("Too hot: " + hot + ". Relax the hand and let it cool below " +
+                 figure(hottest, 0) + " °C.");
+}
+
+void HandDock::setTheme(Theme theme) {
+  theme_ = theme;
+  tactile_->setTheme(theme);
+  angles_->setTheme(theme);
+  temperatures_->setTheme(theme);
+  heat_->setStyleSheet("color: " + colorsOf(theme).warning.name() + "; font-weight: bold;");
+  state_->setStyleSheet({});
+  refresh();
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,96 @@
+// The content of the dock Hand: moving it, what its matrices are set to, its joints and temperatures. A Stop that
+// is always there, whatever is scrolled or folded away, and by Escape from everywhere.
+#pragma once
+
+#include <QSettings>
+#include <QTimer>
+#include <QWidget>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <palpate/capture/capture_session.h>
+#include <palpate/control/grasp_control.h>
+
+#include "gui/look/theme.h"
+
+class QAction;
+class QLabel;
+class QPushButton;
+class QScrollArea;
+
+namespace palpate::gui {
+
+struct Actions;
+class FactsView;
+class GraspPanel;
+class SensitivityModes;
+class StopKey;
+class TactileSettingsPanel;
+
+class HandDock : public QWidget {
+  Q_OBJECT
+ public:
+  // Remembers choices and named settings in `settings`, which must outlive it.
+  explicit HandDock(QSettings& settings, QWidget* parent = nullptr);
+  ~HandDock() override;
+  // The hand that is connected, null: none. Both must outlive this, or be taken away by null before they end.
+  void setHand(CaptureSession* session, GraspControl* control);
+  // Menu entries and keys do what the buttons do, and can be chosen when those can. Once.
+  void bind(const Actions& actions);
+  void setTheme(Theme theme);
+  TactileSettingsPanel& tactileSettings() noexcept { return *tactile_; }
+  const std::vector<QString>& blind() const noexcept { return blind_; }  // as blindChanged()
+  SensitivityModes& sensitivity() noexcept { return *sensitivity_; }
+  // What the timer does while a hand is connected.
+  void refresh();
+  QSize sizeHint() const override { return {455, 640}; }
+
+ signals:
+  void stopPressed();
+  // Why matrices can't tell the limit that is chosen: one text per matrix, empty: it can; none: all can.
+  void blindChanged(const std::vector<QString>& why);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  QWidget* makeHead();
+  QWidget* makeBody(QSettings& settings);
+  void say(const QString& text, bool bad);
+  void showState(const GraspStatus& status);
+  void showBound();
+  void showBlind();
+  QString doing(const GraspStatus& status) const;
+  QString whyNotMoved(const GraspStatus& status);
+  // How a grasp ended, as long as that is still so.
+  QString ending(const GraspReport& report, const GraspStatus& status) const;
+  void showSamples();
+  void showTemperatures(const Temperatures& temperatures);
+
+  QScrollArea* body_ = nullptr;
+  CaptureSession* session_ = nullptr;
+  GraspControl* control_ = nullptr;
+  std::shared_ptr<CaptureFeed> feed_;
+  std::vector<CaptureItem> items_;
+  QLabel* state_;
+  QLabel* heat_;
+  QPushButton* stop_;
+  GraspPanel* grasp_;
+  SensitivityModes* sensitivity_;
+  TactileSettingsPanel* tactile_;
+  FactsView* angles_;
+  FactsView* temperatures_;
+  StopKey* stopKey_;
+  QTimer timer_;
+  QString said_;  // a refusal, until something else is asked for
+  std::vector<std::pair<QAction*, QPushButton*>> bound_;
+  std::vector<QString> blind_;
+  std::vector<double> anglesDeg_;  // the newest; empty: none came
+  std::int64_t goneReturnedUs_ =
+      0;  // begin of the newest grasp after whose port the port came back
+  Theme theme_ = Theme::kDark;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,151 @@
+#include "gui/hand/sensitivity_modes.h"
+
+#include <QButtonGroup>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "gui/look/captions.h"
+
+namespace palpate::gui {
+
+SensitivityModes::SensitivityModes(QWidget* parent) : QWidget(parent) {
+  noiseLines = [](const std::string&) { return std::optional<NoiseFloor>(); };
+  buttons_ = new QButtonGroup(this);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(4);
+  const auto add =
+      [&](SensitivityMode mode, const char* name, const QString& text, const QString& tip) {
+        auto* button = new QToolButton(this);
+        button->setObjectName(name);
+        button->setText(text);
+        button->setToolTip(tip);
+        button->setCheckable(true);
+        button->setFocusPolicy(Qt::TabFocus);
+        buttons_->addButton(button, static_cast<int>(mode));
+        row->addWidget(button);
+      };
+  add(SensitivityMode::kManual,
+      "sensitivityManual",
+      "By hand",
+      "Values stay as they are set below");
+  add(SensitivityMode::kHigh,
+      "sensitivityHigh",
+      "High sensitivity",
+      "Sensitivity 1, thresholds just above the noise: they follow the temperatures, and rise when "
+      "noise slows the "
+      "stream; a filter takes the ghosts away");
+  add(SensitivityMode::kAdaptive,
+      "sensitivityAdaptive",
+      "Adaptive",
+      "Seeks the highest sensitivity at which nothing saturates");
+  row->addStretch(1);
+  text_ = new QLabel(this);
+  text_->setObjectName("sensitivityStatus");
+  text_->setProperty("role", "muted");
+  text_->setWordWrap(true);
+  text_->setMinimumHeight(2 * fontMetrics().lineSpacing());  // what is below stays where it is
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(4);
+  column->addLayout(row);
+  column->addWidget(text_);
+  connect(buttons_, &QButtonGroup::idClicked, this, [this](int id) {
+    choose(static_cast<SensitivityMode>(id));
+  });
+  setHand(nullptr, nullptr);
+}
+
+void SensitivityModes::setHand(CaptureSession* session, GraspControl* control) {
+  session_ = session;
+  control_ =
+      session && control ? std::make_unique<SensitivityControl>(*session, *control) : nullptr;
+  showMode(SensitivityMode::kManual);
+  setEnabled(control_ != nullptr);
+  text_->clear();
+}
+
+SensitivityMode SensitivityModes::mode() const {
+  return control_ ? control_->status().mode : SensitivityMode::kManual;
+}
+
+QString SensitivityModes::statusText() const { return text_->text(); }
+
+void SensitivityModes::showMode(SensitivityMode mode) {
+  buttons_->button(static_cast<int>(mode))->setChecked(true);
+  const bool was = shown_ == SensitivityMode::kHigh, is = mode == SensitivityMode::kHigh;
+  shown_ = mode;
+  if (was != is) emit highChanged(is);
+}
+
+void SensitivityModes::choose(SensitivityMode mode) {
+  if (!control_) return;
+  emit asked();
+  if (mode == control_->status().mode) return;
+  try {
+    switch (mode) {
+      case SensitivityMode::kManual:
+        control_->letGo();
+        break;
+      case SensitivityMode::kAdaptive:
+        control_->seek();
+        break;
+      case SensitivityMode::kHigh: {
+        const auto lines = noiseLines(session_->device().hand().name);
+        if (lines)
+          control_->holdHigh(*lines);
+        else
+          emit refused(
+              "High sensitivity needs noise lines of this hand: dock Calibrate, page Noise, "
+              "\"Apply "
+              "to this hand\".");
+        break;
+      }
+    }
+  } catch (const std::invalid_argument& error) {
+    emit refused(error.what());
+  }
+  showMode(control_->status().mode);
+}
+
+void SensitivityModes::letGo() {
+  if (!control_ || control_->status().mode == SensitivityMode::kManual) return;
+  control_->letGo();
+  showMode(SensitivityMode::kManual);
+}
+
+QString SensitivityModes::describe(const SensitivityStatus& status) const {
+  if (status.mode == SensitivityMode::kManual) return {};
+  if (!status.waiting.empty()) return "Waits: " + QString::fromStdString(status.waiting);
+  if (!status.failure.empty()) return "Not set: " + QString::fromStdString(status.failure);
+  if (status.setting) return "Being set: the stream pauses for half a second.";
+  if (status.measuring) return "Measuring the usual rate …";
+  if (status.mode == SensitivityMode::kAdaptive) {
+    const QString now = "Sensitivity " + figure(status.sensitivity, 2);
+    if (status.saturated) return now + ": saturated, and there is nothing lower.";
+    return now + (status.settled ? ": nothing higher without saturation."
+                                 : ": waits for something to be touched.");
+  }
+  QString text = "Thresholds follow the temperatures.";
+  if (status.noise.guarding)
+    text += " Raised by " + QString::number(status.noise.guardCounts) +
+            " counts: noise slowed the stream" +
+            (status.noise.atLimit ? " (no more is possible)." : ".");
+  if (!status.noise.unknown.empty())
+    text += " " + QString::number(status.noise.unknown.size()) +
+            " matrices without a temperature or line keep the reset value.";
+  else if (!status.noise.extrapolated.empty())
+    text += " " + QString::number(status.noise.extrapolated.size()) +
+            " matrices are beyond the temperatures measured.";
+  return text;
+}
+
+void SensitivityModes::refresh() {
+  if (!control_) return;
+  control_->step();
+  const QString now = describe(control_->status());
+  if (text_->text() != now) text_->setText(now);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,34 @@
+#include "gui/hand/stop_key.h"
+
+#include <QApplication>
+#include <QKeyEvent>
+
+namespace palpate::gui {
+
+StopKey::StopKey(QObject* parent) : QObject(parent) { qApp->installEventFilter(this); }
+
+bool StopKey::eventFilter(QObject* /*watched*/, QEvent* event) {
+  const QEvent::Type type = event->type();
+  const bool begins = type == QEvent::ShortcutOverride || type == QEvent::KeyPress;
+  if (!control_ || (!begins && type != QEvent::KeyRelease)) return false;
+  auto* key = static_cast<QKeyEvent*>(event);
+  if (key->key() != Qt::Key_Escape) return false;
+  if (type == QEvent::KeyRelease) {
+    const bool ours = swallow_ && !key->isAutoRepeat();
+    if (ours) swallow_ = false;
+    return ours;
+  }
+  const bool same = key->timestamp() != 0 && key->timestamp() == lastPress_;
+  if (!same && !key->isAutoRepeat()) {
+    lastPress_ = key->timestamp();
+    const bool moves = control_->status().phase != GraspPhase::kIdle;
+    // The press that follows its own override finds the hand stopping, or stopped.
+    swallow_ = moves || (swallow_ && type == QEvent::KeyPress);
+    control_->stop();
+    emit pressed();
+  }
+  if (swallow_) event->accept();
+  return swallow_;
+}
+
+}  // namespace palpate::gui

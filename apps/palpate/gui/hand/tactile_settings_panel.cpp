@@ -1,0 +1,264 @@
+#include "gui/hand/tactile_settings_panel.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QGridLayout>
+#include <QInputDialog>
+#include <QLabel>
+#include <QPushButton>
+#include <QSlider>
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include <palpate/model/hand_description.h>
+
+#include "gui/widgets/value_slider.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kMostThreshold = 4095;       // [counts]
+constexpr int kMostUsefulThreshold = 600;  // of the slider
+constexpr const char* kPick = "Saved settings…";
+
+enum TactileSettingsPanelColumn { kSquare, kName, kSensitivity, kThreshold };
+
+QLabel* tactileSettingsPanelCaption(const QString& text, QWidget* parent) {
+  auto* label = new QLabel(text, parent);
+  label->setProperty("role", "muted");
+  return label;
+}
+
+}  // namespace
+
+TactileSettingsPanel::TactileSettingsPanel(QSettings& settings, QWidget* parent)
+    : QWidget(parent), store_(settings) {
+  askForName = [this](const QString& suggestion) {
+    return QInputDialog::getText(this, "Save settings", "Name", QLineEdit::Normal, suggestion);
+  };
+  table_ = new QWidget(this);
+  auto* grid = new QGridLayout(table_);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(8);
+  grid->setVerticalSpacing(4);
+  grid->addWidget(tactileSettingsPanelCaption("matrix", table_), 0, kName);
+  grid->addWidget(tactileSettingsPanelCaption("sensitivity", table_), 0, kSensitivity);
+  grid->addWidget(tactileSettingsPanelCaption("threshold, counts", table_), 0, kThreshold);
+  grid->setColumnStretch(kSensitivity, 1);
+  grid->setColumnStretch(kThreshold, 1);
+  makeRow(0, "all");
+  for (const MatrixDescription& matrix : sdh2().matrices)
+    makeRow(static_cast<int>(rows_.size()), QString::fromStdString(matrix.shortName));
+  note_ = tactileSettingsPanelCaption({}, this);
+  note_->setMinimumHeight(fontMetrics().lineSpacing());  // nothing jumps when it says something
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(8);
+  column->addWidget(table_);
+  column->addWidget(note_);
+  makeButtons();
+  refresh({});
+}
+
+QWidget* TactileSettingsPanel::makeRow(int row, const QString& name) {
+  auto* grid = static_cast<QGridLayout*>(table_->layout());
+  Row made{};
+  made.square = new QLabel(table_);
+  made.square->setFixedSize(10, 10);
+  made.sensitivity =
+      new ValueSlider("Sensitivity of " + name, {0.0, 1.0, 1.0, 0.05, 2, {}}, table_);
+  made.threshold = new ValueSlider(
+      "Threshold of " + name, {0.0, kMostThreshold, kMostUsefulThreshold, 1.0, 0, {}}, table_);
+  made.sensitivity->setObjectName("sensitivity" + QString::number(row - 1));
+  made.threshold->setObjectName("threshold" + QString::number(row - 1));
+  made.sensitivity->setToolTip("0 least .. 1 most; a factory-fresh hand has 0.5");
+  made.threshold->setToolTip("Counts below are not sent, 0..4095");
+  const int digit = fontMetrics().horizontalAdvance('0');
+  constexpr int kFrame = 14;
+  made.sensitivity->field()->setFixedWidth(4 * digit + kFrame);
+  made.threshold->field()->setFixedWidth(4 * digit + kFrame);
+  grid->addWidget(made.square, row + 1, kSquare);
+  made.name = new QLabel(name, table_);
+  made.name->setObjectName("matrixName" + QString::number(row - 1));
+  grid->addWidget(made.name, row + 1, kName);
+  grid->addWidget(made.sensitivity, row + 1, kSensitivity);
+  grid->addWidget(made.threshold, row + 1, kThreshold);
+  const std::optional<int> matrix = row == 0 ? std::optional<int>() : std::optional<int>(row - 1);
+  connect(made.sensitivity, &ValueSlider::chosen, this, [this, matrix](double value) {
+    send({SetSensitivity{matrix, value}});
+  });
+  connect(made.threshold, &ValueSlider::chosen, this, [this, matrix](double value) {
+    send({SetThreshold{matrix, static_cast<int>(value)}});
+  });
+  rows_.push_back(made);
+  return table_;
+}
+
+void TactileSettingsPanel::makeButtons() {
+  const auto button = [this](const QString& text, const char* name, const QString& tip) {
+    auto* made = new QPushButton(text, this);
+    made->setObjectName(name);
+    made->setToolTip(tip);
+    made->setFocusPolicy(Qt::TabFocus);
+    return made;
+  };
+  reset_ = button("Reset", "resetSettings", "Sensitivity 0.5, threshold 150 proximal, 300 distal");
+  save_ = button("Save…", "saveSettings", "Keeps these values by name, for this hand");
+  remove_ = button("Delete", "removeSettings", "Forgets the saved settings that were chosen last");
+  names_ = new QComboBox(this);
+  names_->setObjectName("savedSettings");
+  auto* row = new QHBoxLayout;
+  row->setSpacing(6);
+  row->addWidget(reset_);
+  row->addWidget(names_, 1);
+  row->addWidget(save_);
+  row->addWidget(remove_);
+  static_cast<QVBoxLayout*>(layout())->addLayout(row);
+  connect(reset_, &QPushButton::clicked, this, [this] {
+    if (session_) bringTo(defaultTactileSettings(session_->device().hand()));
+  });
+  connect(names_, &QComboBox::activated, this, [this](int index) {
+    if (index <= 0) return;
+    if (const auto values = store_.load(serial(), names_->currentText()))
+      bringTo(*values);
+    else
+      emit refused("the settings '" + names_->currentText() + "' can't be read");
+  });
+  connect(save_, &QPushButton::clicked, this, [this] {
+    if (!session_) return;
+    const QString name =
+        askForName(names_->currentIndex() > 0 ? names_->currentText() : QString()).trimmed();
+    if (name.isEmpty()) return;
+    store_.save(serial(), name, session_->device().facts().matrices);
+    listNames();
+    names_->setCurrentText(name);
+  });
+  connect(remove_, &QPushButton::clicked, this, [this] {
+    if (names_->currentIndex() <= 0) return;
+    store_.remove(serial(), names_->currentText());
+    listNames();
+  });
+}
+
+void TactileSettingsPanel::setHand(CaptureSession* session, GraspControl* control) {
+  session_ = session;
+  control_ = control;
+  pending_.clear();
+  listedFor_ = QString();
+  listNames();
+  refresh(control ? control->status() : GraspStatus{});
+}
+
+QString TactileSettingsPanel::serial() const {
+  return session_ ? QString::fromStdString(session_->device().facts().serial) : QString();
+}
+
+void TactileSettingsPanel::listNames() {
+  names_->clear();
+  names_->addItem(kPick);
+  listedFor_ = serial();
+  if (session_) names_->addItems(store_.names(listedFor_));
+}
+
+void TactileSettingsPanel::send(const std::vector<DeviceCommand>& commands) {
+  if (!control_) return;
+  emit changedByHand();
+  try {
+    for (const DeviceCommand& command : commands) pending_.push_back(control_->change(command));
+  } catch (const std::exception& error) {
+    emit refused(error.what());
+  }
+}
+
+void TactileSettingsPanel::bringTo(const TactileSettings& to) {
+  if (!session_) return;
+  try {
+    send(commandsBetween(session_->device().facts().matrices, to));
+  } catch (const std::invalid_argument& error) {
+    emit refused(error.what());
+  }
+}
+
+void TactileSettingsPanel::heedAnswers() {
+  const auto isReady = [](const auto& answer) {
+    return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  };
+  for (const auto& answer : pending_) {
+    if (!isReady(answer)) continue;
+    try {
+      answer.get();
+    } catch (const std::exception& error) {
+      emit refused(error.what());
+    }
+  }
+  std::erase_if(pending_, isReady);
+}
+
+void TactileSettingsPanel::refresh(const GraspStatus& status) {
+  heedAnswers();
+  const TactileSettings values = session_ ? session_->device().facts().matrices : TactileSettings{};
+  QString why;
+  if (!session_)
+    why = "No hand is connected.";
+  else if (values.empty())
+    why = "No tactile controller is connected: there is nothing to set.";
+  else if (!status.cannotChange.empty())
+    why = "Not now: " + QString::fromStdString(status.cannotChange) + ".";
+  else if (!pending_.empty())
+    why = "Being changed: the stream pauses for half a second.";
+  const bool may = why.isEmpty() || !pending_.empty();
+  if (why.isEmpty()) why = blindText_;
+  if (note_->text() != why) note_->setText(why);
+  table_->setEnabled(may);
+  reset_->setEnabled(may);
+  names_->setEnabled(may && names_->count() > 1);
+  save_->setEnabled(may);
+  remove_->setEnabled(may && names_->currentIndex() > 0);
+  if (listedFor_ != serial()) listNames();
+  if (pending_.empty() && !values.empty()) showValues(values);
+  if (values.empty())
+    for (const Row& row : rows_) {
+      row.sensitivity->showUnknown();
+      row.threshold->showUnknown();
+    }
+}
+
+void TactileSettingsPanel::showValues(const TactileSettings& values) {
+  const std::size_t matrices = std::min(values.size(), rows_.size() - 1);
+  for (std::size_t m = 0; m < matrices; ++m) {
+    rows_[m + 1].sensitivity->showValue(values[m].sensitivity);
+    rows_[m + 1].threshold->showValue(values[m].thresholdCounts);
+  }
+  // The row of all: what the first one has.
+  rows_[0].sensitivity->showValue(values[0].sensitivity);
+  rows_[0].threshold->showValue(values[0].thresholdCounts);
+}
+
+void TactileSettingsPanel::showBlind(const std::vector<QString>& why, int limitCounts) {
+  int blind = 0;
+  for (std::size_t m = 0; m + 1 < rows_.size(); ++m) {
+    const QString reason = m < why.size() ? why[m] : QString();
+    blind += reason.isEmpty() ? 0 : 1;
+    QLabel* name = rows_[m + 1].name;
+    if (name->toolTip() != reason) name->setToolTip(reason);
+    const QString style = reason.isEmpty()
+                              ? QString()
+                              : "color: " + colorsOf(theme_).danger.name() + "; font-weight: bold;";
+    if (name->styleSheet() != style) name->setStyleSheet(style);
+  }
+  blindText_ = blind == 0 ? QString()
+                          : "Blind to a limit of " + QString::number(limitCounts) +
+                                " counts: " + QString::number(blind) +
+                                (blind == 1 ? " matrix (red)." : " matrices (red).");
+}
+
+void TactileSettingsPanel::setTheme(Theme theme) {
+  theme_ = theme;
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const QColor color = row == 0 ? wholeColor(theme) : matrixColor(row - 1, theme);
+    rows_[row].square->setStyleSheet("background: " + color.name() + "; border-radius: 2px;");
+  }
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,119 @@
+#include "gui/help/keys_dialog.h"
+
+#include <QAction>
+#include <QDialogButtonBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QScrollArea>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "gui/bench/actions.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kWidestWords = 190;  // [px]
+
+// What the mouse does has no action to be read from.
+const std::vector<KeyEntry>& mouseEntries() {
+  static const std::vector<KeyEntry> entries = {
+      {"Mouse", "Click or drag", "In the timeline or the seek bar: move through time"},
+      {"Mouse", "Wheel", "In the timeline: zoom; with Shift: pan"},
+      {"Mouse", "Middle or Shift+drag", "In the timeline: pan"},
+      {"Mouse", "Double click", "In the timeline: show all of it; on an event: name it"},
+      {"Mouse", "Drag", "In the timeline: select; along its axis: scrub; ends can be moved"},
+      {"Mouse", "Click or drag", "Over taxels: choose them; with Ctrl: choose more"},
+      {"Mouse", "Drag", "Hand in space: turn; with Shift or the middle button: move"},
+      {"Mouse", "Wheel or right drag", "Hand in space: nearer and further"},
+      {"Mouse", "Click, Ctrl+drag", "Hand in space: choose taxels; double click: all of it"},
+      {"Mouse", "Right button", "Over the matrices: which taxels are scanned"},
+      {"Mouse", "Hover", "Over a taxel or the timeline: the values there"},
+      {"Mouse", "Drop a file", "Anywhere: open it"}};
+  return entries;
+}
+
+QWidget* columnOf(const std::vector<KeyEntry>& entries, QWidget* parent) {
+  auto* column = new QWidget(parent);
+  auto* grid = new QGridLayout(column);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(18);
+  grid->setVerticalSpacing(5);
+  grid->setColumnStretch(1, 1);
+  QString section;
+  int row = 0;
+  for (const KeyEntry& entry : entries) {
+    if (entry.section != section) {
+      section = entry.section;
+      auto* heading = new QLabel(section.toUpper(), column);
+      heading->setProperty("role", "heading");
+      heading->setContentsMargins(0, row == 0 ? 0 : 12, 0, 2);
+      grid->addWidget(heading, row++, 0, 1, 2);
+    }
+    auto* keys = new QLabel(entry.keys, column);
+    keys->setTextFormat(Qt::PlainText);
+    grid->addWidget(keys, row, 0);
+    auto* what = new QLabel(entry.what, column);
+    what->setTextFormat(Qt::PlainText);
+    what->setProperty("role", "muted");
+    what->setWordWrap(true);
+    what->setFixedWidth(
+        std::min(kWidestWords, what->fontMetrics().horizontalAdvance(entry.what) + 4));
+    grid->addWidget(what, row++, 1);
+  }
+  grid->setRowStretch(row, 1);
+  return column;
+}
+
+}  // namespace
+
+std::vector<KeyEntry> keysOf(const QList<QAction*>& actions) {
+  std::vector<KeyEntry> entries;
+  for (const char* section :
+       {"File", "Edit", "Hand", "Playback", "View", "Hand in space", "Help"}) {
+    for (const QAction* action : actions) {
+      if (sectionOf(*action) != section || !action->isVisible()) continue;
+      if (const auto kind = kindOf(*action)) {
+        if (entries.back().what != kind->what) entries.push_back({section, kind->keys, kind->what});
+        continue;
+      }
+      QStringList keys;
+      for (const QKeySequence& sequence : action->shortcuts())
+        keys.append(sequence.toString(QKeySequence::NativeText));
+      if (!keys.isEmpty()) entries.push_back({section, keys.join(" or "), plainText(*action)});
+    }
+  }
+  return entries;
+}
+
+KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialog(parent) {
+  setWindowTitle("Keys");
+  // Columns about equally long.
+  std::vector<KeyEntry> left, middle, right, space;
+  for (const KeyEntry& entry : keysOf(actions))
+    (entry.section == "File" || entry.section == "Hand"   ? left
+     : entry.section == "View" || entry.section == "Help" ? middle
+     : entry.section == "Hand in space"                   ? space
+                                                          : right)
+        .push_back(entry);
+  space.insert(space.end(), mouseEntries().begin(), mouseEntries().end());
+  auto* content = new QWidget(this);
+  auto* columns = new QHBoxLayout(content);
+  columns->setContentsMargins(18, 16, 18, 8);
+  columns->setSpacing(24);
+  for (const std::vector<KeyEntry>& entries : {left, middle, right, space})
+    columns->addWidget(columnOf(entries, content), 1);
+  auto* scroll = new QScrollArea(this);
+  scroll->setWidgetResizable(true);
+  scroll->setWidget(content);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* page = new QVBoxLayout(this);
+  page->setContentsMargins(0, 0, 12, 12);
+  page->addWidget(scroll, 1);
+  page->addWidget(buttons);
+  const QSize wanted = content->sizeHint() + QSize(40, 80);
+  resize(wanted.boundedTo(QSize(1440, 860)));
+}
+
+}  // namespace palpate::gui

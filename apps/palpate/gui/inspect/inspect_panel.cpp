@@ -1,0 +1,250 @@
+#include "gui/inspect/inspect_panel.h"
+
+#include <QBoxLayout>
+#include <QLabel>
+#include <QResizeEvent>
+#include <algorithm>
+
+#include <palpate/core/time.h>
+
+#include "gui/look/captions.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kTwoColumnsFrom = 430;  // [px] of width
+
+// A recording may have 30 frames a second, or one in three seconds.
+QString rate(double hz) {
+  constexpr double kSlow = 10.0;
+  return figure(hz, hz < kSlow ? 2 : 1);
+}
+
+std::vector<Fact> inspectPanelFactsOf(const OpenedRecording& recording,
+                                      const QString& calibration) {
+  const Profile& profile = recording.profile;
+  const ProfileInfo& info = profile.info();
+  std::vector<Fact> facts;
+  facts.push_back({"file", QString::fromStdString(recording.path.filename().string())});
+  const QString type = info.valueType == ValueType::kCounts ? "counts" : "float values";
+  facts.push_back({"format", QString::fromStdString(info.format) + ", " + type});
+  facts.push_back({"hand", QString::fromStdString(profile.hand().name)});
+  if (!info.serial.empty()) facts.push_back({"serial", QString::fromStdString(info.serial)});
+  if (profile.numFrames() > 0) {
+    const std::string start = utcText(profile.frameTimeUs(0));
+    facts.push_back({"start (UTC)", QString::fromStdString(start).left(19)});
+  }
+  facts.push_back({"frames", QString::number(profile.numFrames())});
+  facts.push_back({"duration", figure(recording.timingNow().durationS, 2) + " s"});
+  facts.push_back({"rate",
+                   rate(recording.timingNow().rateHz) + " Hz (mean " +
+                       rate(recording.timingNow().meanRateHz) + ")"});
+  double longest = 0.0;
+  for (const Gap& gap : recording.timingNow().gaps) longest = std::max(longest, gap.seconds);
+  const auto gaps = recording.timingNow().gaps.size();
+  facts.push_back({"gaps",
+                   gaps == 0 ? QString("none")
+                             : QString::number(gaps) + ", longest " + figure(longest, 1) + " s",
+                   gaps > 0});
+  const std::size_t taxels = profile.layout().numTaxels();
+  std::size_t enabled = 0;
+  for (const MatrixLayout& matrix : profile.layout().matrices()) enabled += matrix.numEnabled();
+  facts.push_back({"taxels",
+                   enabled == taxels
+                       ? QString::number(taxels)
+                       : QString::number(enabled) + " of " + QString::number(taxels) + " scanned",
+                   enabled != taxels});
+  facts.push_back({"largest value", figure(recording.maximumNow(), 0) + " counts"});
+  const auto saturated = recording.saturatedFramesNow();
+  facts.push_back({"saturated frames",
+                   saturated ? QString::number(*saturated) : QString("being counted"),
+                   saturated.value_or(0) > 0});
+  facts.push_back({"calibration", calibration});
+  for (const char* key : {"operator", "object", "run", "notes"})
+    if (const auto said = recording.meta.find(key);
+        said != recording.meta.end() && !said->second.empty())
+      facts.push_back({key, QString::fromStdString(said->second).simplified()});
+  for (const std::string& warning : info.warnings)
+    facts.push_back({"warning", QString::fromStdString(warning), true});
+  return facts;
+}
+
+// At its time, what it is. Labels stand as they are; of other kinds the kind is said.
+std::vector<Fact> inspectPanelEventFacts(const OpenedRecording& recording,
+                                         const std::vector<RecordingEvent>& events) {
+  constexpr std::size_t kMostListed = 200;
+  std::vector<Fact> facts;
+  const Profile& profile = recording.profile;
+  const std::int64_t beginUs = profile.numFrames() > 0 ? profile.frameTimeUs(0) : 0;
+  const auto seconds = [&](std::int64_t us) {
+    return figure(static_cast<double>(us - beginUs) / kUsPerS, 2);
+  };
+  for (std::size_t i = 0; i < std::min(events.size(), kMostListed); ++i) {
+    const RecordingEvent& event = events[i];
+    QString when = seconds(event.tUs);
+    if (event.t1Us != event.tUs) when += " – " + seconds(event.t1Us);
+    const QString text = QString::fromStdString(event.text).simplified();
+    const QString kind = QString::fromStdString(event.kind);
+    facts.push_back({when + " s", text.isEmpty() ? kind : kind + ": " + text});
+  }
+  if (events.size() > kMostListed)
+    facts.push_back({"more", QString::number(events.size() - kMostListed)});
+  if (!recording.eventsFailure.empty())
+    facts.push_back({"not read", QString::fromStdString(recording.eventsFailure), true});
+  return facts;
+}
+
+std::vector<Fact> noneOf() { return {{"none in this recording", ""}}; }
+
+}  // namespace
+
+InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
+  setWidgetResizable(true);
+  setFrameShape(QFrame::NoFrame);
+  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  setFocusPolicy(Qt::NoFocus);
+  auto* content = new QWidget(this);
+  model_ = new MatrixTableModel(content);
+  matrices_ = new MatrixTable(model_, content);
+  facts_ = new FactsView(content);
+  facts_->setObjectName("recordingFacts");
+  events_ = new FactsView(content);
+  events_->setObjectName("eventFacts");
+  eventsHeading_ = sectionHeading("Events", content);
+  angles_ = new FactsView(content);
+  angles_->setObjectName("angleFacts");
+  temperatures_ = new FactsView(content);
+  temperatures_->setObjectName("temperatureFacts");
+
+  auto* left = new QVBoxLayout;
+  left->setSpacing(4);
+  heading_ = sectionHeading("Recording", content);
+  left->addWidget(heading_);
+  left->addWidget(facts_);
+  left->addStretch(1);
+  auto* right = new QVBoxLayout;
+  right->setSpacing(4);
+  right->addWidget(sectionHeading("Joint angles", content));
+  right->addWidget(angles_);
+  right->addSpacing(12);
+  right->addWidget(sectionHeading("Temperatures", content));
+  right->addWidget(temperatures_);
+  right->addStretch(1);
+  columns_ = new QBoxLayout(QBoxLayout::LeftToRight);
+  columns_->setSpacing(20);
+  columns_->addLayout(left, 6);
+  columns_->addLayout(right, 5);
+
+  auto* column = new QVBoxLayout(content);
+  column->setContentsMargins(12, 8, 12, 10);
+  column->setSpacing(14);
+  column->addWidget(matrices_);
+  column->addLayout(columns_);
+  auto* below = new QVBoxLayout;
+  below->setSpacing(4);
+  below->addWidget(eventsHeading_);
+  below->addWidget(events_);
+  column->addLayout(below);
+  column->addStretch(1);
+  setWidget(content);
+}
+
+void InspectPanel::setRecording(const OpenedRecordingPtr& recording) {
+  recording_ = recording;
+  model_->setRecording(recording);
+  showEvents(recording ? recording->events.events : std::vector<RecordingEvent>());
+  if (!recording) {
+    facts_->setFacts({});
+    angles_->setFacts({});
+    temperatures_->setFacts({});
+    return;
+  }
+  heading_->setText("RECORDING");
+  facts_->setFacts(inspectPanelFactsOf(*recording, calibration_));
+  listSensors(recording->profile.hand(),
+              recording->profile.numAngles() > 0,
+              recording->profile.numTemperatures() > 0);
+}
+
+void InspectPanel::showEvents(const std::vector<RecordingEvent>& events) {
+  std::vector<Fact> facts;
+  if (recording_) facts = inspectPanelEventFacts(*recording_, events);
+  eventsHeading_->setVisible(!facts.empty());
+  events_->setVisible(!facts.empty());
+  events_->setFacts(std::move(facts));
+}
+
+void InspectPanel::setCalibration(const QString& text) {
+  if (text == calibration_) return;
+  calibration_ = text;
+  renewFacts();
+}
+
+void InspectPanel::renewFacts() {
+  if (recording_) facts_->setFacts(inspectPanelFactsOf(*recording_, calibration_));
+}
+
+void InspectPanel::setHand(const HandDescription& hand) {
+  recording_.reset();
+  showEvents({});
+  model_->setHand(hand);
+  heading_->setText("LINK");
+  facts_->setFacts({});
+  listSensors(hand, true, true);
+}
+
+void InspectPanel::listSensors(const HandDescription& hand, bool angles, bool temperatures) {
+  std::vector<Fact> rows;
+  for (const AxisDescription& axis : hand.axes)
+    if (angles) rows.push_back({QString::fromStdString(axis.name), "–"});
+  angles_->setFacts(rows.empty() ? noneOf() : rows);
+  rows.clear();
+  for (const auto& sensor : hand.temperatureSensors)
+    if (temperatures) rows.push_back({QString::fromStdString(sensor.name), "–"});
+  temperatures_->setFacts(rows.empty() ? noneOf() : rows);
+}
+
+void InspectPanel::setLiveFacts(std::vector<Fact> facts) { facts_->setFacts(std::move(facts)); }
+
+void InspectPanel::showLive(const LiveResults& results) {
+  std::vector<CharacteristicSignals> rows = results.matrixSignals;
+  rows.push_back(results.wholeSignals);
+  model_->showSignals(rows);
+  if (results.angles) showAngles(*results.angles);
+  if (results.temperatures) showTemperatures(*results.temperatures);
+}
+
+void InspectPanel::showFrame(std::size_t frame) {
+  if (!recording_) return;
+  model_->showFrame(frame);
+  if (const auto angles = recording_->profile.anglesAtFrame(frame)) showAngles(*angles);
+  if (const auto temperatures = recording_->profile.temperaturesAtFrame(frame))
+    showTemperatures(*temperatures);
+}
+
+void InspectPanel::showAngles(const JointAngles& angles) {
+  for (std::size_t i = 0; i < std::min(angles.deg.size(), angles_->facts().size()); ++i)
+    angles_->setValue(i, figure(angles.deg[i], 1) + "°");
+}
+
+void InspectPanel::showTemperatures(const Temperatures& temperatures) {
+  const std::size_t rows = std::min(temperatures.degC.size(), temperatures_->facts().size());
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double value = temperatures.degC[i];
+    temperatures_->setValue(i, value == 0.0 ? QString("–") : figure(value, 1) + " °C");
+  }
+}
+
+void InspectPanel::setTheme(Theme theme) {
+  model_->setTheme(theme);
+  matrices_->setTheme(theme);
+  for (FactsView* facts : {facts_, events_, angles_, temperatures_}) facts->setTheme(theme);
+}
+
+void InspectPanel::resizeEvent(QResizeEvent* event) {
+  const bool wide = event->size().width() >= kTwoColumnsFrom;
+  columns_->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+  QScrollArea::resizeEvent(event);
+}
+
+}  // namespace palpate::gui

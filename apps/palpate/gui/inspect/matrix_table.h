@@ -1,0 +1,95 @@
+// The table of the Inspect dock: a row per matrix and one for the whole hand; signals of the current
+// frame, of a recording or live; a tick plots the row in the timeline.
+#pragma once
+
+#include <QAbstractTableModel>
+#include <QTableView>
+#include <array>
+#include <vector>
+
+#include <palpate/model/hand_description.h>
+
+#include "gui/look/theme.h"
+#include "gui/source/opened_recording.h"
+
+namespace palpate::gui {
+
+class MatrixTableModel : public QAbstractTableModel {
+  Q_OBJECT
+ public:
+  enum Column { kName, kActive, kMean, kMaximum, kForce, kMinimum, kSum, kArea, kNumColumns };
+
+  using QAbstractTableModel::QAbstractTableModel;
+
+  void setRecording(const OpenedRecordingPtr& recording);  // null: empty
+  // A live hand: all matrices are plotted; values come by showSignals().
+  void setHand(const HandDescription& hand);
+  void showFrame(std::size_t frame);
+  // One per matrix, the whole last; another number is ignored.
+  void showSignals(const std::vector<CharacteristicSignals>& rows);
+  // Force of one row [N]; nothing: no calibration is applied.
+  struct Force {
+    double newtons = 0.0;
+    double sd = 0.0;
+    bool inRange = true;
+    bool operator==(const Force&) const = default;
+  };
+  // One per matrix, the whole last; empty: no calibration is applied. `why`: says so, for the tool tip.
+  void showForces(const std::vector<Force>& forces, const QString& why);
+  // What is shown is of before: greyed.
+  void setOld(bool old);
+  std::size_t numMatrices() const noexcept { return shown_.empty() ? 0 : shown_.size() - 1; }
+  const HandDescription& hand() const noexcept { return hand_; }
+  void setTheme(Theme theme);
+  // Which rows are plotted; the last one is the whole hand.
+  const std::vector<bool>& plotted() const noexcept { return plotted_; }
+  void setPlotted(std::size_t row, bool on);
+
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& parent = {}) const override;
+  QVariant data(const QModelIndex& index, int role) const override;
+  bool setData(const QModelIndex& index, const QVariant& value, int role) override;
+  Qt::ItemFlags flags(const QModelIndex& index) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+ signals:
+  void plottedChanged();
+
+ private:
+  QString text(std::size_t row, int column) const;
+  QString forceText(std::size_t row) const;
+
+  void showRow(std::size_t row, const CharacteristicSignals& now);
+
+  OpenedRecordingPtr recording_;
+  HandDescription hand_;
+  std::vector<CharacteristicSignals> shown_;  // of the current frame, the whole last
+  std::vector<Force> forces_;                 // as shown_, or empty
+  QString forceTip_;
+  std::vector<bool> plotted_;
+  bool old_ = false;
+  Theme theme_ = Theme::kDark;
+};
+
+class TickDelegate;
+
+// As high as its rows.
+class MatrixTable : public QTableView {
+  Q_OBJECT
+ public:
+  explicit MatrixTable(MatrixTableModel* model, QWidget* parent = nullptr);
+  void setTheme(Theme theme);
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override;
+
+ protected:
+  // Where there is no room for all columns the last ones give way.
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  int nameWidth() const;
+  std::array<int, MatrixTableModel::kNumColumns> columnSizes_{};  // [px]
+  TickDelegate* ticks_;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,388 @@
+#include "gui/library/library_panel.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QProgressBar>
+#include <QStackedWidget>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "gui/desktop/reveal_file.h"
+#include "gui/look/icons.h"
+#include "gui/widgets/empty_page.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kLibraryPanelFolderKey = "library/folder";
+constexpr const char* kHeaderKey = "library/columns";
+constexpr int kLibraryPanelCalmMs = 1000;  // so long nothing changes before it is looked at again
+constexpr qsizetype kMostWatched = 500;    // folders
+constexpr int kLibraryPanelSteps = 1000;   // of the progress bar
+
+QString countText(int count, const QString& what) {
+  return QString::number(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+LibraryPanel::LibraryPanel(QSettings& settings,
+                           const QString& cacheFolder,
+                           LibraryScanner::Catalog catalog,
+                           QWidget* parent)
+    : QWidget(parent),
+      comparable([] { return false; }),
+      reveal(revealInFileManager),
+      settings_(settings),
+      scanner_(cacheFolder, std::move(catalog)),
+      model_(new LibraryModel(this)),
+      filter_(new LibraryFilter(*model_, this)) {
+  setObjectName("LibraryPanel");
+  askForFolder = [this](const QString& start) {
+    return QFileDialog::getExistingDirectory(this, "Folder with recordings", start);
+  };
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  buildTop();
+  pages_ = new QStackedWidget(this);
+  column->addWidget(pages_, 1);
+  buildTable();
+  buildEmpty();
+  buildBottom();
+  connectScanner();
+  changed_.setSingleShot(true);
+  changed_.setInterval(kLibraryPanelCalmMs);
+  connect(&changed_, &QTimer::timeout, this, &LibraryPanel::refresh);
+  connect(&watcher_, &QFileSystemWatcher::directoryChanged, this, [this] { changed_.start(); });
+  setFolder(settings_.value(kLibraryPanelFolderKey).toString());
+}
+
+LibraryPanel::~LibraryPanel() { rememberColumns(); }
+
+void LibraryPanel::buildTop() {
+  folderButton_ = new QToolButton(this);
+  folderButton_->setObjectName("libraryFolder");
+  folderButton_->setProperty("flat", true);
+  folderButton_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  folderButton_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  refreshButton_ = new QToolButton(this);
+  refreshButton_->setObjectName("libraryRefresh");
+  refreshButton_->setText("Refresh");
+  refreshButton_->setProperty("flat", true);
+  refreshButton_->setToolTip("Look into the folder again (F5)");
+  refreshButton_->setShortcut(QKeySequence("F5"));
+  search_ = new QLineEdit(this);
+  search_->setObjectName("librarySearch");
+  search_->setClearButtonEnabled(true);
+  search_->setPlaceholderText("Search: foam object:ball date:2014-11");
+  search_->setToolTip(
+      "Every word must be found; \"several words\" in quotes are one.\n"
+      "In one place only: name: path: operator: object: run: notes: label: date: form: state:");
+  search_->installEventFilter(this);
+  auto* first = new QHBoxLayout;
+  first->setContentsMargins(0, 0, 0, 0);
+  first->setSpacing(4);
+  first->addWidget(folderButton_, 1);
+  first->addWidget(refreshButton_);
+  auto* top = new QVBoxLayout;
+  top->setContentsMargins(8, 6, 8, 6);
+  top->setSpacing(6);
+  top->addLayout(first);
+  top->addWidget(search_);
+  static_cast<QVBoxLayout*>(layout())->addLayout(top);
+  connect(folderButton_, &QToolButton::clicked, this, &LibraryPanel::chooseFolder);
+  connect(refreshButton_, &QToolButton::clicked, this, &LibraryPanel::refresh);
+  connect(search_, &QLineEdit::textChanged, this, [this](const QString& text) {
+    filter_->setSearch(text);
+    showState();
+  });
+}
+
+void LibraryPanel::buildTable() {
+  table_ = new LibraryTable(filter_, pages_);
+  table_->sortByColumn(LibraryModel::kDate, Qt::DescendingOrder);
+  table_->horizontalHeader()->restoreState(settings_.value(kHeaderKey).toByteArray());
+  pages_->addWidget(table_);
+  connect(table_, &LibraryTable::openAsked, this, &LibraryPanel::openChosen);
+  connect(table_, &QTableView::doubleClicked, this, &LibraryPanel::openChosen);
+  connect(table_, &LibraryTable::searchAsked, this, &LibraryPanel::startSearch);
+  connect(table_, &LibraryTable::compareAsked, this, [this] {
+    const QStringList paths = chosen();
+    if (paths.size() == 1 && comparable()) emit compareAsked(paths.first());
+  });
+  connect(table_, &QWidget::customContextMenuRequested, this, &LibraryPanel::showMenu);
+  connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
+    showSummary();
+  });
+}
+
+void LibraryPanel::buildEmpty() {
+  empty_ = new EmptyPage("library", pages_);
+  pages_->addWidget(empty_);
+  connect(empty_, &EmptyPage::buttonClicked, this, [this] {
+    if (filter_->searching() && model_->numRecordings() > 0)
+      search_->clear();
+    else
+      chooseFolder();
+  });
+}
+
+void LibraryPanel::buildBottom() {
+  summary_ = new QLabel(this);
+  summary_->setObjectName("librarySummary");
+  summary_->setProperty("role", "muted");
+  summary_->setTextFormat(Qt::PlainText);
+  summary_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  bar_ = new QProgressBar(this);
+  bar_->setObjectName("libraryProgress");
+  bar_->setRange(0, kLibraryPanelSteps);
+  bar_->setTextVisible(false);
+  bar_->setFixedSize(90, 8);
+  stop_ = new QToolButton(this);
+  stop_->setObjectName("libraryStop");
+  stop_->setText("End search");
+  stop_->setProperty("flat", true);
+  stop_->setToolTip("Looks no further into the folder");
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(12, 4, 8, 4);
+  row->addWidget(summary_, 1);
+  row->addWidget(bar_);
+  row->addWidget(stop_);
+  static_cast<QVBoxLayout*>(layout())->addLayout(row);
+  bar_->hide();
+  stop_->hide();
+  connect(stop_, &QToolButton::clicked, &scanner_, &LibraryScanner::cancel);
+}
+
+void LibraryPanel::connectScanner() {
+  connect(&scanner_, &LibraryScanner::listed, this, [this](int numFiles) {
+    numListed_ = numFiles;
+    showState();
+  });
+  connect(
+      &scanner_, &LibraryScanner::found, this, [this](const std::vector<LibraryEntry>& entries) {
+        numFound_ += static_cast<int>(entries.size());
+        model_->take(entries);
+        showState();
+      });
+  connect(&scanner_, &LibraryScanner::progressed, this, [this](double fraction) {
+    bar_->setValue(static_cast<int>(fraction * kLibraryPanelSteps));
+  });
+  connect(&scanner_, &LibraryScanner::finished, this, [this](const CatalogReport& report) {
+    scanEnded(&report);
+  });
+  connect(&scanner_, &LibraryScanner::cancelled, this, [this] { scanEnded(nullptr); });
+  connect(&scanner_, &LibraryScanner::failed, this, [this](const QString& message) {
+    troubles_ = {message};
+    emit said(message);
+    scanEnded(nullptr);
+  });
+}
+
+void LibraryPanel::setFolder(const QString& folder) {
+  folder_ = folder;
+  settings_.setValue(kLibraryPanelFolderKey, folder_);
+  if (!watcher_.directories().isEmpty()) watcher_.removePaths(watcher_.directories());
+  model_->setFolder(folder_);
+  troubles_.clear();
+  looked_ = false;
+  stale_ = true;
+  showFolder();
+  if (isVisible() || scanner_.busy()) refresh();
+  showState();
+}
+
+void LibraryPanel::refresh() {
+  changed_.stop();
+  if (folder_.isEmpty()) return;
+  stale_ = !isVisible();
+  if (stale_) return scanner_.cancel();  // when it is seen again
+  numListed_ = 0;
+  numFound_ = 0;
+  troubles_.clear();
+  bar_->setValue(0);
+  model_->beginScan();
+  scanner_.scan(folder_);
+  showState();
+}
+
+void LibraryPanel::scanEnded(const CatalogReport* report) {
+  looked_ = true;
+  if (report) {
+    model_->endScan();
+    for (const std::string& trouble : report->troubles) {
+      troubles_.append(QString::fromStdString(trouble));
+      emit said(troubles_.last());
+    }
+    if (!report->cacheTrouble.empty())
+      emit said("Library: " + QString::fromStdString(report->cacheTrouble));
+    QStringList folders;
+    if (report->local)
+      for (const auto& folder : report->folders)
+        folders.append(QString::fromStdString(folder.string()));
+    folders = folders.mid(0, kMostWatched);
+    const QStringList watched = watcher_.directories();
+    for (const QString& folder : watched)
+      if (!folders.contains(folder)) watcher_.removePath(folder);
+    folders.removeIf([&](const QString& folder) { return watched.contains(folder); });
+    if (!folders.isEmpty()) watcher_.addPaths(folders);
+  }
+  showState();
+  emit settled();
+}
+
+void LibraryPanel::showFolder() {
+  constexpr int kIconAndRefresh = 140;
+  const QString shown = folderButton_->fontMetrics().elidedText(
+      folder_, Qt::ElideMiddle, std::max(60, width() - kIconAndRefresh));
+  folderButton_->setText(" " + (folder_.isEmpty() ? QString("Choose a folder…") : shown));
+  folderButton_->setToolTip(folder_.isEmpty() ? QString("Choose a folder with recordings")
+                                              : folder_ + "\nChoose another one");
+}
+
+// The table, or why there is none.
+void LibraryPanel::showState() {
+  const bool busy = scanner_.busy();
+  bar_->setVisible(busy);
+  stop_->setVisible(busy);
+  refreshButton_->setEnabled(!folder_.isEmpty());
+  search_->setEnabled(!folder_.isEmpty());
+  QString text;
+  QString button = "Choose a folder…";
+  if (folder_.isEmpty()) {
+    text = "The recordings of a folder, and of all folders in it, to be searched and opened.";
+  } else if (model_->numRecordings() > 0) {
+    if (filter_->rowCount() == 0) {
+      text = "Nothing here matches “" + search_->text().simplified() + "”.";
+      button = "Clear the search";
+    }
+  } else if (busy) {
+    text = "Looking into the folder …";
+    button.clear();
+  } else if (!troubles_.isEmpty()) {
+    text = troubles_.first();
+  } else if (looked_) {
+    text = "No recordings (.palpate, .dsa) lie in this folder or below it.";
+  }
+  const bool empty = !text.isEmpty() || (!folder_.isEmpty() && model_->numRecordings() == 0);
+  empty_->say(text, text.isEmpty() ? QString() : button);
+  pages_->setCurrentIndex(empty ? 1 : 0);
+  showSummary();
+}
+
+void LibraryPanel::showSummary() {
+  const int all = static_cast<int>(model_->numRecordings());
+  const int shown = filter_->rowCount();
+  const auto selected = table_->selectionModel()->selectedRows().size();
+  QStringList parts;
+  if (scanner_.busy() && numListed_ > 0)
+    parts.append(QString("%1 of %2 read").arg(numFound_).arg(numListed_));
+  else if (all > 0)
+    parts.append(filter_->searching()
+                     ? QString("%1 of %2").arg(shown).arg(countText(all, "recording"))
+                     : countText(all, "recording") + ", " + lengthText(model_->totalS()));
+  if (selected > 1) parts.append(QString::number(selected) + " chosen");
+  if (!troubles_.isEmpty() && all > 0)
+    parts.append(countText(static_cast<int>(troubles_.size()), "folder") + " not readable");
+  summary_->setText(parts.join(" · "));
+  summary_->setToolTip(troubles_.mid(0, 10).join('\n'));
+}
+
+void LibraryPanel::chooseFolder() {
+  const QString folder = askForFolder(folder_);
+  if (!folder.isEmpty()) setFolder(QFileInfo(folder).absoluteFilePath());
+}
+
+void LibraryPanel::setTheme(Theme theme) {
+  model_->setTheme(theme);
+  folderButton_->setIcon(makeIcon(IconShape::kOpen, theme));
+}
+
+void LibraryPanel::startSearch() {
+  search_->setFocus(Qt::ShortcutFocusReason);
+  search_->selectAll();
+}
+
+QStringList LibraryPanel::chosen() const {
+  QModelIndexList rows = table_->selectionModel()->selectedRows();
+  std::sort(
+      rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.row() < b.row(); });
+  QStringList paths;
+  for (const QModelIndex& row : rows) paths.append(model_->path(filter_->mapToSource(row).row()));
+  return paths;
+}
+
+void LibraryPanel::openChosen() {
+  const QStringList paths = chosen();
+  if (!paths.isEmpty()) emit openAsked(paths);
+}
+
+void LibraryPanel::showMenu(const QPoint& at) {
+  const QStringList paths = chosen();
+  QMenu menu(this);
+  const auto add = [&](const QString& text, const QString& keys, bool enabled, auto what) {
+    QAction* action = menu.addAction(text, this, what);
+    action->setShortcut(QKeySequence(keys));
+    action->setEnabled(enabled);
+  };
+  const bool one = paths.size() == 1;
+  add("&Open", "Return", !paths.isEmpty(), [this] { openChosen(); });
+  add("&Compare with the one shown", "Ctrl+Return", one && comparable(), [&] {
+    emit compareAsked(paths.first());
+  });
+  menu.addSeparator();
+  add("&Show in the file manager", {}, one, [&] { reveal(paths.first()); });
+  add("Copy &rows", "Ctrl+C", !paths.isEmpty(), [this] { table_->copyRows(); });
+  add("Copy &path", {}, !paths.isEmpty(), [&] {
+    QApplication::clipboard()->setText(paths.join('\n'));
+  });
+  menu.addSeparator();
+  add("Re&fresh", "F5", !folder_.isEmpty(), [this] { refresh(); });
+  menu.exec(table_->viewport()->mapToGlobal(at));
+}
+
+void LibraryPanel::rememberColumns() {
+  settings_.setValue(kHeaderKey, table_->horizontalHeader()->saveState());
+}
+
+void LibraryPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  if (stale_) refresh();
+}
+
+void LibraryPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  showFolder();
+}
+
+// From the search into what it found, without the mouse.
+bool LibraryPanel::eventFilter(QObject* watched, QEvent* event) {
+  if (watched != search_ ||
+      (event->type() != QEvent::KeyPress && event->type() != QEvent::ShortcutOverride))
+    return QWidget::eventFilter(watched, event);
+  const int key = static_cast<QKeyEvent*>(event)->key();
+  const bool down = key == Qt::Key_Down || key == Qt::Key_Return || key == Qt::Key_Enter;
+  const bool escape = key == Qt::Key_Escape && !search_->text().isEmpty();
+  if (!down && !escape) return QWidget::eventFilter(watched, event);
+  event->accept();
+  if (event->type() == QEvent::ShortcutOverride) return true;
+  if (escape) {
+    search_->clear();
+  } else if (filter_->rowCount() > 0) {
+    table_->setFocus(Qt::TabFocusReason);
+    if (chosen().isEmpty()) table_->selectRow(0);
+  }
+  return true;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,213 @@
+#include "gui/library/log_panel.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QComboBox>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QScrollBar>
+#include <QStackedWidget>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include <palpate/core/error.h>
+#include <palpate/core/output_file.h>
+
+#include "gui/widgets/empty_page.h"
+
+namespace palpate::gui {
+
+LogFilter::LogFilter(ActivityLog& log, QObject* parent) : QSortFilterProxyModel(parent), log_(log) {
+  setSourceModel(&log);
+}
+
+void LogFilter::setLeast(LogLine::Severity least) {
+  least_ = least;
+  invalidateRowsFilter();
+}
+
+void LogFilter::setWords(const QString& words) {
+  words_ = words.split(' ', Qt::SkipEmptyParts);
+  invalidateRowsFilter();
+}
+
+bool LogFilter::filterAcceptsRow(int row, const QModelIndex& parent) const {
+  if (parent.isValid()) return false;
+  const LogLine& line = log_.line(row);
+  return line.severity >= least_ &&
+         std::all_of(words_.begin(), words_.end(), [&](const QString& word) {
+           return line.text.contains(word, Qt::CaseInsensitive);
+         });
+}
+
+bool LogTable::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto* key = static_cast<QKeyEvent*>(event);
+    const auto moves = {
+        Qt::Key_Up, Qt::Key_Down, Qt::Key_Home, Qt::Key_End, Qt::Key_PageUp, Qt::Key_PageDown};
+    if (key->matches(QKeySequence::Copy) || key->matches(QKeySequence::SelectAll) ||
+        std::find(moves.begin(), moves.end(), key->key()) != moves.end()) {
+      event->accept();
+      return true;
+    }
+  }
+  return QTableView::event(event);
+}
+
+void LogTable::keyPressEvent(QKeyEvent* event) {
+  if (event->matches(QKeySequence::Copy)) {
+    emit copyAsked();
+  } else if (event->key() == Qt::Key_Home || event->key() == Qt::Key_End) {
+    const int row = event->key() == Qt::Key_Home ? 0 : model()->rowCount() - 1;
+    if (row < 0) return;
+    selectRow(row);
+    scrollTo(model()->index(row, 0));
+  } else {
+    QTableView::keyPressEvent(event);
+  }
+}
+
+LogPanel::LogPanel(ActivityLog& log, QWidget* parent)
+    : QWidget(parent), log_(log), filter_(new LogFilter(log, this)) {
+  setObjectName("LogPanel");
+  askForFile = [this](const QString& suggestion) {
+    return QFileDialog::getSaveFileName(this, "Save the log", suggestion, "Text (*.txt)");
+  };
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  buildTop();
+  buildTable();
+  const auto changed = [this] { showState(); };
+  connect(filter_, &QAbstractItemModel::rowsInserted, this, changed);
+  connect(filter_, &QAbstractItemModel::rowsRemoved, this, changed);
+  connect(filter_, &QAbstractItemModel::modelReset, this, changed);
+  showState();
+}
+
+void LogPanel::buildTop() {
+  severity_ = new QComboBox(this);
+  severity_->setObjectName("logSeverity");
+  severity_->addItems({"everything", "warnings and errors", "errors"});
+  severity_->setToolTip("Which lines are shown");
+  words_ = new QLineEdit(this);
+  words_->setObjectName("logSearch");
+  words_->setClearButtonEnabled(true);
+  words_->setPlaceholderText("Search");
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(8, 6, 8, 6);
+  row->setSpacing(6);
+  row->addWidget(severity_);
+  row->addWidget(words_, 1);
+  const auto button = [&](const QString& text, const char* name, const QString& tip) {
+    auto* made = new QToolButton(this);
+    made->setObjectName(name);
+    made->setText(text);
+    made->setToolTip(tip);
+    made->setProperty("flat", true);
+    row->addWidget(made);
+    return made;
+  };
+  QToolButton* copy =
+      button("Copy", "logCopy", "Copy the lines that are chosen, or all that are shown");
+  QToolButton* save =
+      button("Save…", "logSave", "Save the lines that are chosen, or all that are shown");
+  static_cast<QVBoxLayout*>(layout())->addLayout(row);
+  connect(severity_, &QComboBox::currentIndexChanged, this, [this](int index) {
+    filter_->setLeast(static_cast<LogLine::Severity>(index));
+    showState();
+  });
+  connect(words_, &QLineEdit::textChanged, this, [this](const QString& words) {
+    filter_->setWords(words);
+    showState();
+  });
+  connect(
+      copy, &QToolButton::clicked, this, [this] { QApplication::clipboard()->setText(text()); });
+  connect(save, &QToolButton::clicked, this, &LogPanel::save);
+}
+
+void LogPanel::buildTable() {
+  pages_ = new QStackedWidget(this);
+  table_ = new LogTable(pages_);
+  table_->setObjectName("logTable");
+  table_->setModel(filter_);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setTabKeyNavigation(false);
+  table_->setShowGrid(false);
+  table_->setWordWrap(false);
+  table_->setFrameShape(QFrame::NoFrame);
+  table_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
+  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 6);
+  table_->horizontalHeader()->hide();
+  table_->horizontalHeader()->setStretchLastSection(true);
+  constexpr int kPadding = 16;
+  const auto widthOf = [this](const QString& text) {
+    return fontMetrics().horizontalAdvance(text) + kPadding;
+  };
+  table_->horizontalHeader()->resizeSection(ActivityLog::kTime, widthOf("00:00:00.000"));
+  table_->horizontalHeader()->resizeSection(ActivityLog::kSeverity, widthOf("warning__"));
+  empty_ = new EmptyPage("log", pages_);
+  pages_->addWidget(table_);
+  pages_->addWidget(empty_);
+  static_cast<QVBoxLayout*>(layout())->addWidget(pages_, 1);
+  connect(
+      table_, &LogTable::copyAsked, this, [this] { QApplication::clipboard()->setText(text()); });
+  connect(empty_, &EmptyPage::buttonClicked, this, [this] {
+    words_->clear();
+    severity_->setCurrentIndex(0);
+  });
+  // Who looks at an older line goes on looking at it.
+  QScrollBar* bar = table_->verticalScrollBar();
+  connect(bar, &QScrollBar::valueChanged, this, [this, bar](int value) {
+    atEnd_ = value >= bar->maximum();
+  });
+  connect(bar, &QScrollBar::rangeChanged, this, [this, bar](int, int most) {
+    if (atEnd_) bar->setValue(most);
+  });
+}
+
+void LogPanel::showState() {
+  const bool none = filter_->rowCount() == 0;
+  if (none && log_.rowCount() > 0)
+    empty_->say("No line of the log is like that.", "Show everything");
+  else if (none)
+    empty_->say("Nothing was said yet.");
+  pages_->setCurrentIndex(none ? 1 : 0);
+}
+
+QString LogPanel::text() const {
+  std::vector<int> rows;
+  for (const QModelIndex& index : table_->selectionModel()->selectedRows())
+    rows.push_back(filter_->mapToSource(index).row());
+  if (rows.empty())
+    for (int row = 0; row < filter_->rowCount(); ++row)
+      rows.push_back(filter_->mapToSource(filter_->index(row, 0)).row());
+  std::sort(rows.begin(), rows.end());
+  QString text;
+  for (const int row : rows) text += log_.lineText(row) + '\n';
+  return text;
+}
+
+void LogPanel::save() {
+  const QString path = askForFile("palpate-log.txt");
+  if (path.isEmpty()) return;
+  try {
+    OutputFile file(path.toStdString(), Overwrite::kReplace);  // the dialog has asked
+    file.write(text().toStdString());
+    file.commit();
+    emit saved(path);
+  } catch (const Error& error) {
+    emit failed(QString::fromUtf8(error.what()));
+  }
+}
+
+void LogPanel::setTheme(Theme theme) { log_.setTheme(theme); }
+
+}  // namespace palpate::gui

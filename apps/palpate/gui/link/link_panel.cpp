@@ -1,0 +1,258 @@
+#include "gui/link/link_panel.h"
+
+#include <QCheckBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPlainTextEdit>
+#include <QTime>
+#include <QVBoxLayout>
+
+#include <palpate/core/time.h>
+
+#include "gui/look/captions.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kLinkPanelMostLines = 1000;  // of the log
+
+QString count(std::uint64_t value) { return QString::number(value); }
+
+QString bytes(double value) {
+  constexpr double kMega = 1e6, kGiga = 1e9;
+  if (value >= kGiga) return figure(value / kGiga, 1) + " GB";
+  return figure(value / kMega, 1) + " MB";
+}
+
+QString diskText(const LinkHealth& health) {
+  if (!health.freeBytes) return "not known";
+  QString text = bytes(static_cast<double>(*health.freeBytes)) + " free";
+  constexpr double kDayH = 24.0, kYearH = 8766.0;
+  if (!health.diskHours) return text;
+  if (*health.diskHours > kYearH) return text + ", over a year";
+  if (*health.diskHours > 2 * kDayH)
+    return text + ", " + figure(*health.diskHours / kDayH, 0) + " days";
+  return text + ", " + figure(*health.diskHours, 1) + " h";
+}
+
+QString portText(const PortStatus& port) {
+  return nameOf(port.state) + (port.port.empty() ? "" : " · " + QString::fromStdString(port.port));
+}
+
+}  // namespace
+
+QString nameOf(PortState state) {
+  switch (state) {
+    case PortState::kClosed:
+      return "closed";
+    case PortState::kConnecting:
+      return "looking for it";
+    case PortState::kStreaming:
+      return "streaming";
+    case PortState::kSilent:
+      return "silent";
+    case PortState::kLost:
+      return "gone, looking for it";
+    case PortState::kFault:
+      return "failed, trying it anew";
+  }
+  return {};
+}
+
+std::vector<Fact> factsOf(const LinkHealth& health) {
+  std::vector<Fact> facts;
+  const PortStatus& tactile = health.device.tactile;
+  facts.push_back({"tactile", portText(tactile), tactile.state != PortState::kStreaming});
+  if (const auto& motion = health.device.motion)
+    facts.push_back({"motion", portText(*motion), motion->state != PortState::kStreaming});
+  facts.push_back(
+      {"rate",
+       figure(health.frames.rateHz, 1) + " fps (mean " + figure(health.frames.meanRateHz, 1) + ")",
+       health.frames.lowRateS > 0.0});
+  constexpr double kOldMs = 500.0;
+  const auto age = health.frames.ageMs;
+  const QString ageText = !age              ? QString("no frame yet")
+                          : *age >= kMsPerS ? figure(*age / kMsPerS, 1) + " s"
+                                            : figure(*age, 0) + " ms";
+  facts.push_back({"frame age", ageText, !age || *age > kOldMs});
+  facts.push_back({"frames", count(health.frames.frames)});
+  facts.push_back({"lost", count(health.lost), health.lost > 0});
+  facts.push_back({"bad checksums", count(health.badChecksums), health.badChecksums > 0});
+  facts.push_back({"suspect", count(tactile.suspect), tactile.suspect > 0});
+  facts.push_back({"saturated",
+                   count(health.frames.saturatedFrames) + " frames, " +
+                       figure(health.frames.saturatedShare * 100.0, 0) + " % now",
+                   health.frames.saturatedShare > 0.0});
+  const FeedStats::Port& queue = health.queues.tactile;
+  facts.push_back({"queue",
+                   QString::number(queue.depth) + " of " + QString::number(queue.capacity) +
+                       ", most " + QString::number(queue.highWater),
+                   queue.depth > queue.capacity / 2});
+  std::uint64_t reconnects = tactile.reconnects;
+  if (health.device.motion) reconnects += health.device.motion->reconnects;
+  facts.push_back({"reconnects", count(reconnects), reconnects > 0});
+  facts.push_back({"disk", diskText(health)});
+  const RecorderStatus& recorder = health.recorder;
+  if (recorder.state != RecorderStatus::State::kIdle) {
+    facts.push_back({"on disk",
+                     QString::number(recorder.framesOnDisk) + " of " +
+                         QString::number(recorder.frames) + " frames, " +
+                         bytes(static_cast<double>(recorder.bytesOnDisk))});
+    facts.push_back({"not recorded",
+                     QString::number(recorder.lost + recorder.refused),
+                     recorder.lost + recorder.refused > 0});
+  }
+  return facts;
+}
+
+LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
+  check_ = new QLabel(this);
+  check_->setObjectName("beforeRun");
+  check_->setWordWrap(true);
+  check_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  alarms_ = new QLabel(this);
+  alarms_->setObjectName("linkAlarms");
+  alarms_->setWordWrap(true);
+  alarms_->setTextFormat(Qt::PlainText);
+  sound_ = new QCheckBox("Alarms are heard", this);
+  sound_->setObjectName("alarmSound");
+  sound_->setFocusPolicy(Qt::TabFocus);
+  sound_->setChecked(true);
+  connect(sound_, &QCheckBox::toggled, this, [this](bool on) { emit mutedChanged(!on); });
+  facts_ = new FactsView(this);
+  facts_->setObjectName("linkFacts");
+  others_ = new FactsView(this);
+  others_->setObjectName("otherPrograms");
+  log_ = new QPlainTextEdit(this);
+  log_->setObjectName("linkLog");
+  log_->setReadOnly(true);
+  log_->setMaximumBlockCount(kLinkPanelMostLines);
+  log_->setLineWrapMode(QPlainTextEdit::WidgetWidth);
+  log_->setFrameShape(QFrame::NoFrame);
+  log_->setFocusPolicy(Qt::ClickFocus);
+  log_->setMinimumHeight(4 * fontMetrics().lineSpacing());
+  log_->setAccessibleName("What happened");
+
+  auto* content = new QWidget(this);
+  auto* top = new QVBoxLayout(content);
+  top->setContentsMargins(12, 10, 12, 6);
+  top->setSpacing(6);
+  top->addWidget(sectionHeading("Before a run", content));
+  top->addWidget(check_);
+  top->addSpacing(4);
+  auto* alarmRow = new QHBoxLayout;
+  alarmRow->addWidget(sectionHeading("Alarms", content), 1);
+  alarmRow->addWidget(sound_);
+  top->addLayout(alarmRow);
+  top->addWidget(alarms_);
+  top->addSpacing(4);
+  top->addWidget(sectionHeading("Link", content));
+  top->addWidget(facts_);
+  top->addSpacing(4);
+  othersHeading_ = sectionHeading("Other programs", content);
+  top->addWidget(othersHeading_);
+  top->addWidget(others_);
+  top->addWidget(sectionHeading("What happened", content));
+  top->addWidget(log_, 1);
+  auto* area = new QScrollArea(this);
+  area->setWidgetResizable(true);
+  area->setFrameShape(QFrame::NoFrame);
+  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  area->setFocusPolicy(Qt::NoFocus);
+  area->setWidget(content);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(area);
+  showOtherPrograms({});
+  clear();
+}
+
+void LinkPanel::clear() {
+  connected_ = false;
+  lastCheck_.reset();
+  facts_->setFacts({{"nothing is connected", ""}});
+  showAlarms({});
+  showCheck();
+}
+
+void LinkPanel::showHealth(const LinkHealth& health, const std::optional<BeforeRun>& check) {
+  connected_ = true;
+  recording_ = health.recorder.state != RecorderStatus::State::kIdle;
+  lastCheck_ = check;
+  LinkHealth known = health;
+  if (!known.freeBytes && check) {  // the recorder asks only while it records
+    known.freeBytes = check->freeBytes;
+    known.diskHours = check->diskHours;
+  }
+  std::vector<Fact> facts = factsOf(known);
+  if (facts.size() != facts_->facts().size()) {
+    facts_->setFacts(std::move(facts));
+  } else {
+    bool sameMarks = true;
+    for (std::size_t i = 0; i < facts.size(); ++i)
+      sameMarks = sameMarks && facts[i].warning == facts_->facts()[i].warning;
+    if (!sameMarks)
+      facts_->setFacts(std::move(facts));
+    else
+      for (std::size_t i = 0; i < facts.size(); ++i) facts_->setValue(i, facts[i].value);
+  }
+  showCheck();
+}
+
+void LinkPanel::showCheck() {
+  const ThemeColors& colors = colorsOf(theme_);
+  QString text = "Connect a hand, the emulated hand or a replay first (Ctrl+K).";
+  QColor color = colors.muted;
+  if (connected_ && lastCheck_) {
+    text = QString::fromStdString(lastCheck_->text);
+    color = lastCheck_->ready ? colors.accent : colors.danger;
+  } else if (connected_) {
+    text = "checking …";
+  }
+  if (check_->text() != text) check_->setText(text);
+  const QString style = "color: " + color.name() + "; font-weight: bold;";
+  if (check_->styleSheet() != style) check_->setStyleSheet(style);
+}
+
+void LinkPanel::showAlarms(const QStringList& alarms) {
+  const ThemeColors& colors = colorsOf(theme_);
+  alarms_->setText(alarms.isEmpty() ? "none" : alarms.join('\n'));
+  alarms_->setStyleSheet("color: " + (alarms.isEmpty() ? colors.muted : colors.danger).name() +
+                         ";");
+}
+
+void LinkPanel::showOtherPrograms(std::vector<Fact> facts) {
+  othersHeading_->setVisible(!facts.empty());
+  others_->setVisible(!facts.empty());
+  if (facts.size() != others_->facts().size())
+    others_->setFacts(std::move(facts));
+  else
+    for (std::size_t i = 0; i < facts.size(); ++i)
+      if (facts[i].name == others_->facts()[i].name)
+        others_->setValue(i, facts[i].value);
+      else
+        return others_->setFacts(std::move(facts));
+}
+
+void LinkPanel::addEvent(const RecordingEvent& event) {
+  log(QString::fromStdString(event.kind) +
+      (event.text.empty() ? QString() : ": " + QString::fromStdString(event.text)));
+}
+
+void LinkPanel::log(const QString& line) {
+  log_->appendPlainText(QTime::currentTime().toString("HH:mm:ss") + "  " + line.simplified());
+  emit logged(line);
+}
+
+void LinkPanel::setMuted(bool muted) { sound_->setChecked(!muted); }
+
+void LinkPanel::setTheme(Theme theme) {
+  theme_ = theme;
+  facts_->setTheme(theme);
+  others_->setTheme(theme);
+  const QString alarms = alarms_->text();
+  showAlarms(alarms == "none" ? QStringList() : alarms.split('\n'));
+  showCheck();
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,147 @@
+#include <QFontInfo>
+#include <QFontMetricsF>
+#include <algorithm>
+#include <cmath>
+
+#include "gui/matrices/matrices_painter.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kMatricesGeometryMargin = 14.0;     // [px] around everything
+constexpr double kMatricesGeometryBarWidth = 14.0;   // [px] of the colour bar
+constexpr double kMatricesGeometryBarLabels = 46.0;  // [px] for its numbers
+constexpr double kBarGap = 26.0;                     // [px] between matrices and bar
+constexpr double kNarrowGap = 18.0;                  // [px] least space between columns of matrices
+constexpr double kWideGapTaxels = 2.5;               // most space between them
+constexpr double kRowGap = 10.0;                     // [px] between rows of matrices
+constexpr double kMatricesGeometryLargestTaxel = 64.0;  // [px] a small pad doesn't fill the screen
+
+// Extent of the picture's grid [mm].
+struct Grid {
+  std::vector<double> columnMm;
+  std::vector<double> rowMm;
+};
+
+Grid gridOf(const HandDescription& hand) {
+  Grid grid;
+  for (std::size_t m = 0; m < hand.matrices.size(); ++m) {
+    const MatrixLayout& layout = hand.layout->matrix(m);
+    const auto column = static_cast<std::size_t>(hand.matrices[m].pictureColumn);
+    const auto row = static_cast<std::size_t>(hand.matrices[m].pictureRow);
+    if (grid.columnMm.size() <= column) grid.columnMm.resize(column + 1, 0.0);
+    if (grid.rowMm.size() <= row) grid.rowMm.resize(row + 1, 0.0);
+    const double widthMm = layout.columns * layout.pitchMm;
+    const double heightMm = layout.rows * layout.pitchMm;
+    grid.columnMm[column] = std::max(grid.columnMm[column], widthMm);
+    grid.rowMm[row] = std::max(grid.rowMm[row], heightMm);
+  }
+  return grid;
+}
+
+double matricesGeometrySum(const std::vector<double>& values) {
+  double total = 0.0;
+  for (const double value : values) total += value;
+  return total;
+}
+
+// Down to whole device pixels, so that squares are equal and edges sharp.
+double snapped(double value, double pixelRatio) {
+  return pixelRatio > 0.0 ? std::floor(value * pixelRatio) / pixelRatio : value;
+}
+
+}  // namespace
+
+QFont pictureFont(const MatricesPictureOptions& options) {
+  QFont font = options.font;
+  font.setPixelSize(QFontInfo(options.font).pixelSize());
+  return font;
+}
+
+MatricesGeometry::MatricesGeometry(const QRectF& area,
+                                   const HandDescription& hand,
+                                   const MatricesPictureOptions& options)
+    : area_(area) {
+  const QFontMetricsF metrics(pictureFont(options));
+  const double nameHeight = metrics.height() + 4.0;
+  QRectF inside = area.adjusted(kMatricesGeometryMargin,
+                                kMatricesGeometryMargin * 0.6,
+                                -kMatricesGeometryMargin,
+                                -kMatricesGeometryMargin);
+  if (!options.title.isEmpty() || !options.caption.isEmpty()) {
+    title_ = QRectF(inside.left(), inside.top(), inside.width(), metrics.height());
+    inside.setTop(title_.bottom() + 8.0);
+  }
+  const Grid grid = gridOf(hand);
+  if (grid.columnMm.empty() || inside.width() <= 0 || inside.height() <= 0) return;
+  const auto columns = static_cast<double>(grid.columnMm.size());
+  const auto rows = static_cast<double>(grid.rowMm.size());
+  const double barSpace =
+      options.colorBar ? kBarGap + kMatricesGeometryBarWidth + kMatricesGeometryBarLabels : 0.0;
+
+  const double freeWidth = inside.width() - barSpace - (columns - 1) * kNarrowGap;
+  const double freeHeight = inside.height() - rows * nameHeight - (rows - 1) * kRowGap;
+  double pxPerMm = std::min(freeWidth / matricesGeometrySum(grid.columnMm),
+                            freeHeight / matricesGeometrySum(grid.rowMm));
+  // The first matrix' pitch gets whole pixels; all of an SDH-2's are equal.
+  const double pitchMm = hand.layout->matrix(0).pitchMm;
+  double side = std::clamp(pxPerMm * pitchMm, 1.0, kMatricesGeometryLargestTaxel);
+  if (side >= 3.0) side = snapped(side, options.pixelRatio);
+  pxPerMm = side / pitchMm;
+
+  // Width that is left goes between the fingers, up to a point, then to both sides.
+  const double spare = inside.width() - barSpace - pxPerMm * matricesGeometrySum(grid.columnMm);
+  double gap = kNarrowGap;
+  if (columns > 1) gap = std::clamp(spare / (columns - 1), kNarrowGap, kWideGapTaxels * side);
+  gap = std::max(gap, kNarrowGap);
+  const double width = pxPerMm * matricesGeometrySum(grid.columnMm) + (columns - 1) * gap;
+  const double height =
+      pxPerMm * matricesGeometrySum(grid.rowMm) + rows * nameHeight + (rows - 1) * kRowGap;
+  const double left = inside.left() + std::max(0.0, (inside.width() - width - barSpace) / 2);
+  const double top = inside.top() + std::max(0.0, (inside.height() - height) / 2);
+
+  for (std::size_t m = 0; m < hand.matrices.size(); ++m) {
+    const MatrixLayout& layout = hand.layout->matrix(m);
+    const auto column = static_cast<std::size_t>(hand.matrices[m].pictureColumn);
+    const auto row = static_cast<std::size_t>(hand.matrices[m].pictureRow);
+    double x = left;
+    for (std::size_t c = 0; c < column; ++c) x += grid.columnMm[c] * pxPerMm + gap;
+    double y = top;
+    for (std::size_t r = 0; r < row; ++r) y += nameHeight + grid.rowMm[r] * pxPerMm + kRowGap;
+    const double itsSide = layout.pitchMm * pxPerMm;
+    x += (grid.columnMm[column] * pxPerMm - layout.columns * itsSide) / 2;
+    x = snapped(x, options.pixelRatio);
+    y = snapped(y + nameHeight, options.pixelRatio);
+    sides_.push_back(itsSide);
+    matrices_.emplace_back(x, y, layout.columns * itsSide, layout.rows * itsSide);
+    const double nameWidth = grid.columnMm[column] * pxPerMm + gap - 4.0;
+    names_.emplace_back(
+        x + layout.columns * itsSide / 2 - nameWidth / 2, y - nameHeight, nameWidth, nameHeight);
+  }
+  const double barTop = top + nameHeight;
+  colorBar_ = QRectF(snapped(left + width + kBarGap, options.pixelRatio),
+                     snapped(barTop, options.pixelRatio),
+                     kMatricesGeometryBarWidth,
+                     std::max(1.0, top + height - barTop));
+}
+
+QRectF MatricesGeometry::taxelRect(std::size_t matrix, int y, int x) const {
+  const double side = sides_.at(matrix);
+  return {matrices_[matrix].left() + x * side, matrices_[matrix].top() + y * side, side, side};
+}
+
+std::optional<TaxelPlace> MatricesGeometry::placeAt(const QPointF& point) const {
+  for (std::size_t m = 0; m < matrices_.size(); ++m) {
+    const QRectF& rect = matrices_[m];
+    // Half open, so that a point on a seam belongs to one taxel only.
+    if (point.x() < rect.left() || point.x() >= rect.right() || point.y() < rect.top() ||
+        point.y() >= rect.bottom())
+      continue;
+    return TaxelPlace{m,
+                      static_cast<int>((point.y() - rect.top()) / sides_[m]),
+                      static_cast<int>((point.x() - rect.left()) / sides_[m])};
+  }
+  return std::nullopt;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,265 @@
+#include "gui/matrices/matrices_painter.h"
+
+#include <QFontMetricsF>
+#include <QImage>
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "gui/look/difference_map.h"
+#include "gui/matrices/heat_image.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kGridFrom = 5.0;        // [px] below this taxel side squares touch each other
+constexpr double kGridLine = 1.0;        // [px] between squares
+constexpr double kValuesFrom = 11.0;     // [px] below this side numbers can't be read
+constexpr double kSmallestFontPx = 5.0;  // of values
+constexpr double kLargestFontPx = 15.0;
+constexpr float kLeastSeenCounts = 0.5F;  // of taxels that weren't active as recorded
+
+QRectF squareOf(const QRectF& taxel) {
+  if (taxel.width() < kGridFrom) return taxel;
+  return taxel.adjusted(0.0, 0.0, -kGridLine, -kGridLine);
+}
+
+// A step of 1, 2 or 5 times a power of ten that divides `span` into about `parts`.
+double niceStep(double span, double parts) {
+  const double raw = span / std::max(1.0, parts);
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= raw) return factor * power;
+  return 10.0 * power;
+}
+
+QString tickText(double value) { return QString::number(value, 'g', 6); }
+
+const ColorTable& tableOf(const MatricesPictureOptions& options) {
+  return options.difference ? differenceTable(options.theme) : colorTable(options.map);
+}
+
+void paintTicks(QPainter& painter,
+                const QRectF& bar,
+                const ValueRange& range,
+                const MatricesPictureOptions& options) {
+  const ThemeColors& colors = colorsOf(options.theme);
+  const QFontMetricsF metrics(pictureFont(options));
+  const double span = range.maximum - range.minimum;
+  const double step = niceStep(span, bar.height() / (3.6 * metrics.height()));
+  const auto tick = [&](double value) {
+    const double y = bar.bottom() - (value - range.minimum) / span * bar.height();
+    painter.setPen(colors.muted);
+    painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + 4, y));
+    const QRectF text(bar.right() + 7, y - metrics.height() / 2, 60, metrics.height());
+    painter.drawText(text, Qt::AlignLeft | Qt::AlignVCenter, tickText(value));
+  };
+  // The ends are always named; a step that comes too close to one gives way.
+  const double clearance = span * 1.2 * metrics.height() / bar.height();
+  tick(range.minimum);
+  tick(range.maximum);
+  for (double value = std::ceil(range.minimum / step) * step; value < range.maximum; value += step)
+    if (value - range.minimum > clearance && range.maximum - value > clearance) tick(value);
+}
+
+// A taxel that exists but isn't scanned: crossed out, so that it can't be taken for one at rest.
+void paintMasked(QPainter& painter, const QRectF& square, const ThemeColors& colors) {
+  painter.setPen(QPen(colors.maskedLine, 1.0));
+  painter.setBrush(Qt::NoBrush);
+  const double inset = square.width() * 0.28;
+  const QRectF cross = square.adjusted(inset, inset, -inset, -inset);
+  painter.drawLine(cross.topLeft(), cross.bottomRight());
+  painter.drawLine(cross.bottomLeft(), cross.topRight());
+}
+
+void matricesPainterPaintNames(QPainter& painter,
+                               const MatricesGeometry& geometry,
+                               const HandDescription& hand,
+                               const MatricesPictureOptions& options) {
+  const QFontMetricsF metrics(pictureFont(options));
+  painter.setPen(colorsOf(options.theme).muted);
+  for (std::size_t m = 0; m < geometry.numMatrices(); ++m) {
+    const QRectF rect = geometry.nameRect(m);
+    QString name = QString::fromStdString(hand.matrixName(m));
+    if (metrics.horizontalAdvance(name) > rect.width())
+      name = QString::fromStdString(hand.matrices[m].shortName);
+    painter.drawText(rect.adjusted(0, 0, 0, -3),
+                     Qt::AlignHCenter | Qt::AlignBottom | Qt::TextDontClip,
+                     metrics.elidedText(name, Qt::ElideRight, rect.width()));
+  }
+}
+
+// Two frames, one black and one white: seen on every colour of every map.
+void paintSaturated(QPainter& painter, const QRectF& square) {
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(Qt::white, 1.0));
+  painter.drawRect(square.adjusted(0.5, 0.5, -0.5, -0.5));
+  if (square.width() < kGridFrom + 3.0) return;
+  painter.setPen(QPen(Qt::black, 1.0));
+  painter.drawRect(square.adjusted(1.5, 1.5, -1.5, -1.5));
+}
+
+// Black or white, whichever stands out more from `background` (relative luminance, WCAG 2).
+QColor contrasting(const QColor& background) {
+  const auto linear = [](double channel) {
+    return channel <= 0.03928 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
+  };
+  const double luminance = 0.2126 * linear(background.redF()) +
+                           0.7152 * linear(background.greenF()) +
+                           0.0722 * linear(background.blueF());
+  return luminance > 0.179 ? Qt::black : Qt::white;
+}
+
+// Large enough to read, small enough for "4095" in a square.
+QFont valueFont(const MatricesPictureOptions& options, double side) {
+  QFont font = options.font;
+  // "4095" is about 2.6 times as wide as its font is large.
+  const double widthPerPx = options.difference ? 3.3 : 2.62;
+  const double px = std::clamp((side - 2.0) / widthPerPx, kSmallestFontPx, kLargestFontPx);
+  font.setPixelSize(std::max(1, static_cast<int>(std::lround(px))));
+  return font;
+}
+
+}  // namespace
+
+void paintColorBar(QPainter& painter,
+                   const QRectF& bar,
+                   const ValueRange& range,
+                   const MatricesPictureOptions& options) {
+  if (bar.height() < 1.0) return;
+  const ColorTable& table = tableOf(options);
+  QImage ramp(1, static_cast<int>(table.size()), QImage::Format_RGB32);
+  for (int i = 0; i < ramp.height(); ++i)
+    ramp.setPixel(0, i, table[table.size() - 1 - static_cast<std::size_t>(i)]);
+  painter.drawImage(bar, ramp);
+  painter.setPen(colorsOf(options.theme).border);
+  painter.setBrush(Qt::NoBrush);
+  painter.drawRect(bar);
+  paintTicks(painter, bar, range, options);
+  const QFontMetricsF metrics(pictureFont(options));
+  painter.setPen(colorsOf(options.theme).muted);
+  // Above the number of the highest value.
+  const QRectF unit(bar.left(), bar.top() - 1.5 * metrics.height() - 2, 100, metrics.height());
+  painter.drawText(unit, Qt::AlignLeft | Qt::AlignVCenter, options.unit);
+}
+
+void paintTitle(QPainter& painter, const QRectF& rect, const MatricesPictureOptions& options) {
+  if (rect.isEmpty()) return;
+  QFont bold = pictureFont(options);
+  bold.setBold(true);
+  const QFontMetricsF captionMetrics(pictureFont(options));
+  const double captionWidth = captionMetrics.horizontalAdvance(options.caption);
+  painter.setFont(bold);
+  painter.setPen(colorsOf(options.theme).text);
+  const double titleWidth = std::max(0.0, rect.width() - captionWidth - 16.0);
+  painter.drawText(rect,
+                   Qt::AlignLeft | Qt::AlignVCenter,
+                   QFontMetricsF(bold).elidedText(options.title, Qt::ElideMiddle, titleWidth));
+  painter.setFont(pictureFont(options));
+  painter.setPen(colorsOf(options.theme).muted);
+  painter.drawText(rect, Qt::AlignRight | Qt::AlignVCenter, options.caption);
+}
+
+ValueRange rangeOf(const MatricesPictureOptions& options, const TactileFrame& frame) {
+  if (options.rangeMax > options.rangeMin) return {options.rangeMin, options.rangeMax};
+  float largest = 0.0F;
+  for (const float value : frame.allValues()) largest = std::max(largest, value);
+  return {0.0, largest > 0.0F ? static_cast<double>(largest) : 1.0};
+}
+
+void paintMatricesBackground(QPainter& painter,
+                             const MatricesGeometry& geometry,
+                             const HandDescription& hand,
+                             const ValueRange& range,
+                             const MatricesPictureOptions& options) {
+  const ThemeColors& colors = colorsOf(options.theme);
+  painter.save();
+  painter.fillRect(geometry.area(), colors.window);
+  painter.setFont(pictureFont(options));
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  paintTitle(painter, geometry.titleRect(), options);
+  matricesPainterPaintNames(painter, geometry, hand, options);
+  for (std::size_t m = 0; m < geometry.numMatrices(); ++m) {
+    const MatrixLayout& layout = hand.layout->matrix(m);
+    for (int y = 0; y < layout.rows; ++y) {
+      for (int x = 0; x < layout.columns; ++x) {
+        if (!layout.exists(y, x)) continue;
+        const QRectF square = squareOf(geometry.taxelRect(m, y, x));
+        if (layout.enabled(y, x))
+          painter.fillRect(square, colors.taxel);
+        else
+          paintMasked(painter, square, colors);
+      }
+    }
+  }
+  if (geometry.numMatrices() > 0 && options.colorBar)
+    paintColorBar(painter, geometry.colorBarRect(), range, options);
+  painter.restore();
+}
+
+void paintMatrixValues(QPainter& painter,
+                       const MatricesGeometry& geometry,
+                       std::size_t matrix,
+                       const TactileFrame& frame,
+                       const HandDescription& hand,
+                       const ValueRange& range,
+                       const MatricesPictureOptions& options) {
+  const MatrixLayout& layout = hand.layout->matrix(matrix);
+  const ConstMatrixMap values = frame.allValues(matrix);
+  const ConstMatrixMap contact = frame.matrix(matrix);
+  const ColorTable& table = tableOf(options);
+  const double side = geometry.taxelSide(matrix);
+  const auto saturation = hand.saturationCounts;
+  HeatImageOptions image{options.map, range.minimum, range.maximum};
+  if (options.difference) image.difference = &table;
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  const bool asImage = options.interpolated || side < kGridFrom;
+  if (asImage) {
+    painter.setRenderHint(QPainter::SmoothPixmapTransform, options.interpolated);
+    painter.drawImage(geometry.matrixRect(matrix),
+                      options.interpolated ? smoothHeatImage(values, layout, image)
+                                           : plainHeatImage(values, layout, image));
+  }
+  const bool withText = options.values && side >= kValuesFrom;
+  if (withText) painter.setFont(valueFont(options, side));
+  for (int y = 0; y < layout.rows; ++y) {
+    for (int x = 0; x < layout.columns; ++x) {
+      const float value = values(y, x);
+      // Of what filters left in taxels that nothing presses on, less than half a count is nothing to see.
+      const bool seen =
+          options.difference ? value != 0.0F : contact(y, x) > 0.0F || value >= kLeastSeenCounts;
+      if (!seen || !layout.enabled(y, x)) continue;
+      const int index = colorIndex(static_cast<double>(value), range.minimum, range.maximum);
+      const QColor color = QColor::fromRgb(table[static_cast<std::size_t>(index)]);
+      const QRectF square = squareOf(geometry.taxelRect(matrix, y, x));
+      if (!asImage) painter.fillRect(square, color);
+      if (value >= saturation && !options.difference) paintSaturated(painter, square);
+      if (!withText) continue;
+      painter.setPen(contrasting(color));
+      painter.drawText(square,
+                       Qt::AlignCenter | Qt::TextDontClip,
+                       options.difference ? signedText(static_cast<double>(value), 0)
+                                          : QString::number(std::lround(value)));
+    }
+  }
+  painter.restore();
+}
+
+void paintMatricesPicture(QPainter& painter,
+                          const QRectF& area,
+                          const TactileFrame& frame,
+                          const HandDescription& hand,
+                          const MatricesPictureOptions& options) {
+  if (!frame.layout || !hand.layout || !(*frame.layout == *hand.layout) ||
+      frame.values.size() != hand.layout->numPlaces())
+    throw std::invalid_argument("paintMatricesPicture: the frame is not of this hand");
+  const MatricesGeometry geometry(area, hand, options);
+  const ValueRange range = rangeOf(options, frame);
+  paintMatricesBackground(painter, geometry, hand, range, options);
+  for (std::size_t m = 0; m < geometry.numMatrices(); ++m)
+    paintMatrixValues(painter, geometry, m, frame, hand, range, options);
+}
+
+}  // namespace palpate::gui

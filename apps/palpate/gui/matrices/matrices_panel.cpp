@@ -1,0 +1,221 @@
+#include "gui/matrices/matrices_panel.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QResizeEvent>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kMatricesPanelControlHeight = 26;  // [px] of boxes beside buttons
+constexpr int kMatricesPanelNarrowest = 360;     // [px]
+constexpr int kMatricesPanelCompactBelow = 700;  // [px] of width: buttons lose their text
+constexpr double kLeastLiveRange = 500.0;        // [counts] a first light touch isn't glaring
+constexpr double kLiveRangeStep = 250.0;         // [counts]
+
+QToolButton* buttonFor(QAction* action, QWidget* parent) {
+  auto* button = new QToolButton(parent);
+  button->setDefaultAction(action);
+  button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  button->setFocusPolicy(Qt::TabFocus);
+  return button;
+}
+
+QDoubleSpinBox* rangeField(QWidget* parent, const char* name, const char* tip) {
+  auto* field = new QDoubleSpinBox(parent);
+  field->setObjectName(name);
+  field->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  field->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  field->setFixedWidth(field->fontMetrics().horizontalAdvance("0000000") + 18);
+  field->setDecimals(0);
+  field->setRange(0.0, 1e6);
+  field->setSingleStep(50.0);
+  field->setKeyboardTracking(false);
+  field->setFocusPolicy(Qt::ClickFocus);
+  field->setToolTip(tip);
+  return field;
+}
+
+}  // namespace
+
+MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* parent)
+    : QWidget(parent) {
+  auto* header = new QWidget(this);
+  header->setObjectName("ViewHeader");
+  header->setAttribute(Qt::WA_StyledBackground);
+  auto* title = new QLabel("<b>Matrices</b>", header);
+  map_ = new QComboBox(header);
+  map_->setObjectName("mapBox");
+  map_->setFocusPolicy(Qt::NoFocus);  // it has a key
+  map_->setToolTip("Colour map (M)");
+  for (const ColorMapName map : kAllColorMaps) map_->addItem(nameOf(map));
+  range_ = new QComboBox(header);
+  range_->setObjectName("rangeBox");
+  range_->setFocusPolicy(Qt::NoFocus);  // it has a key
+  for (QComboBox* box : {map_, range_}) box->setMinimumHeight(kMatricesPanelControlHeight);
+  range_->setToolTip("Where the colour range ends (R)");
+  for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
+  minimum_ = rangeField(header, "rangeMinimum", "Value of the lowest colour in counts");
+  maximum_ = rangeField(header, "rangeMaximum", "Value of the highest colour in counts");
+  to_ = new QLabel("–", header);
+
+  auto* row = new QHBoxLayout(header);
+  row->setContentsMargins(12, 4, 10, 4);
+  row->setSpacing(6);
+  row->addWidget(title);
+  row->addStretch(1);
+  looks_ = {buttonFor(interpolated, header), buttonFor(values, header)};
+  for (QToolButton* button : looks_) row->addWidget(button);
+  row->addSpacing(6);
+  row->addWidget(map_);
+  row->addWidget(range_);
+  row->addWidget(minimum_);
+  row->addWidget(to_);
+  row->addWidget(maximum_);
+
+  setMinimumWidth(kMatricesPanelNarrowest);
+  view_ = new MatricesView(this);
+  view_->setObjectName("matricesView");
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(header);
+  column->addWidget(view_, 1);
+
+  connect(map_, &QComboBox::activated, this, [this](int index) {
+    emit mapChosen(kAllColorMaps[static_cast<std::size_t>(index)]);
+  });
+  connect(range_, &QComboBox::activated, this, [this](int index) {
+    emit rangeChosen(kAllRangeModes[static_cast<std::size_t>(index)]);
+  });
+  const auto manual = [this] {
+    // The end that was typed pushes the other one along.
+    const double low = minimum_->value();
+    emit manualRangeChosen(low, std::max(maximum_->value(), low + 1.0));
+  };
+  connect(minimum_, &QDoubleSpinBox::valueChanged, this, manual);
+  connect(maximum_, &QDoubleSpinBox::valueChanged, this, manual);
+}
+
+void MatricesPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  const bool narrow = event->size().width() < kMatricesPanelCompactBelow;
+  for (QToolButton* button : looks_)
+    button->setToolButtonStyle(narrow ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
+}
+
+void MatricesPanel::setRecording(const OpenedRecordingPtr& recording) {
+  recording_ = recording;
+  frame_ = TactileFrame();
+  hand_.reset();
+  if (!recording_) {
+    view_->clear();
+    return;
+  }
+  range_->setItemText(0, nameOf(RangeMode::kRecording));
+  hand_ = recording_->profile.hand();
+  view_->setHand(*hand_);
+  applyLook();
+}
+
+void MatricesPanel::setHand(const HandDescription& hand) {
+  recording_.reset();
+  frame_ = TactileFrame();
+  range_->setItemText(0, "largest so far");    // there is no whole recording yet
+  if (!hand_) largestLive_ = kLeastLiveRange;  // else the same one, with other taxels scanned
+  hand_ = hand;
+  view_->setHand(hand);
+  applyLook();
+}
+
+void MatricesPanel::showLive(const TactileFrame& frame) {
+  frame_ = frame;
+  if (settings_.range == RangeMode::kFrame) {
+    applyLook();
+  } else {
+    const auto largest =
+        static_cast<double>(*std::max_element(frame_.values.begin(), frame_.values.end()));
+    // In steps, so that the colours don't creep while somebody presses harder.
+    if (largest > largestLive_) {
+      largestLive_ = std::ceil(largest / kLiveRangeStep) * kLiveRangeStep;
+      applyLook();
+    }
+  }
+  view_->setFrame(frame_);
+}
+
+void MatricesPanel::showFrame(std::size_t frame) {
+  if (!recording_ || recording_->profile.numFrames() == 0) return;
+  recording_->profile.readFrame(frame, frame_);
+  if (settings_.range == RangeMode::kFrame) applyLook();
+  view_->setFrame(frame_);
+}
+
+void MatricesPanel::setSettings(const ViewSettings& settings, Theme theme) {
+  settings_ = settings;
+  theme_ = theme;
+  const QSignalBlocker blockedMin(minimum_), blockedMax(maximum_);
+  map_->setCurrentText(nameOf(settings.map));
+  range_->setCurrentIndex(
+      static_cast<int>(std::find(kAllRangeModes.begin(), kAllRangeModes.end(), settings.range) -
+                       kAllRangeModes.begin()));
+  minimum_->setValue(settings.manualMin);
+  maximum_->setValue(settings.manualMax);
+  const bool manual = settings.range == RangeMode::kManual;
+  for (QWidget* part : {static_cast<QWidget*>(minimum_),
+                        static_cast<QWidget*>(to_),
+                        static_cast<QWidget*>(maximum_)})
+    part->setVisible(manual);
+  applyLook();
+}
+
+ValueRange MatricesPanel::rangeNow() const {
+  double maximum = 1.0;
+  switch (settings_.range) {
+    case RangeMode::kManual:
+      return {settings_.manualMin, settings_.manualMax};
+    case RangeMode::kFullScale:
+      if (hand_) maximum = static_cast<double>(hand_->maximumCounts);
+      break;
+    case RangeMode::kFrame:
+      for (const float value : frame_.values)
+        maximum = std::max(maximum, static_cast<double>(value));
+      break;
+    case RangeMode::kRecording:
+      maximum = std::max(maximum, recording_ ? recording_->maximumNow() : largestLive_);
+      break;
+  }
+  return {0.0, std::ceil(maximum)};  // filters make fractions, which nobody reads on a scale
+}
+
+void MatricesPanel::applyLook() {
+  view_->setLook({.map = settings_.map,
+                  .interpolated = settings_.interpolated,
+                  .values = settings_.values,
+                  .range = rangeNow(),
+                  .theme = theme_});
+  emit lookChanged(view_->look());
+}
+
+MatricesPictureOptions MatricesPanel::pictureOptions() const {
+  MatricesPictureOptions options;
+  options.map = settings_.map;
+  options.interpolated = settings_.interpolated;
+  options.values = settings_.values;
+  const ValueRange range = rangeNow();
+  options.rangeMin = range.minimum;
+  options.rangeMax = range.maximum;
+  options.theme = theme_;
+  options.font = font();
+  return options;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,264 @@
+#include "gui/matrices/matrices_view.h"
+
+#include <QEvent>
+#include <QMouseEvent>
+#include <QPaintEvent>
+#include <QPainter>
+#include <QToolTip>
+#include <algorithm>
+#include <cmath>
+
+#include "gui/matrices/taxel_text.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kBlind = "blind";
+
+}  // namespace
+
+MatricesView::MatricesView(QWidget* parent) : QWidget(parent) {
+  setMouseTracking(true);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  setAccessibleName("Matrices");
+}
+
+void MatricesView::setHand(const HandDescription& hand) {
+  // Another mask of the same hand: what is chosen stays.
+  const TaxelSelection fresh(*hand.layout);
+  if (selection_.numMatrices() != fresh.numMatrices()) selection_ = fresh;
+  hand_ = hand;
+  frame_.reset();
+  blind_.clear();
+  paintedUs_ = 0;
+  setHover(std::nullopt);
+  renew();
+}
+
+void MatricesView::clear() {
+  hand_.reset();
+  selection_ = {};
+  old_ = {};
+  blind_.clear();
+  paintedUs_ = 0;
+  frame_.reset();
+  setHover(std::nullopt);
+  renew();
+}
+
+void MatricesView::setPressure(std::shared_ptr<const PressureFrame> pressure) {
+  pressure_ = std::move(pressure);
+  if (hover_) emit hovered(hoverText());
+}
+
+void MatricesView::setFrame(const TactileFrame& frame) {
+  if (!hand_) return;
+  const bool first = !frame_;
+  QRegion changed;
+  for (std::size_t m = 0; m < geometry_.numMatrices() && !first; ++m)
+    if (frame.matrix(m) != static_cast<const TactileFrame&>(*frame_).matrix(m))
+      changed += geometry_.matrixRect(m).toAlignedRect();
+  frame_ = frame;
+  if (first)
+    update();
+  else if (!changed.isEmpty())
+    update(changed);
+  if (hover_) emit hovered(hoverText());
+}
+
+void MatricesView::setLook(const MatricesLook& look) {
+  if (look == look_) return;
+  look_ = look;
+  renew();
+}
+
+MatricesPictureOptions MatricesView::pictureOptions() const {
+  MatricesPictureOptions options;
+  options.map = look_.map;
+  options.interpolated = look_.interpolated;
+  options.values = look_.values;
+  options.rangeMin = look_.range.minimum;
+  options.rangeMax = look_.range.maximum;
+  options.theme = look_.theme;
+  options.pixelRatio = devicePixelRatioF();
+  options.font = font();
+  return options;
+}
+
+void MatricesView::renew() {
+  background_ = QPixmap();
+  geometry_ = hand_ ? MatricesGeometry(rect(), *hand_, pictureOptions()) : MatricesGeometry();
+  update();
+}
+
+void MatricesView::paintEvent(QPaintEvent* event) {
+  QPainter painter(this);
+  if (!hand_) {
+    painter.fillRect(event->rect(), colorsOf(look_.theme).window);
+    return;
+  }
+  const MatricesPictureOptions options = pictureOptions();
+  if (background_.isNull()) {
+    background_ = QPixmap(size() * devicePixelRatioF());
+    background_.setDevicePixelRatio(devicePixelRatioF());
+    QPainter onPixmap(&background_);
+    paintMatricesBackground(onPixmap, geometry_, *hand_, look_.range, options);
+  }
+  for (const QRect& part : event->region()) {
+    const QRectF source(QPointF(part.topLeft()) * devicePixelRatioF(),
+                        QSizeF(part.size()) * devicePixelRatioF());
+    painter.drawPixmap(QRectF(part), background_, source);
+  }
+  for (std::size_t m = 0; frame_ && m < geometry_.numMatrices(); ++m)
+    if (event->region().intersects(geometry_.matrixRect(m).toAlignedRect()))
+      paintMatrixValues(painter, geometry_, m, *frame_, *hand_, look_.range, options);
+  if (hover_) {
+    painter.setPen(QPen(colorsOf(look_.theme).accent, 2.0));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRect(geometry_.taxelRect(hover_->matrix, hover_->y, hover_->x));
+  }
+  paintBlind(painter);
+  paintSelection(painter);
+  paintOldPicture(painter, rect(), old_, look_.theme);
+  if (!frame_ || frame_->hostUs == paintedUs_) return;
+  paintedUs_ = frame_->hostUs;
+  emit painted(paintedUs_);
+}
+
+// An outline around what is chosen: inner borders would hide the values.
+void MatricesView::paintSelection(QPainter& painter) const {
+  if (selection_.empty()) return;
+  painter.setPen(QPen(colorsOf(look_.theme).accent, 2.0));
+  for (std::size_t m = 0; m < geometry_.numMatrices(); ++m) {
+    const MatrixLayout& layout = hand_->layout->matrix(m);
+    const auto chosen = [&](int y, int x) {
+      return y >= 0 && y < layout.rows && x >= 0 && x < layout.columns &&
+             selection_.contains(m, y, x);
+    };
+    for (int y = 0; y < layout.rows; ++y)
+      for (int x = 0; x < layout.columns; ++x) {
+        if (!chosen(y, x)) continue;
+        const QRectF rect = geometry_.taxelRect(m, y, x).adjusted(0, 0, -1, -1);
+        if (!chosen(y - 1, x)) painter.drawLine(rect.topLeft(), rect.topRight());
+        if (!chosen(y + 1, x)) painter.drawLine(rect.bottomLeft(), rect.bottomRight());
+        if (!chosen(y, x - 1)) painter.drawLine(rect.topLeft(), rect.bottomLeft());
+        if (!chosen(y, x + 1)) painter.drawLine(rect.topRight(), rect.bottomRight());
+      }
+  }
+}
+
+void MatricesView::setBlind(const std::vector<QString>& why) {
+  if (why == blind_) return;
+  blind_ = why;
+  update();
+}
+
+// A frame around it, and a word in its middle: what is dark there says nothing.
+void MatricesView::paintBlind(QPainter& painter) const {
+  const QColor& color = colorsOf(look_.theme).danger;
+  for (std::size_t m = 0; m < std::min(blind_.size(), geometry_.numMatrices()); ++m) {
+    if (blind_[m].isEmpty()) continue;
+    const QRectF rect = geometry_.matrixRect(m);
+    painter.setPen(QPen(color, 3.0));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRect(rect.adjusted(1.5, 1.5, -1.5, -1.5));
+    const QRectF word = QFontMetricsF(font())
+                            .boundingRect(rect, Qt::AlignHCenter | Qt::AlignBottom, kBlind)
+                            .adjusted(-6.0, -6.0, 6.0, -3.0);
+    painter.fillRect(word, color);
+    painter.setPen(colorsOf(look_.theme).window);
+    painter.drawText(word, Qt::AlignCenter, kBlind);
+  }
+}
+
+void MatricesView::setOld(const OldPicture& old) {
+  if (old == old_) return;
+  old_ = old;
+  update();
+}
+
+void MatricesView::select(const TaxelSelection& selection) {
+  if (selection == selection_ || selection.numMatrices() != selection_.numMatrices()) return;
+  selection_ = selection;
+  update();
+  emit selectionChanged();
+}
+
+void MatricesView::clearSelection() {
+  TaxelSelection none = selection_;
+  none.clear();
+  select(none);
+}
+
+void MatricesView::choose(const TaxelPlace& from, const TaxelPlace& to) {
+  TaxelSelection wanted = selectedBefore_;
+  if (from == to && wanted.contains(from.matrix, from.y, from.x))
+    wanted.toggle(from.matrix, from.y, from.x);  // Ctrl+click on a chosen one
+  else
+    wanted.add(from.matrix, from.y, from.x, to.y, to.x);
+  select(wanted);
+}
+
+void MatricesView::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton || !hand_) return QWidget::mousePressEvent(event);
+  selectedBefore_ = selection_;
+  if (!(event->modifiers() & Qt::ControlModifier)) selectedBefore_.clear();
+  pressed_ = geometry_.placeAt(event->position());
+  if (pressed_)
+    choose(*pressed_, *pressed_);
+  else
+    select(selectedBefore_);
+}
+
+void MatricesView::mouseReleaseEvent(QMouseEvent*) { pressed_.reset(); }
+
+void MatricesView::contextMenuEvent(QContextMenuEvent* event) {
+  if (hand_) emit menuAsked(event->globalPos());
+}
+
+void MatricesView::resizeEvent(QResizeEvent*) { renew(); }
+
+void MatricesView::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::FontChange) renew();
+  QWidget::changeEvent(event);
+}
+
+void MatricesView::setHover(std::optional<TaxelPlace> place) {
+  if (place == hover_) return;
+  hover_ = place;
+  update();
+  emit hovered(hoverText());
+}
+
+void MatricesView::mouseMoveEvent(QMouseEvent* event) {
+  std::optional<TaxelPlace> place;
+  if (hand_) place = geometry_.placeAt(event->position());
+  if (pressed_ && (event->buttons() & Qt::LeftButton)) {
+    // A drag stays in its matrix, whatever the mouse is over.
+    const QRectF matrix = geometry_.matrixRect(pressed_->matrix);
+    const double side = geometry_.taxelSide(pressed_->matrix);
+    const QPointF inside(std::clamp(event->position().x(), matrix.left(), matrix.right() - 1),
+                         std::clamp(event->position().y(), matrix.top(), matrix.bottom() - 1));
+    choose(*pressed_,
+           {pressed_->matrix,
+            static_cast<int>((inside.y() - matrix.top()) / side),
+            static_cast<int>((inside.x() - matrix.left()) / side)});
+  }
+  if (place && !hand_->layout->matrix(place->matrix).exists(place->y, place->x)) place.reset();
+  setHover(place);
+  if (place)
+    QToolTip::showText(event->globalPosition().toPoint() + QPoint(12, 8), hoverText(), this);
+  else
+    QToolTip::hideText();
+}
+
+void MatricesView::leaveEvent(QEvent*) { setHover(std::nullopt); }
+
+QString MatricesView::hoverText() const {
+  if (!hover_ || !hand_) return {};
+  const QString text = taxelText(*hand_, *hover_, frame_, pressure_.get());
+  const std::size_t m = hover_->matrix;
+  return m < blind_.size() && !blind_[m].isEmpty() ? text + " · " + blind_[m] : text;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,43 @@
+#include "gui/matrices/taxel_text.h"
+
+#include <cmath>
+
+#include "gui/look/captions.h"
+
+namespace palpate::gui {
+namespace {
+
+QString pressureText(const HandDescription& hand,
+                     const TaxelPlace& place,
+                     const PressureFrame* pressure) {
+  const auto [m, y, x] = place;
+  if (!pressure || pressure->kpa.size() != hand.layout->numPlaces()) return {};
+  const std::size_t at =
+      hand.layout->offset(m) + static_cast<std::size_t>(y * hand.layout->matrix(m).columns + x);
+  return " · " + figure(static_cast<double>(pressure->kpa[at]), 1) + " kPa · " +
+         figure(taxelForceN(*pressure, *hand.layout, m, y, x), 3) + " N" +
+         (pressure->matrices[m].inRange ? "" : ", outside what was measured");
+}
+
+}  // namespace
+
+QString taxelText(const HandDescription& hand,
+                  const TaxelPlace& place,
+                  const std::optional<TactileFrame>& frame,
+                  const PressureFrame* pressure) {
+  const auto [m, y, x] = place;
+  const MatrixLayout& layout = hand.layout->matrix(m);
+  const QString where = QString::fromStdString(hand.matrixName(m)) + " · x " + QString::number(x) +
+                        ", y " + QString::number(y) + " · ";
+  if (!layout.enabled(y, x)) return where + "masked: not scanned";
+  if (!frame) return where + "no frame yet";
+  const float value = frame->allValues(m)(y, x);
+  if (!(value > 0.0F)) return where + "0 counts, at rest";
+  const QString number = value == std::round(value)
+                             ? QString::number(std::lround(value))
+                             : QString::number(static_cast<double>(value), 'f', 2);
+  return where + number + " counts" + (value >= hand.saturationCounts ? ", saturated" : "") +
+         pressureText(hand, place, pressure);
+}
+
+}  // namespace palpate::gui

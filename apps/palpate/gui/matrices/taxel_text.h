@@ -1,0 +1,21 @@
+// What a taxel says under the mouse: where it is and what it feels.
+#pragma once
+
+#include <QString>
+#include <optional>
+
+#include <palpate/calibration/pressure_map.h>
+#include <palpate/model/hand_description.h>
+#include <palpate/model/tactile_frame.h>
+
+#include "gui/matrices/matrices_painter.h"
+
+namespace palpate::gui {
+
+// "finger 0 distal · x 3, y 5 · 812 counts"; with pressures " · 12.3 kPa · 0.14 N" as well.
+QString taxelText(const HandDescription& hand,
+                  const TaxelPlace& place,
+                  const std::optional<TactileFrame>& frame,
+                  const PressureFrame* pressure = nullptr);
+
+}  // namespace palpate::gui

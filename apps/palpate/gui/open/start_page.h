@@ -1,0 +1,44 @@
+// What the window shows when nothing is open: what can be done, and what was open last.
+#pragma once
+
+#include <QWidget>
+
+#include "gui/look/theme.h"
+#include "gui/source/recent_files.h"
+
+class QLabel;
+class QVBoxLayout;
+
+namespace palpate::gui {
+
+class StartPage : public QWidget {
+  Q_OBJECT
+ public:
+  // `recent` must outlive this. The demo is offered only where its file is there.
+  StartPage(RecentFiles& recent, bool withDemo, QWidget* parent = nullptr);
+  // A file is being dragged over the window.
+  void setDragging(bool on);
+  void setTheme(Theme theme);
+
+ signals:
+  void openAsked();
+  void demoAsked();  // the demo recording
+  void connectAsked();
+  void emulatedAsked();
+  void fileChosen(const QString& path);
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  void listRecent();
+
+  RecentFiles& recent_;
+  Theme theme_ = Theme::kDark;
+  QWidget* list_ = nullptr;
+  QVBoxLayout* column_;
+  QLabel* recentHeading_;
+  QLabel* dropHint_;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,205 @@
+#include "gui/picture/child_program.h"
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <palpate/core/error.h>
+
+extern char** environ;
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kPatienceMs = 50;
+constexpr std::size_t kMostSaid = 256 * 1024;  // [bytes]
+constexpr int kFirstFree = 10;                 // above all that the program is given
+
+std::string childProgramMessageOf(int error) { return std::generic_category().message(error); }
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const noexcept { return number_; }
+  int release() noexcept { return std::exchange(number_, -1); }
+  // Makes its number one that isn't overwritten when it becomes another of the program's.
+  void moveUp() {
+    const int higher = ::fcntl(number_, F_DUPFD_CLOEXEC, kFirstFree);
+    if (higher < 0) throw Error("too many files are open: " + childProgramMessageOf(errno));
+    ::close(std::exchange(number_, higher));
+  }
+
+ private:
+  int number_;
+};
+
+// What the program inherits; nothing else does, ours are all closed at its start.
+class SpawnPlan {
+ public:
+  SpawnPlan() {
+    posix_spawn_file_actions_init(&files);
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    sigset_t usual;
+    sigemptyset(&usual);
+    for (const int each : {SIGPIPE, SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&usual, each);
+    posix_spawnattr_setsigdefault(&attributes, &usual);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(
+        &attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+  }
+  ~SpawnPlan() {
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+  }
+  SpawnPlan(const SpawnPlan&) = delete;
+  SpawnPlan& operator=(const SpawnPlan&) = delete;
+  void give(int ours, int theirs) { posix_spawn_file_actions_adddup2(&files, ours, theirs); }
+
+  posix_spawn_file_actions_t files{};
+  posix_spawnattr_t attributes{};
+};
+
+void ask(const ChildProgram::KeepGoing& keepGoing) {
+  if (keepGoing && !keepGoing()) throw Cancelled();
+}
+
+}  // namespace
+
+ChildProgram::ChildProgram(const std::filesystem::path& program,
+                           const std::vector<std::string>& arguments,
+                           int descriptor) {
+  std::array<int, 2> sockets{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0)
+    throw Error(program.string() + " can't be started: " + childProgramMessageOf(errno));
+  Descriptor input(sockets[0]);
+  Descriptor theirInput(sockets[1]);
+  std::array<int, 2> pipe{};
+  if (::pipe2(pipe.data(), O_CLOEXEC) != 0)
+    throw Error(program.string() + " can't be started: " + childProgramMessageOf(errno));
+  Descriptor output(pipe[0]);
+  Descriptor theirOutput(pipe[1]);
+  theirInput.moveUp();
+  theirOutput.moveUp();
+  ::fcntl(output.number(), F_SETFL, O_NONBLOCK);
+  SpawnPlan plan;
+  plan.give(theirInput.number(), STDIN_FILENO);
+  plan.give(theirOutput.number(), STDOUT_FILENO);
+  plan.give(theirOutput.number(), STDERR_FILENO);
+  // Last: it may be one of those numbers itself, never one that was just given.
+  Descriptor passed(descriptor < 0 ? -1 : ::fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstFree));
+  if (passed.number() >= 0) plan.give(passed.number(), kPassedAs);
+
+  std::string name = program.string();
+  std::vector<std::string> words = arguments;
+  std::vector<char*> argv = {name.data()};
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const int failure =
+      ::posix_spawn(&pid_, name.c_str(), &plan.files, &plan.attributes, argv.data(), environ);
+  if (failure != 0) {
+    pid_ = -1;
+    throw Error(program.string() + " can't be started: " + childProgramMessageOf(failure));
+  }
+  input_ = input.release();
+  output_ = output.release();
+}
+
+ChildProgram::~ChildProgram() {
+  kill();
+  closeInput();
+  if (output_ >= 0) ::close(output_);
+}
+
+void ChildProgram::closeInput() {
+  if (input_ >= 0) ::close(std::exchange(input_, -1));
+}
+
+void ChildProgram::kill() {
+  if (pid_ < 0) return;
+  ::kill(-pid_, SIGKILL);
+  while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  pid_ = -1;
+}
+
+void ChildProgram::wait(bool toWrite) {
+  std::array<pollfd, 2> polled = {pollfd{output_, POLLIN, 0},
+                                  pollfd{toWrite ? input_ : -1, POLLOUT, 0}};
+  if (::poll(polled.data(), polled.size(), kPatienceMs) <= 0 || polled[0].revents == 0) return;
+  std::array<char, 4096> piece{};
+  const ssize_t count = ::read(output_, piece.data(), piece.size());
+  if (count > 0) {
+    said_.append(piece.data(), static_cast<std::size_t>(count));
+    if (said_.size() > 2 * kMostSaid) said_.erase(0, said_.size() - kMostSaid);
+  } else if (count == 0 || (errno != EAGAIN && errno != EINTR)) {
+    ::close(std::exchange(output_, -1));
+  }
+}
+
+bool ChildProgram::write(std::span<const std::byte> bytes, const KeepGoing& keepGoing) {
+  while (!bytes.empty()) {
+    if (input_ < 0) return false;
+    const ssize_t written = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (written > 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+      continue;
+    }
+    if (errno == EPIPE || errno == ECONNRESET) {
+      closeInput();
+      return false;
+    }
+    if (errno != EAGAIN && errno != EINTR)
+      throw Error("nothing can be given to a program: " + childProgramMessageOf(errno));
+    ask(keepGoing);
+    wait(true);
+  }
+  return true;
+}
+
+int ChildProgram::finish(const KeepGoing& keepGoing) {
+  closeInput();
+  int status = 0;
+  while (pid_ >= 0) {
+    // Not waited for yet: as long as it is a zombie, its number and its group's are nobody else's.
+    siginfo_t facts{};
+    const int asked = ::waitid(P_PID, static_cast<id_t>(pid_), &facts, WEXITED | WNOHANG | WNOWAIT);
+    if (asked == 0 && facts.si_pid == pid_) {
+      ::kill(-pid_, SIGKILL);
+      while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+      }
+      pid_ = -1;
+    } else if (asked != 0 && errno != EINTR) {
+      pid_ = -1;
+      throw Error("the end of a program can't be awaited: " + childProgramMessageOf(errno));
+    } else {
+      ask(keepGoing);
+      wait(false);
+    }
+  }
+  // What it said last is in the pipe still.
+  for (std::size_t before = said_.size() + 1; output_ >= 0 && before != said_.size();) {
+    before = said_.size();
+    wait(false);
+  }
+  constexpr int kKilled = 128;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : kKilled + WTERMSIG(status);
+}
+
+}  // namespace palpate::gui

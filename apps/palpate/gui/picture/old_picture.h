@@ -1,0 +1,25 @@
+// How a view says that its picture isn't of now: a veil over it, and a line that tells why. The same in every view.
+#pragma once
+
+#include <QRectF>
+#include <QString>
+
+#include "gui/look/theme.h"
+
+class QPainter;
+
+namespace palpate::gui {
+
+// Of a picture that the user holds.
+inline constexpr const char* kHeldText = "held – P goes on";
+
+struct OldPicture {
+  QString notice;     // why, one line; empty: the picture is of now
+  bool held = false;  // by the user: still to be read, under a light veil
+  bool operator==(const OldPicture&) const = default;
+};
+
+// Over what was painted; nothing without a notice.
+void paintOldPicture(QPainter& painter, const QRectF& area, const OldPicture& old, Theme theme);
+
+}  // namespace palpate::gui

@@ -1,0 +1,124 @@
+#include "gui/playback/playback_bar.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <algorithm>
+#include <limits>
+
+#include <palpate/core/number_text.h>
+
+#include "gui/playback/seek_bar.h"
+#include "gui/widgets/number_field.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kTimeDecimals = 2;
+
+int asInt(std::size_t value) {
+  return static_cast<int>(
+      std::min(value, static_cast<std::size_t>(std::numeric_limits<int>::max())));
+}
+
+// A field to type a number into; the arrows would only repeat the step buttons.
+template <class Field>
+Field* makeField(QWidget* parent, const char* name, int digits) {
+  auto* field = new Field(parent);
+  field->setObjectName(name);
+  field->setFixedWidth(field->fontMetrics().horizontalAdvance(QString(digits, '0')) + 18);
+  return field;
+}
+
+}  // namespace
+
+PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
+    : QWidget(parent), playback_(playback) {
+  setObjectName("PlaybackBar");
+  setAttribute(Qt::WA_StyledBackground);
+  seekBar_ = new SeekBar(this);
+  seekBar_->setObjectName("seekBar");
+  frame_ = makeField<FrameField>(this, "frameField", 7);
+  frame_->setToolTip("Frame, counted from 0: type one and press Enter (Ctrl+G)");
+  frame_->setAccessibleName("Frame");
+  ofFrames_ = new QLabel(this);
+  ofFrames_->setObjectName("ofFrames");
+  time_ = makeField<SecondsField>(this, "timeField", 8);
+  time_->setDecimals(kTimeDecimals);
+  time_->setToolTip("Time from the first frame in s: type one and press Enter");
+  time_->setAccessibleName("Time in seconds");
+  ofTime_ = new QLabel(this);
+  ofTime_->setObjectName("ofTime");
+
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(12, 5, 12, 5);
+  row->setSpacing(6);
+  row->addWidget(seekBar_, 1);
+  row->addSpacing(8);
+  row->addWidget(new QLabel("frame", this));
+  row->addWidget(frame_);
+  row->addWidget(ofFrames_);
+  row->addSpacing(10);
+  row->addWidget(time_);
+  row->addWidget(ofTime_);
+
+  // In the playback's name: closing the window ends what is being typed, perhaps after the playback.
+  connect(seekBar_, &SeekBar::sought, &playback_, [this](int frame) {
+    playback_.seekFrame(static_cast<std::size_t>(frame));
+  });
+  connect(frame_, &QSpinBox::valueChanged, &playback_, [this](int frame) {
+    playback_.seekFrame(static_cast<std::size_t>(frame));
+  });
+  connect(time_, &QDoubleSpinBox::valueChanged, &playback_, [this](double seconds) {
+    playback_.seekSeconds(seconds);
+  });
+  // After Enter the keys belong to the playback again.
+  for (QAbstractSpinBox* field :
+       {static_cast<QAbstractSpinBox*>(frame_), static_cast<QAbstractSpinBox*>(time_)})
+    connect(field, &QAbstractSpinBox::editingFinished, field, &QWidget::clearFocus);
+  connect(&playback_, &PlaybackController::frameChanged, this, &PlaybackBar::showFrame);
+  connect(&playback_, &PlaybackController::positionChanged, this, &PlaybackBar::showTime);
+  connect(&playback_, &PlaybackController::stateChanged, this, &PlaybackBar::takeRecording);
+  takeRecording();
+}
+
+void PlaybackBar::setTheme(Theme theme) { seekBar_->setTheme(theme); }
+
+void PlaybackBar::editFrame() {
+  frame_->setFocus(Qt::ShortcutFocusReason);
+  frame_->selectAll();
+}
+
+void PlaybackBar::takeRecording() {
+  const std::size_t frames = playback_.numFrames();
+  setEnabled(frames > 0);
+  {
+    const QSignalBlocker blockedBar(seekBar_), blockedFrame(frame_), blockedTime(time_);
+    const int last = asInt(frames == 0 ? 0 : frames - 1);
+    seekBar_->setRange(0, last);
+    frame_->setRange(0, last);
+    time_->setRange(0.0, playback_.durationS());
+  }
+  const QString ofFrames = "of " + QString::number(frames);
+  if (ofFrames_->text() != ofFrames) ofFrames_->setText(ofFrames);
+  const QString ofTime =
+      "/ " + QString::fromStdString(fixedText(playback_.durationS(), kTimeDecimals)) + " s";
+  if (ofTime_->text() != ofTime) ofTime_->setText(ofTime);
+  showFrame(playback_.frame());
+}
+
+void PlaybackBar::showFrame(std::size_t frame) {
+  const QSignalBlocker blockedBar(seekBar_), blockedFrame(frame_);
+  seekBar_->setValue(asInt(frame));
+  // What is being typed isn't overwritten by the playback.
+  if (!frame_->hasFocus() || !playback_.playing()) frame_->setValue(asInt(frame));
+  showTime(playback_.positionS());
+}
+
+// Between two frames, too: in a gap the frame stands still and the time goes on.
+void PlaybackBar::showTime(double seconds) {
+  const QSignalBlocker blocked(time_);
+  if (!time_->hasFocus() || !playback_.playing()) time_->setValue(seconds);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,35 @@
+// A slider over the frames of a recording: a click jumps there, a drag scrubs.
+#pragma once
+
+#include <QSlider>
+
+#include "gui/look/theme.h"
+
+namespace palpate::gui {
+
+class SeekBar : public QSlider {
+  Q_OBJECT
+ public:
+  explicit SeekBar(QWidget* parent = nullptr);
+  void setTheme(Theme theme);
+  // Pixel (x) of a frame, and back.
+  double pixelOf(int frame) const;
+  int frameAt(double pixel) const;
+
+ signals:
+  // By mouse only; following the playback is no seek.
+  void sought(int frame);
+
+ protected:
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  void seekTo(double pixel);
+  Theme theme_ = Theme::kDark;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,32 @@
+// An answer of recognition on the screen: as large as there is room.
+#pragma once
+
+#include <QWidget>
+
+#include "gui/recognise/object_photo.h"
+#include "gui/recognise/recognition_answer.h"
+
+namespace palpate::gui {
+
+class AnswerView : public QWidget {
+  Q_OBJECT
+ public:
+  // `scale`: of its text to that of the window; 0: as large as fits.
+  AnswerView(PhotoShelf& photos, double scale, QWidget* parent = nullptr);
+  void setAnswer(const RecognitionAnswer& answer);
+  const RecognitionAnswer& answer() const noexcept { return answer_; }
+  void setTheme(Theme theme);
+  QSize sizeHint() const override { return {380, 300}; }
+  QSize minimumSizeHint() const override { return {220, 180}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  PhotoShelf& photos_;
+  const double scale_;
+  RecognitionAnswer answer_;
+  Theme theme_ = Theme::kDark;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,152 @@
+#include "gui/recognise/ask_page.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "gui/recognise/answer_view.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kButtonScale = 1.25;
+
+}  // namespace
+
+AskPage::AskPage(RecogniseDesk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
+  setObjectName("askPage");
+  model_ = new QLabel(this);
+  model_->setObjectName("recogniseModel");
+  model_->setTextFormat(Qt::PlainText);
+  model_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  models_ = new QMenu(this);
+  auto* choose = new QPushButton("Model", this);
+  choose->setObjectName("recogniseModelButton");
+  choose->setMenu(models_);
+  connect(models_->addAction("&Open a model…"), &QAction::triggered, this, [this] {
+    if (const auto path = askForModel(); !path.empty()) desk_.openModel(path);
+  });
+  connect(models_->addAction("The &emulated objects"),
+          &QAction::triggered,
+          &desk_,
+          &RecogniseDesk::useEmulatedModel);
+  ask_ = new QPushButton(this);
+  ask_->setObjectName("whatIsIt");
+  ask_->setProperty("primary", true);
+  ask_->setMinimumHeight(44);
+  QFont large = ask_->font();
+  large.setPointSizeF(kButtonScale * large.pointSizeF());
+  ask_->setFont(large);
+  byItself_ = new QCheckBox("By itself", this);
+  byItself_->setObjectName("recogniseByItself");
+  byItself_->setToolTip("While something is held it is asked again and again");
+  auto* show = new QPushButton("Show", this);
+  show->setObjectName("showMode");
+  show->setToolTip("Full screen, for an audience (Shift+Q)");
+  view_ = new AnswerView(desk.photos(), 1.0, this);
+  view_->setObjectName("answerView");
+  classes_ = new QComboBox(this);
+  classes_->setObjectName("tellClass");
+  classes_->setAccessibleName("What it is");
+  classes_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  tell_ = new QPushButton("Tell", this);
+  tell_->setObjectName("tell");
+  tell_->setToolTip(
+      "Says what this grasp is: the hand is adapted to today by it (undo: page Today)");
+
+  auto* top = new QHBoxLayout;
+  top->setSpacing(8);
+  top->addWidget(choose);
+  top->addWidget(model_, 1);
+  auto* asking = new QHBoxLayout;
+  asking->setSpacing(8);
+  asking->addWidget(ask_, 1);
+  auto* beside = new QVBoxLayout;
+  beside->setSpacing(4);
+  beside->addWidget(byItself_);
+  beside->addWidget(show);
+  asking->addLayout(beside);
+  auto* bottom = new QHBoxLayout;
+  bottom->setSpacing(8);
+  bottom->addWidget(new QLabel("It is", this));
+  bottom->addWidget(classes_, 1);
+  bottom->addWidget(tell_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(12, 8, 12, 10);
+  column->setSpacing(8);
+  column->addLayout(top);
+  column->addLayout(asking);
+  column->addWidget(view_, 1);
+  column->addLayout(bottom);
+
+  connect(ask_, &QPushButton::clicked, this, &AskPage::asked);
+  connect(show, &QPushButton::clicked, this, &AskPage::showAsked);
+  connect(&desk_, &RecogniseDesk::modelChanged, this, &AskPage::showModel);
+  connect(&desk_, &RecogniseDesk::answered, this, [this](const RecognitionAnswer& answer) {
+    view_->setAnswer(answer);
+    showTelling();
+  });
+  connect(tell_, &QPushButton::clicked, this, [this] {
+    const auto grasp = desk_.answer().grasp;
+    if (!grasp) return;
+    const int chosen = classes_->currentIndex();
+    desk_.changeDay([&](RecognitionDay& day) { day.tell(*grasp, chosen); });
+    emit desk_.said("told: " + classes_->currentText());
+  });
+  askForModel = [this] {
+    return std::filesystem::path(
+        QFileDialog::getOpenFileName(this,
+                                     "Open a model",
+                                     QString::fromStdString(desk_.modelPath().string()),
+                                     "Models (*.json);;All files (*)")
+            .toStdString());
+  };
+  view_->setAnswer(desk_.answer());
+  setLive(false, false);
+  showModel();
+}
+
+void AskPage::setLive(bool live, bool held) {
+  const QString text = !live  ? "What is it?  (Q)"
+                       : held ? "What do you hold?  (Q)"
+                              : "What was it?  (Q)";
+  if (ask_->text() != text) ask_->setText(text);
+  byItself_->setVisible(live);
+}
+
+bool AskPage::byItself() const { return byItself_->isChecked(); }
+
+void AskPage::showModel() {
+  const TrainedModel* model = desk_.model();
+  const auto count = model ? static_cast<int>(model->classes.size()) : 0;
+  const QString file = QString::fromStdString(desk_.modelPath().filename().string());
+  model_->setText(model ? file + " · " + QString::number(count) + " objects"
+                  : desk_.modelTrouble().isEmpty() ? QString("no model")
+                                                   : file + " can't be used");
+  model_->setToolTip(model ? QString::fromStdString(desk_.modelPath().string())
+                           : desk_.modelTrouble());
+  classes_->clear();
+  if (model)
+    for (const std::string& name : model->classes) classes_->addItem(QString::fromStdString(name));
+  showTelling();
+}
+
+void AskPage::showTelling() {
+  const RecognitionAnswer& answer = desk_.answer();
+  const bool can = desk_.model() && desk_.model()->carriesOver() && answer.grasp &&
+                   *answer.grasp < desk_.day()->grasps().size();
+  classes_->setEnabled(can);
+  tell_->setEnabled(can);
+  if (!can || answer.best.empty()) return;
+  const auto& told = desk_.day()->grasps()[*answer.grasp].told;
+  classes_->setCurrentIndex(told ? *told : classes_->findText(answer.best.front().name));
+}
+
+void AskPage::setTheme(Theme theme) { view_->setTheme(theme); }
+
+}  // namespace palpate::gui

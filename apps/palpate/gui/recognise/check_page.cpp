@@ -1,0 +1,265 @@
+#include "gui/recognise/check_page.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QStackedWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include <palpate/core/number_text.h>
+
+#include "gui/look/captions.h"
+#include "gui/recognise/confusion_view.h"
+#include "gui/widgets/empty_page.h"
+#include "gui/widgets/figures_table.h"
+
+namespace palpate::gui {
+namespace {
+
+std::vector<FigureColumn> checkPageObjectColumns() {
+  return {{"object", {}, 14, true},
+          {"precision", "Of those called so: right", 9},
+          {"recall", "Of those that are so: found", 7},
+          {"F", "Harmonic mean of both", 6},
+          {"grasps", "That examined", 7}};
+}
+
+std::vector<FigureColumn> graspColumns() {
+  return {{"recording", {}, 16, true},
+          {"frames", {}, 11},
+          {"called", {}, 12, true},
+          {"p", "Said probability", 6, true}};
+}
+
+QString name(const std::vector<std::string>& classes, int index) {
+  return QString::fromStdString(classes[static_cast<std::size_t>(index)]);
+}
+
+TextTable confusionTable(const std::shared_ptr<const TeachingCheck>& check) {
+  const auto& classes = check->samples.classes;
+  TextTable table{.header = {"was"}, .numRows = classes.size(), .row = {}};
+  table.header.insert(table.header.end(), classes.begin(), classes.end());
+  table.row = [check](std::size_t row) {
+    const auto& names = check->samples.classes;
+    std::vector<std::string> cells{names[row]};
+    for (std::size_t x = 0; x < names.size(); ++x)
+      cells.push_back(
+          std::to_string(check->report->confusion.at(static_cast<int>(row), static_cast<int>(x))));
+    return cells;
+  };
+  return table;
+}
+
+TextTable figureTable(const std::shared_ptr<const TeachingCheck>& check) {
+  const auto figures = check->report->confusion.figures();
+  return {.header = {"object", "precision", "recall", "f", "support"},
+          .numRows = figures.size(),
+          .row = [figures](std::size_t row) {
+            const ClassFigures& one = figures[row];
+            return std::vector<std::string>{one.name,
+                                            numberText(one.precision),
+                                            numberText(one.recall),
+                                            numberText(one.f),
+                                            std::to_string(one.support)};
+          }};
+}
+
+}  // namespace
+
+CheckPage::CheckPage(TeachingDesk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
+  setObjectName("checkPage");
+  protocol_ = new QComboBox(this);
+  protocol_->setObjectName("checkProtocol");
+  protocol_->setAccessibleName("Protocol");
+  protocol_->addItems({"five blocks in time (B)", "ten shuffles (S)"});
+  protocol_->setToolTip("Which grasps examine and don't teach. Another day is told by neither.");
+  check_ = new QPushButton("Check", this);
+  check_->setObjectName("checkNow");
+  check_->setProperty("primary", true);
+  result_ = new QLabel(this);
+  result_->setObjectName("checkResult");
+  result_->setWordWrap(true);
+  auto* content = new QWidget(this);
+  confusion_ = new ConfusionView(content);
+  confusion_->setObjectName("confusion");
+  caption_ = new QLabel(content);
+  caption_->setObjectName("checkCaption");
+  caption_->setProperty("role", "muted");
+  back_ = new QPushButton("All objects", content);
+  back_->setObjectName("checkBack");
+  lists_ = new QStackedWidget(content);
+  objects_ = new FiguresTable(checkPageObjectColumns(), lists_);
+  objects_->setObjectName("checkObjects");
+  objects_->setSingleLine();
+  grasps_ = new FiguresTable(graspColumns(), lists_);
+  grasps_->setObjectName("checkGrasps");
+  grasps_->setSingleLine();
+  lists_->addWidget(objects_);
+  lists_->addWidget(grasps_);
+  empty_ = new EmptyPage("check", this);
+  pages_ = new QStackedWidget(this);
+  pages_->addWidget(empty_);
+  pages_->addWidget(content);
+
+  auto* top = new QHBoxLayout;
+  top->setSpacing(8);
+  top->addWidget(protocol_, 1);
+  top->addWidget(check_);
+  auto* line = new QHBoxLayout;
+  line->addWidget(caption_, 1);
+  line->addWidget(back_);
+  auto* inner = new QVBoxLayout(content);
+  inner->setContentsMargins(0, 0, 0, 0);
+  inner->setSpacing(6);
+  inner->addWidget(confusion_, 3);
+  inner->addLayout(line);
+  inner->addWidget(lists_, 2);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(12, 8, 12, 10);
+  column->setSpacing(8);
+  column->addLayout(top);
+  column->addWidget(result_);
+  column->addWidget(pages_, 1);
+
+  connect(
+      check_, &QPushButton::clicked, this, [this] { desk_.check(protocol_->currentIndex() == 0); });
+  connect(&desk_, &TeachingDesk::checkedChanged, this, &CheckPage::showCheck);
+  connect(&desk_, &TeachingDesk::folderChanged, this, &CheckPage::showCheck);
+  connect(&desk_.job(), &BackgroundJob::started, this, [this] { check_->setEnabled(false); });
+  connect(&desk_.job(), &BackgroundJob::finished, this, [this] {
+    check_->setEnabled(!desk_.folder().empty());
+  });
+  connect(confusion_, &ConfusionView::cellChosen, this, &CheckPage::listCell);
+  // The only one is what was meant.
+  connect(confusion_, &ConfusionView::cellClicked, this, [this] {
+    if (listed_.size() == 1) openGrasp(0);
+  });
+  connect(confusion_, &ConfusionView::cellOpened, this, [this](int truth, int called) {
+    listCell(truth, called);
+    openGrasp(0);
+  });
+  connect(back_, &QPushButton::clicked, this, [this] {
+    confusion_->choose(std::nullopt);
+    listObjects();
+  });
+  connect(grasps_, &QTableWidget::cellClicked, this, [this](int row, int) {
+    openGrasp(static_cast<std::size_t>(row));
+  });
+  showCheck();
+}
+
+void CheckPage::openGrasp(std::size_t row) {
+  if (row >= listed_.size()) return;
+  const FeatureRow& grasp = desk_.checked()->table->rows.at(listed_[row]);
+  emit graspAsked(grasp.file, grasp.begin, grasp.end);
+}
+
+bool CheckPage::shown() const { return isVisible() && pages_->currentWidget() != empty_; }
+
+void CheckPage::showCheck() {
+  const auto& checked = desk_.checked();
+  check_->setEnabled(!desk_.folder().empty() && !desk_.busy());
+  if (!checked) {
+    result_->clear();
+    result_->hide();
+    empty_->say(desk_.folder().empty()
+                    ? "Choose a folder of grasps on the page Teach: they examine one another here."
+                    : "Check tells how well the objects of the folder are told apart, each grasp "
+                      "judged by a model that never saw it.");
+    pages_->setCurrentWidget(empty_);
+    return;
+  }
+  if (confusion_->matrix() && pages_->currentWidget() != empty_ && sender() == &desk_ &&
+      confusion_->matrix()->total() == checked->report->confusion.total() && confusion_->chosen())
+    return;
+  const ValidationReport& report = *checked->report;
+  const auto wrong = report.confusion.total() - report.confusion.right();
+  result_->setText("right " + figure(100.0 * report.accuracyMean, 1) + " ± " +
+                   figure(100.0 * report.accuracySd, 1) + " %, among the best three " +
+                   figure(100.0 * report.top3, 1) + " %: " + QString::number(wrong) + " of " +
+                   QString::number(report.confusion.total()) + " answers wrong");
+  result_->show();
+  confusion_->setMatrix(report.confusion);
+  listObjects();
+  pages_->setCurrentIndex(1);
+}
+
+void CheckPage::listObjects() {
+  std::vector<std::vector<FigureCell>> rows;
+  for (const ClassFigures& one : desk_.checked()->report->confusion.figures())
+    rows.push_back({{.text = QString::fromStdString(one.name)},
+                    {.text = figure(one.precision, 2)},
+                    {.text = figure(one.recall, 2), .warning = one.recall < 0.9},
+                    {.text = figure(one.f, 2)},
+                    {.text = QString::number(one.support)}});
+  objects_->setRows(rows);
+  caption_->setText(
+      "A click on a cell lists its grasps, a double click opens the first. Ctrl and wheel: "
+      "larger, smaller.");
+  back_->hide();
+  listed_.clear();
+  lists_->setCurrentWidget(objects_);
+}
+
+void CheckPage::listCell(int truth, int called) {
+  const TeachingCheck& check = *desk_.checked();
+  listed_.clear();
+  std::vector<std::vector<FigureCell>> rows;
+  for (const ExaminedSample& one : check.report->examined) {
+    if (check.samples.y[one.sample] != truth || one.called != called) continue;
+    if (std::find(listed_.begin(), listed_.end(), one.sample) != listed_.end()) continue;
+    listed_.push_back(one.sample);
+    const FeatureRow& row = check.table->rows[one.sample];
+    rows.push_back(
+        {{.text = QString::fromStdString(row.file.filename().string()),
+          .tip = QString::fromStdString(row.file.string())},
+         {.text = QString::number(row.begin) + "–" + QString::number(row.end)},
+         {.text = name(check.samples.classes, one.called), .warning = one.called != truth},
+         {.text = figure(one.confidence, 2)}});
+  }
+  grasps_->setRows(rows);
+  grasps_->clearSelection();
+  const QString was = name(check.samples.classes, truth);
+  caption_->setText(listed_.empty()
+                        ? "No " + was + " was called " + name(check.samples.classes, called) + "."
+                    : truth == called ? was + ", named rightly. A click on a grasp opens it."
+                                      : was + ", called " + name(check.samples.classes, called) +
+                                            ". A click on a grasp opens it.");
+  back_->show();
+  lists_->setCurrentWidget(grasps_);
+}
+
+void CheckPage::setTheme(Theme theme) {
+  theme_ = theme;
+  confusion_->setTheme(theme);
+  objects_->setTheme(theme);
+  grasps_->setTheme(theme);
+}
+
+std::vector<ExportedTable> CheckPage::tables() const {
+  if (!shown()) return {};
+  const auto check = desk_.checked();
+  return {{"confusion", [check] { return confusionTable(check); }},
+          {"objects", [check] { return figureTable(check); }}};
+}
+
+void CheckPage::paint(QPainter& painter, const PictureLook& look) {
+  const Theme theme = look.forPrint ? Theme::kLight : theme_;
+  const QRectF area(QPointF(0, 0), look.size);
+  painter.fillRect(area, colorsOf(theme).window);
+  QFont plain = font();
+  if (look.textUnits > 0) plain.setPixelSize(look.textUnits);
+  painter.setFont(plain);
+  painter.setPen(colorsOf(theme).text);
+  const double line = 1.6 * QFontMetricsF(plain).height();
+  painter.drawText(QRectF(16, 8, area.width() - 32, line), Qt::AlignVCenter, result_->text());
+  paintConfusion(painter,
+                 QRectF(16, 12 + line, area.width() - 32, area.height() - line - 28),
+                 desk_.checked()->report->confusion,
+                 theme);
+}
+
+}  // namespace palpate::gui

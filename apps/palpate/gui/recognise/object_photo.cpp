@@ -1,0 +1,61 @@
+#include "gui/recognise/object_photo.h"
+
+#include <QDir>
+#include <QImageReader>
+#include <utility>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kLargestSide = 1200;  // [px]
+const QStringList kEndings = {"*.jpg", "*.jpeg", "*.png", "*.JPG", "*.JPEG", "*.PNG"};
+
+QString objectPhotoPlain(QString name) { return name.replace('_', ' ').trimmed().toLower(); }
+
+}  // namespace
+
+std::filesystem::path photoOf(const QString& name,
+                              const std::vector<std::filesystem::path>& folders) {
+  const auto pathOf = [](const QFileInfo& info) {
+    return std::filesystem::path(info.absoluteFilePath().toStdString());
+  };
+  for (const auto& folder : folders) {
+    const QDir dir(QString::fromStdString(folder.string()));
+    if (folder.empty() || !dir.exists()) continue;
+    for (const QFileInfo& file : dir.entryInfoList(kEndings, QDir::Files, QDir::Name))
+      if (objectPhotoPlain(file.completeBaseName()) == objectPhotoPlain(name)) return pathOf(file);
+    for (const QFileInfo& sub : dir.entryInfoList(QDir::Dirs | QDir::NoDotAndDotDot, QDir::Name)) {
+      if (objectPhotoPlain(sub.fileName()) != objectPhotoPlain(name)) continue;
+      const auto files = QDir(sub.filePath()).entryInfoList(kEndings, QDir::Files, QDir::Name);
+      if (!files.isEmpty()) return pathOf(files.first());
+    }
+  }
+  return {};
+}
+
+void PhotoShelf::setFolders(std::vector<std::filesystem::path> folders) {
+  if (folders == folders_) {
+    // What wasn't there may have come.
+    std::erase_if(read_, [](const auto& one) { return one.second.isNull(); });
+    return;
+  }
+  folders_ = std::move(folders);
+  read_.clear();
+}
+
+const QPixmap& PhotoShelf::photo(const QString& name) {
+  const auto known = read_.find(name);
+  if (known != read_.end()) return known->second;
+  QPixmap& photo = read_[name];
+  const auto path = photoOf(name, folders_);
+  if (path.empty()) return photo;
+  QImageReader reader(QString::fromStdString(path.string()));
+  reader.setAutoTransform(true);
+  const QSize size = reader.size();
+  if (size.width() > kLargestSide || size.height() > kLargestSide)
+    reader.setScaledSize(size.scaled(kLargestSide, kLargestSide, Qt::KeepAspectRatio));
+  photo = QPixmap::fromImage(reader.read());
+  return photo;
+}
+
+}  // namespace palpate::gui

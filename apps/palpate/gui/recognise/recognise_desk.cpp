@@ -1,0 +1,226 @@
+#include "gui/recognise/recognise_desk.h"
+
+#include <QCoreApplication>
+#include <QEventLoop>
+
+#include <palpate/core/error.h>
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kModelKey = "recognise/model";
+constexpr const char* kEmulatedModelKey = "recognise/emulated_model";
+constexpr const char* kEmulatedModel = "emulated_objects.json";
+
+constexpr const char* kHowToAsk = "Choose a grasp in the timeline, or hold something: then ask.";
+constexpr const char* kNoModel =
+    "No model is chosen. Open one (Model), or teach objects on the page Teach.";
+
+}  // namespace
+
+RecogniseDesk::RecogniseDesk(QSettings& settings, std::filesystem::path dataFolder, QObject* parent)
+    : QObject(parent), settings_(settings), emulatedModel_(dataFolder / kEmulatedModel) {
+  answer_.text = kHowToAsk;
+  connect(&opening_, &BackgroundJob::failed, this, [this](const QString& message) {
+    setModel(std::nullopt, path_);
+    modelTrouble_ = message;
+    emit modelChanged();
+    sayTrouble(message);
+  });
+  connect(&asking_, &BackgroundJob::failed, this, [this](const QString& message) {
+    sayTrouble(message);
+  });
+}
+
+const char* RecogniseDesk::settingsKey() const { return emulated_ ? kEmulatedModelKey : kModelKey; }
+
+bool RecogniseDesk::isEmulatedModel() const {
+  std::error_code ignored;
+  return std::filesystem::equivalent(path_, emulatedModel_, ignored);
+}
+
+void RecogniseDesk::setEmulated(bool emulated) {
+  if (started_ && emulated == emulated_) return;
+  emulated_ = emulated;
+  started_ = true;
+  takeDefault();
+}
+
+void RecogniseDesk::takeDefault() {
+  std::error_code ignored;
+  std::filesystem::path path = settings_.value(settingsKey()).toString().toStdString();
+  if (path.empty() || !std::filesystem::exists(path, ignored))
+    path = emulated_ && std::filesystem::exists(emulatedModel_, ignored) ? emulatedModel_
+                                                                         : std::filesystem::path();
+  if (path == path_ && (day_ || path.empty())) return;
+  if (!path.empty()) return openModel(path);
+  path_.clear();
+  setModel(std::nullopt, {});
+}
+
+void RecogniseDesk::useEmulatedModel() { openModel(emulatedModel_); }
+
+void RecogniseDesk::openModel(const std::filesystem::path& path) {
+  path_ = path;
+  modelTrouble_.clear();
+  auto read = std::make_shared<std::optional<TrainedModel>>();
+  opening_.cancel();
+  opening_.start(
+      "the model",
+      [read, path](const Progress&) { *read = loadModel(path); },
+      [this, read, path] {
+        if (path != path_) return;
+        settings_.setValue(settingsKey(), QString::fromStdString(path.string()));
+        setModel(std::move(*read), path);
+      });
+}
+
+void RecogniseDesk::takeModel(TrainedModel model, const std::filesystem::path& path) {
+  opening_.cancel();
+  settings_.setValue(settingsKey(), QString::fromStdString(path.string()));
+  setModel(std::move(model), path);
+}
+
+void RecogniseDesk::setModel(std::optional<TrainedModel> model, const std::filesystem::path& path) {
+  path_ = path;
+  modelTrouble_.clear();
+  day_ = model ? std::make_unique<RecognitionDay>(std::move(*model)) : nullptr;
+  // Its joints are never referenced anew.
+  if (day_ && emulated_ && isEmulatedModel() && day_->model().carriesOver())
+    day_->choose({OffsetChoice::Kind::kGiven, 0.0});
+  setPhotoFolder(photoFolder_);
+  last_.reset();
+  ++generation_;
+  // What the last model said is nothing of this one's.
+  answer_ = {};
+  answer_.text = kHowToAsk;
+  emit modelChanged();
+  emit dayChanged();
+  emit answered(answer_);
+  if (day_ && waiting_) ask(*std::exchange(waiting_, std::nullopt));
+}
+
+void RecogniseDesk::setPhotoFolder(const std::filesystem::path& folder) {
+  photoFolder_ = folder;
+  std::vector<std::filesystem::path> folders{path_.parent_path(), folder};
+  if (day_ && day_->model().options.at("path").isString())
+    folders.emplace_back(day_->model().options.at("path").asString());
+  photos_.setFolders(std::move(folders));
+}
+
+void RecogniseDesk::changeDay(const std::function<void(RecognitionDay&)>& change) {
+  if (!day_) return sayTrouble(kNoModel);
+  try {
+    change(*day_);
+  } catch (const std::exception& error) {
+    emit said(error.what());
+    return;
+  }
+  emit dayChanged();
+  if (last_) judge(last_->first, last_->second);
+}
+
+void RecogniseDesk::ask(const RecogniseQuestion& question) {
+  if (!day_) {
+    if (!opening_.busy()) return sayTrouble(modelTrouble_.isEmpty() ? kNoModel : modelTrouble_);
+    waiting_ = question;
+    return;
+  }
+  const std::string sensor = sensorText(question.profile.layout());
+  FeatureTable table;
+  table.set = day_->model().set;
+  table.names = featureNames(table.set);
+  table.sensor = sensor;
+  try {
+    requireFits(day_->model(), table);
+  } catch (const Error& error) {
+    return sayTrouble(error.what());
+  }
+  auto chosen = std::make_shared<ChosenGrasp>();
+  asking_.cancel();
+  asking_.start(
+      "the grasp",
+      [chosen, question, set = table.set](const Progress& progress) {
+        const std::size_t count = question.profile.numFrames();
+        *chosen = question.frames && count > 0
+                      ? graspWithin(question.profile,
+                                    question.frames->first,
+                                    question.frames->second,
+                                    set,
+                                    sdh2PinchHand(),
+                                    progress)
+                      : graspOf(question.profile, set, sdh2PinchHand(), progress);
+      },
+      [this, chosen, of = question.of, generation = ++generation_, contact = contact_] {
+        if (generation != generation_ || !day_) return;
+        if (chosen->features.trouble.empty()) {
+          try {
+            day_->add(chosen->features.values, chosen->timeUs);
+            emit dayChanged();
+          } catch (const std::invalid_argument&) {
+            return;  // of the model before
+          }
+        }
+        judge(*chosen, of == kHeldNow && contact != contact_ ? QString(kLastGrasp) : of);
+      });
+}
+
+void RecogniseDesk::judge(const ChosenGrasp& chosen, const QString& of) {
+  last_ = {chosen, of};
+  if (!chosen.features.trouble.empty()) {
+    RecognitionAnswer answer;
+    answer.kind = RecognitionAnswer::Kind::kTrouble;
+    answer.text = QString::fromStdString(chosen.features.trouble);
+    answer.text[0] = answer.text[0].toUpper();
+    answer.of = of;
+    return tell(answer);
+  }
+  RecognitionAnswer answer =
+      answerOf(day_->model(), day_->judge(chosen.features.values, chosen.timeUs));
+  answer.of = of;
+  const bool none = emulated_ && isEmulatedModel() &&
+                    day_->offset().origin == OffsetOrigin::kGiven && day_->offset().mm == 0.0;
+  if (day_->model().carriesOver()) answer.offset = offsetText(day_->offset(), none);
+  answer.unsure = QString::fromStdString(day_->unsure());
+  const auto& grasps = day_->grasps();
+  for (std::size_t i = 0; i < grasps.size(); ++i)
+    if (grasps[i].timeUs == chosen.timeUs) answer.grasp = i;
+  tell(answer);
+}
+
+void RecogniseDesk::letGo() {
+  ++contact_;
+  if (answer_.of != kHeldNow) return;
+  if (last_) last_->second = kLastGrasp;
+  answer_.of = kLastGrasp;
+  emit answered(answer_);
+}
+
+void RecogniseDesk::sayTrouble(const QString& text, const QString& of) {
+  ++generation_;
+  RecognitionAnswer answer;
+  answer.kind = RecognitionAnswer::Kind::kTrouble;
+  answer.text = text;
+  answer.of = of;
+  last_.reset();
+  tell(answer);
+}
+
+void RecogniseDesk::tell(RecognitionAnswer answer) {
+  answer_ = std::move(answer);
+  emit answered(answer_);
+}
+
+bool RecogniseDesk::cancel() {
+  if (!asking_.busy()) return false;
+  ++generation_;
+  asking_.cancel();
+  sayTrouble("Given up.");
+  return true;
+}
+
+void RecogniseDesk::settle() {
+  while (busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,79 @@
+#include "gui/recognise/recognise_panel.h"
+
+#include <QStackedWidget>
+#include <QVBoxLayout>
+
+#include "gui/recognise/ask_page.h"
+#include "gui/recognise/check_page.h"
+#include "gui/recognise/teach_page.h"
+#include "gui/recognise/today_page.h"
+#include "gui/widgets/opening_strip.h"
+
+namespace palpate::gui {
+
+RecognisePanel::RecognisePanel(QSettings& settings,
+                               const std::filesystem::path& dataFolder,
+                               QWidget* parent)
+    : PagedPanel(settings, "recognise", parent) {
+  setObjectName("RecognisePanel");
+  desk_ = new RecogniseDesk(settings, dataFolder, this);
+  teaching_ = new TeachingDesk(settings, this);
+  ask_ = new AskPage(*desk_, &pages());
+  today_ = new TodayPage(*desk_, &pages());
+  teach_ = new TeachPage(*teaching_, &pages());
+  check_ = new CheckPage(*teaching_, &pages());
+  strip_ = new OpeningStrip(this, "Working on", "recognise");
+  addPage(ask_, "Ask", "What is in the hand");
+  addPage(today_, "Today", "Adapts to how the hand is today");
+  addPage(teach_, "Teach", "Captures grasps of objects, and learns from them");
+  addPage(check_, "Check", "How well they are told apart");
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(strip_);
+  column->addWidget(&pages(), 1);
+  BackgroundJob& job = teaching_->job();
+  connect(&job, &BackgroundJob::started, strip_, &OpeningStrip::begin);
+  connect(&job, &BackgroundJob::progressed, strip_, &OpeningStrip::setProgress);
+  connect(&job, &BackgroundJob::finished, strip_, &OpeningStrip::end);
+  connect(strip_, &OpeningStrip::cancelRequested, teaching_, &TeachingDesk::cancel);
+  connect(desk_, &RecogniseDesk::said, this, &RecognisePanel::said);
+  connect(teaching_, &TeachingDesk::said, this, &RecognisePanel::said);
+  connect(teaching_, &TeachingDesk::failed, this, &RecognisePanel::failed);
+  connect(teaching_, &TeachingDesk::folderChanged, this, [this] {
+    desk_->setPhotoFolder(teaching_->folder());
+  });
+  connect(teaching_,
+          &TeachingDesk::trained,
+          this,
+          [this](const TrainedModel& model, const QString& path) {
+            desk_->takeModel(model, path.toStdString());
+            emit said("trained with " + QString::number(model.classes.size()) +
+                      " objects: " + path.section('/', -1));
+          });
+  showLastPage();
+}
+
+void RecognisePanel::setTheme(Theme theme) {
+  if (theme == theme_) return;
+  theme_ = theme;
+  ask_->setTheme(theme);
+  today_->setTheme(theme);
+  teach_->setTheme(theme);
+  check_->setTheme(theme);
+}
+
+bool RecognisePanel::cancel() { return desk_->cancel() || teaching_->cancel(); }
+
+void RecognisePanel::settle() {
+  desk_->settle();
+  teaching_->settle();
+}
+
+// The folder of the last time is looked into when it is needed.
+void RecognisePanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  if (!teaching_->folder().empty() && !teaching_->table() && !teaching_->busy()) teaching_->look();
+}
+
+}  // namespace palpate::gui

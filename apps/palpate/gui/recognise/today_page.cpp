@@ -1,0 +1,174 @@
+#include "gui/recognise/today_page.h"
+
+#include <QComboBox>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+
+#include <palpate/core/error.h>
+#include <palpate/core/time.h>
+
+#include "gui/look/captions.h"
+#include "gui/widgets/figures_table.h"
+#include "gui/widgets/number_field.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kFarthestMm = 20.0;
+using TodayPageKind = OffsetChoice::Kind;
+constexpr std::array kKinds = {
+    TodayPageKind::kModel, TodayPageKind::kNone, TodayPageKind::kBatch, TodayPageKind::kGiven};
+
+std::vector<FigureColumn> todayPageColumns() {
+  return {{"time", "UTC", 8, true},
+          {"recognised as", {}, 14, true},
+          {"p", {}, 5},
+          {"told", "What a person said it is", 14, true}};
+}
+
+}  // namespace
+
+TodayPage::TodayPage(RecogniseDesk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
+  setObjectName("todayPage");
+  offset_ = new QLabel(this);
+  offset_->setObjectName("todayOffset");
+  offset_->setWordWrap(true);
+  unsure_ = new QLabel(this);
+  unsure_->setObjectName("todayUnsure");
+  unsure_->setWordWrap(true);
+  unsure_->setProperty("role", "muted");
+  source_ = new QComboBox(this);
+  source_->setObjectName("todaySource");
+  source_->setAccessibleName("Where the offset comes from");
+  source_->addItems(
+      {"as the model says", "nothing is assumed", "from today's grasps, unnamed", "typed"});
+  source_->setToolTip(
+      "Grasps that were named, and the zero of the empty hand, count before all but what is typed");
+  typed_ = new SecondsField(this);
+  typed_->setObjectName("todayTyped");
+  typed_->setRange(-kFarthestMm, kFarthestMm);
+  typed_->setDecimals(1);
+  typed_->setSuffix(" mm");
+  zero_ = new QPushButton("Zero: close the empty hand", this);
+  zero_->setObjectName("todayZero");
+  grasps_ = new FiguresTable(todayPageColumns(), this);
+  grasps_->setObjectName("todayGrasps");
+  grasps_->setSingleLine();
+  forget_ = new QPushButton("Forget today", this);
+  forget_->setObjectName("todayForget");
+  save_ = new QPushButton("Save as today's model…", this);
+  save_->setObjectName("todaySave");
+  auto* row = new QHBoxLayout;
+  row->setSpacing(8);
+  row->addWidget(source_, 1);
+  row->addWidget(typed_);
+  auto* bottom = new QHBoxLayout;
+  bottom->setSpacing(8);
+  bottom->addStretch(1);
+  bottom->addWidget(forget_);
+  bottom->addWidget(save_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(12, 8, 12, 10);
+  column->setSpacing(8);
+  column->addWidget(offset_);
+  column->addWidget(unsure_);
+  column->addLayout(row);
+  column->addWidget(zero_);
+  column->addWidget(grasps_, 1);
+  column->addLayout(bottom);
+  connect(source_, &QComboBox::activated, this, &TodayPage::choose);
+  connect(typed_, &QDoubleSpinBox::valueChanged, this, &TodayPage::choose);
+  connect(zero_, &QPushButton::clicked, this, &TodayPage::zeroAsked);
+  connect(forget_, &QPushButton::clicked, this, [this] {
+    desk_.changeDay([](RecognitionDay& day) { day.forget(); });
+  });
+  connect(save_, &QPushButton::clicked, this, [this] {
+    const auto& from = desk_.modelPath();
+    const auto path = askForPlace(QString::fromStdString(
+        (from.parent_path() / (from.stem().string() + "_today.json")).string()));
+    if (path.empty()) return;
+    try {
+      saveModel(desk_.day()->adapted(), path, Overwrite::kReplace);  // the dialog has asked
+      emit desk_.said("saved " + QString::fromStdString(path.filename().string()));
+    } catch (const Error& error) {
+      emit desk_.said(error.what());
+    }
+  });
+  askForPlace = [this](const QString& suggestion) {
+    QString path =
+        QFileDialog::getSaveFileName(this, "Save today's model", suggestion, "Models (*.json)");
+    if (!path.isEmpty() && !path.endsWith(".json")) path += ".json";
+    return std::filesystem::path(path.toStdString());
+  };
+  connect(&desk_, &RecogniseDesk::dayChanged, this, &TodayPage::showDay);
+  showDay();
+}
+
+void TodayPage::choose() {
+  const TodayPageKind kind = kKinds[static_cast<std::size_t>(source_->currentIndex())];
+  typed_->setEnabled(kind == TodayPageKind::kGiven);
+  desk_.changeDay([&](RecognitionDay& day) { day.choose({kind, typed_->value()}); });
+}
+
+void TodayPage::setZeroPossible(const QString& why, bool closing) {
+  if (why == why_ && closing == closing_) return;
+  why_ = why;
+  closing_ = closing;
+  showDay();
+}
+
+void TodayPage::showDay() {
+  RecognitionDay* day = desk_.day();
+  const bool can = day && day->model().carriesOver();
+  for (QWidget* each : std::initializer_list<QWidget*>{source_, typed_, forget_, save_})
+    each->setEnabled(can);
+  zero_->setEnabled(can && why_.isEmpty() && !closing_);
+  zero_->setText(closing_ ? "Closing until the pads touch …" : "Zero: close the empty hand");
+  zero_->setToolTip(
+      why_.isEmpty() ? "Closes slowly until the pads touch, and opens again (Esc stops)" : why_);
+  if (!day) {
+    offset_->setText("No model is chosen.");
+    unsure_->clear();
+    return grasps_->setRows({});
+  }
+  if (!can) {
+    offset_->setText(
+        "This model knows no session offset: it is good for the session it learnt in.");
+    unsure_->clear();
+  } else {
+    QString text = offsetText(day->offset(), false);
+    text[0] = text[0].toUpper();
+    offset_->setText(text + ".");
+    QString unsure = QString::fromStdString(day->unsure());
+    if (!unsure.isEmpty()) unsure[0] = unsure[0].toUpper();
+    unsure_->setText(unsure);
+    unsure_->setVisible(!unsure.isEmpty());
+    const QSignalBlocker first(source_), second(typed_);
+    for (std::size_t i = 0; i < kKinds.size(); ++i)
+      if (kKinds[i] == day->choice().kind) source_->setCurrentIndex(static_cast<int>(i));
+    typed_->setEnabled(day->choice().kind == TodayPageKind::kGiven);
+    if (day->choice().kind == TodayPageKind::kGiven) typed_->setValue(day->choice().mm);
+  }
+  std::vector<std::vector<FigureCell>> rows;
+  const auto& grasps = day->grasps();
+  for (auto grasp = grasps.rbegin(); grasp != grasps.rend(); ++grasp) {
+    const RecognitionAnswer answer =
+        answerOf(day->model(), day->judge(grasp->values, grasp->timeUs));
+    rows.push_back(
+        {{.text = QString::fromStdString(utcText(grasp->timeUs)).mid(11, 8)},
+         {.text = answer.name(), .tip = answer.spoken(), .warning = !answer.sure},
+         {.text = figure(answer.best.front().p, 2)},
+         {.text = grasp->told ? QString::fromStdString(
+                                    day->model().classes[static_cast<std::size_t>(*grasp->told)])
+                              : QString("–")}});
+  }
+  grasps_->setRows(rows);
+}
+
+void TodayPage::setTheme(Theme theme) { grasps_->setTheme(theme); }
+
+}  // namespace palpate::gui

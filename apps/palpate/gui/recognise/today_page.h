@@ -1,0 +1,50 @@
+// The page Today of the dock Recognise: by how much the hand reads sizes wrong today, how that is known, and the day's grasps.
+#pragma once
+
+#include <QWidget>
+#include <filesystem>
+#include <functional>
+
+#include "gui/look/theme.h"
+#include "gui/recognise/recognise_desk.h"
+
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QPushButton;
+
+namespace palpate::gui {
+
+class FiguresTable;
+
+class TodayPage : public QWidget {
+  Q_OBJECT
+ public:
+  explicit TodayPage(RecogniseDesk& desk, QWidget* parent = nullptr);
+  void setTheme(Theme theme);
+  // Why the hand can't be closed now; empty: it can. `closing`: it is being done.
+  void setZeroPossible(const QString& why, bool closing);
+
+  std::function<std::filesystem::path(const QString& suggestion)> askForPlace;
+
+ signals:
+  void zeroAsked();
+
+ private:
+  void showDay();
+  void choose();
+
+  RecogniseDesk& desk_;
+  QLabel* offset_;
+  QLabel* unsure_;
+  QComboBox* source_;
+  QDoubleSpinBox* typed_;
+  QPushButton* zero_;
+  FiguresTable* grasps_;
+  QPushButton* forget_;
+  QPushButton* save_;
+  QString why_ = "No hand is connected.";
+  bool closing_ = false;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,355 @@
+#include "gui/record/recording_dialog.h"
+
+#include <QCheckBox>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFrame>
+#include <QGridLayout>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "gui/record/marks_by_key.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kRecordingDialogWidth = 580;  // [px]
+constexpr int kRecordingDialogMargin = 20;  // [px]
+constexpr int kRecordingDialogMostLetters =
+    200;  // of a field: the name of the file is cut far before
+constexpr int kNoteLines = 3;
+constexpr int kRecordingDialogRefreshMs = 1000;  // {time} goes on, and others write into the folder
+
+// Of the dialog's own parts, by the roles of the theme's palette: it follows a change of the theme.
+constexpr const char* kRecordingDialogStyle = R"(
+QLineEdit, QPlainTextEdit { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; }
+QLineEdit { padding: 4px 6px; }
+QPlainTextEdit { padding: 1px 2px; }
+QLineEdit:focus, QPlainTextEdit:focus { border-color: palette(highlight); }
+#recordingPreview { background: palette(base); border: 1px solid palette(mid); border-radius: 6px; }
+#recordingFoot { border-top: 1px solid palette(mid); }
+#recordingProblem { color: palette(bright-text); }
+#recordingInsert { padding-right: 22px; }
+#recordingInsert::menu-indicator { subcontrol-origin: border; subcontrol-position: right center; right: 9px; }
+)";
+
+// A few lines, and more when the dialog is made taller.
+class NotesField : public QPlainTextEdit {
+ public:
+  using QPlainTextEdit::QPlainTextEdit;
+  QSize sizeHint() const override {
+    return {QPlainTextEdit::sizeHint().width(), kNoteLines * fontMetrics().lineSpacing() + 14};
+  }
+  QSize minimumSizeHint() const override { return sizeHint(); }
+};
+
+struct Placeholder {
+  const char* text;
+  const char* what;
+};
+constexpr std::array kPlaceholders = {Placeholder{"{date}", "Date"},
+                                      Placeholder{"{time}", "Time"},
+                                      Placeholder{"{operator}", "Operator"},
+                                      Placeholder{"{object}", "Object"},
+                                      Placeholder{"{run}", "Run number"}};
+
+QLabel* muted(const QString& text, QWidget* parent) {
+  auto* label = new QLabel(text, parent);
+  label->setTextFormat(Qt::PlainText);
+  label->setProperty("role", "muted");
+  return label;
+}
+
+// Takes the width it gets: its text is cut to fit.
+void letShrink(QLabel* label) {
+  label->setTextFormat(Qt::PlainText);
+  label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+}
+
+void recordingDialogShowElided(QLabel* label, const QString& text, Qt::TextElideMode mode) {
+  label->setText(label->fontMetrics().elidedText(text, mode, label->contentsRect().width()));
+  label->setToolTip(label->text() == text ? QString() : text);
+  label->setAccessibleName(text);
+}
+
+}  // namespace
+
+RecordingDialog::RecordingDialog(const RecordingSettings& settings,
+                                 const QString& okText,
+                                 QWidget* parent,
+                                 const Clock& clock)
+    : QDialog(parent), clock_(clock) {
+  setWindowTitle("Recording");
+  setStyleSheet(kRecordingDialogStyle);
+  askForFolder = [this](const QString& begin) {
+    return QFileDialog::getExistingDirectory(this, "Folder for recordings", begin);
+  };
+  auto* middle = new QVBoxLayout;
+  middle->setContentsMargins(
+      kRecordingDialogMargin, kRecordingDialogMargin, kRecordingDialogMargin, 14);
+  middle->setSpacing(12);
+  middle->addWidget(makeFields(), 1);
+  middle->addWidget(makePreview());
+  marks_ = new MarksByKey(this);
+  middle->addWidget(marks_);
+  auto* whole = new QVBoxLayout(this);
+  whole->setContentsMargins(0, 0, 0, 0);
+  whole->setSpacing(0);
+  whole->addLayout(middle, 1);
+  whole->addWidget(makeFoot(okText));
+  fill(settings);
+  for (QLineEdit* field : {operator_, object_, template_, folder_})
+    connect(field, &QLineEdit::textChanged, this, &RecordingDialog::refresh);
+  connect(marks_, &MarksByKey::folded, this, &RecordingDialog::fitMarks);
+  auto* timer = new QTimer(this);
+  connect(timer, &QTimer::timeout, this, &RecordingDialog::refresh);
+  timer->start(kRecordingDialogRefreshMs);
+  refresh();
+  resize(kRecordingDialogWidth, sizeHint().height());
+}
+
+QLineEdit* RecordingDialog::makeField(const char* name, int mostLetters) {
+  auto* field = new QLineEdit(this);
+  field->setObjectName(name);
+  field->setMaxLength(mostLetters);
+  return field;
+}
+
+QWidget* RecordingDialog::makeFields() {
+  auto* fields = new QWidget(this);
+  auto* grid = new QGridLayout(fields);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(12);
+  grid->setVerticalSpacing(8);
+  grid->setColumnStretch(1, 1);
+  int row = 0;
+  const auto add = [&](const QString& title, QWidget* field, QWidget* button = nullptr) {
+    auto* label = new QLabel(title, fields);
+    label->setBuddy(field);
+    if (qobject_cast<QPlainTextEdit*>(field)) label->setContentsMargins(0, 5, 0, 0);
+    grid->addWidget(
+        label, row, 0, qobject_cast<QPlainTextEdit*>(field) ? Qt::AlignTop : Qt::Alignment());
+    grid->addWidget(field, row, 1, 1, button ? 1 : 2);
+    if (button) grid->addWidget(button, row, 2);
+    ++row;
+  };
+  operator_ = makeField("recordingOperator", kRecordingDialogMostLetters);
+  operator_->setPlaceholderText("who records");
+  add("O&perator", operator_);
+  object_ = makeField("recordingObject", kRecordingDialogMostLetters);
+  object_->setPlaceholderText("what is grasped");
+  add("&Object", object_);
+  notes_ = new NotesField(fields);
+  notes_->setObjectName("recordingNotes");
+  notes_->setTabChangesFocus(true);
+  notes_->setPlaceholderText("whatever else should be known of it");
+  notes_->setToolTip("Kept in the recording. Ctrl+Enter: done");
+  notes_->installEventFilter(this);
+  notes_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+  add("No&tes", notes_);
+  grid->setRowStretch(row - 1, 1);
+  template_ = makeField("recordingTemplate", kRecordingDialogMostLetters);
+  auto* placeholders = new QPushButton("&Insert", fields);
+  placeholders->setObjectName("recordingInsert");
+  placeholders->setAutoDefault(false);
+  placeholders->setToolTip("Puts what changes from one recording to the next into the name");
+  placeholders_ = makePlaceholders();
+  placeholders->setMenu(placeholders_);
+  add("File &name", template_, placeholders);
+  folder_ = makeField("recordingFolder", 4096);
+  auto* browse = new QPushButton("&Browse…", fields);
+  browse->setObjectName("recordingBrowse");
+  browse->setAutoDefault(false);
+  connect(browse, &QPushButton::clicked, this, &RecordingDialog::browse);
+  add("&Folder", folder_, browse);
+  return fields;
+}
+
+QMenu* RecordingDialog::makePlaceholders() {
+  auto* menu = new QMenu(this);
+  for (const Placeholder& placeholder : kPlaceholders) {
+    QAction* action = menu->addAction(QString(placeholder.what) + "\t" + placeholder.text);
+    action->setData(placeholder.text);
+    connect(
+        action, &QAction::triggered, this, [this, action] { insert(action->data().toString()); });
+  }
+  // Each can stand in a name once.
+  connect(menu, &QMenu::aboutToShow, this, [this, menu] {
+    for (QAction* action : menu->actions())
+      action->setEnabled(!template_->text().contains(action->data().toString()));
+  });
+  return menu;
+}
+
+QWidget* RecordingDialog::makePreview() {
+  auto* frame = new QFrame(this);
+  frame->setObjectName("recordingPreview");
+  caption_ = muted({}, frame);
+  caption_->setObjectName("recordingCaption");
+  name_ = new QLabel(frame);
+  name_->setObjectName("recordingNextName");
+  QFont bold = name_->font();
+  bold.setBold(true);
+  name_->setFont(bold);
+  letShrink(name_);
+  place_ = muted({}, frame);
+  place_->setObjectName("recordingNextFolder");
+  letShrink(place_);
+  problem_ = new QLabel(frame);
+  problem_->setObjectName("recordingProblem");
+  problem_->setTextFormat(Qt::PlainText);
+  problem_->setWordWrap(true);
+  problem_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // a path has no end
+  problem_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  // A problem takes the place of both lines, so that nothing jumps.
+  problem_->setFixedHeight(2 * fontMetrics().lineSpacing() + 3);
+  auto* column = new QVBoxLayout(frame);
+  column->setContentsMargins(12, 9, 12, 10);
+  column->setSpacing(3);
+  column->addWidget(caption_);
+  column->addWidget(name_);
+  column->addWidget(place_);
+  column->addWidget(problem_);
+  return frame;
+}
+
+QWidget* RecordingDialog::makeFoot(const QString& okText) {
+  auto* foot = new QFrame(this);
+  foot->setObjectName("recordingFoot");
+  ask_ = new QCheckBox("&Ask before each recording", foot);
+  ask_->setObjectName("recordingAsk");
+  ask_->setToolTip("Off: Record starts at once, with what is written here");
+  auto* cancel = new QPushButton("Cancel", foot);
+  cancel->setObjectName("recordingCancel");
+  cancel->setAutoDefault(false);
+  connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
+  ok_ = new QPushButton(okText, foot);
+  ok_->setObjectName("recordingOk");
+  ok_->setProperty("primary", true);
+  ok_->setDefault(true);
+  ok_->setMinimumWidth(110);
+  connect(ok_, &QPushButton::clicked, this, &RecordingDialog::accept);
+  auto* row = new QHBoxLayout(foot);
+  row->setContentsMargins(kRecordingDialogMargin, 12, kRecordingDialogMargin, 12);
+  row->setSpacing(8);
+  row->addWidget(ask_, 1);
+  row->addWidget(cancel);
+  row->addWidget(ok_);
+  return foot;
+}
+
+void RecordingDialog::fill(const RecordingSettings& settings) {
+  operator_->setText(settings.operatorName);
+  object_->setText(settings.object);
+  notes_->setPlainText(settings.notes);
+  template_->setText(settings.nameTemplate);
+  folder_->setText(settings.folder);
+  ask_->setChecked(settings.askEachTime);
+  marks_->setLabels(settings.markLabels);
+}
+
+RecordingSettings RecordingDialog::settings() const {
+  RecordingSettings settings;
+  settings.operatorName = operator_->text().simplified();
+  settings.object = object_->text().simplified();
+  settings.notes = notes_->toPlainText().trimmed();
+  settings.nameTemplate = template_->text().trimmed();
+  settings.folder = folderFromText(folder_->text());
+  settings.askEachTime = ask_->isChecked();
+  settings.markLabels = marks_->labels();
+  return settings;
+}
+
+void RecordingDialog::insert(const QString& placeholder) {
+  const auto joins = [](QChar letter) { return letter == '_' || letter == '-'; };
+  const QString text = template_->text();
+  const qsizetype from =
+      template_->hasSelectedText() ? template_->selectionStart() : template_->cursorPosition();
+  const qsizetype to = template_->hasSelectedText() ? template_->selectionEnd() : from;
+  QString put = placeholder;
+  if (from > 0 && !joins(text[from - 1])) put.prepend('_');
+  if (to < text.size() && !joins(text[to])) put.append('_');
+  template_->insert(put);
+  template_->setFocus();
+}
+
+void RecordingDialog::browse() {
+  // From where the folder is, or will be.
+  QDir begin(folderFromText(folder_->text()));
+  while (!begin.exists() && begin.isAbsolute() && !begin.isRoot())
+    begin.setPath(QFileInfo(begin.path()).path());
+  const QString chosen = askForFolder(begin.isAbsolute() ? begin.path() : QDir::homePath());
+  if (!chosen.isEmpty()) folder_->setText(chosen);
+}
+
+// Opened marks take room from below, never from the notes.
+void RecordingDialog::fitMarks() {
+  const int growth = std::max(0, notes_->height() - notes_->sizeHint().height());
+  layout()->activate();
+  resize(width(), sizeHint().height() + growth);
+}
+
+void RecordingDialog::refresh() {
+  next_ = previewNextPath(settings(), clock_.wallUs());
+  const bool good = next_.problem.isEmpty();
+  caption_->setText(good ? "The next recording will be" : "Nothing can be recorded like this");
+  name_->setVisible(good);
+  place_->setVisible(good);
+  problem_->setVisible(!good);
+  problem_->setText(next_.problem);
+  problem_->setToolTip(next_.problem);
+  ok_->setEnabled(good);
+  showTexts();
+}
+
+void RecordingDialog::showTexts() {
+  if (!ask_) return;  // while it is built
+  recordingDialogShowElided(
+      name_, QString::fromStdString(next_.path.filename().string()), Qt::ElideMiddle);
+  const QString folder = QString::fromStdString(next_.path.parent_path().string());
+  recordingDialogShowElided(
+      place_,
+      next_.folderWillBeMade ? "in " + folder + ", which will be made" : "in " + folder,
+      Qt::ElideMiddle);
+}
+
+void RecordingDialog::accept() {
+  refresh();  // a folder may have gone since
+  if (next_.problem.isEmpty()) QDialog::accept();
+}
+
+void RecordingDialog::showEvent(QShowEvent* event) {
+  QDialog::showEvent(event);
+  QLineEdit* first = operator_->text().isEmpty() ? operator_ : object_;  // the object changes most
+  first->setFocus();
+  first->selectAll();
+  refresh();
+}
+
+void RecordingDialog::resizeEvent(QResizeEvent* event) {
+  QDialog::resizeEvent(event);
+  layout()->activate();
+  showTexts();
+}
+
+bool RecordingDialog::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == notes_ && event->type() == QEvent::KeyPress) {
+    const auto* key = static_cast<QKeyEvent*>(event);
+    const bool enter = key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter;
+    if (enter && key->modifiers().testFlag(Qt::ControlModifier)) {
+      accept();
+      return true;
+    }
+  }
+  return QDialog::eventFilter(watched, event);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,204 @@
+#include <QEventLoop>
+#include <QFile>
+#include <QPixmap>
+#include <QTemporaryDir>
+#include <QTimer>
+#include <algorithm>
+
+#include <palpate/core/error.h>
+#include <palpate/core/output_file.h>
+#include <palpate/core/time.h>
+
+#include "gui/calibrate/calibrate_panel.h"
+#include "gui/compare/compare_panel.h"
+#include "gui/desktop/application.h"
+#include "gui/picture/picture_export.h"
+#include "gui/recognise/recognise_panel.h"
+#include "gui/shell/main_window.h"
+#include "gui/shell/workbench.h"
+#include "gui/slip/slip_panel.h"
+#include "gui/space/gl_probe.h"
+#include "gui/space/hand_panel.h"
+#include "gui/spectrum/spectrum_panel.h"
+#include "gui/timeline/timeline_panel.h"
+
+namespace palpate::gui {
+namespace {
+
+// Opens and waits; throws what went wrong.
+void openAndWait(MainWindow& window, const ScreenshotOptions& options) {
+  QEventLoop loop;
+  QString failure;
+  QObject::connect(&window.opener(),
+                   &RecordingOpener::failed,
+                   &loop,
+                   [&](const QString&, const QString& message) { failure = message; });
+  QObject::connect(&window.opener(), &RecordingOpener::finished, &loop, &QEventLoop::quit);
+  std::vector<std::filesystem::path> files = {*options.file};
+  if (options.comparedWith) files.push_back(*options.comparedWith);
+  window.openFiles(files);
+  loop.exec();
+  if (!failure.isEmpty()) throw Error(failure.toStdString());
+}
+
+void runFor(double seconds) {
+  QEventLoop loop;
+  QTimer::singleShot(static_cast<int>(seconds * kMsPerS), &loop, &QEventLoop::quit);
+  loop.exec();
+}
+
+void showCompare(MainWindow& window, const ScreenshotOptions& options) {
+  constexpr double kLookS = 0.01;
+  constexpr double kPatienceS = 60.0;
+  if (!window.compareShown()) window.actionList().compare->trigger();
+  for (double waitedS = 0.0; !window.compare().complete() && waitedS < kPatienceS;
+       waitedS += kLookS)
+    runFor(kLookS);
+  // Where the frame wasn't chosen: one that both have.
+  const auto common = window.compare().common();
+  if (!options.frame && common && window.playback().positionS() > common->toS)
+    window.playback().seekSeconds(common->toS);
+}
+
+// Connects, and waits for the first frame.
+void runDemo(MainWindow& window) {
+  constexpr double kPatienceS = 30.0;
+  constexpr double kLookS = 0.02;
+  QString failure;
+  const auto told = QObject::connect(
+      &window.live(), &LiveController::failed, [&](const QString& message) { failure = message; });
+  window.openDemo();
+  for (double waitedS = 0.0; !window.live().framesCameYet(); waitedS += kLookS) {
+    if (failure.isEmpty() && waitedS > kPatienceS) failure = "no frame of the emulated hand came";
+    if (!failure.isEmpty()) throw Error(failure.toStdString());
+    runFor(kLookS);
+  }
+  QObject::disconnect(told);
+}
+
+void goToFrame(MainWindow& window, const ScreenshotOptions& options) {
+  PlaybackController& playback = window.playback();
+  if (options.frame && *options.frame >= playback.numFrames())
+    throw Error("no frame " + std::to_string(*options.frame) + ": " +
+                window.current()->path.string() + " has frames 0.." +
+                std::to_string(static_cast<long long>(playback.numFrames()) - 1));
+  if (options.afterS > 0.0) {
+    playback.play();
+    runFor(options.afterS);
+  }
+  playback.pause();
+  if (options.frame)
+    playback.seekFrame(*options.frame);
+  else if (options.afterS <= 0.0)
+    playback.seekFrame(window.current()->table.frameOfLargestSum());
+}
+
+// Of a demo --after counts while it runs; of a recording it was played before: then time for what was pressed.
+QImage pressAll(MainWindow& window, const ScreenshotOptions& options) {
+  constexpr double kGraceS = 1.0;
+  double forS = options.demo ? options.afterS : 0.0;
+  for (const ScreenshotPress& press : options.presses)
+    forS = std::max(forS, press.atS + (options.demo ? 0.0 : kGraceS));
+  return forS > 0.0 ? runAndPress(window, options.presses, forS) : QImage();
+}
+
+void useSettings(const QString& to, const ScreenshotOptions& options) {
+  if (!options.settings) return;
+  if (!QFile::copy(QString::fromStdString(options.settings->string()), to))
+    throw FileError(*options.settings, "the settings can't be read");
+}
+
+CalibratePanel& calibration(const MainWindow& window) {
+  return *window.findChild<CalibratePanel*>("CalibratePanel");
+}
+
+RecognisePanel& recognition(const MainWindow& window) {
+  return *window.findChild<RecognisePanel*>();
+}
+
+void settle(MainWindow& window) {
+  window.waitForFilter();
+  window.timelinePanel().chart().store().waitForFirstLook();
+  window.timelinePanel().chart().storeBefore().waitForFirstLook();
+  window.spectrum().settle();
+  calibration(window).settle();
+  recognition(window).settle();
+  window.findChild<SlipPanel*>("SlipPanel")->settle();
+  // Layout requests and queued replots come one after the other.
+  constexpr int kRounds = 5;
+  for (int i = 0; i < kRounds; ++i) QCoreApplication::processEvents();
+}
+
+ThemeChoice themeOf(const ScreenshotOptions& options) {
+  const ThemeChoice choice = themeChoiceFrom(QString::fromStdString(options.theme));
+  if (choice == ThemeChoice::kSystem)
+    throw Error("no theme '" + options.theme + "': dark or light");
+  return choice;
+}
+
+template <typename Panel>
+void showPage(Panel& panel, const QString& dock, const QString& page) {
+  if (page.isEmpty()) return;
+  if (!panel.pageNames().contains(page))
+    throw Error("no page '" + page.toStdString() + "' of " + dock.toStdString() + ": there are " +
+                panel.pageNames().join(", ").toStdString());
+  panel.showPage(page);
+}
+
+void showDocks(MainWindow& window, const ScreenshotOptions& options) {
+  for (const std::string& dock : options.docks) {
+    const QString name = QString::fromStdString(dock).section('/', 0, 0);
+    if (!window.dockNames().contains(name))
+      throw Error("no dock '" + dock + "': there are " +
+                  window.dockNames().join(", ").toStdString());
+    if (window.current() || window.liveShown()) window.showDock(name);
+    // "Calibrate/Noise": one of its pages.
+    const QString page = QString::fromStdString(dock).section('/', 1);
+    if (name == "Calibrate") showPage(calibration(window), name, page);
+    if (name == "Recognise") showPage(recognition(window), name, page);
+  }
+}
+
+}  // namespace
+
+int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
+  const ThemeChoice theme = themeOf(options);
+  std::error_code ignored;
+  if (!options.force && std::filesystem::exists(options.out, ignored))
+    throw FileError(options.out, "exists already; give another name, or --force to replace it");
+  const QTemporaryDir settings;  // the usual look, whatever this user has chosen
+  // Where nobody is logged in there is no such folder, and Qt says so on standard error.
+  if (!qEnvironmentVariableIsSet("XDG_RUNTIME_DIR"))
+    qputenv("XDG_RUNTIME_DIR", settings.path().toLocal8Bit());
+  const auto application = makeApplication(argc, argv);
+  useSettings(settings.filePath("palpate.ini"), options);
+  MainWindow window({.dataFolder = options.dataFolder,
+                     .settingsPath = settings.filePath("palpate.ini"),
+                     .clock = nullptr,
+                     .read = {},
+                     .assumedAnglesDeg = options.assumedAnglesDeg,
+                     .recipe = options.recipe});
+  if (options.openGl && whyNoOpenGl().isEmpty()) window.handPanel().view().useOpenGl();
+  window.setTheme(theme);
+  window.setFixedSize(options.size);
+  window.show();
+  if (options.file) {
+    openAndWait(window, options);
+    goToFrame(window, options);
+  } else if (options.demo) {
+    runDemo(window);
+  }
+  if (options.comparedWith) showCompare(window, options);
+  showDocks(window, options);
+  QImage image = pressAll(window, options);
+  settle(window);
+  if (image.isNull()) image = window.grab().toImage();
+  // Nobody is there to be asked; a recording that was opened stays as it was.
+  window.askToEndRecording = [] { return true; };
+  window.askAboutUnsaved = [](const QString&) { return MainWindow::Unsaved::kDiscard; };
+  window.close();
+  writePng(options.out, image, options.force ? Overwrite::kReplace : Overwrite::kRefuse);
+  return 0;
+}
+
+}  // namespace palpate::gui

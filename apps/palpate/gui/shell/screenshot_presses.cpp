@@ -1,0 +1,130 @@
+#include "gui/shell/screenshot_presses.h"
+
+#include <QAbstractButton>
+#include <QAction>
+#include <QApplication>
+#include <QElapsedTimer>
+#include <QEventLoop>
+#include <QTimer>
+#include <QWidget>
+#include <algorithm>
+#include <functional>
+#include <optional>
+
+#include <palpate/core/error.h>
+#include <palpate/core/number_text.h>
+#include <palpate/core/time.h>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kScreenshotPressesLookMs = 10;
+
+// A dialogue or another window in front of `window` that is open; null: none.
+QWidget* openBefore(const QWidget& window) {
+  if (QWidget* modal = QApplication::activeModalWidget()) return modal;
+  for (QWidget* each : QApplication::topLevelWidgets())
+    if (each != &window && each->isVisible() && each->windowType() != Qt::ToolTip) return each;
+  return nullptr;
+}
+
+// As it is read: without mnemonic and dots, blanks at the ends, and the key behind it.
+QString screenshotPressesWordsOf(const QAbstractButton& button) {
+  QString words = button.text();
+  words.remove('&').remove("…");
+  return words.section("  (", 0, 0).trimmed();
+}
+
+bool pressKey(const QWidget& window, const QKeySequence& keys) {
+  for (QAction* action : window.actions()) {
+    if (keys.isEmpty() || !action->isEnabled() || !action->shortcuts().contains(keys)) continue;
+    action->trigger();
+    return true;
+  }
+  // Docks are shown and hidden by actions of their own.
+  for (QAction* action : window.findChildren<QAction*>()) {
+    if (keys.isEmpty() || !action->isEnabled() || !action->shortcuts().contains(keys)) continue;
+    action->trigger();
+    return true;
+  }
+  return false;
+}
+
+bool pressButton(const QWidget& window, const QString& words) {
+  for (QAbstractButton* button : window.findChildren<QAbstractButton*>()) {
+    // One of a choice that is chosen already would do nothing.
+    if (!button->isVisible() || !button->isEnabled() || button->isChecked()) continue;
+    if (screenshotPressesWordsOf(*button) != words) continue;
+    button->click();
+    return true;
+  }
+  return false;
+}
+
+bool press(const QWidget& window, const std::string& what) {
+  const QString text = QString::fromStdString(what);
+  return pressKey(window, QKeySequence(text)) || pressButton(window, text);
+}
+
+}  // namespace
+
+ScreenshotPress parsedPress(const std::string& text) {
+  const std::size_t at = text.rfind('@');
+  if (at == std::string::npos || at == 0) return {text, 0.0};
+  const std::optional<double> seconds = parseDouble(text.substr(at + 1));
+  if (!seconds || !(*seconds >= 0.0)) return {text, 0.0};
+  return {text.substr(0, at), *seconds};
+}
+
+QImage runAndPress(QWidget& window,
+                   std::vector<ScreenshotPress> presses,
+                   double forS,
+                   double patienceS) {
+  std::stable_sort(presses.begin(), presses.end(), [](const auto& one, const auto& other) {
+    return one.atS < other.atS;
+  });
+  QEventLoop loop;
+  QElapsedTimer since;
+  since.start();
+  std::size_t done = 0;
+  double waitingS = 0.0;  // how much later than asked the last press was: the end waits as long
+  std::optional<std::string> failure;
+  QImage dialogue;
+  QObject context;  // no timer outlives this call
+  // A dialogue runs a loop of its own inside a press: the next look is asked for before it, and the end closes it.
+  std::function<void()> look = [&] {
+    QTimer::singleShot(kScreenshotPressesLookMs, &context, look);
+    const double nowS = static_cast<double>(since.elapsed()) / kMsPerS;
+    QWidget* open = openBefore(window);
+    if (!failure && done < presses.size()) {
+      if (nowS < presses[done].atS + waitingS) return;
+      // It counts as pressed from here on: a dialogue that it opens doesn't return.
+      const ScreenshotPress wanted = presses[done++];
+      const double lateS = nowS - wanted.atS;
+      if (press(open ? *open : window, wanted.what)) {
+        waitingS = std::max(waitingS, lateS);
+        return;
+      }
+      --done;
+      if (lateS - waitingS < patienceS) return;
+      failure = wanted.what;
+    } else if (!failure && nowS < forS + waitingS) {
+      return;
+    }
+    if (open) {
+      dialogue = open->grab().toImage();
+      open->close();
+    }
+    loop.quit();
+  };
+  QTimer::singleShot(0, &context, look);
+  loop.exec();
+  if (failure)
+    throw Error(
+        "nothing to press is called '" + *failure +
+        "': give the key of an action that can be used now (F1 lists them), or the words on a "
+        "button that is seen");
+  return dialogue;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,61 @@
+// One matrix over time: how far its contact is from the reference (above), and how far it turned (below), with the
+// thresholds as lines and slip shaded; a cursor like the timeline's.
+#pragma once
+
+#include <QString>
+#include <memory>
+#include <vector>
+
+#include <palpate/slip/slip_series.h>
+
+#include "gui/chart/plot.h"
+#include "gui/look/theme.h"
+#include "gui/picture/exported_view.h"
+
+namespace palpate::gui {
+
+class SlipChart : public QCustomPlot {
+  Q_OBJECT
+ public:
+  explicit SlipChart(QWidget* parent = nullptr);
+
+  // Null: nothing.
+  void setSeries(const SlipSeries* series, std::size_t matrix, const QString& name);
+  void setSeen(double fromS, double toS);
+  void setPosition(double seconds);
+  void setTheme(Theme theme);
+  void paint(QPainter& painter, const PictureLook& look, const QString& title);
+
+  // For tests.
+  std::size_t numShades() const noexcept { return shades_.size(); }
+  QSize sizeHint() const override { return {440, 240}; }
+  QSize minimumSizeHint() const override { return {220, 150}; }
+
+ signals:
+  void sought(double seconds);
+
+ protected:
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  bool event(QEvent* event) override;
+
+ private:
+  void style();
+  void placeCursor();
+  void placeLimits();
+
+  QCPAxisRect* turns_;
+  QCPGraph* shift_;
+  QCPGraph* turn_;
+  std::vector<QCPItemLine*> limits_;  // of the shift; of the turn, above and below
+  std::vector<QCPItemRect*> shades_;
+  std::size_t matrix_ = 0;
+  QString name_;
+  SlipSeriesOptions options_;
+  double mostTaxels_ = 0.0, leastDeg_ = 0.0, mostDeg_ = 0.0;
+  Theme theme_ = Theme::kDark;
+  QWidget* cursor_;
+  double positionS_ = 0.0;
+};
+
+}  // namespace palpate::gui

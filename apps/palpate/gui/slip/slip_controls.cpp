@@ -1,0 +1,219 @@
+#include "gui/slip/slip_controls.h"
+
+#include <QComboBox>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+
+#include "gui/widgets/number_field.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kMethod = "slip/method";
+constexpr const char* kLiveMethod = "slip/live_method";
+constexpr const char* kReference = "slip/reference";
+constexpr const char* kStep = "slip/step_taxels";
+constexpr const char* kWhole = "slip/reference_taxels";
+constexpr const char* kRotation = "slip/rotation_deg";
+constexpr SlipMethod kUsualMethod = SlipMethod::kContest;
+constexpr SlipMethod kUsualLiveMethod = SlipMethod::kCentroid;
+enum ReferenceRow { kRestRow, kFirstRow, kFrameRow };
+
+QString tipOf(SlipMethod method) {
+  switch (method) {
+    case SlipMethod::kCentroid:
+      return "Centroid of all active taxels: fast, but a load that shifts looks like motion";
+    case SlipMethod::kAlcazar:
+      return "Centre of mass of the full convolution: the same as the centroid";
+    case SlipMethod::kNccParaboloid:
+      return "Normalised cross-correlation, paraboloid around its peak";
+    case SlipMethod::kNccGauss3:
+      return "Normalised cross-correlation, three-point Gaussians around its peak";
+    case SlipMethod::kPhase:
+      return "Cross-power spectrum, not normalised";
+    case SlipMethod::kPhaseNormalized:
+      return "Phase of the cross-power spectrum alone";
+    case SlipMethod::kRegister:
+      return "Rigid registration of a key frame: no drift";
+    case SlipMethod::kContest:
+      return "Registration weighed against a load that shifts without motion";
+  }
+  return {};
+}
+
+}  // namespace
+
+SlipControls::SlipControls(QSettings& settings, QWidget* parent)
+    : QWidget(parent), settings_(settings) {
+  const auto box = [this](const char* name, const QString& label) {
+    auto* made = new QComboBox(this);
+    made->setObjectName(name);
+    made->setAccessibleName(label);
+    made->setFocusPolicy(Qt::StrongFocus);
+    made->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    return made;
+  };
+  method_ = box("slipMethod", "Method");
+  for (const SlipMethod each : slipMethods()) {
+    method_->addItem(QString::fromUtf8(nameOf(each)));
+    method_->setItemData(method_->count() - 1, tipOf(each), Qt::ToolTipRole);
+  }
+  reference_ = box("slipReference", "Motion is measured from");
+  reference_->addItems({"rest", "first contact"});
+  reference_->setItemData(
+      kRestRow, "Each contact anew, once it rests; again after a slip", Qt::ToolTipRole);
+  reference_->setItemData(kFirstRow, "The first frame with an active taxel, kept", Qt::ToolTipRole);
+  reference_->setToolTip("Where motion is measured from");
+  reference_->setCurrentIndex(settings.value(kReference).toString() == "first" ? kFirstRow
+                                                                               : kRestRow);
+  set_ = new QPushButton("Set reference", this);
+  set_->setObjectName("slipSetReference");
+  set_->setFocusPolicy(Qt::TabFocus);
+  set_->setToolTip("Motion is measured from the frame that is shown (O)");
+  const SlipSeriesOptions usual;
+  step_ = field("slipStep", "Step, in taxels per frame", kStep, 2.0, 0.01, 2, usual.stepTaxels);
+  whole_ = field(
+      "slipWhole", "Since the reference, in taxels", kWhole, 25.0, 0.25, 2, usual.referenceTaxels);
+  rotation_ = field("slipRotation",
+                    "Rotation since the reference, in degrees",
+                    kRotation,
+                    90.0,
+                    1.0,
+                    1,
+                    usual.rotationDeg);
+
+  const auto muted = [this](const QString& text) {
+    auto* label = new QLabel(text, this);
+    label->setProperty("role", "muted");
+    return label;
+  };
+  auto* how = new QHBoxLayout;
+  how->setSpacing(6);
+  how->addWidget(muted("Method"));
+  how->addWidget(method_);
+  how->addSpacing(8);
+  how->addWidget(muted("from"));
+  how->addWidget(reference_);
+  how->addStretch(1);
+  how->addWidget(set_);
+  auto* limits = new QHBoxLayout;
+  limits->setSpacing(6);
+  limits->addWidget(muted("Slip: step over"));
+  limits->addWidget(step_);
+  limits->addWidget(muted("in all"));
+  limits->addWidget(whole_);
+  limits->addWidget(muted("taxels, turned"));
+  limits->addWidget(rotation_);
+  limits->addWidget(muted("deg"));
+  limits->addStretch(1);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(6);
+  column->addLayout(how);
+  column->addLayout(limits);
+
+  setLive(false);
+  connect(method_, &QComboBox::activated, this, [this] {
+    remember();
+    emit changed();
+  });
+  connect(reference_, &QComboBox::activated, this, [this](int row) {
+    if (row == kFrameRow) return;
+    frame_.reset();
+    showReference();
+    remember();
+    emit changed();
+  });
+  connect(set_, &QPushButton::clicked, this, &SlipControls::referenceAsked);
+  for (QDoubleSpinBox* each : {step_, whole_, rotation_})
+    connect(each, &QDoubleSpinBox::valueChanged, this, [this] {
+      remember();
+      emit changed();
+    });
+}
+
+QDoubleSpinBox* SlipControls::field(const char* name,
+                                    const QString& label,
+                                    const char* key,
+                                    double most,
+                                    double step,
+                                    int decimals,
+                                    double usual) {
+  auto* made = new SecondsField(this);
+  made->setObjectName(name);
+  made->setAccessibleName(label);
+  made->setToolTip(label);
+  made->setDecimals(decimals);
+  made->setRange(step, most);
+  made->setSingleStep(step);
+  made->setFocusPolicy(Qt::StrongFocus);
+  made->setKeyboardTracking(false);
+  made->setFixedWidth(made->fontMetrics().horizontalAdvance("00.00") + 18);
+  bool good = false;
+  const double kept = settings_.value(key).toDouble(&good);
+  made->setValue(good && kept >= step && kept <= most ? kept : usual);
+  return made;
+}
+
+void SlipControls::remember() {
+  settings_.setValue(live_ ? kLiveMethod : kMethod, method_->currentText());
+  if (!frame_)
+    settings_.setValue(kReference, reference_->currentIndex() == kFirstRow ? "first" : "rest");
+  settings_.setValue(kStep, step_->value());
+  settings_.setValue(kWhole, whole_->value());
+  settings_.setValue(kRotation, rotation_->value());
+}
+
+void SlipControls::setLive(bool live) {
+  live_ = live;
+  const QString kept = settings_.value(live ? kLiveMethod : kMethod).toString();
+  const auto method =
+      slipMethodNamed(kept.toStdString()).value_or(live ? kUsualLiveMethod : kUsualMethod);
+  method_->setCurrentText(QString::fromUtf8(nameOf(method)));
+  method_->setToolTip(tipOf(method));
+  setReferenceFrame(std::nullopt);
+}
+
+void SlipControls::setReferenceFrame(std::optional<std::size_t> frame) {
+  frame_ = frame;
+  showReference();
+}
+
+void SlipControls::showReference() {
+  const QSignalBlocker blocker(reference_);
+  if (!frame_) {
+    if (reference_->count() <= kFrameRow) return;
+    const bool wasFrame = reference_->currentIndex() == kFrameRow;
+    reference_->removeItem(kFrameRow);
+    if (wasFrame)
+      reference_->setCurrentIndex(settings_.value(kReference).toString() == "first" ? kFirstRow
+                                                                                    : kRestRow);
+    return;
+  }
+  const QString text = "frame " + QString::number(*frame_);
+  if (reference_->count() <= kFrameRow)
+    reference_->addItem(text);
+  else
+    reference_->setItemText(kFrameRow, text);
+  reference_->setCurrentIndex(kFrameRow);
+}
+
+void SlipControls::setReferenceEnabled(bool enabled) { set_->setEnabled(enabled); }
+
+SlipSeriesOptions SlipControls::options() const {
+  SlipSeriesOptions options;
+  options.method = slipMethodNamed(method_->currentText().toStdString()).value_or(kUsualMethod);
+  options.reference =
+      reference_->currentIndex() == kFirstRow ? SlipReference::kFirst : SlipReference::kRest;
+  options.referenceFrame = frame_;
+  options.stepTaxels = step_->value();
+  options.referenceTaxels = whole_->value();
+  options.rotationDeg = rotation_->value();
+  return options;
+}
+
+}  // namespace palpate::gui

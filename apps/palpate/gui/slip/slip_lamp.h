@@ -1,0 +1,25 @@
+// The lamp of a matrix: whether it slips. Told apart by shape as well as by colour: a ring (off), a disc with a tick
+// (ready), a triangle (nothing can be said, or it is ambiguous), a square with an arrow (slips).
+#pragma once
+
+#include <QColor>
+#include <QIcon>
+#include <QString>
+
+#include <palpate/slip/slip_series.h>
+
+#include "gui/look/theme.h"
+
+namespace palpate::gui {
+
+enum class LampLook { kOff, kReady, kUnsure, kSlipping };
+// Null: the matrix isn't touched.
+LampLook lampOf(const SlipSample* sample);
+QColor colorOf(LampLook look, Theme theme);
+QIcon lampIcon(LampLook look, Theme theme);
+// "still", "load shift", ..; "no contact".
+QString verdictOf(const SlipSample* sample);
+// What the verdict means, in a sentence.
+QString meaningOf(const SlipSample* sample);
+
+}  // namespace palpate::gui

@@ -1,0 +1,393 @@
+#include "gui/slip/slip_panel.h"
+
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSplitter>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include <palpate/core/error.h>
+#include <palpate/core/time.h>
+
+#include "gui/look/captions.h"
+#include "gui/slip/slip_chart.h"
+#include "gui/slip/slip_controls.h"
+#include "gui/slip/slip_lamp.h"
+#include "gui/slip/slip_tables.h"
+#include "gui/widgets/figures_table.h"
+#include "gui/widgets/notes_label.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr std::size_t kSlipPanelMostKept = 8;
+constexpr std::size_t kMostLive = 20'000;             // frames of a live chart
+constexpr int kListWidth = 380, kDrawingWidth = 240;  // [px] of the usual dock
+constexpr int kShortNames = 440;  // [px] of the list's width: below, matrices are "0 distal"
+constexpr double kLiveSeenS = 30.0;
+constexpr double kPictureDrawing = 0.36;  // of the width of a picture
+
+std::vector<FigureColumn> slipPanelColumns() {
+  return {{"matrix", {}, 15, true},
+          {"", "What is said of it", 10, true},
+          {"step", "Motion of the last frame [taxels]", 4},
+          {"in all", "Since the reference [taxels]", 5},
+          {"turned", "Since the reference [deg], whole turns counted", 7}};
+}
+
+bool knowsReference(const SlipSeries& series) {
+  for (const auto& samples : series.matrices)
+    for (const SlipSample& sample : samples)
+      if (sample.refValid) return true;
+  return false;
+}
+
+// Where nothing ever rests there is no reference: then motion is measured from the first contact.
+SlipSeries seriesOf(const Profile& profile, SlipSeriesOptions options, const Progress& progress) {
+  SlipSeries series = slipSeries(profile, options, progress);
+  if (options.reference != SlipReference::kRest || options.referenceFrame || knowsReference(series))
+    return series;
+  options.reference = SlipReference::kFirst;
+  return slipSeries(profile, options, progress);
+}
+
+QString millimetres(double taxels, double pitchMm) {
+  return figure(taxels, 3) + " taxels, " + figure(taxels * pitchMm, 2) + " mm";
+}
+
+}  // namespace
+
+SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : ComputedPage("slip", parent) {
+  setObjectName("SlipPanel");
+  controls_ = new SlipControls(settings, this);
+  controls_->setReferenceEnabled(false);
+  top().addWidget(controls_);
+  auto* all = new QWidget(this);
+  auto* left = new QWidget(all);
+  list_ = new FiguresTable(slipPanelColumns(), left);
+  list_->setObjectName("slipList");
+  list_->setAccessibleName("Slip of every matrix");
+  list_->setSingleLine();
+  list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  list_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
+  notes_ = notesLabel("slipNotes", left);
+  notes_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  notes_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Ignored);  // the list comes first
+  auto* leftColumn = new QVBoxLayout(left);
+  leftColumn->setContentsMargins(0, 0, 0, 0);
+  leftColumn->setSpacing(0);
+  leftColumn->addWidget(list_);
+  leftColumn->addWidget(notes_, 1);
+  drawing_ = new SlipDrawing(all);
+  chart_ = new SlipChart(all);
+  auto* beside = new QSplitter(Qt::Horizontal, all);
+  beside->setChildrenCollapsible(false);
+  beside->addWidget(left);
+  beside->addWidget(drawing_);
+  beside->setStretchFactor(0, 5);
+  beside->setStretchFactor(1, 4);
+  beside->setSizes({kListWidth, kDrawingWidth});
+  auto* column = new QVBoxLayout(all);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(beside, 3);
+  column->addWidget(chart_, 2);
+  setContent(all);
+  connect(list_, &FiguresTable::rowChosen, this, [this](int row) {
+    chosenByUser_ = true;
+    choose(static_cast<std::size_t>(row));
+  });
+  connect(chart_, &SlipChart::sought, this, &SlipPanel::sought);
+  connect(controls_, &SlipControls::changed, this, &SlipPanel::changed);
+  connect(controls_, &SlipControls::referenceAsked, this, &SlipPanel::setReference);
+}
+
+const HandDescription* SlipPanel::hand() const {
+  if (live()) return liveHand_ ? &*liveHand_ : nullptr;
+  return recording() ? &recording()->profile.hand() : nullptr;
+}
+
+const SlipSeries* SlipPanel::found() const noexcept {
+  if (live()) return liveSeries_.timeS.empty() ? nullptr : &liveSeries_;
+  return found_.get();
+}
+
+const SlipSample* SlipPanel::sampleNow(std::size_t matrix) const {
+  const SlipSeries* series = found();
+  return series && matrix < series->matrices.size() ? series->at(matrix, frame_) : nullptr;
+}
+
+QString SlipPanel::nameOfMatrix(std::size_t matrix) const {
+  const HandDescription* of = hand();
+  return of && matrix < of->matrices.size() ? QString::fromStdString(of->matrixName(matrix))
+                                            : QString();
+}
+
+void SlipPanel::changed() {
+  if (live()) {
+    emit liveOptionsChanged();
+    return;
+  }
+  found_.reset();
+  renew();
+}
+
+void SlipPanel::setReference() {
+  if (live()) {
+    emit liveReferenceAsked();
+    return;
+  }
+  if (!recording() || recording()->profile.numFrames() == 0) return;
+  controls_->setReferenceFrame(frame_);
+  changed();
+}
+
+QString SlipPanel::whyNot() const {
+  if (live()) return found() ? QString() : "Waiting for frames of what is connected.";
+  if (!recording())
+    return "Open a recording, or connect a hand (Ctrl+K), to see how its contacts move.";
+  return ComputedPage::whyNot();
+}
+
+void SlipPanel::forget() {
+  found_.reset();
+  liveSeries_ = {};
+  values_ = {};
+  frame_ = 0;
+  chosenByUser_ = false;
+  controls_->setLive(live());
+  controls_->setReferenceEnabled(live() || recording());
+  chart_->setSeries(nullptr, 0, {});
+  drawing_->clear();
+  emit foundChanged();
+}
+
+void SlipPanel::compute() {
+  if (live()) return showFrame();
+  const SlipSeriesOptions options = controls_->options();
+  kept_.remove_if([](const Kept& each) { return each.of.expired(); });
+  for (auto at = kept_.begin(); at != kept_.end(); ++at) {
+    if (at->of.lock() != recording() || at->asked != options) continue;
+    kept_.splice(kept_.begin(), kept_, at);
+    return take(at->found);
+  }
+  const OpenedRecordingPtr of = recording();
+  run("slip", [this, of, options](const Progress& progress) -> Take {
+    const auto found = std::make_shared<const SlipSeries>(seriesOf(of->profile, options, progress));
+    return [this, of, options, found] {
+      kept_.push_front({of, options, found});
+      if (kept_.size() > kSlipPanelMostKept) kept_.pop_back();
+      take(found);
+    };
+  });
+}
+
+void SlipPanel::take(const Found& found) {
+  found_ = found;
+  const bool touched = std::any_of(found->matrices.begin(),
+                                   found->matrices.end(),
+                                   [](const auto& samples) { return !samples.empty(); });
+  frame_ = found_->frameAt(positionS_);
+  emit foundChanged();
+  if (!touched) return say("Nothing is touched in this recording: no contact that could slip.");
+  if (!chosenByUser_) chooseBest();
+  showContent();
+  showChosen();
+  showFrame();
+}
+
+// What slips most; else what is touched longest.
+void SlipPanel::chooseBest() {
+  std::vector<double> paths(found_->matrices.size(), 0.0);
+  for (const SlipSegment& slip : found_->slips) paths[slip.matrix] += slip.pathTaxels;
+  for (std::size_t m = 0; m < paths.size(); ++m)
+    paths[m] += 1e-9 * static_cast<double>(found_->matrices[m].size());
+  chosen_ = static_cast<std::size_t>(std::max_element(paths.begin(), paths.end()) - paths.begin());
+}
+
+void SlipPanel::choose(std::size_t matrix) {
+  chosen_ = matrix;
+  showChosen();
+  showFrame();
+}
+
+void SlipPanel::showChosen() {
+  chart_->setSeries(found(), chosen_, nameOfMatrix(chosen_));
+  chart_->setPosition(positionS_);
+}
+
+void SlipPanel::setSeen(double fromS, double toS) {
+  if (!live()) chart_->setSeen(fromS, toS);
+}
+
+void SlipPanel::setMap(ColorMapName map) { drawing_->setMap(map); }
+
+void SlipPanel::setTheme(Theme theme) {
+  theme_ = theme;
+  list_->setTheme(theme);
+  drawing_->setTheme(theme);
+  chart_->setTheme(theme);
+  if (hand() && found()) showRows();
+}
+
+void SlipPanel::setPosition(double seconds) {
+  positionS_ = seconds;
+  if (live()) return;
+  chart_->setPosition(seconds);
+  if (!found_) return;
+  frame_ = found_->frameAt(seconds);
+  emit frameChanged();
+  if (shown()) showFrame();
+}
+
+void SlipPanel::showFrame() {
+  if (!found() || !hand()) return;
+  if (!live()) {
+    try {
+      recording()->profile.readFrame(frame_, values_);
+    } catch (const Error&) {
+      values_ = {};  // a damaged block: said where the frame would be
+    }
+  }
+  showRows();
+  showScene();
+  showNotes(sampleNow(chosen_));
+}
+
+void SlipPanel::showRows() {
+  std::vector<std::vector<FigureCell>> rows;
+  for (std::size_t m = 0; m < hand()->layout->numMatrices(); ++m) {
+    const SlipSample* sample = sampleNow(m);
+    const LampLook lamp = lampOf(sample);
+    const double pitchMm = hand()->layout->matrix(m).pitchMm;
+    const QString name = list_->width() < kShortNames
+                             ? QString::fromStdString(hand()->matrices.at(m).shortName)
+                             : nameOfMatrix(m);
+    std::vector<FigureCell> row = {
+        {.text = name, .tip = nameOfMatrix(m), .icon = lampIcon(lamp, theme_)},
+        {.text = verdictOf(sample), .tip = meaningOf(sample)}};
+    const auto add = [&](bool known, const QString& text, const QString& tip, bool warning) {
+      row.push_back({.text = known ? text : QString("–"),
+                     .tip = known ? tip : QString(),
+                     .warning = known && warning});
+    };
+    const double step =
+        sample ? std::hypot(static_cast<double>(sample->dx), static_cast<double>(sample->dy)) : 0.0;
+    const SlipSeriesOptions& limits = found()->options;
+    add(sample && sample->valid,
+        figure(step, 2),
+        millimetres(step, pitchMm),
+        step > limits.stepTaxels);
+    const double whole = sample ? sample->shiftTaxels() : 0.0;
+    add(sample && sample->refValid,
+        figure(whole, 2),
+        millimetres(whole, pitchMm),
+        whole > limits.referenceTaxels);
+    const double turned = sample ? static_cast<double>(sample->refRotationDeg) : 0.0;
+    add(sample && sample->refRotationValid,
+        figure(turned, 1) + "°",
+        "Clockwise on the screen",
+        std::abs(turned) > limits.rotationDeg);
+    rows.push_back(std::move(row));
+  }
+  const QSignalBlocker blocker(list_);
+  list_->setRows(rows);
+  list_->selectRow(static_cast<int>(chosen_));
+  list_->setMinimumHeight(list_->sizeHint().height());  // all of them are seen
+}
+
+void SlipPanel::showScene() {
+  const SensorLayout& layout = *hand()->layout;
+  if (chosen_ >= layout.numMatrices()) return;
+  SlipScene scene;
+  scene.layout = layout.matrix(chosen_);
+  scene.name = nameOfMatrix(chosen_);
+  scene.stepTaxels = found()->options.stepTaxels;
+  scene.referenceTaxels = found()->options.referenceTaxels;
+  if (values_.layout && *values_.layout == layout) {
+    scene.values = values_.matrix(chosen_);
+    scene.largestCounts = static_cast<double>(scene.values.maxCoeff());
+  }
+  if (const SlipSample* now = sampleNow(chosen_)) {
+    scene.sample = *now;
+    for (const PathPoint& point : found()->pathUntil(chosen_, frame_))
+      scene.path.emplace_back(point.x, point.y);
+  }
+  drawing_->setScene(scene);
+}
+
+void SlipPanel::showNotes(const SlipSample* sample) {
+  QString text = meaningOf(sample);
+  if (sample) {
+    QStringList facts;
+    if (sample->pMoved >= 0.0F)
+      facts.append("P(moved) " + figure(static_cast<double>(sample->pMoved), 2));
+    facts.append("confidence " + figure(static_cast<double>(sample->confidence), 2));
+    facts.append("eccentricity " + figure(static_cast<double>(sample->eccentricity), 2));
+    facts.append("roundness " + figure(static_cast<double>(sample->roundness), 2));
+    text += "\n" + facts.join(" · ");
+    if (!sample->refValid && !found()->options.referenceFrame)
+      text += "\nNo reference yet: it is taken when the contact rests.";
+    if (!live() && found()->options.reference != controls_->options().reference)
+      text += "\nNothing rests in this recording: motion is measured from the first contact.";
+  }
+  if (notes_->text() == text) return;
+  notes_->setText(text);
+  notes_->setToolTip(text);
+}
+
+void SlipPanel::setLiveHand(const HandDescription& hand) {
+  liveHand_ = hand;
+  liveSeries_ = {};
+  liveSlips_.reset();
+  liveSeries_.matrices.resize(hand.layout->numMatrices());
+}
+
+void SlipPanel::showLive(const TactileFrame& frame, const std::vector<SlipVerdict>& verdicts) {
+  if (!live() || !liveHand_ || verdicts.size() != liveSeries_.matrices.size()) return;
+  if (liveSeries_.timeS.empty()) liveSeries_.firstUs = frame.hostUs;
+  if (liveSeries_.timeS.size() >= 2 * kMostLive) {
+    liveSeries_.dropFirst(kMostLive);
+    liveSlips_.reset();
+  }
+  if (!liveSlips_) liveSlips_.emplace(verdicts.size());
+  liveSeries_.options = controls_->options();
+  frame_ = liveSeries_.timeS.size();
+  liveSeries_.timeS.push_back(static_cast<double>(frame.hostUs - liveSeries_.firstUs) / kUsPerS);
+  for (std::size_t m = 0; m < verdicts.size(); ++m)
+    if (verdicts[m].motion.active > 0)
+      liveSeries_.matrices[m].push_back(sampleOf(verdicts[m], frame_));
+  liveSlips_->add(frame_, frame.hostUs, verdicts);
+  emit frameChanged();
+  if (!isVisible()) return;
+  liveSeries_.slips = liveSlips_->segments();
+  values_ = frame;
+  if (!shown()) showContent();
+  positionS_ = liveSeries_.timeS.back();
+  showChosen();
+  chart_->setSeen(std::max(0.0, positionS_ - kLiveSeenS), std::max(positionS_, kLiveSeenS));
+  showFrame();
+}
+
+std::vector<ExportedTable> SlipPanel::tables() const {
+  const SlipSeries* series = found();
+  if (!series || !shown()) return {};
+  auto held = live() ? std::make_shared<const SlipSeries>(*series) : found_;
+  return {{"slip of every frame", [held] { return slipTable(held); }},
+          {"slips that were found", [held] { return slipSegmentTable(held); }}};
+}
+
+void SlipPanel::paint(QPainter& painter, const PictureLook& look, const QString& title) {
+  PictureLook chart = look;
+  const double width = look.size.width() * kPictureDrawing;
+  chart.size.setWidth(look.size.width() - width);
+  painter.save();
+  drawing_->paint(
+      painter, QRectF(0.0, 0.0, width, look.size.height()), look.forPrint ? Theme::kLight : theme_);
+  painter.translate(width, 0.0);
+  chart_->paint(painter, chart, title);
+  painter.restore();
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,81 @@
+#include "gui/source/event_editor.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace palpate::gui {
+
+// One event becomes another, comes, or goes.
+class EventEditor::Change : public QUndoCommand {
+ public:
+  Change(EventEditor& editor,
+         std::optional<RecordingEvent> before,
+         std::optional<RecordingEvent> after,
+         const QString& name)
+      : QUndoCommand(name), editor_(editor), before_(std::move(before)), after_(std::move(after)) {}
+  void undo() override { editor_.apply(after_, before_); }
+  void redo() override { editor_.apply(before_, after_); }
+
+ private:
+  EventEditor& editor_;
+  std::optional<RecordingEvent> before_;
+  std::optional<RecordingEvent> after_;
+};
+
+EventEditor::EventEditor(EventsReport asRead, Save save, QObject* parent)
+    : QObject(parent), asRead_(std::move(asRead)), events_(asRead_.events), save_(std::move(save)) {
+  connect(&undo_, &QUndoStack::cleanChanged, this, &EventEditor::changed);
+  // Undone or redone together: told once.
+  connect(&undo_, &QUndoStack::indexChanged, this, &EventEditor::changed);
+}
+
+// What goes with it isn't a change any more.
+EventEditor::~EventEditor() { undo_.disconnect(this); }
+
+void EventEditor::apply(const std::optional<RecordingEvent>& out,
+                        const std::optional<RecordingEvent>& in) {
+  if (out) {
+    const auto at = std::find(events_.begin(), events_.end(), *out);
+    if (at != events_.end()) events_.erase(at);
+  }
+  if (in) {
+    const auto at = std::upper_bound(
+        events_.begin(), events_.end(), *in, [](const RecordingEvent& a, const RecordingEvent& b) {
+          return a.tUs < b.tUs;
+        });
+    events_.insert(at, *in);
+  }
+}
+
+void EventEditor::push(std::optional<RecordingEvent> before,
+                       std::optional<RecordingEvent> after,
+                       const QString& name) {
+  if (before == after) return;
+  undo_.push(new Change(*this, std::move(before), std::move(after), name));
+}
+
+void EventEditor::add(const RecordingEvent& event, const QString& name) {
+  push(std::nullopt, event, name);
+}
+
+void EventEditor::change(std::size_t index, const RecordingEvent& to, const QString& name) {
+  push(events_.at(index), to, name);
+}
+
+void EventEditor::remove(std::size_t index, const QString& name) {
+  push(events_.at(index), std::nullopt, name);
+}
+
+void EventEditor::changeTogether(const QString& name, const std::function<void()>& changes) {
+  undo_.beginMacro(name);
+  changes();
+  undo_.endMacro();
+}
+
+void EventEditor::save() {
+  save_(asRead_, events_);
+  asRead_.events = events_;
+  undo_.setClean();
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,257 @@
+#include "gui/source/live_controller.h"
+
+#include <palpate/core/error.h>
+#include <palpate/core/time.h>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kLiveControllerRefreshMs = 16;  // a screen's refresh
+constexpr int kLiveControllerLookMs = 250;
+constexpr int kLooksPerCheck = 4;
+
+// The folder, or what there is of it: its disk is the one that counts.
+std::filesystem::path existingPartOf(std::filesystem::path folder) {
+  std::error_code ignored;
+  while (!folder.empty() && folder != folder.root_path() &&
+         !std::filesystem::is_directory(folder, ignored))
+    folder = folder.parent_path();
+  return folder.empty() ? std::filesystem::path(".") : folder;
+}
+
+}  // namespace
+
+LiveController::LiveController(std::filesystem::path dataFolder, QObject* parent)
+    : QObject(parent), dataFolder_(std::move(dataFolder)) {
+  worker_.setMaxThreadCount(1);
+  checker_.setMaxThreadCount(1);
+  refreshTimer_.setInterval(kLiveControllerRefreshMs);
+  refreshTimer_.setTimerType(Qt::PreciseTimer);
+  lookTimer_.setInterval(kLiveControllerLookMs);
+  connect(&refreshTimer_, &QTimer::timeout, this, &LiveController::refresh);
+  connect(&lookTimer_, &QTimer::timeout, this, &LiveController::look);
+}
+
+LiveController::~LiveController() {
+  blockSignals(true);
+  if (cancelled_) *cancelled_ = true;
+  source_.reset();
+  worker_.waitForDone();
+}
+
+void LiveController::inWorker(std::function<void()> work) { worker_.start(std::move(work)); }
+
+void LiveController::setState(State state) {
+  if (state == state_) return;
+  state_ = state;
+  emit stateChanged();
+}
+
+void LiveController::release() {
+  ++generation_;
+  if (cancelled_) *cancelled_ = true;
+  refreshTimer_.stop();
+  lookTimer_.stop();
+  beforeRun_.reset();
+  if (!source_) return;
+  // At once, whatever the worker is busy with.
+  if (source_->control && source_->control->status().phase != GraspPhase::kIdle)
+    source_->control->stop();
+  emit leaving();
+  const bool recorded = recording_;
+  recording_ = stopping_ = false;
+  ++pending_;
+  inWorker([this, recorded, source = std::move(source_)]() mutable {
+    // Whatever moves is stopped before anything else.
+    source->control.reset();
+    source->session->stop();
+    const RecordingReport report = recorded ? source->session->stopRecording() : RecordingReport{};
+    source.reset();
+    QMetaObject::invokeMethod(
+        this,
+        [this, recorded, report] {
+          --pending_;
+          if (recorded) emit recordingEnded(report);
+          if (state_ != State::kEnding || pending_ > 0) return;
+          setState(State::kNone);
+          emit ended();
+        },
+        Qt::QueuedConnection);
+  });
+  source_.reset();
+}
+
+void LiveController::connectTo(const Connection& connection) {
+  release();
+  connection_ = connection;
+  cancelled_ = std::make_shared<std::atomic<bool>>(false);
+  setState(State::kConnecting);
+  ++pending_;
+  inWorker([this, connection, cancelled = cancelled_, generation = generation_] {
+    std::shared_ptr<LiveSource> source;
+    QString error;
+    try {
+      source = openSource(connection, dataFolder_, [&](double) { return !*cancelled; });
+    } catch (const Cancelled&) {
+    } catch (const std::exception& failure) {
+      error = QString::fromUtf8(failure.what());
+    }
+    QMetaObject::invokeMethod(
+        this,
+        [this, source, generation, error] { opened(source, generation, error); },
+        Qt::QueuedConnection);
+  });
+}
+
+void LiveController::opened(std::shared_ptr<LiveSource> source,
+                            std::uint64_t generation,
+                            const QString& error) {
+  --pending_;
+  if (generation != generation_) {  // given up, or another one is wanted by now
+    if (source) {
+      ++pending_;
+      inWorker([this, source = std::move(source)]() mutable {
+        source.reset();
+        QMetaObject::invokeMethod(this, [this] {
+          if (--pending_ > 0 || state_ != State::kEnding) return;
+          setState(State::kNone);
+          emit ended();
+        });
+      });
+    } else if (pending_ == 0 && state_ == State::kEnding) {
+      setState(State::kNone);
+      emit ended();
+    }
+    return;
+  }
+  if (!source) {
+    setState(State::kNone);
+    if (!error.isEmpty()) emit failed(error);
+    emit ended();
+    return;
+  }
+  source_ = std::move(source);
+  stale_ = true;
+  framesCame_ = false;
+  lastFrameUs_ = systemClock().monotonicUs();
+  looks_ = 0;
+  health_ = source_->session->health();
+  refreshTimer_.start();
+  lookTimer_.start();
+  setState(State::kConnected);
+  emit came();
+  emit staleChanged(true);
+  look();
+}
+
+void LiveController::end() {
+  if (state_ == State::kNone || state_ == State::kEnding) return;
+  release();
+  setState(State::kEnding);
+  if (pending_ > 0) return;
+  setState(State::kNone);
+  emit ended();
+}
+
+double LiveController::silentS() const {
+  return static_cast<double>(systemClock().monotonicUs() - lastFrameUs_) / kUsPerS;
+}
+
+void LiveController::refresh() {
+  if (!source_) return;
+  const SharedFrame frame = source_->session->takeFrame();
+  const std::int64_t nowUs = systemClock().monotonicUs();
+  if (frame) {
+    lastFrameUs_ = nowUs;
+    framesCame_ = true;
+  }
+  const bool stale = !framesCame_ || nowUs - lastFrameUs_ > kStaleMs * kUsPerMs;
+  if (stale != stale_) {
+    stale_ = stale;
+    emit staleChanged(stale);
+  }
+  if (frame) emit frameCame(*frame);
+  if (!source_) return;  // whoever was told may have ended it
+  if (const auto results = source_->chain->take()) emit resultsCame(*results);
+}
+
+void LiveController::look() {
+  if (!source_) return;
+  health_ = source_->session->health();
+  const auto events = source_->session->takeEvents();
+  if (looks_++ % kLooksPerCheck == 0) check();
+  if (!events.empty()) emit eventsCame(events);
+  emit looked();
+  // It stopped by itself: a limit, or the end of its source.
+  if (recording_ && !stopping_ && source_ && looks_ > 1 && !source_->session->recording())
+    stopRecording();
+}
+
+void LiveController::check() {
+  if (checking_) return;
+  checking_ = true;
+  checker_.start([this, folder = folder_, source = source_, generation = generation_]() mutable {
+    const BeforeRun result = source->session->checkBeforeRun(existingPartOf(folder));
+    source.reset();
+    QMetaObject::invokeMethod(
+        this,
+        [this, result, generation] {
+          checking_ = false;
+          if (generation == generation_) beforeRun_ = result;
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void LiveController::startRecording(std::function<RecordingOptions()> make) {
+  if (!source_ || recording_) return;
+  recording_ = true;
+  looks_ = 0;  // a look that comes before it has begun doesn't take it for ended
+  emit stateChanged();
+  inWorker([this, make = std::move(make), source = source_, generation = generation_] {
+    QString error;
+    try {
+      source->session->startRecording(make());
+    } catch (const std::exception& failure) {
+      error = QString::fromUtf8(failure.what());
+    }
+    QMetaObject::invokeMethod(
+        this,
+        [this, error, generation] {
+          if (generation != generation_) return;
+          if (error.isEmpty()) {
+            look();
+            emit recordingStarted();
+          } else {
+            recording_ = false;
+            emit stateChanged();
+            emit recordingFailed(error);
+          }
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void LiveController::stopRecording() {
+  if (!source_ || !recording_ || stopping_) return;
+  stopping_ = true;
+  inWorker([this, source = source_, generation = generation_] {
+    const RecordingReport report = source->session->stopRecording();
+    QMetaObject::invokeMethod(
+        this,
+        [this, report, generation] {
+          if (generation != generation_) return;  // release() tells of it
+          recording_ = stopping_ = false;
+          look();
+          emit stateChanged();
+          emit recordingEnded(report);
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void LiveController::mark(const QString& text, std::optional<int> digit) {
+  if (source_) source_->session->mark(text.toStdString(), digit);
+}
+
+}  // namespace palpate::gui

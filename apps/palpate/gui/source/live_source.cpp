@@ -1,0 +1,122 @@
+#include "gui/source/live_source.h"
+
+#include <palpate/calibration/force_series.h>
+#include <palpate/capture/replay.h>
+#include <palpate/core/error.h>
+#include <palpate/device/live_hand.h>
+#include <palpate/emulator/physical_hand.h>
+#include <palpate/emulator/scene.h>
+#include <palpate/live/signals_stage.h>
+#include <palpate/recording/recording.h>
+#include <palpate/recording/recording_meta.h>
+
+namespace palpate::gui {
+namespace {
+
+std::unique_ptr<EmulatedHand> emulatedHand(const Connection& connection,
+                                           const std::filesystem::path& dataFolder) {
+  Scene scene = loadScene(connection.scene.toStdString(), dataFolder / "scenes");
+  if (!connection.sceneActs) scene.script.clear();
+  return std::make_unique<EmulatedHand>(std::make_unique<PhysicalHand>(scene));
+}
+
+std::unique_ptr<Device> deviceOf(LiveSource& source,
+                                 const std::filesystem::path& dataFolder,
+                                 const Progress& progress) {
+  const Connection& connection = source.connection;
+  LiveHandOptions ports;
+  switch (connection.kind) {
+    case Connection::Kind::kReplay: {
+      const std::filesystem::path path = connection.recording.toStdString();
+      Profile profile = openRecording(path, progress);
+      if (profile.numFrames() == 0) throw FileError(path, "holds no frame: nothing to replay");
+      return std::make_unique<Replay>(std::move(profile), ReplayOptions{}, readEvents(path).events);
+    }
+    case Connection::Kind::kEmulated:
+      source.emulated = emulatedHand(connection, dataFolder);
+      ports.dsaPort = source.emulated->dsaPort();
+      ports.sdhPort = source.emulated->sdhPort();
+      break;
+    case Connection::Kind::kPorts:
+      ports.dsaPort = connection.dsaPort.toStdString();
+      ports.sdhPort = connection.sdhPort.toStdString();
+      break;
+  }
+  return std::make_unique<LiveHand>(std::move(ports));
+}
+
+// What the matrices are set to: the controller says it, or a recording that is replayed.
+PressureStage::AskSettings settingsOf(const CaptureSession& session, const Connection& connection) {
+  if (connection.kind == Connection::Kind::kReplay) {
+    auto meta = readRecordingMeta(connection.recording.toStdString());
+    return [told = meta["settings"]] {
+      return told.empty() ? std::vector<SensorSettings>() : reportedSettingsFrom(Json::parse(told));
+    };
+  }
+  return [&session] {
+    std::vector<SensorSettings> settings;
+    for (const MatrixSettings& matrix : session.device().facts().matrices)
+      settings.push_back({matrix.sensitivity, static_cast<double>(matrix.thresholdCounts), false});
+    return settings;
+  };
+}
+
+}  // namespace
+
+LiveSource::~LiveSource() {
+  control.reset();
+  if (session) session->stop();
+  chain.reset();
+  session.reset();
+  emulated.reset();
+}
+
+bool LiveSource::finished() const {
+  const auto* replay = dynamic_cast<const Replay*>(&session->device());
+  return replay && replay->finished();
+}
+
+std::unique_ptr<LiveSource> openSource(const Connection& connection,
+                                       const std::filesystem::path& dataFolder,
+                                       const Progress& progress) {
+  if (const QString problem = problemOf(connection); !problem.isEmpty())
+    throw Error(problem.toStdString());
+  auto source = std::make_unique<LiveSource>();
+  source->connection = connection;
+  source->session = std::make_unique<CaptureSession>(deviceOf(*source, dataFolder, progress));
+  source->history = std::make_unique<SignalHistory>();
+  std::vector<std::unique_ptr<Stage>> stages;
+  auto filters = std::make_unique<FilterStage>();
+  source->filters = filters.get();
+  stages.push_back(std::move(filters));
+  stages.push_back(std::make_unique<SignalsStage>());
+  auto pressure = std::make_unique<PressureStage>(source->session->device().hand(),
+                                                  settingsOf(*source->session, connection));
+  source->pressure = pressure.get();
+  stages.push_back(std::move(pressure));
+  auto slip = std::make_unique<SlipStage>();
+  source->slip = slip.get();
+  stages.push_back(std::move(slip));
+  ChainOptions options;
+  source->stream =
+      std::make_unique<LiveStream>([session = source->session.get()] { return session->health(); });
+  options.onResults = [history = source->history.get(),
+                       stream = source->stream.get()](const LiveResults& results) {
+    history->add(results);
+    stream->send(results);
+  };
+  options.onEvent = [session = source->session.get()](const RecordingEvent& event) {
+    session->note(event);
+  };
+  source->chain = std::make_unique<ProcessingChain>(std::move(stages), std::move(options));
+  source->chain->connect(*source->session);
+  source->chain->start();
+  if (connection.kind != Connection::Kind::kReplay) {
+    source->control = std::make_unique<GraspControl>(*source->session);
+    source->control->run();
+  }
+  source->session->start();
+  return source;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,195 @@
+#include "gui/source/opened_recording.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <palpate/core/error.h>
+#include <palpate/core/time.h>
+#include <palpate/recording/recording.h>
+#include <palpate/recording/recording_meta.h>
+#include <palpate/recording/second_summary.h>
+
+namespace palpate::gui {
+namespace {
+
+constexpr std::int64_t kWholeS = 1'000'000;  // [us]
+constexpr std::size_t kFramesPerReport = 256;
+
+// What the per-second summary tells before any frame is read. Gaps shorter than two seconds don't show in it.
+void takeSummary(OpenedRecording& opened, const std::vector<SecondSummary>& seconds) {
+  const Profile& profile = opened.profile;
+  opened.timing.durationS = static_cast<double>(profile.durationUs()) / kUsPerS;
+  opened.timing.meanRateHz =
+      static_cast<double>(profile.numFrames() - 1) / std::max(opened.timing.durationS, 1e-6);
+  std::vector<std::int64_t> counts;
+  const SecondSummary* before = nullptr;
+  for (const SecondSummary& row : seconds) {
+    if (row.matrix < 0 || static_cast<std::size_t>(row.matrix) >= opened.numMatrices()) continue;
+    opened.maximum = std::max(opened.maximum, row.maximum);
+    if (row.activeMax > 0) opened.touched[static_cast<std::size_t>(row.matrix)] = true;
+    if (row.matrix != 0) continue;
+    counts.push_back(row.frames);
+    if (before && row.tS > before->tS + 1) {
+      const std::size_t last = profile.frameAt(row.tS * kWholeS - 1).value_or(0);
+      if (last + 1 < profile.numFrames()) {
+        const double gapS =
+            static_cast<double>(profile.frameTimeUs(last + 1) - profile.frameTimeUs(last)) /
+            kUsPerS;
+        if (gapS > 1.0) opened.timing.gaps.push_back({last, gapS});
+      }
+    }
+    before = &row;
+  }
+  if (counts.empty()) return;
+  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
+  std::nth_element(counts.begin(), middle, counts.end());
+  opened.timing.rateHz = static_cast<double>(*middle);
+}
+
+// Of a long one. Without a summary (a .dsa, a damaged one) nothing is known but how long it is: all is taken for touched,
+// until the overview tells.
+void openBySummary(OpenedRecording& opened) {
+  std::vector<SecondSummary> seconds;
+  try {
+    seconds = readSeconds(opened.path);
+  } catch (const Error&) {
+    seconds.clear();
+  }
+  takeSummary(opened, seconds);
+  if (!seconds.empty()) return;
+  opened.timing.rateHz = opened.timing.meanRateHz;
+  opened.touched.assign(opened.numMatrices(), true);
+}
+
+bool isLongRecording(const Profile& profile, std::size_t longFrom) {
+  const std::size_t frames = profile.numFrames();
+  return frames > 0 &&
+         (frames >= longFrom ||
+          frames * (profile.layout().numMatrices() + 1) >= OpenedRecording::kLongFromRows ||
+          frames * profile.layout().numPlaces() >= OpenedRecording::kLongFromPlaces);
+}
+
+void readThrough(OpenedRecording& opened, const Progress& progress) {
+  const std::size_t numFrames = opened.profile.numFrames();
+  opened.timing = timingOf(opened.profile);
+  opened.whole.reserve(numFrames);
+  opened.timeS.reserve(numFrames);
+  const auto saturation = static_cast<double>(opened.profile.hand().saturationCounts);
+  std::vector<CharacteristicSignals> rows;
+  std::vector<CharacteristicSignals> all;
+  all.reserve(numFrames * opened.numMatrices());
+  TactileFrame frame;
+  for (std::size_t i = 0; i < numFrames; ++i) {
+    if (progress && i % kFramesPerReport == 0 &&
+        !progress(static_cast<double>(i) / static_cast<double>(numFrames)))
+      throw Cancelled();
+    opened.profile.readFrame(i, frame);
+    allSignals(frame, rows);
+    opened.whole.push_back(rows.back());
+    opened.maximum = std::max(opened.maximum, rows.back().maximum);
+    if (rows.back().maximum >= saturation) ++opened.saturatedFrames;
+    opened.timeS.push_back(static_cast<double>(frame.hostUs - opened.profile.frameTimeUs(0)) /
+                           kUsPerS);
+    for (std::size_t m = 0; m < opened.numMatrices(); ++m)
+      if (rows[m].active > 0) opened.touched[m] = true;
+    all.insert(all.end(), rows.begin(), rows.end() - 1);
+  }
+  opened.table = SignalTable(opened.numMatrices(), std::move(all));
+}
+
+void readTheirEvents(OpenedRecording& opened) {
+  std::error_code failure;
+  if (!std::filesystem::exists(opened.path, failure)) return;
+  try {
+    opened.events = readEvents(opened.path);
+    opened.meta = readRecordingMeta(opened.path);
+  } catch (const std::exception& error) {
+    opened.eventsFailure = error.what();
+  }
+}
+
+}  // namespace
+
+const TimingReport& OpenedRecording::timingNow() const {
+  return overview && overview->complete() ? overview->timing() : timing;
+}
+
+double OpenedRecording::maximumNow() const {
+  return overview && overview->complete() ? overview->maximum() : maximum;
+}
+
+std::optional<std::size_t> OpenedRecording::saturatedFramesNow() const {
+  if (!overview) return saturatedFrames;
+  if (!overview->complete()) return std::nullopt;
+  return overview->saturatedFrames();
+}
+
+CharacteristicSignals OpenedRecording::at(std::size_t frame, std::size_t matrix) const {
+  if (!isLong()) return matrix == numMatrices() ? whole.at(frame) : table.at(frame, matrix);
+  const TactileFrame values = profile.frame(frame);
+  return matrix == numMatrices()
+             ? wholeFrameSignals(values)
+             : characteristicSignals(values.matrix(matrix), values.layout->matrix(matrix));
+}
+
+double OpenedRecording::timeAt(std::size_t frame) const {
+  if (!isLong()) return timeS.at(frame);
+  return static_cast<double>(profile.frameTimeUs(frame) - profile.frameTimeUs(0)) / kUsPerS;
+}
+
+double OpenedRecording::durationS() const {
+  return static_cast<double>(profile.durationUs()) / kUsPerS;
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> OpenedRecording::framesWithin(double fromS,
+                                                                                 double toS) const {
+  if (profile.numFrames() == 0 || !(fromS <= toS)) return std::nullopt;
+  const auto atOrBefore = [&](double seconds) {
+    constexpr double kFurthestS = 1e12;
+    const double clamped = std::clamp(seconds, -kFurthestS, kFurthestS);
+    // Half a microsecond more: what was read from a stamp finds it again.
+    return *profile.frameAt(profile.frameTimeUs(0) + std::llround(clamped * kUsPerS + 0.5));
+  };
+  std::size_t first = atOrBefore(fromS);
+  const std::size_t last = atOrBefore(toS);
+  if (timeAt(first) < fromS - 1e-6) ++first;
+  if (first > last || timeAt(last) > toS + 1e-6) return std::nullopt;
+  return std::pair(first, last);
+}
+
+const Gap* OpenedRecording::gapAt(double seconds) const {
+  for (const Gap& gap : timingNow().gaps) {
+    const double begin = timeAt(gap.frame);
+    if (seconds > begin && seconds < begin + gap.seconds) return &gap;
+  }
+  return nullptr;
+}
+
+OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
+                                       Profile profile,
+                                       const Progress& progress,
+                                       std::size_t longFrom) {
+  auto opened = std::make_shared<OpenedRecording>(OpenedRecording{.path = std::move(path),
+                                                                  .profile = std::move(profile),
+                                                                  .timing = {},
+                                                                  .table = {},
+                                                                  .whole = {},
+                                                                  .timeS = {},
+                                                                  .gapFrames = {},
+                                                                  .touched = {},
+                                                                  .events = {},
+                                                                  .eventsFailure = {},
+                                                                  .overview = {}});
+  opened->touched.assign(opened->numMatrices(), false);
+  if (isLongRecording(opened->profile, longFrom)) {
+    openBySummary(*opened);
+    opened->overview = std::make_shared<SignalOverview>(opened->profile);
+  } else {
+    readThrough(*opened, progress);
+  }
+  for (const Gap& gap : opened->timing.gaps) opened->gapFrames.push_back(gap.frame);
+  readTheirEvents(*opened);
+  return opened;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,47 @@
+#include "gui/source/recent_files.h"
+
+#include <QFileInfo>
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kRecentFilesKey = "recent/files";
+
+}  // namespace
+
+RecentFiles::RecentFiles(QSettings& settings, QObject* parent)
+    : QObject(parent), settings_(settings), paths_(settings.value(kRecentFilesKey).toStringList()) {
+  paths_.removeAll(QString());
+  paths_ = paths_.mid(0, kMost);
+}
+
+void RecentFiles::add(const QString& path) {
+  const QString absolute = QFileInfo(path).absoluteFilePath();
+  paths_.removeAll(absolute);
+  paths_.prepend(absolute);
+  paths_ = paths_.mid(0, kMost);
+  store();
+}
+
+void RecentFiles::remove(const QString& path) {
+  if (paths_.removeAll(path) > 0) store();
+}
+
+void RecentFiles::removeMissing() {
+  const auto gone = [](const QString& path) { return !exists(path); };
+  if (paths_.removeIf(gone) > 0) store();
+}
+
+void RecentFiles::clear() {
+  paths_.clear();
+  store();
+}
+
+bool RecentFiles::exists(const QString& path) { return QFileInfo(path).isFile(); }
+
+void RecentFiles::store() {
+  settings_.setValue(kRecentFilesKey, paths_);
+  emit changed();
+}
+
+}  // namespace palpate::gui

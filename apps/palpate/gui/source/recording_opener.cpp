@@ -1,0 +1,93 @@
+#include "gui/source/recording_opener.h"
+
+#include <QMetaObject>
+#include <new>
+#include <utility>
+
+#include <palpate/core/error.h>
+#include <palpate/recording/recording.h>
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kRecordingOpenerReadShare = 0.6;      // of the whole work; then come the signals
+constexpr double kRecordingOpenerSmallestNews = 0.01;  // progress is reported in steps of this
+
+}  // namespace
+
+RecordingOpener::RecordingOpener(QObject* parent) : RecordingOpener(&openRecording, parent) {}
+
+RecordingOpener::RecordingOpener(Read read, QObject* parent)
+    : QObject(parent), read_(std::move(read)) {}
+
+RecordingOpener::~RecordingOpener() {
+  waiting_.clear();
+  cancelRequested_ = true;
+  if (worker_.joinable()) worker_.join();
+}
+
+void RecordingOpener::open(const std::filesystem::path& path) {
+  waiting_.push_back(path);
+  if (!busy_) startNext();
+}
+
+void RecordingOpener::cancel() {
+  waiting_.clear();
+  cancelRequested_ = true;
+}
+
+void RecordingOpener::startNext() {
+  if (waiting_.empty()) {
+    busy_ = false;
+    emit finished();
+    return;
+  }
+  const std::filesystem::path path = waiting_.front();
+  waiting_.pop_front();
+  busy_ = true;
+  cancelRequested_ = false;
+  emit started(QString::fromStdString(path.string()));
+  if (worker_.joinable()) worker_.join();  // it has reported already: this takes no time
+  worker_ = std::jthread([this, path] { work(path); });
+}
+
+void RecordingOpener::work(const std::filesystem::path& path) {
+  const QString name = QString::fromStdString(path.string());
+  double told = -1.0;
+  const auto part = [&](double from, double share) {
+    return [this, &told, from, share](double fraction) {
+      const double now = from + share * fraction;
+      if (now - told >= kRecordingOpenerSmallestNews) {
+        told = now;
+        QMetaObject::invokeMethod(
+            this, [this, now] { emit progressed(now); }, Qt::QueuedConnection);
+      }
+      return !cancelRequested_;
+    };
+  };
+  try {
+    Profile profile = read_(path, part(0.0, kRecordingOpenerReadShare));
+    auto recording = makeOpenedRecording(
+        path, std::move(profile), part(kRecordingOpenerReadShare, 1.0 - kRecordingOpenerReadShare));
+    conclude([this, recording] { emit opened(recording); });
+  } catch (const Cancelled&) {
+    conclude([this, name] { emit cancelled(name); });
+  } catch (const std::bad_alloc&) {
+    conclude([this, name] { emit failed(name, name + ": too large for this computer's memory"); });
+  } catch (const std::exception& error) {
+    const QString message = QString::fromUtf8(error.what());
+    conclude([this, name, message] { emit failed(name, message); });
+  }
+}
+
+void RecordingOpener::conclude(std::function<void()> report) {
+  QMetaObject::invokeMethod(
+      this,
+      [this, report = std::move(report)] {
+        report();
+        startNext();
+      },
+      Qt::QueuedConnection);
+}
+
+}  // namespace palpate::gui

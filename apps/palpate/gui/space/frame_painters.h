@@ -1,0 +1,24 @@
+// Pictures of single frames of a recording, as files take them: heat maps, and the hand in space.
+#pragma once
+
+#include "gui/matrices/matrices_painter.h"
+#include "gui/picture/exported_view.h"
+#include "gui/source/opened_recording.h"
+#include "gui/space/hand_picture.h"
+
+namespace palpate::gui {
+
+// Options for a picture on paper instead of on screen.
+MatricesPictureOptions fitted(MatricesPictureOptions options, const PictureLook& look);
+// "frame 42 · 1.31 s"
+QString captionOf(const Profile& profile, std::size_t frame);
+// Both hold their data themselves and may be called in any thread, by one at a time. Where options.title isn't empty,
+// each picture says which frame it is.
+FramePictures::Paint matricesFramePainter(const OpenedRecordingPtr& recording,
+                                          const MatricesPictureOptions& options);
+// `assumedDeg`: for a recording without joint angles; empty: at rest.
+FramePictures::Paint handFramePainter(const Profile& profile,
+                                      const HandPictureOptions& options,
+                                      const std::vector<double>& assumedDeg);
+
+}  // namespace palpate::gui

@@ -1,0 +1,51 @@
+// The hand in space with its controls: how taxels are drawn, which sphere, which matrix alone, what else is seen.
+#pragma once
+
+#include <QWidget>
+#include <vector>
+
+#include "gui/matrices/matrices_view.h"
+#include "gui/source/opened_recording.h"
+#include "gui/space/hand_view.h"
+
+class QAction;
+class QComboBox;
+
+namespace palpate::gui {
+
+class HandPanel : public QWidget {
+  Q_OBJECT
+ public:
+  // `shown`: what can be ticked to be seen, offered by a button of the header.
+  explicit HandPanel(const QList<QAction*>& shown, QWidget* parent = nullptr);
+
+  void setRecording(const OpenedRecordingPtr& recording);  // null: none
+  void showFrame(std::size_t frame);
+  // A live hand instead of a recording.
+  void setHand(const HandDescription& hand);
+  void showLive(const TactileFrame& frame, const std::vector<double>& anglesDeg);
+  // Colours as in the heat maps.
+  void setColors(const MatricesLook& look);
+  void setLook(const HandLook& look);  // its colours are left as they are
+  const HandLook& look() const noexcept { return view_->look(); }
+  HandView& view() noexcept { return *view_; }
+
+ signals:
+  // By the header's boxes.
+  void lookChosen(const palpate::gui::HandLook& look);
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  void listMatrices(const HandDescription& hand);
+
+  HandView* view_;
+  QComboBox* taxels_;
+  QComboBox* spheres_;
+  QComboBox* matrix_;
+  OpenedRecordingPtr recording_;
+  TactileFrame frame_;
+};
+
+}  // namespace palpate::gui

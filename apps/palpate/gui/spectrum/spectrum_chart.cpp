@@ -1,0 +1,392 @@
+#include "gui/spectrum/spectrum_chart.h"
+
+#include <QHelpEvent>
+#include <QMouseEvent>
+#include <QToolTip>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+#include "gui/chart/chart_picture.h"
+#include "gui/chart/chart_style.h"
+#include "gui/look/captions.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kRangeDb = 60.0;  // below the strongest, nothing is told apart
+constexpr double kStepDb = 5.0;    // its end is a round figure
+constexpr double kSpectrumChartHeadroom = 1.06;
+constexpr double kSignalShare = 0.55;         // height of the signal, the spectra having 1
+constexpr int kSpectrumChartCursorWidth = 4;  // [px] with its edges
+constexpr int kSpectrumChartBarWidth = 12;    // [px] of the colours
+constexpr double kSpectrumChartWheelStep = 1.25;
+constexpr double kSpectrumChartWheelPan = 0.1;
+constexpr double kSpectrumChartNotch = 120.0;
+constexpr double kSpectrumChartLongestInS = 1200.0;  // [s] as in the timeline
+constexpr int kLowBelow = 230;  // [px] the signal's axis has no room for a name
+
+QCPColorGradient gradientOf(ColorMapName map) {
+  QCPColorGradient gradient;
+  QMap<double, QColor> stops;
+  const ColorTable& table = colorTable(map);
+  constexpr std::size_t kStep = 5;  // 255 = 51 * 5
+  for (std::size_t i = 0; i < table.size(); i += kStep)
+    stops.insert(static_cast<double>(i) / 255.0, QColor(table[i]));
+  gradient.setColorStops(stops);
+  gradient.setNanHandling(QCPColorGradient::nhTransparent);
+  return gradient;
+}
+
+double topDb(const Spectrogram& spectrogram) {
+  return std::ceil(decibels(spectrogram.largestPsd, -kRangeDb) / kStepDb) * kStepDb;
+}
+
+double spectrumChartCellOf(const SpectrogramPart& part,
+                           std::size_t index,
+                           SpectrumScale scale,
+                           double floorDb) {
+  return scale == SpectrumScale::kMagnitude
+             ? static_cast<double>(part.magnitude[index])
+             : decibels(static_cast<double>(part.psd[index]), floorDb);
+}
+
+}  // namespace
+
+QString nameOf(SpectrumScale scale) {
+  return scale == SpectrumScale::kMagnitude ? "magnitude" : "PSD in dB";
+}
+
+std::vector<QString> spectrumNotes(const SpectrumReport& report, const SpectrumOptions& options) {
+  const QString nyquist = "Nyquist " + figure(report.nyquistHz, 1) + " Hz";
+  const QString jitter = "intervals vary by " + figure(report.jitter * 100.0, 0) + " %";
+  const QString grid = "resampled to " + figure(report.rateHz, 1) + " Hz";
+  const QString what = nyquist + "; " + jitter + ": " + grid;
+  const double lengthS = options.window / report.rateHz;
+  QString rest = "window " + figure(lengthS, 2) + " s, bins " +
+                 figure(report.rateHz / options.window, 2) + " Hz apart";
+  const auto asked = static_cast<std::size_t>(options.window - options.overlap);
+  // The hop that was asked for isn't worth a word.
+  if (report.hop > asked) {
+    rest += ", a segment every " + QString::number(report.hop) + " samples";
+    return {what + " · " + rest,
+            what + " · a segment every " + QString::number(report.hop) + " samples",
+            what,
+            nyquist + "; " + grid,
+            nyquist};
+  }
+  return {what + " · " + rest, what, nyquist + "; " + grid, nyquist};
+}
+
+SpectrumChart::SpectrumChart(QWidget* parent) : QCustomPlot(parent) {
+  setObjectName("spectrumChart");
+  setAccessibleName("Signal and its spectra");
+  arrangeChart(*this);
+  setMouseTracking(true);
+  xAxis->setTickLabels(false);
+  yAxis->ticker()->setTickCount(3);
+  axisRect()->setMinimumMargins(QMargins(52, 8, 8, 4));
+  addGraph();
+  spectra_ = new QCPAxisRect(this);
+  plotLayout()->addElement(1, 0, spectra_);
+  plotLayout()->setRowStretchFactor(0, kSignalShare);
+  plotLayout()->setRowSpacing(0);
+  time_ = spectra_->axis(QCPAxis::atBottom);
+  frequency_ = spectra_->axis(QCPAxis::atLeft);
+  time_->ticker()->setTickCount(9);
+  frequency_->ticker()->setTickCount(4);
+  frequency_->setLabel("frequency in Hz");
+  for (QCPAxis* axis : {time_, frequency_}) axis->setLayer("axes");
+  colors_ = new QCPColorScale(this);
+  plotLayout()->addElement(1, 1, colors_);
+  colors_->setType(QCPAxis::atRight);
+  colors_->setBarWidth(kSpectrumChartBarWidth);
+  plotLayout()->setColumnStretchFactor(1, 0.001);
+  auto* sides = new QCPMarginGroup(this);
+  axisRect()->setMarginGroup(QCP::msLeft | QCP::msRight, sides);
+  spectra_->setMarginGroup(QCP::msLeft | QCP::msRight, sides);
+  auto* heights = new QCPMarginGroup(this);
+  spectra_->setMarginGroup(QCP::msTop | QCP::msBottom, heights);
+  colors_->setMarginGroup(QCP::msTop | QCP::msBottom, heights);
+  note_ = new QCPItemText(this);
+  note_->setObjectName("spectrumNote");
+  note_->position->setType(QCPItemPosition::ptAxisRectRatio);
+  note_->position->setAxisRect(spectra_);
+  note_->position->setCoords(0.0, 0.0);
+  note_->setPositionAlignment(Qt::AlignLeft | Qt::AlignBottom);
+  note_->setClipToAxisRect(false);
+  note_->setPadding(QMargins(0, 0, 0, 3));
+  cursor_ = new QWidget(this);
+  cursor_->setObjectName("cursor");
+  cursor_->setAttribute(Qt::WA_TransparentForMouseEvents);
+  connect(this, &QCustomPlot::afterReplot, this, &SpectrumChart::placeCursor);
+}
+
+void SpectrumChart::setAnswer(const SpectrumAnswer& answer) {
+  answer_ = answer;
+  fillSignal();
+  fillSpectra();
+  style();
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+void SpectrumChart::fillSignal() {
+  const Series& series = *answer_.series;
+  QVector<QCPGraphData> samples;
+  samples.reserve(static_cast<qsizetype>(series.timeS.size()));
+  std::size_t stretch = 0;
+  double low = 0.0, high = 0.0;
+  const auto& stretches = answer_.spectrogram->report.stretches;
+  for (std::size_t i = 0; i < series.timeS.size(); ++i) {
+    // A gap breaks the line.
+    if (stretch + 1 < stretches.size() && i == stretches[stretch + 1].first) {
+      ++stretch;
+      samples.append({series.timeS[i], std::numeric_limits<double>::quiet_NaN()});
+    }
+    samples.append({series.timeS[i], series.values[i]});
+    low = std::min(low, series.values[i]);
+    high = std::max(high, series.values[i]);
+  }
+  graph(0)->data()->set(samples, true);
+  if (!(high > low)) high = low + 1.0;
+  yAxis->setRange(low < 0.0 ? low * kSpectrumChartHeadroom : 0.0, high * kSpectrumChartHeadroom);
+}
+
+// A map per stretch: each has its own rate, and nothing lies between them.
+void SpectrumChart::fillSpectra() {
+  for (QCPColorMap* map : maps_) removePlottable(map);
+  maps_.clear();
+  if (!answer_.spectrogram) return;
+  const Spectrogram& all = *answer_.spectrogram;
+  const double top = topDb(all), floorDb = top - kRangeDb;
+  double highestHz = 0.0;
+  for (const SpectrogramPart& part : all.parts) {
+    auto* map = new QCPColorMap(time_, frequency_);
+    map->setInterpolate(false);
+    map->setTightBoundary(false);
+    const auto last = static_cast<double>(part.segments - 1);
+    // A single one is as wide as its window.
+    const double air = part.segments == 1 ? 0.5 / part.binHz : 0.0;
+    const double rangeHz = part.binHz * static_cast<double>(all.numBins - 1);
+    map->data()->setSize(static_cast<int>(part.segments), static_cast<int>(all.numBins));
+    map->data()->setRange({part.firstS - air, part.firstS + last * part.stepS + air},
+                          {0.0, rangeHz});
+    for (std::size_t i = 0; i < part.segments; ++i)
+      for (std::size_t k = 0; k < all.numBins; ++k)
+        map->data()->setCell(static_cast<int>(i),
+                             static_cast<int>(k),
+                             spectrumChartCellOf(part, i * all.numBins + k, scale_, floorDb));
+    map->setColorScale(colors_);
+    maps_.push_back(map);
+    const auto window = static_cast<double>(answer_.options.window);
+    highestHz = std::max(highestHz, part.binHz * window / 2.0);
+  }
+  frequency_->setRange(0.0, highestHz);
+  colors_->setGradient(gradientOf(map_));
+  if (scale_ == SpectrumScale::kDecibels)
+    colors_->setDataRange({floorDb, top});
+  else
+    colors_->setDataRange({0.0, all.largestMagnitude > 0.0 ? all.largestMagnitude : 1.0});
+}
+
+void SpectrumChart::setScale(SpectrumScale scale) {
+  if (scale == scale_) return;
+  scale_ = scale;
+  fillSpectra();
+  writeNotes();
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+void SpectrumChart::setMap(ColorMapName map) {
+  if (map == map_) return;
+  map_ = map;
+  colors_->setGradient(gradientOf(map_));
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+void SpectrumChart::setTheme(Theme theme) {
+  theme_ = theme;
+  style();
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+void SpectrumChart::style() {
+  const ThemeColors& colors = colorsOf(theme_);
+  styleChart(*this, theme_);
+  for (QCPAxis* axis : spectra_->axes()) styleExtraAxis(*axis, *this, theme_);
+  styleExtraAxis(*colors_->axis(), *this, theme_);
+  // Of one matrix: in its colour.
+  std::size_t matrix = 0, touched = 0;
+  for (std::size_t m = 0; m < answer_.taxels.numMatrices(); ++m) {
+    const Mask& mask = answer_.taxels.mask(m);
+    if (std::find(mask.begin(), mask.end(), 1) == mask.end()) continue;
+    matrix = m;
+    ++touched;
+  }
+  graph(0)->setPen(curvePen(matrix, touched > 1, theme_));
+  note_->setColor(colors.text);
+  note_->setFont(font());
+  // On the dark end of the colours it is seen by its edges.
+  cursor_->setStyleSheet("background: " + colors.accent.name() + "; border: 0 solid " +
+                         colors.window.name() +
+                         "; border-left-width: 1px; border-right-width: 1px");
+  writeNotes();
+}
+
+// Low, the chart has no room for more than units.
+void SpectrumChart::nameAxes() {
+  const bool low = height() < kLowBelow;
+  colors_->axis()->ticker()->setTickCount(low ? 2 : 4);
+  frequency_->ticker()->setTickCount(low ? 2 : 4);
+  const bool seconds = time_->range().upper <= kSpectrumChartLongestInS;
+  time_->setLabel(low       ? QString()
+                  : seconds ? "time from the first frame in s"
+                            : "time from the first frame in h:min:s");
+  yAxis->setLabel(low ? QString() : "counts");
+  frequency_->setLabel(low ? "Hz" : "frequency in Hz");
+  const bool db = scale_ == SpectrumScale::kDecibels;
+  colors_->axis()->setLabel(low  ? (db ? "dB" : "counts")
+                            : db ? "dB re 1 counts²/Hz"
+                                 : "magnitude in counts");
+  spectra_->setMinimumMargins(QMargins(52, fontMetrics().height() + 6, 8, 10));
+}
+
+// As long as there is room for it.
+void SpectrumChart::writeNotes() {
+  nameAxes();
+  if (!answer_.spectrogram || answer_.spectrogram->report.rateHz <= 0.0) return;
+  const auto notes = spectrumNotes(answer_.spectrogram->report, answer_.options);
+  const int room = spectra_->rect().width() > 1 ? spectra_->rect().width() : width() - 150;
+  const auto fits = std::find_if(notes.begin(), notes.end() - 1, [&](const QString& note) {
+    return fontMetrics().horizontalAdvance(note) <= room;
+  });
+  note_->setText(*fits);
+}
+
+void SpectrumChart::setSeen(double fromS, double toS) {
+  for (QCPAxis* axis : {xAxis, time_}) axis->setRange(fromS, toS);
+  if (toS > kSpectrumChartLongestInS && !time_->ticker().dynamicCast<QCPAxisTickerTime>()) {
+    const QSharedPointer<QCPAxisTickerTime> clock(new QCPAxisTickerTime);
+    clock->setTimeFormat("%h:%m:%s");
+    clock->setTickCount(9);
+    time_->setTicker(clock);
+  } else if (toS <= kSpectrumChartLongestInS && time_->ticker().dynamicCast<QCPAxisTickerTime>()) {
+    time_->setTicker(QSharedPointer<QCPAxisTicker>(new QCPAxisTicker));
+    time_->ticker()->setTickCount(9);
+  }
+  nameAxes();
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+void SpectrumChart::setPosition(double seconds) {
+  positionS_ = seconds;
+  placeCursor();
+}
+
+void SpectrumChart::placeCursor() {
+  const QRect plot = axisRect()->rect();
+  const int x = static_cast<int>(std::lround(xAxis->coordToPixel(positionS_)));
+  const bool inside = x >= plot.left() - 1 && x <= plot.right() + 2;
+  const QRect place(x - kSpectrumChartCursorWidth / 2,
+                    plot.top(),
+                    kSpectrumChartCursorWidth,
+                    spectra_->rect().bottom() - plot.top());
+  if (cursor_->geometry() != place) cursor_->setGeometry(place);
+  if (cursor_->isHidden() == inside) cursor_->setVisible(inside);
+}
+
+QString SpectrumChart::valuesAt(const QPointF& at) const {
+  if (!answer_.spectrogram) return {};
+  const double seconds = secondsAt(at.x());
+  const QString time = figure(seconds, 2) + " s";
+  if (spectra_->rect().contains(at.toPoint())) {
+    const double hz = frequency_->pixelToCoord(at.y());
+    const Spectrogram& all = *answer_.spectrogram;
+    for (const SpectrogramPart& part : all.parts) {
+      const auto segment = std::lround((seconds - part.firstS) / part.stepS);
+      const auto bin = static_cast<std::size_t>(std::max(0L, std::lround(hz / part.binHz)));
+      if (segment < 0 || segment >= static_cast<long>(part.segments) || bin >= all.numBins)
+        continue;
+      const std::size_t cell = static_cast<std::size_t>(segment) * all.numBins + bin;
+      const double psd = static_cast<double>(part.psd[cell]);
+      return time + " · " + figure(static_cast<double>(bin) * part.binHz, 2) + " Hz\nPSD " +
+             (psd > 0.0 ? figure(decibels(psd, -400.0), 1) + " dB" : QString("0")) +
+             "\nmagnitude " + figure(static_cast<double>(part.magnitude[cell]), 2) + " counts";
+    }
+    return time + "\nno whole window around this moment";
+  }
+  if (!axisRect()->rect().contains(at.toPoint())) return {};
+  // The last sample at or before it.
+  auto found = graph(0)->data()->findEnd(seconds, false);
+  if (found == graph(0)->data()->constBegin() || std::isnan((--found)->value)) return time;
+  return time + "\n" + figure(found->value, 0) + " counts";
+}
+
+void SpectrumChart::paint(QPainter& painter,
+                          const PictureLook& look,
+                          const QString& title,
+                          const QString& name) {
+  // The colour bar is no axis rect: paintChart doesn't know it.
+  QCPAxis& axis = *colors_->axis();
+  const QColor before = axis.labelColor();
+  const QFont fontBefore = axis.labelFont();
+  if (look.forPrint) {
+    axis.setLabelColor(inkOf(before));
+    axis.setTickLabelColor(inkOf(before));
+  }
+  if (look.textUnits > 0) {
+    QFont font = fontBefore;
+    font.setPixelSize(look.textUnits);
+    axis.setLabelFont(font);
+    axis.setTickLabelFont(font);
+  }
+  paintChart(painter, look, *this, {.title = title, .legend = {{name, graph(0)->pen()}}});
+  axis.setLabelColor(before);
+  axis.setTickLabelColor(before);
+  axis.setLabelFont(fontBefore);
+  axis.setTickLabelFont(fontBefore);
+}
+
+void SpectrumChart::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return;
+  seeking_ = true;
+  emit sought(secondsAt(event->position().x()));
+}
+
+void SpectrumChart::mouseMoveEvent(QMouseEvent* event) {
+  if (seeking_) emit sought(secondsAt(event->position().x()));
+}
+
+void SpectrumChart::mouseReleaseEvent(QMouseEvent*) { seeking_ = false; }
+
+void SpectrumChart::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton) emit fitAsked();
+}
+
+void SpectrumChart::wheelEvent(QWheelEvent* event) {
+  const double notches = event->angleDelta().y() / kSpectrumChartNotch;
+  const double sideways = event->angleDelta().x() / kSpectrumChartNotch;
+  if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier)
+    emit panAsked(-(sideways != 0.0 ? sideways : notches) * kSpectrumChartWheelPan *
+                  xAxis->range().size());
+  else
+    emit zoomAsked(secondsAt(event->position().x()), std::pow(kSpectrumChartWheelStep, notches));
+  event->accept();
+}
+
+void SpectrumChart::resizeEvent(QResizeEvent* event) {
+  QCustomPlot::resizeEvent(event);
+  writeNotes();
+}
+
+bool SpectrumChart::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip) {
+    const auto* help = static_cast<QHelpEvent*>(event);
+    QToolTip::showText(help->globalPos(), valuesAt(help->pos()), this);
+    return true;
+  }
+  if (event->type() == QEvent::FontChange) style();
+  return QCustomPlot::event(event);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,118 @@
+#include "gui/spectrum/spectrum_header.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <algorithm>
+
+#include "gui/widgets/number_field.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kShortest = 2;  // [samples]
+constexpr int kLongest = 65'536;
+
+}  // namespace
+
+SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
+  name_ = new QLabel(this);
+  name_->setObjectName("spectrumName");
+  name_->setTextFormat(Qt::PlainText);
+  name_->setMinimumWidth(30);
+  name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  const auto field = [this](const char* name, const QString& tip) {
+    auto* made = new FrameField(this);
+    made->setObjectName(name);
+    made->setAccessibleName(tip.section('\n', 0, 0));
+    made->setToolTip(tip);
+    made->setFixedWidth(made->fontMetrics().horizontalAdvance("65536") + 18);
+    made->setFocusPolicy(Qt::StrongFocus);
+    return made;
+  };
+  window_ = field("spectrumWindow",
+                  "Samples of a segment, 2 to 65536\nLonger: finer frequencies, coarser in time.");
+  window_->setRange(kShortest, kLongest);
+  overlap_ =
+      field("spectrumOverlap", "Samples that a segment shares with the next, 0 to window - 1");
+  overlap_->setRange(0, kLongest - 1);
+  scale_ = new QComboBox(this);
+  scale_->setObjectName("spectrumScale");
+  scale_->setAccessibleName("What the colours mean");
+  scale_->setToolTip(
+      "Power spectral density in dB re 1 counts²/Hz, or the amplitude of a tone in counts");
+  scale_->setFocusPolicy(Qt::TabFocus);
+  for (const SpectrumScale each : kAllSpectrumScales) scale_->addItem(nameOf(each));
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(6);
+  row->addWidget(name_, 1);
+  row->addSpacing(4);
+  row->addWidget(new QLabel("Window", this));
+  row->addWidget(window_);
+  row->addSpacing(4);
+  row->addWidget(new QLabel("Overlap", this));
+  row->addWidget(overlap_);
+  row->addSpacing(4);
+  row->addWidget(scale_);
+  show(setting_);
+  connect(window_, &QSpinBox::valueChanged, this, [this](int window) {
+    SpectrumSetting setting = setting_;
+    // All but one stays all but one.
+    const bool most = setting.overlap == setting.window - 1;
+    setting.window = window;
+    setting.overlap = most ? window - 1 : std::min(setting.overlap, window - 1);
+    take(setting);
+  });
+  connect(overlap_, &QSpinBox::valueChanged, this, [this](int overlap) {
+    SpectrumSetting setting = setting_;
+    setting.overlap = overlap;
+    take(setting);
+  });
+  connect(scale_, &QComboBox::activated, this, [this](int index) {
+    SpectrumSetting setting = setting_;
+    setting.scale = kAllSpectrumScales[static_cast<std::size_t>(index)];
+    take(setting);
+  });
+}
+
+void SpectrumHeader::show(const SpectrumSetting& setting) {
+  setting_ = setting;
+  const QSignalBlocker window(window_), overlap(overlap_), scale(scale_);
+  window_->setValue(setting.window);
+  overlap_->setRange(0, setting.window - 1);
+  overlap_->setValue(setting.overlap);
+  scale_->setCurrentText(nameOf(setting.scale));
+}
+
+void SpectrumHeader::setSetting(const SpectrumSetting& setting) {
+  SpectrumSetting good = setting;
+  good.window = std::clamp(good.window, kShortest, kLongest);
+  good.overlap = std::clamp(good.overlap, 0, good.window - 1);
+  take(good);
+}
+
+void SpectrumHeader::take(SpectrumSetting setting) {
+  const bool another = setting != setting_;
+  show(setting);
+  if (another) emit changed();
+}
+
+void SpectrumHeader::setName(const QString& name) {
+  whole_ = name;
+  name_->setToolTip(name);
+  elide();
+}
+
+void SpectrumHeader::elide() {
+  name_->setText(name_->fontMetrics().elidedText(whole_, Qt::ElideRight, name_->width()));
+}
+
+void SpectrumHeader::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  layout()->activate();
+  elide();
+}
+
+}  // namespace palpate::gui

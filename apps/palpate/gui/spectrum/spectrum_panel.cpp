@@ -1,0 +1,242 @@
+#include "gui/spectrum/spectrum_panel.h"
+
+#include <QCoreApplication>
+#include <QStackedWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include <palpate/core/number_text.h>
+
+#include "gui/widgets/empty_page.h"
+#include "gui/widgets/opening_strip.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kWindowKey = "spectrum/window";
+constexpr const char* kOverlapKey = "spectrum/overlap";
+constexpr const char* kScaleKey = "spectrum/scale";
+constexpr int kSpectrumPanelCalmMs =
+    120;  // so long nothing moves before a long recording is computed anew
+
+SpectrumSetting loaded(const QSettings& settings) {
+  const SpectrumSetting usual;
+  SpectrumSetting setting;
+  setting.window = settings.value(kWindowKey, usual.window).toInt();
+  setting.overlap = settings.value(kOverlapKey, usual.overlap).toInt();
+  for (const SpectrumScale each : kAllSpectrumScales)
+    if (settings.value(kScaleKey).toString() == nameOf(each)) setting.scale = each;
+  return setting;
+}
+
+bool sameWork(const SpectrumQuestion& a, const SpectrumQuestion& b) {
+  const SpectrumOptions &one = a.options.spectrum, &other = b.options.spectrum;
+  if (a.recording != b.recording || a.taxels != b.taxels || one.window != other.window ||
+      one.overlap != other.overlap)
+    return false;
+  return fitsWhole(b) || (a.fromS == b.fromS && a.toS == b.toS);
+}
+
+// As `palpate spectrum` prints it.
+TextTable segmentTable(const SpectrumAnswer& answer) {
+  const auto spectrogram = answer.spectrogram;
+  return {.header = {"segment", "time_s", "frequency_hz", "psd", "magnitude"},
+          .numRows = spectrogram->report.segments * spectrogram->numBins,
+          .row = [spectrogram](std::size_t row) {
+            const std::size_t segment = row / spectrogram->numBins,
+                              bin = row % spectrogram->numBins;
+            std::size_t before = 0;
+            const SpectrogramPart* part = spectrogram->parts.data();
+            for (; segment - before >= part->segments; ++part) before += part->segments;
+            const std::size_t index = segment - before;
+            const std::size_t cell = index * spectrogram->numBins + bin;
+            return std::vector<std::string>{
+                std::to_string(segment),
+                numberText(part->firstS + static_cast<double>(index) * part->stepS),
+                numberText(static_cast<double>(bin) * part->binHz),
+                numberText(part->psd[cell]),
+                numberText(part->magnitude[cell])};
+          }};
+}
+
+TextTable meanTable(const SpectrumAnswer& answer) {
+  return {.header = {"frequency_hz", "psd [counts^2/Hz]", "magnitude [counts]"},
+          .numRows = answer.spectrogram->mean.psd.size(),
+          .row = [mean = answer.spectrogram->mean](std::size_t row) {
+            return std::vector<std::string>{numberText(static_cast<double>(row) * mean.binHz),
+                                            numberText(mean.psd[row]),
+                                            numberText(mean.magnitude[row])};
+          }};
+}
+
+}  // namespace
+
+SpectrumPanel::SpectrumPanel(QSettings& settings, QWidget* parent)
+    : QWidget(parent), settings_(settings) {
+  setObjectName("SpectrumPanel");
+  header_ = new SpectrumHeader(this);
+  header_->setSetting(loaded(settings));
+  strip_ = new OpeningStrip(this, "Computing", "spectrum");
+  pages_ = new QStackedWidget(this);
+  empty_ = new EmptyPage("spectrum", pages_);
+  chart_ = new SpectrumChart(pages_);
+  chart_->setScale(header_->setting().scale);
+  pages_->addWidget(empty_);
+  pages_->addWidget(chart_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(strip_);
+  column->addWidget(pages_, 1);
+  later_.setSingleShot(true);
+  later_.setInterval(kSpectrumPanelCalmMs);
+  connect(&later_, &QTimer::timeout, this, &SpectrumPanel::ask);
+  connect(header_, &SpectrumHeader::changed, this, [this] {
+    const SpectrumSetting& setting = header_->setting();
+    settings_.setValue(kWindowKey, setting.window);
+    settings_.setValue(kOverlapKey, setting.overlap);
+    settings_.setValue(kScaleKey, gui::nameOf(setting.scale));
+    chart_->setScale(setting.scale);
+    ask();
+  });
+  connect(&worker_, &SpectrumWorker::started, strip_, [this] { strip_->begin("spectra"); });
+  connect(&worker_, &SpectrumWorker::progressed, strip_, &OpeningStrip::setProgress);
+  connect(&worker_, &SpectrumWorker::ended, strip_, &OpeningStrip::end);
+  connect(&worker_, &SpectrumWorker::answered, this, &SpectrumPanel::take);
+  connect(strip_, &OpeningStrip::cancelRequested, this, &SpectrumPanel::cancel);
+  connect(empty_, &EmptyPage::buttonClicked, this, [this] {
+    asked_.reset();
+    ask();
+  });
+  setSource(nullptr, false);
+}
+
+void SpectrumPanel::setSource(const OpenedRecordingPtr& recording, bool live) {
+  const OpenedRecordingPtr source = live ? nullptr : recording;
+  if (source == recording_ && live == live_ && recording_) return;
+  recording_ = source;
+  live_ = live;
+  taxels_ = {};
+  asked_.reset();
+  worker_.giveUp();
+  name_.clear();
+  header_->setName({});
+  if (live)
+    say("Spectra are those of recordings. Record what is connected (Ctrl+R), and open it.");
+  else if (!recording_)
+    say("Open a recording to see the spectra of its taxels.");
+  else if (recording_->profile.numFrames() == 0)
+    say("This recording holds no frame.");
+  else
+    say("");
+  ask();
+}
+
+void SpectrumPanel::setTaxels(const TaxelSelection& taxels) {
+  taxels_ = taxels;
+  ask();
+}
+
+void SpectrumPanel::setSeen(double fromS, double toS) {
+  if (fromS == fromS_ && toS == toS_) return;
+  fromS_ = fromS;
+  toS_ = toS;
+  chart_->setSeen(fromS, toS);
+  if (recording_ && isVisible()) later_.start();
+}
+
+void SpectrumPanel::setPosition(double seconds) { chart_->setPosition(seconds); }
+
+void SpectrumPanel::setTheme(Theme theme) { chart_->setTheme(theme); }
+
+void SpectrumPanel::ask() {
+  later_.stop();
+  if (!recording_ || recording_->profile.numFrames() == 0 || !isVisible()) return;
+  SpectrumQuestion question{.recording = recording_, .fromS = fromS_, .toS = toS_};
+  // Of another sensor: chosen before this recording came.
+  if (TaxelSelection(recording_->profile.layout()).sameSensor(taxels_)) question.taxels = taxels_;
+  question.options.spectrum.window = header_->setting().window;
+  question.options.spectrum.overlap = header_->setting().overlap;
+  if (asked_ && sameWork(*asked_, question)) return;
+  asked_ = question;
+  worker_.ask(question);
+}
+
+bool SpectrumPanel::cancel() {
+  if (!worker_.busy()) return false;
+  worker_.giveUp();
+  say("Given up.", "Compute the spectra");
+  emit said("computing spectra was cancelled");
+  return true;
+}
+
+QString SpectrumPanel::nameOf(const SpectrumAnswer& answer) const {
+  const std::size_t count = answer.taxels.count();
+  if (count > 1) return "mean of " + QString::number(count) + " taxels";
+  const HandDescription& hand = recording_->profile.hand();
+  for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m) {
+    const MatrixLayout& matrix = hand.layout->matrix(m);
+    for (int y = 0; y < matrix.rows; ++y)
+      for (int x = 0; x < matrix.columns; ++x)
+        if (answer.taxels.contains(m, y, x))
+          return QString::fromStdString(hand.matrixName(m)) + " · x " + QString::number(x) +
+                 ", y " + QString::number(y);
+  }
+  return {};
+}
+
+void SpectrumPanel::take(const SpectrumAnswer& answer) {
+  if (!answer.failure.isEmpty()) return say(answer.failure, "Try again");
+  if (answer.taxels.empty() || !answer.series) {
+    header_->setName({});
+    return say(
+        "No taxel of this recording feels anything. Choose one in the matrices: click or "
+        "drag.");
+  }
+  name_ = nameOf(answer);
+  header_->setName(answer.strongest ? name_ + "   (the strongest; choose others in the matrices)"
+                                    : name_);
+  if (answer.spectrogram->parts.empty()) {
+    std::size_t longest = 0;
+    for (const SpectrumStretch& stretch : answer.spectrogram->report.stretches)
+      longest = std::max(longest, stretch.gridSamples);
+    return say("Too short: " + QString(answer.whole ? "the longest stretch" : "what is seen") +
+               " without a gap has " + QString::number(longest) + " samples, a window takes " +
+               QString::number(answer.options.window) + ".\nMake the window smaller" +
+               (answer.whole ? "." : ", or see more of the recording."));
+  }
+  chart_->setAnswer(answer);
+  chart_->setSeen(fromS_, toS_);
+  pages_->setCurrentWidget(chart_);
+}
+
+void SpectrumPanel::say(const QString& text, const QString& button) {
+  empty_->say(text, button);
+  pages_->setCurrentWidget(empty_);
+}
+
+QString SpectrumPanel::emptyText() const {
+  return pages_->currentWidget() == empty_ ? empty_->text() : QString();
+}
+
+bool SpectrumPanel::shown() const { return isVisible() && pages_->currentWidget() == chart_; }
+
+void SpectrumPanel::settle() {
+  ask();
+  while (worker_.busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+}
+
+std::vector<ExportedTable> SpectrumPanel::tables() const {
+  std::vector<ExportedTable> tables;
+  if (pages_->currentWidget() != chart_) return tables;
+  tables.push_back({"spectra", [answer = chart_->answer()] { return segmentTable(answer); }});
+  tables.push_back({"mean spectrum", [answer = chart_->answer()] { return meanTable(answer); }});
+  return tables;
+}
+
+void SpectrumPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  ask();
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,147 @@
+#include "gui/spectrum/spectrum_worker.h"
+
+#include <QMetaObject>
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include <palpate/core/error.h>
+#include <palpate/filter/strongest_taxel.h>
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kSpectrumWorkerEverS = std::numeric_limits<double>::max();
+constexpr std::size_t kFramesLookedAt = 4000;  // for the strongest taxel
+// How much of the work each part is.
+constexpr double kLookShare = 0.2;
+constexpr double kSpectrumWorkerReadShare = 0.5;
+constexpr double kToldStep = 0.02;
+
+// Part of a progress: from `base`, `share` of the whole.
+Progress part(const Progress& whole, double base, double share) {
+  return [&whole, base, share](double done) { return whole(base + share * done); };
+}
+
+}  // namespace
+
+// Of the recording asked about last: weak, so that a closed one isn't held here.
+struct SpectrumWorker::Kept {
+  std::weak_ptr<const OpenedRecording> of = {};
+  bool looked = false;
+  TaxelSelection strongest = {};  // once it was looked for; empty: nothing is felt
+  TaxelSelection taxels = {};     // whose whole series this is
+  std::shared_ptr<const Series> series = {};
+};
+
+bool fitsWhole(const SpectrumQuestion& question) {
+  const SpectrumOptions& spectrum = question.options.spectrum;
+  const auto hop = static_cast<std::size_t>(spectrum.window - spectrum.overlap);
+  return question.recording->profile.numFrames() / hop <= question.options.fitted().mostSegments;
+}
+
+SpectrumWorker::SpectrumWorker(QObject* parent) : QObject(parent), kept_(std::make_shared<Kept>()) {
+  pool_.setMaxThreadCount(1);
+}
+
+SpectrumWorker::~SpectrumWorker() {
+  ++generation_;
+  pool_.clear();
+  pool_.waitForDone();
+}
+
+void SpectrumWorker::giveUp() {
+  ++generation_;
+  pool_.clear();
+  if (!busy_) return;
+  busy_ = false;
+  emit ended();
+}
+
+void SpectrumWorker::ask(const SpectrumQuestion& question) {
+  ++generation_;
+  pool_.clear();
+  const bool begins = !busy_;
+  busy_ = true;
+  if (begins) emit started();
+  pool_.start([this, question, generation = generation_.load()] { work(question, generation); });
+}
+
+void SpectrumWorker::work(const SpectrumQuestion& question, int generation) {
+  double told = 0.0;
+  const Progress progress = [&](double done) {
+    if (done - told >= kToldStep) {
+      told = done;
+      QMetaObject::invokeMethod(
+          this,
+          [this, generation, done] {
+            if (generation == generation_) emit progressed(done);
+          },
+          Qt::QueuedConnection);
+    }
+    return generation == generation_;
+  };
+  SpectrumAnswer answer;
+  try {
+    answer = answerTo(question, progress);
+  } catch (const Cancelled&) {
+    return;
+  } catch (const std::exception& error) {
+    answer.failure = QString::fromUtf8(error.what());
+  }
+  QMetaObject::invokeMethod(
+      this,
+      [this, generation, answer] {
+        if (generation != generation_) return;
+        busy_ = false;
+        emit answered(answer);
+        emit ended();
+      },
+      Qt::QueuedConnection);
+}
+
+SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
+                                        const Progress& progress) {
+  const Profile& profile = question.recording->profile;
+  if (kept_->of.lock() != question.recording) {
+    *kept_ = {};
+    kept_->of = question.recording;
+  }
+  SpectrumAnswer answer{.taxels = question.taxels,
+                        .strongest = question.taxels.empty(),
+                        .whole = fitsWhole(question),
+                        .options = question.options.fitted()};
+  if (answer.strongest) {
+    if (!kept_->looked) {
+      kept_->strongest = TaxelSelection(profile.layout());
+      if (const auto place =
+              strongestTaxel(profile, kFramesLookedAt, part(progress, 0.0, kLookShare)))
+        kept_->strongest.toggle(place->matrix, place->y, place->x);
+      kept_->looked = true;
+    }
+    answer.taxels = kept_->strongest;
+  }
+  const SeriesChoice choice{.kind = SeriesChoice::Kind::kTaxels, .taxels = answer.taxels};
+  if (!hasSeries(profile, choice)) return answer;
+  const Progress reading = part(progress, kLookShare, kSpectrumWorkerReadShare);
+  if (!answer.whole) {
+    answer.series = std::make_shared<Series>(
+        readSeries(profile, choice, question.fromS, question.toS, reading));
+  } else {
+    if (!kept_->series || kept_->taxels != answer.taxels) {
+      kept_->series = std::make_shared<Series>(
+          readSeries(profile, choice, -kSpectrumWorkerEverS, kSpectrumWorkerEverS, reading));
+      kept_->taxels = answer.taxels;
+    }
+    answer.series = kept_->series;
+  }
+  const double read = kLookShare + kSpectrumWorkerReadShare;
+  answer.spectrogram =
+      std::make_shared<Spectrogram>(spectrogramOf(answer.series->timeS,
+                                                  answer.series->values,
+                                                  question.options,
+                                                  part(progress, read, 1.0 - read)));
+  return answer;
+}
+
+}  // namespace palpate::gui

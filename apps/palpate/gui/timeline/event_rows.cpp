@@ -1,0 +1,363 @@
+#include "gui/timeline/event_rows.h"
+
+#include <QApplication>
+#include <QContextMenuEvent>
+#include <QHelpEvent>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QToolTip>
+#include <algorithm>
+#include <cmath>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kAboveText = 3;          // [px] above and below the text of a row
+constexpr double kEventRowsGap = 2.0;  // [px] between rows
+constexpr double kLeastBar = 3.0;      // [px] a moment is as wide
+constexpr double kReach = 5.0;         // [px] beside an end that still take it
+constexpr double kTextRoom = 4.0;      // [px] before a text
+constexpr int kFieldWidth = 180;       // [px]
+constexpr int kLongestText = 2000;     // characters
+constexpr int kMostText = 300;         // [px] of a moment's name beside it
+
+}  // namespace
+
+EventRows::EventRows(QWidget* parent) : QWidget(parent) {
+  setObjectName("eventRows");
+  setMouseTracking(true);
+  setFocusPolicy(Qt::StrongFocus);
+  setAccessibleName("Events of the recording");
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+}
+
+int EventRows::rowHeight() const { return fontMetrics().height() + 2 * kAboveText; }
+
+QSize EventRows::sizeHint() const {
+  const auto rows = static_cast<int>(lanes_.size());
+  return {200, rows == 0 ? 0 : rows * rowHeight() + kAboveText};
+}
+
+void EventRows::setMarks(std::vector<EventMark> marks) {
+  const bool had = chosen_ && *chosen_ < marks_.size();
+  const auto before = had ? std::optional(marks_[*chosen_]) : std::nullopt;
+  marks_ = std::move(marks);
+  lanes_.clear();
+  for (const EventLane lane : kAllEventLanes)
+    if (std::any_of(marks_.begin(), marks_.end(), [&](const auto& m) { return m.lane == lane; }))
+      lanes_.push_back(lane);
+  chosen_.reset();
+  drag_ = Part::kNone;
+  // The same one, or the one that took its place.
+  for (std::size_t i = 0; before && i < marks_.size(); ++i)
+    if (marks_[i].lane == before->lane &&
+        std::abs(marks_[i].fromS - before->fromS) + std::abs(marks_[i].toS - before->toS) < 1e-3)
+      chosen_ = i;
+  setVisible(!lanes_.empty());
+  updateGeometry();
+  update();
+}
+
+void EventRows::setScale(double fromS, double toS, int leftPixel, int rightPixel) {
+  fromS_ = fromS;
+  toS_ = std::max(toS, fromS + 1e-9);
+  left_ = leftPixel;
+  right_ = std::max(rightPixel, leftPixel + 1);
+  update();
+}
+
+void EventRows::setTheme(Theme theme) {
+  theme_ = theme;
+  update();
+}
+
+double EventRows::pixelOf(double seconds) const {
+  return left_ + (seconds - fromS_) / (toS_ - fromS_) * (right_ - left_);
+}
+
+double EventRows::secondsAt(double pixel) const {
+  return fromS_ + (pixel - left_) / (right_ - left_) * (toS_ - fromS_);
+}
+
+QRectF EventRows::barOf(std::size_t index) const {
+  const EventMark& mark = marks_[index];
+  const bool dragged = drag_ != Part::kNone && chosen_ == index && dragged_;
+  const double from = pixelOf(dragged ? dragFromS_ : mark.fromS);
+  const double to = std::max(pixelOf(dragged ? dragToS_ : mark.toS), from + kLeastBar);
+  if (to < left_ || from > right_) return {};
+  const auto row = std::find(lanes_.begin(), lanes_.end(), mark.lane) - lanes_.begin();
+  const double x0 = std::max<double>(from, left_);
+  const double x1 = std::min<double>(to, right_);
+  return {x0,
+          static_cast<double>(row) * rowHeight() + kEventRowsGap,
+          std::max(x1 - x0, 1.0),
+          rowHeight() - kEventRowsGap};
+}
+
+QColor EventRows::colorOf(const EventMark& mark) const {
+  const ThemeColors& colors = colorsOf(theme_);
+  switch (mark.lane) {
+    case EventLane::kGrasps:
+      return matrixColor(0, theme_);
+    case EventLane::kSteps:
+      return matrixColor(3, theme_);
+    case EventLane::kSlips:
+      return colors.danger;
+    case EventLane::kGaps:
+      return colors.warning;
+    case EventLane::kLabels:
+      return matrixColor(5, theme_);
+    case EventLane::kNotes:
+      return matrixColor(2, theme_);
+    case EventLane::kOthers:
+      break;
+  }
+  return colors.muted;
+}
+
+void EventRows::paintMark(QPainter& painter, std::size_t index) const {
+  const QRectF bar = barOf(index);
+  if (bar.isEmpty()) return;
+  const EventMark& mark = marks_[index];
+  const bool now = chosen_ == index;
+  QColor fill = colorOf(mark);
+  fill.setAlphaF(now ? 0.75F : 0.38F);
+  painter.setPen(now ? QPen(colorsOf(theme_).text, 1.2) : QPen(colorOf(mark), 1.0));
+  painter.setBrush(fill);
+  painter.drawRoundedRect(bar.adjusted(0.5, 0.5, -0.5, -0.5), 2.0, 2.0);
+  painter.setPen(colorsOf(theme_).text);
+  const double textWidth = fontMetrics().horizontalAdvance(mark.text);
+  if (mark.toS > mark.fromS && textWidth + 2 <= bar.width()) {
+    painter.drawText(bar, Qt::AlignCenter, mark.text);
+    return;
+  }
+  // The name of what is too short for it stands behind it, up to the next one.
+  double room = std::min<double>(right_ - bar.right(), kMostText) - kTextRoom;
+  for (const EventMark& other : marks_)
+    if (other.lane == mark.lane && other.fromS > mark.fromS)
+      room = std::min(room, pixelOf(other.fromS) - bar.right() - 2 * kTextRoom);
+  const int narrowest = fontMetrics().averageCharWidth() * 3;
+  if (mark.lane == EventLane::kGrasps || mark.lane == EventLane::kSteps ||
+      mark.lane == EventLane::kSlips || mark.lane == EventLane::kGaps || room < narrowest)
+    return;
+  const QRectF place(bar.right() + kTextRoom, bar.top(), room, bar.height());
+  painter.drawText(place,
+                   Qt::AlignVCenter | Qt::AlignLeft,
+                   fontMetrics().elidedText(mark.text, Qt::ElideRight, static_cast<int>(room)));
+}
+
+void EventRows::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const ThemeColors& colors = colorsOf(theme_);
+  painter.fillRect(rect(), colors.window);
+  for (std::size_t row = 0; row < lanes_.size(); ++row) {
+    const QRectF lane(left_,
+                      static_cast<double>(row) * rowHeight() + kEventRowsGap,
+                      right_ - left_,
+                      rowHeight() - kEventRowsGap);
+    painter.fillRect(lane, colors.panel);
+    painter.setPen(colors.muted);
+    painter.drawText(QRectF(0, lane.top(), left_ - 6, lane.height()),
+                     Qt::AlignRight | Qt::AlignVCenter,
+                     nameOf(lanes_[row]));
+  }
+  painter.setClipRect(QRect(left_, 0, right_ - left_, height()));
+  for (std::size_t i = 0; i < marks_.size(); ++i) paintMark(painter, i);
+  if (!hasFocus()) return;
+  painter.setClipping(false);
+  painter.setPen(QPen(colors.accent, 1.0));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawRect(QRectF(left_, 0.5, right_ - left_, height() - 1.0));
+}
+
+std::optional<std::size_t> EventRows::markAt(const QPointF& at) const {
+  // The last one painted lies on top; what is chosen takes its ends before all others.
+  if (chosen_ && *chosen_ < marks_.size() &&
+      barOf(*chosen_).adjusted(-kReach, 0, kReach, 0).contains(at))
+    return chosen_;
+  for (std::size_t i = marks_.size(); i-- > 0;)
+    if (barOf(i).adjusted(-1, 0, 1, 0).contains(at)) return i;
+  return std::nullopt;
+}
+
+EventRows::Part EventRows::partAt(std::size_t index, const QPointF& at) const {
+  const EventMark& mark = marks_[index];
+  if (!mark.editable || chosen_ != index) return Part::kBody;
+  const double from = std::abs(at.x() - pixelOf(mark.fromS));
+  const double to = std::abs(at.x() - pixelOf(mark.toS));
+  if (std::min(from, to) > kReach || pixelOf(mark.toS) - pixelOf(mark.fromS) < 2.0)
+    return Part::kBody;
+  return from < to ? Part::kFrom : Part::kTo;
+}
+
+void EventRows::choose(std::optional<std::size_t> mark) {
+  if (mark && *mark >= marks_.size()) mark.reset();
+  if (mark == chosen_) return;
+  chosen_ = mark;
+  update();
+  emit chosenChanged();
+}
+
+void EventRows::chooseNext(int step) {
+  if (marks_.empty()) return;
+  const EventLane lane = chosen_ ? marks_[*chosen_].lane : marks_.front().lane;
+  std::vector<std::size_t> row;
+  for (std::size_t i = 0; i < marks_.size(); ++i)
+    if (marks_[i].lane == lane) row.push_back(i);
+  std::ptrdiff_t at = step > 0 ? -1 : static_cast<std::ptrdiff_t>(row.size());
+  for (std::size_t i = 0; i < row.size(); ++i)
+    if (chosen_ == row[i]) at = static_cast<std::ptrdiff_t>(i);
+  at = std::clamp<std::ptrdiff_t>(at + step, 0, static_cast<std::ptrdiff_t>(row.size()) - 1);
+  choose(row[static_cast<std::size_t>(at)]);
+  emit markChosen(*chosen_);
+}
+
+void EventRows::mousePressEvent(QMouseEvent* event) {
+  const auto mark = markAt(event->position());
+  if (event->button() != Qt::LeftButton) return;
+  pressedPixel_ = event->position().x();
+  dragged_ = false;
+  if (!mark) return choose(std::nullopt);
+  drag_ = partAt(*mark, event->position());
+  dragFromS_ = marks_[*mark].fromS;
+  dragToS_ = marks_[*mark].toS;
+  choose(mark);
+  emit markChosen(*mark);
+}
+
+void EventRows::mouseMoveEvent(QMouseEvent* event) {
+  if (drag_ == Part::kNone || !chosen_) {
+    const auto mark = markAt(event->position());
+    const Part part = mark ? partAt(*mark, event->position()) : Part::kNone;
+    setCursor(part == Part::kFrom || part == Part::kTo ? Qt::SizeHorCursor : Qt::ArrowCursor);
+    return;
+  }
+  if (!marks_[*chosen_].editable) return;
+  const double moved = event->position().x() - pressedPixel_;
+  if (!dragged_ && std::abs(moved) < QApplication::startDragDistance()) return;
+  dragged_ = true;
+  const double byS = moved / (right_ - left_) * (toS_ - fromS_);
+  const EventMark& mark = marks_[*chosen_];
+  dragFromS_ = drag_ == Part::kTo ? mark.fromS : mark.fromS + byS;
+  dragToS_ = drag_ == Part::kFrom ? mark.toS : mark.toS + byS;
+  if (dragFromS_ > dragToS_) std::swap(dragFromS_, dragToS_);
+  update();
+}
+
+void EventRows::mouseReleaseEvent(QMouseEvent*) {
+  const bool moved = drag_ != Part::kNone && dragged_ && chosen_;
+  drag_ = Part::kNone;
+  if (moved) emit spanChanged(*chosen_, dragFromS_, dragToS_);
+  update();
+}
+
+void EventRows::mouseDoubleClickEvent(QMouseEvent* event) {
+  drag_ = Part::kNone;
+  if (const auto mark = markAt(event->position())) editText(*mark);
+}
+
+void EventRows::contextMenuEvent(QContextMenuEvent* event) {
+  const auto mark = markAt(event->pos());
+  if (mark) choose(mark);
+  emit menuAsked(mark, event->globalPos());
+}
+
+void EventRows::editText(std::size_t index) {
+  if (index >= marks_.size() || !marks_[index].editable) return;
+  if (!field_) {
+    field_ = new QLineEdit(this);
+    field_->setObjectName("eventText");
+    field_->setMaxLength(kLongestText);
+    connect(field_, &QLineEdit::returnPressed, this, [this] {
+      const QString text = field_->text().simplified();
+      field_->hide();
+      setFocus();
+      if (edited_ < marks_.size() && text != marks_[edited_].text) emit textChanged(edited_, text);
+    });
+    connect(field_, &QLineEdit::editingFinished, field_, &QWidget::hide);
+  }
+  edited_ = index;
+  const QRectF bar = barOf(index);
+  const double width = std::max<double>(kFieldWidth, bar.width());
+  const double x = std::clamp<double>(
+      bar.isEmpty() ? left_ : bar.left(), left_, std::max(left_, right_ - static_cast<int>(width)));
+  field_->setGeometry(QRectF(x, bar.top(), width, rowHeight()).toRect());
+  field_->setText(marks_[index].text);
+  field_->selectAll();
+  field_->show();
+  field_->setFocus();
+}
+
+void EventRows::keyPressEvent(QKeyEvent* event) {
+  switch (event->key()) {
+    case Qt::Key_Left:
+      return chooseNext(-1);
+    case Qt::Key_Right:
+      return chooseNext(1);
+    case Qt::Key_Up:
+    case Qt::Key_Down: {
+      if (lanes_.empty()) return;
+      const EventLane lane = chosen_ ? marks_[*chosen_].lane : lanes_.front();
+      auto row = std::find(lanes_.begin(), lanes_.end(), lane) - lanes_.begin();
+      row = std::clamp<std::ptrdiff_t>(row + (event->key() == Qt::Key_Down ? 1 : -1),
+                                       0,
+                                       static_cast<std::ptrdiff_t>(lanes_.size()) - 1);
+      const auto first = std::find_if(marks_.begin(), marks_.end(), [&](const EventMark& mark) {
+        return mark.lane == lanes_[static_cast<std::size_t>(row)];
+      });
+      choose(static_cast<std::size_t>(first - marks_.begin()));
+      emit markChosen(*chosen_);
+      return;
+    }
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+    case Qt::Key_F2:
+      if (chosen_) editText(*chosen_);
+      return;
+    case Qt::Key_Delete:
+    case Qt::Key_Backspace:
+      if (chosen_ && marks_[*chosen_].editable) emit removeAsked(*chosen_);
+      return;
+    default:
+      return QWidget::keyPressEvent(event);
+  }
+}
+
+void EventRows::focusInEvent(QFocusEvent* event) {
+  QWidget::focusInEvent(event);
+  update();
+}
+
+void EventRows::focusOutEvent(QFocusEvent* event) {
+  QWidget::focusOutEvent(event);
+  update();
+}
+
+bool EventRows::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    // With the keyboard here the arrows go from event to event, not from frame to frame.
+    switch (static_cast<QKeyEvent*>(event)->key()) {
+      case Qt::Key_Left:
+      case Qt::Key_Right:
+      case Qt::Key_Up:
+      case Qt::Key_Down:
+      case Qt::Key_Delete:
+        if (static_cast<QKeyEvent*>(event)->modifiers() == Qt::NoModifier) event->accept();
+        break;
+      default:
+        break;
+    }
+  }
+  if (event->type() == QEvent::ToolTip) {
+    const auto* help = static_cast<QHelpEvent*>(event);
+    const auto mark = markAt(help->pos());
+    QToolTip::showText(help->globalPos(), mark ? marks_[*mark].detail : QString(), this);
+    return true;
+  }
+  return QWidget::event(event);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,86 @@
+// Rows below the timeline, one for each sort of event: bars over the span they lie in. A click chooses one, its ends
+// can be dragged, a double click names it; arrows go from one to the next.
+#pragma once
+
+#include <QWidget>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "gui/bench/event_marks.h"
+#include "gui/look/theme.h"
+
+class QLineEdit;
+
+namespace palpate::gui {
+
+class EventRows : public QWidget {
+  Q_OBJECT
+ public:
+  explicit EventRows(QWidget* parent = nullptr);
+
+  // Rows without a mark aren't shown.
+  void setMarks(std::vector<EventMark> marks);
+  const std::vector<EventMark>& marks() const noexcept { return marks_; }
+  // Where seconds lie: the pixels of the left and right ends of what is seen, in this widget.
+  void setScale(double fromS, double toS, int leftPixel, int rightPixel);
+  void setTheme(Theme theme);
+  std::optional<std::size_t> chosen() const noexcept { return chosen_; }
+  void choose(std::optional<std::size_t> mark);
+  // The next (or the one before) in time of the row of the chosen one; of the first row where none is chosen.
+  void chooseNext(int step);
+  // A field over the bar; textChanged() when it is left by Enter.
+  void editText(std::size_t mark);
+  QRectF barOf(std::size_t mark) const;  // [px]; empty: not seen
+
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override { return sizeHint(); }
+
+ signals:
+  void markChosen(std::size_t mark);  // by mouse or key
+  void chosenChanged();
+  void spanChanged(std::size_t mark, double fromS, double toS);  // at the end of a drag
+  void textChanged(std::size_t mark, const QString& text);
+  void removeAsked(std::size_t mark);
+  void menuAsked(std::optional<std::size_t> mark, const QPoint& globalPosition);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+  bool event(QEvent* event) override;
+
+ private:
+  enum class Part { kNone, kBody, kFrom, kTo };
+  int rowHeight() const;
+  double pixelOf(double seconds) const;
+  double secondsAt(double pixel) const;
+  std::optional<std::size_t> markAt(const QPointF& at) const;
+  Part partAt(std::size_t mark, const QPointF& at) const;
+  void paintMark(QPainter& painter, std::size_t mark) const;
+  QColor colorOf(const EventMark& mark) const;
+
+  std::vector<EventMark> marks_;
+  std::vector<EventLane> lanes_;  // that have a mark
+  double fromS_ = 0.0;
+  double toS_ = 1.0;
+  int left_ = 0;
+  int right_ = 1;
+  Theme theme_ = Theme::kDark;
+  std::optional<std::size_t> chosen_;
+  Part drag_ = Part::kNone;
+  double dragFromS_ = 0.0;
+  double dragToS_ = 0.0;
+  bool dragged_ = false;
+  double pressedPixel_ = 0.0;
+  QLineEdit* field_ = nullptr;
+  std::size_t edited_ = 0;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,241 @@
+#include "gui/timeline/live_chart.h"
+
+#include <QPainter>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <palpate/core/time.h>
+
+#include "gui/chart/chart_style.h"
+#include "gui/picture/old_picture.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kLiveChartWheelStep = 1.25;  // per notch
+constexpr double kLiveChartNotch = 120.0;     // angleDelta of one notch
+constexpr double kLiveChartHeadroom = 1.06;
+constexpr double kShrinkBelow = 0.35;  // of the axis: then it is made shorter
+constexpr double kOldS = 0.4;  // without a frame for so long the picture rolls by itself [s]
+constexpr std::size_t kMostEvents = 200;
+
+// 1, 2 or 5 times a power of ten, at or above: the axis doesn't creep.
+double niceAbove(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-9))));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= value) return factor * power;
+  return 10.0 * power;
+}
+
+QString nameOfEvent(const RecordingEvent& event) {
+  const QString text = QString::fromStdString(event.text);
+  if (event.kind == "mark") return "mark";
+  if (event.kind == "label") return text;
+  if (event.kind == "gap") return "gap";
+  if (event.kind == "grasp") return text.section(':', 0, 0);  // "opening", "reactive grasp refused"
+  return QString::fromStdString(event.kind);
+}
+
+}  // namespace
+
+LiveChart::LiveChart(QWidget* parent)
+    : QCustomPlot(parent), secondsTicker_(new QCPAxisTickerFixed) {
+  arrangeChart(*this);
+  setAccessibleName("Live chart");
+  setToolTip("Wheel: how many seconds are seen");
+  xAxis->setLabel("time since the first frame in s");
+  xAxis->setTicker(secondsTicker_);
+  roll(0.0);
+}
+
+double LiveChart::secondsOf(std::int64_t hostUs) const {
+  return static_cast<double>(hostUs - originUs_.value_or(hostUs)) / kUsPerS;
+}
+
+void LiveChart::setHistory(const SignalHistory* history, std::size_t numMatrices) {
+  history_ = history;
+  originUs_.reset();
+  newestUs_ = 0;
+  setHeld(false);
+  largest_ = 0.0;
+  plotted_.assign(history ? numMatrices + 1 : 0, true);
+  if (!plotted_.empty()) plotted_.back() = false;
+  forget(std::numeric_limits<double>::infinity());
+  rebuild();
+}
+
+void LiveChart::setSignal(PlottedSignal signal) {
+  if (signal == signal_) return;
+  signal_ = signal;
+  rebuild();
+}
+
+void LiveChart::setPlotted(const std::vector<bool>& plotted) {
+  if (plotted == plotted_) return;
+  plotted_ = plotted;
+  rebuild();
+}
+
+void LiveChart::setTheme(Theme theme) {
+  theme_ = theme;
+  styleChart(*this, theme);
+  for (const Shown& event : events_)
+    event.name->setColor(event.isGap ? colorsOf(theme).warning : colorsOf(theme).text);
+  rebuild();
+}
+
+void LiveChart::setWindowS(double seconds) {
+  const double wanted = std::clamp(seconds, kShortestS, kLongestS);
+  if (wanted == windowS_) return;
+  windowS_ = wanted;
+  roll(nowS_);
+  emit windowChanged(windowS_);
+}
+
+void LiveChart::setHeld(bool held) {
+  held_ = held;
+  update();
+}
+
+void LiveChart::paintEvent(QPaintEvent* event) {
+  QCustomPlot::paintEvent(event);
+  if (!held_) return;
+  QPainter painter(this);
+  paintOldPicture(painter, rect(), {kHeldText, true}, theme_);
+}
+
+void LiveChart::rebuild() {
+  clearGraphs();
+  rows_.clear();
+  nameAxis();
+  for (std::size_t row = 0; row < plotted_.size(); ++row) {
+    if (!plotted_[row]) continue;
+    const bool whole = row + 1 == plotted_.size();
+    QCPGraph* graph = addGraph();
+    graph->setPen(curvePen(row, whole, theme_));
+    rows_.push_back(row);
+  }
+  largest_ = 0.0;
+  newestUs_ = 0;
+  if (history_) append(history_->after(std::numeric_limits<std::int64_t>::min()), false);
+  roll(nowS_);
+}
+
+void LiveChart::append(const std::vector<SignalSample>& samples, bool areNew) {
+  for (const SignalSample& sample : samples) {
+    if (!originUs_) originUs_ = sample.hostUs;
+    const double atS = secondsOf(sample.hostUs);
+    for (std::size_t g = 0; g < rows_.size(); ++g) {
+      auto& series = *graph(static_cast<int>(g))->data();
+      if (sample.afterGap && series.size() > 0)
+        series.add(QCPGraphData((series.constEnd() - 1)->key + 1e-6,
+                                std::numeric_limits<double>::quiet_NaN()));
+      if (rows_[g] < sample.rows.size())
+        series.add(QCPGraphData(atS, valueOf(sample.rows[rows_[g]], signal_)));
+    }
+    if (sample.afterGap && areNew && newestUs_ != 0) shadeGap(secondsOf(newestUs_), atS);
+    newestUs_ = sample.hostUs;
+  }
+}
+
+void LiveChart::refresh(double silentS) {
+  if (!history_ || held_) return;
+  const auto samples = history_->after(newestUs_);
+  append(samples, true);
+  if (samples.empty() && (silentS < kOldS || !originUs_)) return;
+  const double newestS = originUs_ ? secondsOf(newestUs_) : 0.0;
+  nowS_ = samples.empty() ? newestS + silentS : newestS;
+  forget(nowS_ - kLongestS);
+  roll(nowS_);
+}
+
+void LiveChart::roll(double nowS) {
+  nowS_ = nowS;
+  const double toS = std::max(nowS, windowS_);
+  xAxis->setRange(toS - windowS_, toS);
+  constexpr double kTicks = 12.0;
+  secondsTicker_->setTickStep(niceAbove(windowS_ / kTicks));
+  fitHeight(toS - windowS_);
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+void LiveChart::fitHeight(double fromS) {
+  double largest = 0.0;
+  for (int g = 0; g < graphCount(); ++g) {
+    const auto series = graph(g)->data();
+    for (auto at = series->findBegin(fromS, false); at != series->constEnd(); ++at)
+      if (at->value > largest) largest = at->value;  // not for a gap's NaN
+  }
+  if (largest > largest_ || largest < kShrinkBelow * largest_)
+    largest_ = largest > 0.0 ? niceAbove(largest * kLiveChartHeadroom) : 0.0;
+  yAxis->setRange(0.0, largest_ > 0.0 ? largest_ : 1.0);
+}
+
+void LiveChart::forget(double beforeS) {
+  for (int g = 0; g < graphCount(); ++g) graph(g)->data()->removeBefore(beforeS);
+  while (!events_.empty() && (events_.front().endS < beforeS || events_.size() > kMostEvents)) {
+    if (events_.front().shape) removeItem(events_.front().shape);
+    if (events_.front().name) removeItem(events_.front().name);
+    events_.pop_front();
+  }
+}
+
+void LiveChart::addEvent(const RecordingEvent& event) {
+  if (!history_) return;
+  const ThemeColors& colors = colorsOf(theme_);
+  const double beginS = secondsOf(event.tUs);
+  if (event.kind == "gap") return;  // seen in the samples
+  if (event.kind == "mark" || event.kind == "label")
+    line(beginS, nameOfEvent(event), colors.accent);
+  else if (event.kind == "grasp")
+    line(event.t1Us > event.tUs ? secondsOf(event.t1Us) : beginS, nameOfEvent(event), colors.muted);
+}
+
+void LiveChart::line(double atS, const QString& name, const QColor& color) {
+  auto* shape = new QCPItemLine(this);
+  for (QCPItemPosition* end : {shape->start, shape->end}) {
+    end->setTypeX(QCPItemPosition::ptPlotCoords);
+    end->setTypeY(QCPItemPosition::ptAxisRectRatio);
+  }
+  shape->start->setCoords(atS, 0.0);
+  shape->end->setCoords(atS, 1.0);
+  shape->setPen(QPen(color, 1.0));
+  auto* text = wordAt(*this, atS, name, Qt::AlignLeft, colorsOf(theme_).text);
+  // Names of neighbours stand one below the other.
+  constexpr std::size_t kLines = 4;
+  const auto lineHeight = static_cast<int>(fontMetrics().lineSpacing());
+  text->setPadding(QMargins(4, static_cast<int>(lines_++ % kLines) * lineHeight, 0, 0));
+  events_.push_back({atS, atS, false, shape, text});
+}
+
+void LiveChart::shadeGap(double beginS, double endS) {
+  auto* shape = shadeSpan(*this, beginS, endS, theme_);
+  auto* text = wordAt(*this,
+                      (beginS + endS) / 2,
+                      "gap " + QString::number(endS - beginS, 'f', 1) + " s",
+                      Qt::AlignHCenter,
+                      colorsOf(theme_).warning);
+  events_.push_back({beginS, endS, true, shape, text});
+}
+
+void LiveChart::nameAxis() { yAxis->setLabel(signalAxisName(signal_, *this)); }
+
+void LiveChart::wheelEvent(QWheelEvent* event) {
+  setWindowS(windowS_ / std::pow(kLiveChartWheelStep, event->angleDelta().y() / kLiveChartNotch));
+  event->accept();
+}
+
+void LiveChart::resizeEvent(QResizeEvent* event) {
+  QCustomPlot::resizeEvent(event);
+  nameAxis();
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+void LiveChart::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::FontChange) setTheme(theme_);
+  QCustomPlot::changeEvent(event);
+}
+
+}  // namespace palpate::gui

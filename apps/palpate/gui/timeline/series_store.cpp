@@ -1,0 +1,392 @@
+#include "gui/timeline/series_store.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+#include <cmath>
+
+#include <palpate/core/error.h>
+#include <palpate/core/time.h>
+
+namespace palpate::gui {
+namespace {
+
+constexpr std::size_t kReadAtOnce = 3000;   // samples, in the window's thread (a few milliseconds)
+constexpr std::size_t kMostExact = 16'000;  // samples that are read for what is seen
+constexpr std::size_t kSpread = 1500;       // samples of the first look at a long recording
+constexpr std::size_t kMostLookedAt =
+    5'000'000;  // places in those samples: fewer of a sensor that claims many
+constexpr int kNewsMs = 200;
+constexpr double kForever = 1e12;  // [s]
+
+std::optional<std::pair<double, double>> extremesOf(const std::vector<double>& values) {
+  std::optional<std::pair<double, double>> found;
+  for (const double value : values) {
+    if (std::isnan(value)) continue;
+    if (!found) found.emplace(value, value);
+    found->first = std::min(found->first, value);
+    found->second = std::max(found->second, value);
+  }
+  return found;
+}
+
+// Of a matrix of a short recording everything is there already.
+Series fromTable(const OpenedRecording& recording, const SeriesChoice& choice) {
+  Series series;
+  series.timeS = recording.timeS;
+  series.values.reserve(series.timeS.size());
+  for (std::size_t i = 0; i < series.timeS.size(); ++i)
+    series.values.push_back(valueOf(recording.at(i, choice.index), choice.signal));
+  return series;
+}
+
+}  // namespace
+
+SeriesStore::SeriesStore(QObject* parent) : QObject(parent) {
+  passes_.setMaxThreadCount(1);
+  reads_.setMaxThreadCount(1);
+  passes_.setThreadPriority(QThread::LowPriority);
+  news_.setInterval(kNewsMs);
+  connect(&news_, &QTimer::timeout, this, [this] {
+    const double now = progress();
+    if (now != toldProgress_) emit changed();
+    toldProgress_ = now;
+    if (now >= 1.0) news_.stop();
+  });
+}
+
+SeriesStore::~SeriesStore() {
+  if (stop_) *stop_ = true;
+  passes_.clear();
+  reads_.clear();
+  passes_.waitForDone();
+  reads_.waitForDone();
+}
+
+void SeriesStore::setRecording(const OpenedRecordingPtr& recording) {
+  if (stop_) *stop_ = true;
+  stop_ = std::make_shared<std::atomic<bool>>(false);
+  recording_ = recording;
+  entries_.clear();
+  firstLook_.reset();
+  fromS_ = 0.0;
+  toS_ = recording ? recording->durationS() : 0.0;
+  if (!recording_ || !recording_->isLong() || recording_->overview->complete()) return;
+  // The first look comes first: they would only hold each other up.
+  ++numJobs_;
+  passes_.start([this, stop = stop_, overview = recording_->overview, looked = lookAtFrames()] {
+    looked.wait();
+    try {
+      overview->compute([&](double) { return !*stop; });
+    } catch (const std::exception&) {
+      // Cancelled, or a damaged block: what is ready stays; the frame itself will say what is wrong.
+    }
+    --numJobs_;
+    QMetaObject::invokeMethod(this, &SeriesStore::changed, Qt::QueuedConnection);
+  });
+  toldProgress_ = 0.0;
+  news_.start();
+}
+
+// All signals of frames spread over the recording, read once for all curves.
+std::shared_future<void> SeriesStore::lookAtFrames() {
+  // A job that never runs breaks its promise, which ends the waiting, too.
+  auto done = std::make_shared<std::promise<void>>();
+  std::shared_future<void> looked = done->get_future().share();
+  ++numJobs_;
+  reads_.start([this, stop = stop_, profile = recording_->profile, done] {
+    auto look = std::make_shared<FirstLook>();
+    try {
+      const std::size_t frames = profile.numFrames();
+      const std::size_t spread =
+          std::clamp<std::size_t>(kMostLookedAt / profile.layout().numPlaces(), 1, kSpread);
+      TactileFrame frame;
+      for (std::size_t i = 0; i <= spread && !*stop; ++i) {
+        profile.readFrame((frames - 1) * i / spread, frame);
+        look->timeS.push_back(static_cast<double>(frame.hostUs - profile.frameTimeUs(0)) / kUsPerS);
+        allSignals(frame, look->rows.emplace_back());
+      }
+    } catch (const std::exception&) {
+      // A damaged block: what was read of it stays.
+      look->rows.resize(look->timeS.size());
+    }
+    QMetaObject::invokeMethod(
+        this,
+        [this, stop, look] {
+          if (*stop) return;
+          firstLook_ = look;
+          for (Entry& entry : entries_) takeFirstLook(entry);
+          emit changed();
+        },
+        Qt::QueuedConnection);
+    --numJobs_;
+    done->set_value();
+  });
+  return looked;
+}
+
+void SeriesStore::takeFirstLook(Entry& entry) const {
+  if (!firstLook_ || entry.choice.kind != SeriesChoice::Kind::kMatrix) return;
+  auto series = std::make_shared<Series>();
+  for (std::size_t i = 0; i < firstLook_->timeS.size(); ++i) {
+    if (entry.choice.index >= firstLook_->rows[i].size()) continue;
+    series->timeS.push_back(firstLook_->timeS[i]);
+    series->values.push_back(valueOf(firstLook_->rows[i][entry.choice.index], entry.choice.signal));
+  }
+  entry.extremes = extremesOf(series->values);
+  entry.sample = std::move(series);
+}
+
+SeriesStore::Entry* SeriesStore::find(const SeriesChoice& choice) {
+  const auto at = std::find_if(
+      entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.choice == choice; });
+  return at == entries_.end() ? nullptr : &*at;
+}
+
+const SeriesStore::Entry* SeriesStore::find(const SeriesChoice& choice) const {
+  return const_cast<SeriesStore*>(this)->find(choice);
+}
+
+void SeriesStore::setWanted(const std::vector<SeriesChoice>& wanted) {
+  std::erase_if(entries_, [&](const Entry& entry) {
+    return std::find(wanted.begin(), wanted.end(), entry.choice) == wanted.end();
+  });
+  if (!recording_) return;
+  for (const SeriesChoice& choice : wanted) {
+    if (find(choice) || !hasSeries(recording_->profile, choice)) continue;
+    Entry& entry = entries_.emplace_back();
+    entry.choice = choice;
+    begin(entry);
+  }
+  askForExact();
+}
+
+void SeriesStore::deliver(const SeriesChoice& choice,
+                          const Stop& stop,
+                          std::function<void(Entry&)> put) {
+  QMetaObject::invokeMethod(
+      this,
+      [this, choice, stop, put = std::move(put)] {
+        if (*stop) return;
+        if (Entry* entry = find(choice)) {
+          put(*entry);
+          emit changed();
+        }
+      },
+      Qt::QueuedConnection);
+}
+
+void SeriesStore::begin(Entry& entry) {
+  if (recording_->isLong()) return beginLong(entry);
+  const SeriesChoice& choice = entry.choice;
+  const auto keep = [](Entry& to, Series series) {
+    to.extremes = extremesOf(series.values);
+    to.whole = std::make_shared<const Series>(std::move(series));
+  };
+  if (choice.kind == SeriesChoice::Kind::kMatrix)
+    return keep(entry, fromTable(*recording_, choice));
+  if (numSamples(recording_->profile, choice, -kForever, kForever) <= kReadAtOnce)
+    return keep(entry, readSeries(recording_->profile, choice, -kForever, kForever));
+  ++numJobs_;
+  reads_.start([this, stop = stop_, choice, keep, profile = recording_->profile] {
+    try {
+      auto series = std::make_shared<Series>(
+          readSeries(profile, choice, -kForever, kForever, [&](double) { return !stop->load(); }));
+      deliver(choice, stop, [keep, series](Entry& to) { keep(to, std::move(*series)); });
+    } catch (const std::exception&) {
+    }
+    --numJobs_;
+  });
+}
+
+void SeriesStore::beginLong(Entry& entry) {
+  const SeriesChoice choice = entry.choice;
+  const bool ofMatrix = choice.kind == SeriesChoice::Kind::kMatrix;
+  if (!ofMatrix) entry.buckets = std::make_shared<BucketSeries>(recording_->durationS(), 1.0);
+  const auto goOn = [stop = stop_](double) { return !stop->load(); };
+  takeFirstLook(entry);
+  if (!ofMatrix) {
+    ++numJobs_;
+    reads_.start([this, stop = stop_, choice, goOn, profile = recording_->profile] {
+      try {
+        auto series = std::make_shared<const Series>(readSpread(profile, choice, kSpread, goOn));
+        deliver(choice, stop, [series](Entry& to) {
+          to.sample = series;
+          to.extremes = extremesOf(series->values);
+        });
+      } catch (const std::exception&) {
+      }
+      --numJobs_;
+    });
+  }
+  if (ofMatrix) return;
+  ++numJobs_;
+  passes_.start([this, goOn, choice, buckets = entry.buckets, profile = recording_->profile] {
+    try {
+      visitSeries(
+          profile, choice, [&](double timeS, double value) { buckets->add(timeS, value); }, goOn);
+      buckets->finish();
+    } catch (const std::exception&) {
+    }
+    --numJobs_;
+    QMetaObject::invokeMethod(this, &SeriesStore::changed, Qt::QueuedConnection);
+  });
+  news_.start();
+}
+
+void SeriesStore::setSeen(double fromS, double toS) {
+  fromS_ = fromS;
+  toS_ = toS;
+  askForExact();
+}
+
+// What is seen, and as much again on either side, so that a little panning finds it there.
+void SeriesStore::askForExact() {
+  if (!recording_ || !recording_->isLong()) return;
+  for (Entry& entry : entries_) {
+    if (entry.exactAsked || (entry.exactFromS <= fromS_ && toS_ <= entry.exactToS)) continue;
+    double fromS = fromS_ - (toS_ - fromS_);
+    double toS = toS_ + (toS_ - fromS_);
+    const auto many = [&] {
+      return numSamples(recording_->profile, entry.choice, fromS, toS) > kMostExact;
+    };
+    if (many()) {
+      fromS = fromS_;
+      toS = toS_;
+      if (many()) continue;
+    }
+    entry.exactAsked = true;
+    ++numJobs_;
+    reads_.start(
+        [this, stop = stop_, choice = entry.choice, fromS, toS, profile = recording_->profile] {
+          std::shared_ptr<const Series> series;
+          try {
+            series = std::make_shared<const Series>(
+                readSeries(profile, choice, fromS, toS, [&](double) { return !stop->load(); }));
+          } catch (const std::exception&) {
+          }
+          deliver(choice, stop, [this, series, fromS, toS](Entry& to) {
+            to.exactAsked = false;
+            to.exactFromS = fromS;
+            to.exactToS = toS;
+            if (series) to.exact = series;
+            askForExact();  // the view may have moved on
+          });
+          --numJobs_;
+        },
+        1);  // before first looks
+  }
+}
+
+const BucketSeries* SeriesStore::bucketsOf(const Entry& entry) const {
+  if (entry.buckets) return entry.buckets.get();
+  return &recording_->overview->of(entry.choice.index, entry.choice.signal);
+}
+
+// A line isn't drawn over a gap: where the samples are further apart than a gap of the frames is long.
+std::vector<std::size_t> SeriesStore::breaksIn(const std::vector<double>& timeS) const {
+  std::vector<std::size_t> breaks;
+  for (const Gap& gap : recording_->timingNow().gaps) {
+    const double begin = recording_->timeAt(gap.frame);
+    const double end = begin + gap.seconds;
+    const auto after = std::upper_bound(timeS.begin(), timeS.end(), begin);
+    if (after == timeS.begin() || after == timeS.end() || *after < end - 1e-6) continue;
+    breaks.push_back(static_cast<std::size_t>(after - timeS.begin()) - 1);
+  }
+  return breaks;
+}
+
+std::vector<SeriesPoint> SeriesStore::points(const SeriesChoice& choice,
+                                             const DecimationOptions& options) const {
+  const Entry* entry = find(choice);
+  if (!entry) return {};
+  const auto thin = [&](const Series& series) {
+    const auto breaks = breaksIn(series.timeS);
+    DecimationOptions with = options;
+    with.breaks = breaks;
+    return minMaxDecimated(series.timeS, series.values, with);
+  };
+  if (entry->whole) return thin(*entry->whole);
+  if (!recording_->isLong()) return {};
+  if (entry->exact && entry->exactFromS <= options.from && options.to <= entry->exactToS)
+    return thin(*entry->exact);
+  const BucketSeries* buckets = bucketsOf(*entry);
+  auto points = buckets->points(options);
+  if (buckets->complete() || !entry->sample) return points;
+  // What isn't read yet is shown by the first look at it.
+  const double readyS = buckets->readyS();
+  std::erase_if(points, [&](const SeriesPoint& point) { return point.x >= readyS; });
+  for (const SeriesPoint& point : thin(*entry->sample))
+    if (point.x >= readyS) points.push_back(point);
+  return points;
+}
+
+std::optional<double> SeriesStore::valueAt(const SeriesChoice& choice, double timeS) const {
+  const Entry* entry = find(choice);
+  if (!entry || !recording_ || recording_->gapAt(timeS)) return std::nullopt;
+  const auto last = [&](const Series& series) -> std::optional<double> {
+    const auto after = std::upper_bound(series.timeS.begin(), series.timeS.end(), timeS);
+    if (after == series.timeS.begin()) return std::nullopt;
+    const double value = series.values[static_cast<std::size_t>(after - series.timeS.begin()) - 1];
+    return std::isnan(value) ? std::nullopt : std::optional(value);
+  };
+  if (entry->whole) return last(*entry->whole);
+  if (entry->exact && entry->exactFromS <= timeS && timeS <= entry->exactToS)
+    return last(*entry->exact);
+  try {
+    const Series one = readSeries(recording_->profile, choice, timeS, timeS);
+    if (!one.values.empty()) return last(one);
+  } catch (const Error&) {
+  }
+  return std::nullopt;
+}
+
+std::shared_ptr<const Series> SeriesStore::samples(const SeriesChoice& choice) const {
+  const Entry* entry = find(choice);
+  if (!entry) return nullptr;
+  if (entry->whole) return entry->whole;
+  const bool fits = entry->exact && entry->exactFromS <= fromS_ && toS_ <= entry->exactToS;
+  return fits ? entry->exact : nullptr;
+}
+
+std::optional<std::pair<double, double>> SeriesStore::extremes(const SeriesChoice& choice) const {
+  const Entry* entry = find(choice);
+  if (!entry || !recording_->isLong()) return entry ? entry->extremes : std::nullopt;
+  auto found = entry->extremes;
+  const BucketSeries* buckets = bucketsOf(*entry);
+  for (std::size_t i = 0; i < buckets->numReady(); ++i) {
+    const auto low = static_cast<double>(buckets->minimum(i));
+    const auto high = static_cast<double>(buckets->maximum(i));
+    if (std::isnan(low)) continue;
+    if (!found) found.emplace(low, high);
+    found->first = std::min(found->first, low);
+    found->second = std::max(found->second, high);
+  }
+  return found;
+}
+
+double SeriesStore::progress() const {
+  if (!recording_ || !recording_->isLong()) return 1.0;
+  double least = 1.0;
+  for (const Entry& entry : entries_) {
+    const BucketSeries* buckets = bucketsOf(entry);
+    least = std::min(
+        least,
+        static_cast<double>(buckets->numReady()) / static_cast<double>(buckets->numBuckets()));
+  }
+  return least;
+}
+
+void SeriesStore::waitForFirstLook() {
+  reads_.waitForDone();
+  QCoreApplication::sendPostedEvents(this);
+}
+
+void SeriesStore::waitUntilRead() {
+  do {
+    passes_.waitForDone();
+    reads_.waitForDone();
+    QCoreApplication::sendPostedEvents(this);
+  } while (numJobs_ > 0);
+}
+
+}  // namespace palpate::gui

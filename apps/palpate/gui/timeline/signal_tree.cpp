@@ -1,0 +1,248 @@
+#include "gui/timeline/signal_tree.h"
+
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QPushButton>
+#include <QScreen>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "gui/look/captions.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kSignalTreeKind = Qt::UserRole;  // what a line ticks
+constexpr int kIndex = Qt::UserRole + 1;       // joint, sensor
+constexpr int kName = Qt::UserRole + 2;        // of a group, as it was
+constexpr int kMostNumbers = 64;
+enum SignalTreeKind { kSection, kChosen, kGroup, kAngle, kTemperature };
+
+std::set<int> numbersIn(const QVariant& value) {
+  std::set<int> numbers;
+  for (const QString& word : value.toStringList()) {
+    bool good = false;
+    const int number = word.toInt(&good);
+    if (good && number >= 0 && number < kMostNumbers) numbers.insert(number);
+  }
+  return numbers;
+}
+
+QStringList signalTreeWordsOf(const std::set<int>& numbers) {
+  QStringList words;
+  for (const int number : numbers) words.append(QString::number(number));
+  return words;
+}
+
+}  // namespace
+
+PlottedExtras loadPlottedExtras(const QSettings& settings) {
+  PlottedExtras extras;
+  extras.chosenTaxels = settings.value("plotted/chosen_taxels", true).toBool();
+  for (const QString& name : settings.value("plotted/groups").toStringList())
+    extras.groups.insert(name);
+  extras.angles = numbersIn(settings.value("plotted/angles"));
+  extras.temperatures = numbersIn(settings.value("plotted/temperatures"));
+  return extras;
+}
+
+void savePlottedExtras(const PlottedExtras& extras, QSettings& settings) {
+  settings.setValue("plotted/chosen_taxels", extras.chosenTaxels);
+  settings.setValue("plotted/groups", QStringList(extras.groups.begin(), extras.groups.end()));
+  settings.setValue("plotted/angles", signalTreeWordsOf(extras.angles));
+  settings.setValue("plotted/temperatures", signalTreeWordsOf(extras.temperatures));
+}
+
+SignalTree::SignalTree(TaxelGroups& groups, QWidget* parent)
+    : QFrame(parent, Qt::Popup), groups_(groups) {
+  setObjectName("SignalTree");
+  setFrameShape(QFrame::StyledPanel);
+  tree_ = new QTreeWidget(this);
+  tree_->setObjectName("signalList");
+  tree_->setHeaderHidden(true);
+  tree_->setRootIsDecorated(false);
+  tree_->setIndentation(14);
+  tree_->setFrameShape(QFrame::NoFrame);
+  tree_->setEditTriggers(QAbstractItemView::EditKeyPressed);
+  tree_->setAccessibleName("Curves in the timeline");
+  group_ = new QPushButton("Name the chosen taxels…", this);
+  group_->setObjectName("groupButton");
+  group_->setToolTip("Keeps them as a group, for other recordings too (Ctrl+Shift+G)");
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(6, 6, 6, 6);
+  column->addWidget(tree_, 1);
+  column->addWidget(group_);
+  connect(tree_, &QTreeWidget::itemChanged, this, &SignalTree::heed);
+  // A click anywhere on a line ticks it; on the box it has been ticked already.
+  connect(group_, &QPushButton::clicked, this, [this] {
+    hide();
+    emit groupAsked();
+  });
+  connect(&groups_, &TaxelGroups::changed, this, &SignalTree::rebuild);
+}
+
+void SignalTree::setSource(const HandDescription& hand, bool hasAngles, bool hasTemperatures) {
+  hand_ = hand;
+  hasAngles_ = hasAngles;
+  hasTemperatures_ = hasTemperatures;
+  rebuild();
+}
+
+void SignalTree::setNumChosen(std::size_t taxels) {
+  if (numChosen_ == taxels) return;
+  numChosen_ = taxels;
+  rebuild();
+}
+
+void SignalTree::setExtras(const PlottedExtras& extras) {
+  extras_ = extras;
+  rebuild();
+}
+
+QTreeWidgetItem* SignalTree::section(const QString& title) {
+  auto* item = new QTreeWidgetItem(tree_, {title});
+  item->setFlags(Qt::ItemIsEnabled);
+  item->setData(0, kSignalTreeKind, kSection);
+  QFont font = item->font(0);
+  font.setBold(true);
+  item->setFont(0, font);
+  return item;
+}
+
+void SignalTree::rebuild() {
+  building_ = true;
+  tree_->clear();
+  const auto line =
+      [](QTreeWidgetItem* parent, const QString& text, SignalTreeKind kind, int index, bool on) {
+        auto* item = new QTreeWidgetItem(parent, {text});
+        item->setData(0, kSignalTreeKind, kind);
+        item->setData(0, kIndex, index);
+        item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
+        item->setCheckState(0, on ? Qt::Checked : Qt::Unchecked);
+        return item;
+      };
+  const auto nothing = [](QTreeWidgetItem* parent, const QString& text) {
+    auto* item = new QTreeWidgetItem(parent, {text});
+    item->setFlags(Qt::NoItemFlags);
+    item->setData(0, kSignalTreeKind, kSection);
+  };
+  QTreeWidgetItem* taxels = section("Taxels (mean in counts)");
+  line(taxels,
+       numChosen_ == 0 ? QString("the chosen taxels (none now)")
+                       : "the chosen taxels (" + QString::number(numChosen_) + ")",
+       kChosen,
+       0,
+       extras_.chosenTaxels);
+  if (hand_.layout)
+    for (const TaxelGroups::Group& group : groups_.of(*hand_.layout)) {
+      auto* item = line(taxels, group.name, kGroup, 0, extras_.groups.contains(group.name));
+      item->setData(0, kName, group.name);
+      item->setFlags(item->flags() | Qt::ItemIsEditable);
+      item->setToolTip(0, "F2 renames it, Del forgets it");
+    }
+  QTreeWidgetItem* angles = section("Joint angles (°)");
+  if (!hasAngles_) nothing(angles, "none in this recording");
+  for (std::size_t i = 0; hasAngles_ && i < hand_.axes.size(); ++i)
+    line(angles,
+         QString::fromStdString(hand_.axes[i].name),
+         kAngle,
+         static_cast<int>(i),
+         extras_.angles.contains(static_cast<int>(i)));
+  QTreeWidgetItem* temperatures = section("Temperatures (°C)");
+  if (!hasTemperatures_) nothing(temperatures, "none in this recording");
+  for (std::size_t i = 0; hasTemperatures_ && i < hand_.temperatureSensors.size(); ++i)
+    line(temperatures,
+         QString::fromStdString(hand_.temperatureSensors[i].name),
+         kTemperature,
+         static_cast<int>(i),
+         extras_.temperatures.contains(static_cast<int>(i)));
+  tree_->expandAll();
+  group_->setEnabled(numChosen_ > 0);
+  building_ = false;
+}
+
+void SignalTree::heed(QTreeWidgetItem* item) {
+  if (building_) return;
+  const bool on = item->checkState(0) == Qt::Checked;
+  const int index = item->data(0, kIndex).toInt();
+  const auto put = [on](auto& set, const auto& value) {
+    on ? (void)set.insert(value) : (void)set.erase(value);
+  };
+  switch (item->data(0, kSignalTreeKind).toInt()) {
+    case kChosen:
+      extras_.chosenTaxels = on;
+      break;
+    case kGroup: {
+      const QString before = item->data(0, kName).toString();
+      if (item->text(0) != before) {
+        const QString name = item->text(0).simplified();
+        const bool ticked = extras_.groups.contains(before);
+        if (groups_.rename(before, name) && ticked) {  // `item` is gone: the list was made anew
+          extras_.groups.erase(before);
+          extras_.groups.insert(name);
+        }
+        rebuild();
+        break;
+      }
+      put(extras_.groups, before);
+      break;
+    }
+    case kAngle:
+      put(extras_.angles, index);
+      break;
+    case kTemperature:
+      put(extras_.temperatures, index);
+      break;
+    default:
+      return;
+  }
+  emit extrasChanged();
+}
+
+void SignalTree::keyPressEvent(QKeyEvent* event) {
+  const QTreeWidgetItem* item = tree_->currentItem();
+  if (event->key() == Qt::Key_Delete && item && item->data(0, kSignalTreeKind).toInt() == kGroup) {
+    const QString name = item->data(0, kName).toString();
+    extras_.groups.erase(name);
+    groups_.forget(name);
+    emit extrasChanged();
+    return;
+  }
+  QFrame::keyPressEvent(event);
+}
+
+void SignalTree::openBelow(const QWidget& button) {
+  constexpr QSize kSize(300, 460);
+  resize(kSize);
+  const QRect screen = button.screen()->availableGeometry();
+  QPoint at = button.mapToGlobal(QPoint(0, button.height() + 2));
+  if (at.y() + kSize.height() > screen.bottom())
+    at.setY(button.mapToGlobal(QPoint(0, -kSize.height() - 2)).y());
+  at.setX(
+      std::clamp(at.x(), screen.left(), std::max(screen.left(), screen.right() - kSize.width())));
+  move(at);
+  show();
+  tree_->setFocus();
+  if (!tree_->currentItem()) tree_->setCurrentItem(tree_->topLevelItem(0)->child(0));
+}
+
+bool SignalTree::setTicked(const QString& text, bool on) {
+  for (QTreeWidgetItem* item : tree_->findItems(text, Qt::MatchStartsWith | Qt::MatchRecursive)) {
+    if (!(item->flags() & Qt::ItemIsUserCheckable)) continue;
+    item->setCheckState(0, on ? Qt::Checked : Qt::Unchecked);
+    return true;
+  }
+  return false;
+}
+
+QStringList SignalTree::lines() const {
+  QStringList texts;
+  for (const QTreeWidgetItem* item : tree_->findItems("", Qt::MatchContains | Qt::MatchRecursive)) {
+    if (item->flags() & Qt::ItemIsUserCheckable)
+      texts.append((item->checkState(0) == Qt::Checked ? "[x] " : "[ ] ") + item->text(0));
+  }
+  return texts;
+}
+
+}  // namespace palpate::gui

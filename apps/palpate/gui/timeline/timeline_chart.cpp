@@ -1,0 +1,329 @@
+#include "gui/timeline/timeline_chart.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gui/chart/chart_style.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kTimelineChartFaint = 110;  // opacity of what stands behind, of 255
+constexpr double kEmptyDurationS = 1.0;   // axis of a recording without extent
+constexpr double kTimelineChartShortestSeenS = 0.05;
+constexpr double kTimelineChartHeadroom = 1.06;  // the highest curve stays below the frame
+constexpr double kTimelineChartAir = 0.08;       // beside a span that is shown, part of it
+constexpr int kTimelineChartCursorWidth = 2;     // [px]
+constexpr double kTimelineChartPageRest = 0.1;   // part of the old page that a new page starts with
+constexpr std::size_t kMostGapMarks = 2000;
+constexpr int kHandleWidth = 3;                      // [px]
+constexpr double kTimelineChartLongestInS = 1200.0;  // [s] a longer view tells time as h:min:s
+constexpr double kFewSecondsS = 8.0;  // [s] seen, where its ticks need parts of a second
+
+QWidget* overlay(QWidget* parent, const char* name) {
+  auto* widget = new QWidget(parent);
+  widget->setObjectName(name);
+  widget->setAttribute(Qt::WA_TransparentForMouseEvents);
+  widget->hide();
+  return widget;
+}
+
+}  // namespace
+
+TimelineChart::TimelineChart(QWidget* parent) : QCustomPlot(parent) {
+  arrangeChart(*this);
+  setAccessibleName("Timeline");
+  setMouseTracking(true);
+  secondsTicker_ = xAxis->ticker();
+  clockTicker_.reset(new QCPAxisTickerTime);
+  clockTicker_->setTickCount(secondsTicker_->tickCount());
+  nameTime();
+  shade_ = overlay(this, "selectionShade");
+  for (QWidget*& handle : handles_) handle = overlay(this, "selectionHandle");
+  cursor_ = overlay(this, "cursor");
+  // Margins are known only once the axes have been laid out.
+  connect(this, &QCustomPlot::afterReplot, this, [this] {
+    placeCursor();
+    placeSelection();
+    emit seenChanged();
+  });
+  connect(&before_, &SeriesStore::changed, this, [this] {
+    scaleAxes();
+    refill();
+  });
+  connect(&store_, &SeriesStore::changed, this, [this] {
+    if (recording_ && recording_->timingNow().gaps.size() != gaps_.size()) return rebuildGraphs();
+    scaleAxes();
+    refill();
+  });
+}
+
+double TimelineChart::durationS() const {
+  if (!recording_ || recording_->profile.numFrames() == 0) return kEmptyDurationS;
+  return std::max(recording_->durationS(), kTimelineChartShortestSeenS);
+}
+
+void TimelineChart::setRecording(const OpenedRecordingPtr& recording) {
+  if (recording == recording_ && recording_) return;
+  recording_ = recording;
+  positionS_ = 0.0;
+  drag_ = Drag::kNone;
+  curves_.clear();
+  store_.setRecording(recording);
+  cursor_->setVisible(recording_ != nullptr);
+  setSelection(std::nullopt);
+  rebuildGraphs();
+  fit();
+}
+
+void TimelineChart::setBefore(const OpenedRecordingPtr& before) {
+  hasBefore_ = before && !before->isLong();
+  before_.setRecording(hasBefore_ ? before : nullptr);
+  std::vector<SeriesChoice> wanted;
+  for (const PlottedCurve& curve : curves_) wanted.push_back(curve.choice);
+  before_.setWanted(wanted);
+  rebuildGraphs();
+}
+
+void TimelineChart::setCurves(const std::vector<PlottedCurve>& curves) {
+  curves_ = curves;
+  std::vector<SeriesChoice> wanted;
+  for (const PlottedCurve& curve : curves_) wanted.push_back(curve.choice);
+  store_.setWanted(wanted);
+  before_.setWanted(wanted);
+  rebuildGraphs();
+}
+
+void TimelineChart::setTheme(Theme theme) {
+  theme_ = theme;
+  const ThemeColors& colors = colorsOf(theme);
+  styleChart(*this, theme);
+  QColor soft = colors.accent;
+  soft.setAlphaF(0.16F);
+  shade_->setStyleSheet("background: " + soft.name(QColor::HexArgb));
+  for (QWidget* handle : handles_) handle->setStyleSheet("background: " + colors.accent.name());
+  cursor_->setStyleSheet("background: " + colors.accent.name());
+  rebuildGraphs();
+}
+
+// The first unit stands on the left, every other one on the right.
+QCPAxis* TimelineChart::axisFor(const PlottedCurve& curve) {
+  QCPAxis*& axis = axes_[curve.unit];
+  if (!axis) {
+    if (axes_.size() == 1)
+      axis = yAxis;
+    else if (axes_.size() == 2)
+      axis = yAxis2;
+    else
+      axis = axisRect()->addAxis(QCPAxis::atRight);
+    axis->setVisible(true);
+    axis->setTickLabels(true);
+    if (axis != yAxis) styleExtraAxis(*axis, *this, theme_);
+    axisNames_[curve.unit] = curve.axis;
+  } else if (axisNames_[curve.unit] != curve.axis) {
+    axisNames_[curve.unit] = curve.unit;  // several things in one unit
+  }
+  return axis;
+}
+
+void TimelineChart::rebuildGraphs() {
+  clearGraphs();
+  clearItems();
+  gapLabels_.clear();
+  while (axisRect()->axisCount(QCPAxis::atRight) > 1)
+    axisRect()->removeAxis(axisRect()->axis(QCPAxis::atRight, 1));
+  yAxis2->setVisible(false);
+  axes_.clear();
+  axisNames_.clear();
+  for (const PlottedCurve& curve : curves_) {
+    QCPGraph* added = addGraph(xAxis, axisFor(curve));
+    added->setPen(curve.pen);
+    added->setAdaptiveSampling(false);  // thinned already
+  }
+  for (const PlottedCurve& curve : hasBefore_ ? curves_ : std::vector<PlottedCurve>()) {
+    QCPGraph* behind = addGraph(xAxis, axisFor(curve));
+    QPen faint = curve.pen;
+    QColor color = faint.color();
+    color.setAlpha(kTimelineChartFaint);
+    faint.setColor(color);
+    faint.setWidthF(1.0);
+    behind->setPen(faint);
+    behind->setLayer("grid");
+    behind->setAdaptiveSampling(false);
+  }
+  gaps_.clear();
+  if (recording_) gaps_ = recording_->timingNow().gaps;
+  for (std::size_t i = 0; i < std::min(gaps_.size(), kMostGapMarks); ++i) {
+    const double begin = recording_->timeAt(gaps_[i].frame);
+    shadeSpan(*this, begin, begin + gaps_[i].seconds, theme_);
+    gapLabels_.push_back(wordAt(*this,
+                                begin + gaps_[i].seconds / 2,
+                                "gap " + QString::number(gaps_[i].seconds, 'f', 1) + " s",
+                                Qt::AlignHCenter,
+                                colorsOf(theme_).warning));
+  }
+  nameAxes();
+  scaleAxes();
+  refill();
+}
+
+void TimelineChart::nameAxes() {
+  yAxis->setLabel({});
+  for (const auto& [unit, axis] : axes_) axis->setLabel(fittingName(axisNames_[unit], unit, *this));
+}
+
+// From zero, where nothing is below; angles and temperatures from their lowest.
+void TimelineChart::scaleAxes() {
+  for (const auto& [unit, axis] : axes_) {
+    std::optional<std::pair<double, double>> extent;
+    bool fromZero = true;
+    for (const PlottedCurve& curve : curves_) {
+      if (curve.unit != unit) continue;
+      auto its = store_.extremes(curve.choice);
+      if (!its) continue;
+      if (const auto before = before_.extremes(curve.choice))
+        its = {std::min(its->first, before->first), std::max(its->second, before->second)};
+      fromZero = curve.choice.kind == SeriesChoice::Kind::kMatrix ||
+                 curve.choice.kind == SeriesChoice::Kind::kTaxels;
+      if (!extent) extent = its;
+      extent->first = std::min(extent->first, its->first);
+      extent->second = std::max(extent->second, its->second);
+    }
+    auto [low, high] = extent.value_or(std::pair(0.0, 0.0));
+    if (fromZero) low = std::min(low, 0.0);
+    if (!(high > low)) high = low + 1.0;
+    const double air = (high - low) * (kTimelineChartHeadroom - 1.0);
+    axis->setRange(fromZero && low == 0.0 ? 0.0 : low - air, high + air);
+  }
+  if (axes_.empty()) yAxis->setRange(0.0, 1.0);
+}
+
+void TimelineChart::refill() {
+  const QCPRange range = xAxis->range();
+  const DecimationOptions options{.from = range.lower,
+                                  .to = range.upper,
+                                  .columns = static_cast<std::size_t>(std::max(1, width()))};
+  const auto fill = [&](const SeriesStore& store, std::size_t first) {
+    for (std::size_t i = 0; i < curves_.size(); ++i) {
+      const auto points = store.points(curves_[i].choice, options);
+      QVector<QCPGraphData> samples;
+      samples.reserve(static_cast<qsizetype>(points.size()));
+      for (const SeriesPoint& point : points) samples.append({point.x, point.y});
+      graph(static_cast<int>(first + i))->data()->set(samples, true);
+    }
+  };
+  fill(store_, 0);
+  if (hasBefore_) fill(before_, curves_.size());
+  showGapLabels();
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+// A label stands only in a gap that is wide enough for it.
+void TimelineChart::showGapLabels() {
+  for (std::size_t i = 0; i < gapLabels_.size(); ++i) {
+    const double begin = recording_->timeAt(gaps_[i].frame);
+    const double widthPx = pixelOf(begin + gaps_[i].seconds) - pixelOf(begin);
+    gapLabels_[i]->setVisible(widthPx > fontMetrics().horizontalAdvance(gapLabels_[i]->text()) + 6);
+  }
+}
+
+void TimelineChart::setPosition(double seconds) {
+  positionS_ = seconds;
+  const QCPRange range = xAxis->range();
+  const bool out = seconds < range.lower || seconds > range.upper;
+  if (recording_ && drag_ == Drag::kNone && out) {
+    const double span = range.size();
+    const double from = seconds > range.upper ? seconds - kTimelineChartPageRest * span
+                                              : seconds - (1.0 - kTimelineChartPageRest) * span;
+    setSeen(from, from + span);
+  }
+  placeCursor();
+}
+
+void TimelineChart::placeCursor() {
+  const QRect plot = axisRect()->rect();
+  const int x = static_cast<int>(std::lround(pixelOf(positionS_)));
+  const bool inside = recording_ && x >= plot.left() - 1 && x <= plot.right() + 2;
+  const QRect place(
+      x - kTimelineChartCursorWidth / 2, plot.top(), kTimelineChartCursorWidth, plot.height());
+  if (cursor_->geometry() != place) cursor_->setGeometry(place);
+  if (cursor_->isHidden() == inside) cursor_->setVisible(inside);
+}
+
+void TimelineChart::setSelection(std::optional<TimeSpan> span) {
+  if (span && !recording_) span.reset();
+  if (span) {
+    const auto [low, high] = std::minmax(span->fromS, span->toS);
+    span = TimeSpan{std::clamp(low, 0.0, durationS()), std::clamp(high, 0.0, durationS())};
+  }
+  if (span == selection_) return;
+  selection_ = span;
+  placeSelection();
+  emit selectionChanged();
+}
+
+// Laid over the curves: moving it draws none of them anew.
+void TimelineChart::placeSelection() {
+  const QRect plot = axisRect()->rect();
+  const auto pixel = [&](double seconds) {
+    return static_cast<int>(std::lround(std::clamp(pixelOf(seconds), -1e6, 1e6)));
+  };
+  const int from = selection_ ? pixel(selection_->fromS) : 0;
+  const int to = selection_ ? pixel(selection_->toS) : 0;
+  const bool seen = selection_ && to >= plot.left() && from <= plot.right();
+  shade_->setVisible(seen);
+  const int left = std::max(from, plot.left());
+  shade_->setGeometry(
+      left, plot.top(), std::max(1, std::min(to, plot.right()) - left), plot.height());
+  for (const auto& [handle, x] : {std::pair(handles_[0], from), {handles_[1], to}}) {
+    handle->setVisible(seen && x >= plot.left() - 1 && x <= plot.right() + 1);
+    handle->setGeometry(x - kHandleWidth / 2, plot.top(), kHandleWidth, plot.height());
+  }
+}
+
+void TimelineChart::setSeen(double from, double to) {
+  const double duration = durationS();
+  const double span =
+      std::clamp(to - from, std::min(kTimelineChartShortestSeenS, duration), duration);
+  const double start = std::clamp(from, 0.0, duration - span);
+  xAxis->setRange(start, start + span);
+  nameTime();
+  store_.setSeen(start, start + span);
+  before_.setSeen(start, start + span);
+  refill();
+}
+
+// Hours aren't read in seconds.
+void TimelineChart::nameTime() {
+  const bool seconds = seen().upper <= kTimelineChartLongestInS;
+  if (seconds)
+    xAxis->setTicker(secondsTicker_);
+  else
+    xAxis->setTicker(clockTicker_);
+  if (!seconds)
+    clockTicker_->setTimeFormat(seen().size() < kFewSecondsS ? "%h:%m:%s.%z" : "%h:%m:%s");
+  xAxis->setLabel(seconds ? "time from the first frame in s"
+                          : "time from the first frame in h:min:s");
+}
+
+void TimelineChart::fit() { setSeen(0.0, durationS()); }
+
+void TimelineChart::zoom(double factor) {
+  zoomAbout(seen().contains(positionS_) && factor > 1.0 ? positionS_ : seen().center(), factor);
+}
+
+void TimelineChart::showSpan(const TimeSpan& span) {
+  const double air =
+      std::max((span.toS - span.fromS) * kTimelineChartAir, kTimelineChartShortestSeenS / 2);
+  setSeen(span.fromS - air, span.toS + air);
+}
+
+void TimelineChart::zoomAbout(double seconds, double factor) {
+  const QCPRange range = xAxis->range();
+  const double span = std::clamp(
+      range.size() / factor, std::min(kTimelineChartShortestSeenS, durationS()), durationS());
+  const double share = (seconds - range.lower) / range.size();
+  setSeen(seconds - share * span, seconds + (1.0 - share) * span);
+}
+
+}  // namespace palpate::gui

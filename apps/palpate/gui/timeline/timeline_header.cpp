@@ -1,0 +1,137 @@
+#include "gui/timeline/timeline_header.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QToolButton>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kTimelineHeaderStroke = 18;  // [px] length of a stroke
+constexpr int kAfterStroke = 6;            // [px]
+constexpr int kAfterName = 16;             // [px]
+
+}  // namespace
+
+Legend::Legend(QWidget* parent) : QWidget(parent) {
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  setAttribute(Qt::WA_TransparentForMouseEvents);  // the title row is there to be dragged
+}
+
+void Legend::setEntries(std::vector<Entry> entries, Theme theme) {
+  entries_ = std::move(entries);
+  theme_ = theme;
+  updateGeometry();
+  update();
+}
+
+QSize Legend::sizeHint() const {
+  int width = 0;
+  for (const Entry& entry : entries_)
+    width += kTimelineHeaderStroke + kAfterStroke + fontMetrics().horizontalAdvance(entry.name) +
+             kAfterName;
+  return {width, fontMetrics().height() + 2};
+}
+
+void Legend::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  const int more = fontMetrics().horizontalAdvance("…");
+  int x = 0;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& entry = entries_[i];
+    const int nameWidth = fontMetrics().horizontalAdvance(entry.name);
+    const int needed = kTimelineHeaderStroke + kAfterStroke + nameWidth;
+    if (x + needed > width() - (i + 1 < entries_.size() ? more + kAfterName : 0)) {
+      painter.setPen(colorsOf(theme_).muted);
+      painter.drawText(QRect(x, 0, width() - x, height()), Qt::AlignVCenter, "…");
+      return;
+    }
+    QPen pen = entry.pen;
+    pen.setWidthF(3.0);
+    pen.setCapStyle(Qt::FlatCap);
+    painter.setPen(pen);
+    painter.drawLine(x, height() / 2, x + kTimelineHeaderStroke, height() / 2);
+    x += kTimelineHeaderStroke + kAfterStroke;
+    painter.setPen(colorsOf(theme_).text);
+    painter.drawText(QRect(x, 0, nameWidth + 2, height()), Qt::AlignVCenter, entry.name);
+    x += nameWidth + kAfterName;
+  }
+}
+
+TimelineHeader::TimelineHeader(const QList<QAction*>& ofSelection, QWidget* parent)
+    : QWidget(parent) {
+  signal_ = new QComboBox(this);
+  signal_->setObjectName("signalBox");
+  signal_->setFocusPolicy(Qt::NoFocus);  // it has a key
+  signal_->setToolTip("What is plotted of each ticked matrix (S)");
+  for (const PlottedSignal signal : kAllPlottedSignals) signal_->addItem(nameOf(signal));
+  curves_ = new QToolButton(this);
+  curves_->setObjectName("curvesButton");
+  curves_->setText("Curves");
+  curves_->setFocusPolicy(Qt::NoFocus);  // it has a key
+  curves_->setToolTip("Taxels, joint angles and temperatures in the timeline (C)");
+  legend_ = new Legend(this);
+  reading_ = new QLabel(this);
+  reading_->setObjectName("readingWords");
+  reading_->hide();
+  selection_ = new QWidget(this);
+  selection_->setObjectName("selectionStrip");
+  auto* strip = new QHBoxLayout(selection_);
+  strip->setContentsMargins(0, 0, 0, 0);
+  strip->setSpacing(4);
+  selectionWords_ = new QLabel(selection_);
+  selectionWords_->setObjectName("selectionWords");
+  strip->addWidget(selectionWords_);
+  strip->addSpacing(4);
+  for (QAction* action : ofSelection) {
+    auto* button = new QToolButton(selection_);
+    button->setDefaultAction(action);
+    button->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    button->setFocusPolicy(Qt::NoFocus);
+    strip->addWidget(button);
+  }
+  selection_->hide();
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(8);
+  row->addWidget(signal_);
+  row->addWidget(curves_);
+  row->addSpacing(6);
+  row->addWidget(legend_, 1);
+  row->addWidget(reading_);
+  row->addWidget(selection_);
+  connect(signal_, &QComboBox::activated, this, [this](int index) {
+    emit signalChosen(kAllPlottedSignals[static_cast<std::size_t>(index)]);
+  });
+  connect(curves_, &QToolButton::clicked, this, &TimelineHeader::curvesAsked);
+}
+
+void TimelineHeader::setSignal(PlottedSignal signal) { signal_->setCurrentText(nameOf(signal)); }
+
+void TimelineHeader::setCurves(const std::vector<PlottedCurve>& curves, Theme theme) {
+  std::vector<Legend::Entry> entries;
+  for (const PlottedCurve& curve : curves) entries.push_back({curve.pen, curve.name});
+  legend_->setEntries(std::move(entries), theme);
+}
+
+void TimelineHeader::setSelection(const QString& words) {
+  selectionWords_->setText(words);
+  selection_->setVisible(!words.isEmpty());
+}
+
+void TimelineHeader::setReading(const QString& words) {
+  reading_->setText(words);
+  reading_->setVisible(!words.isEmpty());
+}
+
+void TimelineHeader::setPlain(bool plain) {
+  curves_->setVisible(!plain);
+  if (plain) {
+    selection_->hide();
+    reading_->hide();
+  }
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,70 @@
+// The header of the timeline: which signal of the matrices is plotted, what else is, a legend in the colours and strokes
+// of the curves, and what can be done with the part that is selected.
+#pragma once
+
+#include <QPen>
+#include <QWidget>
+#include <vector>
+
+#include "gui/chart/plotted_curve.h"
+#include "gui/look/plotted_signal.h"
+#include "gui/look/theme.h"
+
+class QComboBox;
+class QHBoxLayout;
+class QLabel;
+class QToolButton;
+
+namespace palpate::gui {
+
+// Strokes with names, as many as there is room for.
+class Legend : public QWidget {
+  Q_OBJECT
+ public:
+  struct Entry {
+    QPen pen;
+    QString name;
+  };
+  explicit Legend(QWidget* parent = nullptr);
+  void setEntries(std::vector<Entry> entries, Theme theme);
+  const std::vector<Entry>& entries() const noexcept { return entries_; }
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override { return {40, sizeHint().height()}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  std::vector<Entry> entries_;
+  Theme theme_ = Theme::kDark;
+};
+
+class TimelineHeader : public QWidget {
+  Q_OBJECT
+ public:
+  // The actions become buttons beside the words of setSelection().
+  explicit TimelineHeader(const QList<QAction*>& ofSelection = {}, QWidget* parent = nullptr);
+  void setSignal(PlottedSignal signal);
+  void setCurves(const std::vector<PlottedCurve>& curves, Theme theme);
+  // "3.20 – 5.10 s · 61 frames"; empty: nothing is selected.
+  void setSelection(const QString& words);
+  // "reading 34 %"; empty: all there.
+  void setReading(const QString& words);
+  // Only the signal of the matrices, as live.
+  void setPlain(bool plain);
+  QToolButton* curvesButton() const noexcept { return curves_; }
+
+ signals:
+  void signalChosen(palpate::gui::PlottedSignal signal);
+  void curvesAsked();
+
+ private:
+  QComboBox* signal_;
+  QToolButton* curves_;
+  Legend* legend_;
+  QLabel* reading_;
+  QWidget* selection_;
+  QLabel* selectionWords_;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,24 @@
+// The timeline of a recording: the chart with the rows of its events below, on one scale of time.
+#pragma once
+
+#include <QWidget>
+
+#include "gui/timeline/event_rows.h"
+#include "gui/timeline/timeline_chart.h"
+
+namespace palpate::gui {
+
+class TimelinePanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit TimelinePanel(QWidget* parent = nullptr);
+  TimelineChart& chart() noexcept { return *chart_; }
+  EventRows& rows() noexcept { return *rows_; }
+  void setTheme(Theme theme);
+
+ private:
+  TimelineChart* chart_;
+  EventRows* rows_;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,121 @@
+#include "gui/widgets/computed_page.h"
+
+#include <QCoreApplication>
+#include <QStackedWidget>
+#include <QVBoxLayout>
+#include <memory>
+
+#include "gui/widgets/empty_page.h"
+#include "gui/widgets/opening_strip.h"
+
+namespace palpate::gui {
+
+ComputedPage::ComputedPage(const QString& part, QWidget* parent) : QWidget(parent) {
+  setObjectName(part + "Page");
+  strip_ = new OpeningStrip(this, "Computing", part);
+  pages_ = new QStackedWidget(this);
+  empty_ = new EmptyPage(part, pages_);
+  pages_->addWidget(empty_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  top_ = new QVBoxLayout;
+  top_->setContentsMargins(12, 8, 12, 8);
+  top_->setSpacing(6);
+  column->addLayout(top_);
+  column->addWidget(strip_);
+  column->addWidget(pages_, 1);
+  connect(&job_, &BackgroundJob::progressed, strip_, &OpeningStrip::setProgress);
+  connect(&job_, &BackgroundJob::finished, strip_, &OpeningStrip::end);
+  connect(&job_, &BackgroundJob::failed, this, [this](const QString& message) {
+    say(message, "Try again");
+  });
+  connect(strip_, &OpeningStrip::cancelRequested, this, &ComputedPage::cancel);
+  connect(empty_, &EmptyPage::buttonClicked, this, &ComputedPage::renew);
+}
+
+void ComputedPage::setContent(QWidget* content) {
+  content_ = content;
+  pages_->addWidget(content);
+}
+
+void ComputedPage::setSource(const OpenedRecordingPtr& recording, bool live) {
+  const OpenedRecordingPtr source = live ? nullptr : recording;
+  if (source == recording_ && live == live_ && !stale_) return;
+  if (source != recording_ || live != live_) {
+    recording_ = source;
+    live_ = live;
+    if (ofRecording()) forget();
+  }
+  if (ofRecording()) renew();
+}
+
+QString ComputedPage::whyNot() const {
+  if (live_) return "This is done with recordings. Record what is connected (Ctrl+R), and open it.";
+  if (!recording_) return "Open a recording first.";
+  if (recording_->profile.numFrames() == 0) return "This recording holds no frame.";
+  return {};
+}
+
+void ComputedPage::renew() {
+  stale_ = true;
+  ++generation_;
+  job_.cancel();
+  ask();
+}
+
+void ComputedPage::ask() {
+  if (!stale_ || !isVisible()) return;
+  stale_ = false;
+  const QString why = whyNot();
+  if (!why.isEmpty()) return say(why);
+  say("");
+  compute();
+}
+
+void ComputedPage::run(const QString& text, Work work) {
+  ++generation_;
+  job_.cancel();
+  auto take = std::make_shared<Take>();
+  strip_->begin(text);
+  job_.start(
+      text,
+      [take, work = std::move(work)](const Progress& progress) { *take = work(progress); },
+      [this, take, generation = generation_] {
+        if (generation == generation_ && *take) (*take)();
+      });
+}
+
+bool ComputedPage::cancel() {
+  if (!job_.busy()) return false;
+  ++generation_;
+  job_.cancel();
+  say("Given up.", "Compute");
+  emit said("computing was cancelled");
+  return true;
+}
+
+void ComputedPage::settle() {
+  ask();
+  while (job_.busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+}
+
+void ComputedPage::say(const QString& text, const QString& button) {
+  empty_->say(text, button);
+  pages_->setCurrentWidget(empty_);
+}
+
+void ComputedPage::showContent() { pages_->setCurrentWidget(content_); }
+
+QString ComputedPage::emptyText() const {
+  return pages_->currentWidget() == empty_ ? empty_->text() : QString();
+}
+
+bool ComputedPage::shown() const { return isVisible() && pages_->currentWidget() == content_; }
+
+void ComputedPage::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  ask();
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,40 @@
+#include "gui/widgets/dock.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+
+#include "gui/look/icons.h"
+
+namespace palpate::gui {
+
+Dock::Dock(const QString& name, QWidget* content, QWidget* header, QWidget* parent)
+    : QDockWidget(name, parent) {
+  setObjectName(name);
+  setWidget(content);
+  auto* row = new QWidget(this);
+  row->setObjectName("DockTitle");
+  row->setAttribute(Qt::WA_StyledBackground);
+  row->setToolTip("Drag to move this dock, double-click to make it a window of its own");
+  close_ = new QToolButton(row);
+  close_->setProperty("flat", true);
+  close_->setIconSize({10, 10});
+  close_->setToolTip("Close (it comes back by the menu View)");
+  close_->setAccessibleName("Close " + name);
+  close_->setFocusPolicy(Qt::NoFocus);
+  connect(close_, &QToolButton::clicked, this, &QDockWidget::close);
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(12, 3, 6, 3);
+  layout->setSpacing(10);
+  layout->addWidget(new QLabel("<b>" + name + "</b>", row));
+  if (header)
+    layout->addWidget(header, 1);
+  else
+    layout->addStretch(1);
+  layout->addWidget(close_);
+  setTitleBarWidget(row);
+}
+
+void Dock::setTheme(Theme theme) { close_->setIcon(makeIcon(IconShape::kClose, theme)); }
+
+}  // namespace palpate::gui

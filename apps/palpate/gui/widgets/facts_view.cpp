@@ -1,0 +1,87 @@
+#include "gui/widgets/facts_view.h"
+
+#include <QHelpEvent>
+#include <QPaintEvent>
+#include <QPainter>
+#include <QToolTip>
+#include <algorithm>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kFactsViewPadding = 8;  // [px] above and below a row's text, together
+constexpr int kSpacing = 12;          // [px] between name and value
+
+}  // namespace
+
+FactsView::FactsView(QWidget* parent) : QWidget(parent) {
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+}
+
+void FactsView::setFacts(std::vector<Fact> facts) {
+  facts_ = std::move(facts);
+  updateGeometry();
+  update();
+}
+
+void FactsView::setValue(std::size_t row, const QString& value) {
+  if (row >= facts_.size() || facts_[row].value == value) return;
+  facts_[row].value = value;
+  update(0, static_cast<int>(row) * rowHeight(), width(), rowHeight());
+}
+
+void FactsView::setTheme(Theme theme) {
+  theme_ = theme;
+  update();
+}
+
+int FactsView::rowHeight() const { return fontMetrics().height() + kFactsViewPadding; }
+
+int FactsView::nameWidth() const {
+  int widest = 0;
+  for (const Fact& fact : facts_)
+    widest = std::max(widest, fontMetrics().horizontalAdvance(fact.name));
+  return widest;
+}
+
+QSize FactsView::sizeHint() const {
+  return {nameWidth() + 140, rowHeight() * static_cast<int>(facts_.size())};
+}
+
+QSize FactsView::minimumSizeHint() const {
+  return {nameWidth() + 50, rowHeight() * static_cast<int>(facts_.size())};
+}
+
+void FactsView::paintEvent(QPaintEvent* event) {
+  const ThemeColors& colors = colorsOf(theme_);
+  QPainter painter(this);
+  const int height = rowHeight();
+  for (std::size_t i = 0; i < facts_.size(); ++i) {
+    const QRect row(0, static_cast<int>(i) * height, width(), height);
+    if (!row.intersects(event->rect())) continue;
+    const Fact& fact = facts_[i];
+    painter.setPen(colors.muted);
+    painter.drawText(row, Qt::AlignLeft | Qt::AlignVCenter, fact.name);
+    painter.setPen(fact.warning ? colors.warning : colors.text);
+    const int used = fontMetrics().horizontalAdvance(fact.name) + kSpacing;
+    const QRect right = row.adjusted(used, 0, 0, 0);
+    painter.drawText(right,
+                     Qt::AlignRight | Qt::AlignVCenter,
+                     fontMetrics().elidedText(fact.value, Qt::ElideMiddle, right.width()));
+    painter.setPen(colors.border);
+    if (i + 1 < facts_.size()) painter.drawLine(row.bottomLeft(), row.bottomRight());
+  }
+}
+
+bool FactsView::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip) {
+    const auto* help = static_cast<QHelpEvent*>(event);
+    const auto row = static_cast<std::size_t>(std::max(0, help->pos().y() / rowHeight()));
+    if (row < facts_.size())
+      QToolTip::showText(help->globalPos(), facts_[row].name + ": " + facts_[row].value, this);
+    return true;
+  }
+  return QWidget::event(event);
+}
+
+}  // namespace palpate::gui

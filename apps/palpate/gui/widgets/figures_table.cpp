@@ -1,0 +1,178 @@
+#include "gui/widgets/figures_table.h"
+
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QPainter>
+#include <QStyledItemDelegate>
+#include <algorithm>
+#include <numeric>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kDetailRole = Qt::UserRole + 1;
+constexpr int kWarningRole = Qt::UserRole + 2;
+constexpr int kFiguresTablePadding = 6;          // [px] beside a figure
+constexpr int kIcon = 16;                        // [px] side of an icon
+constexpr int kFiguresTableAir = 5;              // [px] above and below
+constexpr double kFiguresTableNarrowest = 0.85;  // of a column's width
+constexpr int kLastLeast = 64;                   // [px] of the last column
+constexpr int kFiguresTableMostRowsSeen = 6;     // the others are scrolled to
+
+class FigureDelegate : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+  void setTheme(Theme theme) { theme_ = theme; }
+
+  void paint(QPainter* painter,
+             const QStyleOptionViewItem& option,
+             const QModelIndex& index) const override {
+    const ThemeColors& colors = colorsOf(theme_);
+    if (option.state & QStyle::State_Selected) painter->fillRect(option.rect, colors.accentSoft);
+    painter->save();
+    painter->setPen(colors.border);
+    painter->drawLine(option.rect.bottomLeft(), option.rect.bottomRight());
+    const QString text = index.data().toString(), detail = index.data(kDetailRole).toString();
+    const QRect room = option.rect.adjusted(
+        kFiguresTablePadding, kFiguresTableAir - 1, -kFiguresTablePadding, -kFiguresTableAir);
+    const int line = option.fontMetrics.height();
+    const int side = index.data(Qt::TextAlignmentRole).toInt() & Qt::AlignHorizontal_Mask;
+    const auto icon = index.data(Qt::DecorationRole).value<QIcon>();
+    const int aside = icon.isNull() ? 0 : kIcon + kFiguresTablePadding;
+    if (!icon.isNull())
+      icon.paint(painter, QRect(room.left(), room.center().y() - kIcon / 2, kIcon, kIcon));
+    const auto draw = [&](const QString& words, int top) {
+      painter->drawText(QRect(room.left() + aside, top, room.width() - aside, line),
+                        side | Qt::AlignVCenter,
+                        option.fontMetrics.elidedText(words, Qt::ElideRight, room.width() - aside));
+    };
+    const int top = detail.isEmpty() ? room.center().y() - line / 2 : room.top();
+    painter->setFont(option.font);
+    painter->setPen(index.data(kWarningRole).toBool() ? colors.warning : colors.text);
+    draw(text, top);
+    painter->setPen(colors.muted);
+    draw(detail, top + line);
+    painter->restore();
+  }
+
+ private:
+  Theme theme_ = Theme::kDark;
+};
+
+}  // namespace
+
+FiguresTable::FiguresTable(const std::vector<FigureColumn>& columns, QWidget* parent)
+    : QTableWidget(0, static_cast<int>(columns.size()), parent) {
+  setSelectionBehavior(QAbstractItemView::SelectRows);
+  setSelectionMode(QAbstractItemView::SingleSelection);
+  setEditTriggers(QAbstractItemView::NoEditTriggers);
+  setTabKeyNavigation(false);
+  setShowGrid(false);
+  setWordWrap(false);
+  setFrameShape(QFrame::NoFrame);
+  setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+  setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
+  setItemDelegate(new FigureDelegate(this));
+  verticalHeader()->hide();
+  verticalHeader()->setDefaultSectionSize(2 * fontMetrics().height() + 2 * kFiguresTableAir);
+  QHeaderView* header = horizontalHeader();
+  header->setHighlightSections(false);
+  header->setMinimumSectionSize(24);
+  header->setDefaultAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  for (int i = 0; i < columnCount(); ++i) {
+    const FigureColumn& column = columns[static_cast<std::size_t>(i)];
+    auto* item = new QTableWidgetItem(column.name);
+    item->setToolTip(column.tip);
+    item->setTextAlignment((column.words ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
+    setHorizontalHeaderItem(i, item);
+    widths_.push_back(column.letters * fontMetrics().horizontalAdvance('0') +
+                      2 * kFiguresTablePadding);
+  }
+  connect(this, &QTableWidget::itemSelectionChanged, this, [this] {
+    if (const int row = chosenRow(); row >= 0) emit rowChosen(row);
+  });
+}
+
+void FiguresTable::setRows(const std::vector<std::vector<FigureCell>>& rows) {
+  const bool sameCount = rowCount() == static_cast<int>(rows.size());
+  const QSignalBlocker blocker(this);
+  if (!sameCount) clearSelection();
+  setRowCount(static_cast<int>(rows.size()));
+  for (int y = 0; y < rowCount(); ++y)
+    for (int x = 0; x < columnCount(); ++x) {
+      const FigureCell& cell = rows[static_cast<std::size_t>(y)].at(static_cast<std::size_t>(x));
+      QTableWidgetItem* item = this->item(y, x);
+      if (item == nullptr) {
+        item = new QTableWidgetItem;
+        item->setTextAlignment(Qt::Alignment(horizontalHeaderItem(x)->textAlignment()));
+        setItem(y, x, item);
+      }
+      item->setText(cell.text);
+      item->setData(kDetailRole, cell.detail);
+      item->setData(kWarningRole, cell.warning);
+      item->setToolTip(cell.tip);
+      item->setIcon(cell.icon);
+    }
+  if (!sameCount) updateGeometry();
+}
+
+void FiguresTable::setTheme(Theme theme) {
+  static_cast<FigureDelegate*>(itemDelegate())->setTheme(theme);
+  viewport()->update();
+}
+
+void FiguresTable::setSingleLine() {
+  verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 2 * kFiguresTableAir);
+}
+
+void FiguresTable::fitColumns() {
+  const int room = viewport()->width();
+  const int before = std::accumulate(widths_.begin(), widths_.end() - 1, 0);
+  const double scale =
+      std::clamp(static_cast<double>(room - kLastLeast) / before, kFiguresTableNarrowest, 1.0);
+  int used = 0;
+  for (int i = 0; i + 1 < columnCount(); ++i) {
+    const int width = static_cast<int>(scale * widths_[static_cast<std::size_t>(i)]);
+    horizontalHeader()->resizeSection(i, width);
+    used += width;
+  }
+  horizontalHeader()->resizeSection(columnCount() - 1, std::max(room - used, kLastLeast));
+}
+
+void FiguresTable::resizeEvent(QResizeEvent* event) {
+  QTableWidget::resizeEvent(event);
+  fitColumns();
+}
+
+int FiguresTable::chosenRow() const {
+  const QModelIndexList rows = selectionModel()->selectedRows();
+  return rows.isEmpty() ? -1 : rows.front().row();
+}
+
+QSize FiguresTable::sizeHint() const {
+  const int rows = std::clamp(rowCount(), 1, kFiguresTableMostRowsSeen);
+  return {
+      420,
+      horizontalHeader()->sizeHint().height() + rows * verticalHeader()->defaultSectionSize() + 2};
+}
+
+QSize FiguresTable::minimumSizeHint() const {
+  return {200, horizontalHeader()->sizeHint().height() + verticalHeader()->defaultSectionSize()};
+}
+
+bool FiguresTable::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto& key = *static_cast<QKeyEvent*>(event);
+    const bool plain = (key.modifiers() & ~Qt::KeypadModifier) == 0;
+    if (plain && (key.key() == Qt::Key_Up || key.key() == Qt::Key_Down ||
+                  key.key() == Qt::Key_Home || key.key() == Qt::Key_End ||
+                  key.key() == Qt::Key_PageUp || key.key() == Qt::Key_PageDown)) {
+      event->accept();
+      return true;
+    }
+  }
+  return QTableWidget::event(event);
+}
+
+}  // namespace palpate::gui

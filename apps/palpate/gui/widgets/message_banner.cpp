@@ -1,0 +1,75 @@
+#include "gui/widgets/message_banner.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+
+#include "gui/look/icons.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr qsizetype kMessageBannerMostLines = 4;
+
+}  // namespace
+
+MessageBanner::MessageBanner(QWidget* parent, const QString& name, const QString& part)
+    : QWidget(parent) {
+  setObjectName(name);
+  setAttribute(Qt::WA_StyledBackground);
+  text_ = new QLabel(this);
+  text_->setObjectName(part + "Text");
+  text_->setTextFormat(Qt::PlainText);  // file names are no mark-up
+  text_->setWordWrap(true);
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  close_ = new QToolButton(this);
+  close_->setObjectName(part + "Close");
+  close_->setProperty("flat", true);
+  close_->setIconSize({12, 12});
+  close_->setFocusPolicy(Qt::NoFocus);
+  close_->setToolTip("Close this message (Esc)");
+  connect(close_, &QToolButton::clicked, this, &MessageBanner::dismiss);
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(14, 8, 8, 8);
+  row->addWidget(text_, 1);
+  row->addWidget(close_, 0, Qt::AlignTop);
+  hide();
+}
+
+void MessageBanner::showAbout(const QString& topic, const QString& message) {
+  if (isHidden()) lines_.clear();
+  lines_.removeIf([&](const Line& line) { return line.text == message; });
+  lines_.append({topic, message});
+  lines_ = lines_.mid(std::max<qsizetype>(0, lines_.size() - kMessageBannerMostLines));
+  showLines();
+  emit said(message);
+}
+
+void MessageBanner::withdraw(const QString& topic) {
+  lines_.removeIf([&](const Line& line) { return line.topic == topic; });
+  showLines();
+}
+
+void MessageBanner::showAll(const QStringList& messages) {
+  lines_.clear();
+  for (const QString& message : messages) lines_.append({{}, message});
+  showLines();
+}
+
+void MessageBanner::dismiss() {
+  lines_.clear();
+  showLines();
+}
+
+void MessageBanner::showLines() {
+  QStringList texts;
+  for (const Line& line : lines_) texts.append(line.text);
+  text_->setText(texts.join('\n'));
+  setVisible(!texts.isEmpty());
+}
+
+QString MessageBanner::message() const { return text_->text(); }
+
+void MessageBanner::setTheme(Theme theme) { close_->setIcon(makeIcon(IconShape::kClose, theme)); }
+
+}  // namespace palpate::gui

@@ -1,0 +1,101 @@
+#include "gui/widgets/number_field.h"
+
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "palpate/core/number_text.h"
+
+namespace palpate::gui {
+namespace {
+
+std::optional<double> numberFieldNumberIn(const QString& text) {
+  QString point = text;
+  point.replace(',', '.');
+  return parseDouble(point.toStdString());
+}
+
+// Anything may stand there while it is typed; fixup() decides at the end.
+template <class Field>
+QValidator::State stateOf(const Field& field, const QString& text, bool whole) {
+  const auto number = numberFieldNumberIn(text);
+  const bool inRange = number && *number >= field.minimum() && *number <= field.maximum() &&
+                       (!whole || *number == std::floor(*number));
+  return inRange ? QValidator::Acceptable : QValidator::Intermediate;
+}
+
+QString written(const QSpinBox& field, double value) {
+  return QString::number(std::lround(std::clamp(
+      value, static_cast<double>(field.minimum()), static_cast<double>(field.maximum()))));
+}
+
+QString written(const QDoubleSpinBox& field, double value) {
+  const double nearest = std::clamp(value, field.minimum(), field.maximum());
+  return QString::fromStdString(fixedText(nearest, field.decimals()));
+}
+
+void setUp(QAbstractSpinBox& field) {
+  field.setButtonSymbols(QAbstractSpinBox::NoButtons);
+  field.setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  field.setKeyboardTracking(false);  // only what is finished moves the playback
+  field.setFocusPolicy(Qt::ClickFocus);
+}
+
+// Keys that belong to the field while it has the focus, though the window has them as shortcuts.
+bool keepsKey(QEvent* event) {
+  if (event->type() != QEvent::ShortcutOverride) return false;
+  const int key = static_cast<QKeyEvent*>(event)->key();
+  if (key != Qt::Key_Escape && key != Qt::Key_Up && key != Qt::Key_Down) return false;
+  event->accept();
+  return true;
+}
+
+}  // namespace
+
+FrameField::FrameField(QWidget* parent) : QSpinBox(parent) { setUp(*this); }
+
+QValidator::State FrameField::validate(QString& text, int& /*position*/) const {
+  return stateOf(*this, text, true);
+}
+
+void FrameField::fixup(QString& text) const {
+  text = written(*this, numberFieldNumberIn(text).value_or(value()));
+}
+
+int FrameField::valueFromText(const QString& text) const {
+  return static_cast<int>(numberFieldNumberIn(text).value_or(value()));
+}
+
+bool FrameField::event(QEvent* event) { return keepsKey(event) || QSpinBox::event(event); }
+
+void FrameField::keyPressEvent(QKeyEvent* event) {
+  if (event->key() != Qt::Key_Escape) return QSpinBox::keyPressEvent(event);
+  lineEdit()->setText(written(*this, value()));
+  clearFocus();
+}
+
+SecondsField::SecondsField(QWidget* parent) : QDoubleSpinBox(parent) { setUp(*this); }
+
+QValidator::State SecondsField::validate(QString& text, int& /*position*/) const {
+  return stateOf(*this, text, false);
+}
+
+void SecondsField::fixup(QString& text) const {
+  text = written(*this, numberFieldNumberIn(text).value_or(value()));
+}
+
+double SecondsField::valueFromText(const QString& text) const {
+  return numberFieldNumberIn(text).value_or(value());
+}
+
+bool SecondsField::event(QEvent* event) { return keepsKey(event) || QDoubleSpinBox::event(event); }
+
+void SecondsField::keyPressEvent(QKeyEvent* event) {
+  if (event->key() != Qt::Key_Escape) return QDoubleSpinBox::keyPressEvent(event);
+  lineEdit()->setText(written(*this, value()));
+  clearFocus();
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,81 @@
+#include "gui/widgets/offer_strip.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QToolButton>
+#include <utility>
+
+#include "gui/look/icons.h"
+
+namespace palpate::gui {
+
+OfferStrip::OfferStrip(QWidget* parent) : QWidget(parent) {
+  setObjectName("OfferStrip");
+  setAttribute(Qt::WA_StyledBackground);
+  text_ = new QLabel(this);
+  text_->setObjectName("offerText");
+  text_->setTextFormat(Qt::PlainText);  // file names are no mark-up
+  text_->setWordWrap(true);
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  accept_ = new QPushButton(this);
+  accept_->setObjectName("offerAccept");
+  accept_->setFocusPolicy(Qt::TabFocus);
+  accept_->setAutoDefault(false);
+  close_ = new QToolButton(this);
+  close_->setObjectName("offerClose");
+  close_->setProperty("flat", true);
+  close_->setIconSize({12, 12});
+  close_->setFocusPolicy(Qt::NoFocus);
+  close_->setToolTip("Not now");
+  connect(accept_, &QPushButton::clicked, this, [this] {
+    const auto accept = std::exchange(onAccept_, {});
+    onDecline_ = {};
+    hide();
+    if (accept) accept();
+  });
+  connect(close_, &QToolButton::clicked, this, [this] {
+    const auto decline = std::exchange(onDecline_, {});
+    dismiss();
+    if (decline) decline();
+  });
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(14, 6, 8, 6);
+  row->setSpacing(12);
+  row->addWidget(text_, 1);
+  row->addWidget(accept_);
+  row->addWidget(close_);
+  hide();
+}
+
+void OfferStrip::offer(const QString& text,
+                       const QString& button,
+                       std::function<void()> accept,
+                       std::function<void()> decline) {
+  text_->setText(text);
+  accept_->setText(button);
+  accept_->show();
+  onAccept_ = std::move(accept);
+  onDecline_ = std::move(decline);
+  show();
+}
+
+void OfferStrip::say(const QString& text) {
+  text_->setText(text);
+  accept_->hide();
+  onAccept_ = {};
+  onDecline_ = {};
+  show();
+}
+
+void OfferStrip::dismiss() {
+  onAccept_ = {};
+  onDecline_ = {};
+  hide();
+}
+
+QString OfferStrip::text() const { return text_->text(); }
+
+void OfferStrip::setTheme(Theme theme) { close_->setIcon(makeIcon(IconShape::kClose, theme)); }
+
+}  // namespace palpate::gui

@@ -1,0 +1,28 @@
+// A small mark before a line of text: good, bad, needs a look, at work. Told apart by shape, not by colour
+// alone.
+#pragma once
+
+#include <QWidget>
+
+#include "gui/look/theme.h"
+
+namespace palpate::gui {
+
+class StateMark : public QWidget {
+  Q_OBJECT
+ public:
+  enum class State { kNone, kAtWork, kGood, kWarning, kBad };
+
+  StateMark(Theme theme, QWidget* parent);
+  void setState(State state);
+  State state() const noexcept { return state_; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  Theme theme_;
+  State state_ = State::kNone;
+};
+
+}  // namespace palpate::gui

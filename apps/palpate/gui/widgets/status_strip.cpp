@@ -1,0 +1,72 @@
+#include "gui/widgets/status_strip.h"
+
+#include <QPainter>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kStatusStripMargin = 12;  // [px]
+constexpr int kStatusStripBetween = 18;
+constexpr double kLampRadius = 4.0;
+
+}  // namespace
+
+StatusStrip::StatusStrip(QWidget* parent) : QWidget(parent) {
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+}
+
+QSize StatusStrip::sizeHint() const { return {400, fontMetrics().height() + 8}; }
+
+void StatusStrip::setStatus(const Status& status) {
+  if (status == status_) return;
+  status_ = status;
+  update();
+}
+
+void StatusStrip::setTheme(Theme theme) {
+  theme_ = theme;
+  update();
+}
+
+void StatusStrip::paintEvent(QPaintEvent*) {
+  const ThemeColors& colors = colorsOf(theme_);
+  QPainter painter(this);
+  const auto advance = [this](const QString& text) {
+    return fontMetrics().horizontalAdvance(text);
+  };
+  const int rightWidth = advance(status_.right);
+  painter.setPen(colors.text);
+  painter.drawText(QRect(width() - kStatusStripMargin - rightWidth, 0, rightWidth, height()),
+                   Qt::AlignRight | Qt::AlignVCenter,
+                   status_.right);
+  const int end = width() - kStatusStripMargin - rightWidth - kStatusStripBetween;
+
+  const QColor lamp = status_.lamp == Status::Lamp::kGood      ? colors.accent
+                      : status_.lamp == Status::Lamp::kWarning ? colors.warning
+                                                               : colors.muted;
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(lamp);
+  painter.drawEllipse(
+      QPointF(kStatusStripMargin + kLampRadius, height() / 2.0), kLampRadius, kLampRadius);
+  int x = kStatusStripMargin + static_cast<int>(2 * kLampRadius) + 7;
+  const auto item = [&](const QString& text, const QColor& color) {
+    if (text.isEmpty() || x >= end) return;
+    painter.setPen(color);
+    painter.drawText(QRect(x, 0, end - x, height()),
+                     Qt::AlignLeft | Qt::AlignVCenter,
+                     fontMetrics().elidedText(text, Qt::ElideRight, end - x));
+    x += advance(text) + kStatusStripBetween;
+  };
+  item(status_.state, status_.lamp == Status::Lamp::kWarning ? colors.warning : colors.text);
+  // Figures get a fixed width, so that they don't dance while playing.
+  for (const QString& figure : status_.figures) {
+    const int from = x;
+    item(figure, colors.muted);
+    const auto space = figure.lastIndexOf(' ');
+    x = std::max(x, from + advance(figure.left(space) + " 0000") + kStatusStripBetween);
+  }
+  item(status_.notice, colors.text);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,39 @@
+// The status bar's content: what the source does, the frame in numbers, and notices. Painted in one
+// go, so that it can change 60 times a second.
+#pragma once
+
+#include <QStringList>
+#include <QWidget>
+
+#include "gui/look/theme.h"
+
+namespace palpate::gui {
+
+struct Status {
+  enum class Lamp { kIdle, kGood, kWarning };
+  Lamp lamp = Lamp::kIdle;
+  QString state;        // "recording · playing 1x"
+  QStringList figures;  // "active 61", "max 1013", ..
+  QString notice;       // a gap, what lies under the mouse
+  QString right;        // "frame 2411 of 3289   76.15 s"
+  bool operator==(const Status&) const = default;
+};
+
+class StatusStrip : public QWidget {
+  Q_OBJECT
+ public:
+  explicit StatusStrip(QWidget* parent = nullptr);
+  void setStatus(const Status& status);
+  const Status& status() const noexcept { return status_; }
+  void setTheme(Theme theme);
+  QSize sizeHint() const override;
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  Status status_;
+  Theme theme_ = Theme::kDark;
+};
+
+}  // namespace palpate::gui

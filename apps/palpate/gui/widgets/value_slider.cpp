@@ -1,0 +1,83 @@
+#include "gui/widgets/value_slider.h"
+
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <cmath>
+
+#include "gui/widgets/number_field.h"
+
+namespace palpate::gui {
+namespace {
+constexpr const char* kWidestUnit = "counts";  // fields of several sliders stand below each other
+}
+
+ValueSlider::ValueSlider(const QString& name, const SliderRange& range, QWidget* parent)
+    : QWidget(parent), range_(range) {
+  slider_ = new QSlider(Qt::Horizontal, this);
+  slider_->setAccessibleName(name);
+  slider_->setRange(ticksOf(range.least), ticksOf(range.sliderMost));
+  slider_->setPageStep(5);
+  slider_->setMinimumWidth(48);
+  field_ = new SecondsField(this);
+  field_->setAccessibleName(name);
+  field_->setDecimals(range.decimals);
+  field_->setRange(range.least, range.most);
+  field_->setSingleStep(range.step);
+  field_->setFocusPolicy(Qt::StrongFocus);
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(6);
+  layout->addWidget(slider_, 1);
+  layout->addWidget(field_);
+  if (!range.unit.isEmpty()) {
+    auto* unit = new QLabel(range.unit, this);
+    unit->setProperty("role", "muted");
+    unit->setFixedWidth(fontMetrics().horizontalAdvance(kWidestUnit));
+    layout->addWidget(unit);
+  }
+  connect(slider_, &QSlider::valueChanged, this, [this](int ticks) {
+    const QSignalBlocker quiet(field_);
+    field_->setValue(range_.least + ticks * range_.step - ticksOf(range_.least) * range_.step);
+    if (!slider_->isSliderDown()) choose();  // by keys
+  });
+  connect(slider_, &QSlider::sliderReleased, this, &ValueSlider::choose);
+  connect(field_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
+    const QSignalBlocker quiet(slider_);
+    slider_->setValue(ticksOf(value));
+    choose();
+  });
+  shown_ = range.least;
+}
+
+int ValueSlider::ticksOf(double value) const {
+  return static_cast<int>(std::lround(value / range_.step));
+}
+
+double ValueSlider::value() const { return field_->value(); }
+
+void ValueSlider::showValue(double value) {
+  if (slider_->isSliderDown() || field_->hasFocus()) return;
+  const QSignalBlocker quietField(field_);
+  const QSignalBlocker quietSlider(slider_);
+  if (!field_->specialValueText().isEmpty()) field_->setSpecialValueText({});
+  field_->setValue(value);
+  slider_->setValue(ticksOf(value));
+  shown_ = field_->value();
+}
+
+void ValueSlider::showUnknown() {
+  showValue(range_.least);
+  field_->setSpecialValueText("–");  // of the least value
+}
+
+void ValueSlider::choose() {
+  if (field_->value() == shown_) return;
+  shown_ = field_->value();
+  emit chosen(shown_);
+}
+
+}  // namespace palpate::gui

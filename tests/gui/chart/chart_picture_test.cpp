@@ -1,0 +1,144 @@
+#include "gui/chart/chart_picture.h"
+
+#include <QImage>
+#include <QPainter>
+
+#include "gui/chart/chart_style.h"
+#include "gui/chart/plot.h"
+#include "gui/picture/picture_export.h"
+#include "testing/testing.h"
+
+namespace palpate::gui::chart_picture_test {
+namespace {
+
+// A line from (0, 0) to (10, 10), of which 4 to 6 is seen.
+class ChartPictureTest : public ::testing::Test {
+ protected:
+  ChartPictureTest() {
+    plot_.resize(600, 300);
+    arrangeChart(plot_);
+    styleChart(plot_, Theme::kDark);
+    plot_.xAxis->setLabel("time in s");
+    plot_.yAxis->setLabel("mean in counts");
+    plot_.addGraph();
+    plot_.graph(0)->setPen(curvePen(1, false, Theme::kDark));
+    for (int i = 0; i <= 10; ++i) plot_.graph(0)->addData(i, i);
+    plot_.xAxis->setRange(4.0, 6.0);
+    plot_.yAxis->setRange(4.5, 5.5);
+    look_.size = {480.0, 280.0};
+    look_.forPrint = true;
+    look_.textUnits = 16;
+  }
+  std::string svg() {
+    return pictureBytes(
+               PictureForm::kSvg,
+               [this](QPainter& painter) { paintChart(painter, look_, plot_, options_); },
+               {.size = look_.size, .unitsPerInch = 144.0},
+               "a.svg")
+        .toStdString();
+  }
+  QImage image() {
+    return pictureImage([this](QPainter& painter) { paintChart(painter, look_, plot_, options_); },
+                        {.size = look_.size, .unitsPerInch = 144.0, .dpi = 144.0});
+  }
+  static int numPixels(const QImage& image, const QColor& color) {
+    int found = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) found += image.pixelColor(x, y) == color ? 1 : 0;
+    return found;
+  }
+
+  QCustomPlot plot_;
+  PictureLook look_;
+  ChartPictureOptions options_;
+};
+
+TEST_F(ChartPictureTest, IsAVectorGraphicWithTextAndNoImage) {
+  options_.title = "ball.dsa";
+  options_.legend = {{"finger 0 distal", plot_.graph(0)->pen()}};
+  const std::string text = svg();
+  for (const char* part : {"time in s", "mean in counts", "ball.dsa", "finger 0 distal", ">4.5<"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+  EXPECT_EQ(text.find("<image"), std::string::npos);
+  EXPECT_NE(text.find("font-size=\"16\""), std::string::npos);
+  EXPECT_NE(text.find("clip-path"), std::string::npos) << "the curve ends at the axes";
+}
+
+TEST_F(ChartPictureTest, PrintIsDarkOnWhiteWhateverTheTheme) {
+  const std::string text = svg();
+  const QColor onScreen = matrixColor(1, Theme::kDark);
+  const QColor onPaper = matrixColor(1, Theme::kLight);
+  EXPECT_EQ(text.find(onScreen.name().toStdString()), std::string::npos);
+  EXPECT_NE(text.find(onPaper.name().toStdString()), std::string::npos);
+  const QImage printed = image();
+  EXPECT_EQ(printed.pixelColor(1, 1), QColor(Qt::white));
+  EXPECT_GT(numPixels(printed, Qt::white), printed.width() * printed.height() / 2);
+  look_.forPrint = false;
+  EXPECT_EQ(image().pixelColor(1, 1), colorsOf(Theme::kDark).window);
+}
+
+TEST_F(ChartPictureTest, TheCurveEndsAtTheAxes) {
+  plot_.graph(0)->setPen(QPen(QColor("#c17d00"), 5.0));
+  const QImage printed = image();
+  EXPECT_GT(numPixels(printed, QColor("#c17d00")), 200);
+  // Left of the axis and below it there are numbers only, and nothing of the curve's colour.
+  for (int y = 0; y < printed.height(); ++y)
+    for (int x = 0; x < 40; ++x)
+      ASSERT_NE(printed.pixelColor(x, y), QColor("#c17d00")) << x << ", " << y;
+}
+
+TEST_F(ChartPictureTest, TheChartIsAsBefore) {
+  auto* word = wordAt(plot_, 5.0, "gap", Qt::AlignLeft, colorsOf(Theme::kDark).warning);
+  auto* shade = shadeSpan(plot_, 4.5, 5.0, Theme::kDark);
+  plot_.replot();
+  const QImage before = plot_.toPixmap().toImage();
+  const QPen pen = plot_.graph(0)->pen();
+  const QFont font = word->font();
+  const QBrush brush = shade->brush();
+  image();
+  EXPECT_EQ(plot_.graph(0)->pen(), pen);
+  EXPECT_EQ(word->font(), font);
+  EXPECT_EQ(shade->brush(), brush);
+  EXPECT_EQ(plot_.size(), QSize(600, 300));
+  plot_.replot();
+  EXPECT_EQ(plot_.toPixmap().toImage(), before);
+}
+
+TEST_F(ChartPictureTest, GraphsWithNamesMakeALegend) {
+  EXPECT_EQ(svg().find("Graph 1"), std::string::npos);
+  plot_.graph(0)->setName("thumb");
+  EXPECT_NE(svg().find(">thumb<"), std::string::npos);
+}
+
+TEST_F(ChartPictureTest, ALongLegendTakesMoreRows) {
+  for (int i = 0; i < 7; ++i)
+    options_.legend.push_back({QString("finger %1 proximal").arg(i), plot_.graph(0)->pen()});
+  const std::string text = svg();
+  for (int i = 0; i < 7; ++i)
+    EXPECT_NE(text.find("finger " + std::to_string(i)), std::string::npos);
+  // No name begins beyond the right edge.
+  for (auto at = text.find("<text x=\""); at != std::string::npos;
+       at = text.find("<text x=\"", at + 1))
+    EXPECT_LT(std::stod(text.substr(at + 9)), look_.size.width());
+}
+
+TEST_F(ChartPictureTest, WithoutTitleLineThereIsMoreRoom) {
+  options_.title = "ball.dsa";
+  look_.titled = false;
+  EXPECT_EQ(svg().find("ball.dsa"), std::string::npos);
+}
+
+TEST(InkOf, CanBeSeenOnWhite) {
+  EXPECT_EQ(inkOf(matrixColor(4, Theme::kDark)), matrixColor(4, Theme::kLight));
+  EXPECT_EQ(inkOf(matrixColor(4, Theme::kLight)), matrixColor(4, Theme::kLight));
+  EXPECT_EQ(inkOf(colorsOf(Theme::kDark).window), QColor(Qt::white));
+  EXPECT_EQ(inkOf(colorsOf(Theme::kDark).muted), colorsOf(Theme::kLight).text);
+  // Relative luminance (WCAG 2) of #ffff00 is 0.93: 1.07:1 on white.
+  const QColor yellow = inkOf("#ffff00");
+  EXPECT_LT(yellow.lightnessF(), QColor("#ffff00").lightnessF());
+  EXPECT_EQ(yellow.hue(), QColor("#ffff00").hue());
+  EXPECT_EQ(inkOf("#aa0000"), QColor("#aa0000")) << "dark enough";
+}
+
+}  // namespace
+}  // namespace palpate::gui::chart_picture_test

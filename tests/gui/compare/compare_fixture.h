@@ -1,0 +1,121 @@
+// A window with recordings that can be compared: "early" and "late" are grasps whose contacts are a second apart.
+#pragma once
+
+#include <QComboBox>
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QPushButton>
+#include <QToolButton>
+#include <algorithm>
+
+#include <palpate/model/profile_builder.h>
+
+#include "gui/compare/compare_chart.h"
+#include "gui/compare/compare_panel.h"
+#include "gui/compare/compare_strip.h"
+#include "gui/compare/compare_view.h"
+#include "gui/export/take_away.h"
+#include "gui/matrices/matrices_view.h"
+#include "gui/testing/window_fixture.h"
+
+namespace palpate::gui {
+
+// `count` frames 50 ms apart from `beginMs` on, at rest until `touched`, then `counts` on twelve taxels.
+inline Profile grasped(std::size_t count,
+                       std::size_t touched,
+                       float counts,
+                       std::int64_t beginMs = 0) {
+  ProfileBuilder builder(sdh2().layout);
+  for (std::size_t i = 0; i < count; ++i) {
+    TactileFrame frame = emptyFrame();
+    if (i >= touched)
+      frame.matrix(1).block(5, 1, 3, 4).setConstant(counts + static_cast<float>(i - touched));
+    builder.addFrame(1'400'000'000'000'000 + (beginMs + static_cast<std::int64_t>(i) * 50) * 1000,
+                     frame.values);
+  }
+  return builder.finish({});
+}
+
+inline Profile pad() {
+  const auto layout = std::make_shared<const SensorLayout>(
+      std::vector<MatrixLayout>{MatrixLayout::full(4, 4, 2.0)});
+  ProfileBuilder builder(layout);
+  for (int i = 0; i < 10; ++i)
+    builder.addFrame(1'400'000'000'000'000 + i * 50'000, std::vector<float>(16, 30.0F));
+  return builder.finish({});
+}
+
+class CompareWindowFixture : public WindowTest {
+ protected:
+  CompareWindowFixture() {
+    window_.reset();
+    window_ = std::make_unique<MainWindow>(
+        WindowSurroundings{.dataFolder = folder_.path(),
+                           .settingsPath = settingsFile(),
+                           .clock = &clock_,
+                           .read = [](const std::filesystem::path& path, const Progress&) {
+                             const std::string name = path.stem().string();
+                             if (name == "early") return grasped(60, 10, 500.0F);
+                             if (name == "late") return grasped(80, 30, 300.0F, 3'600'000);
+                             if (name == "third") return grasped(40, 5, 100.0F);
+                             if (name == "untouched") return grasped(20, 20, 0.0F);
+                             if (name == "one") return grasped(1, 0, 50.0F);
+                             if (name == "pad") return pad();
+                             if (name == "empty") return profileWithStamps({});
+                             return twentyFrames();
+                           }});
+    window_->show();
+    QApplication::setActiveWindow(window_.get());
+    QCoreApplication::processEvents();
+  }
+  ComparePanel& compare() { return window().compare(); }
+  void compareNow() {
+    press(Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
+    settle();
+  }
+  void settle() {
+    QElapsedTimer clock;
+    clock.start();
+    do {
+      QCoreApplication::processEvents(QEventLoop::AllEvents, 20);
+    } while (compare().hasPair() && window().compareShown() && !compare().complete() &&
+             clock.elapsed() < 10'000);
+    QCoreApplication::processEvents();
+  }
+  void choose(const char* name, const QString& text) {
+    auto* box = find<QComboBox>(name);
+    const int index = box->findText(text);
+    ASSERT_GE(index, 0) << name << " " << text.toStdString();
+    box->setCurrentIndex(index);
+    emit box->activated(index);
+    settle();
+  }
+  QString name(const OpenedRecordingPtr& recording) {
+    return recording ? QString::fromStdString(recording->path.stem().string()) : QString();
+  }
+  float valueIn(CompareGroup group, int y = 6, int x = 2) {
+    const auto& frame = compare().view().frames()[static_cast<std::size_t>(group)].frame;
+    return frame.values.empty() ? -1.0F : frame.matrix(1)(y, x);
+  }
+  void drag(QWidget& widget,
+            const QPointF& from,
+            const QPointF& to,
+            Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+    const auto send = [&](QEvent::Type type, const QPointF& at, Qt::MouseButtons held) {
+      QMouseEvent event(type, at, widget.mapToGlobal(at), Qt::LeftButton, held, modifiers);
+      QApplication::sendEvent(&widget, &event);
+    };
+    send(QEvent::MouseButtonPress, from, Qt::LeftButton);
+    send(QEvent::MouseMove, (from + to) / 2, Qt::LeftButton);
+    send(QEvent::MouseMove, to, Qt::LeftButton);
+    send(QEvent::MouseButtonRelease, to, Qt::NoButton);
+    settle();
+  }
+  QDockWidget* dock(const char* name) { return window().findChild<QDockWidget*>(name); }
+};
+
+}  // namespace palpate::gui

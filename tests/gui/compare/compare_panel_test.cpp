@@ -1,0 +1,210 @@
+// What a comparison shows: alignment, cursor, curves, colours, figures.
+#include "gui/compare/compare_fixture.h"
+
+namespace palpate::gui::compare_panel_test {
+namespace {
+
+using ComparePanelTest = CompareWindowFixture;
+
+TEST_F(ComparePanelTest, LaysFirstContactsOnTopOfEachOther) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  EXPECT_EQ(name(compare().a()), "early");
+  EXPECT_EQ(name(compare().b()), "late");
+  ASSERT_TRUE(compare().offsetS());
+  EXPECT_NEAR(*compare().offsetS(), 0.5 - 1.5, 1e-9);
+  playback().seekFrame(10);
+  EXPECT_EQ(valueIn(CompareGroup::kA), 500.0F);
+  EXPECT_EQ(valueIn(CompareGroup::kB), 300.0F);
+  EXPECT_EQ(valueIn(CompareGroup::kDifference), 200.0F);
+  playback().seekFrame(9);
+  EXPECT_EQ(valueIn(CompareGroup::kA), 0.0F);
+  EXPECT_EQ(valueIn(CompareGroup::kB), 0.0F);
+  EXPECT_EQ(compare().notice(), "");
+}
+
+TEST_F(ComparePanelTest, TheOtherAlignments) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  choose("compareAlignment", "start of both");
+  EXPECT_NEAR(*compare().offsetS(), 0.0, 1e-9);
+  playback().seekFrame(30);
+  EXPECT_EQ(valueIn(CompareGroup::kA), 520.0F);
+  EXPECT_EQ(valueIn(CompareGroup::kB), 300.0F);
+  choose("compareAlignment", "clock time");
+  EXPECT_NEAR(*compare().offsetS(), 3600.0, 1e-6);
+  EXPECT_EQ(valueIn(CompareGroup::kB), -1.0F) << "B begins an hour later";
+  EXPECT_TRUE(compare().notice().contains("Nothing in common: B begins"));
+  EXPECT_EQ(compare().figures(), "no common span");
+  choose("compareAlignment", "first contact");
+  EXPECT_NEAR(*compare().offsetS(), -1.0, 1e-9);
+}
+
+TEST_F(ComparePanelTest, AnOffsetByHandIsTypedOrDragged) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  auto* field = find<QDoubleSpinBox>("compareOffset");
+  EXPECT_NEAR(field->value(), -1.0, 1e-6);
+  field->setValue(0.25);
+  settle();
+  EXPECT_EQ(compare().alignment(), Alignment::kByHand);
+  EXPECT_EQ(find<QComboBox>("compareAlignment")->currentText(), "by hand");
+  EXPECT_NEAR(*compare().offsetS(), 0.25, 1e-9);
+  // B's bar, a tenth of the chart to the right.
+  CompareChart& chart = compare().chart();
+  const double pixels = 0.1 * chart.axisRect()->width();
+  const double seconds = 0.1 * chart.xAxis->range().size();
+  const QPointF grip = compare().strip().barRect(true).center();
+  drag(compare().strip(), grip, grip + QPointF(pixels, 0));
+  EXPECT_NEAR(*compare().offsetS(), 0.25 + seconds, 0.02);
+  EXPECT_NEAR(field->value(), *compare().offsetS(), 1e-3);
+  // With Ctrl in the chart, back again.
+  const double before = *compare().offsetS();
+  const double perPixel = chart.xAxis->range().size() / chart.axisRect()->width();
+  const QPointF middle = chart.axisRect()->rect().center();
+  drag(chart, middle, middle - QPointF(60, 0), Qt::ControlModifier);
+  EXPECT_NEAR(*compare().offsetS(), before - 60 * perPixel, 0.02);
+  // A's bar stays where it is.
+  const double now = *compare().offsetS();
+  const QPointF ofA = compare().strip().barRect(false).center();
+  drag(compare().strip(), ofA, ofA + QPointF(50, 0));
+  EXPECT_EQ(*compare().offsetS(), now);
+}
+
+TEST_F(ComparePanelTest, TheCursorMovesBothAndTheChartSeeks) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  CompareChart& chart = compare().chart();
+  const auto click = [&](double seconds) {
+    const QPointF at(chart.pixelOf(seconds), chart.axisRect()->rect().center().y());
+    drag(chart, at, at);
+  };
+  click(1.26);
+  EXPECT_EQ(playback().frame(), 25u);
+  EXPECT_EQ(valueIn(CompareGroup::kA), 515.0F);
+  EXPECT_EQ(valueIn(CompareGroup::kB), 315.0F);
+  press(Qt::Key_Right);
+  EXPECT_EQ(valueIn(CompareGroup::kA), 516.0F);
+  EXPECT_EQ(valueIn(CompareGroup::kB), 316.0F);
+  EXPECT_NEAR(chart.cursorPixel(), chart.pixelOf(1.30), 2.0);
+  // Before A begins there is B alone; the playback waits at A's begin.
+  click(-0.5);
+  EXPECT_EQ(playback().frame(), 0u);
+  EXPECT_EQ(valueIn(CompareGroup::kA), -1.0F);
+  EXPECT_EQ(valueIn(CompareGroup::kB), 0.0F);
+  EXPECT_EQ(compare().view().frames()[0].notice, "A begins 0.50 s later");
+}
+
+TEST_F(ComparePanelTest, PlayingPlaysBoth) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  playback().seekFrame(10);
+  playback().play();
+  clock_.advanceMs(500);
+  playback().tick();
+  EXPECT_EQ(valueIn(CompareGroup::kA), 510.0F);
+  EXPECT_EQ(valueIn(CompareGroup::kB), 310.0F);
+}
+
+TEST_F(ComparePanelTest, CurvesFollowSignalAndMatrix) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  const auto& curves = compare().chart().curves();
+  ASSERT_TRUE(curves.curveA && curves.curveB);
+  EXPECT_EQ(curves.curveA->values.size(), 60u);
+  EXPECT_NEAR(curves.curveA->values[20], 510.0, 1e-9);
+  EXPECT_NEAR(curves.curveB->values[40], 310.0, 1e-9);
+  EXPECT_EQ(compare().chart().graph(0)->pen().style(), Qt::SolidLine);
+  EXPECT_EQ(compare().chart().graph(1)->pen().style(), Qt::DashLine);
+  // From 0 to 2.95 s 60 moments; B is 200 counts below A in the last 50 of them.
+  const QString figures = compare().figures();
+  EXPECT_TRUE(figures.contains("mean +166.7, rms 182.6, largest +200.0 counts at 0.50 s"))
+      << figures.toStdString();
+  EXPECT_TRUE(figures.endsWith("over 2.95 s in common")) << figures.toStdString();
+  // 60 pairs (0, 0) x 10, (500 + k, 300 + k), k = 0..49: computed by hand from the sums.
+  EXPECT_TRUE(figures.startsWith("correlation 0.999")) << figures.toStdString();
+  choose("compareSignal", "active taxels");
+  EXPECT_EQ(window().viewSettings().signal, PlottedSignal::kActive);
+  EXPECT_NEAR(compare().chart().curves().curveA->values[20], 12.0, 1e-9);
+  choose("compareMatrix", "finger 0 proximal");
+  EXPECT_NEAR(compare().chart().curves().curveA->values[20], 0.0, 1e-9);
+  EXPECT_TRUE(compare().figures().contains("correlation not defined"));
+}
+
+TEST_F(ComparePanelTest, RangesAreSharedAndSymmetric) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  playback().seekFrame(10);
+  const ComparePictureOptions whole = compare().view().options();
+  EXPECT_EQ(whole.look.rangeMin, 0.0);
+  EXPECT_EQ(whole.look.rangeMax, 549.0);  // A's last frame: 500 + 49
+  EXPECT_EQ(whole.largestDifference, 200.0);
+  press(Qt::Key_R);
+  EXPECT_EQ(compare().view().options().look.rangeMax, 500.0);
+  press(Qt::Key_R);
+  EXPECT_EQ(compare().view().options().look.rangeMax, 4095.0);
+  EXPECT_EQ(compare().view().options().largestDifference, 4095.0);
+  press(Qt::Key_V);
+  EXPECT_TRUE(compare().view().options().look.values);
+  press(Qt::Key_I);
+  EXPECT_TRUE(compare().view().options().look.interpolated);
+}
+
+TEST_F(ComparePanelTest, HoverTellsAllThree) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  playback().seekFrame(10);
+  CompareView& view = compare().view();
+  for (const CompareGroup group : kAllCompareGroups) {
+    const QPointF at = view.geometryOfGroups().group(group).taxelRect(1, 6, 2).center();
+    QMouseEvent event(
+        QEvent::MouseMove, at, view.mapToGlobal(at), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+    QApplication::sendEvent(&view, &event);
+    EXPECT_EQ(view.hoverText(), "finger 0 distal · x 2, y 6 · A 500 · B 300 · A − B +200 counts");
+  }
+}
+
+TEST_F(ComparePanelTest, IsTakenAwayAsPictureAndTables) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  playback().seekFrame(10);
+  QImage image(1000, 700, QImage::Format_RGB32);
+  image.fill(Qt::magenta);
+  QPainter painter(&image);
+  PictureLook look;
+  look.size = image.size();
+  look.forPrint = true;
+  compare().paint(painter, look);
+  painter.end();
+  int left = 0;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      left += image.pixelColor(x, y) == QColor(Qt::magenta) ? 1 : 0;
+  EXPECT_EQ(left, 0);
+  const TextTable differences = compare().differenceTable();
+  ASSERT_EQ(differences.numRows, 7u);
+  EXPECT_EQ(differences.row(1),
+            (std::vector<std::string>{"finger 0 distal", "12", "200", "200", "200", "5", "1"}));
+  const TextTable curves = compare().curveTable();
+  ASSERT_EQ(curves.numRows, 60u);
+  EXPECT_EQ(curves.row(10), (std::vector<std::string>{"0.5", "10", "500", "30", "300"}));
+}
+
+TEST_F(ComparePanelTest, MovingTheCursorIsQuick) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  std::vector<double> times;
+  for (int i = 0; i < 40; ++i) {
+    QElapsedTimer clock;
+    clock.start();
+    playback().seekFrame(static_cast<std::size_t>(i));
+    compare().view().repaint();
+    times.push_back(static_cast<double>(clock.nsecsElapsed()) / 1e6);
+  }
+  std::sort(times.begin(), times.end());
+  RecordProperty("median_us", static_cast<int>(1000 * times[20]));
+  EXPECT_LT(times[20], 16.0) << "ms, the median of 40";
+}
+
+}  // namespace
+}  // namespace palpate::gui::compare_panel_test

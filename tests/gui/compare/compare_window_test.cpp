@@ -1,0 +1,177 @@
+// Comparing two recordings, in the window: which ones, how it comes and goes, what is said of odd ones.
+#include "gui/compare/compare_fixture.h"
+
+namespace palpate::gui::compare_window_test {
+namespace {
+
+using CompareWindowTest = CompareWindowFixture;
+
+TEST_F(CompareWindowTest, TakesThePlaceOfTheMatricesAndGivesItBack) {
+  open({"early.dsa", "late.dsa"});
+  ASSERT_TRUE(dock("Timeline")->isVisible());
+  compareNow();
+  EXPECT_TRUE(compare().isVisible());
+  EXPECT_FALSE(window().matricesView().isVisible());
+  EXPECT_FALSE(dock("Timeline")->isVisible());
+  EXPECT_FALSE(dock("Inspect")->isVisible());
+  EXPECT_TRUE(actions().compare->isChecked());
+  QTest::mouseClick(find<QToolButton>("compareBack"), Qt::LeftButton);
+  EXPECT_FALSE(compare().isVisible());
+  EXPECT_TRUE(window().matricesView().isVisible());
+  EXPECT_TRUE(dock("Timeline")->isVisible());
+  EXPECT_TRUE(dock("Inspect")->isVisible());
+}
+
+TEST_F(CompareWindowTest, SwappingKeepsTheMoment) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  playback().seekFrame(20);
+  QTest::mouseClick(find<QToolButton>("compareSwap"), Qt::LeftButton);
+  settle();
+  EXPECT_EQ(name(compare().a()), "late");
+  EXPECT_EQ(name(compare().b()), "early");
+  EXPECT_EQ(window().current(), compare().a());
+  EXPECT_NEAR(*compare().offsetS(), 1.0, 1e-9);
+  EXPECT_EQ(playback().frame(), 40u);
+  EXPECT_EQ(valueIn(CompareGroup::kDifference), -200.0F);
+}
+
+TEST_F(CompareWindowTest, AnOffsetByHandIsSwappedToo) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  compare().setOffset(0.4);
+  settle();
+  QTest::mouseClick(find<QToolButton>("compareSwap"), Qt::LeftButton);
+  settle();
+  EXPECT_EQ(compare().alignment(), Alignment::kByHand);
+  EXPECT_NEAR(*compare().offsetS(), -0.4, 1e-9);
+}
+
+TEST_F(CompareWindowTest, AAndBAreChosenAmongWhatIsOpen) {
+  open({"early.dsa", "late.dsa", "third.dsa"});
+  compareNow();
+  EXPECT_EQ(name(compare().b()), "late") << "the next one";
+  choose("compareB", "third.dsa");
+  EXPECT_EQ(name(compare().b()), "third");
+  choose("compareB", "late.dsa");
+  choose("compareA", "third.dsa");
+  EXPECT_EQ(name(window().current()), "third") << "A is what is shown and played";
+  EXPECT_EQ(name(compare().b()), "late");
+  EXPECT_NEAR(*compare().offsetS(), 0.25 - 1.5, 1e-9);
+  // The window shows another one: that is A.
+  press(Qt::Key_Tab, Qt::ControlModifier);
+  settle();
+  EXPECT_EQ(name(compare().a()), "early");
+  choose("compareA", "late.dsa");
+  EXPECT_EQ(name(compare().a()), "late");
+  EXPECT_EQ(name(compare().b()), "early") << "chosen as A, B gives way";
+  press(Qt::Key_W, Qt::ControlModifier);
+  settle();
+  EXPECT_TRUE(compare().hasPair());
+  EXPECT_NE(compare().a(), compare().b());
+}
+
+TEST_F(CompareWindowTest, OneRecordingOffersToOpenAnotherOrItself) {
+  open({"early.dsa"});
+  compareNow();
+  EXPECT_FALSE(compare().hasPair());
+  auto* text = find<QLabel>("compareEmpty");
+  EXPECT_TRUE(text->isVisible());
+  EXPECT_TRUE(text->text().contains("Only early.dsa is open"));
+  QString asked;
+  window().askForRecordings = [&] {
+    asked = "yes";
+    return QStringList{QString::fromStdString(file("late.dsa"))};
+  };
+  QTest::mouseClick(find<QPushButton>("compareItself"), Qt::LeftButton);
+  settle();
+  EXPECT_EQ(compare().b(), compare().a());
+  EXPECT_TRUE(find<CompareView>("compareView")->isVisible());
+  compare().setOffset(0.0);
+  settle();
+  EXPECT_TRUE(compare().notice().contains("same recording twice"));
+  choose("compareB", "open another…");
+  EXPECT_EQ(asked, "yes");
+  waitUntilOpened();
+  settle();
+  EXPECT_EQ(name(compare().a()), "early") << "A stays";
+  EXPECT_EQ(name(compare().b()), "late");
+}
+
+TEST_F(CompareWindowTest, EscapeGoesBack) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  press(Qt::Key_Escape);
+  EXPECT_FALSE(window().compareShown());
+  EXPECT_FALSE(actions().compare->isChecked());
+}
+
+TEST_F(CompareWindowTest, WithNothingOpenItAsksAndComparesWhatComes) {
+  window().askForRecordings = [&] {
+    return QStringList{QString::fromStdString(file("early.dsa")),
+                       QString::fromStdString(file("late.dsa"))};
+  };
+  press(Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
+  waitUntilOpened();
+  settle();
+  EXPECT_TRUE(window().compareShown());
+  EXPECT_TRUE(compare().hasPair());
+}
+
+TEST_F(CompareWindowTest, ClosingEverythingLeavesIt) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  press(Qt::Key_W, Qt::ControlModifier);
+  EXPECT_TRUE(window().compareShown());
+  press(Qt::Key_W, Qt::ControlModifier);
+  EXPECT_FALSE(window().compareShown());
+  open({"early.dsa"});
+  EXPECT_TRUE(dock("Timeline")->isVisible()) << "docks are as they were";
+}
+
+TEST_F(CompareWindowTest, WithoutContactStartsAreUsedAndSaid) {
+  open({"early.dsa", "untouched.dsa"});
+  compareNow();
+  EXPECT_EQ(*compare().offsetS(), 0.0);
+  EXPECT_EQ(compare().notice(),
+            "No lasting contact (3 taxels in 3 frames) in B: aligned by their starts");
+  EXPECT_TRUE(find<QLabel>("compareNotice")->isVisible());
+}
+
+TEST_F(CompareWindowTest, AnotherHandIsSaid) {
+  open({"early.dsa", "pad.dsa"});
+  compareNow();
+  EXPECT_TRUE(compare().notice().contains("finger 0 proximal")) << compare().notice().toStdString();
+  EXPECT_EQ(compare().view().frames()[2].notice, "nothing to compare: other matrices");
+  EXPECT_TRUE(compare().chart().curves().curveB) << "all matrices of either can be compared";
+  choose("compareMatrix", "finger 1 distal");
+  EXPECT_FALSE(compare().chart().curves().curveB);
+  EXPECT_EQ(compare().figures(), "the other recording has no such matrix");
+}
+
+TEST_F(CompareWindowTest, OneFrameAndNoneAreRecordingsToo) {
+  open({"early.dsa", "one.dsa", "empty.dsa"});
+  compareNow();
+  choose("compareB", "empty.dsa");
+  EXPECT_EQ(compare().view().frames()[1].notice, "B holds no frame");
+  choose("compareB", "one.dsa");
+  choose("compareAlignment", "start of both");
+  playback().seekFrame(0);
+  EXPECT_EQ(valueIn(CompareGroup::kB), 50.0F);
+  playback().seekFrame(5);
+  EXPECT_EQ(compare().view().frames()[1].notice, "B ended 0.25 s ago");
+}
+
+TEST_F(CompareWindowTest, TheAlignmentIsRemembered) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  choose("compareAlignment", "start of both");
+  window().close();
+  start();
+  EXPECT_EQ(window().compare().alignment(), Alignment::kStart);
+  open({"good.dsa"});
+  EXPECT_TRUE(dock("Timeline")->isVisible()) << "its layout isn't that of the window";
+}
+
+}  // namespace
+}  // namespace palpate::gui::compare_window_test

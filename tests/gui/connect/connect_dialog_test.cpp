@@ -1,0 +1,195 @@
+// The Connect dialog over made-up ports: kinds, keys, scenes, recordings.
+#include "gui/connect/connect_dialog.h"
+
+#include <QCheckBox>
+#include <QListWidget>
+#include <QRadioButton>
+#include <utility>
+#include <vector>
+
+#include "gui/connect/connect_fixture.h"
+#include "gui/connect/replay_page.h"
+#include "gui/connect/scene_page.h"
+#include "gui/widgets/two_line_delegate.h"
+
+namespace palpate::gui::connect_dialog_test {
+namespace {
+
+TEST_F(ConnectDialogTest, NoPortIsTouchedUnlessThePageOfThePortsIsShown) {
+  plugIn();
+  open({});
+  QTest::qWait(0);
+  EXPECT_FALSE(scan_->running());
+  EXPECT_TRUE(fake_.asked().empty());
+  press(Qt::Key_P, Qt::AltModifier);
+  EXPECT_TRUE(await([&] { return find<QRadioButton>("kindPorts")->isChecked(); }));
+  ASSERT_TRUE(awaitAnswers());
+  EXPECT_EQ(dialog_->connection().dsaPort, kTactileLink);
+}
+
+TEST_F(ConnectDialogTest, ThePortsAreFreeWhenItCloses) {
+  for (const bool accepted : {true, false}) {
+    plugIn();
+    fake_.hang(kTactile);
+    openPorts(kTactileLink, kMotionLink);
+    ASSERT_TRUE(await([&] { return fake_.numOpen() == 1; }));
+    accepted ? dialog_->accept() : dialog_->reject();
+    EXPECT_TRUE(await([&] { return fake_.numOpen() == 0; }));
+    EXPECT_FALSE(scan_->running());
+  }
+}
+
+TEST_F(ConnectDialogTest, EnterConnectsFromWhereverTheKeyboardIs) {
+  const std::vector<std::pair<Connection::Kind, const char*>> places = {
+      {Connection::Kind::kPorts, "kindPorts"},
+      {Connection::Kind::kPorts, "tactilePort"},
+      {Connection::Kind::kEmulated, "scenes"},
+      {Connection::Kind::kEmulated, "sceneActs"},
+      {Connection::Kind::kReplay, "recording"}};
+  const QString recording = file("a.dsa", "x");
+  for (const auto& [kind, name] : places) {
+    open({.kind = kind, .dsaPort = "a", .sdhPort = "b", .recording = recording});
+    find<QWidget>(name)->setFocus();
+    press(Qt::Key_Return);
+    EXPECT_EQ(dialog_->result(), QDialog::Accepted) << name;
+    EXPECT_FALSE(dialog_->isVisible()) << name;
+  }
+}
+
+TEST_F(ConnectDialogTest, EnterDoesNothingWhileSomethingIsMissing) {
+  open({.kind = Connection::Kind::kReplay});
+  find<QWidget>("recording")->setFocus();
+  press(Qt::Key_Return);
+  EXPECT_TRUE(dialog_->isVisible());
+}
+
+TEST_F(ConnectDialogTest, EscapeCancels) {
+  open({});
+  press(Qt::Key_Escape);
+  EXPECT_FALSE(dialog_->isVisible());
+  EXPECT_EQ(dialog_->result(), QDialog::Rejected);
+}
+
+TEST_F(ConnectDialogTest, TheArrowKeysChooseTheKind) {
+  open({});
+  EXPECT_EQ(QApplication::focusWidget(), find<QRadioButton>("kindEmulated"));
+  press(Qt::Key_Down);
+  EXPECT_EQ(dialog_->connection().kind, Connection::Kind::kReplay);
+  EXPECT_TRUE(find<QWidget>("recording")->isVisible());
+  press(Qt::Key_Up);
+  press(Qt::Key_Up);
+  EXPECT_EQ(dialog_->connection().kind, Connection::Kind::kPorts);
+  EXPECT_TRUE(find<QWidget>("tactilePort")->isVisible());
+  EXPECT_FALSE(find<QWidget>("recording")->isVisible());
+}
+
+TEST_F(ConnectDialogTest, ScenesAreChosenByNameAndSayWhatTheyAre) {
+  open({});
+  EXPECT_EQ(dialog_->connection().scene, "ball");
+  EXPECT_TRUE(canConnect());
+  auto* scenes = find<QListWidget>("scenes");
+  EXPECT_EQ(scenes->currentItem()->data(TwoLineDelegate::kDetailRole).toString(),
+            "A hard ball in the middle, grasped centrically, held, released");
+  press(Qt::Key_H, Qt::AltModifier);
+  EXPECT_EQ(QApplication::focusWidget(), scenes);
+  press(Qt::Key_Down);
+  EXPECT_EQ(dialog_->connection().scene, "bottle");
+  press(Qt::Key_B, Qt::AltModifier);
+  EXPECT_TRUE(await([&] { return dialog_->connection().sceneActs; }));
+}
+
+TEST_F(ConnectDialogTest, ASceneWithoutAScriptCannotAct) {
+  testing::writeFile(folder_ / "still.json", "{}");
+  testing::writeFile(folder_ / "busy.json", R"({"script": [{"at_s": 1, "grasp": {}}]})");
+  scenesFolder_ = folder_.path();
+  open({.scene = "still"});
+  EXPECT_FALSE(find<QCheckBox>("sceneActs")->isEnabled());
+  find<QListWidget>("scenes")->setCurrentRow(0);
+  EXPECT_EQ(dialog_->connection().scene, "busy");
+  EXPECT_TRUE(find<QCheckBox>("sceneActs")->isEnabled());
+}
+
+TEST_F(ConnectDialogTest, ABrokenSceneSaysWhatIsWrong) {
+  testing::writeFile(folder_ / "broken.json", R"({"objects": 3})");
+  testing::writeFile(folder_ / "good.json", R"({"description": "Fine"})");
+  scenesFolder_ = folder_.path();
+  open({.scene = "broken"});
+  EXPECT_FALSE(canConnect());
+  EXPECT_TRUE(text("connectProblem").contains("objects is no JSON array"))
+      << text("connectProblem").toStdString();
+  find<QListWidget>("scenes")->setCurrentRow(1);
+  EXPECT_EQ(dialog_->connection().scene, "good");
+  EXPECT_TRUE(canConnect());
+}
+
+TEST_F(ConnectDialogTest, ASceneOfOnesOwn) {
+  const QString mine = file("mine.json", R"({"description": "My own"})");
+  open({.scene = mine, .sceneActs = true});
+  EXPECT_EQ(dialog_->connection().scene, mine);
+  EXPECT_TRUE(dialog_->connection().sceneActs);
+  const QString other = file("other.json", "{}");
+  dialog_->findChild<ScenePage*>()->askForScene = [&] { return other; };
+  click("otherScene");
+  EXPECT_EQ(dialog_->connection().scene, other);
+  EXPECT_TRUE(canConnect());
+  // One that was deleted since.
+  open({.scene = "/nowhere/at all.json"});
+  EXPECT_FALSE(canConnect());
+  EXPECT_TRUE(text("connectProblem").contains("no such file"));
+}
+
+TEST_F(ConnectDialogTest, WithoutScenesItSaysSo) {
+  scenesFolder_ = folder_ / "nothing here";
+  open({.scene = ""});
+  EXPECT_TRUE(find<QLabel>("noScenes")->isVisible());
+  EXPECT_FALSE(canConnect());
+  EXPECT_EQ(text("connectProblem"), "Choose a scene.");
+}
+
+TEST_F(ConnectDialogTest, ARecordingThatIsMissingIsSaidAtOnce) {
+  const QString there = file("there.palpate", "something");
+  open({.kind = Connection::Kind::kReplay}, {there, "/gone/before.dsa"});
+  EXPECT_FALSE(canConnect());
+  EXPECT_EQ(text("connectProblem"), "Choose a recording.");
+  type("recording", there);
+  EXPECT_TRUE(canConnect());
+  EXPECT_TRUE(text("recordingState").startsWith("there.palpate"));
+  QTest::keyClicks(find<QComboBox>("recording")->lineEdit(), "x");
+  EXPECT_FALSE(canConnect());
+  EXPECT_EQ(text("recordingState"), "There is no such file.");
+  type("recording", QString::fromStdString(folder_.path().string()));
+  EXPECT_TRUE(text("recordingState").contains("folder"));
+  type("recording", file("empty.dsa", ""));
+  EXPECT_FALSE(canConnect());
+  EXPECT_EQ(text("recordingState"), "This file is empty.");
+}
+
+TEST_F(ConnectDialogTest, TheLastRecordingsAreChoices) {
+  const QString there = file("there.palpate", "something");
+  open({.kind = Connection::Kind::kReplay}, {"/gone/before.dsa", there});
+  auto* box = find<QComboBox>("recording");
+  ASSERT_EQ(box->count(), 2);
+  EXPECT_TRUE(box->itemData(0, TwoLineDelegate::kDetailRole).toString().endsWith("missing"));
+  box->setCurrentIndex(1);
+  EXPECT_EQ(dialog_->connection().recording, there);
+  EXPECT_TRUE(canConnect());
+  const QString other = file("other.dsa", "x");
+  dialog_->findChild<ReplayPage*>()->askForRecording = [&] { return other; };
+  press(Qt::Key_W, Qt::AltModifier);
+  EXPECT_TRUE(await([&] { return dialog_->connection().recording == other; }));
+}
+
+TEST_F(ConnectDialogTest, BeginsWithTheLastAndKeepsTheOtherKinds) {
+  for (const Connection::Kind kind : kAllConnectionKinds) {
+    const Connection last = {.kind = kind,
+                             .dsaPort = "tcp:a:1",
+                             .sdhPort = "tcp:b:2",
+                             .scene = "pen",
+                             .sceneActs = true,
+                             .recording = "/somewhere/a.dsa"};
+    EXPECT_EQ(open(last).connection(), last);
+  }
+}
+
+}  // namespace
+}  // namespace palpate::gui::connect_dialog_test

@@ -1,0 +1,97 @@
+// The Connect dialog over made-up ports, and what a test does with it.
+#pragma once
+
+#include <QApplication>
+#include <QComboBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTest>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "gui/connect/connect_dialog.h"
+#include "gui/connect/fake_ports.h"
+#include "testing/testing.h"
+
+namespace palpate::gui {
+
+inline constexpr int kPatienceMs = 10'000;
+inline constexpr const char* kTactileLink = "/dev/serial/by-id/usb-FTDI_tactile-if00";
+inline constexpr const char* kMotionLink = "/dev/serial/by-id/usb-FTDI_motion-if00";
+inline constexpr const char* kTactile = "/dev/palpate-test-1";
+inline constexpr const char* kMotion = "/dev/palpate-test-0";
+
+class ConnectDialogTest : public ::testing::Test {
+ protected:
+  ConnectDialogTest() : scan_(std::make_unique<PortScan>(fake_.functions())) {}
+  ~ConnectDialogTest() override {
+    dialog_.reset();
+    scan_.reset();
+  }
+
+  void plugIn() {
+    fake_.list({usbPort(kMotion, kMotionLink), usbPort(kTactile, kTactileLink)});
+    fake_.answer(kTactile, tactileAnswer());
+    fake_.answer(kMotion, motionAnswer());
+  }
+  ConnectDialog& open(const Connection& last, const QStringList& recent = {}) {
+    dialog_.reset();
+    dialog_ = std::make_unique<ConnectDialog>(ConnectChoices{.last = last,
+                                                             .scenesFolder = scenesFolder_,
+                                                             .recentRecordings = recent,
+                                                             .theme = Theme::kDark},
+                                              *scan_,
+                                              nullptr);
+    dialog_->show();
+    QApplication::setActiveWindow(dialog_.get());  // without a window manager nobody else does
+    return *dialog_;
+  }
+  ConnectDialog& openPorts(const QString& tactile = {}, const QString& motion = {}) {
+    open({.kind = Connection::Kind::kPorts, .dsaPort = tactile, .sdhPort = motion});
+    return *dialog_;
+  }
+  template <class Widget>
+  Widget* find(const char* name) {
+    auto* found = dialog_->findChild<Widget*>(name);
+    if (!found) throw std::runtime_error(std::string("no ") + name);
+    return found;
+  }
+  QString port(const char* name) { return find<QComboBox>(name)->currentText(); }
+  QString text(const char* name) { return find<QLabel>(name)->text(); }
+  bool canConnect() { return find<QPushButton>("connectNow")->isEnabled(); }
+  void click(const char* name) { QTest::mouseClick(find<QPushButton>(name), Qt::LeftButton); }
+  void press(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+    QWidget* focus = QApplication::focusWidget();
+    QTest::keyClick(focus ? focus : dialog_.get(), key, modifiers);
+  }
+  void type(const char* box, const QString& text) {
+    QLineEdit* line = find<QComboBox>(box)->lineEdit();
+    line->setFocus();
+    line->selectAll();
+    QTest::keyClick(line, Qt::Key_Delete);
+    QTest::keyClicks(line, text);
+  }
+  // Also what a button's key does: the button is shown pressed for a moment first.
+  static bool await(const std::function<bool()>& condition) {
+    return QTest::qWaitFor(condition, kPatienceMs);
+  }
+  bool awaitAnswers() {
+    return await([this] { return !fake_.asked().empty() && !scan_->running(); });
+  }
+  QString file(const char* name, std::string_view content) {
+    testing::writeFile(folder_ / name, content);
+    return QString::fromStdString((folder_ / name).string());
+  }
+
+  const testing::TemporaryFolder folder_;
+  std::filesystem::path scenesFolder_ = testing::dataFolder() / "scenes";
+  FakePorts fake_;
+  std::unique_ptr<PortScan> scan_;
+  std::unique_ptr<ConnectDialog> dialog_;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,541 @@
+// The dock Hand against the emulated hand: what is clicked is what arrives there.
+#include "gui/hand/hand_dock.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QPushButton>
+#include <QSlider>
+#include <QTest>
+#include <QToolButton>
+
+#include <palpate/model/preshape.h>
+
+#include "calibration/sample_calibrations.h"
+#include "control/emulated_bench.h"
+#include "gui/hand/sensitivity_modes.h"
+#include "gui/hand/tactile_settings_panel.h"
+#include "gui/widgets/facts_view.h"
+#include "gui/widgets/value_slider.h"
+#include "testing/testing.h"
+
+namespace palpate::gui::hand_dock_test {
+namespace {
+using testing::EmulatedBench;
+using testing::stillHand;
+
+// As the test's hand, but hot.
+class HotHand final : public HandModel {
+ public:
+  const HandDescription& hand() const override { return still_.hand(); }
+  void advanceTo(double timeS) override { still_.advanceTo(timeS); }
+  double timeS() const override { return still_.timeS(); }
+  JointMotion& joints() override { return still_.joints(); }
+  std::vector<MatrixSetting>& settings() override { return still_.settings(); }
+  void scan(std::span<std::uint16_t> counts) override { still_.scan(counts); }
+  std::vector<double> temperatures() override { return {40, 41, 42, 71.5, 44, 45, 46, 47, 48}; }
+  std::vector<MatrixTruth> truth() const override { return still_.truth(); }
+
+ private:
+  testing::StillHand still_;
+};
+
+class HandDockTest : public ::testing::Test {
+ protected:
+  HandDockTest()
+      : settings_(QString::fromStdString((folder_ / "palpate.ini").string()), QSettings::IniFormat),
+        dock_(std::make_unique<HandDock>(settings_)) {
+    dock_->resize(455, 800);
+    dock_->show();
+  }
+  ~HandDockTest() override { dock_->setHand(nullptr, nullptr); }
+
+  void connectTo(std::unique_ptr<HandModel> model, EmulatedHandOptions options = {}) {
+    bench_ = std::make_unique<EmulatedBench>(std::move(model), std::move(options));
+    bench_->connect();
+    dock_->setHand(bench_->session.get(), bench_->control.get());
+  }
+  template <class Widget>
+  Widget* find(const char* name) {
+    auto* found = dock_->findChild<Widget*>(name);
+    if (!found) throw std::runtime_error(std::string("no ") + name);
+    return found;
+  }
+  void click(const char* name) { QTest::mouseClick(find<QPushButton>(name), Qt::LeftButton); }
+  QString state() { return find<QLabel>("handState")->text(); }
+  bool isEnabled(const char* name) { return find<QPushButton>(name)->isEnabled(); }
+  static bool await(const std::function<bool()>& condition) {
+    return QTest::qWaitFor(condition, 20'000);
+  }
+  void type(const char* slider, const QString& text) {
+    QDoubleSpinBox* field = find<ValueSlider>(slider)->field();
+    field->setFocus();
+    field->selectAll();
+    QTest::keyClicks(field, text);
+    QTest::keyClick(field, Qt::Key_Return);
+    field->clearFocus();
+  }
+  std::vector<MatrixSetting> onTheHand() {
+    std::vector<MatrixSetting> settings;
+    bench_->hand->withModel([&](HandModel& model) { settings = model.settings(); });
+    return settings;
+  }
+
+  const testing::TemporaryFolder folder_;
+  QSettings settings_;
+  std::unique_ptr<EmulatedBench> bench_;
+  std::unique_ptr<HandDock> dock_;
+};
+
+TEST_F(HandDockTest, WithoutAHandItSaysSoAndOffersNothing) {
+  EXPECT_EQ(state(), "No hand is connected.");
+  for (const char* name : {"openHand",
+                           "graspHand",
+                           "reactiveGrasp",
+                           "slipAwareGrasp",
+                           "relaxHand",
+                           "stopHand",
+                           "resetSettings"})
+    EXPECT_FALSE(isEnabled(name)) << name;
+  EXPECT_EQ(find<QPushButton>("graspHand")->toolTip(), "No hand is connected");
+  EXPECT_EQ(find<ValueSlider>("threshold2")->field()->text(), "–");
+}
+
+TEST_F(HandDockTest, OpeningItMovesNothing) {
+  connectTo(stillHand());
+  EXPECT_TRUE(await([&] { return isEnabled("graspHand") && isEnabled("reactiveGrasp"); }));
+  EXPECT_EQ(state(), "Ready.");
+  EXPECT_TRUE(bench_->log.deeds().empty());
+}
+
+TEST_F(HandDockTest, GraspGoesWhereTheControlsSay) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  auto* preshape = find<QComboBox>("preshape");
+  preshape->setCurrentIndex(preshape->findData("cylindrical"));
+  type("closeRatio", "0,25");  // a comma is a point
+  type("velocity", "80");
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return bench_->log.firstSince("m", 0).has_value(); }));
+  // Table of the study: 0 | -30 + 30 c, 30 + 35 c.
+  std::vector<double> target;
+  for (const auto& command : bench_->log.named("p"))
+    if (!command.values.empty()) target = command.values;
+  EXPECT_EQ(target, (std::vector<double>{0, -22.5, 38.75, -22.5, 38.75, -22.5, 38.75}));
+  EXPECT_TRUE(await([&] { return state().contains("plain grasp: cylindrical"); }))
+      << state().toStdString();
+  EXPECT_FALSE(isEnabled("graspHand"));
+  EXPECT_FALSE(isEnabled("reactiveGrasp"));
+  EXPECT_TRUE(isEnabled("stopHand"));
+  EXPECT_TRUE(await([&] { return state() == "finished: at its target"; }));
+  EXPECT_TRUE(isEnabled("graspHand"));
+}
+
+TEST_F(HandDockTest, StopStops) {
+  connectTo(stillHand());
+  type("velocity", "5");
+  type("closeRatio", "1");
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  click("graspHand");
+  ASSERT_TRUE(bench_->awaitMotion());
+  click("stopHand");
+  EXPECT_TRUE(await([&] { return state() == "stopped by the user"; }));
+  EXPECT_FALSE(bench_->handMoves());
+}
+
+TEST_F(HandDockTest, ASlipAwareGraspClosesUnderWatchAndIsStopped) {
+  connectTo(stillHand());
+  type("limit", "2500");
+  ASSERT_TRUE(await([&] { return isEnabled("slipAwareGrasp"); }));
+  EXPECT_TRUE(find<QPushButton>("slipAwareGrasp")->toolTip().contains("when it slips"));
+  click("slipAwareGrasp");
+  ASSERT_TRUE(bench_->awaitMotion());
+  const auto request = bench_->control->status().request;
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->mode, GraspMode::kSlip);
+  EXPECT_EQ(request->limitCounts, 2500);
+  EXPECT_EQ(request->holding.mostLimitCounts, 2500) << "never below where it begins";
+  EXPECT_FALSE(request->holding.loosen) << "a loaded hand isn't opened";
+  EXPECT_TRUE(await([&] { return !isEnabled("slipAwareGrasp"); }));
+  click("stopHand");
+  EXPECT_TRUE(await([&] { return state() == "stopped by the user"; }));
+}
+
+// From a field, from a menu that is open, from another window.
+TEST_F(HandDockTest, EscapeStopsFromAnyFocus) {
+  connectTo(stillHand());
+  type("velocity", "5");
+  type("closeRatio", "1");
+  QWidget other;
+  auto* line = new QLineEdit(&other);
+  other.show();
+  QMenu menu;
+  menu.addAction("nothing");
+  const std::vector<std::function<QWidget*()>> places = {
+      [&]() -> QWidget* {
+        find<ValueSlider>("limit")->field()->setFocus();
+        return find<ValueSlider>("limit")->field();
+      },
+      [&]() -> QWidget* {
+        line->setFocus();
+        return line;
+      },
+      [&]() -> QWidget* {
+        menu.popup({10, 10});
+        return &menu;
+      }};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    ASSERT_TRUE(await([&] { return isEnabled("graspHand"); })) << i;
+    click("graspHand");
+    ASSERT_TRUE(bench_->awaitMotion()) << i;
+    QWidget* place = places[i]();
+    QTest::keyClick(place, Qt::Key_Escape);
+    EXPECT_TRUE(await([&] { return !bench_->handMoves(); })) << i;
+    EXPECT_TRUE(await([&] { return state() == "stopped by the user"; }))
+        << i << state().toStdString();
+    // Whatever else Escape means there it didn't do: first the hand.
+    EXPECT_TRUE(place != &menu || menu.isVisible());
+  }
+  // Nothing moves: Escape is Escape again.
+  QTest::keyClick(&menu, Qt::Key_Escape);
+  EXPECT_FALSE(menu.isVisible());
+}
+
+TEST_F(HandDockTest, ReactiveGraspSaysWhereItStopped) {
+  connectTo(testing::handWith("ball"));
+  type("velocity", "60");
+  type("limit", "300");
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  click("reactiveGrasp");
+  EXPECT_TRUE(await([&] { return state().startsWith("limit reached: finger "); }))
+      << state().toStdString();
+  // L-M14: a hard ball at 60 deg/s is pressed far beyond.
+  EXPECT_TRUE(state().contains("after the stop")) << state().toStdString();
+  // Once more: it is over the limit, and says so.
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  click("reactiveGrasp");
+  EXPECT_TRUE(await([&] { return state().contains("over the limit of 300 already"); }))
+      << state().toStdString();
+}
+
+TEST_F(HandDockTest, RelaxTakesThePower) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return isEnabled("relaxHand"); }));
+  click("relaxHand");
+  EXPECT_TRUE(await([&] { return !bench_->log.named("power").empty(); }));
+}
+
+TEST_F(HandDockTest, SettingsGoToTheMatrixThatWasChosen) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold1")->value() == 300.0; }));
+  EXPECT_EQ(find<ValueSlider>("threshold0")->value(), 150.0);
+  type("threshold3", "77");
+  EXPECT_TRUE(await([&] { return onTheHand()[3].thresholdCounts == 77; }));
+  ValueSlider* sensitivity = find<ValueSlider>("sensitivity4");
+  QTest::keyClick(sensitivity->slider(), Qt::Key_Right);  // 0.05 more
+  EXPECT_TRUE(await([&] { return std::abs(onTheHand()[4].sensitivity - 0.55) < 1e-6; }));
+  type("threshold-1", "60");  // all
+  EXPECT_TRUE(await([&] {
+    const auto now = onTheHand();
+    return std::all_of(
+        now.begin(), now.end(), [](const auto& each) { return each.thresholdCounts == 60; });
+  }));
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold5")->value() == 60.0; }));
+  click("resetSettings");
+  EXPECT_TRUE(await([&] {
+    const auto now = onTheHand();
+    return now[0].thresholdCounts == 150 && now[5].thresholdCounts == 300 &&
+           std::abs(now[4].sensitivity - 0.5) < 1e-6;
+  }));
+}
+
+TEST_F(HandDockTest, ASliderSendsWhenItIsLetGo) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold2")->value() == 150.0; }));
+  QSlider* slider = find<ValueSlider>("threshold2")->slider();
+  int chosen = 0;
+  QObject::connect(
+      find<ValueSlider>("threshold2"), &ValueSlider::chosen, dock_.get(), [&] { ++chosen; });
+  slider->setSliderDown(true);
+  for (const int value : {160, 180, 210}) slider->setSliderPosition(value);
+  EXPECT_EQ(chosen, 0);
+  slider->setSliderDown(false);
+  EXPECT_EQ(chosen, 1);
+  EXPECT_TRUE(await([&] { return onTheHand()[2].thresholdCounts == 210; }));
+}
+
+TEST_F(HandDockTest, SettingsAreKeptByNameForEachHand) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold0")->value() == 150.0; }));
+  type("threshold0", "42");
+  ASSERT_TRUE(await([&] { return onTheHand()[0].thresholdCounts == 42; }));
+  ASSERT_TRUE(await([&] { return isEnabled("saveSettings"); }));
+  QTest::qWait(0);
+  dock_->tactileSettings().askForName = [](const QString&) { return QString("soft / things"); };
+  ASSERT_TRUE(await(
+      [&] { return bench_->session->device().facts().matrices.at(0).thresholdCounts == 42; }));
+  click("saveSettings");
+  auto* names = find<QComboBox>("savedSettings");
+  EXPECT_EQ(names->currentText(), "soft / things");
+  click("resetSettings");
+  ASSERT_TRUE(await([&] { return onTheHand()[0].thresholdCounts == 150; }));
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold0")->value() == 150.0; }));
+  // As after a restart.
+  dock_->setHand(nullptr, nullptr);
+  dock_ = std::make_unique<HandDock>(settings_);
+  dock_->setHand(bench_->session.get(), bench_->control.get());
+  names = find<QComboBox>("savedSettings");
+  ASSERT_EQ(names->count(), 2);
+  names->setCurrentIndex(1);
+  emit names->activated(1);
+  EXPECT_TRUE(await([&] { return onTheHand()[0].thresholdCounts == 42; }));
+  // Another hand has none of them.
+  HandSettingsStore store(settings_);
+  EXPECT_TRUE(store.names("another").isEmpty());
+}
+
+TEST_F(HandDockTest, ShowsJointAnglesAndTemperatures) {
+  connectTo(stillHand());
+  auto* angles = find<FactsView>("liveAngles");
+  EXPECT_TRUE(await([&] { return angles->facts()[1].value == "-75.0°"; }));
+  EXPECT_EQ(angles->facts()[0].value, "60.0°");
+  auto* temperatures = find<FactsView>("liveTemperatures");
+  EXPECT_TRUE(await([&] { return temperatures->facts()[3].value == "41.8 °C"; }))
+      << temperatures->facts()[3].value.toStdString();
+  EXPECT_FALSE(find<QLabel>("handHeat")->isVisible());
+}
+
+TEST_F(HandDockTest, WarnsOfAHotMotor) {
+  connectTo(std::make_unique<HotHand>());
+  auto* heat = find<QLabel>("handHeat");
+  EXPECT_TRUE(await([&] { return heat->isVisible(); }));
+  EXPECT_TRUE(heat->text().contains("motor 3 71.5 °C")) << heat->text().toStdString();
+  EXPECT_FALSE(heat->text().contains("motor 2"));
+}
+
+TEST_F(HandDockTest, AGoneMotionPortIsSaidAndNothingIsOffered) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  bench_->hand->unplug(false, true);
+  EXPECT_TRUE(await([&] { return state().startsWith("The hand can't be moved:"); }));
+  EXPECT_FALSE(isEnabled("graspHand"));
+  EXPECT_FALSE(isEnabled("reactiveGrasp"));
+  EXPECT_TRUE(isEnabled("stopHand"));  // always
+}
+
+// L-M2: a matrix that is set to feel nothing is marked, and a grasp that stands on it is refused by name.
+TEST_F(HandDockTest, AMatrixThatCannotTellTheLimitIsMarkedAndNamed) {
+  connectTo(testing::handWith("ball"));
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  auto* name = find<QLabel>("matrixName1");
+  EXPECT_EQ(name->toolTip(), "");
+  type("sensitivity1", "0");
+  ASSERT_TRUE(await([&] { return onTheHand()[1].sensitivity == 0.0; }));
+  EXPECT_TRUE(await([&] { return name->toolTip().contains("finger 0 distal can't tell"); }))
+      << name->toolTip().toStdString();
+  EXPECT_FALSE(name->styleSheet().isEmpty());
+  EXPECT_EQ(find<QLabel>("matrixName3")->toolTip(), "");
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  click("reactiveGrasp");
+  EXPECT_TRUE(await([&] { return state().startsWith("reactive grasp refused"); }))
+      << state().toStdString();
+  EXPECT_TRUE(state().contains("finger 0 distal")) << state().toStdString();
+  type("sensitivity1", "0.5");
+  EXPECT_TRUE(await([&] { return name->toolTip().isEmpty(); }));
+}
+
+// L-M3: the hand goes on to its target, and nobody can tell it anything meanwhile.
+TEST_F(HandDockTest, DuringAnUnplugInAMotionItSaysThatTheHandGoesOnAndNothingOfItAfterwards) {
+  connectTo(stillHand());
+  type("velocity", "10");
+  type("closeRatio", "1");
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  click("graspHand");
+  ASSERT_TRUE(bench_->awaitMotion());
+  bench_->hand->unplug(false, true);
+  ASSERT_TRUE(await([&] { return !isEnabled("relaxHand"); })) << "the port is known to be gone";
+  ASSERT_TRUE(bench_->handMoves());
+  EXPECT_TRUE(state().contains("goes on to its target by itself")) << state().toStdString();
+  EXPECT_FALSE(state().contains("can't move")) << state().toStdString();
+  bench_->hand->replug();
+  ASSERT_TRUE(await([&] { return isEnabled("relaxHand") && !bench_->handMoves(); }));
+  dock_->refresh();
+  EXPECT_FALSE(state().contains("by itself")) << state().toStdString();
+  EXPECT_TRUE(state().startsWith("Ready")) << state().toStdString();
+}
+
+// L-M8
+TEST_F(HandDockTest, ReturnPressesTheFocusedButtonAndSpaceNever) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  auto* grasp = find<QPushButton>("graspHand");
+  grasp->setFocus();
+  QTest::keyClick(grasp, Qt::Key_Space);
+  EXPECT_EQ(bench_->control->status().phase, GraspPhase::kIdle) << "Space moves nothing";
+  QTest::keyClick(grasp, Qt::Key_Return);
+  EXPECT_NE(bench_->control->status().phase, GraspPhase::kIdle);
+  auto* stop = find<QPushButton>("stopHand");
+  stop->setFocus();
+  QTest::keyClick(stop, Qt::Key_Enter, Qt::KeypadModifier);
+  EXPECT_TRUE(await([&] { return state() == "stopped by the user"; })) << state().toStdString();
+}
+
+// L-M8: what Tab meets comes in the order in which it is read.
+TEST_F(HandDockTest, TabGoesThroughTheButtonsAsTheyStand) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand") && isEnabled("reactiveGrasp"); }));
+  QStringList met;
+  QWidget* stop = find<QPushButton>("stopHand");
+  for (QWidget* at = stop->nextInFocusChain(); at != stop; at = at->nextInFocusChain())
+    if (qobject_cast<QPushButton*>(at) && dock_->isAncestorOf(at)) met.append(at->objectName());
+  EXPECT_EQ(met.mid(0, 5).join(" ").toStdString(),
+            "graspHand reactiveGrasp slipAwareGrasp openHand relaxHand");
+}
+
+// L-M9
+TEST_F(HandDockTest, ButtonsStandStillWhateverIsSaid) {
+  dock_->resize(380, 800);
+  connectTo(testing::handWith("ball"));
+  type("velocity", "60");
+  type("limit", "300");
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  const auto places = [&] {
+    QCoreApplication::processEvents();
+    QMap<QString, QPoint> at;
+    for (const QPushButton* each : dock_->findChildren<QPushButton*>())
+      at[each->objectName()] = each->mapTo(dock_.get(), QPoint());
+    return at;
+  };
+  const auto before = places();
+  click("reactiveGrasp");
+  ASSERT_TRUE(await([&] { return state().startsWith("limit reached: finger "); }));
+  EXPECT_EQ(places(), before) << state().toStdString();
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  click("reactiveGrasp");
+  ASSERT_TRUE(await([&] { return state().contains("already"); }));
+  EXPECT_EQ(places(), before) << state().toStdString();
+}
+
+// L-M9: a warning moves no button either.
+TEST_F(HandDockTest, AHotMotorMovesNoButton) {
+  const auto place = [&] {
+    QCoreApplication::processEvents();
+    return find<QPushButton>("graspHand")->mapTo(dock_.get(), QPoint());
+  };
+  const QPoint before = place();
+  connectTo(std::make_unique<HotHand>());
+  ASSERT_TRUE(await([&] { return find<QLabel>("handHeat")->isVisible(); }));
+  EXPECT_EQ(place(), before);
+}
+
+// L-M13
+TEST_F(HandDockTest, OpeningIsCalledOpening) {
+  connectTo(stillHand());
+  type("velocity", "10");
+  type("closeRatio", "1");
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  click("graspHand");
+  ASSERT_TRUE(bench_->awaitMotion());
+  EXPECT_TRUE(await([&] { return state().startsWith("closing"); })) << state().toStdString();
+  click("stopHand");
+  ASSERT_TRUE(await([&] { return isEnabled("openHand"); }));
+  click("openHand");
+  ASSERT_TRUE(await([&] { return bench_->control->status().phase == GraspPhase::kClosing; }));
+  dock_->refresh();
+  EXPECT_TRUE(state().startsWith("opening")) << state().toStdString();
+  EXPECT_FALSE(state().contains("closing")) << state().toStdString();
+  EXPECT_FALSE(state().contains("grasp")) << state().toStdString();
+}
+
+// L-minor 9
+TEST_F(HandDockTest, AButtonThatIsGreySaysWhy) {
+  const std::vector<const char*> names{
+      "graspHand", "reactiveGrasp", "slipAwareGrasp", "openHand", "relaxHand"};
+  for (const char* name : names)
+    EXPECT_EQ(find<QPushButton>(name)->toolTip(), "No hand is connected") << name;
+  EXPECT_EQ(find<QPushButton>("stopHand")->toolTip(), "No hand is connected");
+  connectTo(stillHand());
+  type("velocity", "5");
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand") && isEnabled("reactiveGrasp"); }));
+  click("graspHand");
+  ASSERT_TRUE(bench_->awaitMotion());
+  dock_->refresh();
+  for (const char* name : names) {
+    const QString tip = find<QPushButton>(name)->toolTip();
+    EXPECT_TRUE(isEnabled(name) || tip.contains("stop it first")) << name << tip.toStdString();
+  }
+  EXPECT_FALSE(isEnabled("openHand"));
+}
+
+// L-M10: what was refused is no state.
+TEST_F(HandDockTest, ARefusalOfAModeGoesWithTheNextChoice) {
+  connectTo(testing::handWith("empty"));
+  find<QToolButton>("sensitivityHigh")->click();
+  ASSERT_TRUE(await([&] { return state().contains("noise lines"); }));
+  find<QToolButton>("sensitivityAdaptive")->click();
+  dock_->refresh();
+  EXPECT_FALSE(state().contains("noise lines")) << state().toStdString();
+  find<QToolButton>("sensitivityHigh")->click();
+  dock_->refresh();
+  ASSERT_TRUE(state().contains("noise lines"));
+  find<QToolButton>("sensitivityManual")->click();
+  dock_->refresh();
+  EXPECT_FALSE(state().contains("noise lines")) << state().toStdString();
+}
+
+TEST_F(HandDockTest, ChoicesAreRemembered) {
+  find<QComboBox>("preshape")->setCurrentIndex(find<QComboBox>("preshape")->findData("parallel"));
+  type("velocity", "33");
+  type("limit", "450");
+  dock_ = std::make_unique<HandDock>(settings_);
+  EXPECT_EQ(find<QComboBox>("preshape")->currentData().toString(), "parallel");
+  EXPECT_EQ(find<ValueSlider>("velocity")->value(), 33.0);
+  EXPECT_EQ(find<ValueSlider>("limit")->value(), 450.0);
+}
+
+TEST_F(HandDockTest, HighSensitivityNeedsNoiseLinesAndEndsByAHandOnTheValues) {
+  EXPECT_FALSE(find<QToolButton>("sensitivityHigh")->isEnabled()) << "no hand";
+  connectTo(testing::handWith("empty"));
+  SensitivityModes& modes = dock_->sensitivity();
+  int on = 0, off = 0;
+  QObject::connect(&modes, &SensitivityModes::highChanged, [&](bool is) { ++(is ? on : off); });
+  const auto settings = [&] { return bench_->session->device().facts().matrices; };
+  find<QToolButton>("sensitivityHigh")->click();
+  EXPECT_EQ(modes.mode(), SensitivityMode::kManual);
+  EXPECT_TRUE(find<QToolButton>("sensitivityManual")->isChecked());
+  ASSERT_TRUE(await([&] { return state().contains("noise lines"); })) << state().toStdString();
+  EXPECT_EQ(settings()[0].sensitivity, 0.5) << "nothing was set";
+  modes.noiseLines = [](const std::string& hand) {
+    EXPECT_EQ(hand, sdh2().name);
+    return std::optional(testing::evenNoise(0.3, 40.0, 2.0));
+  };
+  find<QToolButton>("sensitivityHigh")->click();
+  EXPECT_EQ(on, 1);
+  ASSERT_TRUE(await([&] {
+    return settings()[5].sensitivity == 1.0 && settings()[5].thresholdCounts < 80;
+  })) << modes.statusText().toStdString();
+  ASSERT_TRUE(await([&] { return modes.statusText().contains("follow the temperatures"); }));
+  // A hand on a value: it holds nothing any more.
+  type("threshold1", "123");
+  EXPECT_EQ(modes.mode(), SensitivityMode::kManual);
+  EXPECT_TRUE(find<QToolButton>("sensitivityManual")->isChecked());
+  EXPECT_EQ(off, 1);
+  ASSERT_TRUE(await([&] { return settings()[1].thresholdCounts == 123; }));
+  EXPECT_EQ(settings()[5].sensitivity, 1.0) << "the others stay";
+}
+
+TEST_F(HandDockTest, AdaptiveSensitivitySaysWhatItWaitsFor) {
+  connectTo(testing::handWith("empty"));
+  find<QToolButton>("sensitivityAdaptive")->click();
+  EXPECT_TRUE(await([&] {
+    return dock_->sensitivity().statusText().contains("waits for something");
+  })) << dock_->sensitivity().statusText().toStdString();
+  dock_->setHand(nullptr, nullptr);
+  EXPECT_EQ(dock_->sensitivity().mode(), SensitivityMode::kManual);
+  EXPECT_EQ(dock_->sensitivity().statusText(), "");
+}
+
+}  // namespace
+}  // namespace palpate::gui::hand_dock_test

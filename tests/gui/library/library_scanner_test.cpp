@@ -1,0 +1,171 @@
+// Folders are gone through beside the window: in portions, to be given up at any moment, whatever hangs.
+#include "gui/library/library_scanner.h"
+
+#include <QSignalSpy>
+#include <QTest>
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+
+#include <palpate/core/error.h>
+
+#include "testing/testing.h"
+
+namespace palpate::gui::library_scanner_test {
+namespace {
+
+// A folder that hangs until it is let go.
+class Gate {
+ public:
+  void pass() {
+    std::unique_lock lock(mutex_);
+    ++waiting_;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return open_; });
+    ++passed_;
+    changed_.notify_all();
+  }
+  void waitForSomebody() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return waiting_ > passed_; });
+  }
+  void open() {
+    std::unique_lock lock(mutex_);
+    open_ = true;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return passed_ == waiting_; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool open_ = false;
+  int waiting_ = 0;
+  int passed_ = 0;
+};
+
+RecordingDetails details(int number) {
+  RecordingDetails made;
+  made.path = "/folder/f" + std::to_string(number) + ".dsa";
+  return made;
+}
+
+LibraryScanner::Catalog catalogOf(int count) {
+  return [count](const auto&, const auto&, const CatalogSink& sink, const Progress& progress) {
+    CatalogReport report;
+    report.numFiles = static_cast<std::size_t>(count);
+    sink.listed(report.numFiles);
+    for (int i = 0; i < count; ++i) {
+      if (!progress(static_cast<double>(i) / count)) throw Cancelled();
+      sink.take(details(i));
+    }
+    return report;
+  };
+}
+
+class LibraryScannerTest : public ::testing::Test {
+ protected:
+  void hear(LibraryScanner& scanner) {
+    QObject::connect(&scanner, &LibraryScanner::found, [this](const auto& entries) {
+      largest_ = std::max(largest_, entries.size());
+      for (const LibraryEntry& entry : entries) paths_.push_back(entry.details.path.string());
+    });
+    QObject::connect(&scanner, &LibraryScanner::finished, [this] { ++finished_; });
+    QObject::connect(&scanner, &LibraryScanner::cancelled, [this] { ++cancelled_; });
+    QObject::connect(
+        &scanner, &LibraryScanner::failed, [this](const QString& message) { failure_ = message; });
+  }
+  std::vector<std::string> paths_;
+  std::size_t largest_ = 0;
+  int finished_ = 0, cancelled_ = 0;
+  QString failure_;
+};
+
+TEST_F(LibraryScannerTest, EverythingComesInOrderAndInPortions) {
+  LibraryScanner scanner("", catalogOf(5000));
+  hear(scanner);
+  scanner.scan("/folder");
+  EXPECT_TRUE(scanner.busy());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return finished_ > 0; }, 10000));
+  EXPECT_FALSE(scanner.busy());
+  ASSERT_EQ(paths_.size(), 5000u);
+  for (int i = 0; i < 5000; ++i)
+    ASSERT_EQ(paths_[static_cast<std::size_t>(i)], details(i).path.string());
+  EXPECT_LE(largest_, 200u) << "more would stop the window";
+}
+
+TEST_F(LibraryScannerTest, WhatIsSearchedInIsMadeBesideTheWindow) {
+  LibraryScanner scanner("", catalogOf(1));
+  SearchableText text;
+  QObject::connect(
+      &scanner, &LibraryScanner::found, [&](const auto& entries) { text = entries.front().text; });
+  hear(scanner);
+  scanner.scan("/folder");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return finished_ > 0; }, 10000));
+  EXPECT_TRUE(RecordingSearch("name:f0.dsa").matches(text));
+}
+
+TEST_F(LibraryScannerTest, CancelledOnceAndNothingMoreIsHeard) {
+  Gate gate;
+  std::atomic<bool> sawCancel = false;
+  {
+    LibraryScanner scanner("",
+                           [&](const auto&, const auto&, const auto& sink, const auto& progress) {
+                             sink.take(details(1));
+                             gate.pass();
+                             sawCancel = !progress(0.5);
+                             sink.take(details(2));
+                             throw Cancelled();
+                             return CatalogReport{};
+                           });
+    hear(scanner);
+    scanner.scan("/folder");
+    gate.waitForSomebody();
+    scanner.cancel();
+    EXPECT_FALSE(scanner.busy());
+    EXPECT_EQ(cancelled_, 1);
+    scanner.cancel();
+    EXPECT_EQ(cancelled_, 1);
+    gate.open();
+    QTest::qWait(20);
+    EXPECT_TRUE(paths_.empty());
+    EXPECT_EQ(finished_, 0);
+  }
+  EXPECT_TRUE(QTest::qWaitFor([&] { return sawCancel.load(); }, 5000));
+}
+
+TEST_F(LibraryScannerTest, AFolderThatHangsHoldsUpNoOtherAndNoEnd) {
+  Gate gate;
+  {
+    LibraryScanner scanner(
+        "", [&](const auto& folder, const auto& cache, const auto& sink, const auto& progress) {
+          if (folder == "/hangs") gate.pass();
+          return catalogOf(3)(folder, cache, sink, progress);
+        });
+    hear(scanner);
+    scanner.scan("/hangs");
+    gate.waitForSomebody();
+    scanner.scan("/folder");
+    ASSERT_TRUE(QTest::qWaitFor([&] { return finished_ > 0; }, 10000));
+    EXPECT_EQ(paths_.size(), 3u);
+    scanner.scan("/hangs");
+    gate.waitForSomebody();
+  }  // after a moment it is given up
+  gate.open();
+  EXPECT_EQ(finished_, 1);
+}
+
+TEST_F(LibraryScannerTest, AFailureIsSaid) {
+  LibraryScanner scanner("",
+                         [](const auto&, const auto&, const auto&, const auto&) -> CatalogReport {
+                           throw Error("the disk is on fire");
+                         });
+  hear(scanner);
+  scanner.scan("/folder");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !failure_.isEmpty(); }, 10000));
+  EXPECT_EQ(failure_, "the disk is on fire");
+  EXPECT_FALSE(scanner.busy());
+}
+
+}  // namespace
+}  // namespace palpate::gui::library_scanner_test

@@ -1,0 +1,100 @@
+#include "gui/link/link_panel.h"
+
+#include <QCheckBox>
+#include <QLabel>
+#include <QPlainTextEdit>
+#include <QSignalSpy>
+
+#include "testing/testing.h"
+
+namespace palpate::gui::link_panel_test {
+namespace {
+
+LinkHealth goodHealth() {
+  LinkHealth health;
+  health.device.tactile.state = PortState::kStreaming;
+  health.device.tactile.port = "/dev/ttyUSB0";
+  health.frames.frames = 1234;
+  health.frames.rateHz = 31.7;
+  health.frames.meanRateHz = 31.66;
+  health.frames.ageMs = 18.4;
+  health.queues.tactile = {3, 17, 8192};
+  health.freeBytes = 118'000'000'000;
+  health.diskHours = 1820.0;
+  return health;
+}
+
+const Fact& fact(const std::vector<Fact>& facts, const QString& name) {
+  for (const Fact& each : facts)
+    if (each.name == name) return each;
+  throw std::runtime_error("no row " + name.toStdString());
+}
+
+TEST(LinkPanel, SaysHowTheLinkDoesInUnits) {
+  const auto facts = factsOf(goodHealth());
+  EXPECT_EQ(fact(facts, "tactile").value, "streaming · /dev/ttyUSB0");
+  EXPECT_EQ(fact(facts, "rate").value, "31.7 fps (mean 31.7)");
+  EXPECT_EQ(fact(facts, "frame age").value, "18 ms");
+  EXPECT_EQ(fact(facts, "queue").value, "3 of 8192, most 17");
+  EXPECT_EQ(fact(facts, "disk").value, "118.0 GB free, 76 days");
+  for (const Fact& each : facts) EXPECT_FALSE(each.warning) << each.name.toStdString();
+}
+
+TEST(LinkPanel, WarnsOfWhatIsWrong) {
+  LinkHealth health = goodHealth();
+  health.device.tactile.state = PortState::kLost;
+  health.device.motion = PortStatus{};
+  health.frames.ageMs = 2300.0;
+  health.lost = 3;
+  health.badChecksums = 1;
+  health.device.tactile.reconnects = 2;
+  health.diskHours = 0.5;
+  const auto facts = factsOf(health);
+  EXPECT_TRUE(fact(facts, "tactile").warning);
+  EXPECT_TRUE(fact(facts, "motion").warning);
+  EXPECT_EQ(fact(facts, "frame age").value, "2.3 s");
+  for (const char* name : {"frame age", "lost", "bad checksums", "reconnects"})
+    EXPECT_TRUE(fact(facts, name).warning) << name;
+  EXPECT_EQ(fact(facts, "disk").value, "118.0 GB free, 0.5 h");
+  health.frames.ageMs.reset();
+  EXPECT_EQ(fact(factsOf(health), "frame age").value, "no frame yet");
+}
+
+TEST(LinkPanel, OneLineBeforeARun) {
+  LinkPanel panel;
+  const auto* line = panel.findChild<QLabel*>("beforeRun");
+  EXPECT_TRUE(line->text().contains("Ctrl+K"));
+  panel.showHealth(goodHealth(), BeforeRun{true, "ready: 31.7 frames/s", {}, {}});
+  EXPECT_EQ(line->text(), "ready: 31.7 frames/s");
+  EXPECT_TRUE(line->styleSheet().contains(colorsOf(Theme::kDark).accent.name()));
+  panel.showHealth(goodHealth(), BeforeRun{false, "not ready: no frame comes", {}, {}});
+  EXPECT_TRUE(line->styleSheet().contains(colorsOf(Theme::kDark).danger.name()));
+  panel.clear();
+  EXPECT_TRUE(line->text().contains("Ctrl+K"));
+}
+
+TEST(LinkPanel, LogsWhatHappenedAndListsAlarms) {
+  LinkPanel panel;
+  panel.addEvent({1, 1, "link", {}, "tactile port\nconnected", ""});
+  panel.log("recording begins");
+  const QString log = panel.findChild<QPlainTextEdit*>("linkLog")->toPlainText();
+  EXPECT_TRUE(log.contains("link: tactile port connected"));
+  EXPECT_EQ(log.split('\n').size(), 2);
+  const auto* alarms = panel.findChild<QLabel*>("linkAlarms");
+  EXPECT_EQ(alarms->text(), "none");
+  panel.showAlarms({"no frame for 2 s", "disk full"});
+  EXPECT_EQ(alarms->text(), "no frame for 2 s\ndisk full");
+  panel.setTheme(Theme::kLight);
+  EXPECT_EQ(alarms->text(), "no frame for 2 s\ndisk full");
+}
+
+TEST(LinkPanel, SoundCanBeSwitchedOff) {
+  LinkPanel panel;
+  QSignalSpy muted(&panel, &LinkPanel::mutedChanged);
+  panel.findChild<QCheckBox*>("alarmSound")->click();
+  ASSERT_EQ(muted.size(), 1);
+  EXPECT_TRUE(muted[0][0].toBool());
+}
+
+}  // namespace
+}  // namespace palpate::gui::link_panel_test

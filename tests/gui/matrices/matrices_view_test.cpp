@@ -1,0 +1,123 @@
+#include "gui/matrices/matrices_view.h"
+
+#include <QMouseEvent>
+#include <QPaintEvent>
+#include <QSignalSpy>
+
+#include "gui/testing/window_fixture.h"
+
+namespace palpate::gui::matrices_view_test {
+namespace {
+
+class MatricesViewTest : public ::testing::Test {
+ protected:
+  MatricesViewTest() {
+    view_.resize(700, 600);
+    view_.setLook({.range = {0.0, 255.0}});
+    view_.setHand(sdh2());
+    frame_.matrix(1)(7, 2) = 200.0F;
+    frame_.matrix(5)(3, 4) = 3600.0F;
+    view_.setFrame(frame_);
+    view_.show();
+    QCoreApplication::processEvents();
+  }
+  void hover(std::size_t matrix, int y, int x) {
+    if (view_.geometryOfMatrices().numMatrices() <= matrix) return;
+    const QPointF at = view_.geometryOfMatrices().taxelRect(matrix, y, x).center();
+    QMouseEvent event(
+        QEvent::MouseMove, at, view_.mapToGlobal(at), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+    QApplication::sendEvent(&view_, &event);
+  }
+  QColor middle(std::size_t matrix, int y, int x) {
+    const QImage image = view_.grab().toImage();
+    const QPointF at = view_.geometryOfMatrices().taxelRect(matrix, y, x).center();
+    return image.pixelColor((at * image.devicePixelRatio()).toPoint());
+  }
+
+  MatricesView view_;
+  TactileFrame frame_ = emptyFrame();
+};
+
+TEST_F(MatricesViewTest, ShowsTheFrame) {
+  EXPECT_EQ(middle(1, 7, 2), QColor::fromRgb(colorTable(ColorMapName::kInferno)[200]));
+  EXPECT_EQ(middle(1, 7, 3), colorsOf(Theme::kDark).taxel);
+}
+
+TEST_F(MatricesViewTest, ShowsTheNextFrameAndForgetsTheLast) {
+  TactileFrame next = emptyFrame();
+  next.matrix(1)(8, 3) = 90.0F;
+  view_.setFrame(next);
+  EXPECT_EQ(middle(1, 8, 3), QColor::fromRgb(colorTable(ColorMapName::kInferno)[90]));
+  EXPECT_EQ(middle(1, 7, 2), colorsOf(Theme::kDark).taxel);
+}
+
+// Counts the pixels that a paint event covers.
+class PaintedArea : public QObject {
+ public:
+  bool eventFilter(QObject*, QEvent* event) override {
+    if (event->type() == QEvent::Paint) region += static_cast<QPaintEvent*>(event)->region();
+    return false;
+  }
+  QRegion region;
+};
+
+TEST_F(MatricesViewTest, RepaintsOnlyMatricesThatChanged) {
+  QCoreApplication::processEvents();
+  PaintedArea painted;
+  view_.installEventFilter(&painted);
+  view_.setFrame(frame_);
+  QCoreApplication::processEvents();
+  EXPECT_TRUE(painted.region.isEmpty()) << "the same frame again costs nothing";
+  frame_.matrix(5)(3, 4) = 100.0F;
+  view_.setFrame(frame_);
+  QCoreApplication::processEvents();
+  const auto& geometry = view_.geometryOfMatrices();
+  EXPECT_TRUE(painted.region.intersects(geometry.matrixRect(5).toRect()));
+  EXPECT_FALSE(painted.region.intersects(geometry.matrixRect(1).toRect()));
+}
+
+TEST_F(MatricesViewTest, HoverTellsMatrixPlaceAndValue) {
+  QSignalSpy hovered(&view_, &MatricesView::hovered);
+  hover(1, 7, 2);
+  EXPECT_EQ(view_.hoverText(), "finger 0 distal · x 2, y 7 · 200 counts");
+  ASSERT_EQ(hovered.size(), 1);
+  EXPECT_EQ(hovered[0][0].toString(), view_.hoverText());
+  hover(1, 7, 3);
+  EXPECT_EQ(view_.hoverText(), "finger 0 distal · x 3, y 7 · 0 counts, at rest");
+  hover(5, 3, 4);
+  EXPECT_EQ(view_.hoverText(), "finger 2 distal · x 4, y 3 · 3600 counts, saturated");
+  hover(1, 0, 0);
+  EXPECT_EQ(view_.hoverText(), "") << "no taxel in this corner";
+}
+
+TEST_F(MatricesViewTest, HoverFollowsThePlaybackAndEndsWithTheMouse) {
+  hover(1, 7, 2);
+  QSignalSpy hovered(&view_, &MatricesView::hovered);
+  frame_.matrix(1)(7, 2) = 12.5F;
+  view_.setFrame(frame_);
+  EXPECT_EQ(view_.hoverText(), "finger 0 distal · x 2, y 7 · 12.50 counts");
+  EXPECT_EQ(hovered.size(), 1);
+  QEvent leave(QEvent::Leave);
+  QApplication::sendEvent(&view_, &leave);
+  EXPECT_EQ(view_.hoverText(), "");
+}
+
+TEST_F(MatricesViewTest, HoverNamesMaskedTaxels) {
+  std::vector<MatrixLayout> matrices = sdh2().layout->matrices();
+  matrices[0].dynamicMask[0] = 0;
+  const HandDescription hand = describeHand(SensorLayout(matrices), 0, 0);
+  view_.setHand(hand);
+  view_.setFrame(TactileFrame(hand.layout));
+  hover(0, 0, 0);
+  EXPECT_EQ(view_.hoverText(), "finger 0 proximal · x 0, y 0 · masked: not scanned");
+}
+
+TEST_F(MatricesViewTest, WithoutAHandItIsEmpty) {
+  view_.clear();
+  hover(0, 0, 0);
+  EXPECT_EQ(view_.hoverText(), "");
+  EXPECT_EQ(view_.grab().toImage().pixelColor(300, 300), colorsOf(Theme::kDark).window);
+}
+
+}  // namespace
+}  // namespace palpate::gui::matrices_view_test

@@ -1,0 +1,325 @@
+// Ways to open a recording, and what happens when it can't be opened.
+#include <QComboBox>
+#include <QDockWidget>
+#include <QDropEvent>
+#include <QMenu>
+#include <QMimeData>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QStackedWidget>
+#include <QToolButton>
+
+#include "gui/open/start_page.h"
+#include "gui/testing/window_fixture.h"
+#include "gui/widgets/message_banner.h"
+#include "gui/widgets/opening_strip.h"
+#include "gui/widgets/status_strip.h"
+
+namespace palpate::gui::opening_test {
+namespace {
+
+class OpeningTest : public WindowTest {
+ protected:
+  std::string currentName() {
+    return window().current() ? window().current()->path.filename().string() : "";
+  }
+  bool onStartPage() { return window().findChild<StartPage*>()->isVisible(); }
+  QMenu* recentMenu() {
+    for (QMenu* menu : window().findChildren<QMenu*>())
+      if (menu->title().contains("recent")) return menu;
+    return nullptr;
+  }
+  // Drags and drops files onto the window; true when it takes them.
+  bool drop(const QList<QUrl>& urls) {
+    QMimeData data;
+    data.setUrls(urls);
+    QDragEnterEvent enter(QPoint(300, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&window(), &enter);
+    if (!enter.isAccepted()) return false;
+    QDropEvent event(QPointF(300, 300), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&window(), &event);
+    return true;
+  }
+  QUrl url(const std::string& name) {
+    return QUrl::fromLocalFile(QString::fromStdString(file(name)));
+  }
+};
+
+TEST_F(OpeningTest, StartsOnTheStartPageWithoutDocks) {
+  EXPECT_TRUE(onStartPage());
+  for (const QString& name : window().dockNames())
+    EXPECT_FALSE(window().findChild<QDockWidget*>(name)->isVisible());
+  EXPECT_FALSE(actions().play->isEnabled());
+  EXPECT_EQ(find<StatusStrip>("statusStrip")->status().state, "nothing open");
+}
+
+TEST_F(OpeningTest, ShowsTheRecordingAtItsFirstFrame) {
+  open({"good.dsa"});
+  EXPECT_FALSE(onStartPage());
+  EXPECT_EQ(currentName(), "good.dsa");
+  EXPECT_EQ(playback().frame(), 0u);
+  EXPECT_FALSE(playback().playing());
+  EXPECT_TRUE(actions().play->isEnabled());
+  EXPECT_EQ(window().windowTitle(), "good.dsa – Palpate");
+}
+
+TEST_F(OpeningTest, ByTheDialog) {
+  const std::string path = file("good.dsa");
+  window().askForRecordings = [&] { return QStringList{QString::fromStdString(path)}; };
+  press(Qt::Key_O, Qt::ControlModifier);
+  waitUntilOpened();
+  EXPECT_EQ(currentName(), "good.dsa");
+  window().askForRecordings = [] { return QStringList(); };
+  press(Qt::Key_O, Qt::ControlModifier);
+  EXPECT_EQ(currentName(), "good.dsa") << "cancelled";
+}
+
+TEST_F(OpeningTest, ByTheButtonOfTheStartPage) {
+  const std::string path = file("good.dsa");
+  window().askForRecordings = [&] { return QStringList{QString::fromStdString(path)}; };
+  QTest::mouseClick(find<QPushButton>("startOpen"), Qt::LeftButton);
+  waitUntilOpened();
+  EXPECT_EQ(currentName(), "good.dsa");
+}
+
+TEST_F(OpeningTest, ByDragAndDrop) {
+  EXPECT_TRUE(drop({url("good.dsa")}));
+  waitUntilOpened();
+  EXPECT_EQ(currentName(), "good.dsa");
+  EXPECT_TRUE(drop({url("good2.dsa"), url("good3.dsa")}));
+  waitUntilOpened();
+  EXPECT_EQ(currentName(), "good2.dsa");
+  EXPECT_EQ(window().recordings().size(), 3u);
+}
+
+TEST_F(OpeningTest, WhatIsNoLocalFileIsNotTaken) {
+  EXPECT_FALSE(drop({QUrl("https://example.org/a.dsa")}));
+  EXPECT_FALSE(drop({}));
+}
+
+TEST_F(OpeningTest, OfSeveralTheFirstIsShownAndTheOthersAreReached) {
+  open({"good1.dsa", "good2.dsa", "good3.dsa"});
+  EXPECT_EQ(currentName(), "good1.dsa");
+  auto* box = find<QComboBox>("recordingsBox");
+  ASSERT_EQ(box->count(), 3);
+  EXPECT_EQ(box->itemText(1), "good2.dsa · 2014-05-13");
+  playback().seekFrame(5);
+  press(Qt::Key_Tab, Qt::ControlModifier);
+  EXPECT_EQ(currentName(), "good2.dsa");
+  EXPECT_EQ(playback().frame(), 0u);
+  press(Qt::Key_Tab, Qt::ControlModifier);
+  press(Qt::Key_Tab, Qt::ControlModifier);
+  EXPECT_EQ(currentName(), "good1.dsa") << "around";
+  EXPECT_EQ(playback().frame(), 5u) << "where it was left";
+  // Shift+Tab arrives as Backtab from a keyboard.
+  actions().previousRecording->trigger();
+  EXPECT_EQ(currentName(), "good3.dsa");
+  emit box->activated(1);
+  EXPECT_EQ(currentName(), "good2.dsa");
+}
+
+TEST_F(OpeningTest, CloseGoesToTheNextAndAtLastToTheStartPage) {
+  open({"good1.dsa", "good2.dsa"});
+  press(Qt::Key_W, Qt::ControlModifier);
+  EXPECT_EQ(currentName(), "good2.dsa");
+  press(Qt::Key_W, Qt::ControlModifier);
+  EXPECT_TRUE(onStartPage());
+  EXPECT_FALSE(actions().play->isEnabled());
+  EXPECT_EQ(window().windowTitle(), "Palpate");
+  open({"good1.dsa"});
+  EXPECT_EQ(currentName(), "good1.dsa");
+}
+
+TEST_F(OpeningTest, TheSameFileAgainIsReadAgainButListedOnce) {
+  open({"good.dsa"});
+  playback().seekFrame(7);
+  open({"good.dsa"});
+  EXPECT_EQ(reads_, 2);
+  EXPECT_EQ(window().recordings().size(), 1u);
+  EXPECT_EQ(playback().frame(), 0u);
+}
+
+TEST_F(OpeningTest, AFailureIsSaidAndLosesNothing) {
+  open({"good.dsa"});
+  playback().seekFrame(7);
+  open({"bad.dsa"});
+  EXPECT_EQ(bannerText().toStdString(),
+            file("bad.dsa") + ": is not a recording: <b>no frames</b> (at byte 17)");
+  EXPECT_EQ(currentName(), "good.dsa");
+  EXPECT_EQ(playback().frame(), 7u);
+  press(Qt::Key_Escape);
+  EXPECT_EQ(bannerText(), "");
+}
+
+TEST_F(OpeningTest, TheBannerClosesByItsButtonAndByTheNextOpening) {
+  open({"bad.dsa"});
+  EXPECT_TRUE(onStartPage());
+  QTest::mouseClick(find<QToolButton>("bannerClose"), Qt::LeftButton);
+  EXPECT_EQ(bannerText(), "");
+  open({"bad.dsa"});
+  open({"good.dsa"});
+  EXPECT_EQ(bannerText(), "");
+}
+
+TEST_F(OpeningTest, AmongSeveralTheBadOnesAreNamedAndTheFirstGoodIsShown) {
+  open({"bad1.dsa", "good.dsa", "bad2.dsa"});
+  EXPECT_EQ(currentName(), "good.dsa");
+  EXPECT_TRUE(bannerText().contains("bad1.dsa"));
+  EXPECT_TRUE(bannerText().contains("bad2.dsa"));
+}
+
+TEST_F(OpeningTest, CancelLeavesWhatIsOpen) {
+  open({"good.dsa"});
+  window().openFiles({file("slow.dsa"), file("good2.dsa")});
+  const QWidget* strip = find<QPushButton>("cancelOpening")->parentWidget();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return strip->isVisible(); }, 10'000));
+  QTest::mouseClick(find<QPushButton>("cancelOpening"), Qt::LeftButton);
+  waitUntilOpened();
+  EXPECT_FALSE(strip->isVisible());
+  EXPECT_EQ(currentName(), "good.dsa");
+  EXPECT_EQ(window().recordings().size(), 1u);
+  EXPECT_EQ(bannerText(), "");
+  EXPECT_TRUE(find<StatusStrip>("statusStrip")->status().notice.contains("cancelled"));
+}
+
+TEST_F(OpeningTest, EscapeCancelsToo) {
+  window().openFiles({file("slow.dsa")});
+  press(Qt::Key_Escape);
+  waitUntilOpened();
+  EXPECT_TRUE(onStartPage());
+}
+
+TEST_F(OpeningTest, TheWindowClosesWhileItOpens) {
+  window().openFiles({file("slow.dsa")});
+  window().close();
+  start();
+  EXPECT_TRUE(onStartPage());
+}
+
+TEST_F(OpeningTest, AnEmptyRecordingIsSaidToBeEmpty) {
+  open({"empty.dsa"});
+  EXPECT_TRUE(bannerText().contains("no frame"));
+  EXPECT_FALSE(actions().play->isEnabled());
+  press(Qt::Key_Space);
+  press(Qt::Key_Right);
+  press(Qt::Key_E, Qt::ControlModifier);
+  EXPECT_FALSE(playback().playing());
+}
+
+TEST_F(OpeningTest, RecentFilesAreListedAndOpened) {
+  open({"good1.dsa"});
+  open({"good2.dsa"});
+  open({"bad.dsa"});
+  emit recentMenu()->aboutToShow();
+  auto entries = recentMenu()->actions();
+  EXPECT_EQ(entries[0]->text(), "good2.dsa") << "newest first, failures not at all";
+  EXPECT_EQ(entries[1]->text(), "good1.dsa");
+  EXPECT_EQ(entries[1]->toolTip().toStdString(), file("good1.dsa"));
+  entries[1]->trigger();
+  waitUntilOpened();
+  EXPECT_EQ(currentName(), "good1.dsa");
+}
+
+TEST_F(OpeningTest, MissingRecentFilesAreMarkedAndCanBeForgotten) {
+  open({"good1.dsa", "good2.dsa"});
+  std::filesystem::remove(folder_ / "good1.dsa");
+  emit recentMenu()->aboutToShow();
+  const auto entryOf = [&](const QString& start) -> QAction* {
+    for (QAction* entry : recentMenu()->actions())
+      if (entry->text().startsWith(start)) return entry;
+    return nullptr;
+  };
+  ASSERT_NE(entryOf("good1.dsa"), nullptr);
+  EXPECT_EQ(entryOf("good1.dsa")->text(), "good1.dsa (missing)");
+  EXPECT_FALSE(entryOf("good1.dsa")->isEnabled());
+  entryOf("Forget missing")->trigger();
+  emit recentMenu()->aboutToShow();
+  EXPECT_EQ(entryOf("good1.dsa"), nullptr);
+  EXPECT_NE(entryOf("good2.dsa"), nullptr);
+  entryOf("Forget all")->trigger();
+  emit recentMenu()->aboutToShow();
+  EXPECT_EQ(entryOf("good2.dsa"), nullptr);
+}
+
+TEST_F(OpeningTest, TheStartPageListsRecentFilesAfterARestart) {
+  open({"good1.dsa", "good2.dsa"});
+  std::filesystem::remove(folder_ / "good1.dsa");
+  window().close();
+  start();
+  auto rows = window().findChildren<QPushButton*>("RecentRow");
+  ASSERT_EQ(rows.size(), 2);
+  EXPECT_EQ(rows[0]->accessibleName().toStdString(), file("good2.dsa"));
+  EXPECT_TRUE(rows[0]->isEnabled());
+  EXPECT_FALSE(rows[1]->isEnabled()) << "missing";
+  QTest::mouseClick(window().findChildren<QToolButton*>("removeRecent").at(1), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return window().findChildren<QPushButton*>("RecentRow").size() == 1; }, 10'000));
+  QTest::mouseClick(window().findChildren<QPushButton*>("RecentRow").at(0), Qt::LeftButton);
+  waitUntilOpened();
+  EXPECT_EQ(currentName(), "good2.dsa");
+}
+
+TEST_F(OpeningTest, TenRecentFilesFitIntoTheSmallestWindow) {
+  for (int i = 0; i < 12; ++i) open({"good" + std::to_string(i) + ".dsa"});
+  window().close();
+  start();
+  window().resize(900, 600);
+  QCoreApplication::processEvents();
+  EXPECT_EQ(window().size(), QSize(900, 600));
+  EXPECT_EQ(window().findChildren<QPushButton*>("RecentRow").size(), 10);
+  auto* scroll = window().findChild<StartPage*>()->findChild<QScrollArea*>();
+  EXPECT_GT(scroll->verticalScrollBar()->maximum(), 0);
+}
+
+TEST_F(OpeningTest, TheDemoIsOfferedOnlyWhereItsFileIs) {
+  EXPECT_EQ(find<QPushButton>("startDemo"), nullptr);
+  EXPECT_FALSE(actions().openDemo->isVisible());
+}
+
+// With the real reader and the recording that comes with the program.
+TEST(Demo, PlaysInALoopThatIsNotRemembered) {
+  const testing::TemporaryFolder folder;
+  const QString ini = QString::fromStdString((folder / "a.ini").string());
+  {
+    MainWindow window({.dataFolder = testing::dataFolder(), .settingsPath = ini});
+    window.show();
+    QSignalSpy finished(&window.opener(), &RecordingOpener::finished);
+    QTest::mouseClick(window.findChild<QPushButton*>("startDemo"), Qt::LeftButton);
+    ASSERT_TRUE(finished.wait(30'000));
+    ASSERT_NE(window.current(), nullptr);
+    EXPECT_TRUE(window.playback().playing());
+    EXPECT_TRUE(window.playback().loop());
+    window.close();
+  }
+  MainWindow again({.dataFolder = testing::dataFolder(), .settingsPath = ini});
+  EXPECT_FALSE(again.playback().loop());
+}
+
+TEST(RealRecording, OpensAndShowsTheFrameOfTheSketch) {
+  const auto recordings = testing::recordingsFolder();
+  PALPATE_NEED(recordings);
+  const testing::TemporaryFolder folder;
+  MainWindow window({.dataFolder = folder.path(),
+                     .settingsPath = QString::fromStdString((folder / "a.ini").string())});
+  window.show();
+  QSignalSpy finished(&window.opener(), &RecordingOpener::finished);
+  window.openFiles({*recordings / "grasps/foam_ball.dsa"});
+  ASSERT_TRUE(finished.wait(60'000));
+  window.playback().seekFrame(2411);
+  // window.png: 36 active taxels of mean 500 and maximum 1013 in finger 0 distal; 24, 184, 338 in
+  // finger 2 distal.
+  const OpenedRecording& recording = *window.current();
+  EXPECT_EQ(recording.profile.numFrames(), 3289u);
+  EXPECT_EQ(recording.at(2411, 1).active, 36);
+  EXPECT_NEAR(recording.at(2411, 1).mean, 500, 0.5);
+  EXPECT_EQ(recording.at(2411, 1).maximum, 1013);
+  EXPECT_EQ(recording.at(2411, 5).active, 24);
+  EXPECT_NEAR(recording.at(2411, 5).mean, 184, 0.5);
+  EXPECT_EQ(recording.at(2411, 5).maximum, 338);
+  EXPECT_NEAR(window.playback().positionS(), 76.15, 0.005);
+  EXPECT_NEAR(window.playback().durationS(), 103.8, 0.05);
+}
+
+}  // namespace
+}  // namespace palpate::gui::opening_test

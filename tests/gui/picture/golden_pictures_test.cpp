@@ -1,0 +1,111 @@
+// Pictures of the window against pictures that people have looked at (tests/gui/golden): a tenth of their size, so that fonts
+// don't matter, and with a tolerance. PALPATE_RENEW_GOLDEN=1 writes them anew, to be looked at before they are committed.
+#include <QImage>
+#include <cstdlib>
+
+#include <palpate/emulator/synthetic_profile.h>
+#include <palpate/recording/recording.h>
+
+#include "gui/matrices/matrices_view.h"
+#include "gui/space/hand_panel.h"
+#include "gui/testing/window_fixture.h"
+#include "gui/timeline/event_rows.h"
+#include "gui/timeline/timeline_panel.h"
+
+namespace palpate::gui::golden_pictures_test {
+namespace {
+
+constexpr int kSmaller = 10;
+constexpr int kNear = 24;            // of 255, per colour
+constexpr double kMostOther = 0.03;  // part of the pixels that may be further off
+
+QImage small(const QImage& image) {
+  return image
+      .scaled(image.width() / kSmaller,
+              image.height() / kSmaller,
+              Qt::IgnoreAspectRatio,
+              Qt::SmoothTransformation)
+      .convertToFormat(QImage::Format_RGB32);
+}
+
+double partThatDiffers(const QImage& a, const QImage& b) {
+  int other = 0;
+  for (int y = 0; y < a.height(); ++y)
+    for (int x = 0; x < a.width(); ++x) {
+      const QRgb p = a.pixel(x, y), q = b.pixel(x, y);
+      if (std::abs(qRed(p) - qRed(q)) > kNear || std::abs(qGreen(p) - qGreen(q)) > kNear ||
+          std::abs(qBlue(p) - qBlue(q)) > kNear)
+        ++other;
+    }
+  return static_cast<double>(other) / (a.width() * a.height());
+}
+
+void compare(const QImage& picture, const std::string& name) {
+  const QImage now = small(picture);
+  const QString path = QString(PALPATE_GOLDEN_PICTURES) + "/" + QString::fromStdString(name);
+  if (std::getenv("PALPATE_RENEW_GOLDEN")) {
+    ASSERT_TRUE(now.save(path));
+  }
+  const QImage golden = QImage(path).convertToFormat(QImage::Format_RGB32);
+  ASSERT_FALSE(golden.isNull()) << path.toStdString();
+  ASSERT_EQ(now.size(), golden.size());
+  EXPECT_LE(partThatDiffers(now, golden), kMostOther) << name;
+}
+
+class GoldenPicturesTest : public WindowTest {
+ protected:
+  void show(const QSize& size, ThemeChoice theme) {
+    window_.reset();
+    const auto read = [](const std::filesystem::path&, const Progress&) {
+      return synthesize({.durationS = 12.0, .grasps = 3});
+    };
+    window_ = std::make_unique<MainWindow>(WindowSurroundings{.dataFolder = folder_.path(),
+                                                              .settingsPath = settingsFile(),
+                                                              .clock = &clock_,
+                                                              .read = read});
+    window_->setTheme(theme);
+    window_->setFixedSize(size);
+    window_->show();
+    open({"any.dsa"});
+    playback().seekFrame(window().current()->table.frameOfLargestSum());
+    window().timelinePanel().chart().setSelection(TimeSpan{4.0, 6.0});
+    for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();
+  }
+};
+
+TEST_F(GoldenPicturesTest, HeatMapsDark) {
+  show({1440, 900}, ThemeChoice::kDark);
+  press(Qt::Key_H);  // the hand in space stands beside them
+  QCoreApplication::processEvents();
+  compare(window().matricesView().grab().toImage(), "matrices_dark.png");
+}
+
+TEST_F(GoldenPicturesTest, TimelineLight) {
+  show({1440, 900}, ThemeChoice::kLight);
+  compare(window().timelinePanel().grab().toImage(), "timeline_light.png");
+}
+
+TEST_F(GoldenPicturesTest, HandDark) {
+  show({1440, 900}, ThemeChoice::kDark);
+  window().handPanel().view().setFixedSize(600, 600);
+  compare(window().handPanel().view().grab().toImage(), "hand_dark.png");
+}
+
+TEST_F(GoldenPicturesTest, HandAsBarsLight) {
+  show({1440, 900}, ThemeChoice::kLight);
+  press(Qt::Key_T);
+  press(Qt::Key_X);
+  window().handPanel().view().setFixedSize(600, 600);
+  compare(window().handPanel().view().grab().toImage(), "hand_bars_light.png");
+}
+
+TEST_F(GoldenPicturesTest, AnotherPictureIsTold) {
+  show({1440, 900}, ThemeChoice::kDark);
+  const QImage before = small(window().matricesView().grab().toImage());
+  playback().seekFrame(0);
+  QCoreApplication::processEvents();
+  EXPECT_GT(partThatDiffers(small(window().matricesView().grab().toImage()), before), kMostOther);
+}
+
+}  // namespace
+}  // namespace palpate::gui::golden_pictures_test

@@ -1,0 +1,262 @@
+// The panel of the dock Recognise by itself, on grasps of the emulated hand.
+#include <QComboBox>
+#include <QImage>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+
+#include "gui/recognise/answer_view.h"
+#include "gui/recognise/ask_page.h"
+#include "gui/recognise/check_page.h"
+#include "gui/recognise/confusion_view.h"
+#include "gui/recognise/recognise_fixture.h"
+#include "gui/recognise/teach_page.h"
+#include "gui/recognise/today_page.h"
+#include "gui/widgets/figures_table.h"
+
+namespace palpate::gui::recognise_panel_test {
+namespace {
+
+using Kind = RecognitionAnswer::Kind;
+
+TEST_F(RecognisePanelTest, WithoutAModelItSaysSo) {
+  panel_->desk().setEmulated(false);
+  settle();
+  panel_->desk().ask({graspsOf("pen", 1), std::nullopt, "a pen"});
+  settle();
+  EXPECT_EQ(panel_->desk().answer().kind, Kind::kTrouble);
+  EXPECT_TRUE(panel_->desk().answer().text.startsWith("No model is chosen."));
+  EXPECT_EQ(find<QLabel>("recogniseModel")->text(), "no model");
+  EXPECT_FALSE(find<QPushButton>("tell")->isEnabled());
+}
+
+TEST_F(RecognisePanelTest, NamesAGraspWithItsRunnersUp) {
+  panel_->desk().setEmulated(true);
+  panel_->desk().ask({graspsOf("pen", 1), std::nullopt, "a pen"});  // the model is still being read
+  settle();
+  const RecognitionAnswer& answer = panel_->desk().answer();
+  EXPECT_EQ(answer.kind, Kind::kNamed) << answer.text.toStdString();
+  EXPECT_EQ(answer.name(), "pen");
+  EXPECT_EQ(answer.word(), "sure");
+  ASSERT_EQ(answer.best.size(), 3u);
+  EXPECT_GT(answer.best[0].p, 0.9);
+  EXPECT_GE(answer.best[1].p, answer.best[2].p);
+  EXPECT_EQ(answer.offset, "session offset 0 mm: the emulated hand has none");
+  EXPECT_EQ(find<AnswerView>("answerView")->answer().name(), "pen");
+  EXPECT_EQ(find<QComboBox>("tellClass")->currentText(), "pen");
+}
+
+TEST_F(RecognisePanelTest, WhatCanNotBeJudgedIsSaid) {
+  panel_->desk().setEmulated(true);
+  settle();
+  const Profile pen = graspsOf("pen", 1);
+  const auto troubleOf = [&](const RecogniseQuestion& question) {
+    panel_->desk().ask(question);
+    settle();
+    EXPECT_EQ(panel_->desk().answer().kind, Kind::kTrouble);
+    return panel_->desk().answer().text.toStdString();
+  };
+  EXPECT_NE(troubleOf({pen, std::pair<std::size_t, std::size_t>(0, 15), ""}).find("No grasp"),
+            std::string::npos);
+  ProfileBuilder noAngles(sdh2().layout);
+  for (std::size_t i = 0; i < pen.numFrames(); ++i)
+    noAngles.addFrame(pen.frameTimeUs(i), pen.frame(i).values);
+  EXPECT_NE(troubleOf({noAngles.finish({}), std::nullopt, ""}).find("joint angles"),
+            std::string::npos);
+  const auto pad = std::make_shared<const SensorLayout>(
+      std::vector<MatrixLayout>{MatrixLayout::full(4, 4, 3.4)});
+  ProfileBuilder other(pad);
+  other.addFrame(1000, std::vector<float>(16, 1.0F));
+  EXPECT_NE(troubleOf({other.finish({}), std::nullopt, ""}).find("another sensor"),
+            std::string::npos);
+  testing::writeFile(folder_ / "damaged.json", "{\"kind\": \"palpate");
+  panel_->desk().openModel(folder_ / "damaged.json");
+  settle();
+  EXPECT_NE(find<QLabel>("recogniseModel")->text().indexOf("can't be used"), -1);
+  EXPECT_EQ(panel_->desk().answer().kind, Kind::kTrouble);
+}
+
+TEST_F(RecognisePanelTest, WhatIsToldAdaptsTheDay) {
+  panel_->desk().setEmulated(true);
+  settle();
+  panel_->desk().changeDay([](RecognitionDay& day) { day.choose({}); });
+  panel_->desk().ask({graspsOf("pen", 1), std::nullopt, ""});
+  settle();
+  find<QPushButton>("tell")->click();
+  EXPECT_EQ(panel_->desk().day()->numTold(), 1u);
+  EXPECT_EQ(panel_->desk().day()->offset().origin, OffsetOrigin::kReferences);
+  EXPECT_EQ(panel_->desk().answer().word(), "not sure") << "a single object makes nothing sure";
+  EXPECT_TRUE(panel_->desk().answer().unsure.contains("single object"));
+  EXPECT_TRUE(find<QLabel>("todayOffset")->text().contains("1 named grasp, 1 object"));
+  EXPECT_EQ(find<FiguresTable>("todayGrasps")->item(0, 3)->text(), "pen");
+  find<QPushButton>("todayForget")->click();
+  EXPECT_EQ(panel_->desk().day()->numTold(), 0u);
+}
+
+TEST_F(RecognisePanelTest, ATypedOffsetIsTaken) {
+  panel_->desk().setEmulated(true);
+  settle();
+  auto* source = find<QComboBox>("todaySource");
+  EXPECT_EQ(source->currentText(), "typed") << "the emulated hand has none: 0 mm";
+  panel_->desk().ask({graspsOf("ball", 1), std::nullopt, ""});
+  settle();
+  EXPECT_EQ(panel_->desk().answer().name(), "ball");
+  source->setCurrentIndex(1);
+  emit source->activated(1);
+  EXPECT_EQ(panel_->desk().day()->offset().origin, OffsetOrigin::kUnknown);
+  EXPECT_FALSE(panel_->desk().answer().sure);
+}
+
+TEST_F(RecognisePanelTest, AFolderTeachesAndIsChecked) {
+  panel_->teaching().setFolder(teach({"ball", "pen"}, 5));
+  settle();
+  auto* objects = find<FiguresTable>("teachObjects");
+  ASSERT_EQ(objects->rowCount(), 2);
+  EXPECT_EQ(objects->item(1, 0)->text(), "pen");
+  EXPECT_EQ(objects->item(1, 1)->text(), "5");
+  const auto out = folder_ / "mine.json";
+  panel_->teach().askForPlace = [&](const QString&) { return out; };
+  find<QPushButton>("teachTrain")->click();
+  settle();
+  EXPECT_EQ(find<QLabel>("recogniseModel")->text(), "mine.json · 2 objects");
+  EXPECT_EQ(loadModel(out).classes, (std::vector<std::string>{"ball", "pen"}));
+  panel_->show();
+  panel_->showPage("Check");
+  find<QPushButton>("checkNow")->click();
+  settle();
+  ASSERT_TRUE(panel_->check().shown());
+  ConfusionView& confusion = panel_->check().confusion();
+  EXPECT_EQ(confusion.matrix()->at(0, 0), 5u);
+  EXPECT_EQ(confusion.matrix()->at(1, 1), 5u);
+  EXPECT_TRUE(find<QLabel>("checkResult")->text().contains("0 of 10 answers wrong"));
+  confusion.choose(std::pair(1, 1));
+  EXPECT_EQ(panel_->check().listed().size(), 5u);
+  std::filesystem::path file;
+  QObject::connect(
+      &panel_->check(), &CheckPage::graspAsked, [&](const auto& path, auto, auto) { file = path; });
+  auto* grasps = find<FiguresTable>("checkGrasps");
+  emit grasps->cellClicked(0, 0);
+  EXPECT_EQ(file.filename(), "pen.palpate");
+}
+
+TEST_F(RecognisePanelTest, OneObjectIsTooFew) {
+  panel_->teaching().setFolder(teach({"pen"}, 2));
+  settle();
+  QString message;
+  QObject::connect(
+      panel_.get(), &RecognisePanel::failed, [&](const QString& text) { message = text; });
+  panel_->teach().askForPlace = [&](const QString&) { return folder_ / "m.json"; };
+  find<QPushButton>("teachTrain")->click();
+  settle();
+  EXPECT_TRUE(message.contains("two classes") || message.contains("one class") ||
+              message.contains("class"))
+      << message.toStdString();
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "m.json"));
+}
+
+TEST_F(RecognisePanelTest, CapturedGraspsGoIntoTheFolderAndOutAgain) {
+  std::filesystem::create_directories(folder_ / "mine");
+  panel_->teaching().setFolder(folder_ / "mine");
+  settle();
+  panel_->teach().setLive(true);
+  auto* capture = find<QPushButton>("teachCapture");
+  EXPECT_FALSE(capture->isEnabled()) << "nobody said what it is";
+  find<QLineEdit>("teachObject")->setText("hard ball");
+  capture->click();
+  EXPECT_FALSE(capture->text().contains("Stop")) << "L-minor 22: there is one Stop, the hand's";
+  const Profile ball = graspsOf("ball", 1);
+  panel_->teach().take(ball);
+  settle();
+  ASSERT_EQ(panel_->teaching().clips().size(), 1u);
+  const TaughtClip& clip = panel_->teaching().clips()[0];
+  EXPECT_EQ(clip.state, TaughtClip::State::kAccepted) << clip.trouble.toStdString();
+  EXPECT_EQ(clip.path.parent_path(), folder_ / "mine" / "hard_ball");
+  EXPECT_TRUE(std::filesystem::exists(clip.path));
+  EXPECT_EQ(openRecording(clip.path).numFrames(), ball.numFrames());
+  const auto kept = clip.path;
+  find<QPushButton>("teachAct")->click();
+  EXPECT_EQ(clip.state, TaughtClip::State::kTakenOut);
+  EXPECT_FALSE(std::filesystem::exists(kept));
+  EXPECT_TRUE(std::filesystem::exists(clip.path)) << "nothing is deleted";
+  EXPECT_EQ(find<QPushButton>("teachAct")->text(), "Put back");
+  find<QPushButton>("teachAct")->click();
+  settle();
+  EXPECT_EQ(clip.state, TaughtClip::State::kAccepted);
+  EXPECT_TRUE(std::filesystem::exists(kept));
+  // What is no grasp waits.
+  ProfileBuilder nothing(sdh2().layout);
+  nothing.addFrame(1'400'000'000'000'000, emptyFrame().values);
+  panel_->teach().take(nothing.finish({}));
+  EXPECT_EQ(panel_->teaching().clips()[1].state, TaughtClip::State::kWaiting);
+  EXPECT_EQ(find<QPushButton>("teachAct")->text(), "Accept");
+}
+
+TEST_F(RecognisePanelTest, APhotoIsFoundByItsName) {
+  QImage photo(40, 20, QImage::Format_RGB32);
+  photo.fill(Qt::red);
+  std::filesystem::create_directories(folder_ / "foam_ball");
+  EXPECT_EQ(photoOf("foam ball", {folder_.path()}), std::filesystem::path());
+  photo.save(QString::fromStdString((folder_ / "foam_ball" / "any.png").string()));
+  EXPECT_EQ(photoOf("foam ball", {folder_.path()}).filename(), "any.png");
+  photo.save(QString::fromStdString((folder_ / "Foam_ball.jpg").string()));
+  EXPECT_EQ(photoOf("foam ball", {{}, folder_.path()}).filename(), "Foam_ball.jpg");
+  PhotoShelf shelf;
+  shelf.setFolders({folder_.path()});
+  EXPECT_EQ(shelf.photo("foam ball").size(), QSize(40, 20));
+  EXPECT_TRUE(shelf.photo("pen").isNull());
+}
+
+// A photo beside the grasps that teach is drawn with the answer.
+TEST_F(RecognisePanelTest, ThePhotoOfTheFolderIsDrawn) {
+  const auto folder = teach({"ball", "pen"}, 3);
+  panel_->teaching().setFolder(folder);
+  settle();
+  panel_->teach().askForPlace = [&](const QString&) { return folder_ / "mine.json"; };
+  find<QPushButton>("teachTrain")->click();
+  settle();
+  panel_->show();
+  panel_->showPage("Ask");
+  auto* view = find<AnswerView>("answerView");
+  const QColor paint(255, 0, 255);  // of nothing else
+  const auto painted = [&] {
+    panel_->desk().changeDay([](RecognitionDay& day) { day.choose({}); });
+    panel_->desk().ask({graspsOf("pen", 1), std::nullopt, ""});
+    settle();
+    EXPECT_EQ(panel_->desk().answer().name(), "pen");
+    const QImage image = view->grab().toImage();
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) count += image.pixelColor(x, y) == paint ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(painted(), 0);
+  QImage photo(200, 150, QImage::Format_RGB32);
+  photo.fill(paint);
+  ASSERT_TRUE(photo.save(QString::fromStdString((folder / "pen" / "pen.png").string())));
+  panel_->desk().setPhotoFolder(folder);  // looked for anew
+  EXPECT_GT(painted(), 500);
+}
+
+TEST_F(RecognisePanelTest, EscGivesUpTrainingAndLeavesNoModel) {
+  panel_->teaching().setFolder(teach({"ball", "pen"}, 3));
+  settle();
+  const auto out = folder_ / "mine.json";
+  panel_->teach().askForPlace = [&](const QString&) { return out; };
+  find<QPushButton>("teachTrain")->click();
+  ASSERT_TRUE(panel_->teaching().busy());
+  EXPECT_TRUE(panel_->cancel()) << "what Esc does";
+  settle();
+  EXPECT_FALSE(panel_->teaching().busy());
+  EXPECT_FALSE(std::filesystem::exists(out));
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+    EXPECT_NE(entry.path().extension(), ".json") << "half a model";
+  EXPECT_EQ(panel_->desk().model(), nullptr);
+  EXPECT_FALSE(panel_->cancel()) << "nothing is left to give up";
+  // And it goes when it is asked again.
+  find<QPushButton>("teachTrain")->click();
+  settle();
+  EXPECT_TRUE(std::filesystem::exists(out));
+}
+
+}  // namespace
+}  // namespace palpate::gui::recognise_panel_test

@@ -1,0 +1,139 @@
+// The dock Recognise in the real window, of recordings and live on the emulated hand.
+#include <QCheckBox>
+#include <QDockWidget>
+#include <QPushButton>
+
+#include <palpate/control/grasp_control.h>
+
+#include "gui/recognise/answer_view.h"
+#include "gui/recognise/ask_page.h"
+#include "gui/recognise/check_page.h"
+#include "gui/recognise/recognise_fixture.h"
+#include "gui/recognise/show_window.h"
+#include "gui/timeline/event_rows.h"
+#include "gui/timeline/timeline_chart.h"
+#include "gui/timeline/timeline_panel.h"
+
+namespace palpate::gui::recognise_window_test {
+namespace {
+
+TEST_F(RecogniseWindowTest, ComesAndGoesByItsKey) {
+  openIt(record("pen"));
+  EXPECT_FALSE(dock()->isVisible());
+  press(Qt::Key_I, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_TRUE(dock()->isVisible());
+  press(Qt::Key_I, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_FALSE(dock()->isVisible());
+}
+
+TEST_F(RecogniseWindowTest, NamesTheSelectedGrasp) {
+  openIt(record("pen"));
+  press(Qt::Key_Q);
+  EXPECT_TRUE(dock()->isVisible());
+  settle();
+  panel().desk().useEmulatedModel();
+  settle();
+  press(Qt::Key_Q);
+  settle();
+  EXPECT_TRUE(answer().text.startsWith("No grasp is chosen")) << answer().text.toStdString();
+  press(Qt::Key_N);  // the first grasp
+  ASSERT_TRUE(window().timelinePanel().chart().selection());
+  press(Qt::Key_Q);
+  settle();
+  EXPECT_EQ(answer().name(), "pen") << answer().spoken().toStdString();
+  EXPECT_TRUE(answer().of.startsWith("pen.palpate, ")) << answer().of.toStdString();
+}
+
+TEST_F(RecogniseWindowTest, AnswersOnTheWholeScreen) {
+  openIt(record("pen"));
+  press(Qt::Key_Q, Qt::ShiftModifier);
+  auto* full = window().findChild<ShowWindow*>("showWindow");
+  ASSERT_NE(full, nullptr);
+  EXPECT_TRUE(full->isFullScreen());
+  panel().desk().useEmulatedModel();
+  settle();
+  press(Qt::Key_N);
+  QTest::keyClick(full, Qt::Key_Q);
+  settle();
+  EXPECT_EQ(full->view().answer().name(), "pen");
+  QTest::keyClick(full, Qt::Key_Escape);
+  EXPECT_TRUE(QTest::qWaitFor(
+      [&] { return window().findChild<ShowWindow*>("showWindow") == nullptr; }, 5'000));
+}
+
+TEST_F(RecogniseWindowTest, AGraspOfTheCheckIsOpenedAndSelected) {
+  const std::string pen = record("pen"), ball = record("ball");
+  openIt(pen);
+  emit panel().check().graspAsked(ball, 60, 200);
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return window().current() && window().current()->path == ball; }, 20'000));
+  const auto& selection = window().timelinePanel().chart().selection();
+  ASSERT_TRUE(selection);
+  EXPECT_NEAR(selection->fromS, window().current()->timeAt(60), 1e-6);
+  EXPECT_NEAR(selection->toS, window().current()->timeAt(200), 1e-6);
+}
+
+TEST_F(RecogniseWindowTest, NamesWhatTheEmulatedHandHolds) { EXPECT_EQ(heldName("pen"), "pen"); }
+
+class RecogniseLiveTest : public RecogniseWindowTest {
+ protected:
+  // The emulated hand with a pen before its open fingers; it moves when it is told.
+  RecogniseLiveTest() {
+    Connection connection;
+    connection.kind = Connection::Kind::kEmulated;
+    connection.scene = "pen";
+    window().connectTo(connection);
+    EXPECT_TRUE(QTest::qWaitFor(
+        [&] { return window().liveShown() && control().status().cannotReact.empty(); }, 20'000));
+  }
+  GraspControl& control() { return *window().live().source()->control; }
+  void moveTo(double closeRatio) {
+    GraspRequest request;
+    request.preshape = "pinch-parallel";
+    request.closeRatio = closeRatio;
+    request.velocityDegPerS = 60.0;
+    control().grasp(request);
+    EXPECT_TRUE(
+        QTest::qWaitFor([&] { return control().status().phase == GraspPhase::kIdle; }, 20'000));
+  }
+  static bool await(const std::function<bool()>& condition) {
+    return QTest::qWaitFor(condition, 20'000);
+  }
+};
+
+// L-B1: it asked itself without an end.
+TEST_F(RecogniseLiveTest, AskedByItselfWhileSomethingIsHeldItAnswers) {
+  window().showDock("Recognise");
+  find<QCheckBox>("recogniseByItself")->setChecked(true);
+  moveTo(1.0);
+  EXPECT_TRUE(await([&] { return answer().name() == "pen" && answer().of == "held now"; }))
+      << answer().spoken().toStdString();
+}
+
+// L-B1, L-M16.
+TEST_F(RecogniseLiveTest, TheShowNamesWhatIsHeldNowAndNothingThatWasLetGo) {
+  moveTo(1.0);
+  press(Qt::Key_Q, Qt::ShiftModifier);
+  auto* full = window().findChild<ShowWindow*>("showWindow");
+  ASSERT_NE(full, nullptr);
+  ASSERT_TRUE(await([&] { return full->view().answer().name() == "pen"; }));
+  moveTo(0.0);
+  EXPECT_TRUE(await([&] {
+    return full->view().answer().kind == RecognitionAnswer::Kind::kNothing &&
+           full->view().answer().text == "Hold something.";
+  })) << full->view().answer().spoken().toStdString();
+  // Asked for, the last grasp is named in the dock, which says so; an audience sees an empty hand.
+  QTest::keyClick(full, Qt::Key_Q);
+  ASSERT_TRUE(await([&] { return answer().name() == "pen" && answer().of == "the last grasp"; }));
+  EXPECT_EQ(full->view().answer().name(), "");
+  // A show that begins with an empty hand names nothing either.
+  QTest::keyClick(full, Qt::Key_Escape);
+  ASSERT_TRUE(await([&] { return window().findChild<ShowWindow*>("showWindow") == nullptr; }));
+  press(Qt::Key_Q, Qt::ShiftModifier);
+  full = window().findChild<ShowWindow*>("showWindow");
+  ASSERT_NE(full, nullptr);
+  EXPECT_EQ(full->view().answer().name(), "");
+}
+
+}  // namespace
+}  // namespace palpate::gui::recognise_window_test

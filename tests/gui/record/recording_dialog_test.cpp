@@ -1,0 +1,231 @@
+#include "gui/record/recording_dialog.h"
+
+#include <QCheckBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTest>
+#include <QToolButton>
+
+#include "testing/testing.h"
+
+namespace palpate::gui::recording_dialog_test {
+namespace {
+namespace fs = std::filesystem;
+
+class StillClock : public Clock {
+ public:
+  std::int64_t monotonicUs() const override { return 0; }
+  // 2014-11-27 12:00 UTC: the same day wherever the machine stands (but for UTC+12 and more).
+  std::int64_t wallUs() const override { return 1'417'089'600'000'000; }
+};
+
+class RecordingDialogTest : public ::testing::Test {
+ protected:
+  RecordingDialogTest() {
+    given_.folder = QString::fromStdString(folder_.path().string());
+    given_.operatorName = "Anna";
+    given_.object = "foam ball";
+    given_.notes = "first";
+    given_.markLabels[4] = "";
+    open();
+  }
+  void open(const QString& okText = "Start recording") {
+    dialog_ = std::make_unique<RecordingDialog>(given_, okText, nullptr, clock_);
+    dialog_->show();
+    dialog_->activateWindow();
+  }
+  template <class Widget>
+  Widget* find(const char* name) {
+    auto* found = dialog_->findChild<Widget*>(name);
+    if (!found) throw std::runtime_error(std::string("no ") + name);
+    return found;
+  }
+  void type(const char* field, const QString& text) {
+    auto* edit = find<QLineEdit>(field);
+    edit->setFocus();
+    edit->selectAll();
+    QTest::keyClick(edit, Qt::Key_Delete);
+    QTest::keyClicks(edit, text);
+  }
+  QString nextName() { return find<QLabel>("recordingNextName")->accessibleName(); }
+  QString place() { return find<QLabel>("recordingNextFolder")->accessibleName(); }
+  QString problem() {
+    auto* label = find<QLabel>("recordingProblem");
+    return label->isVisible() ? label->text() : QString();
+  }
+  QPushButton* ok() { return find<QPushButton>("recordingOk"); }
+  QAction* placeholder(const QString& text) {
+    for (QAction* action : find<QPushButton>("recordingInsert")->menu()->actions())
+      if (action->data() == text) return action;
+    throw std::runtime_error("no such placeholder");
+  }
+
+  const testing::TemporaryFolder folder_;
+  const StillClock clock_;
+  RecordingSettings given_;
+  std::unique_ptr<RecordingDialog> dialog_;
+};
+
+TEST_F(RecordingDialogTest, ShowsWhatIsGivenAndGivesItBack) {
+  EXPECT_EQ(ok()->text(), "Start recording");
+  const RecordingSettings back = dialog_->settings();
+  EXPECT_EQ(back.folder, given_.folder);
+  EXPECT_EQ(back.nameTemplate, given_.nameTemplate);
+  EXPECT_EQ(back.operatorName, "Anna");
+  EXPECT_EQ(back.object, "foam ball");
+  EXPECT_EQ(back.notes, "first");
+  EXPECT_TRUE(back.askEachTime);
+  EXPECT_EQ(back.markLabels, given_.markLabels);
+}
+
+TEST_F(RecordingDialogTest, WhatIsTypedIsWhatIsSaid) {
+  type("recordingOperator", "  Bert  Berg ");
+  type("recordingObject", "steel cup");
+  type("recordingTemplate", "{operator}-{object}-{run}");
+  find<QPlainTextEdit>("recordingNotes")->setPlainText("two\nlines\n\n");
+  find<QCheckBox>("recordingAsk")->click();
+  find<QToolButton>("marksHeader")->click();
+  type("markLabel0", "start");
+  type("markLabel4", " lifted ");
+  const RecordingSettings said = dialog_->settings();
+  EXPECT_EQ(said.operatorName, "Bert Berg");
+  EXPECT_EQ(said.object, "steel cup");
+  EXPECT_EQ(said.nameTemplate, "{operator}-{object}-{run}");
+  EXPECT_EQ(said.notes, "two\nlines");
+  EXPECT_FALSE(said.askEachTime);
+  EXPECT_EQ(said.markLabels[0], "start");
+  EXPECT_EQ(said.markLabels[4], "lifted");
+  EXPECT_EQ(said.markLabels[1], given_.markLabels[1]);
+  EXPECT_EQ(nextName(), "Bert_Berg-steel_cup-001.palpate");
+}
+
+TEST_F(RecordingDialogTest, TheNextNameIsSeenWhileTyping) {
+  EXPECT_EQ(nextName(), "2014-11-27_foam_ball_001.palpate");
+  EXPECT_EQ(place(), "in " + given_.folder);
+  type("recordingObject", "cup");
+  EXPECT_EQ(nextName(), "2014-11-27_cup_001.palpate");
+  EXPECT_FALSE(find<QLabel>("recordingProblem")->isVisible());
+}
+
+TEST_F(RecordingDialogTest, WhatOthersRecordMeanwhileIsCounted) {
+  testing::writeFile(folder_ / "2014-11-27_foam_ball_001.palpate", "");
+  EXPECT_TRUE(
+      QTest::qWaitFor([this] { return nextName() == "2014-11-27_foam_ball_002.palpate"; }, 10'000));
+}
+
+TEST_F(RecordingDialogTest, AFolderThatIsntThereIsSaidToBeMade) {
+  type("recordingFolder", given_.folder + "/new");
+  EXPECT_EQ(place(), "in " + given_.folder + "/new, which will be made");
+  EXPECT_TRUE(ok()->isEnabled());
+  EXPECT_FALSE(fs::exists(folder_ / "new"));
+}
+
+TEST_F(RecordingDialogTest, AProblemIsSaidAndNothingCanStart) {
+  QSignalSpy accepted(dialog_.get(), &QDialog::accepted);
+  type("recordingTemplate", "{objekt}");
+  EXPECT_TRUE(problem().contains("{objekt} isn't known; use {date}")) << problem().toStdString();
+  EXPECT_FALSE(find<QLabel>("recordingNextName")->isVisible());
+  EXPECT_FALSE(ok()->isEnabled());
+  QTest::keyClick(find<QLineEdit>("recordingTemplate"), Qt::Key_Return);
+  QTest::keyClick(find<QPlainTextEdit>("recordingNotes"), Qt::Key_Return, Qt::ControlModifier);
+  EXPECT_EQ(accepted.size(), 0);
+  EXPECT_TRUE(dialog_->isVisible());
+  type("recordingTemplate", "{object}");
+  EXPECT_EQ(problem(), "");
+  EXPECT_TRUE(ok()->isEnabled());
+  type("recordingFolder", "");
+  EXPECT_TRUE(problem().contains("choose a folder"));
+}
+
+TEST_F(RecordingDialogTest, EnterStartsEscapeCancels) {
+  QSignalSpy accepted(dialog_.get(), &QDialog::accepted);
+  QTest::keyClick(find<QLineEdit>("recordingObject"), Qt::Key_Return);
+  EXPECT_EQ(accepted.size(), 1);
+  open();
+  QSignalSpy rejected(dialog_.get(), &QDialog::rejected);
+  QTest::keyClick(find<QLineEdit>("recordingObject"), Qt::Key_Escape);
+  EXPECT_EQ(rejected.size(), 1);
+}
+
+TEST_F(RecordingDialogTest, EnterInTheNotesIsANewLineWithCtrlItStarts) {
+  QSignalSpy accepted(dialog_.get(), &QDialog::accepted);
+  auto* notes = find<QPlainTextEdit>("recordingNotes");
+  notes->setFocus();
+  notes->moveCursor(QTextCursor::End);
+  QTest::keyClick(notes, Qt::Key_Return);
+  QTest::keyClicks(notes, "second");
+  EXPECT_EQ(accepted.size(), 0);
+  EXPECT_EQ(dialog_->settings().notes, "first\nsecond");
+  QTest::keyClick(notes, Qt::Key_Return, Qt::ControlModifier);
+  EXPECT_EQ(accepted.size(), 1);
+}
+
+TEST_F(RecordingDialogTest, PlaceholdersGoWhereTheCursorIsWithWhatJoinsThem) {
+  auto* field = find<QLineEdit>("recordingTemplate");
+  type("recordingTemplate", "{date}_{run}");
+  field->setCursorPosition(7);  // before {run}
+  placeholder("{object}")->trigger();
+  EXPECT_EQ(field->text(), "{date}_{object}_{run}");
+  field->setCursorPosition(static_cast<int>(field->text().size()));
+  placeholder("{operator}")->trigger();
+  EXPECT_EQ(field->text(), "{date}_{object}_{run}_{operator}");
+  EXPECT_EQ(nextName(), "2014-11-27_foam_ball_001_Anna.palpate");
+  // What stands there already isn't offered: twice would be refused.
+  emit find<QPushButton>("recordingInsert")->menu()->aboutToShow();
+  EXPECT_FALSE(placeholder("{date}")->isEnabled());
+  EXPECT_TRUE(placeholder("{time}")->isEnabled());
+}
+
+TEST_F(RecordingDialogTest, BrowseBeginsWhereTheFolderIsOrWillBe) {
+  type("recordingFolder", given_.folder + "/not/there");
+  QString begin;
+  QString answer;
+  dialog_->askForFolder = [&](const QString& from) {
+    begin = from;
+    return answer;
+  };
+  QTest::mouseClick(find<QPushButton>("recordingBrowse"), Qt::LeftButton);
+  EXPECT_EQ(begin, given_.folder);
+  EXPECT_EQ(dialog_->settings().folder, given_.folder + "/not/there") << "cancelled";
+  fs::create_directory(folder_ / "chosen");
+  answer = given_.folder + "/chosen";
+  QTest::mouseClick(find<QPushButton>("recordingBrowse"), Qt::LeftButton);
+  EXPECT_EQ(dialog_->settings().folder, answer);
+  EXPECT_EQ(place(), "in " + answer);
+}
+
+TEST_F(RecordingDialogTest, MarksUnfoldBelowAndFoldAgain) {
+  auto* grid = find<QWidget>("marksGrid");
+  auto* notes = find<QPlainTextEdit>("recordingNotes");
+  EXPECT_FALSE(grid->isVisible());
+  EXPECT_TRUE(find<QLabel>("marksSummary")->accessibleName().startsWith("1 contact · 2 slip"));
+  EXPECT_FALSE(find<QLabel>("marksSummary")->accessibleName().contains("4"));
+  const int folded = dialog_->height();
+  const int notesHeight = notes->height();
+  find<QToolButton>("marksHeader")->click();
+  EXPECT_TRUE(grid->isVisible());
+  EXPECT_GT(dialog_->height(), folded + 100);
+  EXPECT_EQ(notes->height(), notesHeight);
+  find<QToolButton>("marksHeader")->click();
+  EXPECT_EQ(dialog_->height(), folded);
+  EXPECT_EQ(notes->height(), notesHeight);
+}
+
+TEST_F(RecordingDialogTest, ALongNameFitsIntoTheDialog) {
+  const int width = dialog_->width();
+  type("recordingTemplate", QString(160, 'x'));
+  type("recordingFolder", given_.folder + "/" + QString(200, 'y') + "/" + QString(200, 'z'));
+  QTest::qWait(0);
+  EXPECT_EQ(dialog_->width(), width);
+  auto* label = find<QLabel>("recordingNextName");
+  EXPECT_TRUE(label->text().contains(QChar(0x2026)));
+  EXPECT_LE(label->fontMetrics().horizontalAdvance(label->text()), label->width());
+  EXPECT_EQ(label->toolTip(), QString(160, 'x') + ".palpate");
+}
+
+}  // namespace
+}  // namespace palpate::gui::recording_dialog_test

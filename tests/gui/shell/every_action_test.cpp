@@ -1,0 +1,30 @@
+// Whatever is pressed, whatever the window shows, it lives and answers, and the hand can be stopped: the states without
+// waiting. All of them: every_action_slow_test.
+#include "gui/shell/every_action.h"
+
+namespace palpate::gui::every_action_test {
+namespace {
+using State = PressedWindow::State;
+
+TEST(EveryAction, OfARecordingLivesAndAnswers) {
+  PressedWindow pressed;
+  std::vector<Answered> slow;
+  ASSERT_TRUE(pressed.bring(State::kRecording));
+  pressEverything(pressed, State::kRecording, pressed.pressables(), slow);
+  judgeSlow(slow);
+}
+
+TEST(EveryAction, OfAHandThatMovesLeavesItStoppable) {
+  PressedWindow pressed;
+  std::vector<Answered> slow;
+  ASSERT_TRUE(pressed.bring(State::kMoving));
+  pressEverything(pressed,
+                  State::kMoving,
+                  PressedWindow::buttonsIn(*pressed.window().findChild<QWidget*>("Hand")),
+                  slow);
+  pressed.expectThatStopsWork("all buttons of the dock Hand");
+  judgeSlow(slow);
+}
+
+}  // namespace
+}  // namespace palpate::gui::every_action_test

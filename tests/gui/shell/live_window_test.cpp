@@ -1,0 +1,578 @@
+// The window on a hand that isn't there: connect, watch, record, mark, stop, accidents, leaving.
+#include <QComboBox>
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QSlider>
+#include <QToolButton>
+#include <set>
+
+#include <palpate/recording/recording.h>
+
+#include "control/emulated_bench.h"
+#include "gui/hand/hand_dock.h"
+#include "gui/inspect/matrix_table.h"
+#include "gui/matrices/matrices_view.h"
+#include "gui/space/hand_panel.h"
+#include "gui/testing/window_fixture.h"
+#include "gui/timeline/live_chart.h"
+#include "gui/timeline/timeline_chart.h"
+#include "gui/widgets/offer_strip.h"
+#include "gui/widgets/status_strip.h"
+
+namespace palpate::gui::live_window_test {
+namespace {
+namespace fs = std::filesystem;
+using State = LiveController::State;
+
+class LiveWindowTest : public WindowTest {
+ protected:
+  LiveWindowTest() {
+    fs::create_directory_symlink(testing::dataFolder() / "scenes", folder_ / "scenes");
+    QSettings(settingsFile(), QSettings::IniFormat).setValue("grasp/velocity_deg_per_s", 40.0);
+    ready();
+  }
+  void ready() {
+    start();
+    window().askForRecording = [this](RecordingSettings settings, const QString&) {
+      ++asked_;
+      settings.folder = QString::fromStdString((folder_ / "runs").string());
+      settings.nameTemplate = "{object}_{run}";
+      settings.object = "ball";
+      settings.markLabels[2] = "slip";
+      return std::optional(settings);
+    };
+    window().askToEndRecording = [this] {
+      ++askedToEnd_;
+      return mayEnd_;
+    };
+  }
+  static bool await(const std::function<bool()>& condition) {
+    return QTest::qWaitFor(condition, 20'000);
+  }
+  void connectTo(const Connection& connection) {
+    window().connectTo(connection);
+    ASSERT_TRUE(await([&] { return !live().stale() && window().liveShown(); }));
+  }
+  void connectEmulated(const QString& scene = "ball") {
+    Connection connection;
+    connection.kind = Connection::Kind::kEmulated;
+    connection.scene = scene;
+    connectTo(connection);
+  }
+  void connectBench() {
+    bench_ = std::make_unique<testing::EmulatedBench>(testing::handWith("ball"));
+    Connection connection;
+    connection.kind = Connection::Kind::kPorts;
+    connection.dsaPort = QString::fromStdString(bench_->hand->dsaPort());
+    connection.sdhPort = QString::fromStdString(bench_->hand->sdhPort());
+    connectTo(connection);
+    ASSERT_TRUE(await([&] { return live().source()->control->status().cannotReact.empty(); }));
+  }
+  LiveController& live() { return window().live(); }
+  MatricesView& view() { return window().matricesView(); }
+  LiveChart& chart() { return *window().findChild<LiveChart*>(); }
+  QString offered() {
+    const auto* strip = window().findChild<OfferStrip*>();
+    return strip->isVisible() ? strip->text() : QString();
+  }
+  // As soon as it may be clicked.
+  void click(const char* name) {
+    auto* button = find<QPushButton>(name);
+    ASSERT_TRUE(await([&] { return button->isEnabled() && button->isVisible(); })) << name;
+    QTest::mouseClick(button, Qt::LeftButton);
+  }
+
+  std::unique_ptr<testing::EmulatedBench> bench_;
+  int asked_ = 0, askedToEnd_ = 0;
+  bool mayEnd_ = true;
+};
+
+TEST_F(LiveWindowTest, ShowsWhatIsConnected) {
+  connectEmulated();
+  EXPECT_EQ(window().windowTitle(), "emulated hand · ball – Palpate");
+  EXPECT_TRUE(find<QDockWidget>("Hand")->isVisible());
+  EXPECT_TRUE(find<QDockWidget>("Timeline")->isVisible());
+  EXPECT_TRUE(chart().isVisible());
+  EXPECT_FALSE(window().findChild<TimelineChart*>()->isVisible());
+  EXPECT_TRUE(await([&] { return find<StatusStrip>("statusStrip")->status().state == "live"; }));
+  EXPECT_TRUE(await([&] { return find<QLabel>("LinkPill")->text().contains("fps"); }));
+  EXPECT_TRUE(view().notice().isEmpty());
+  EXPECT_TRUE(actions().record->isEnabled());
+  EXPECT_FALSE(actions().play->isEnabled());
+}
+
+TEST_F(LiveWindowTest, NoKeyMeansTwoThingsAtOnce) {
+  connectEmulated("empty");
+  std::set<QString> seen;
+  for (const QAction* action : window().actions())
+    for (const QKeySequence& key :
+         action->isEnabled() ? action->shortcuts() : QList<QKeySequence>())
+      EXPECT_TRUE(seen.insert(key.toString()).second) << key.toString().toStdString();
+  EXPECT_TRUE(seen.contains("Space"));
+  EXPECT_TRUE(seen.contains("0"));
+}
+
+TEST_F(LiveWindowTest, NothingIsConnectedWithoutBeingAsked) {
+  EXPECT_EQ(live().state(), State::kNone);
+  EXPECT_FALSE(actions().record->isEnabled());
+  EXPECT_FALSE(actions().live->isEnabled());
+  EXPECT_FALSE(actions().disconnectHand->isEnabled());
+  EXPECT_FALSE(actions().mark->isEnabled());
+}
+
+TEST_F(LiveWindowTest, AReactiveGraspIsFeltSeenAndStopped) {
+  connectBench();
+  EXPECT_FALSE(bench_->handMoves()) << "connecting moves nothing";
+  click("reactiveGrasp");
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  auto* table = window().findChild<MatrixTableModel*>();
+  const auto active = [&] {
+    return table->index(static_cast<int>(table->numMatrices()), MatrixTableModel::kActive)
+        .data()
+        .toInt();
+  };
+  ASSERT_TRUE(await([&] { return active() > 0; })) << "the ball is felt";
+  ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
+  EXPECT_TRUE(find<QLabel>("handState")->text().contains("limit"));
+}
+
+TEST_F(LiveWindowTest, EscapeStopsTheHandWhateverIsShown) {
+  connectBench();
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  open({"good.dsa"});
+  EXPECT_FALSE(window().liveShown());
+  press(Qt::Key_Escape);
+  ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
+  EXPECT_NE(window().current(), nullptr) << "Escape stopped the hand and did nothing else";
+}
+
+TEST_F(LiveWindowTest, RecordsWithMarksAndOpensWhatWasRecorded) {
+  connectEmulated();
+  press(Qt::Key_R, Qt::ControlModifier);
+  EXPECT_EQ(asked_, 1);
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 5; }));
+  EXPECT_TRUE(await([&] { return actions().record->iconText().contains("MB"); }))
+      << actions().record->iconText().toStdString();
+  EXPECT_TRUE(find<QToolButton>("recordButton")->property("recording").toBool());
+  press(Qt::Key_Space);
+  press(Qt::Key_2);
+  ASSERT_TRUE(await([&] { return chart().numEvents() == 2; }));
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return offered().contains("ball_001.palpate"); }));
+  EXPECT_TRUE(offered().contains("nothing lost"));
+  const auto events = readEvents(folder_ / "runs" / "ball_001.palpate").events;
+  const auto count = [&](const std::string& kind, const std::string& text) {
+    return std::count_if(events.begin(), events.end(), [&](const RecordingEvent& event) {
+      return event.kind == kind && event.text == text;
+    });
+  };
+  EXPECT_EQ(count("mark", ""), 1);
+  EXPECT_EQ(count("label", "slip"), 1);
+  const Profile profile = openRecording(folder_ / "runs" / "ball_001.palpate");
+  EXPECT_GT(profile.numFrames(), 5u);
+  EXPECT_GT(profile.numAngles(), 0u);
+
+  click("offerAccept");
+  EXPECT_TRUE(await([&] { return window().opener().numWaiting() == 0 && reads_ > 0; }));
+  press(Qt::Key_F6);
+  EXPECT_TRUE(window().liveShown());
+}
+
+TEST_F(LiveWindowTest, ARecordingGoesOnWhileAnotherIsLookedAt) {
+  connectEmulated();
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 0; }));
+  open({"good.dsa"});
+  EXPECT_FALSE(window().liveShown());
+  EXPECT_TRUE(actions().play->isEnabled()) << "the space bar plays now";
+  EXPECT_FALSE(actions().mark->isEnabled());
+  const auto before = live().health().recorder.framesOnDisk;
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > before + 5; }));
+  press(Qt::Key_F6);
+  EXPECT_TRUE(window().liveShown());
+  EXPECT_TRUE(actions().mark->isEnabled());
+  press(Qt::Key_Space);
+  ASSERT_TRUE(await([&] { return chart().numEvents() == 1; }));
+  open({"good2.dsa"});
+  press(Qt::Key_F6);
+  EXPECT_EQ(chart().numEvents(), 1u) << "marks stay in the chart";
+  press(Qt::Key_W, Qt::ControlModifier);
+  EXPECT_EQ(window().recordings().size(), 2u) << "none of them is shown: none is closed";
+  press(Qt::Key_Tab, Qt::ControlModifier);
+  EXPECT_FALSE(window().liveShown());
+  for (int i = 0; i < 2; ++i) press(Qt::Key_W, Qt::ControlModifier);
+  EXPECT_TRUE(window().recordings().empty());
+  EXPECT_TRUE(window().liveShown()) << "recordings are closed, the hand stays";
+}
+
+TEST_F(LiveWindowTest, ClosingAsksOnceAndFinishesTheRecording) {
+  connectEmulated();
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 5; }));
+  mayEnd_ = false;
+  window().close();
+  EXPECT_EQ(askedToEnd_, 1);
+  EXPECT_TRUE(window().isVisible());
+  EXPECT_TRUE(live().recording());
+  mayEnd_ = true;
+  window().close();
+  EXPECT_EQ(askedToEnd_, 2);
+  ASSERT_TRUE(await([&] { return !window().isVisible(); }));
+  EXPECT_EQ(verifyRecording(folder_ / "runs" / "ball_001.palpate").state,
+            VerifyReport::State::kSound);
+}
+
+TEST_F(LiveWindowTest, ClosingWhileTheHandMovesStopsIt) {
+  connectBench();
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  window().close();
+  ASSERT_TRUE(await([&] { return !window().isVisible(); }));
+  EXPECT_FALSE(bench_->handMoves());
+  EXPECT_EQ(askedToEnd_, 0) << "no recording, no question";
+}
+
+TEST_F(LiveWindowTest, AskedToEndByASignalItStopsAndFinishesWithoutAsking) {
+  connectBench();
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 5; }));
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  mayEnd_ = false;
+  window().endNow();
+  ASSERT_TRUE(await([&] { return !window().isVisible(); }));
+  EXPECT_EQ(askedToEnd_, 0);
+  EXPECT_FALSE(bench_->handMoves());
+  EXPECT_EQ(verifyRecording(folder_ / "runs" / "ball_001.palpate").state,
+            VerifyReport::State::kSound);
+}
+
+TEST_F(LiveWindowTest, AMotionPortThatGoesAwayInAGraspIsSaidAndStoppedOnReturn) {
+  connectBench();
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  bench_->hand->unplug(false, true);
+  ASSERT_TRUE(await([&] { return find<QLabel>("handState")->text().contains("by itself"); }));
+  EXPECT_FALSE(find<QPushButton>("graspHand")->isEnabled());
+  EXPECT_TRUE(find<QPushButton>("stopHand")->isEnabled()) << "Stop is always there";
+  EXPECT_TRUE(view().notice().isEmpty()) << "the tactile stream goes on";
+  bench_->log.restart();
+  bench_->hand->replug();
+  ASSERT_TRUE(await([&] { return !bench_->log.named("stop").empty(); }));
+  ASSERT_TRUE(await([&] { return find<QPushButton>("graspHand")->isEnabled(); }));
+  EXPECT_FALSE(bench_->handMoves());
+}
+
+TEST_F(LiveWindowTest, ATactileStreamThatDiesInAReactiveGraspStopsTheHand) {
+  connectBench();
+  click("reactiveGrasp");
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  bench_->hand->mute(true);
+  ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
+  ASSERT_TRUE(await([&] { return !view().notice().isEmpty(); }))
+      << "and the picture says it is old";
+  bench_->hand->mute(false);
+  ASSERT_TRUE(await([&] { return view().notice().isEmpty(); }));
+}
+
+TEST_F(LiveWindowTest, APulledPlugIsSaidAndTheHandIsFoundAgain) {
+  connectBench();
+  bench_->hand->unplug();
+  ASSERT_TRUE(await([&] { return !view().notice().isEmpty(); }));
+  ASSERT_TRUE(await(
+      [&] { return find<StatusStrip>("statusStrip")->status().lamp == Status::Lamp::kWarning; }));
+  EXPECT_TRUE(await([&] { return find<QWidget>("AlarmStrip")->isVisible(); }));
+  bench_->hand->replug();
+  ASSERT_TRUE(await([&] { return view().notice().isEmpty(); }));
+  ASSERT_TRUE(await([&] { return !find<QWidget>("AlarmStrip")->isVisible(); }));
+  EXPECT_TRUE(await([&] { return live().health().device.tactile.reconnects == 1; }));
+}
+
+TEST_F(LiveWindowTest, ThePictureIsHeldAndGoesOn) {
+  connectEmulated("ball");
+  ASSERT_TRUE(await([&] { return view().paintedUs() > 0; }));
+  press(Qt::Key_P);
+  QCoreApplication::processEvents();  // the newest frame, with the line that it is held
+  const auto held = view().paintedUs();
+  const auto frames = live().health().frames.frames;
+  ASSERT_TRUE(await([&] { return live().health().frames.frames > frames + 10; }));
+  EXPECT_EQ(view().paintedUs(), held);
+  press(Qt::Key_P);
+  click("reactiveGrasp");
+  EXPECT_TRUE(await([&] { return view().paintedUs() > held; }));
+}
+
+// As a picture of the screen has it.
+QImage pictureOf(QWidget& widget) { return widget.grab().toImage(); }
+
+// L-M4
+TEST_F(LiveWindowTest, TheHandInSpaceIsMarkedWhenItsPictureIsOld) {
+  connectBench();
+  HandView& hand = window().handPanel().view();
+  ASSERT_TRUE(await([&] { return hand.isVisible() && hand.drawing().moment().frame; }));
+  const QImage live = pictureOf(hand);
+  bench_->hand->unplug();
+  ASSERT_TRUE(await([&] { return !view().notice().isEmpty(); }));
+  EXPECT_NE(pictureOf(hand), live) << "a hand that is gone looks like one that is there";
+  bench_->hand->replug();
+  ASSERT_TRUE(await([&] { return view().notice().isEmpty(); }));
+  EXPECT_TRUE(await([&] { return pictureOf(hand) == live; }));
+}
+
+// L-M4
+TEST_F(LiveWindowTest, APictureThatIsHeldSaysSoInEveryView) {
+  connectEmulated("empty");
+  HandView& hand = window().handPanel().view();
+  ASSERT_TRUE(await([&] { return hand.drawing().moment().frame && view().paintedUs() > 0; }));
+  const auto corner = [](QWidget& widget) {
+    const QImage whole = pictureOf(widget);
+    return whole.copy(0, 0, whole.width(), whole.height() / 4);
+  };
+  const QImage matricesBefore = corner(view()), handBefore = corner(hand);
+  press(Qt::Key_P);
+  EXPECT_TRUE(view().notice().contains("held")) << view().notice().toStdString();
+  EXPECT_NE(corner(view()), matricesBefore);
+  EXPECT_NE(corner(hand), handBefore);
+  const QImage chartHeld = pictureOf(chart());
+  EXPECT_EQ(find<StatusStrip>("statusStrip")->status().lamp, Status::Lamp::kWarning);
+  press(Qt::Key_P);
+  EXPECT_TRUE(view().notice().isEmpty());
+  EXPECT_EQ(corner(view()), matricesBefore);
+  EXPECT_NE(pictureOf(chart()), chartHeld);
+}
+
+// L-M10
+TEST_F(LiveWindowTest, WhyNothingWasRecordedGoesAsSoonAsItRecords) {
+  connectEmulated("empty");
+  const auto mended = window().askForRecording;
+  window().askForRecording = [&](RecordingSettings settings, const QString& button) {
+    settings = *mended(settings, button);
+    settings.folder = "/proc/no_such_folder";
+    return std::optional(settings);
+  };
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return bannerText().contains("Not recording"); }));
+  window().askForRecording = mended;
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 0; }));
+  EXPECT_EQ(bannerText().toStdString(), "");
+}
+
+// L-M1: in every field, slider and box that can be seen, of every dock.
+TEST_F(LiveWindowTest, TheWheelChangesNothingThatHasNoFocus) {
+  connectEmulated("empty");
+  ASSERT_TRUE(await([&] { return live().source()->control->status().cannotReact.empty(); }));
+  int tried = 0;
+  const auto turn = [&](QWidget* widget, const std::function<double()>& value) {
+    if (!widget->isVisible() || !widget->isEnabled()) return;
+    if (QWidget* focused = QApplication::focusWidget()) focused->clearFocus();
+    const double before = value();
+    for (const int notch : {120, -120, -120}) {
+      const QPointF middle = QRectF(widget->rect()).center();
+      QWheelEvent wheel(middle,
+                        widget->mapToGlobal(middle),
+                        {},
+                        {0, notch},
+                        Qt::NoButton,
+                        Qt::NoModifier,
+                        Qt::NoScrollPhase,
+                        false);
+      QCoreApplication::sendEvent(widget, &wheel);
+      EXPECT_EQ(value(), before) << widget->metaObject()->className() << " "
+                                 << widget->objectName().toStdString() << " "
+                                 << widget->accessibleName().toStdString();
+    }
+    EXPECT_FALSE(widget->hasFocus()) << widget->objectName().toStdString();
+    ++tried;
+  };
+  for (const QString& dock : window().dockNames()) {
+    window().showDock(dock);
+    QCoreApplication::processEvents();
+    for (auto* field : window().findChildren<QSpinBox*>())
+      turn(field, [field] { return field->value(); });
+    for (auto* field : window().findChildren<QDoubleSpinBox*>())
+      turn(field, [field] { return field->value(); });
+    for (auto* slider : window().findChildren<QSlider*>())
+      turn(slider, [slider] { return slider->value(); });
+    for (auto* box : window().findChildren<QComboBox*>())
+      turn(box, [box] { return box->currentIndex(); });
+  }
+  EXPECT_GT(tried, 40);
+  const auto settings = live().source()->session->device().facts().matrices;
+  EXPECT_EQ(settings.at(1).thresholdCounts, 300);
+}
+
+// L-M1: with the focus it is the field's.
+TEST_F(LiveWindowTest, TheWheelTurnsAFieldThatHasTheFocus) {
+  connectEmulated("empty");
+  auto* velocity = find<QWidget>("velocity")->findChild<QDoubleSpinBox*>();
+  velocity->setFocus();
+  const double before = velocity->value();
+  QWheelEvent wheel({5, 5},
+                    velocity->mapToGlobal(QPointF(5, 5)),
+                    {},
+                    {0, 120},
+                    Qt::NoButton,
+                    Qt::NoModifier,
+                    Qt::NoScrollPhase,
+                    false);
+  QCoreApplication::sendEvent(velocity, &wheel);
+  EXPECT_EQ(velocity->value(), before + 1.0);
+}
+
+// L-M8
+TEST_F(LiveWindowTest, TheHandIsMovedByKeysOfItsMenu) {
+  connectBench();
+  const auto action = [&](const QString& text) -> QAction* {
+    for (QAction* each : window().actions())
+      if (plainText(*each) == text) return each;
+    return nullptr;
+  };
+  for (const char* text :
+       {"Grasp", "Reactive grasp", "Slip-aware grasp", "Open the hand", "Relax"}) {
+    QAction* each = action(text);
+    ASSERT_NE(each, nullptr) << text;
+    EXPECT_FALSE(each->shortcut().isEmpty()) << text;
+    EXPECT_TRUE(await([&] { return each->isEnabled(); })) << text;
+  }
+  press(Qt::Key_G, Qt::ControlModifier | Qt::AltModifier);
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  ASSERT_TRUE(await([&] { return !action("Open the hand")->isEnabled(); })) << "it moves";
+  press(Qt::Key_Escape);
+  ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
+  const std::vector<QString> texts{"Grasp", "Reactive grasp", "Slip-aware grasp", "Open the hand"};
+  press(Qt::Key_K, Qt::ControlModifier | Qt::ShiftModifier);
+  ASSERT_TRUE(await([&] { return live().state() == State::kNone; }));
+  for (const QString& text : texts) EXPECT_FALSE(action(text)->isEnabled()) << text.toStdString();
+}
+
+// L-M2
+TEST_F(LiveWindowTest, ABlindMatrixIsMarkedInTheHeatMaps) {
+  connectBench();
+  ASSERT_TRUE(await([&] { return view().paintedUs() > 0; }));
+  const QImage seeing = pictureOf(view());
+  live().source()->control->change(SetThreshold{1, 4095});
+  ASSERT_TRUE(await([&] { return view().blind().size() == 2; }));
+  EXPECT_TRUE(view().blind()[0].isEmpty());
+  EXPECT_TRUE(view().blind()[1].contains("finger 0 distal")) << view().blind()[1].toStdString();
+  EXPECT_NE(pictureOf(view()), seeing);
+  open({"good.dsa"});
+  EXPECT_TRUE(view().blind().empty()) << "of a recording nothing is to be grasped";
+  press(Qt::Key_F6);
+  EXPECT_EQ(view().blind().size(), 2u);
+}
+
+// L-M13: what the chart marks and the log says.
+TEST_F(LiveWindowTest, OpeningAndRefusalsAreNamedInTheLog) {
+  connectBench();
+  QStringList logged;
+  QObject::connect(&live(),
+                   &LiveController::eventsCame,
+                   &window(),
+                   [&](const std::vector<RecordingEvent>& came) {
+                     for (const RecordingEvent& event : came)
+                       if (event.kind == "grasp") logged.append(QString::fromStdString(event.text));
+                   });
+  click("openHand");
+  ASSERT_TRUE(await([&] { return !logged.isEmpty(); }));
+  EXPECT_TRUE(logged.front().startsWith("opening")) << logged.front().toStdString();
+  ASSERT_TRUE(await([&] { return live().source()->control->status().phase == GraspPhase::kIdle; }));
+  logged.clear();
+  GraspRequest wrong;
+  wrong.mode = GraspMode::kReactive;
+  wrong.limitCounts = 1;
+  EXPECT_THROW(live().source()->control->grasp(wrong), std::invalid_argument);
+  ASSERT_TRUE(await([&] { return !logged.isEmpty(); }));
+  EXPECT_TRUE(logged.front().startsWith("reactive grasp refused")) << logged.front().toStdString();
+}
+
+TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {
+  connectBench();
+  TaxelSelection chosen(*sdh2().layout);
+  chosen.add(1, 5, 1, 8, 4);
+  view().select(chosen);
+  EXPECT_TRUE(find<StatusStrip>("statusStrip")->status().notice.contains("16 taxels chosen"));
+  actions().scanOnly->trigger();
+  const auto enabled = [&](std::size_t matrix) {
+    return live().source()->session->device().hand().layout->matrix(matrix).numEnabled();
+  };
+  ASSERT_TRUE(await([&] { return enabled(1) == 16; }));
+  EXPECT_EQ(enabled(0), sdh2().layout->matrix(0).numTaxels());
+  EXPECT_EQ(view().selection().count(), 16u) << "what is chosen stays chosen";
+  actions().scanAll->trigger();
+  ASSERT_TRUE(await([&] { return enabled(1) == sdh2().layout->matrix(1).numTaxels(); }));
+}
+
+TEST_F(LiveWindowTest, DisconnectingComesBackToWhatWasOpen) {
+  open({"good.dsa"});
+  connectEmulated();
+  EXPECT_TRUE(window().liveShown());
+  press(Qt::Key_K, Qt::ControlModifier | Qt::ShiftModifier);
+  ASSERT_TRUE(await([&] { return live().state() == State::kNone; }));
+  EXPECT_FALSE(window().liveShown());
+  ASSERT_NE(window().current(), nullptr);
+  EXPECT_TRUE(window().findChild<TimelineChart*>()->isVisible());
+  EXPECT_TRUE(view().notice().isEmpty());
+}
+
+TEST_F(LiveWindowTest, AConnectionThatFailsSaysWhyAndRemembersNothing) {
+  Connection wrong;
+  wrong.scene = "no_such_scene";
+  window().connectTo(wrong);
+  ASSERT_TRUE(await([&] { return bannerText().contains("no_such_scene"); }));
+  EXPECT_EQ(live().state(), State::kNone);
+  const QSettings settings(settingsFile(), QSettings::IniFormat);
+  EXPECT_EQ(loadConnection(settings), Connection{});
+}
+
+TEST_F(LiveWindowTest, TheConnectButtonOffersScenesAndTheLastConnection) {
+  connectEmulated("pen");
+  window().close();
+  ASSERT_TRUE(await([&] { return !window().isVisible(); }));
+  ready();
+  auto* menu = find<QToolButton>("connectButton")->menu();
+  emit menu->aboutToShow();
+  QStringList texts;
+  for (const QAction* action : menu->actions()) texts.append(action->text());
+  EXPECT_TRUE(texts.contains("Again: emulated hand · pen")) << texts.join("|").toStdString();
+  EXPECT_TRUE(texts.contains("&Emulated hand"));
+  EXPECT_TRUE(texts.contains("&Replay of a recording"));
+  menu->actions().front()->trigger();
+  ASSERT_TRUE(await([&] { return window().liveShown(); }));
+}
+
+TEST_F(LiveWindowTest, AReplayThatEndsIsNoAlarm) {
+  connectEmulated("empty");
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 5; }));
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return offered().contains("ball_001.palpate"); }));
+  Connection replay;
+  replay.kind = Connection::Kind::kReplay;
+  replay.recording = QString::fromStdString((folder_ / "runs/ball_001.palpate").string());
+  window().connectTo(replay);
+  ASSERT_TRUE(await([&] { return live().source() && live().source()->finished(); }));
+  ASSERT_TRUE(await([&] { return view().notice() == "the replay has ended"; }));
+  // A second without a frame is an alarm elsewhere.
+  ASSERT_TRUE(await([&] { return live().silentS() > 1.6; }));
+  live().look();
+  EXPECT_FALSE(find<QWidget>("AlarmStrip")->isVisible());
+}
+
+TEST_F(LiveWindowTest, TheDemoGraspsByItself) {
+  window().openDemo();
+  auto* table = window().findChild<MatrixTableModel*>();
+  ASSERT_TRUE(await([&] {
+    return table->numMatrices() > 0 &&
+           table->index(static_cast<int>(table->numMatrices()), MatrixTableModel::kActive)
+                   .data()
+                   .toInt() > 10;
+  }));
+}
+
+}  // namespace
+}  // namespace palpate::gui::live_window_test

@@ -1,0 +1,351 @@
+// Every action of the window has its effect, by its key.
+#include <QClipboard>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QSpinBox>
+#include <set>
+
+#include "gui/export/take_away.h"
+#include "gui/help/about_dialog.h"
+#include "gui/help/keys_dialog.h"
+#include "gui/matrices/matrices_view.h"
+#include "gui/testing/window_fixture.h"
+#include "gui/timeline/timeline_chart.h"
+#include "gui/widgets/status_strip.h"
+
+namespace palpate::gui::main_window_test {
+namespace {
+
+class MainWindowTest : public WindowTest {
+ protected:
+  MainWindowTest() { open({"good.dsa"}); }
+  const MatricesLook& look() { return find<MatricesView>("matricesView")->look(); }
+  const Status& status() { return find<StatusStrip>("statusStrip")->status(); }
+  TimelineChart& timeline() { return *window().findChild<TimelineChart*>(); }
+  void pass(std::int64_t ms) {
+    clock_.advanceMs(ms);
+    playback().tick();
+  }
+};
+
+TEST_F(MainWindowTest, SpacePlaysAndPauses) {
+  press(Qt::Key_Space);
+  EXPECT_TRUE(playback().playing());
+  EXPECT_EQ(status().lamp, Status::Lamp::kGood);
+  EXPECT_TRUE(status().state.contains("playing 1×"));
+  pass(100);
+  EXPECT_EQ(playback().frame(), 2u);
+  press(Qt::Key_Space);
+  EXPECT_FALSE(playback().playing());
+  EXPECT_TRUE(status().state.contains("paused"));
+}
+
+TEST_F(MainWindowTest, ArrowsStepAndWithShiftTen) {
+  press(Qt::Key_Right);
+  press(Qt::Key_Right);
+  EXPECT_EQ(playback().frame(), 2u);
+  press(Qt::Key_Left);
+  EXPECT_EQ(playback().frame(), 1u);
+  press(Qt::Key_Right, Qt::ShiftModifier);
+  EXPECT_EQ(playback().frame(), 11u);
+  press(Qt::Key_Left, Qt::ShiftModifier);
+  press(Qt::Key_Left);
+  EXPECT_EQ(playback().frame(), 0u) << "frame 0 can be reached";
+}
+
+TEST_F(MainWindowTest, HomeAndEnd) {
+  press(Qt::Key_End);
+  EXPECT_EQ(playback().frame(), 19u);
+  press(Qt::Key_Home);
+  EXPECT_EQ(playback().frame(), 0u);
+}
+
+TEST_F(MainWindowTest, UpDownPlusMinusChangeTheSpeed) {
+  press(Qt::Key_Up);
+  EXPECT_EQ(playback().speed(), 2.0);
+  press(Qt::Key_Plus);
+  EXPECT_EQ(playback().speed(), 4.0);
+  EXPECT_EQ(find<QComboBox>("speedBox")->currentText(), "4×");
+  press(Qt::Key_Minus);
+  press(Qt::Key_Down);
+  press(Qt::Key_Down);
+  EXPECT_EQ(playback().speed(), 0.5);
+  EXPECT_EQ(find<QComboBox>("speedBox")->currentText(), "0.5×");
+}
+
+TEST_F(MainWindowTest, TheSpeedBoxAndItsMenuSetTheSpeed) {
+  auto* box = find<QComboBox>("speedBox");
+  ASSERT_EQ(box->count(), 8);
+  emit box->activated(7);
+  EXPECT_EQ(playback().speed(), 16.0);
+  actions().speeds->actions().at(0)->trigger();
+  EXPECT_EQ(playback().speed(), 0.1);
+  EXPECT_EQ(box->currentIndex(), 0);
+}
+
+TEST_F(MainWindowTest, LoopAndSkipGaps) {
+  press(Qt::Key_L);
+  EXPECT_TRUE(playback().loop());
+  EXPECT_TRUE(actions().loop->isChecked());
+  press(Qt::Key_G);
+  EXPECT_TRUE(playback().skipGaps());
+  press(Qt::Key_L);
+  press(Qt::Key_G);
+  EXPECT_FALSE(playback().loop() || playback().skipGaps());
+}
+
+TEST_F(MainWindowTest, GoToFramePutsTheKeyboardIntoTheField) {
+  press(Qt::Key_G, Qt::ControlModifier);
+  auto* field = find<QSpinBox>("frameField");
+  ASSERT_TRUE(field->hasFocus());
+  QTest::keyClicks(field, "13");
+  QTest::keyClick(field, Qt::Key_Return);
+  EXPECT_EQ(playback().frame(), 13u);
+  EXPECT_FALSE(field->hasFocus()) << "the keys belong to the playback again";
+}
+
+TEST_F(MainWindowTest, LooksOfTheHeatMaps) {
+  press(Qt::Key_I);
+  EXPECT_TRUE(look().interpolated);
+  press(Qt::Key_V);
+  EXPECT_TRUE(look().values);
+  press(Qt::Key_I);
+  press(Qt::Key_V);
+  EXPECT_FALSE(look().interpolated || look().values);
+}
+
+TEST_F(MainWindowTest, ColourMapsByKeyBoxAndMenu) {
+  for (const ColorMapName map : {ColorMapName::kViridis, ColorMapName::kMagma}) {
+    press(Qt::Key_M);
+    EXPECT_EQ(look().map, map);
+  }
+  for (int i = 0; i < 5; ++i) press(Qt::Key_M);
+  EXPECT_EQ(look().map, ColorMapName::kInferno) << "around";
+  auto* box = find<QComboBox>("mapBox");
+  emit box->activated(4);
+  EXPECT_EQ(look().map, ColorMapName::kCividis);
+  EXPECT_TRUE(actions().maps->actions().at(4)->isChecked());
+  actions().maps->actions().at(6)->trigger();
+  EXPECT_EQ(look().map, ColorMapName::kGrey);
+  EXPECT_EQ(box->currentText(), "grey");
+}
+
+TEST_F(MainWindowTest, RangesByKeyBoxMenuAndFields) {
+  // Frame i holds 10 * (i + 1) counts; 200 in the whole recording.
+  press(Qt::Key_Right);
+  EXPECT_EQ(look().range, (ValueRange{0, 200}));
+  press(Qt::Key_R);
+  EXPECT_EQ(look().range, (ValueRange{0, 20})) << "this frame";
+  press(Qt::Key_Right);
+  EXPECT_EQ(look().range, (ValueRange{0, 30})) << "follows the frame";
+  press(Qt::Key_R);
+  EXPECT_EQ(look().range, (ValueRange{0, 4095})) << "full scale";
+  press(Qt::Key_R);
+  auto* low = find<QDoubleSpinBox>("rangeMinimum");
+  auto* high = find<QDoubleSpinBox>("rangeMaximum");
+  ASSERT_TRUE(low->isVisible());
+  low->setValue(50);
+  high->setValue(150);
+  EXPECT_EQ(look().range, (ValueRange{50, 150}));
+  low->setValue(400);
+  EXPECT_EQ(look().range, (ValueRange{400, 401})) << "never empty";
+  emit find<QComboBox>("rangeBox")->activated(0);
+  EXPECT_EQ(look().range, (ValueRange{0, 200}));
+  EXPECT_FALSE(low->isVisible());
+  actions().ranges->actions().at(2)->trigger();
+  EXPECT_EQ(look().range, (ValueRange{0, 4095}));
+}
+
+TEST_F(MainWindowTest, SignalsByKeyBoxAndMenu) {
+  window().resize(1400, 1300);  // high enough for the whole label
+  press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
+  QCoreApplication::processEvents();
+  press(Qt::Key_S);
+  EXPECT_EQ(window().viewSettings().signal, PlottedSignal::kFilteredMean);
+  EXPECT_EQ(timeline().yAxis->label(), "filtered mean in counts");
+  emit find<QComboBox>("signalBox")->activated(6);
+  EXPECT_EQ(timeline().yAxis->label(), "active area in mm²");
+  actions().signalsPlotted->actions().at(5)->trigger();
+  EXPECT_EQ(timeline().yAxis->label(), "active taxels");
+  EXPECT_EQ(find<QComboBox>("signalBox")->currentText(), "active taxels");
+  window().resize(900, 600);
+  press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
+  QCoreApplication::processEvents();
+  EXPECT_EQ(timeline().yAxis->label(), "taxels") << "a low chart names the unit alone";
+}
+
+TEST_F(MainWindowTest, ZoomKeysChangeWhatIsSeen) {
+  const double all = timeline().seen().size();
+  press(Qt::Key_Plus, Qt::ControlModifier);
+  EXPECT_LT(timeline().seen().size(), all);
+  press(Qt::Key_Minus, Qt::ControlModifier);
+  EXPECT_NEAR(timeline().seen().size(), all, 1e-9);
+  press(Qt::Key_Equal, Qt::ControlModifier);
+  press(Qt::Key_Equal, Qt::ControlModifier);
+  press(Qt::Key_F);
+  EXPECT_NEAR(timeline().seen().size(), all, 1e-9);
+}
+
+TEST_F(MainWindowTest, DigitsPlotMatrices) {
+  ASSERT_EQ(timeline().graphCount(), 1) << "only finger 0 distal ever felt anything";
+  press(Qt::Key_1, Qt::ControlModifier);
+  EXPECT_EQ(timeline().graphCount(), 2);
+  press(Qt::Key_0, Qt::ControlModifier);
+  EXPECT_EQ(timeline().graphCount(), 3);
+  press(Qt::Key_2, Qt::ControlModifier);
+  EXPECT_EQ(timeline().graphCount(), 2);
+  EXPECT_EQ(actions().plots[1]->text(), "Plot finger 0 distal");
+  EXPECT_FALSE(actions().plots[1]->isChecked());
+  EXPECT_FALSE(actions().plots[6]->isVisible()) << "there is no seventh matrix";
+}
+
+TEST_F(MainWindowTest, ThemeTogglesAndCanBeChosen) {
+  window().setTheme(ThemeChoice::kDark);
+  press(Qt::Key_T, Qt::ControlModifier);
+  EXPECT_EQ(window().viewSettings().theme, ThemeChoice::kLight);
+  EXPECT_EQ(look().theme, Theme::kLight);
+  EXPECT_GT(qApp->palette().color(QPalette::Window).lightness(), 200);
+  press(Qt::Key_T, Qt::ControlModifier);
+  EXPECT_EQ(look().theme, Theme::kDark);
+  EXPECT_LT(qApp->palette().color(QPalette::Window).lightness(), 60);
+  actions().themes->actions().at(0)->trigger();
+  EXPECT_EQ(window().viewSettings().theme, ThemeChoice::kSystem);
+  EXPECT_EQ(look().theme, systemTheme());
+}
+
+TEST_F(MainWindowTest, FullScreenAndBack) {
+  press(Qt::Key_F11);
+  EXPECT_TRUE(window().isFullScreen());
+  EXPECT_TRUE(actions().fullScreen->isChecked());
+  press(Qt::Key_Escape);
+  EXPECT_FALSE(window().isFullScreen());
+  EXPECT_FALSE(actions().fullScreen->isChecked());
+}
+
+TEST_F(MainWindowTest, CopyPutsTheFrameOnTheClipboard) {
+  QApplication::clipboard()->clear();
+  playback().seekFrame(19);
+  press(Qt::Key_C, Qt::ControlModifier);
+  const QImage copied = QApplication::clipboard()->image();
+  ASSERT_FALSE(copied.isNull());
+  // The taxel of 200 counts, the recording's maximum, has the highest colour.
+  const QRgb highest = colorTable(look().map)[255];
+  int found = 0;
+  for (int y = 0; y < copied.height(); ++y)
+    for (int x = 0; x < copied.width(); ++x) found += copied.pixel(x, y) == highest ? 1 : 0;
+  EXPECT_GT(found, 500);
+  EXPECT_EQ(status().notice, "copied: Matrices as picture");
+}
+
+TEST_F(MainWindowTest, ExportWritesThePictureThatWasAskedFor) {
+  QString suggested;
+  window().takeAway().ask = [&](const ExportRequest& suggestion) {
+    suggested = suggestion.name + endingOf(suggestion.form);
+    ExportRequest request = suggestion;
+    request.form = ExportForm::kSvg;
+    request.folder = QString::fromStdString(folder_.path().string());
+    request.name = "frame";
+    return request;
+  };
+  playback().seekFrame(7);
+  QSignalSpy written(&window(), &MainWindow::pictureWritten);
+  press(Qt::Key_E, Qt::ControlModifier);
+  ASSERT_TRUE(written.size() == 1 || written.wait(10'000));
+  EXPECT_EQ(suggested, "good_frame_00007.png");
+  const std::string text = testing::readFile(folder_ / "frame.svg");
+  EXPECT_NE(text.find("good.dsa"), std::string::npos);
+  EXPECT_NE(text.find("frame 7"), std::string::npos);
+  EXPECT_TRUE(status().notice.startsWith("written: "));
+}
+
+TEST_F(MainWindowTest, ExportThatFailsSaysWhy) {
+  window().takeAway().ask = [&](const ExportRequest& suggestion) {
+    ExportRequest request = suggestion;
+    request.folder = QString::fromStdString((folder_ / "no" / "such").string());
+    return request;
+  };
+  press(Qt::Key_E, Qt::ControlModifier);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !bannerText().isEmpty(); }, 10'000));
+  EXPECT_TRUE(bannerText().contains("no/such"));
+}
+
+TEST_F(MainWindowTest, ExportCancelledDoesNothing) {
+  window().takeAway().ask = [](const ExportRequest&) { return std::nullopt; };
+  press(Qt::Key_E, Qt::ControlModifier);
+  window().waitForExports();
+  EXPECT_EQ(bannerText(), "");
+}
+
+TEST_F(MainWindowTest, KeysAndAboutOpen) {
+  press(Qt::Key_F1);
+  EXPECT_NE(window().findChild<KeysDialog*>(), nullptr);
+  actions().about->trigger();
+  EXPECT_NE(window().findChild<AboutDialog*>(), nullptr);
+  for (const char* part : {"General Public License", "version 3", "Qt 6", "QCustomPlot"})
+    EXPECT_TRUE(AboutDialog::text().contains(part)) << part;
+}
+
+TEST_F(MainWindowTest, DocksHideAndShow) {
+  auto* inspect = window().findChild<QDockWidget*>("Inspect");
+  auto* timelineDock = window().findChild<QDockWidget*>("Timeline");
+  ASSERT_TRUE(inspect->isVisible() && timelineDock->isVisible());
+  press(Qt::Key_I, Qt::ControlModifier);
+  EXPECT_FALSE(inspect->isVisible());
+  press(Qt::Key_L, Qt::ControlModifier);
+  EXPECT_FALSE(timelineDock->isVisible());
+  press(Qt::Key_I, Qt::ControlModifier);
+  press(Qt::Key_L, Qt::ControlModifier);
+  EXPECT_TRUE(inspect->isVisible() && timelineDock->isVisible());
+}
+
+TEST_F(MainWindowTest, QuitCloses) {
+  press(Qt::Key_Q, Qt::ControlModifier);
+  EXPECT_FALSE(window().isVisible());
+}
+
+TEST_F(MainWindowTest, StatusNamesFrameTimeAndFigures) {
+  playback().seekFrame(7);
+  EXPECT_EQ(status().right, "frame 7 of 20   0.35 s");
+  EXPECT_EQ(status().figures, (QStringList{"active 1", "max 80", "saturated 0"}));
+}
+
+TEST_F(MainWindowTest, AGapIsSaidInTheStatus) {
+  open({"gap.dsa"});
+  EXPECT_EQ(status().notice, "1 gap");
+  playback().seekSeconds(5.0);
+  EXPECT_TRUE(status().notice.contains("nothing was recorded"));
+  EXPECT_EQ(status().lamp, Status::Lamp::kWarning);
+}
+
+// Of two with the same key (the space bar plays, or marks the moment) one at most can be asked for.
+TEST_F(MainWindowTest, NoKeyMeansTwoThingsAtOnce) {
+  const auto check = [&](const char* where) {
+    std::set<QString> seen;
+    for (const QAction* action : window().actions())
+      for (const QKeySequence& key :
+           action->isEnabled() ? action->shortcuts() : QList<QKeySequence>())
+        EXPECT_TRUE(seen.insert(key.toString()).second) << key.toString().toStdString() << where;
+    EXPECT_GT(seen.size(), 20u);
+  };
+  check(" on the start page");
+  open({"good.dsa"});
+  check(" with a recording");
+}
+
+TEST_F(MainWindowTest, EveryActionOfTheToolbarHasIconAndToolTip) {
+  for (const QAction* action : {actions().open,
+                                actions().exportPicture,
+                                actions().toStart,
+                                actions().stepBack,
+                                actions().play,
+                                actions().stepForward,
+                                actions().loop,
+                                actions().skipGaps,
+                                actions().keys}) {
+    EXPECT_FALSE(action->icon().isNull()) << action->text().toStdString();
+    EXPECT_TRUE(action->toolTip().contains('(')) << action->text().toStdString();
+  }
+}
+
+}  // namespace
+}  // namespace palpate::gui::main_window_test

@@ -1,0 +1,137 @@
+// What the window remembers, and how it is put back.
+#include <QDockWidget>
+#include <QToolButton>
+
+#include "gui/inspect/matrix_table.h"
+#include "gui/matrices/matrices_view.h"
+#include "gui/testing/window_fixture.h"
+
+namespace palpate::gui::window_layout_test {
+namespace {
+
+class WindowLayoutTest : public WindowTest {
+ protected:
+  QDockWidget* dock(const char* name) { return window().findChild<QDockWidget*>(name); }
+};
+
+TEST_F(WindowLayoutTest, LookSpeedAndLoopAreRemembered) {
+  open({"good.dsa"});
+  window().setTheme(ThemeChoice::kLight);
+  for (const Qt::Key key :
+       {Qt::Key_M, Qt::Key_R, Qt::Key_V, Qt::Key_I, Qt::Key_S, Qt::Key_L, Qt::Key_G, Qt::Key_Up})
+    press(key);
+  window().close();
+  start();
+  const ViewSettings& view = window().viewSettings();
+  EXPECT_EQ(view.theme, ThemeChoice::kLight);
+  EXPECT_EQ(view.map, ColorMapName::kViridis);
+  EXPECT_EQ(view.range, RangeMode::kFrame);
+  EXPECT_TRUE(view.values && view.interpolated);
+  EXPECT_EQ(view.signal, PlottedSignal::kFilteredMean);
+  EXPECT_EQ(playback().speed(), 2.0);
+  EXPECT_TRUE(playback().loop() && playback().skipGaps());
+  EXPECT_TRUE(actions().loop->isChecked() && actions().values->isChecked());
+  open({"good.dsa"});
+  const MatricesLook& look = find<MatricesView>("matricesView")->look();
+  EXPECT_EQ(look.map, ColorMapName::kViridis);
+  EXPECT_EQ(look.theme, Theme::kLight);
+}
+
+TEST_F(WindowLayoutTest, SizeIsRemembered) {
+  window().resize(1111, 777);
+  QCoreApplication::processEvents();
+  const QSize size = window().size();
+  window().close();
+  start();
+  EXPECT_EQ(window().size(), size);
+}
+
+TEST_F(WindowLayoutTest, HiddenAndMovedDocksAreRemembered) {
+  open({"good.dsa"});
+  press(Qt::Key_I, Qt::ControlModifier);
+  window().addDockWidget(Qt::TopDockWidgetArea, dock("Timeline"));
+  QCoreApplication::processEvents();
+  window().close();
+  start();
+  open({"good.dsa"});
+  EXPECT_FALSE(dock("Inspect")->isVisible());
+  EXPECT_TRUE(dock("Timeline")->isVisible());
+  EXPECT_EQ(window().dockWidgetArea(dock("Timeline")), Qt::TopDockWidgetArea);
+}
+
+TEST_F(WindowLayoutTest, TheStartPageBetweenDoesNotLoseTheLayout) {
+  open({"good.dsa"});
+  press(Qt::Key_I, Qt::ControlModifier);
+  press(Qt::Key_W, Qt::ControlModifier);
+  EXPECT_FALSE(dock("Timeline")->isVisible());
+  window().close();  // from the start page
+  start();
+  open({"good.dsa"});
+  EXPECT_FALSE(dock("Inspect")->isVisible());
+  EXPECT_TRUE(dock("Timeline")->isVisible());
+}
+
+TEST_F(WindowLayoutTest, ResetPutsEverythingBack) {
+  open({"good.dsa"});
+  press(Qt::Key_I, Qt::ControlModifier);
+  window().addDockWidget(Qt::TopDockWidgetArea, dock("Timeline"));
+  press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_TRUE(dock("Inspect")->isVisible());
+  EXPECT_EQ(window().dockWidgetArea(dock("Inspect")), Qt::RightDockWidgetArea);
+  EXPECT_EQ(window().dockWidgetArea(dock("Timeline")), Qt::BottomDockWidgetArea);
+}
+
+TEST_F(WindowLayoutTest, ABrokenSettingsFileDoesNotStopTheProgram) {
+  window().close();
+  window_.reset();
+  testing::writeFile(
+      folder_ / "palpate.ini",
+      "[window]\ngeometry=rubbish\nlayout=@ByteArray(nonsense)\n[recent]\nfiles=,,\n");
+  start();
+  open({"good.dsa"});
+  EXPECT_TRUE(dock("Inspect")->isVisible());
+}
+
+TEST_F(WindowLayoutTest, ANarrowWindowKeepsEveryControl) {
+  open({"good.dsa"});
+  for (const QSize size : {QSize(900, 600), QSize(1600, 1000)}) {
+    window().resize(size);
+    press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
+    QCoreApplication::processEvents();
+    EXPECT_EQ(window().size(), size);
+    for (const char* name : {"speedBox", "recordingsBox", "mapBox", "rangeBox", "frameField"}) {
+      const auto* part = find<QWidget>(name);
+      EXPECT_TRUE(part->isVisible()) << name;
+      EXPECT_GT(part->width(), 40) << name << " at " << size.width();
+    }
+    // Matrix names are read in full, and the figures that matter most are there.
+    auto* table = find<MatrixTable>("matrixTable");
+    EXPECT_GE(table->columnWidth(0), table->fontMetrics().horizontalAdvance("2 proximal") + 30);
+    EXPECT_FALSE(table->isColumnHidden(MatrixTableModel::kMaximum));
+    EXPECT_EQ(table->isColumnHidden(MatrixTableModel::kArea), size.width() == 900);
+  }
+}
+
+TEST_F(WindowLayoutTest, DocksCloseByTheirButton) {
+  open({"good.dsa"});
+  auto* close = dock("Inspect")->titleBarWidget()->findChild<QToolButton*>();
+  QTest::mouseClick(close, Qt::LeftButton);
+  EXPECT_FALSE(dock("Inspect")->isVisible());
+  window().showDock("Inspect");
+  EXPECT_TRUE(dock("Inspect")->isVisible());
+  EXPECT_EQ(window().dockNames(),
+            (QStringList{"Inspect",
+                         "Timeline",
+                         "Hand",
+                         "Link",
+                         "Filter",
+                         "Spectrum",
+                         "Calibrate",
+                         "Slip",
+                         "Library",
+                         "Log",
+                         "Recognise"}));
+}
+
+}  // namespace
+}  // namespace palpate::gui::window_layout_test

@@ -1,0 +1,106 @@
+#include "gui/source/connection.h"
+
+#include <gtest/gtest.h>
+
+#include "testing/testing.h"
+
+namespace palpate::gui::connection_test {
+namespace {
+
+class ConnectionTest : public ::testing::Test {
+ protected:
+  ConnectionTest() : path_(QString::fromStdString((folder_ / "palpate.ini").string())) {}
+  // As another start of the program sees it.
+  Connection reloaded() { return loadConnection(QSettings(path_, QSettings::IniFormat)); }
+  void store(const Connection& connection) {
+    QSettings settings(path_, QSettings::IniFormat);
+    saveConnection(connection, settings);
+  }
+  void store(const QString& key, const QVariant& value) {
+    QSettings(path_, QSettings::IniFormat).setValue(key, value);
+  }
+
+  const testing::TemporaryFolder folder_;
+  const QString path_;
+};
+
+TEST_F(ConnectionTest, AFirstStartOffersTheBall) {
+  const Connection connection = reloaded();
+  EXPECT_EQ(connection.kind, Connection::Kind::kEmulated);
+  EXPECT_EQ(connection.scene, "ball");
+  EXPECT_FALSE(connection.sceneActs);
+  EXPECT_TRUE(problemOf(connection).isEmpty());
+}
+
+TEST_F(ConnectionTest, ComesBackFromTheSettingsAsItWas) {
+  for (const Connection::Kind kind : kAllConnectionKinds) {
+    const Connection connection = {
+        .kind = kind,
+        .dsaPort = "/dev/serial/by-id/usb-FTDI, Ltd-if00",
+        .sdhPort = "tcp:[::1]:13000",
+        .scene = "/home/müller/my scene.json",
+        .sceneActs = true,
+        .recording = "/data/a;b %1.palpate",
+    };
+    store(connection);
+    EXPECT_EQ(reloaded(), connection);
+  }
+}
+
+TEST_F(ConnectionTest, TheLastOneCounts) {
+  store({.kind = Connection::Kind::kPorts, .dsaPort = "a", .sdhPort = "b"});
+  store({.kind = Connection::Kind::kPorts, .dsaPort = "", .sdhPort = "b"});
+  EXPECT_EQ(reloaded().dsaPort, "");
+  EXPECT_EQ(reloaded().sdhPort, "b");
+}
+
+TEST_F(ConnectionTest, WhatCannotBeReadIsTheDefault) {
+  store("connection/kind", "telepathy");
+  EXPECT_EQ(reloaded().kind, Connection::Kind::kEmulated);
+  store("connection/kind", QStringList{"ports", "replay"});
+  EXPECT_EQ(reloaded().kind, Connection::Kind::kEmulated);
+  store("connection/kind", "ports");
+  EXPECT_EQ(reloaded().kind, Connection::Kind::kPorts);
+  EXPECT_EQ(reloaded().scene, "ball");
+}
+
+TEST_F(ConnectionTest, ADamagedFileGivesTheDefault) {
+  testing::writeFile(path_.toStdString(), "\x01\x02[connection\nkind=ports");
+  EXPECT_EQ(reloaded(), Connection{});
+}
+
+TEST(Connection, IsDescribedInAFewWords) {
+  Connection connection;
+  EXPECT_EQ(describe(connection), "emulated hand · ball");
+  connection.scene = "/somewhere/my.first.scene.json";
+  EXPECT_EQ(describe(connection), "emulated hand · my.first.scene");
+  connection.kind = Connection::Kind::kPorts;
+  connection.dsaPort = "/dev/ttyUSB0";
+  EXPECT_EQ(describe(connection), "hand on ttyUSB0");
+  connection.sdhPort = "tcp:localhost:13000";
+  EXPECT_EQ(describe(connection), "hand on ttyUSB0 and tcp:localhost:13000");
+  connection.kind = Connection::Kind::kReplay;
+  connection.recording = "/data/foam_ball.dsa";
+  EXPECT_EQ(describe(connection), "replay of foam_ball.dsa");
+}
+
+TEST(Connection, SaysWhatIsMissing) {
+  Connection connection = {.kind = Connection::Kind::kPorts};
+  EXPECT_TRUE(problemOf(connection).contains("Choose the port"));
+  connection.sdhPort = "/dev/ttyUSB0";
+  EXPECT_TRUE(problemOf(connection).isEmpty()) << "one controller is enough";
+  connection.dsaPort = "/dev/ttyUSB0";
+  EXPECT_TRUE(problemOf(connection).contains("different ports"));
+  connection.dsaPort = "/dev/ttyUSB1";
+  EXPECT_TRUE(problemOf(connection).isEmpty());
+  connection.kind = Connection::Kind::kReplay;
+  EXPECT_EQ(problemOf(connection), "Choose a recording.");
+  connection.recording = "a.dsa";
+  EXPECT_TRUE(problemOf(connection).isEmpty());
+  connection.kind = Connection::Kind::kEmulated;
+  connection.scene = "";
+  EXPECT_EQ(problemOf(connection), "Choose a scene.");
+}
+
+}  // namespace
+}  // namespace palpate::gui::connection_test

@@ -1,0 +1,332 @@
+// The dock Spectrum by itself.
+#include "gui/spectrum/spectrum_panel.h"
+
+#include <QComboBox>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSpinBox>
+#include <cmath>
+#include <numbers>
+
+#include <palpate/core/error.h>
+#include <palpate/model/profile_builder.h>
+
+#include "gui/testing/window_fixture.h"
+
+namespace palpate::gui::spectrum_panel_test {
+namespace {
+
+constexpr double kRateHz = 50.0;
+
+// Taxel (2, 7) of matrix 1 swings by 400 counts at 6.25 Hz (bin 4 of 32) around 1000, its neighbour by 100 at 12.5 Hz
+// around 500. `gapAt`: the frame behind a gap of 3 s; 0: none.
+OpenedRecordingPtr tones(std::size_t frames, std::size_t gapAt = 0) {
+  ProfileBuilder builder(sdh2().layout);
+  TactileFrame frame = emptyFrame();
+  for (std::size_t i = 0; i < frames; ++i) {
+    const double turn = 2.0 * std::numbers::pi * static_cast<double>(i);
+    frame.matrix(1)(7, 2) = static_cast<float>(1000.0 + 400.0 * std::cos(turn / 8.0));
+    frame.matrix(1)(7, 3) = static_cast<float>(500.0 + 100.0 * std::cos(turn / 4.0));
+    const std::int64_t gapUs = gapAt > 0 && i >= gapAt ? 3'000'000 : 0;
+    builder.addFrame(1'400'000'000'000'000 + gapUs + static_cast<std::int64_t>(i) * 20'000,
+                     frame.values);
+  }
+  return makeOpenedRecording("tones.dsa", builder.finish({}));
+}
+
+class SpectrumPanelTest : public ::testing::Test {
+ protected:
+  SpectrumPanelTest() {
+    panel_->resize(900, 320);
+    panel_->setTheme(Theme::kDark);
+  }
+  void show(const OpenedRecordingPtr& recording) {
+    panel_->show();
+    panel_->setSource(recording, false);
+    if (recording) panel_->setSeen(0.0, recording->durationS());
+    panel_->settle();
+    QCoreApplication::processEvents();
+  }
+  TaxelSelection taxels(std::initializer_list<int> columns) {
+    TaxelSelection chosen(*sdh2().layout);
+    for (const int x : columns) chosen.toggle(1, 7, x);
+    return chosen;
+  }
+  const Spectrogram& spectra() { return *panel_->chart().answer().spectrogram; }
+  QString title() { return find<QLabel>("spectrumName")->toolTip(); }
+  template <class Widget>
+  Widget* find(const char* name) {
+    return panel_->findChild<Widget*>(name);
+  }
+  testing::TemporaryFolder folder_;
+  QSettings settings_{QString::fromStdString((folder_ / "palpate.ini").string()),
+                      QSettings::IniFormat};
+  std::unique_ptr<SpectrumPanel> panel_ = std::make_unique<SpectrumPanel>(settings_);
+};
+
+TEST_F(SpectrumPanelTest, ShowsTheStrongestTaxelWhileNoneIsChosen) {
+  show(tones(400));
+  ASSERT_TRUE(panel_->shown());
+  EXPECT_EQ(panel_->name(), "finger 0 distal · x 2, y 7");
+  EXPECT_TRUE(title().contains("strongest")) << title().toStdString();
+  EXPECT_NEAR(spectra().mean.strongestHz(), 6.25, 1e-6);
+  EXPECT_NEAR(spectra().largestMagnitude, 400.0, 1e-3);
+  EXPECT_EQ(panel_->chart().notes(),
+            "Nyquist 25.0 Hz; intervals vary by 0 %: resampled to 50.0 Hz · window 0.64 s, bins "
+            "1.56 Hz apart");
+}
+
+TEST_F(SpectrumPanelTest, ShowsChosenTaxelsAndTheirMean) {
+  show(tones(400));
+  panel_->setTaxels(taxels({3}));
+  panel_->settle();
+  EXPECT_EQ(title(), "finger 0 distal · x 3, y 7");
+  EXPECT_NEAR(spectra().mean.strongestHz(), 12.5, 1e-6);
+  panel_->setTaxels(taxels({2, 3}));
+  panel_->settle();
+  EXPECT_EQ(panel_->name(), "mean of 2 taxels");
+  EXPECT_NEAR(spectra().mean.magnitude.at(4), 200.0, 1e-3);
+  EXPECT_NEAR(spectra().mean.magnitude.at(8), 50.0, 1e-3);
+  panel_->setTaxels(taxels({}));
+  panel_->settle();
+  EXPECT_EQ(panel_->name(), "finger 0 distal · x 2, y 7");
+}
+
+TEST_F(SpectrumPanelTest, TheMapHasTheSpectraInItsCells) {
+  show(tones(400));
+  auto* colors = panel_->chart().findChild<QCPColorScale*>();
+  const auto map = [&] { return qobject_cast<QCPColorMap*>(panel_->chart().plottable(1)); };
+  ASSERT_NE(map(), nullptr);
+  ASSERT_EQ(map()->data()->keySize(), 369);
+  ASSERT_EQ(map()->data()->valueSize(), 17);
+  EXPECT_NEAR(map()->keyAxis()->range().lower, 0.0, 1e-9);
+  EXPECT_NEAR(map()->data()->keyRange().lower, 16 / kRateHz, 1e-6);
+  EXPECT_NEAR(map()->data()->valueRange().upper, 25.0, 1e-6);
+  // A tone of 400 counts: A^2/2 over 1.5 bins of 1.5625 Hz.
+  const double db = 10.0 * std::log10(400.0 * 400.0 / 2.0 / (1.5 * 50.0 / 32.0));
+  EXPECT_NEAR(map()->data()->cell(100, 4), db, 1e-3);
+  EXPECT_EQ(colors->dataRange().upper, 50.0) << "the next 5 dB above " << db;
+  EXPECT_EQ(colors->dataRange().size(), 60.0);
+  EXPECT_EQ(colors->axis()->label(), "dB re 1 counts²/Hz");
+  auto* scale = find<QComboBox>("spectrumScale");
+  scale->setCurrentIndex(1);
+  emit scale->activated(1);
+  EXPECT_NEAR(map()->data()->cell(100, 4), 400.0, 1e-3);
+  EXPECT_NEAR(colors->dataRange().upper, 400.0, 1e-3);
+  EXPECT_EQ(colors->dataRange().lower, 0.0);
+  EXPECT_EQ(colors->axis()->label(), "magnitude in counts");
+}
+
+TEST_F(SpectrumPanelTest, WindowAndOverlapAreTakenAndRemembered) {
+  show(tones(400));
+  auto* window = find<QSpinBox>("spectrumWindow");
+  auto* overlap = find<QSpinBox>("spectrumOverlap");
+  EXPECT_EQ(window->value(), 32);
+  EXPECT_EQ(overlap->value(), 31);
+  window->setValue(64);
+  EXPECT_EQ(overlap->value(), 63) << "all but one stays all but one";
+  panel_->settle();
+  EXPECT_EQ(spectra().numBins, 33u);
+  overlap->setValue(16);
+  panel_->settle();
+  EXPECT_EQ(spectra().report.hop, 48u);
+  window->setValue(8);
+  EXPECT_EQ(overlap->value(), 7);
+  EXPECT_EQ(overlap->maximum(), 7);
+  overlap->setValue(0);
+  panel_ = std::make_unique<SpectrumPanel>(settings_);
+  EXPECT_EQ(panel_->header().setting(), (SpectrumSetting{.window = 8, .overlap = 0}));
+  // A settings file never stops the program.
+  settings_.setValue("spectrum/window", "-7");
+  settings_.setValue("spectrum/overlap", 900);
+  panel_ = std::make_unique<SpectrumPanel>(settings_);
+  EXPECT_EQ(panel_->header().setting(), (SpectrumSetting{.window = 2, .overlap = 1}));
+}
+
+TEST_F(SpectrumPanelTest, SaysWhyThereIsNothing) {
+  panel_->show();
+  EXPECT_TRUE(panel_->emptyText().contains("Open a recording"));
+  panel_->setSource(nullptr, true);
+  EXPECT_TRUE(panel_->emptyText().contains("Record what is connected"));
+  show(makeOpenedRecording("empty.dsa", profileWithStamps({})));
+  EXPECT_TRUE(panel_->emptyText().contains("no frame"));
+  ProfileBuilder still(sdh2().layout);
+  for (int i = 0; i < 60; ++i) still.addFrame(1'000'000 + i * 20'000, emptyFrame().values);
+  show(makeOpenedRecording("still.dsa", still.finish({})));
+  EXPECT_TRUE(panel_->emptyText().contains("feels anything"));
+  EXPECT_FALSE(panel_->shown());
+  EXPECT_TRUE(panel_->tables().empty());
+  show(tones(20));
+  EXPECT_TRUE(panel_->emptyText().contains("20 samples")) << panel_->emptyText().toStdString();
+  EXPECT_TRUE(panel_->emptyText().contains("a window takes 32"));
+  find<QSpinBox>("spectrumWindow")->setValue(16);
+  panel_->settle();
+  EXPECT_EQ(panel_->emptyText(), "");
+  // Chosen taxels that feel nothing are a signal: a flat one.
+  show(tones(100));
+  panel_->setTaxels(taxels({5}));
+  panel_->settle();
+  EXPECT_TRUE(panel_->shown());
+  EXPECT_EQ(spectra().largestPsd, 0.0);
+}
+
+// Of a block that is damaged.
+class DamagedFrames : public ProfileStorage {
+ public:
+  std::size_t numFrames() const override { return 100; }
+  std::int64_t frameTimeUs(std::size_t frame) const override {
+    return static_cast<std::int64_t>(frame) * 20'000;
+  }
+  void readFrame(std::size_t frame, TactileFrame&) const override {
+    if (frame > 50) throw FormatError("a.palpate", "block 7 is damaged");
+  }
+  std::size_t numAngles() const override { return 0; }
+  std::int64_t angleTimeUs(std::size_t) const override { return 0; }
+  JointAngles angles(std::size_t) const override { return {}; }
+  std::size_t numTemperatures() const override { return 0; }
+  std::int64_t temperatureTimeUs(std::size_t) const override { return 0; }
+  Temperatures temperatures(std::size_t) const override { return {}; }
+};
+
+TEST_F(SpectrumPanelTest, SaysWhatCannotBeRead) {
+  const auto recording = std::make_shared<OpenedRecording>(
+      OpenedRecording{.path = "a.palpate",
+                      .profile = Profile({}, sdh2(), std::make_shared<DamagedFrames>()),
+                      .timing = {},
+                      .table = {},
+                      .whole = {},
+                      .timeS = {},
+                      .gapFrames = {},
+                      .touched = {},
+                      .events = {},
+                      .eventsFailure = {},
+                      .overview = nullptr});
+  panel_->show();
+  panel_->setSource(recording, false);
+  panel_->settle();
+  EXPECT_TRUE(panel_->emptyText().contains("block 7 is damaged"));
+  EXPECT_EQ(find<QPushButton>("spectrumEmptyButton")->text(), "Try again");
+}
+
+TEST_F(SpectrumPanelTest, ComputesOnlyWhileItIsSeen) {
+  panel_->setSource(tones(400), false);
+  panel_->setSeen(0.0, 8.0);
+  EXPECT_FALSE(panel_->busy());
+  panel_->show();
+  EXPECT_TRUE(panel_->busy());
+  panel_->settle();
+  EXPECT_TRUE(panel_->shown());
+  // Nothing is computed twice.
+  panel_->hide();
+  panel_->show();
+  panel_->setSeen(2.0, 3.0);
+  panel_->settle();
+  EXPECT_EQ(panel_->chart().answer().series->timeS.size(), 400u) << "short: all of it is there";
+}
+
+TEST_F(SpectrumPanelTest, CanBeGivenUpAndBegunAgain) {
+  panel_->show();
+  panel_->setSource(tones(400), false);
+  ASSERT_TRUE(panel_->busy());
+  EXPECT_TRUE(panel_->cancel());
+  EXPECT_FALSE(panel_->cancel()) << "nothing is left to give up";
+  EXPECT_FALSE(panel_->busy());
+  QCoreApplication::processEvents();
+  EXPECT_EQ(panel_->emptyText(), "Given up.");
+  auto* button = find<QPushButton>("spectrumEmptyButton");
+  EXPECT_EQ(button->text(), "Compute the spectra");
+  button->click();
+  panel_->settle();
+  EXPECT_TRUE(panel_->shown());
+}
+
+TEST_F(SpectrumPanelTest, OfALongRecordingWhatIsSeenIsComputed) {
+  const auto recording = tones(25'000);
+  show(recording);
+  EXPECT_FALSE(panel_->chart().answer().whole) << "24969 segments are too many";
+  EXPECT_EQ(spectra().report.hop, 2u);
+  EXPECT_TRUE(panel_->chart().notes().contains("a segment every 2 samples"))
+      << panel_->chart().notes().toStdString();
+  panel_->setSeen(100.0, 110.0);
+  panel_->settle();
+  EXPECT_EQ(spectra().report.hop, 1u) << "closer, every one";
+  EXPECT_GE(panel_->chart().answer().series->timeS.front(), 99.9);
+  EXPECT_LE(panel_->chart().answer().series->timeS.back(), 110.1);
+  panel_->setSeen(100.0, 100.2);
+  panel_->settle();
+  EXPECT_TRUE(panel_->emptyText().contains("see more of the recording"));
+}
+
+TEST_F(SpectrumPanelTest, NothingIsDrawnOverAGap) {
+  show(tones(400, 200));
+  EXPECT_EQ(panel_->chart().plottableCount(), 3) << "the signal, and a map for each stretch";
+  const auto* second = qobject_cast<QCPColorMap*>(panel_->chart().plottable(2));
+  EXPECT_NEAR(second->data()->keyRange().lower, 200 / kRateHz + 3.0 + 16 / kRateHz, 1e-6);
+  int breaks = 0;
+  for (const QCPGraphData& sample : *panel_->chart().graph(0)->data())
+    if (std::isnan(sample.value)) ++breaks;
+  EXPECT_EQ(breaks, 1);
+  EXPECT_EQ(panel_->tables().at(0).make().numRows, (200u - 31) * 2 * 17);
+}
+
+TEST_F(SpectrumPanelTest, TellsValuesUnderTheMouse) {
+  show(tones(400));
+  SpectrumChart& chart = panel_->chart();
+  auto* map = qobject_cast<QCPColorMap*>(chart.plottable(1));
+  const QPointF at(map->keyAxis()->coordToPixel(4.0), map->valueAxis()->coordToPixel(6.3));
+  EXPECT_EQ(chart.valuesAt(at), "4.00 s · 6.25 Hz\nPSD 45.3 dB\nmagnitude 400.00 counts");
+  const QPointF early(map->keyAxis()->coordToPixel(0.1), at.y());
+  EXPECT_TRUE(chart.valuesAt(early).contains("no whole window"));
+  const QPointF above(chart.xAxis->coordToPixel(4.01), chart.axisRect()->rect().center().y());
+  EXPECT_EQ(chart.valuesAt(above), "4.01 s\n1400 counts") << "frame 200 came at 4 s";
+}
+
+TEST_F(SpectrumPanelTest, TablesAreThoseOfTheCommand) {
+  show(tones(100));
+  const auto tables = panel_->tables();
+  ASSERT_EQ(tables.size(), 2u);
+  const TextTable segments = tables[0].make();
+  EXPECT_EQ(segments.header,
+            (std::vector<std::string>{"segment", "time_s", "frequency_hz", "psd", "magnitude"}));
+  ASSERT_EQ(segments.numRows, 69u * 17u);
+  const auto row = segments.row(3 * 17 + 4);
+  EXPECT_EQ(row[0], "3");
+  EXPECT_NEAR(std::stod(row[1]), (3 + 16) / kRateHz, 1e-9);
+  EXPECT_NEAR(std::stod(row[2]), 6.25, 1e-9);
+  EXPECT_NEAR(std::stod(row[4]), 400.0, 1e-3);
+  const TextTable mean = tables[1].make();
+  ASSERT_EQ(mean.numRows, 17u);
+  EXPECT_NEAR(std::stod(mean.row(4)[2]), 400.0, 1e-3);
+}
+
+TEST_F(SpectrumPanelTest, NotesAreShortenedToTheRoom) {
+  show(tones(400));
+  const QString longest = panel_->chart().notes();
+  panel_->resize(430, 320);
+  QCoreApplication::processEvents();
+  EXPECT_LT(panel_->chart().notes().size(), longest.size());
+  EXPECT_TRUE(panel_->chart().notes().startsWith("Nyquist 25.0 Hz"));
+  for (const QString& note : spectrumNotes(spectra().report, panel_->chart().answer().options))
+    EXPECT_TRUE(note.startsWith("Nyquist 25.0 Hz"));
+}
+
+TEST_F(SpectrumPanelTest, IsSeenInBothThemes) {
+  show(tones(400));
+  for (const Theme theme : {Theme::kDark, Theme::kLight}) {
+    panel_->setTheme(theme);
+    QCoreApplication::processEvents();
+    const QImage image = panel_->chart().grab().toImage();
+    EXPECT_EQ(image.pixelColor(2, 2), colorsOf(theme).window);
+    EXPECT_EQ(panel_->chart().xAxis->labelColor(), colorsOf(theme).muted);
+    // The tone is the brightest place of the map.
+    auto* map = qobject_cast<QCPColorMap*>(panel_->chart().plottable(1));
+    const QPoint tone(static_cast<int>(map->keyAxis()->coordToPixel(4.0)),
+                      static_cast<int>(map->valueAxis()->coordToPixel(6.25)));
+    const QPoint rest(tone.x(), static_cast<int>(map->valueAxis()->coordToPixel(22.0)));
+    EXPECT_GT(image.pixelColor(tone).lightness(), image.pixelColor(rest).lightness() + 60);
+  }
+}
+
+}  // namespace
+}  // namespace palpate::gui::spectrum_panel_test

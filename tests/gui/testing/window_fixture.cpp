@@ -1,0 +1,104 @@
+#include "gui/testing/window_fixture.h"
+
+#include <palpate/core/error.h>
+#include <palpate/emulator/synthetic_profile.h>
+#include <palpate/model/profile_builder.h>
+
+#include "gui/slip/slip_fixture.h"
+#include "gui/widgets/message_banner.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr std::int64_t kStartUs = 1'400'000'000'000'000;
+
+}  // namespace
+
+TactileFrame emptyFrame() { return TactileFrame(sdh2().layout); }
+
+Profile profileWithStamps(const std::vector<std::int64_t>& stampsMs) {
+  ProfileBuilder builder(sdh2().layout);
+  for (std::size_t i = 0; i < stampsMs.size(); ++i) {
+    TactileFrame frame = emptyFrame();
+    frame.matrix(1)(7, 2) = 10.0F * static_cast<float>(i + 1);
+    builder.addFrame(kStartUs + stampsMs[i] * 1000, frame.values);
+  }
+  ProfileInfo info;
+  info.format = "test";
+  info.serial = "1D9B0057";
+  return builder.finish(std::move(info));
+}
+
+Profile twentyFrames() {
+  std::vector<std::int64_t> stamps;
+  for (std::int64_t i = 0; i < 20; ++i) stamps.push_back(50 * i);
+  return profileWithStamps(stamps);
+}
+
+WindowTest::WindowTest() { start(); }
+
+WindowTest::~WindowTest() { window_.reset(); }
+
+MainWindow& WindowTest::start() {
+  window_.reset();
+  const auto read = [this](const std::filesystem::path& path, const Progress& progress) {
+    ++reads_;
+    const std::string name = path.filename().string();
+    if (name.starts_with("good")) return twentyFrames();
+    if (name.starts_with("gap")) {
+      std::vector<std::int64_t> stamps;
+      for (std::int64_t i = 0; i < 10; ++i) stamps.push_back(50 * i + (i > 4 ? 10'020 : 0));
+      return profileWithStamps(stamps);
+    }
+    if (name.starts_with("empty")) return profileWithStamps({});
+    if (name.starts_with("rich")) return synthesize({.durationS = 4.0, .grasps = 1});
+    if (name.starts_with("slip")) return movingContact();
+    while (name.starts_with("slow"))
+      if (!progress(0.5)) throw Cancelled();
+    throw FormatError(path, "is not a recording: <b>no frames</b>", 17);
+  };
+  window_ = std::make_unique<MainWindow>(WindowSurroundings{.dataFolder = folder_.path(),
+                                                            .settingsPath = settingsFile(),
+                                                            .clock = &clock_,
+                                                            .read = read});
+  window_->show();
+  QApplication::setActiveWindow(window_.get());
+  QCoreApplication::processEvents();
+  return *window_;
+}
+
+QString WindowTest::settingsFile() const {
+  return QString::fromStdString((folder_ / "palpate.ini").string());
+}
+
+std::string WindowTest::file(const std::string& name) {
+  const auto path = folder_ / name;
+  if (!std::filesystem::exists(path)) testing::writeFile(path, "");
+  return path.string();
+}
+
+void WindowTest::open(const std::vector<std::string>& names) {
+  std::vector<std::filesystem::path> paths;
+  for (const std::string& name : names) paths.emplace_back(file(name));
+  window_->openFiles(paths);
+  waitUntilOpened();
+}
+
+void WindowTest::waitUntilOpened() {
+  QSignalSpy finished(&window_->opener(), &RecordingOpener::finished);
+  while (window_->opener().busy())
+    if (!finished.wait(10'000)) FAIL() << "opening doesn't end";
+  QCoreApplication::processEvents();
+}
+
+void WindowTest::press(Qt::Key key, Qt::KeyboardModifiers modifiers) {
+  QApplication::setActiveWindow(window_.get());
+  QTest::keyClick(window_.get(), key, modifiers);
+}
+
+QString WindowTest::bannerText() {
+  const auto* banner = window_->findChild<MessageBanner*>("MessageBanner");
+  return banner->isVisible() ? banner->message() : QString();
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,254 @@
+// The analyst's way through a recording: grasps, labels, notes, undo, saving, cropping, curves of anything.
+#include <QCloseEvent>
+#include <QLabel>
+
+#include <palpate/emulator/synthetic_profile.h>
+#include <palpate/recording/event_store.h>
+#include <palpate/recording/recording.h>
+
+#include "gui/export/take_away.h"
+#include "gui/matrices/matrices_view.h"
+#include "gui/testing/window_fixture.h"
+#include "gui/timeline/timeline_header.h"
+#include "gui/timeline/timeline_panel.h"
+
+namespace palpate::gui::events_window_test {
+namespace {
+
+// A real file: three grasps in twelve seconds.
+class EventsWindowTest : public WindowTest {
+ protected:
+  EventsWindowTest() : path_(folder_ / "grasps.palpate") {
+    saveRecording(synthesize({.durationS = 12.0, .grasps = 3}, &truth_), {}, path_);
+    window_.reset();
+    reopen();
+  }
+  void reopen() {
+    if (window_) window_->close();
+    window_.reset();
+    window_ = std::make_unique<MainWindow>(WindowSurroundings{.dataFolder = folder_.path(),
+                                                              .settingsPath = settingsFile(),
+                                                              .clock = &clock_,
+                                                              .read = {}});
+    window_->show();
+    QApplication::setActiveWindow(window_.get());
+    window_->openFiles({path_});
+    waitUntilOpened();
+    window_->askForText = [this](const QString&, const QString&) { return answer_; };
+    window_->askForCropped = [this](const QString& suggestion) {
+      suggested_ = suggestion;
+      return QString::fromStdString((folder_ / cropName_).string());
+    };
+    window_->askAboutUnsaved = [this](const QString&) {
+      ++asked_;
+      return unsaved_;
+    };
+  }
+  EventRows& rows() { return window().timelinePanel().rows(); }
+  TimelineChart& chart() { return window().timelinePanel().chart(); }
+  int marksIn(EventLane lane) {
+    return static_cast<int>(std::count_if(rows().marks().begin(),
+                                          rows().marks().end(),
+                                          [&](const auto& m) { return m.lane == lane; }));
+  }
+
+  std::filesystem::path path_;
+  SyntheticTruth truth_;
+  std::optional<QString> answer_ = "touch";
+  std::string cropName_ = "part.palpate";
+  QString suggested_;
+  MainWindow::Unsaved unsaved_ = MainWindow::Unsaved::kSave;
+  int asked_ = 0;
+};
+
+TEST_F(EventsWindowTest, TheThirdGraspIsFoundSelectedAndCropped) {
+  ASSERT_EQ(marksIn(EventLane::kGrasps), 3);
+  for (int i = 0; i < 3; ++i) press(Qt::Key_N);
+  ASSERT_TRUE(chart().selection());
+  const auto& third = truth_.grasps[2];
+  EXPECT_NEAR(static_cast<double>(playback().frame()), static_cast<double>(third.begin), 3);
+  QSignalSpy written(&window(), &MainWindow::cropWritten);
+  press(Qt::Key_X, Qt::ControlModifier | Qt::ShiftModifier);
+  window().waitForWork();
+  ASSERT_EQ(written.size(), 1);
+  EXPECT_TRUE(suggested_.contains("grasps_000")) << suggested_.toStdString();
+  const Profile part = openRecording(folder_ / "part.palpate");
+  EXPECT_NEAR(
+      static_cast<double>(part.numFrames()), static_cast<double>(third.end - third.begin + 1), 5);
+  // The same frames, to the last.
+  const Profile all = openRecording(path_);
+  const auto first = *all.frameAt(part.frameTimeUs(0));
+  for (std::size_t i = 0; i < part.numFrames(); ++i)
+    ASSERT_EQ(part.frame(i).values, all.frame(first + i).values);
+  waitUntilOpened();
+  EXPECT_EQ(window().recordings().size(), 2u) << "the part is open, too";
+  EXPECT_EQ(window().current()->path, path_) << "what is looked at stays";
+}
+
+TEST_F(EventsWindowTest, ShiftNGoesBack) {
+  press(Qt::Key_N);
+  press(Qt::Key_N);
+  press(Qt::Key_N, Qt::ShiftModifier);
+  EXPECT_EQ(rows().chosen(), 0u);
+}
+
+TEST_F(EventsWindowTest, LabelsAndNotesAreMadeUndoneAndSaved) {
+  playback().seekSeconds(2.0);
+  press(Qt::Key_B, Qt::ControlModifier);
+  EXPECT_EQ(marksIn(EventLane::kLabels), 1);
+  EXPECT_TRUE(window().windowTitle().contains("*")) << "not saved yet";
+  chart().setSelection(TimeSpan{3.0, 4.0});
+  answer_ = "slow";
+  press(Qt::Key_B, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(marksIn(EventLane::kNotes), 1);
+  press(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(marksIn(EventLane::kNotes), 0);
+  press(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(marksIn(EventLane::kNotes), 1);
+  press(Qt::Key_S, Qt::ControlModifier);
+  EXPECT_FALSE(window().windowTitle().contains("*"));
+  const auto events = readEvents(path_).events;
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].kind, "label");
+  EXPECT_EQ(events[0].text, "touch");
+  EXPECT_EQ(events[0].tUs, window().current()->profile.frameTimeUs(0) + 2'000'000);
+  EXPECT_EQ(events[1].kind, "note");
+  EXPECT_EQ(events[1].t1Us - events[1].tUs, 1'000'000);
+  EXPECT_EQ(verifyRecording(path_).state, VerifyReport::State::kSound);
+  reopen();
+  EXPECT_EQ(marksIn(EventLane::kLabels), 1) << "there tomorrow, too";
+}
+
+TEST_F(EventsWindowTest, ACancelledOrEmptyTextMakesNothing) {
+  answer_.reset();
+  press(Qt::Key_B, Qt::ControlModifier);
+  answer_ = "";
+  press(Qt::Key_B, Qt::ControlModifier);
+  EXPECT_EQ(marksIn(EventLane::kLabels), 0);
+  EXPECT_FALSE(window().events()->unsaved());
+}
+
+TEST_F(EventsWindowTest, AGraspIsCorrectedAndAllOthersAreKept) {
+  press(Qt::Key_N);
+  const double from = rows().marks()[0].fromS;
+  emit rows().spanChanged(0, from - 0.5, from + 1.0);
+  ASSERT_EQ(marksIn(EventLane::kGrasps), 3);
+  EXPECT_NEAR(rows().marks()[0].fromS, from - 0.5, 1e-6);
+  EXPECT_TRUE(rows().marks()[1].event) << "now they are a person's";
+  emit rows().textChanged(1, "pinch");
+  EXPECT_EQ(rows().marks()[1].text, "pinch");
+  EXPECT_EQ(rows().marks()[2].text, "3");
+  press(Qt::Key_Z, Qt::ControlModifier);
+  press(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_FALSE(rows().marks()[0].event) << "undone in one go: found again";
+  EXPECT_FALSE(window().events()->unsaved());
+}
+
+TEST_F(EventsWindowTest, GraspsAreAddedAndDeletedToTheLast) {
+  chart().setSelection(TimeSpan{0.1, 0.4});
+  press(Qt::Key_P, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(marksIn(EventLane::kGrasps), 4);
+  for (int left = 3; left >= 0; --left) {
+    rows().choose(0);
+    press(Qt::Key_Delete);
+    EXPECT_EQ(marksIn(EventLane::kGrasps), left);
+  }
+  press(Qt::Key_S, Qt::ControlModifier);
+  reopen();
+  EXPECT_EQ(marksIn(EventLane::kGrasps), 0) << "a person said there are none";
+  chart().setSelection(TimeSpan{1.0, 2.0});
+  press(Qt::Key_P, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(marksIn(EventLane::kGrasps), 1);
+}
+
+TEST_F(EventsWindowTest, UnsavedWorkIsAskedAboutOnce) {
+  press(Qt::Key_B, Qt::ControlModifier);
+  unsaved_ = MainWindow::Unsaved::kCancel;
+  window().close();
+  EXPECT_EQ(asked_, 1);
+  EXPECT_TRUE(window().isVisible()) << "the user would rather go on";
+  press(Qt::Key_W, Qt::ControlModifier);
+  EXPECT_EQ(asked_, 2);
+  EXPECT_TRUE(window().current());
+  unsaved_ = MainWindow::Unsaved::kDiscard;
+  press(Qt::Key_W, Qt::ControlModifier);
+  EXPECT_FALSE(window().current());
+  EXPECT_TRUE(readEvents(path_).events.empty());
+}
+
+TEST_F(EventsWindowTest, WhatCantBeSavedIsSaidAndStays) {
+  press(Qt::Key_B, Qt::ControlModifier);
+  std::filesystem::remove(path_);  // deleted while it is open
+  press(Qt::Key_S, Qt::ControlModifier);
+  EXPECT_TRUE(bannerText().contains("not saved")) << bannerText().toStdString();
+  EXPECT_TRUE(window().events()->unsaved());
+  EXPECT_EQ(marksIn(EventLane::kLabels), 1);
+  playback().seekFrame(100);
+  EXPECT_EQ(playback().frame(), 100u) << "what is open can be looked at further";
+}
+
+TEST_F(EventsWindowTest, ASelectionOfNothingIsSaid) {
+  press(Qt::Key_X, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_TRUE(suggested_.isEmpty()) << "nothing selected: the action is off";
+  chart().setSelection(TimeSpan{0.001, 0.002});
+  EXPECT_TRUE(find<QLabel>("selectionWords")->text().contains("no frame"));
+  press(Qt::Key_X, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_TRUE(suggested_.isEmpty());
+  EXPECT_TRUE(bannerText().contains("No frame")) << bannerText().toStdString();
+}
+
+TEST_F(EventsWindowTest, NothingIsCroppedOntoItself) {
+  chart().setSelection(TimeSpan{1.0, 2.0});
+  cropName_ = "grasps.palpate";
+  press(Qt::Key_X, Qt::ControlModifier | Qt::ShiftModifier);
+  window().waitForWork();
+  EXPECT_FALSE(bannerText().isEmpty());
+  EXPECT_EQ(openRecording(path_).numFrames(), window().current()->profile.numFrames());
+}
+
+TEST_F(EventsWindowTest, TheLabelsOfAPartGoWithIt) {
+  playback().seekSeconds(2.0);
+  press(Qt::Key_B, Qt::ControlModifier);
+  chart().setSelection(TimeSpan{1.5, 2.5});
+  press(Qt::Key_X, Qt::ControlModifier | Qt::ShiftModifier);
+  window().waitForWork();
+  const auto events = readEvents(folder_ / "part.palpate").events;
+  ASSERT_EQ(events.size(), 1u) << "saved or not";
+  EXPECT_EQ(events[0].text, "touch");
+}
+
+TEST_F(EventsWindowTest, ChosenTaxelsAreACurveAndCanBeNamed) {
+  const int before = chart().graphCount();
+  TaxelSelection taxels(window().current()->profile.layout());
+  taxels.add(1, 5, 2, 7, 3);
+  window().matricesView().select(taxels);
+  EXPECT_EQ(chart().graphCount(), before + 1);
+  EXPECT_EQ(chart().curves().back().name, "6 chosen taxels");
+  answer_ = "tip";
+  press(Qt::Key_G, Qt::ControlModifier | Qt::ShiftModifier);
+  window().matricesView().clearSelection();
+  ASSERT_EQ(chart().graphCount(), before + 1);
+  EXPECT_EQ(chart().curves().back().name, "tip");
+  const auto samples = chart().store().samples(chart().curves().back().choice);
+  ASSERT_TRUE(samples);
+  const std::size_t frame = 60;
+  EXPECT_DOUBLE_EQ(samples->values[frame],
+                   meanOf(window().current()->profile.frame(frame), taxels));
+  reopen();
+  EXPECT_EQ(chart().curves().back().name, "tip") << "remembered";
+}
+
+TEST_F(EventsWindowTest, JointAnglesAndTemperaturesHaveAxesOfTheirOwn) {
+  window().signalTree().setTicked("finger 0 distal", true);
+  window().signalTree().setTicked("motor 1", true);
+  chart().replot(QCustomPlot::rpImmediateRefresh);
+  ASSERT_GE(chart().curves().size(), 3u);
+  EXPECT_EQ(chart().graph(chart().graphCount() - 2)->valueAxis()->label(), "joint angle in °");
+  EXPECT_NE(chart().graph(chart().graphCount() - 1)->valueAxis(),
+            chart().graph(chart().graphCount() - 2)->valueAxis());
+  EXPECT_FALSE(chart().graph(chart().graphCount() - 2)->data()->isEmpty());
+  EXPECT_FALSE(chart().graph(chart().graphCount() - 1)->data()->isEmpty());
+}
+
+}  // namespace
+}  // namespace palpate::gui::events_window_test

@@ -1,0 +1,173 @@
+#include "gui/timeline/series_store.h"
+
+#include <QSignalSpy>
+#include <QTest>
+#include <cmath>
+
+#include <palpate/emulator/synthetic_profile.h>
+#include <palpate/model/profile_builder.h>
+#include <palpate/recording/recording.h>
+
+#include "gui/testing/window_fixture.h"
+
+namespace palpate::gui::series_store_test {
+namespace {
+
+using Kind = SeriesChoice::Kind;
+
+DecimationOptions seen(double from, double to) { return {.from = from, .to = to, .columns = 500}; }
+
+class SeriesStoreTest : public ::testing::Test {
+ protected:
+  // Two minutes with four grasps; as a file, so that it has a summary. Opened as if it were one of hours.
+  OpenedRecordingPtr longOne() {
+    const auto path = folder_ / "long.palpate";
+    saveRecording(synthesize({.durationS = 120.0, .grasps = 4}), {}, path);
+    return makeOpenedRecording(path, openRecording(path), {}, 100);
+  }
+  testing::TemporaryFolder folder_;
+  SeriesStore store_;
+};
+
+TEST_F(SeriesStoreTest, OfAShortRecordingEverythingIsThereAtOnce) {
+  const auto recording = makeOpenedRecording("x.dsa", synthesize({.durationS = 4.0, .grasps = 1}));
+  ASSERT_FALSE(recording->isLong());
+  store_.setRecording(recording);
+  const SeriesChoice maximum{Kind::kMatrix, 1, SignalKind::kMaximum};
+  const SeriesChoice joint{.kind = Kind::kAngle, .index = 1};
+  store_.setWanted({maximum, joint});
+  ASSERT_TRUE(store_.samples(maximum));
+  ASSERT_TRUE(store_.samples(joint));
+  EXPECT_EQ(store_.samples(maximum)->values.size(), recording->profile.numFrames());
+  EXPECT_EQ(store_.samples(joint)->values.size(), recording->profile.numAngles());
+  EXPECT_EQ(store_.progress(), 1.0);
+  EXPECT_FALSE(store_.points(joint, seen(0.0, 4.0)).empty());
+  EXPECT_EQ(store_.extremes(maximum)->second, recording->maximum);
+  const std::size_t frame = 40;
+  EXPECT_EQ(store_.valueAt(maximum, recording->timeS[frame] + 0.001),
+            recording->table.at(frame, 1).maximum);
+  EXPECT_FALSE(store_.valueAt(maximum, -1.0));
+}
+
+TEST_F(SeriesStoreTest, WhatTheRecordingHasNotIsLeftOut) {
+  store_.setRecording(makeOpenedRecording("x.dsa", twentyFrames()));
+  const SeriesChoice joint{.kind = Kind::kAngle, .index = 1};
+  store_.setWanted({joint, {.kind = Kind::kTaxels}, {Kind::kMatrix, 99}});
+  EXPECT_TRUE(store_.points(joint, seen(0.0, 1.0)).empty());
+  EXPECT_FALSE(store_.valueAt(joint, 0.5));
+  EXPECT_FALSE(store_.samples(joint));
+  store_.setRecording(nullptr);
+  store_.setWanted({joint});
+  EXPECT_EQ(store_.progress(), 1.0);
+}
+
+TEST_F(SeriesStoreTest, NoLineGoesOverAGap) {
+  store_.setRecording(makeOpenedRecording("x.dsa", profileWithStamps({0, 50, 100, 9'000, 9'050})));
+  const SeriesChoice choice{Kind::kMatrix, 1, SignalKind::kMaximum};
+  store_.setWanted({choice});
+  int breaks = 0;
+  for (const SeriesPoint& point : store_.points(choice, seen(0.0, 10.0)))
+    breaks += std::isnan(point.y) ? 1 : 0;
+  EXPECT_EQ(breaks, 1);
+  EXPECT_FALSE(store_.valueAt(choice, 4.0)) << "nothing was recorded there";
+  EXPECT_EQ(store_.valueAt(choice, 9.01), 40.0);
+}
+
+TEST_F(SeriesStoreTest, ALongRecordingIsReadBesideTheWindow) {
+  const auto recording = longOne();
+  ASSERT_TRUE(recording->isLong());
+  EXPECT_TRUE(recording->table.numFrames() == 0) << "not read through";
+  EXPECT_TRUE(recording->touched[1]) << "its summary says so";
+  store_.setRecording(recording);
+  TaxelSelection taxels(recording->profile.layout());
+  taxels.addAll(1);
+  const SeriesChoice maximum{Kind::kMatrix, 1, SignalKind::kMaximum};
+  const SeriesChoice group{.kind = Kind::kTaxels, .taxels = taxels};
+  const SeriesChoice joint{.kind = Kind::kAngle, .index = 2};
+  store_.setWanted({maximum, group, joint});
+  store_.waitUntilRead();
+  EXPECT_EQ(store_.progress(), 1.0);
+  // Against every sample, read the plain way.
+  for (const SeriesChoice& choice : {maximum, group, joint}) {
+    const Series all = readSeries(recording->profile, choice, -1.0, 1e6);
+    double low = INFINITY, high = -INFINITY;
+    for (const double value : all.values) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+    EXPECT_NEAR(store_.extremes(choice)->first, low, 1e-3);
+    EXPECT_NEAR(store_.extremes(choice)->second, high, 1e-3);
+    double top = -INFINITY;
+    for (const SeriesPoint& point : store_.points(choice, seen(0.0, 120.0)))
+      if (!std::isnan(point.y)) top = std::max(top, point.y);
+    EXPECT_NEAR(top, high, 1e-3) << "no peak is lost, however far zoomed out";
+  }
+}
+
+TEST_F(SeriesStoreTest, ZoomedInEverySampleIsShown) {
+  const auto recording = longOne();
+  store_.setRecording(recording);
+  const SeriesChoice choice{Kind::kMatrix, 1, SignalKind::kMean};
+  store_.setWanted({choice});
+  store_.setSeen(20.0, 30.0);
+  store_.waitUntilRead();
+  const auto samples = store_.samples(choice);
+  ASSERT_TRUE(samples);
+  const Series all = readSeries(recording->profile, choice, 20.0, 30.0);
+  const auto points = store_.points(choice, {.from = 20.0, .to = 30.0, .columns = 100'000});
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < all.timeS.size(); ++i)
+    for (const SeriesPoint& point : points)
+      if (point.x == all.timeS[i] && point.y == all.values[i]) {
+        ++found;
+        break;
+      }
+  EXPECT_GE(found + 2, all.timeS.size()) << "all but the neighbours outside";
+}
+
+TEST_F(SeriesStoreTest, TheFirstLookComesBeforeTheWholeIsRead) {
+  const auto recording = longOne();
+  store_.setRecording(recording);
+  const SeriesChoice choice{Kind::kMatrix, 1, SignalKind::kMean};
+  store_.setWanted({choice});
+  store_.waitForFirstLook();
+  EXPECT_GT(store_.points(choice, seen(0.0, 120.0)).size(), 50u);
+  store_.setRecording(nullptr);  // ends what is still at work
+}
+
+TEST_F(SeriesStoreTest, TheOverviewTellsTheExactFacts) {
+  const auto recording = longOne();
+  EXPECT_FALSE(recording->saturatedFramesNow());
+  store_.setRecording(recording);
+  store_.setWanted({});
+  store_.waitUntilRead();
+  const auto whole = makeOpenedRecording(recording->path, recording->profile);
+  EXPECT_EQ(recording->saturatedFramesNow(), whole->saturatedFrames);
+  EXPECT_EQ(recording->maximumNow(), whole->maximum);
+  EXPECT_EQ(recording->timingNow().rateHz, whole->timing.rateHz);
+  EXPECT_EQ(recording->timingNow().gaps.size(), whole->timing.gaps.size());
+  EXPECT_EQ(recording->at(77, 1).mean, whole->at(77, 1).mean);
+  EXPECT_NEAR(recording->timeAt(77), whole->timeAt(77), 1e-9);
+}
+
+// what a file claims of its matrices is bounded before anything is drawn.
+TEST_F(SeriesStoreTest, OfManyMatricesOrPlacesFewerFramesAreLong) {
+  const auto opened = [](std::vector<MatrixLayout> matrices, int frames) {
+    const auto layout = std::make_shared<const SensorLayout>(std::move(matrices));
+    ProfileBuilder builder(layout);
+    const std::vector<float> values(layout->numPlaces(), 7.0F);
+    for (int i = 0; i < frames; ++i) builder.addFrame(1 + i * 30'000LL, values);
+    return makeOpenedRecording("none.palpate", builder.finish({}));
+  };
+  const MatrixLayout single = MatrixLayout::full(1, 1, 3.4);
+  EXPECT_FALSE(opened({single}, 25'000)->isLong());
+  const auto many = opened(std::vector<MatrixLayout>(64, single), 25'000);
+  ASSERT_TRUE(many->isLong()) << "a table of 64 signals of each frame would take 90 MB";
+  EXPECT_EQ(many->table.numFrames(), 0u);
+  EXPECT_EQ(many->at(3, 5).sum, 7.0);
+  EXPECT_NEAR(many->timingNow().meanRateHz, 1e6 / 30'000.0, 0.01);
+  EXPECT_TRUE(opened({MatrixLayout::full(256, 256, 3.4)}, 1500)->isLong());
+}
+
+}  // namespace
+}  // namespace palpate::gui::series_store_test

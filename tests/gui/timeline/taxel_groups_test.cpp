@@ -1,0 +1,111 @@
+#include "gui/timeline/taxel_groups.h"
+
+#include <QSignalSpy>
+
+#include <palpate/model/hand_description.h>
+
+#include "gui/timeline/signal_tree.h"
+#include "testing/testing.h"
+
+namespace palpate::gui::taxel_groups_test {
+namespace {
+
+class TaxelGroupsTest : public ::testing::Test {
+ protected:
+  QSettings& settings() {
+    if (!settings_)
+      settings_ = std::make_unique<QSettings>(
+          QString::fromStdString((folder_ / "palpate.ini").string()), QSettings::IniFormat);
+    return *settings_;
+  }
+  static TaxelSelection tip() {
+    TaxelSelection taxels(*sdh2().layout);
+    taxels.add(3, 0, 2, 2, 3);
+    return taxels;
+  }
+  testing::TemporaryFolder folder_;
+  std::unique_ptr<QSettings> settings_;
+};
+
+TEST_F(TaxelGroupsTest, AreKeptFromDayToDay) {
+  {
+    TaxelGroups groups(settings());
+    QSignalSpy changed(&groups, &TaxelGroups::changed);
+    EXPECT_TRUE(groups.keep("  thumb   tip ", tip()));
+    EXPECT_EQ(changed.size(), 1);
+  }
+  settings_.reset();
+  TaxelGroups groups(settings());
+  const auto of = groups.of(*sdh2().layout);
+  ASSERT_EQ(of.size(), 1u);
+  EXPECT_EQ(of[0].name, "thumb tip");
+  EXPECT_EQ(of[0].taxels, tip());
+}
+
+TEST_F(TaxelGroupsTest, OfAnotherSensorAreNotOffered) {
+  TaxelGroups groups(settings());
+  groups.keep("thumb tip", tip());
+  EXPECT_TRUE(groups.of(SensorLayout({MatrixLayout::full(4, 4, 3.4)})).empty());
+}
+
+TEST_F(TaxelGroupsTest, NamesAreUniqueAndNotEmpty) {
+  TaxelGroups groups(settings());
+  EXPECT_FALSE(groups.keep("  ", tip()));
+  EXPECT_FALSE(groups.keep("nothing", TaxelSelection(*sdh2().layout)));
+  EXPECT_TRUE(groups.keep("a", tip()));
+  EXPECT_TRUE(groups.keep("b", tip()));
+  TaxelSelection other(*sdh2().layout);
+  other.addAll(0);
+  EXPECT_TRUE(groups.keep("a", other)) << "replaces it";
+  EXPECT_EQ(groups.of(*sdh2().layout).size(), 2u);
+  EXPECT_FALSE(groups.rename("a", "b"));
+  EXPECT_TRUE(groups.rename("a", "c"));
+  groups.forget("b");
+  ASSERT_EQ(groups.of(*sdh2().layout).size(), 1u);
+  EXPECT_EQ(groups.of(*sdh2().layout)[0].taxels, other);
+}
+
+TEST_F(TaxelGroupsTest, ATornSettingsFileStopsNothing) {
+  settings().beginWriteArray("taxel_groups", 3);
+  settings().setArrayIndex(0);
+  settings().setValue("name", "bad");
+  settings().setValue("taxels", "9:1");
+  settings().setArrayIndex(2);
+  settings().setValue("name", "good");
+  settings().setValue("taxels", QString::fromStdString(tip().text()));
+  settings().endArray();
+  const auto of = TaxelGroups(settings()).of(*sdh2().layout);
+  ASSERT_EQ(of.size(), 1u);
+  EXPECT_EQ(of[0].name, "good");
+}
+
+TEST_F(TaxelGroupsTest, TheListTicksThem) {
+  TaxelGroups groups(settings());
+  groups.keep("thumb tip", tip());
+  SignalTree tree(groups);
+  tree.setSource(sdh2(), true, false);
+  QSignalSpy changed(&tree, &SignalTree::extrasChanged);
+  EXPECT_TRUE(tree.lines().contains("[x] the chosen taxels (none now)"));
+  EXPECT_TRUE(tree.setTicked("thumb tip", true));
+  EXPECT_TRUE(tree.setTicked("finger 1 distal", true));
+  EXPECT_EQ(changed.size(), 2);
+  EXPECT_TRUE(tree.extras().groups.contains("thumb tip"));
+  EXPECT_EQ(tree.extras().angles, (std::set<int>{4}));
+  EXPECT_FALSE(tree.setTicked("motor 0", true)) << "the recording has no temperatures";
+  EXPECT_TRUE(tree.setTicked("thumb tip", false));
+  EXPECT_TRUE(tree.extras().groups.empty());
+  tree.setNumChosen(5);
+  EXPECT_TRUE(tree.lines().contains("[x] the chosen taxels (5)"));
+}
+
+TEST_F(TaxelGroupsTest, WhatIsTickedIsRemembered) {
+  const PlottedExtras extras{
+      .chosenTaxels = false, .groups = {"a", "b, c"}, .angles = {1, 6}, .temperatures = {0}};
+  savePlottedExtras(extras, settings());
+  EXPECT_EQ(loadPlottedExtras(settings()), extras);
+  settings().setValue("plotted/angles", QStringList{"-1", "x", "3", "9999"});
+  EXPECT_EQ(loadPlottedExtras(settings()).angles, (std::set<int>{3}));
+}
+
+}  // namespace
+}  // namespace palpate::gui::taxel_groups_test
