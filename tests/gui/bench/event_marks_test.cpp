@@ -1,8 +1,10 @@
 #include "gui/bench/event_marks.h"
 
+#include <gtest/gtest.h>
+
 #include <palpate/recognition/grasp_segments.h>
 
-#include "gui/testing/window_fixture.h"
+#include "gui/testing/sample_profiles.h"
 
 namespace palpate::gui::event_marks_test {
 namespace {

@@ -1,17 +1,20 @@
 // The panel of the dock Calibrate by itself, and recordings of loads.
 #pragma once
 
+#include <QApplication>
 #include <QCoreApplication>
 #include <QSettings>
 #include <cmath>
 #include <memory>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include <palpate/model/profile_builder.h>
 
 #include "gui/calibrate/calibrate_panel.h"
-#include "gui/testing/window_fixture.h"
 #include "gui/widgets/figures_table.h"
+#include "testing/testing.h"
 
 namespace palpate::gui {
 

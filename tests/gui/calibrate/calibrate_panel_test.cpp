@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QTest>
 #include <fstream>
 
 #include "gui/calibrate/calibrate_fixture.h"
@@ -12,6 +13,7 @@
 #include "gui/calibrate/step_chart.h"
 #include "gui/calibrate/step_page.h"
 #include "gui/calibrate/tare_page.h"
+#include "gui/testing/sample_profiles.h"
 
 namespace palpate::gui::calibrate_panel_test {
 namespace {

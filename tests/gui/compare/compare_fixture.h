@@ -20,6 +20,7 @@
 #include "gui/compare/compare_view.h"
 #include "gui/export/take_away.h"
 #include "gui/matrices/matrices_view.h"
+#include "gui/testing/sample_profiles.h"
 #include "gui/testing/window_fixture.h"
 
 namespace palpate::gui {

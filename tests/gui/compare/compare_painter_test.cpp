@@ -4,10 +4,12 @@
 #include <QPainter>
 #include <cmath>
 
+#include <gtest/gtest.h>
+
 #include <palpate/filter/frame_difference.h>
 
 #include "gui/look/difference_map.h"
-#include "gui/testing/window_fixture.h"
+#include "gui/testing/sample_profiles.h"
 
 namespace palpate::gui::compare_painter_test {
 namespace {

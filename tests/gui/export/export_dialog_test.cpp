@@ -1,5 +1,6 @@
 #include "gui/export/export_dialog.h"
 
+#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -7,12 +8,15 @@
 #include <QLineEdit>
 #include <QPainter>
 #include <QPushButton>
+#include <QTest>
 #include <QToolButton>
+
+#include <gtest/gtest.h>
 
 #include "gui/export/export_place.h"
 #include "gui/export/export_preview.h"
-#include "gui/testing/window_fixture.h"
 #include "testing/fake_ffmpeg.h"
+#include "testing/testing.h"
 
 namespace palpate::gui::export_dialog_test {
 namespace {

@@ -6,6 +6,7 @@
 #include <palpate/recording/palpate_writer.h>
 
 #include "gui/inspect/inspect_panel.h"
+#include "gui/testing/sample_profiles.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/timeline_chart.h"
 #include "gui/widgets/facts_view.h"

@@ -10,6 +10,7 @@
 #include <QToolButton>
 
 #include "gui/library/log_panel.h"
+#include "gui/testing/fake_clock.h"
 #include "gui/testing/window_fixture.h"
 
 namespace palpate::gui::log_test {

@@ -1,6 +1,7 @@
 #include "gui/look/window_settings.h"
 
-#include "gui/testing/window_fixture.h"
+#include <gtest/gtest.h>
+
 #include "testing/testing.h"
 
 namespace palpate::gui::window_settings_test {

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "gui/testing/window_fixture.h"
+#include <gtest/gtest.h>
+
+#include "gui/testing/sample_profiles.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::matrices_painter_test {

@@ -1,10 +1,13 @@
 #include "gui/matrices/matrices_view.h"
 
+#include <QApplication>
 #include <QMouseEvent>
 #include <QPaintEvent>
 #include <QSignalSpy>
 
-#include "gui/testing/window_fixture.h"
+#include <gtest/gtest.h>
+
+#include "gui/testing/sample_profiles.h"
 
 namespace palpate::gui::matrices_view_test {
 namespace {

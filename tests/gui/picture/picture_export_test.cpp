@@ -3,10 +3,12 @@
 #include <QImageReader>
 #include <QSvgRenderer>
 
+#include <gtest/gtest.h>
+
 #include <palpate/core/error.h>
 
 #include "gui/matrices/matrices_painter.h"
-#include "gui/testing/window_fixture.h"
+#include "gui/testing/sample_profiles.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::picture_export_test {

@@ -1,6 +1,7 @@
 // The confusion matrix by itself: how many names are read, and what mouse and keys do.
 #include "gui/recognise/confusion_view.h"
 
+#include <QApplication>
 #include <QImage>
 #include <QPainter>
 #include <QScrollBar>
@@ -8,7 +9,7 @@
 #include <QTest>
 #include <QWheelEvent>
 
-#include "gui/testing/window_fixture.h"
+#include <gtest/gtest.h>
 
 namespace palpate::gui::confusion_view_test {
 namespace {

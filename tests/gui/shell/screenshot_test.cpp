@@ -1,10 +1,12 @@
 // takeScreenshot: the window as a file.
 #include <QImage>
 
+#include <gtest/gtest.h>
+
 #include <palpate/core/error.h>
 
+#include "gui/look/window_settings.h"
 #include "gui/shell/workbench.h"
-#include "gui/testing/window_fixture.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::screenshot_test {

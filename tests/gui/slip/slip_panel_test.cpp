@@ -1,6 +1,7 @@
 // The dock Slip by itself.
 #include "gui/slip/slip_panel.h"
 
+#include <QApplication>
 #include <QComboBox>
 #include <QCoreApplication>
 #include <QDoubleSpinBox>
@@ -8,7 +9,10 @@
 #include <QPushButton>
 #include <QSettings>
 #include <QSignalSpy>
+#include <QTest>
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include <palpate/core/number_text.h>
 
@@ -16,8 +20,8 @@
 #include "gui/slip/slip_controls.h"
 #include "gui/slip/slip_fixture.h"
 #include "gui/slip/slip_lamp.h"
-#include "gui/testing/window_fixture.h"
 #include "gui/widgets/figures_table.h"
+#include "testing/testing.h"
 
 namespace palpate::gui::slip_panel_test {
 namespace {

@@ -3,7 +3,10 @@
 #include <QSignalSpy>
 #include <stdexcept>
 
-#include "gui/testing/window_fixture.h"
+#include <gtest/gtest.h>
+
+#include "gui/testing/fake_clock.h"
+#include "gui/testing/sample_profiles.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::playback_controller_test {

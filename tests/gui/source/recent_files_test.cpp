@@ -1,8 +1,10 @@
 #include "gui/source/recent_files.h"
 
 #include <QDir>
+#include <QSignalSpy>
 
-#include "gui/testing/window_fixture.h"
+#include <gtest/gtest.h>
+
 #include "testing/testing.h"
 
 namespace palpate::gui::recent_files_test {

@@ -1,11 +1,14 @@
 #include "gui/source/recording_opener.h"
 
+#include <QSignalSpy>
 #include <new>
+
+#include <gtest/gtest.h>
 
 #include <palpate/core/error.h>
 #include <palpate/emulator/synthetic_profile.h>
 
-#include "gui/testing/window_fixture.h"
+#include "gui/testing/sample_profiles.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::recording_opener_test {

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "gui/testing/window_fixture.h"
+#include <gtest/gtest.h>
+
+#include "gui/testing/sample_profiles.h"
 
 namespace palpate::gui::hand_drawing_test {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "gui/export/take_away.h"
 #include "gui/space/hand_panel.h"
+#include "gui/testing/sample_profiles.h"
 #include "gui/testing/window_fixture.h"
 
 namespace palpate::gui::hand_view_test {

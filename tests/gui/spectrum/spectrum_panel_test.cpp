@@ -1,6 +1,7 @@
 // The dock Spectrum by itself.
 #include "gui/spectrum/spectrum_panel.h"
 
+#include <QApplication>
 #include <QComboBox>
 #include <QLabel>
 #include <QProgressBar>
@@ -9,10 +10,13 @@
 #include <cmath>
 #include <numbers>
 
+#include <gtest/gtest.h>
+
 #include <palpate/core/error.h>
 #include <palpate/model/profile_builder.h>
 
-#include "gui/testing/window_fixture.h"
+#include "gui/testing/sample_profiles.h"
+#include "testing/testing.h"
 
 namespace palpate::gui::spectrum_panel_test {
 namespace {

@@ -9,31 +9,14 @@
 #include <string>
 #include <vector>
 
-#include <palpate/core/time.h>
-#include <palpate/model/profile.h>
+#include <gtest/gtest.h>
 
 #include "gui/shell/main_window.h"
+#include "gui/testing/fake_clock.h"
+#include "gui/testing/sample_profiles.h"
 #include "testing/testing.h"
 
 namespace palpate::gui {
-
-class FakeClock : public Clock {
- public:
-  std::int64_t monotonicUs() const override { return nowUs_; }
-  std::int64_t wallUs() const override { return nowUs_; }
-  void advanceMs(std::int64_t ms) { nowUs_ += ms * 1000; }
-
- private:
-  std::int64_t nowUs_ = 5'000'000;
-};
-
-// A profile of the SDH-2 with one frame per stamp [ms]; frame i has the value 10 * (i + 1) counts in
-// row 7, column 2 of finger 0 distal (matrix 1), and nothing else.
-Profile profileWithStamps(const std::vector<std::int64_t>& stampsMs);
-// As above with 20 frames, 50 ms apart.
-Profile twentyFrames();
-// One frame of the SDH-2, all zero.
-TactileFrame emptyFrame();
 
 // Files called *.dsa in `folder` "hold": good*.dsa twenty frames, gap*.dsa a gap of 10 s between
 // frames 4 and 5, empty*.dsa no frame, rich*.dsa a synthetic recording with angles and temperatures,

@@ -1,11 +1,12 @@
 #include "gui/timeline/event_rows.h"
 
+#include <QApplication>
 #include <QLineEdit>
 #include <QMouseEvent>
 #include <QSignalSpy>
 #include <QTest>
 
-#include "gui/testing/window_fixture.h"
+#include <gtest/gtest.h>
 
 namespace palpate::gui::event_rows_test {
 namespace {

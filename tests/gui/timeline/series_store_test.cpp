@@ -4,11 +4,14 @@
 #include <QTest>
 #include <cmath>
 
+#include <gtest/gtest.h>
+
 #include <palpate/emulator/synthetic_profile.h>
 #include <palpate/model/profile_builder.h>
 #include <palpate/recording/recording.h>
 
-#include "gui/testing/window_fixture.h"
+#include "gui/testing/sample_profiles.h"
+#include "testing/testing.h"
 
 namespace palpate::gui::series_store_test {
 namespace {

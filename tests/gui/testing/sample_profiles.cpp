@@ -1,0 +1,34 @@
+#include "gui/testing/sample_profiles.h"
+
+#include <palpate/model/hand_description.h>
+#include <palpate/model/profile_builder.h>
+
+namespace palpate::gui {
+namespace {
+
+constexpr std::int64_t kStartUs = 1'400'000'000'000'000;
+
+}  // namespace
+
+TactileFrame emptyFrame() { return TactileFrame(sdh2().layout); }
+
+Profile profileWithStamps(const std::vector<std::int64_t>& stampsMs) {
+  ProfileBuilder builder(sdh2().layout);
+  for (std::size_t i = 0; i < stampsMs.size(); ++i) {
+    TactileFrame frame = emptyFrame();
+    frame.matrix(1)(7, 2) = 10.0F * static_cast<float>(i + 1);
+    builder.addFrame(kStartUs + stampsMs[i] * 1000, frame.values);
+  }
+  ProfileInfo info;
+  info.format = "test";
+  info.serial = "1D9B0057";
+  return builder.finish(std::move(info));
+}
+
+Profile twentyFrames() {
+  std::vector<std::int64_t> stamps;
+  for (std::int64_t i = 0; i < 20; ++i) stamps.push_back(50 * i);
+  return profileWithStamps(stamps);
+}
+
+}  // namespace palpate::gui
