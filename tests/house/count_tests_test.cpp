@@ -1,4 +1,8 @@
 // The count at the end of scripts/test: from ctest's report of processes and the processes' own reports.
+#include <cstdlib>
+#include <filesystem>
+
+#include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
 #include "house/source_tree.h"
@@ -73,12 +77,52 @@ TEST_F(CountTestsOfProcesses, AProcessThatDiedIsAFailure) {
   EXPECT_EQ(lastLine(count().out), "1 passed, 3 failed, 0 skipped");
 }
 
+TEST_F(CountTestsOfProcesses, AnEntryThatLeftNoReportHasShownNothing) {
+  entry("core/a_test", true);
+  own("core.a_test", good_);
+  entry("core/b_test", true);
+  const ProgramResult result = count();
+  EXPECT_EQ(lastLine(result.out), "1 passed, 1 failed, 0 skipped");
+  EXPECT_NE(result.out.find("failed: core/b_test"), std::string::npos) << result.out;
+  EXPECT_EQ(result.exitCode, 1);
+}
+
 TEST_F(CountTestsOfProcesses, AFilterThatLeavesNothingHasShownNothing) {
   entry("core/a_test", true);
   own("core.a_test", "");
   const ProgramResult result = count();
   EXPECT_EQ(lastLine(result.out), "0 passed, 1 failed, 0 skipped");
   EXPECT_EQ(result.exitCode, 1);
+}
+
+// This program by itself, on tests that aren't there.
+ProgramResult ownTests(const std::vector<std::string>& words, const std::string& filter = "") {
+  return runProgram(std::filesystem::read_symlink("/proc/self/exe"),
+                    words,
+                    {{"TEST_FILTER", filter}, {"PALPATE_TEST_REPORTS", ""}});
+}
+
+TEST(TestPrograms, FailWhereTheirFileHasNoTest) {
+  const ProgramResult result = ownTests({"--file=nowhere_test", "--entry=house/nowhere_test"});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_NE(result.err.find("no test is selected"), std::string::npos) << result.err;
+}
+
+TEST(TestPrograms, MayBeLeftWithoutATestByAFilter) {
+  EXPECT_EQ(ownTests({"--file=count_tests_test"}, "another/.*").exitCode, 0);
+  EXPECT_EQ(ownTests({"--file=count_tests_test", "--gtest_filter=Another.*"}).exitCode, 0);
+}
+
+void endForWantOfATool() { PALPATE_CANNOT_SHOW("no tool"); }
+
+TEST(CannotShow, IsAFailureWhereEverythingMustBeShown) {
+  const char* before = std::getenv("PALPATE_REQUIRE_DATA");
+  const std::string kept = before ? before : "";
+  ::setenv("PALPATE_REQUIRE_DATA", "1", 1);
+  EXPECT_FATAL_FAILURE(endForWantOfATool(), "no tool");
+  ::setenv("PALPATE_REQUIRE_DATA", "0", 1);
+  EXPECT_FALSE(mustShow());
+  ::setenv("PALPATE_REQUIRE_DATA", kept.c_str(), 1);
 }
 
 }  // namespace

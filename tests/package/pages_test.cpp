@@ -129,7 +129,7 @@ TEST_F(Pages, ManualHasTextsInOnePiece) {
 }
 
 TEST_F(Pages, ManualIsSetWithoutComplaint) {
-  if (!fs::exists("/usr/bin/man")) GTEST_SKIP() << "man-db isn't installed";
+  if (!fs::exists("/usr/bin/man")) PALPATE_CANNOT_SHOW("man-db isn't installed");
   const ProgramResult result = runProgram(
       "/usr/bin/man", {"--warnings", "-l", pathOf("palpate.1").string()}, {{"LC_ALL", "C.UTF-8"}});
   EXPECT_EQ(result.exitCode, 0);
@@ -140,7 +140,7 @@ TEST_F(Pages, ManualIsSetWithoutComplaint) {
 
 TEST_F(Pages, BashOffersEveryCommandAndItsOptionsAndNoOther) {
   const fs::path library = "/usr/share/bash-completion/bash_completion";
-  if (!fs::exists(library)) GTEST_SKIP() << "bash-completion isn't installed";
+  if (!fs::exists(library)) PALPATE_CANNOT_SHOW("bash-completion isn't installed");
   // Of each argument a line: what completes it.
   const std::string script = R"(. "$1"; . "$2"; cd "$3"; shift 3
 for line; do

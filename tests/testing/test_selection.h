@@ -11,7 +11,8 @@ namespace palpate::testing {
 //   --entry=NAME   what the process is called in reports, "MODULE/FILE"
 // Environment: TEST_FILTER, a regular expression: only tests whose whole name, "MODULE/FILE.Suite.Test",
 // matches it; PALPATE_TEST_REPORTS, a folder: an XML report MODULE.FILE.xml is written into it.
-// Returns whether any test is left; throws std::invalid_argument for an option it doesn't know.
+// Returns whether any test is left; throws std::invalid_argument for an option it doesn't know, and where no test is
+// left that neither TEST_FILTER nor --gtest_filter took away: a process that has nothing to show must not pass.
 bool selectTests(int& argc, char** argv);
 
 }  // namespace palpate::testing

@@ -20,13 +20,17 @@ TemporaryFolder::~TemporaryFolder() {
   fs::remove_all(path_, ignored);
 }
 
+bool mustShow() {
+  const char* required = std::getenv("PALPATE_REQUIRE_DATA");
+  return required && std::string_view(required) == "1";
+}
+
 namespace {
 std::optional<fs::path> sharedFolder(const char* variable, const char* fallback) {
   const char* given = std::getenv(variable);
   const fs::path path = given && *given ? fs::path(given) : fs::path(PALPATE_SOURCE_DIR) / fallback;
   if (fs::is_directory(path)) return path;
-  const char* required = std::getenv("PALPATE_REQUIRE_DATA");
-  if (required && std::string_view(required) == "1")
+  if (mustShow())
     throw std::runtime_error(std::string(variable) + ": no such folder: " + path.string());
   return std::nullopt;
 }

@@ -30,6 +30,8 @@ class TemporaryFolder {
 // missing. With PALPATE_REQUIRE_DATA=1 a missing folder throws.
 std::optional<std::filesystem::path> recordingsFolder();
 std::optional<std::filesystem::path> goldenFolder();
+// Whether a test may not be skipped for what this machine lacks, recordings or tools (PALPATE_REQUIRE_DATA=1).
+bool mustShow();
 // The project's own folder data/.
 std::filesystem::path dataFolder();
 
@@ -43,6 +45,13 @@ std::string readFile(const std::filesystem::path& path);
 void writeFile(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace palpate::testing
+
+// Ends the test: `why` it can't be shown on this machine. A failure where it must be.
+#define PALPATE_CANNOT_SHOW(why)                     \
+  do {                                               \
+    if (::palpate::testing::mustShow()) FAIL() << why; \
+    GTEST_SKIP() << why;                             \
+  } while (false)
 
 // Ends the test as skipped where the real recordings (or golden numbers) are missing.
 #define PALPATE_NEED(folder)                                            \
