@@ -7,13 +7,13 @@
 #include "palpate/core/error.h"
 #include "palpate/core/text_file.h"
 
+#include "calibration/json_or_null.h"
+
 namespace palpate {
 namespace {
 
 constexpr const char* kKind = "palpate calibration";
 constexpr std::uint64_t kMostBytes = 16u << 20;
-
-Json calibrationOrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
 std::optional<double> numberIn(const Json& json, const char* key) {
   const Json value = json.at(key);
@@ -34,8 +34,8 @@ Json jsonOf(const PressureSample& sample) {
       .set("pressure_kpa", sample.pressureKpa)
       .set("K", sample.gainCounts)
       .set("m", sample.driftPerS)
-      .set("temperature_c", calibrationOrNull(sample.nearestDegC))
-      .set("study_temperature_c", calibrationOrNull(sample.studyDegC))
+      .set("temperature_c", orNull(sample.nearestDegC))
+      .set("study_temperature_c", orNull(sample.studyDegC))
       .set("active_area_mm2", sample.activeAreaMm2)
       .set("used", sample.used)
       .set("notes", std::move(notes));
@@ -75,7 +75,7 @@ Json jsonOf(const Calibration& calibration) {
                .set("assumed", calibration.settings.assumed));
   const Json model = jsonOf(calibration.pressure);
   for (const std::string& key : model.keys()) json.set(key, model.at(key));
-  json.set("sensitivity_offset_counts", calibrationOrNull(calibration.sensitivityOffset));
+  json.set("sensitivity_offset_counts", orNull(calibration.sensitivityOffset));
   if (calibration.noise) json.set("noise", jsonOf(*calibration.noise));
   json.set("options", calibration.options);
   Json samples = Json::array();

@@ -8,6 +8,8 @@
 
 #include "palpate/core/number_text.h"
 
+#include "calibration/json_or_null.h"
+
 namespace palpate {
 namespace {
 
@@ -133,8 +135,6 @@ Json stepReportTextsOf(const std::vector<std::string>& texts) {
   return list;
 }
 
-Json stepReportOrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
 Json jsonOf(const FittedStep& fitted) {
   const StepFit& fit = fitted.fit;
   const StepParameters& p = fit.parameters;
@@ -166,9 +166,9 @@ Json jsonOf(const FittedStep& fitted) {
     json.set("t_k_s", c.tangentAtGainS).set("equivalent_tangent_per_s", c.equivalentTangentPerS);
     json.set("steady_s", c.steadyS);
   }
-  json.set("nearest_temperature_c", stepReportOrNull(fitted.nearestDegC));
-  json.set("mean_temperature_c", stepReportOrNull(fitted.allSensorsDegC));
-  json.set("study_temperature_c", stepReportOrNull(fitted.studyDegC));
+  json.set("nearest_temperature_c", orNull(fitted.nearestDegC));
+  json.set("mean_temperature_c", orNull(fitted.allSensorsDegC));
+  json.set("study_temperature_c", orNull(fitted.studyDegC));
   json.set("active_area_mm2", fitted.activeAreaMm2);
   json.set("saturated_frames", fitted.saturatedFrames);
   json.set("switched_taxels_per_frame", fitted.switchedPerFrame);

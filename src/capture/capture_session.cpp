@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include "palpate/core/json.h"
-#include "palpate/device/live_hand.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -73,7 +72,7 @@ CaptureSession::CaptureSession(std::unique_ptr<Device> device,
           }(),
           clock),
       meter_(options_.health),
-      scansItself_(dynamic_cast<const LiveHand*>(device_.get()) != nullptr),
+      scansItself_(device_->scansItself()),
       saturationCounts_(device_->hand().saturationCounts) {}
 
 CaptureSession::~CaptureSession() {

@@ -6,13 +6,11 @@
 #include <string>
 
 #include "palpate/core/time.h"
+#include "palpate/model/gap_rule.h"
 #include "palpate/model/timing.h"
 
 namespace palpate {
 namespace {
-
-constexpr double kShortestGapS = 1.0;
-constexpr double kGapIntervals = 5.0;
 
 void check(const MovieOptions& options) {
   // Written so that NaN fails, too.

@@ -8,6 +8,8 @@
 
 #include "palpate/core/error.h"
 
+#include "control/command_answers.h"
+
 namespace palpate {
 namespace {
 
@@ -19,11 +21,6 @@ constexpr std::int64_t kFaultAgainUs = 10'000'000;  // then the same failure is 
 constexpr std::chrono::milliseconds kGoodbye{300};
 constexpr std::size_t kMostChanges = 1000;
 constexpr std::size_t kWaitingFrames = 64;  // two seconds: then this thread didn't run at all
-
-template <typename Future>
-bool graspControlIsReady(const Future& future) {
-  return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-}
 
 FeedOptions smallFeed() {
   FeedOptions options;
@@ -156,9 +153,9 @@ void GraspControl::send() {
 }
 
 void GraspControl::heedAnswers() {
-  std::erase_if(free_, [](const auto& answer) { return graspControlIsReady(answer); });
-  std::erase_if(settings_, [](const auto& answer) { return graspControlIsReady(answer); });
-  if (!asked_ || !graspControlIsReady(asked_->answer)) return;
+  std::erase_if(free_, [](const auto& answer) { return isReady(answer); });
+  std::erase_if(settings_, [](const auto& answer) { return isReady(answer); });
+  if (!asked_ || !isReady(asked_->answer)) return;
   Asked asked = std::move(*asked_);
   asked_.reset();
   const std::int64_t nowUs = clock_.monotonicUs();
@@ -331,9 +328,8 @@ void GraspControl::relax() noexcept {
 }
 
 bool GraspControl::settingsPending() const {
-  return std::any_of(settings_.begin(), settings_.end(), [](const auto& answer) {
-    return !graspControlIsReady(answer);
-  });
+  return std::any_of(
+      settings_.begin(), settings_.end(), [](const auto& answer) { return !isReady(answer); });
 }
 
 std::shared_future<CommandAnswer> GraspControl::change(const DeviceCommand& setting) {

@@ -104,22 +104,16 @@ void GraspMachine::begin(const GraspRequest& request, std::int64_t monoUs, std::
 
 // Throws when a matrix that may press can't tell that it does.
 void GraspMachine::refuseUnfelt(const GraspRequest& request) const {
-  const int highest = request.mode == GraspMode::kSlip
-                          ? std::max(request.limitCounts, request.holding.mostLimitCounts)
-                          : request.limitCounts;
   std::string text;
-  for (const UnfeltLimit& unfelt : unfeltLimits(hand_, settings_, highest)) {
-    if (unfelt.matrix < hand_.matrices.size() &&
-        !movesIn(sdh2Preshape(request.preshape), hand_.matrices[unfelt.matrix]))
-      continue;
+  for (const UnfeltLimit& unfelt : unfeltLimits(hand_, settings_, request))
     text += (text.empty() ? "" : "; ") + unfelt.why;
-  }
   if (!text.empty())
-    refuse("refused: a limit of " + std::to_string(highest) + " counts would not be felt: " + text);
+    refuse("refused: a limit of " + std::to_string(highestLimitOf(request)) +
+           " counts would not be felt: " + text);
 }
 
 bool GraspMachine::isOverLimit() const noexcept {
-  return peak_.counts > static_cast<float>(limit_) || peak_.counts >= hand_.saturationCounts;
+  return peak_.counts > static_cast<float>(limit_);  // below saturation: see refuseUnfelt()
 }
 
 // True when the matrices are others than before, or other taxels of them are scanned.
@@ -253,8 +247,9 @@ void GraspMachine::lookOn(std::int64_t monoUs) {
   settledUs_ = monoUs + kLookOnUs;
 }
 
+// Only where it was reached.
 void GraspMachine::seeReached() {
-  if (!report_.reached || peak_.counts > report_.reached->counts) report_.reached = peak_;
+  if (peak_.counts > report_.reached->counts) report_.reached = peak_;
 }
 
 // "; rose to 3222 after the stop, 16 times the limit: close more slowly", or nothing.

@@ -104,6 +104,24 @@ MoveJoints motionTo(const GraspRequest& request, double closeRatio, const HandDe
   return move;
 }
 
+int highestLimitOf(const GraspRequest& request) {
+  return request.mode == GraspMode::kSlip
+             ? std::max(request.limitCounts, request.holding.mostLimitCounts)
+             : request.limitCounts;
+}
+
+std::vector<UnfeltLimit> unfeltLimits(const HandDescription& hand,
+                                      const std::vector<MatrixSettings>& settings,
+                                      const GraspRequest& request) {
+  if (request.mode == GraspMode::kPlain) return {};
+  std::vector<UnfeltLimit> unfelt = unfeltLimits(hand, settings, highestLimitOf(request));
+  const Preshape& preshape = sdh2Preshape(request.preshape);
+  std::erase_if(unfelt, [&](const UnfeltLimit& each) {
+    return each.matrix < hand.matrices.size() && !movesIn(preshape, hand.matrices[each.matrix]);
+  });
+  return unfelt;
+}
+
 bool isOpening(const GraspRequest& request) {
   return request.mode == GraspMode::kPlain && request.closeRatio == 0.0 && !request.startRatio;
 }

@@ -10,6 +10,8 @@
 #include "palpate/core/error.h"
 #include "palpate/core/time.h"
 
+#include "control/command_answers.h"
+
 namespace palpate {
 namespace {
 
@@ -20,10 +22,6 @@ constexpr std::int64_t kStaleUs = 1'000'000;  // no frame for so long tells no r
 
 // A second or two of frames: whoever calls step() so rarely misses some, and nothing else.
 constexpr FeedOptions kFeed{.tactileItems = 256, .motionItems = 256, .eventItems = 64};
-
-bool sensitivityControlIsReady(const std::shared_future<CommandAnswer>& answer) {
-  return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-}
 
 TactileThresholds resetOf(const HandDescription& hand) {
   TactileThresholds reset;
@@ -100,7 +98,7 @@ void SensitivityControl::reset() {
 
 void SensitivityControl::heedAnswers() {
   for (const auto& answer : pending_) {
-    if (!sensitivityControlIsReady(answer)) continue;
+    if (!isReady(answer)) continue;
     try {
       answer.get();
     } catch (const std::exception& error) {
@@ -108,7 +106,7 @@ void SensitivityControl::heedAnswers() {
     }
   }
   const bool had = !pending_.empty();
-  std::erase_if(pending_, sensitivityControlIsReady);
+  std::erase_if(pending_, [](const auto& answer) { return isReady(answer); });
   if (had && pending_.empty()) {
     settledFromUs_ = session_.nowUs();
     stampsUs_.clear();

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "palpate/core/trimmed.h"
+
 namespace palpate {
 namespace {
 
@@ -14,16 +16,9 @@ void append(std::string& out, Number value) {
   out.append(text, end);
 }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const auto first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
 template <typename Number>
 std::optional<Number> parsed(std::string_view text) noexcept {
-  text = trimmed(text);
+  text = trimmed(text, " \t\r\n");
   Number value{};
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (failure != std::errc() || end != text.data() + text.size()) return std::nullopt;

@@ -33,10 +33,6 @@ bool wouldBlock(int error) { return error == EAGAIN || error == EWOULDBLOCK; }
 
 }  // namespace
 
-OwnedDescriptor::~OwnedDescriptor() {
-  if (fd_ >= 0) ::close(fd_);
-}
-
 DescriptorChannel::DescriptorChannel(std::string name, int fd, bool isSocket)
     : name_(std::move(name)),
       fd_(fd),

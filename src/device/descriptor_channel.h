@@ -3,28 +3,10 @@
 
 #include <string>
 
+#include "palpate/core/file_descriptor.h"
 #include "palpate/device/byte_channel.h"
 
 namespace palpate {
-
-// A descriptor that closes itself.
-class OwnedDescriptor {
- public:
-  explicit OwnedDescriptor(int fd = -1) noexcept : fd_(fd) {}
-  ~OwnedDescriptor();
-  OwnedDescriptor(OwnedDescriptor&& other) noexcept : fd_(other.release()) {}
-  OwnedDescriptor(const OwnedDescriptor&) = delete;
-  OwnedDescriptor& operator=(const OwnedDescriptor&) = delete;
-  int get() const noexcept { return fd_; }
-  int release() noexcept {
-    const int fd = fd_;
-    fd_ = -1;
-    return fd;
-  }
-
- private:
-  int fd_;
-};
 
 // Reads and writes a non-blocking descriptor that the derived class opened and closes.
 class DescriptorChannel : public ByteChannel {
@@ -45,7 +27,7 @@ class DescriptorChannel : public ByteChannel {
   std::string name_;
   int fd_;
   bool isSocket_;
-  OwnedDescriptor wake_;  // eventfd
+  FileDescriptor wake_;  // eventfd
 };
 
 }  // namespace palpate

@@ -43,7 +43,7 @@ bool SerialPortChannel::knows(const std::string& path) {
   return true;
 }
 
-SerialPortChannel::SerialPortChannel(std::string name, int fd, Port port, OwnedDescriptor lock)
+SerialPortChannel::SerialPortChannel(std::string name, int fd, Port port, FileDescriptor lock)
     : DescriptorChannel(std::move(name), fd, false),
       lock_(std::move(lock)),
       port_(std::move(port)) {}
@@ -59,7 +59,7 @@ std::unique_ptr<ByteChannel> SerialPortChannel::open(const std::string& path,
         DeviceFault::kNotFound, name, "no such port; 'palpate ports' lists what is there");
   Port port(found, Closer{});
   // Before libserialport opens the port, and sets it: another program may be streaming there.
-  OwnedDescriptor lock(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  FileDescriptor lock(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (lock.get() < 0) throwOpenError(errno, name);
   lockLine(lock.get(), name);
   int exclusive = 0;

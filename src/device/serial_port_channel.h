@@ -25,8 +25,8 @@ class SerialPortChannel final : public DescriptorChannel {
     void operator()(sp_port* port) const noexcept;
   };
   using Port = std::unique_ptr<sp_port, Closer>;
-  SerialPortChannel(std::string name, int fd, Port port, OwnedDescriptor lock);
-  OwnedDescriptor lock_;  // on the line, taken before anything was changed; let go after port_
+  SerialPortChannel(std::string name, int fd, Port port, FileDescriptor lock);
+  FileDescriptor lock_;  // on the line, taken before anything was changed; let go after port_
   Port port_;
 };
 

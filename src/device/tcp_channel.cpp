@@ -122,7 +122,7 @@ int connectWithin(int fd, const addrinfo& address, TcpChannelSteadyClock::time_p
 
 }  // namespace
 
-TcpChannel::TcpChannel(std::string name, OwnedDescriptor fd)
+TcpChannel::TcpChannel(std::string name, FileDescriptor fd)
     : DescriptorChannel(std::move(name), fd.get(), true), fd_(std::move(fd)) {}
 
 std::unique_ptr<ByteChannel> TcpChannel::open(const std::string& name,
@@ -132,7 +132,7 @@ std::unique_ptr<ByteChannel> TcpChannel::open(const std::string& name,
   const auto addresses = resolve(name, place, deadline);
   int error = ETIMEDOUT;
   for (const addrinfo* at = addresses->first; at; at = at->ai_next) {
-    OwnedDescriptor fd(
+    FileDescriptor fd(
         ::socket(at->ai_family, at->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, at->ai_protocol));
     if (fd.get() < 0) {
       error = errno;

@@ -15,8 +15,8 @@ class TcpChannel final : public DescriptorChannel {
   bool isNetwork() const noexcept override { return true; }
 
  private:
-  TcpChannel(std::string name, OwnedDescriptor fd);
-  OwnedDescriptor fd_;
+  TcpChannel(std::string name, FileDescriptor fd);
+  FileDescriptor fd_;
 };
 
 }  // namespace palpate

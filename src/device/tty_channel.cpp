@@ -69,11 +69,11 @@ bool makeRaw(int fd) noexcept {
   return ::tcsetattr(fd, TCSANOW, &settings) == 0;
 }
 
-TtyChannel::TtyChannel(std::string name, OwnedDescriptor fd)
+TtyChannel::TtyChannel(std::string name, FileDescriptor fd)
     : DescriptorChannel(std::move(name), fd.get(), false), fd_(std::move(fd)) {}
 
 std::unique_ptr<ByteChannel> TtyChannel::open(const std::string& path, const std::string& name) {
-  OwnedDescriptor fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  FileDescriptor fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (fd.get() < 0) throwOpenError(errno, name);
   if (::isatty(fd.get()) != 1)
     throw DeviceError(DeviceFault::kNotFound,

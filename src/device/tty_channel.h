@@ -19,8 +19,8 @@ class TtyChannel final : public DescriptorChannel {
   static std::unique_ptr<ByteChannel> open(const std::string& path, const std::string& name);
 
  private:
-  TtyChannel(std::string name, OwnedDescriptor fd);
-  OwnedDescriptor fd_;
+  TtyChannel(std::string name, FileDescriptor fd);
+  FileDescriptor fd_;
 };
 
 // What a failed open() of a port means, and what to do. `error` is an errno.

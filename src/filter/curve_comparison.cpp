@@ -6,11 +6,11 @@
 #include <stdexcept>
 #include <vector>
 
+#include "palpate/model/gap_rule.h"
+
 namespace palpate {
 namespace {
 
-constexpr double kCurveComparisonShortestGapS = 1.0;
-constexpr double kCurveComparisonGapIntervals = 5.0;
 constexpr double kRoundingS = 1e-7;  // stamps are whole microseconds
 constexpr std::size_t kMostSamples = 20'000'000;
 
@@ -89,9 +89,8 @@ struct Moments {
 }  // namespace
 
 double gapFromS(const TimingReport& timing) {
-  return timing.rateHz > 0.0
-             ? std::max(kCurveComparisonShortestGapS, kCurveComparisonGapIntervals / timing.rateHz)
-             : kCurveComparisonShortestGapS;
+  return timing.rateHz > 0.0 ? std::max(kShortestGapS, kGapIntervals / timing.rateHz)
+                             : kShortestGapS;
 }
 
 CurveComparison compareCurves(const Series& a,

@@ -74,6 +74,7 @@ class FilterChain::Contact final : public FrameSink {
     active_.pop_front();
     out_.take(frame);
   }
+  void forget() noexcept { active_.clear(); }
 
  private:
   FrameSink& out_;
@@ -101,11 +102,29 @@ void FilterChain::build(const std::shared_ptr<const SensorLayout>& layout) {
   layout_ = layout;
 }
 
+// Which frames are still inside nobody knows when a filter has failed: none, and the next one begins anew.
+template <typename Work>
+void FilterChain::guarded(const Work& work) {
+  try {
+    work();
+  } catch (...) {
+    links_.clear();
+    layout_.reset();
+    gaps_.reset();
+    out_->forget();
+    throw;
+  }
+}
+
 void FilterChain::endStretch() {
   for (const auto& link : links_) link->finish();
 }
 
 void FilterChain::push(TactileFrame& frame) {
+  guarded([&] { pass(frame); });
+}
+
+void FilterChain::pass(TactileFrame& frame) {
   if (frame.layout != layout_ && (!layout_ || !(*frame.layout == *layout_))) {
     endStretch();
     build(frame.layout);
@@ -120,10 +139,12 @@ void FilterChain::push(TactileFrame& frame) {
   }
 }
 
-void FilterChain::restart() { endStretch(); }
+void FilterChain::restart() {
+  guarded([this] { endStretch(); });
+}
 
 void FilterChain::finish() {
-  endStretch();
+  guarded([this] { endStretch(); });
   gaps_.reset();
 }
 

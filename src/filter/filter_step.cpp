@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "palpate/core/number_text.h"
+#include "palpate/core/trimmed.h"
 
 namespace palpate {
 namespace {
@@ -16,17 +17,11 @@ constexpr std::size_t kMostMatrices = 1024;
 constexpr int kMostMedianValues = 2001;  // that one value is the middle of: some ms per frame
 constexpr const char* kMatrices = "matrices";
 
-std::string_view filterStepTrimmed(std::string_view text) {
-  const auto from = text.find_first_not_of(" \t");
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(" \t") - from + 1);
-}
-
 std::vector<std::string_view> split(std::string_view text, char at) {
   std::vector<std::string_view> parts;
   for (;;) {
     const auto end = text.find(at);
-    parts.push_back(filterStepTrimmed(text.substr(0, end)));
+    parts.push_back(trimmed(text.substr(0, end)));
     if (end == std::string_view::npos) return parts;
     text.remove_prefix(end + 1);
   }
@@ -161,7 +156,7 @@ bool FilterStep::causal() const {
 FilterStep parseFilterStep(std::string_view text) {
   FilterStep step;
   const auto colon = text.find(':');
-  step.name = filterStepTrimmed(text.substr(0, colon));
+  step.name = trimmed(text.substr(0, colon));
   if (step.name.empty())
     throw std::invalid_argument("a filter is wanted, as \"median:size=3\"; there are: " +
                                 filterNames());
@@ -170,7 +165,7 @@ FilterStep parseFilterStep(std::string_view text) {
     std::vector<std::string_view> seen;
     for (const std::string_view part : split(text.substr(colon + 1), ',')) {
       const auto equals = part.find('=');
-      const std::string_view key = filterStepTrimmed(part.substr(0, equals));
+      const std::string_view key = trimmed(part.substr(0, equals));
       if (equals == std::string_view::npos || key.empty())
         throw std::invalid_argument(step.name + ": \"" + std::string(part) +
                                     "\" is no KEY=VALUE; keys: " + kind.optionKeys() + ", " +
@@ -178,7 +173,7 @@ FilterStep parseFilterStep(std::string_view text) {
       if (std::find(seen.begin(), seen.end(), key) != seen.end())
         throw std::invalid_argument(step.name + ": " + std::string(key) + " is given twice");
       seen.push_back(key);
-      const std::string_view value = filterStepTrimmed(part.substr(equals + 1));
+      const std::string_view value = trimmed(part.substr(equals + 1));
       if (key == kMatrices) {
         step.matrices = parseMatrices(step, value);
         continue;

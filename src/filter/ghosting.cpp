@@ -21,7 +21,9 @@ constexpr std::size_t kGhostingFramesPerReport = 256;
 class Outcome final : public FrameSink {
  public:
   // All that the filters gave: how they deal with ghosts is asked here, not what counts as contact afterwards.
-  void take(TactileFrame& frame) override { frames_.push_back(frame.allValues()); }
+  void take(TactileFrame& frame) override {
+    frames_.push_back(std::move(frame.filtered.empty() ? frame.values : frame.filtered));
+  }
   std::vector<std::vector<float>>& frames() { return frames_; }
 
  private:

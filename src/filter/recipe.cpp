@@ -7,6 +7,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/trimmed.h"
 
 namespace palpate {
 namespace {
@@ -78,12 +79,6 @@ FilterStep stepFromJson(const Json& json) {
   return step;
 }
 
-std::string_view recipeTrimmed(std::string_view text) {
-  const auto from = text.find_first_not_of(" \t");
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(" \t") - from + 1);
-}
-
 Recipe preset(const char* name, std::initializer_list<const char*> texts) {
   Recipe recipe{.name = name};
   for (const char* text : texts) recipe.steps.push_back(parseFilterStep(text));
@@ -132,7 +127,7 @@ Recipe parseRecipe(std::span<const std::string> texts) {
   for (std::string_view text : texts) {
     for (;;) {
       const auto end = text.find('|');
-      std::string_view part = recipeTrimmed(text.substr(0, end));
+      std::string_view part = trimmed(text.substr(0, end));
       const bool off = part.size() >= 2 && part.front() == '(' && part.back() == ')';
       if (off) part = part.substr(1, part.size() - 2);
       recipe.steps.push_back(parseFilterStep(part));

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "palpate/core/error.h"
+#include "palpate/model/gap_rule.h"
 
 #include "filter/real_fourier.h"
 
@@ -14,8 +15,6 @@ namespace palpate {
 namespace {
 
 constexpr int kLongestWindow = 65'536;
-constexpr double kSpectrumShortestGapS = 1.0;
-constexpr double kSpectrumGapIntervals = 5.0;
 constexpr std::size_t kSegmentsPerReport = 64;
 // Of an interval: what rounding may take from the grid's last sample.
 constexpr double kRounding = 1e-6;
@@ -124,7 +123,7 @@ Plan planOf(std::span<const double> timeS,
   report.notFinite = values.size() - times.size();
   std::vector<double> intervals;
   for (std::size_t i = 1; i < times.size(); ++i) intervals.push_back(times[i] - times[i - 1]);
-  const double gapS = std::max(kSpectrumShortestGapS, kSpectrumGapIntervals * median(intervals));
+  const double gapS = std::max(kShortestGapS, kGapIntervals * median(intervals));
 
   std::size_t begin = 0, within = 0;
   double sum = 0.0, squares = 0.0;

@@ -72,7 +72,7 @@ struct RemoteClient::Impl {
   }
 
   std::filesystem::path path;
-  Descriptor socket;
+  FileDescriptor socket;
   std::string received;
 };
 

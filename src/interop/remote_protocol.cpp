@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "palpate/core/one_line.h"
+#include "palpate/core/trimmed.h"
 
 namespace palpate {
 namespace {
@@ -12,12 +13,6 @@ using RemoteProtocolVerb = RemoteRequest::Verb;
 
 constexpr std::string_view kBlanks = " \t";
 constexpr std::size_t kMostQuoted = 60;  // of what a stranger wrote, in an answer
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 bool hasText(RemoteProtocolVerb verb) {
   return verb == RemoteProtocolVerb::kStart || verb == RemoteProtocolVerb::kLabel ||

@@ -58,7 +58,7 @@ class AnswerBox {
   int descriptor() const noexcept { return wake_.get(); }
 
  private:
-  Descriptor wake_;
+  FileDescriptor wake_;
   std::mutex mutex_;
   std::vector<Item> items_;
 };
@@ -83,7 +83,7 @@ class Promise {
 };
 
 struct Client {
-  Descriptor socket;
+  FileDescriptor socket;
   std::uint64_t id = 0;
   RequestLines lines;
   std::string out;                       // of the last answer, what isn't sent yet
@@ -252,7 +252,7 @@ struct RemoteServer::Impl {
   }
 
   void accept() {
-    Descriptor socket = listener.accept();
+    FileDescriptor socket = listener.accept();
     if (socket.get() < 0) {
       resting = errno == EMFILE || errno == ENFILE || errno == ENOMEM || errno == ENOBUFS;
       if (errno == EACCES) turnAway();

@@ -38,8 +38,8 @@ sockaddr_un addressOf(const fs::path& path) {
   return address;
 }
 
-Descriptor newSocket(const fs::path& path) {
-  Descriptor made(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+FileDescriptor newSocket(const fs::path& path) {
+  FileDescriptor made(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (made.get() < 0) fail(path, "no socket to be had");
   return made;
 }
@@ -50,9 +50,9 @@ bool connects(int socket, const sockaddr_un& address) {
 
 // Two programs that begin at the same time look one after the other at what is there. The lock is on the folder:
 // nothing of it stays.
-Descriptor lockFolderOf(const fs::path& path) {
+FileDescriptor lockFolderOf(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  FileDescriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (opened.get() < 0) fail(folder, "no socket can be made there");
   const auto end = std::chrono::steady_clock::now() + kLockWait;
   while (::flock(opened.get(), LOCK_EX | LOCK_NB) != 0) {
@@ -67,7 +67,7 @@ void clear(const fs::path& path, const sockaddr_un& address) {
   struct stat found {};
   if (::lstat(path.c_str(), &found) != 0) return;
   if (!S_ISSOCK(found.st_mode)) throw FileError(path, "is no socket: name another one");
-  const Descriptor probe = newSocket(path);
+  const FileDescriptor probe = newSocket(path);
   if (connects(probe.get(), address) || errno != ECONNREFUSED)
     throw FileError(path,
                     "another program is remote-controlled there: end it, or name another socket");
@@ -76,20 +76,9 @@ void clear(const fs::path& path, const sockaddr_un& address) {
 
 }  // namespace
 
-Descriptor::~Descriptor() {
-  if (fd_ >= 0) ::close(fd_);
-}
-
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-  std::swap(fd_, other.fd_);
-  return *this;
-}
-
-int Descriptor::release() noexcept { return std::exchange(fd_, -1); }
-
 ListeningSocket::ListeningSocket(fs::path path) : path_(std::move(path)) {
   const sockaddr_un address = addressOf(path_);
-  const Descriptor lock = lockFolderOf(path_);
+  const FileDescriptor lock = lockFolderOf(path_);
   clear(path_, address);
   socket_ = newSocket(path_);
   if (::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
@@ -113,22 +102,22 @@ ListeningSocket::~ListeningSocket() {
     ::unlink(path_.c_str());
 }
 
-Descriptor ListeningSocket::accept() const {
-  Descriptor client(::accept4(socket_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+FileDescriptor ListeningSocket::accept() const {
+  FileDescriptor client(::accept4(socket_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
   if (client.get() < 0) return client;
   ucred peer{};
   socklen_t size = sizeof peer;
   if (::getsockopt(client.get(), SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 &&
       (peer.uid == ::geteuid() || peer.uid == 0))
     return client;
-  client = Descriptor();
+  client = FileDescriptor();
   errno = EACCES;
   return client;
 }
 
-Descriptor connectTo(const fs::path& path) {
+FileDescriptor connectTo(const fs::path& path) {
   const sockaddr_un address = addressOf(path);
-  Descriptor made = newSocket(path);
+  FileDescriptor made = newSocket(path);
   if (connects(made.get(), address)) return made;
   if (errno == ENOENT || errno == ECONNREFUSED)
     throw FileError(path,

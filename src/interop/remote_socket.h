@@ -7,21 +7,9 @@
 
 #include <sys/types.h>
 
+#include "palpate/core/file_descriptor.h"
+
 namespace palpate {
-
-// A descriptor that closes itself.
-class Descriptor {
- public:
-  explicit Descriptor(int fd = -1) noexcept : fd_(fd) {}
-  ~Descriptor();
-  Descriptor(Descriptor&& other) noexcept : fd_(other.release()) {}
-  Descriptor& operator=(Descriptor&& other) noexcept;
-  int get() const noexcept { return fd_; }
-  int release() noexcept;
-
- private:
-  int fd_;
-};
 
 // Non-blocking, mode 600, listening; the name goes with it. What nobody listens at any more is taken away.
 class ListeningSocket {
@@ -33,16 +21,16 @@ class ListeningSocket {
   int descriptor() const noexcept { return socket_.get(); }
   const std::filesystem::path& path() const noexcept { return path_; }
   // The next client, non-blocking; -1: none (errno says why). One of another user is turned away: -1, errno EACCES.
-  Descriptor accept() const;
+  FileDescriptor accept() const;
 
  private:
   std::filesystem::path path_;
-  Descriptor socket_;
+  FileDescriptor socket_;
   dev_t device_ = 0;  // of the name: another one that came in its place isn't ours
   ino_t inode_ = 0;
 };
 
 // Throws FileError with what to do.
-Descriptor connectTo(const std::filesystem::path& path);
+FileDescriptor connectTo(const std::filesystem::path& path);
 
 }  // namespace palpate

@@ -5,14 +5,9 @@
 #include <stdexcept>
 
 #include "palpate/core/time.h"
+#include "palpate/model/gap_rule.h"
 
 namespace palpate {
-namespace {
-
-constexpr std::int64_t kLeastGapUs = 1'000'000;
-constexpr std::int64_t kGapIntervals = 5;
-
-}  // namespace
 
 SignalHistory::SignalHistory(const SignalHistoryOptions& options) : options_(options) {
   if (!(options_.keepS > 0.0 && std::isfinite(options_.keepS)))
@@ -40,7 +35,7 @@ void SignalHistory::add(const LiveResults& results) {
   if (!samples_.empty()) {
     const std::int64_t intervalUs = sample.hostUs - samples_.back().hostUs;
     if (intervalUs <= 0) return;
-    sample.afterGap = intervalUs > std::max(kLeastGapUs, kGapIntervals * medianIntervalUs());
+    sample.afterGap = intervalUs > std::max(kShortestGapUs, kGapIntervals * medianIntervalUs());
     intervalsUs_.push_back(intervalUs);
     if (intervalsUs_.size() > kIntervals) intervalsUs_.pop_front();
   }

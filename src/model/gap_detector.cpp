@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 
+#include "palpate/model/gap_rule.h"
+
 namespace palpate {
 namespace {
 
-constexpr std::int64_t kLeastGapUs = 1'000'000;
-constexpr std::int64_t kGapDetectorGapIntervals = 5;
 constexpr std::size_t kIntervals = 15;
 
 }  // namespace
@@ -27,8 +27,8 @@ bool GapDetector::afterGap(std::int64_t stampUs) {
   any_ = true;
   if (!second) return false;
   // The median is only asked for where it matters.
-  const bool gap = intervalUs > kLeastGapUs && !intervalsUs_.empty() &&
-                   intervalUs > kGapDetectorGapIntervals * medianIntervalUs();
+  const bool gap = intervalUs > kShortestGapUs && !intervalsUs_.empty() &&
+                   intervalUs > kGapIntervals * medianIntervalUs();
   intervalsUs_.push_back(intervalUs);
   if (intervalsUs_.size() > kIntervals) intervalsUs_.pop_front();
   return gap;

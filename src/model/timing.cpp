@@ -2,11 +2,10 @@
 
 #include <algorithm>
 
+#include "palpate/model/gap_rule.h"
+
 namespace palpate {
 namespace {
-
-constexpr double kShortestGapUs = 1e6;
-constexpr double kTimingGapIntervals = 5.0;
 
 // Mean of the two middle values where their number is even. Reorders `values`.
 double median(std::vector<std::int64_t>& values) {
@@ -35,7 +34,7 @@ TimingReport timingOf(std::span<const std::int64_t> stampsUs) {
   report.durationS = static_cast<double>(stampsUs.back() - stampsUs.front()) / 1e6;
   report.rateHz = 1e6 / medianUs;
   report.meanRateHz = static_cast<double>(intervals.size()) / report.durationS;
-  const double gapUs = std::max(kShortestGapUs, kTimingGapIntervals * medianUs);
+  const double gapUs = std::max<double>(kShortestGapUs, kGapIntervals * medianUs);
   for (std::size_t i = 0; i < intervals.size(); ++i)
     if (static_cast<double>(intervals[i]) > gapUs)
       report.gaps.push_back({i, static_cast<double>(intervals[i]) / 1e6});

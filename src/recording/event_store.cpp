@@ -105,12 +105,6 @@ std::unique_ptr<RecordingLock> locked(const fs::path& recording, const fs::path&
   }
 }
 
-std::pair<std::uint64_t, std::uint64_t> eventStoreIdentityOf(const fs::path& path) {
-  struct stat facts {};
-  if (::stat(path.c_str(), &facts) != 0) return {};
-  return {facts.st_dev, facts.st_ino};
-}
-
 // Rows that are in the new list stay as they are; the others go, and what is new gets numbers behind
 // all that ever were.
 void replaceRows(SqliteDatabase& database, std::span<const RecordingEvent> events) {
@@ -159,7 +153,7 @@ void saveRows(const fs::path& given,
   requireWritableBy(path, path);
   requireFinished(path);
   const auto lock = locked(path, path);
-  const auto file = eventStoreIdentityOf(path);
+  const auto file = identityOf(path);
   SqliteDatabase database(path, SqliteDatabase::Mode::kReadWrite, options.vfs);
   const std::uintmax_t size = fs::file_size(path, ignored);
   database.limitWork(ignored ? 0 : size);
@@ -181,7 +175,7 @@ void saveRows(const fs::path& given,
     database.rollBack();
     throw;
   }
-  if (eventStoreIdentityOf(path) != file)
+  if (identityOf(path) != file)
     throw FileError(path, "was deleted or replaced while its notes were being saved");
 }
 

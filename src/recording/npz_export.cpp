@@ -1,6 +1,7 @@
 // writeNpz(): arrays for NumPy.
 #include <bit>
 
+#include "palpate/core/byte_writer.h"
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/core/time.h"
@@ -60,7 +61,7 @@ class NpyArray {
 
  private:
   void put(std::uint64_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i) buffer_ += static_cast<char>(value >> 8 * i & 0xFF);
+    appendLittle(buffer_, value, bytes);
     if (buffer_.size() >= kNpzExportPieceBytes) flush();
   }
   void flush() {
@@ -91,18 +92,21 @@ void npzExportWriteSamples(ZipWriter& zip,
   array.end();
 }
 
-void writeMatrix(ZipWriter& zip, const Profile& profile, std::size_t m, const Progress& progress) {
-  constexpr std::size_t kFramesPerReport = 1024;
+std::vector<std::size_t> shapeOf(const Profile& profile, std::size_t m) {
   const MatrixLayout& layout = profile.layout().matrix(m);
+  return {profile.numFrames(),
+          static_cast<std::size_t>(layout.rows),
+          static_cast<std::size_t>(layout.columns)};
+}
+
+// True: a frame was filtered, so that its values don't say by themselves which taxels are active.
+bool writeMatrix(ZipWriter& zip, const Profile& profile, std::size_t m, const Progress& progress) {
+  constexpr std::size_t kFramesPerReport = 1024;
   const bool counts = profile.info().valueType == ValueType::kCounts;
-  NpyArray array(zip,
-                 "m" + std::to_string(m),
-                 counts ? "<u2" : "<f4",
-                 counts ? 2 : 4,
-                 {profile.numFrames(),
-                  static_cast<std::size_t>(layout.rows),
-                  static_cast<std::size_t>(layout.columns)});
+  NpyArray array(
+      zip, "m" + std::to_string(m), counts ? "<u2" : "<f4", counts ? 2 : 4, shapeOf(profile, m));
   TactileFrame frame;
+  bool filtered = false;
   const double numMatrices = static_cast<double>(profile.layout().numMatrices());
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     const double within = static_cast<double>(i) / static_cast<double>(profile.numFrames());
@@ -110,6 +114,7 @@ void writeMatrix(ZipWriter& zip, const Profile& profile, std::size_t m, const Pr
         !progress((static_cast<double>(m) + within) / numMatrices))
       throw Cancelled();
     profile.readFrame(i, frame);
+    filtered = filtered || !frame.filtered.empty();
     const auto values = frame.allValues(m);
     for (Eigen::Index k = 0; k < values.size(); ++k) {
       if (counts)
@@ -117,6 +122,18 @@ void writeMatrix(ZipWriter& zip, const Profile& profile, std::size_t m, const Pr
       else
         array.f32(values.data()[k]);
     }
+  }
+  array.end();
+  return filtered;
+}
+
+void writeActive(ZipWriter& zip, const Profile& profile, std::size_t m) {
+  NpyArray array(zip, "m" + std::to_string(m) + "_active", "|b1", 1, shapeOf(profile, m));
+  TactileFrame frame;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    profile.readFrame(i, frame);
+    const auto values = frame.matrix(m);
+    for (Eigen::Index k = 0; k < values.size(); ++k) array.u8(values.data()[k] > 0.0F ? 1 : 0);
   }
   array.end();
 }
@@ -156,8 +173,11 @@ void writeNpz(const Profile& profile,
   ZipWriter zip(out);
   writeTimes(
       zip, "time_ms", profile.numFrames(), [&](std::size_t i) { return profile.frameTimeUs(i); });
+  bool filtered = false;
   for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m)
-    writeMatrix(zip, profile, m, progress);
+    filtered = writeMatrix(zip, profile, m, progress) || filtered;
+  for (std::size_t m = 0; filtered && m < profile.layout().numMatrices(); ++m)
+    writeActive(zip, profile, m);
   const std::size_t axes = profile.numAngles() > 0 ? profile.angles(0).deg.size() : 0;
   npzExportWriteSamples(zip, "angles", profile.numAngles(), axes, [&](std::size_t i) {
     return profile.angles(i).deg;

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/file_descriptor.h"
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/palpate_lock.h"
@@ -19,12 +20,6 @@
 namespace palpate {
 namespace fs = std::filesystem;
 namespace {
-
-std::pair<std::uint64_t, std::uint64_t> palpateAccessIdentityOf(const fs::path& path) {
-  struct stat facts {};
-  if (::stat(path.c_str(), &facts) != 0) return {};
-  return {facts.st_dev, facts.st_ino};
-}
 
 // Which journal lies there, to see whether it still does; nothing is different from any.
 std::array<std::int64_t, 5> palpateAccessStampOf(const fs::path& path) {
@@ -66,20 +61,6 @@ bool asksForWriteAheadLog(const fs::path& recording) {
          (header[kVersionsAt] == kWriteAhead || header[kVersionsAt + 1] == kWriteAhead);
 }
 
-class Descriptor {
- public:
-  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-  ~Descriptor() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const noexcept { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
 // Copies all of a file. False: errno says why.
 bool copyBytes(int from, int to) {
   std::vector<char> buffer(1u << 20);
@@ -107,9 +88,9 @@ bool copyBytes(int from, int to) {
 // no name where the file system allows that: a process that is killed leaves nothing.
 fs::path copyWithJournal(const fs::path& recording) {
   const fs::path parent = fs::temp_directory_path();
-  const Descriptor from(::open(recording.c_str(), O_RDONLY | O_CLOEXEC));
+  const FileDescriptor from(::open(recording.c_str(), O_RDONLY | O_CLOEXEC));
   if (from.get() < 0) throwNoCopy(recording);
-  const Descriptor to(::open(parent.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+  const FileDescriptor to(::open(parent.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
   if (to.get() >= 0 && !copyBytes(from.get(), to.get())) throwNoCopy(recording);
   std::string pattern = (parent / "palpate-open-XXXXXX").string();
   if (!mkdtemp(pattern.data())) throw FileError(recording, "no temporary folder to copy it to");
@@ -130,6 +111,12 @@ fs::path copyWithJournal(const fs::path& recording) {
 }
 
 }  // namespace
+
+std::pair<std::uint64_t, std::uint64_t> identityOf(const fs::path& path) {
+  struct stat facts {};
+  if (::stat(path.c_str(), &facts) != 0) return {};
+  return {facts.st_dev, facts.st_ino};
+}
 
 PalpateAccess::PalpateAccess(const fs::path& path) {
   std::error_code ignored;
@@ -152,7 +139,7 @@ void PalpateAccess::open(const fs::path& path) {
   const std::uintmax_t size = fs::file_size(path, failure);
   if (failure) throw FileError(path, "can't be read: " + failure.message());
   path_ = path;
-  file_ = palpateAccessIdentityOf(path);
+  file_ = identityOf(path);
   const bool isHeld = RecordingLock::isHeld(path) || !copyHot();
   if (!copyFolder_.empty()) {
     database_ = std::make_unique<SqliteDatabase>(copyFolder_ / "copy.palpate",
@@ -214,7 +201,7 @@ void PalpateAccess::readBlocksOnly() {
   database->limitWork(fs::file_size(path_, ignored));
   database->execute("PRAGMA cell_size_check=ON");
   database->prepare("SELECT 1 FROM block LIMIT 1").next();  // reads the schema while nobody writes
-  if (palpateAccessIdentityOf(path_) != file_)
+  if (identityOf(path_) != file_)
     throw FileError(path_, "was replaced while it was being opened; open it again");
   database_ = std::move(database);
 }

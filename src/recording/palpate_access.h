@@ -11,6 +11,9 @@
 
 namespace palpate {
 
+// Device and inode of a file, 0 and 0: there is none. Another file under the same name has another.
+std::pair<std::uint64_t, std::uint64_t> identityOf(const std::filesystem::path& path);
+
 class PalpateAccess {
  public:
   // Throws FileError, FormatError. Until unlimited(), statements that take longer than any honest file
@@ -37,7 +40,7 @@ class PalpateAccess {
 
   std::filesystem::path path_;  // no link
   std::filesystem::path copyFolder_;
-  std::pair<std::uint64_t, std::uint64_t> file_;  // device and inode
+  std::pair<std::uint64_t, std::uint64_t> file_;  // its identity
   std::unique_ptr<SqliteDatabase> database_;
   MetaRows meta_;
   bool unfinished_ = false;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "palpate/core/byte_reader.h"
+#include "palpate/core/byte_writer.h"
 #include "palpate/model/frame_coding.h"
 
 namespace palpate {
@@ -16,10 +17,6 @@ constexpr std::int64_t kLargestOffsetUs = std::numeric_limits<std::uint32_t>::ma
 constexpr std::size_t kLongestItem = kItemHeadBytes + 8 * kMaxPlaces;
 constexpr std::int64_t kMostItems = kMaxBlockBytes / kItemHeadBytes;
 constexpr std::int64_t kLatestUs = std::int64_t{1} << 60;  // the year 38505
-
-void palpateBlocksPutLittle(std::vector<std::byte>& out, std::uint64_t value, int bytes) {
-  for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> 8 * i & 0xFF));
-}
 
 bool exactAsFloat(double value) { return static_cast<double>(static_cast<float>(value)) == value; }
 
@@ -54,8 +51,7 @@ void BlockPacker::addFrame(std::int64_t hostUs,
   // Values that don't repeat are shorter as they are than as runs of one.
   if (coding == FrameCoding::kFloats && item_.size() > 4 * values.size()) {
     item_.clear();
-    for (float value : values)
-      palpateBlocksPutLittle(item_, std::bit_cast<std::uint32_t>(value), 4);
+    for (float value : values) appendLittle(item_, std::bit_cast<std::uint32_t>(value), 4);
     add(hostUs, deviceMs, BlockCoding::kPlainF32);
   } else {
     add(hostUs,
@@ -77,9 +73,9 @@ void BlockPacker::addSample(std::int64_t hostUs, std::span<const double> values)
   item_.clear();
   for (double value : values) {
     if (single)
-      palpateBlocksPutLittle(item_, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
+      appendLittle(item_, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
     else
-      palpateBlocksPutLittle(item_, std::bit_cast<std::uint64_t>(value), 8);
+      appendLittle(item_, std::bit_cast<std::uint64_t>(value), 8);
   }
   add(hostUs, std::nullopt, single ? BlockCoding::kPlainF32 : BlockCoding::kPlainF64);
 }
@@ -96,9 +92,8 @@ void BlockPacker::add(std::int64_t hostUs,
     block_.t0Us = hostUs;
     block_.coding = coding;
   }
-  palpateBlocksPutLittle(block_.data, static_cast<std::uint64_t>(hostUs - block_.t0Us), 4);
-  palpateBlocksPutLittle(
-      block_.data, static_cast<std::uint64_t>(deviceMs.value_or(kNoDeviceTime)), 8);
+  appendLittle(block_.data, static_cast<std::uint64_t>(hostUs - block_.t0Us), 4);
+  appendLittle(block_.data, static_cast<std::uint64_t>(deviceMs.value_or(kNoDeviceTime)), 8);
   block_.data.insert(block_.data.end(), item_.begin(), item_.end());
   block_.t1Us = hostUs;
   ++block_.n;

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "palpate/core/byte_reader.h"
+#include "palpate/core/byte_writer.h"
 #include "palpate/core/error.h"
 #include "palpate/recording/dsa_reader.h"
 #include "palpate/recording/palpate_schema.h"
@@ -17,10 +18,6 @@ namespace {
 
 // Per second: i64 t_s, then per matrix u32 frames, f32 min, f32 max, f64 sum, u32 active_max.
 constexpr std::size_t kMatrixBytes = 4 + 4 + 4 + 8 + 4;
-
-void palpateOverviewPutLittle(std::vector<std::byte>& out, std::uint64_t value, int bytes) {
-  for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> 8 * i & 0xFF));
-}
 
 std::uint32_t overviewCrc(std::int64_t id, std::int64_t n, std::span<const std::byte> data) {
   return RowCrc()
@@ -55,17 +52,15 @@ std::int64_t writeOverview(SqliteDatabase& database, std::size_t numMatrices) {
   while (rows.next()) {
     if (rows.integer(1) == 0) {
       if (data.size() + 8 + numMatrices * kMatrixBytes > kMaxBlockBytes) flush();
-      palpateOverviewPutLittle(data, static_cast<std::uint64_t>(rows.integer(0)), 8);
+      appendLittle(data, static_cast<std::uint64_t>(rows.integer(0)), 8);
       ++inRow;
       ++seconds;
     }
-    palpateOverviewPutLittle(data, static_cast<std::uint64_t>(rows.integer(2)), 4);
-    palpateOverviewPutLittle(
-        data, std::bit_cast<std::uint32_t>(static_cast<float>(rows.real(3))), 4);
-    palpateOverviewPutLittle(
-        data, std::bit_cast<std::uint32_t>(static_cast<float>(rows.real(4))), 4);
-    palpateOverviewPutLittle(data, std::bit_cast<std::uint64_t>(rows.real(5)), 8);
-    palpateOverviewPutLittle(data, static_cast<std::uint64_t>(rows.integer(6)), 4);
+    appendLittle(data, static_cast<std::uint64_t>(rows.integer(2)), 4);
+    appendLittle(data, std::bit_cast<std::uint32_t>(static_cast<float>(rows.real(3))), 4);
+    appendLittle(data, std::bit_cast<std::uint32_t>(static_cast<float>(rows.real(4))), 4);
+    appendLittle(data, std::bit_cast<std::uint64_t>(rows.real(5)), 8);
+    appendLittle(data, static_cast<std::uint64_t>(rows.integer(6)), 4);
   }
   flush();
   return seconds;

@@ -8,7 +8,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::int64_t kUsPerS = 1'000'000;
+constexpr std::int64_t kSecondUs = 1'000'000;
 constexpr std::int64_t kNsPerUs = 1000;
 constexpr std::size_t kTactileSensorJsonPieceBytes = 1U << 16;
 constexpr std::size_t kFramesPerReport = 256;
@@ -27,11 +27,11 @@ void appendKey(std::string& out, const char* key, std::int64_t value) {
 }  // namespace
 
 void appendTactileSensorJson(std::string& out, const TactileFrame& frame, std::uint64_t sequence) {
-  std::int64_t seconds = frame.hostUs / kUsPerS;
-  std::int64_t restUs = frame.hostUs % kUsPerS;
+  std::int64_t seconds = frame.hostUs / kSecondUs;
+  std::int64_t restUs = frame.hostUs % kSecondUs;
   if (restUs < 0) {  // before 1970: nanoseconds count upwards all the same
     --seconds;
-    restUs += kUsPerS;
+    restUs += kSecondUs;
   }
   appendKey(out, R"({"header":{"seq":)", static_cast<std::int64_t>(sequence));
   appendKey(out, R"(,"stamp":{"secs":)", seconds);

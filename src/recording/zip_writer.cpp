@@ -2,6 +2,8 @@
 
 #include <zlib.h>
 
+#include "palpate/core/byte_writer.h"
+
 namespace palpate {
 namespace {
 
@@ -12,18 +14,14 @@ constexpr std::uint32_t kMax32 = 0xFFFFFFFF;
 constexpr std::uint16_t kDosDate =
     0x0021;  // 1980-01-01: files do not depend on when they were made
 
-void zipWriterLittle(std::string& out, std::uint64_t value, int bytes) {
-  for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> 8 * i & 0xFF);
-}
-
 // Extra field 1: sizes and offset as 64-bit numbers.
 std::string zip64(std::uint64_t size, bool withOffset, std::uint64_t offset) {
   std::string extra;
-  zipWriterLittle(extra, 1, 2);
-  zipWriterLittle(extra, withOffset ? 24 : 16, 2);
-  zipWriterLittle(extra, size, 8);
-  zipWriterLittle(extra, size, 8);
-  if (withOffset) zipWriterLittle(extra, offset, 8);
+  appendLittle(extra, 1, 2);
+  appendLittle(extra, withOffset ? 24 : 16, 2);
+  appendLittle(extra, size, 8);
+  appendLittle(extra, size, 8);
+  if (withOffset) appendLittle(extra, offset, 8);
   return extra;
 }
 
@@ -38,17 +36,17 @@ void ZipWriter::begin(std::string_view name, std::uint64_t size) {
   entries_.push_back({std::string(name), size, position_});
   const std::string extra = zip64(size, false, 0);
   std::string head;
-  zipWriterLittle(head, 0x04034B50, 4);
-  zipWriterLittle(head, kZipWriterVersion, 2);
-  zipWriterLittle(head, kChecksumFollows, 2);
-  zipWriterLittle(head, 0, 2);  // stored
-  zipWriterLittle(head, 0, 2);  // time
-  zipWriterLittle(head, kDosDate, 2);
-  zipWriterLittle(head, 0, 4);       // checksum
-  zipWriterLittle(head, kMax32, 4);  // sizes stand in the extra field
-  zipWriterLittle(head, kMax32, 4);
-  zipWriterLittle(head, name.size(), 2);
-  zipWriterLittle(head, extra.size(), 2);
+  appendLittle(head, 0x04034B50, 4);
+  appendLittle(head, kZipWriterVersion, 2);
+  appendLittle(head, kChecksumFollows, 2);
+  appendLittle(head, 0, 2);  // stored
+  appendLittle(head, 0, 2);  // time
+  appendLittle(head, kDosDate, 2);
+  appendLittle(head, 0, 4);       // checksum
+  appendLittle(head, kMax32, 4);  // sizes stand in the extra field
+  appendLittle(head, kMax32, 4);
+  appendLittle(head, name.size(), 2);
+  appendLittle(head, extra.size(), 2);
   put(head + std::string(name) + extra);
 }
 
@@ -64,10 +62,10 @@ void ZipWriter::write(std::string_view bytes) {
 void ZipWriter::end() {
   const Entry& entry = entries_.back();
   std::string descriptor;
-  zipWriterLittle(descriptor, 0x08074B50, 4);
-  zipWriterLittle(descriptor, entry.crc, 4);
-  zipWriterLittle(descriptor, entry.size, 8);
-  zipWriterLittle(descriptor, entry.size, 8);
+  appendLittle(descriptor, 0x08074B50, 4);
+  appendLittle(descriptor, entry.crc, 4);
+  appendLittle(descriptor, entry.size, 8);
+  appendLittle(descriptor, entry.size, 8);
   put(descriptor);
 }
 
@@ -82,49 +80,49 @@ void ZipWriter::finish() {
   for (const Entry& entry : entries_) {
     const std::string extra = zip64(entry.size, true, entry.offset);
     std::string row;
-    zipWriterLittle(row, 0x02014B50, 4);
-    zipWriterLittle(row, kZipWriterVersion, 2);
-    zipWriterLittle(row, kZipWriterVersion, 2);
-    zipWriterLittle(row, kChecksumFollows, 2);
-    zipWriterLittle(row, 0, 2);  // stored
-    zipWriterLittle(row, 0, 2);  // time
-    zipWriterLittle(row, kDosDate, 2);
-    zipWriterLittle(row, entry.crc, 4);
-    zipWriterLittle(row, kMax32, 4);
-    zipWriterLittle(row, kMax32, 4);
-    zipWriterLittle(row, entry.name.size(), 2);
-    zipWriterLittle(row, extra.size(), 2);
-    zipWriterLittle(row, 0, 2);  // comment
-    zipWriterLittle(row, 0, 2);  // disk
-    zipWriterLittle(row, 0, 2);  // attributes
-    zipWriterLittle(row, 0, 4);
-    zipWriterLittle(row, kMax32, 4);  // offset
+    appendLittle(row, 0x02014B50, 4);
+    appendLittle(row, kZipWriterVersion, 2);
+    appendLittle(row, kZipWriterVersion, 2);
+    appendLittle(row, kChecksumFollows, 2);
+    appendLittle(row, 0, 2);  // stored
+    appendLittle(row, 0, 2);  // time
+    appendLittle(row, kDosDate, 2);
+    appendLittle(row, entry.crc, 4);
+    appendLittle(row, kMax32, 4);
+    appendLittle(row, kMax32, 4);
+    appendLittle(row, entry.name.size(), 2);
+    appendLittle(row, extra.size(), 2);
+    appendLittle(row, 0, 2);  // comment
+    appendLittle(row, 0, 2);  // disk
+    appendLittle(row, 0, 2);  // attributes
+    appendLittle(row, 0, 4);
+    appendLittle(row, kMax32, 4);  // offset
     put(row + entry.name + extra);
   }
   const std::uint64_t size = position_ - start;
   std::string end;
-  zipWriterLittle(end, 0x06064B50, 4);  // zip64 end of central directory
-  zipWriterLittle(end, 44, 8);
-  zipWriterLittle(end, kZipWriterVersion, 2);
-  zipWriterLittle(end, kZipWriterVersion, 2);
-  zipWriterLittle(end, 0, 4);
-  zipWriterLittle(end, 0, 4);
-  zipWriterLittle(end, entries_.size(), 8);
-  zipWriterLittle(end, entries_.size(), 8);
-  zipWriterLittle(end, size, 8);
-  zipWriterLittle(end, start, 8);
-  zipWriterLittle(end, 0x07064B50, 4);  // its locator
-  zipWriterLittle(end, 0, 4);
-  zipWriterLittle(end, position_, 8);
-  zipWriterLittle(end, 1, 4);
-  zipWriterLittle(end, 0x06054B50, 4);  // end of central directory
-  zipWriterLittle(end, 0, 2);
-  zipWriterLittle(end, 0, 2);
-  zipWriterLittle(end, 0xFFFF, 2);
-  zipWriterLittle(end, 0xFFFF, 2);
-  zipWriterLittle(end, kMax32, 4);
-  zipWriterLittle(end, kMax32, 4);
-  zipWriterLittle(end, 0, 2);
+  appendLittle(end, 0x06064B50, 4);  // zip64 end of central directory
+  appendLittle(end, 44, 8);
+  appendLittle(end, kZipWriterVersion, 2);
+  appendLittle(end, kZipWriterVersion, 2);
+  appendLittle(end, 0, 4);
+  appendLittle(end, 0, 4);
+  appendLittle(end, entries_.size(), 8);
+  appendLittle(end, entries_.size(), 8);
+  appendLittle(end, size, 8);
+  appendLittle(end, start, 8);
+  appendLittle(end, 0x07064B50, 4);  // its locator
+  appendLittle(end, 0, 4);
+  appendLittle(end, position_, 8);
+  appendLittle(end, 1, 4);
+  appendLittle(end, 0x06054B50, 4);  // end of central directory
+  appendLittle(end, 0, 2);
+  appendLittle(end, 0, 2);
+  appendLittle(end, 0xFFFF, 2);
+  appendLittle(end, 0xFFFF, 2);
+  appendLittle(end, kMax32, 4);
+  appendLittle(end, kMax32, 4);
+  appendLittle(end, 0, 2);
   put(end);
 }
 

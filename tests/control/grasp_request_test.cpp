@@ -149,5 +149,28 @@ TEST(GraspReport, IsAnEventWithParametersAndOutcome) {
   EXPECT_FALSE(endEvent(plain).matrix.has_value());
 }
 
+// What the refusal says, and what marks matrices before it is asked for.
+TEST(GraspRequest, ItsHighestLimitIsJudgedOnTheFingersThatItMoves) {
+  std::vector<MatrixSettings> settings = {
+      {0.5, 150}, {0.5, 300}, {0.5, 150}, {0.5, 300}, {0.5, 150}, {0.5, 300}};
+  settings[0].thresholdCounts = 2000;  // leaves 2095: enough for 200, not for 2200 and its margin
+  settings[3].thresholdCounts = 4095;  // leaves nothing; finger 1
+  const auto matrices = [&](GraspMode mode, const std::string& preshape) {
+    GraspRequest request;
+    request.mode = mode;
+    request.preshape = preshape;
+    std::vector<std::size_t> found;
+    for (const UnfeltLimit& each : unfeltLimits(sdh2(), settings, request))
+      found.push_back(each.matrix);
+    return found;
+  };
+  using Matrices = std::vector<std::size_t>;
+  EXPECT_EQ(matrices(GraspMode::kPlain, "centrical"), Matrices{});
+  EXPECT_EQ(matrices(GraspMode::kReactive, "centrical"), Matrices{3});
+  EXPECT_EQ(matrices(GraspMode::kReactive, "pinch-parallel"), Matrices{}) << "finger 1 is folded";
+  EXPECT_EQ(matrices(GraspMode::kSlip, "pinch-parallel"), Matrices{0});
+  EXPECT_EQ(matrices(GraspMode::kSlip, "centrical"), (Matrices{0, 3}));
+}
+
 }  // namespace
 }  // namespace palpate::grasp_request_test

@@ -12,8 +12,12 @@ namespace {
 
 class Collector final : public FrameSink {
  public:
-  void take(TactileFrame& frame) override { frames.push_back(frame); }
+  void take(TactileFrame& frame) override {
+    if (fails) throw std::runtime_error("no room");
+    frames.push_back(frame);
+  }
   std::vector<TactileFrame> frames;
+  bool fails = false;
 };
 
 std::vector<TactileFrame> randomFrames(std::size_t count,
@@ -69,6 +73,41 @@ const char* const kCausal[] = {"box",
                                "min-median",
                                "savitzky-golay",
                                "median | kalman | savitzky-golay:derivative=1"};
+
+// The frame in which a filter fails has gone in and never comes out; those behind it keep the contact that is theirs.
+TEST(FilterChain, AfterAFilterHasFailedEveryFrameHasItsOwnContact) {
+  for (const char* text : {"box", "running-mean:window=5,centred=1"}) {
+    Collector out;
+    FilterChain chain(recipeOf(text), out);
+    std::vector<TactileFrame> frames = randomFrames(40, 3);
+    std::vector<std::vector<float>> recorded;
+    for (const TactileFrame& frame : frames) recorded.push_back(frame.values);
+    std::size_t failed = 0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      out.fails = i == 20;
+      try {
+        chain.push(frames[i]);
+      } catch (const std::runtime_error&) {
+        ++failed;
+      }
+    }
+    out.fails = false;
+    chain.finish();
+    EXPECT_EQ(failed, 1u) << text;
+    std::size_t wrong = 0, compared = 0;
+    for (const TactileFrame& frame : out.frames) {
+      const auto i = static_cast<std::size_t>((frame.hostUs - out.frames.front().hostUs) / 31'000);
+      ASSERT_LT(i, recorded.size());
+      for (std::size_t k = 0; k < recorded[i].size(); ++k) {
+        const float expected = recorded[i][k] > 0.0F ? frame.filtered[k] : 0.0F;
+        wrong += frame.values[k] == expected ? 0 : 1;
+      }
+      ++compared;
+    }
+    EXPECT_EQ(wrong, 0u) << text;
+    EXPECT_GT(compared, 30u) << text;
+  }
+}
 
 TEST(FilterChain, CausalFiltersNeverChangeThePast) {
   const auto frames = randomFrames(40, 1);

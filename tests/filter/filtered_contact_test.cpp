@@ -77,6 +77,41 @@ TEST(FilteredContact, IsWhatWasActiveAsRecorded) {
   }
 }
 
+// The bytes of one array of an .npz that is stored, not packed (PKWARE APPNOTE 4.3.7; numpy.lib.format, version 1.0).
+std::string arrayOf(const std::string& npz, const std::string& name) {
+  const std::size_t at = npz.find(name);
+  if (at == std::string::npos) return {};
+  const auto u16 = [&](std::size_t from) {
+    return static_cast<std::size_t>(static_cast<unsigned char>(npz[from])) |
+           static_cast<std::size_t>(static_cast<unsigned char>(npz[from + 1])) << 8;
+  };
+  const std::size_t npy = at + u16(at - 4) + u16(at - 2);
+  const std::size_t data = npy + 10 + u16(npy + 8);
+  return npz.substr(data, npz.find("PK\x07\x08", data) - data);
+}
+
+// Beside all that the filters gave stands what counts as touched, as .csv has it.
+TEST(FilteredContact, AnNpzSaysWhichTaxelsAreActive) {
+  const testing::TemporaryFolder folder;
+  std::vector<float> values(486, 0.0F);
+  values[84 + 8 * 6 + 2] = 700.0F;
+  ProfileBuilder builder(sdh2().layout);
+  builder.addFrame(1'400'000'000'000'000, values);
+  const Profile recorded = builder.finish({});
+  saveRecording(filteredProfile(recorded, recipeOf("gaussian:sigma=1")), {}, folder / "a.npz");
+  const std::string npz = testing::readFile(folder / "a.npz");
+  const std::string given = arrayOf(npz, "m1.npy"), active = arrayOf(npz, "m1_active.npy");
+  ASSERT_EQ(given.size(), 78u * 4);
+  ASSERT_EQ(active.size(), 78u);
+  EXPECT_NE(given.substr(4 * (8 * 6 + 3), 4), std::string(4, '\0')) << "smeared to its neighbour";
+  for (std::size_t i = 0; i < active.size(); ++i)
+    EXPECT_EQ(active[i], i == 8 * 6 + 2 ? '\1' : '\0') << i;
+  EXPECT_NE(npz.find("'descr': '|b1'"), std::string::npos);
+  saveRecording(recorded, {}, folder / "b.npz");
+  EXPECT_EQ(testing::readFile(folder / "b.npz").find("_active"), std::string::npos)
+      << "as recorded, the values say it";
+}
+
 TEST(FilteredContact, NoContactOutlivesTheRecordedOneAndTheTailIsStillThere) {
   // A taxel is pressed with 1000 counts for 10 frames, then let go.
   ProfileBuilder builder(sdh2().layout);

@@ -102,8 +102,7 @@ class CaptureSession : private DeviceSink {
   std::unique_ptr<Device> device_;
   Recorder recorder_;
   LinkMeter meter_;
-  const bool
-      scansItself_;  // a controller does: its rate is known; a replay has that of its recording
+  const bool scansItself_;
   std::shared_ptr<const SensorLayout> expectedFor_;  // of the thread that delivers frames
   std::atomic<float> saturationCounts_;
   std::atomic<bool> started_ = false;

@@ -67,6 +67,13 @@ struct GraspRequest {
 // What goes to the hand for one motion of a grasp. Throws as validate(), and when a target is beyond the range of
 // an axis (a hand with less range than the SDH-2).
 MoveJoints motionTo(const GraspRequest& request, double closeRatio, const HandDescription& hand);
+// The highest limit that a grasp may go to; of a plain one its limit means nothing.
+int highestLimitOf(const GraspRequest& request);
+// Matrices on fingers that it moves, which can't tell that limit: with one of them it is refused. None for a plain grasp.
+// Settings as in felt_limit.h. Throws std::invalid_argument for a preshape that there isn't.
+std::vector<UnfeltLimit> unfeltLimits(const HandDescription& hand,
+                                      const std::vector<MatrixSettings>& settings,
+                                      const GraspRequest& request);
 // A plain motion to the open hand: it grasps nothing, and is called so nowhere.
 bool isOpening(const GraspRequest& request);
 // What is done, without how: "reactive grasp", "opening".

@@ -139,6 +139,8 @@ class Device {
   // Hands a command to the thread that owns the port; safe from any thread, never waits. The future holds
   // the answer or a DeviceError / std::invalid_argument (value out of range: nothing was sent).
   virtual std::future<CommandAnswer> submit(DeviceCommand command) = 0;
+  // A controller scans by itself, at a rate that its layout tells; the replay of a recording comes as that came.
+  virtual bool scansItself() const { return false; }
   // Latest axis states (SDH-2: 0 idle, 1 positioning, 2 speed mode, 3 not initialised, 4, 5 blocked, 6
   // disabled, 7 limit reached); empty where unknown. Polled while a motion runs; "positioning" from its
   // command on until the hand was asked.

@@ -39,6 +39,7 @@ class LiveHand : public Device {
   void stop() noexcept override;
   DeviceStatus status() const override;
   std::future<CommandAnswer> submit(DeviceCommand command) override;
+  bool scansItself() const override { return true; }
   std::vector<int> axisStates() const override;
 
  private:

@@ -29,7 +29,8 @@ class FilterChain {
   FilterChain(const FilterChain&) = delete;
   FilterChain& operator=(const FilterChain&) = delete;
 
-  // The next frame; its values may be moved away. Causal recipes hand it on at once.
+  // The next frame; its values may be moved away. Causal recipes hand it on at once. What a filter or `out` throws comes
+  // through, here and in the next two; what was held back is lost then, and the next frame begins a new stretch.
   void push(TactileFrame& frame);
   // The next frame begins a new stretch: what was held back comes out now. For settings that change what counts
   // mean.
@@ -47,7 +48,10 @@ class FilterChain {
   class Link;
   class Contact;
   void build(const std::shared_ptr<const SensorLayout>& layout);
+  void pass(TactileFrame& frame);
   void endStretch();
+  template <typename Work>
+  void guarded(const Work& work);
 
   const Recipe recipe_;
   const std::unique_ptr<Contact> out_;          // behind the last step

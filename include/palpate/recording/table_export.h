@@ -20,7 +20,8 @@ void writeCsv(const Profile& profile,
               const Progress& progress = {});
 
 // PATH.npz (stored zip of .npy arrays; numpy.load opens it with allow_pickle=False): `time_ms` (T,
-// int64), `m0`.. (T, rows, columns; uint16 for counts, float32 otherwise), `angles` (n, axes; float64,
+// int64), `m0`.. (T, rows, columns; uint16 for counts, float32 otherwise), of a filtered recording also `m0_active`..
+// (bool, of the same shape: which taxels are active, see TactileFrame::filtered), `angles` (n, axes; float64,
 // deg), `angle_time_ms`, `temperatures` (n, sensors; float64, deg C), `temperature_time_ms`,
 // `static_mask` (places, uint8), `meta` (JSON text in ASCII, with the events). Throws FileError, Cancelled.
 void writeNpz(const Profile& profile,

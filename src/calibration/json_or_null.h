@@ -1,0 +1,12 @@
+// A number that may be missing, in JSON. Private to the room.
+#pragma once
+
+#include <optional>
+
+#include "palpate/core/json.h"
+
+namespace palpate {
+
+inline Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+}  // namespace palpate

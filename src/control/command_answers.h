@@ -1,0 +1,15 @@
+// Answers of a hand that are waited for without waiting. Private to the room.
+#pragma once
+
+#include <chrono>
+#include <future>
+
+namespace palpate {
+
+// Of a std::future or std::shared_future.
+template <typename Future>
+bool isReady(const Future& answer) {
+  return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+}  // namespace palpate
