@@ -1,12 +1,14 @@
 #include "palpate/recording/palpate_reader.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include "palpate/core/error.h"
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/palpate_access.h"
+#include "recording/palpate_content.h"
 #include "recording/palpate_rows.h"
 #include "recording/palpate_storage.h"
 
@@ -17,7 +19,10 @@ namespace {
 // A native recording, open.
 class PalpateStorage final : public BlockStorage {
  public:
-  PalpateStorage(const fs::path& path, const Progress& progress)
+  // `readMore` reads what is wanted beside the blocks.
+  PalpateStorage(const fs::path& path,
+                 const Progress& progress,
+                 const std::function<void(SqliteDatabase&)>& readMore = {})
       : BlockStorage(path, [this](std::int64_t id) { return load(id); }),
         path_(path),
         access_(path),
@@ -26,6 +31,7 @@ class PalpateStorage final : public BlockStorage {
       indexGrowing(progress);
     else
       indexBlocks(progress);
+    if (readMore) readMore(access_.database());
     access_.readBlocksOnly();
     readBlock_.emplace(access_.database().prepare(
         "SELECT stream, first, n, t0_us, t1_us, coding, crc32, data FROM block WHERE id=?"));
@@ -118,10 +124,7 @@ ValueType valueTypeOf(PalpateAccess& access) {
   return text == "float" ? ValueType::kFloat : ValueType::kCounts;
 }
 
-}  // namespace
-
-Profile readPalpate(const fs::path& path, const Progress& progress) {
-  auto storage = std::make_shared<PalpateStorage>(path, progress);
+Profile profileOf(std::shared_ptr<PalpateStorage> storage) {
   PalpateAccess& access = storage->access();
   ProfileInfo info;
   info.format = "palpate";
@@ -137,6 +140,26 @@ Profile readPalpate(const fs::path& path, const Progress& progress) {
   HandDescription hand = describeHand(
       storage->layout(), storage->width(Stream::kAngles), storage->width(Stream::kTemperatures));
   return {std::move(info), std::move(hand), std::move(storage)};
+}
+
+}  // namespace
+
+Profile readPalpate(const fs::path& path, const Progress& progress) {
+  return profileOf(std::make_shared<PalpateStorage>(path, progress));
+}
+
+PalpateContent readPalpateContent(const fs::path& path, const Progress& progress) {
+  EventsReport events;
+  std::string fault;
+  auto storage = std::make_shared<PalpateStorage>(path, progress, [&](SqliteDatabase& database) {
+    try {
+      events = readEventRows(database);
+    } catch (const FormatError& error) {
+      fault = error.what();
+    }
+  });
+  std::map<std::string, std::string> meta = storage->access().meta().values;
+  return {profileOf(std::move(storage)), std::move(events), std::move(fault), std::move(meta)};
 }
 
 EventsReport readPalpateEvents(const fs::path& path) {

@@ -1,7 +1,10 @@
 #include "palpate/recording/recording.h"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/recording/dsa_reader.h"
@@ -15,6 +18,9 @@
 
 #include "recording/event_notes.h"
 #include "recording/message_text.h"
+#include "recording/palpate_access.h"
+#include "recording/palpate_content.h"
+#include "recording/palpate_rows.h"
 #include "recording/recording_form.h"
 
 namespace palpate {
@@ -146,43 +152,86 @@ void readThrough(const Profile& profile, const Progress& progress) {
   for (std::size_t i = 0; i < profile.numTemperatures(); ++i, report()) profile.temperatures(i);
 }
 
-// The events, or why there are none.
-std::vector<RecordingEvent> eventsOrDamage(const std::filesystem::path& path, std::string& damage) {
+// Of a .dsa the notes beside it.
+void addNotes(const std::filesystem::path& path, ReadableRecording& recording) {
   try {
-    EventsReport report = readEvents(path);
-    if (report.damaged > 0) damage = counted(report.damaged, "damaged row");
-    return std::move(report.events);
+    EventsReport report = readEventNotes(path);
+    if (report.damaged > 0) recording.damage = counted(report.damaged, "damaged row");
+    recording.events = std::move(report.events);
+    recording.damagedEvents = report.damaged;
   } catch (const FormatError& error) {
-    damage = error.what();
-    return {};
+    recording.damage = error.what();
   }
+}
+
+ReadableRecording openReadable(const std::filesystem::path& path, const Progress& progress) {
+  if (!isNativeRecording(path)) {
+    ReadableRecording recording{.profile = readDsa(path, progress)};
+    addNotes(path, recording);
+    return recording;
+  }
+  PalpateContent content = readPalpateContent(path, progress);
+  std::string damage = std::move(content.eventsFault);
+  if (content.events.damaged > 0) damage = counted(content.events.damaged, "damaged row");
+  return {std::move(content.profile),
+          std::move(content.events.events),
+          std::move(damage),
+          content.events.damaged,
+          std::move(content.meta)};
+}
+
+// Nothing where nothing can be read.
+std::optional<ReadableRecording> salvagedDsa(const std::filesystem::path& path,
+                                             const Progress& progress) {
+  DsaSalvage salvage = salvageDsa(path, progress);
+  if (!salvage.profile) return std::nullopt;
+  ReadableRecording recording{.profile = std::move(*salvage.profile)};
+  addNotes(path, recording);
+  recording.damage =
+      "damaged; readable: " + countsText(salvage.frames, salvage.angles, salvage.temperatures);
+  return recording;
+}
+
+std::optional<ReadableRecording> salvagedPalpate(const std::filesystem::path& path,
+                                                 const Progress& progress) {
+  PalpateSalvage salvage = salvagePalpate(path, progress);
+  if (!salvage.profile) return std::nullopt;
+  ReadableRecording recording{
+      .profile = std::move(*salvage.profile),
+      .events = std::move(salvage.events),
+      .damage = damageText(salvage) +
+                "; readable: " + countsText(salvage.frames, salvage.angles, salvage.temperatures)};
+  try {
+    PalpateAccess access(path);
+    recording.meta = access.meta().values;
+    recording.damagedEvents = readEventRows(access.database()).damaged;
+  } catch (const FormatError&) {
+    // What can be had of them is there.
+  }
+  return recording;
 }
 
 }  // namespace
 
 ReadableRecording readableRecording(const std::filesystem::path& path, const Progress& progress) {
+  // From 0 to 1 once, also where a second way has to be taken.
+  double reached = 0.0;
+  const auto partOf = [&](double begin, double share) -> Progress {
+    if (!progress) return {};
+    return [&progress, &reached, begin, share](double fraction) {
+      reached = std::max(reached, begin + share * fraction);
+      return progress(reached);
+    };
+  };
   try {
-    Profile profile = openRecording(path, progress);
-    readThrough(profile, progress);
-    std::string damage;
-    std::vector<RecordingEvent> events = eventsOrDamage(path, damage);
-    return {std::move(profile), std::move(events), std::move(damage)};
+    ReadableRecording recording = openReadable(path, partOf(0.0, 0.5));
+    readThrough(recording.profile, partOf(0.5, 0.5));
+    return recording;
   } catch (const FormatError&) {
-    if (!isNativeRecording(path)) {
-      DsaSalvage salvage = salvageDsa(path, progress);
-      if (!salvage.profile) throw;
-      std::string damage;
-      std::vector<RecordingEvent> events = eventsOrDamage(path, damage);
-      damage =
-          "damaged; readable: " + countsText(salvage.frames, salvage.angles, salvage.temperatures);
-      return {std::move(*salvage.profile), std::move(events), std::move(damage)};
-    }
-    PalpateSalvage salvage = salvagePalpate(path, progress);
-    if (!salvage.profile) throw;
-    return {std::move(*salvage.profile),
-            std::move(salvage.events),
-            damageText(salvage) +
-                "; readable: " + countsText(salvage.frames, salvage.angles, salvage.temperatures)};
+    auto recording =
+        (isNativeRecording(path) ? salvagedPalpate : salvagedDsa)(path, partOf(0.0, 1.0));
+    if (!recording) throw;
+    return std::move(*recording);
   }
 }
 

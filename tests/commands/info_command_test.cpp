@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <sstream>
 
+#include <fcntl.h>
+#include <sys/inotify.h>
+#include <unistd.h>
+
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/model/hand_description.h"
@@ -9,6 +13,7 @@
 #include "palpate/recording/recording.h"
 
 #include "commands/palpate_program.h"
+#include "recording/palpate_damage.h"
 
 namespace palpate::info_command_test {
 namespace {
@@ -209,6 +214,7 @@ void writeWithNotes(const fs::path& path) {
   for (int i = 0; i < 4; ++i) {
     TactileFrame frame(sdh2().layout);
     frame.hostUs = kStartUs + i * 500'000;
+    frame.matrix(1)(2, 3) = static_cast<float>(100 + i);
     writer.addFrame(frame);
   }
   writer.addEvent(
@@ -243,6 +249,61 @@ TEST(InfoCommand, SaysWhoRecordedWhatAndWhatWasNoted) {
                            "  0.25 s          label: touched\n",
                            "  0.50 to 1.50 s  gap, matrix 2: no data\n"})
     EXPECT_NE(text.find(line), std::string::npos) << line << text;
+}
+
+// Folders that are made in a folder.
+class MadeFolders {
+ public:
+  explicit MadeFolders(const fs::path& folder) : watch_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {
+    EXPECT_GE(::inotify_add_watch(watch_, folder.c_str(), IN_CREATE), 0);
+  }
+  ~MadeFolders() { ::close(watch_); }
+  // Until now.
+  int count() const {
+    alignas(inotify_event) std::array<char, 4096> events{};
+    int made = 0;
+    for (ssize_t size = 0; (size = ::read(watch_, events.data(), events.size())) > 0;)
+      for (ssize_t at = 0; at < size;) {
+        const auto* event = reinterpret_cast<const inotify_event*>(events.data() + at);
+        made += (event->mask & IN_ISDIR) != 0 ? 1 : 0;
+        at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
+      }
+    return made;
+  }
+
+ private:
+  int watch_;
+};
+
+// One that was killed is copied to be opened, and may be large.
+TEST(InfoCommand, OpensAKilledRecordingOnce) {
+  const testing::TemporaryFolder folder, temporary;
+  writeWithNotes(folder / "a.palpate");
+  testing::writeFile(folder / "a.palpate-journal", "to be played back");
+  const MadeFolders copies(temporary.path());
+  const auto result =
+      palpate({"info", folder / "a.palpate", "--json"}, {{"TMPDIR", temporary.path().string()}});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(Json::parse(result.out).at("operator").asString(), "Ada");
+  EXPECT_EQ(Json::parse(result.out).at("events").size(), 2u);
+  EXPECT_EQ(copies.count(), 1);
+}
+
+TEST(InfoCommand, OfADamagedOneSaysWhoRecordedItAndWhatIsMissing) {
+  const testing::TemporaryFolder folder;
+  writeWithNotes(folder / "a.palpate");
+  std::string bytes = testing::readFile(folder / "a.palpate");
+  const testing::BlockBytes block = testing::blockBytes(folder / "a.palpate").at(0);
+  bytes[block.end - 1] = static_cast<char>(bytes[block.end - 1] ^ 1);
+  testing::writeFile(folder / "a.palpate", bytes);
+  const auto result = palpate({"info", folder / "a.palpate", "--json"});
+  EXPECT_EQ(result.exitCode, 3) << result.err;
+  const Json info = Json::parse(result.out);
+  EXPECT_EQ(info.at("frames").asInteger(), static_cast<std::int64_t>(4 - block.n));
+  EXPECT_EQ(info.at("operator").asString(), "Ada");
+  EXPECT_EQ(info.at("labels").at(0).asString(), "touched");
+  ASSERT_EQ(info.at("warnings").size(), 1u);
+  EXPECT_NE(info.at("warnings").at(0).asString().find("lost frame"), std::string::npos);
 }
 
 TEST(InfoCommand, ReadsTheNotesBesideADsa) {

@@ -299,6 +299,24 @@ TEST_F(FolderOfRecordings, AnUnfinishedOneIsReadAndSaid) {
   EXPECT_NE(verified.out.find("unfinished"), std::string::npos) << verified.out;
 }
 
+// Whatever has to be tried: a bar that goes back says nothing.
+TEST_F(FolderOfRecordings, ProgressOfReadingGoesForwardOnly) {
+  std::string bytes = readFile(folder_ / "sub/died.palpate");
+  bytes[bytes.size() - 100] = static_cast<char>(bytes[bytes.size() - 100] ^ 1);
+  writeFile(folder_ / "damaged.palpate", bytes);
+  for (const char* name : {"a.dsa", "sub/died.palpate", "damaged.palpate"}) {
+    double last = 0.0;
+    bool forward = true;
+    readableRecording(folder_ / name, [&](double fraction) {
+      forward = forward && fraction >= last && fraction <= 1.0;
+      last = fraction;
+      return true;
+    });
+    EXPECT_TRUE(forward) << name;
+    EXPECT_GE(last, 0.5) << name;
+  }
+}
+
 TEST_F(FolderOfRecordings, BadFilesAreNamedAndTheOthersDone) {
   addBad();
   for (const char* command : {"info", "signals"}) {

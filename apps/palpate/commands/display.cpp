@@ -93,10 +93,15 @@ void drawWithoutDisplay() {
   // Where there is no display nobody can be told how large a window may become: Qt says so at each
   // dialogue, which is no news for whoever wants a picture.
   static QtMessageHandler usual = nullptr;
-  usual = qInstallMessageHandler(
-      [](QtMsgType type, const QMessageLogContext& context, const QString& message) {
-        if (!message.contains(QLatin1String("propagateSizeHints"))) usual(type, context, message);
-      });
+  static const bool once = [] {
+    usual = qInstallMessageHandler(
+        [](QtMsgType type, const QMessageLogContext& context, const QString& message) {
+          if (usual && !message.contains(QLatin1String("propagateSizeHints")))
+            usual(type, context, message);
+        });
+    return true;
+  }();
+  static_cast<void>(once);
 }
 
 RuntimeFolder::RuntimeFolder() {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -14,7 +13,6 @@
 #include "palpate/core/time.h"
 #include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
-#include "palpate/recording/recording_meta.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
@@ -43,39 +41,27 @@ ValueReport valuesOf(const Profile& profile, const Progress& progress) {
   return report;
 }
 
-// What a person said of a recording, and what happened in it.
-struct NotesReport {
-  std::map<std::string, std::string> meta;
-  EventsReport events;
-  std::string failure;  // why they can't be read; empty: they could
+// What a person said of it; empty: nothing.
+std::string saidOf(const ReadableRecording& recording, const std::string& key) {
+  const auto at = recording.meta.find(key);
+  return at == recording.meta.end() ? std::string() : at->second;
+}
 
-  std::string said(const std::string& key) const {
-    const auto at = meta.find(key);
-    return at == meta.end() ? std::string() : at->second;
-  }
-  // Texts of events "label" and "segment", each once, in order of time.
-  std::vector<std::string> labels() const {
-    std::vector<std::string> texts;
-    for (const RecordingEvent& event : events.events)
-      if ((event.kind == "label" || event.kind == "segment") && !event.text.empty() &&
-          std::find(texts.begin(), texts.end(), event.text) == texts.end())
-        texts.push_back(event.text);
-    return texts;
-  }
-};
+// Texts of events "label" and "segment", each once, in order of time.
+std::vector<std::string> labelsOf(const ReadableRecording& recording) {
+  std::vector<std::string> texts;
+  for (const RecordingEvent& event : recording.events)
+    if ((event.kind == "label" || event.kind == "segment") && !event.text.empty() &&
+        std::find(texts.begin(), texts.end(), event.text) == texts.end())
+      texts.push_back(event.text);
+  return texts;
+}
 
-// A damaged recording has what of them can be read.
-NotesReport notesOf(const std::filesystem::path& file) {
-  NotesReport notes;
-  try {
-    notes.meta = readRecordingMeta(file);
-    notes.events = readEvents(file);
-  } catch (const Cancelled&) {
-    throw;
-  } catch (const Error& error) {
-    notes.failure = error.what();
-  }
-  return notes;
+// What is odd about it, or missing.
+std::vector<std::string> warningsOf(const ReadableRecording& recording) {
+  std::vector<std::string> warnings = recording.profile.info().warnings;
+  if (!recording.damage.empty()) warnings.push_back(recording.damage);
+  return warnings;
 }
 
 // What operators are asked before a recording (docs/palpate_format.md).
@@ -90,17 +76,16 @@ Json detailsOf(const RecordingEvent& event) {
   }
 }
 
-Json eventsJson(const NotesReport& notes) {
-  Json events = Json::array();
-  for (const RecordingEvent& event : notes.events.events)
-    events.push(Json::object()
-                    .set("time_ms", event.tUs / kUsPerMs)
-                    .set("end_ms", event.t1Us / kUsPerMs)
-                    .set("kind", event.kind)
-                    .set("matrix", event.matrix ? Json(*event.matrix) : Json())
-                    .set("text", event.text)
-                    .set("json", detailsOf(event)));
-  return events;
+Json eventsJson(const ReadableRecording& recording) {
+  return jsonList(recording.events, [](const RecordingEvent& event) {
+    return Json::object()
+        .set("time_ms", event.tUs / kUsPerMs)
+        .set("end_ms", event.t1Us / kUsPerMs)
+        .set("kind", event.kind)
+        .set("matrix", event.matrix ? Json(*event.matrix) : Json())
+        .set("text", event.text)
+        .set("json", detailsOf(event));
+  });
 }
 
 std::string joinedTexts(const std::vector<std::string>& texts) {
@@ -133,17 +118,15 @@ Json matricesJson(const SensorLayout& layout) {
 
 // `report` has what stands before.
 Json infoJsonOf(Json report,
-                const Profile& profile,
+                const ReadableRecording& recording,
                 const TimingReport& timing,
-                const ValueReport& values,
-                const NotesReport& notes) {
+                const ValueReport& values) {
+  const Profile& profile = recording.profile;
   const ProfileInfo& info = profile.info();
-  Json gaps = Json::array();
-  for (const Gap& gap : timing.gaps)
-    gaps.push(Json::object().set("frame", gap.frame).set("seconds", gap.seconds));
-  Json warnings = Json::array();
-  for (const std::string& warning : info.warnings) warnings.push(warning);
-  if (!notes.failure.empty()) warnings.push(notes.failure);
+  Json gaps = jsonList(timing.gaps, [](const Gap& gap) {
+    return Json::object().set("frame", gap.frame).set("seconds", gap.seconds);
+  });
+  Json warnings = jsonList(warningsOf(recording));
   report.set("format", info.format)
       .set("value_type", valueTypeText(profile))
       .set("frames", profile.numFrames())
@@ -162,12 +145,11 @@ Json infoJsonOf(Json report,
       .set("hand", profile.hand().name)
       .set("start_utc", profile.numFrames() ? Json(utcText(profile.frameTimeUs(0))) : Json())
       .set("warnings", warnings);
-  for (const char* key : kSaid) report.set(key, notes.said(key));
-  Json labels = Json::array();
-  for (const std::string& label : notes.labels()) labels.push(label);
+  for (const char* key : kSaid) report.set(key, saidOf(recording, key));
+  Json labels = jsonList(labelsOf(recording));
   report.set("labels", labels)
-      .set("events", eventsJson(notes))
-      .set("damaged_events", notes.events.damaged);
+      .set("events", eventsJson(recording))
+      .set("damaged_events", recording.damagedEvents);
   return report;
 }
 
@@ -193,14 +175,15 @@ std::string matricesText(const Profile& profile) {
 }
 
 // What was said and noted, then every event at its time since the first frame.
-std::string notesText(const Profile& profile, const NotesReport& notes) {
+std::string notesText(const ReadableRecording& recording) {
+  const Profile& profile = recording.profile;
   constexpr std::size_t kMostListed = 200;
   std::string text;
   for (const char* key : kSaid)
-    if (const std::string said = notes.said(key); !said.empty()) text += row(key, said);
-  if (const auto labels = notes.labels(); !labels.empty())
+    if (const std::string said = saidOf(recording, key); !said.empty()) text += row(key, said);
+  if (const auto labels = labelsOf(recording); !labels.empty())
     text += row("labels", joinedTexts(labels));
-  const auto& events = notes.events.events;
+  const auto& events = recording.events;
   text += row("events", std::to_string(events.size()));
   const std::int64_t beginUs = profile.numFrames() > 0 ? profile.frameTimeUs(0) : 0;
   const auto seconds = [&](std::int64_t us) {
@@ -217,17 +200,17 @@ std::string notesText(const Profile& profile, const NotesReport& notes) {
   }
   if (events.size() > kMostListed)
     text += row("", "and " + std::to_string(events.size() - kMostListed) + " more: --json has all");
-  if (notes.events.damaged > 0)
-    text += row("warning", std::to_string(notes.events.damaged) + " damaged events are left out");
-  if (!notes.failure.empty()) text += row("warning", notes.failure);
+  if (recording.damagedEvents > 0)
+    text +=
+        row("warning", std::to_string(recording.damagedEvents) + " damaged events are left out");
   return text;
 }
 
 std::string plainText(const std::string& file,
-                      const Profile& profile,
+                      const ReadableRecording& recording,
                       const TimingReport& timing,
-                      const ValueReport& values,
-                      const NotesReport& notes) {
+                      const ValueReport& values) {
+  const Profile& profile = recording.profile;
   const ProfileInfo& info = profile.info();
   std::string text = row("file", file);
   text += row("format", info.format + ", values are " + valueTypeText(profile));
@@ -255,8 +238,8 @@ std::string plainText(const std::string& file,
               ")");
   text += row("matrices", std::to_string(profile.layout().numMatrices()));
   text += matricesText(profile);
-  text += notesText(profile, notes);
-  for (const std::string& warning : info.warnings) text += row("warning", warning);
+  text += notesText(recording);
+  for (const std::string& warning : warningsOf(recording)) text += row("warning", warning);
   return text;
 }
 
@@ -266,16 +249,12 @@ constexpr const char* kTableHeader =
 
 // One row of the table over several recordings; what is not known is empty.
 std::string tableRow(const std::filesystem::path& file,
-                     const Profile& profile,
+                     const ReadableRecording& recording,
                      const TimingReport& timing,
-                     const ValueReport& values,
-                     const NotesReport& notes) {
+                     const ValueReport& values) {
+  const Profile& profile = recording.profile;
   const ProfileInfo& info = profile.info();
   const auto rate = [](double hz) { return hz > 0.0 ? numberText(hz) : std::string(); };
-  std::string warnings;
-  for (const std::string& warning : info.warnings)
-    warnings += (warnings.empty() ? "" : "; ") + warning;
-  if (!notes.failure.empty()) warnings += (warnings.empty() ? "" : "; ") + notes.failure;
   return csvLine({file.string(),
                   info.format,
                   valueTypeText(profile),
@@ -289,29 +268,29 @@ std::string tableRow(const std::filesystem::path& file,
                   profile.numFrames() > 0 ? numberText(values.maximum) : std::string(),
                   std::to_string(values.saturatedFrames),
                   info.serial,
-                  warnings,
-                  notes.said("operator"),
-                  notes.said("object"),
-                  notes.said("run"),
-                  notes.said("notes"),
-                  joinedTexts(notes.labels()),
-                  std::to_string(notes.events.events.size())});
+                  joinedTexts(warningsOf(recording)),
+                  saidOf(recording, "operator"),
+                  saidOf(recording, "object"),
+                  saidOf(recording, "run"),
+                  saidOf(recording, "notes"),
+                  joinedTexts(labelsOf(recording)),
+                  std::to_string(recording.events.size())});
 }
 
 int infoOfOne(const RecordingList& recordings, bool quiet, bool json) {
   StandardOutput out;
-  return forEachProfile(
+  return forEachReadable(
       recordings,
       quiet,
-      [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
-        const TimingReport timing = timingOf(profile);
-        const ValueReport values = valuesOf(profile, progress);
-        const NotesReport notes = notesOf(file);
-        out.write(json ? infoJsonOf(Json::object(), profile, timing, values, notes).text() + "\n"
-                       : plainText(file.string(), profile, timing, values, notes));
+      [&](const std::filesystem::path& file,
+          const ReadableRecording& recording,
+          const Progress& progress) {
+        const TimingReport timing = timingOf(recording.profile);
+        const ValueReport values = valuesOf(recording.profile, progress);
+        out.write(json ? infoJsonOf(Json::object(), recording, timing, values).text() + "\n"
+                       : plainText(file.string(), recording, timing, values));
         out.finish();
-      },
-      Damaged::kTaken);
+      });
 }
 
 // A table with a row each, or one object with an item each: written as it goes.
@@ -319,24 +298,24 @@ int infoOfSeveral(const RecordingList& recordings, bool quiet, bool json) {
   StandardOutput out;
   if (!recordings.files.empty()) out.write(json ? "{\"recordings\": [" : kTableHeader);
   const char* between = "\n";
-  const int code = forEachProfile(
-      recordings,
-      quiet,
-      [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
-        const TimingReport timing = timingOf(profile);
-        const ValueReport values = valuesOf(profile, progress);
-        const NotesReport notes = notesOf(file);
-        if (json) {
-          const Json report =
-              infoJsonOf(Json::object().set("file", file.string()), profile, timing, values, notes);
-          out.write(between + report.text(-1));
-          between = ",\n";
-        } else {
-          out.write(tableRow(file, profile, timing, values, notes));
-        }
-        out.finish();
-      },
-      Damaged::kTaken);
+  const int code =
+      forEachReadable(recordings,
+                      quiet,
+                      [&](const std::filesystem::path& file,
+                          const ReadableRecording& recording,
+                          const Progress& progress) {
+                        const TimingReport timing = timingOf(recording.profile);
+                        const ValueReport values = valuesOf(recording.profile, progress);
+                        if (json) {
+                          const Json report = infoJsonOf(
+                              Json::object().set("file", file.string()), recording, timing, values);
+                          out.write(between + report.text(-1));
+                          between = ",\n";
+                        } else {
+                          out.write(tableRow(file, recording, timing, values));
+                        }
+                        out.finish();
+                      });
   if (json && !recordings.files.empty()) out.write("\n]}\n");
   out.finish();
   return code;

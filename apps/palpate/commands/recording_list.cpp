@@ -65,6 +65,11 @@ class ListRun {
     line_.wipe();
     sayRecordingList(message);
   }
+  // What a native recording warns of is that it has no end; the oddities of a .dsa cost nothing.
+  void noteWarnings(const fs::path& file, const Profile& profile) {
+    if (profile.info().format != "palpate") return;
+    for (const std::string& warning : profile.info().warnings) note(file.string() + ": " + warning);
+  }
   // Before rows go to a terminal: they would be written behind the progress, and are progress enough.
   void leaveTheTerminal() {
     if (::isatty(STDOUT_FILENO) != 1) return;
@@ -136,6 +141,11 @@ class ListRun {
   bool shows_ = true;
 };
 
+// Half of the whole progress, from `begin` on.
+Progress halfOf(const Progress& progress, double begin) {
+  return [&progress, begin](double fraction) { return progress(begin + 0.5 * fraction); };
+}
+
 }  // namespace
 
 RecordingList recordingsIn(const Words& words) {
@@ -163,29 +173,26 @@ int forEachRecording(const RecordingList& list, bool quiet, const FileWork& work
   return ListRun(list, quiet).through(work);
 }
 
-int forEachProfile(const RecordingList& list,
-                   bool quiet,
-                   const ProfileWork& work,
-                   Damaged damaged) {
+int forEachProfile(const RecordingList& list, bool quiet, const ProfileWork& work) {
   ListRun run(list, quiet);
   return run.through([&](const fs::path& file, const Progress& progress) {
-    const auto half = [&](double begin) {
-      return [&progress, begin](double fraction) { return progress(begin + 0.5 * fraction); };
-    };
-    std::string damage;
-    const Profile profile = [&] {
-      if (damaged == Damaged::kRefused) return openRecording(file, half(0.0));
-      ReadableRecording readable = readableRecording(file, half(0.0));
-      damage = std::move(readable.damage);
-      return std::move(readable.profile);
-    }();
-    // What a native recording warns of is that it has no end; the oddities of a .dsa cost nothing.
-    if (profile.info().format == "palpate")
-      for (const std::string& warning : profile.info().warnings)
-        run.note(file.string() + ": " + warning);
+    const Profile profile = openRecording(file, halfOf(progress, 0.0));
+    run.noteWarnings(file, profile);
     run.leaveTheTerminal();
-    work(file, profile, half(0.5));
-    return FileOutcome{.trouble = damage.empty() ? "" : file.string() + ": " + damage};
+    work(file, profile, halfOf(progress, 0.5));
+    return FileOutcome();
+  });
+}
+
+int forEachReadable(const RecordingList& list, bool quiet, const ReadableWork& work) {
+  ListRun run(list, quiet);
+  return run.through([&](const fs::path& file, const Progress& progress) {
+    const ReadableRecording recording = readableRecording(file, halfOf(progress, 0.0));
+    run.noteWarnings(file, recording.profile);
+    run.leaveTheTerminal();
+    work(file, recording, halfOf(progress, 0.5));
+    return FileOutcome{.trouble =
+                           recording.damage.empty() ? "" : file.string() + ": " + recording.damage};
   });
 }
 

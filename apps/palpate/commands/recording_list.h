@@ -9,6 +9,7 @@
 
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
+#include <palpate/recording/recording.h>
 
 #include "commands/commands.h"
 
@@ -36,17 +37,17 @@ struct FileOutcome {
 using FileWork = std::function<FileOutcome(const std::filesystem::path& file, const Progress&)>;
 using ProfileWork =
     std::function<void(const std::filesystem::path& file, const Profile&, const Progress&)>;
+using ReadableWork = std::function<void(
+    const std::filesystem::path& file, const ReadableRecording&, const Progress&)>;
 
 // Does the work for every file; only one is in memory at a time. Says on standard error, a line each, what went
 // wrong with which file. Returns the exit code: 0 all done; 1 none (or there is no file); 3 some, also when it was
 // interrupted (then it says how many were done). Throws what is no file's fault: UsageError, OutputError.
 int forEachRecording(const RecordingList& list, bool quiet, const FileWork& work);
-// What becomes of a damaged recording: it fails, or what can be read of it is taken, and the rest is told.
-enum class Damaged { kRefused, kTaken };
-// The same with every recording opened. That one is unfinished or still being written is said, where there are several.
-int forEachProfile(const RecordingList& list,
-                   bool quiet,
-                   const ProfileWork& work,
-                   Damaged damaged = Damaged::kRefused);
+// The same with every recording opened; a damaged one fails. That one is unfinished or still being written is said, where
+// there are several.
+int forEachProfile(const RecordingList& list, bool quiet, const ProfileWork& work);
+// The same with every recording read through; of a damaged one what can be read is taken, and the rest is told.
+int forEachReadable(const RecordingList& list, bool quiet, const ReadableWork& work);
 
 }  // namespace palpate::commands

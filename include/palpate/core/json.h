@@ -69,4 +69,17 @@ class Json {
   std::unique_ptr<Impl> impl_;  // none: null
 };
 
+// An array with what `of` makes of each item.
+template <typename Items, typename Of>
+Json jsonList(const Items& items, Of of) {
+  Json list = Json::array();
+  for (const auto& item : items) list.push(of(item));
+  return list;
+}
+// An array of the items.
+template <typename Items>
+Json jsonList(const Items& items) {
+  return jsonList(items, [](const auto& item) { return Json(item); });
+}
+
 }  // namespace palpate

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,9 +20,11 @@ Profile openRecording(const std::filesystem::path& path, const Progress& progres
 
 // A recording as far as it can be read.
 struct ReadableRecording {
-  Profile profile;                     // what damage has taken is not in it
-  std::vector<RecordingEvent> events;  // in order of time
-  std::string damage;                  // one line: what is missing; empty: nothing
+  Profile profile;                               // what damage has taken is not in it
+  std::vector<RecordingEvent> events = {};       // in order of time
+  std::string damage = {};                       // one line: what is missing; empty: nothing
+  std::size_t damagedEvents = 0;                 // that can't be read
+  std::map<std::string, std::string> meta = {};  // as readRecordingMeta(), as far as it can be read
 };
 // Opens a recording and reads it through: what verifyRecording() counts as readable, damaged or not.
 // Throws FileError, FormatError (nothing can be read), Cancelled.
