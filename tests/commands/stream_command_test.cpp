@@ -10,6 +10,7 @@
 #include "emulator/numbered_hand.h"
 #include "interop/raw_client.h"
 #include "interop/udp_receiver.h"
+#include "recording/palpate_damage.h"
 #include "testing/background_program.h"
 
 namespace palpate::stream_command_test {
@@ -181,11 +182,34 @@ TEST(StreamCommand, ADamagedRecordingIsReadAsFarAsVerifyReadsIt) {
   EXPECT_EQ(static_cast<std::int64_t>(linesOf(lines.out).size()), frames);
   EXPECT_NE(verified.out.find("readable: " + std::to_string(frames) + " frames"), std::string::npos)
       << verified.out;
-  UdpReceiver receiver;
-  const ProgramResult sent = palpate(
-      {"stream", path, "--to", "signals:" + std::to_string(receiver.port()), "--duration", "1"});
-  EXPECT_EQ(sent.exitCode, 3) << sent.err;
-  EXPECT_TRUE(receiver.receive());
+}
+
+// It is played at once: nobody waits until all of it was read, and what is missing is told where it is missed.
+TEST(StreamCommand, ADamagedRecordingIsPlayedWithoutWhatIsMissing) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "damaged.palpate";
+  writeSamples(path, 120);
+  const std::string sound = readFile(path);
+  const std::vector<BlockBytes> blocks = blockBytes(path);
+  ASSERT_GT(blocks.size(), 2u);
+  // Until the first datagram is there.
+  const auto play = [&](const BlockBytes& block) {
+    std::string bytes = sound;
+    bytes[block.end - 1] = static_cast<char>(bytes[block.end - 1] ^ 1);
+    writeFile(path, bytes);
+    UdpReceiver receiver;
+    BackgroundProgram program(
+        PALPATE_PROGRAM, {"stream", path, "--to", "signals:" + std::to_string(receiver.port())});
+    EXPECT_TRUE(receiver.receive(20'000)) << program.err();
+    program.signal(SIGINT);
+    const int exitCode = program.wait();
+    return std::pair(exitCode, program.err());
+  };
+  const auto [code, said] = play(blocks.front());
+  EXPECT_EQ(code, 3) << said;
+  EXPECT_NE(said.find(std::to_string(blocks.front().n) + " of the samples"), std::string::npos)
+      << said;
+  EXPECT_EQ(play(blocks.back()).first, 0);
 }
 
 }  // namespace

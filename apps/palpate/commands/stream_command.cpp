@@ -94,9 +94,32 @@ int endOf(const std::string& damage) {
   return kPartlyDone;
 }
 
+// To be played at once: of its samples only those that are sent are read. One that can't be opened is read as far as it
+// can be.
+Profile playedRecording(const CommandLine& given, std::string& damage) {
+  const std::string& file = given.words()[0];
+  try {
+    ProgressLine progress("reading " + file, given.quiet());
+    Profile profile = openRecording(file, progress.callback());
+    if (profile.numFrames() == 0) throw Error(file + ": has no frames");
+    return profile;
+  } catch (const FormatError&) {
+    return streamedRecording(given, damage).profile;
+  }
+}
+
+// What couldn't be read while it was played.
+std::string playedDamage(const CaptureSession& session, const CommandLine& given) {
+  const DeviceStatus status = session.device().status();
+  const std::uint64_t lost = status.tactile.lost + (status.motion ? status.motion->lost : 0);
+  if (given.words().empty() || lost == 0) return {};
+  return given.words()[0] + ": " + std::to_string(lost) +
+         " of the samples that were played can't be read: the recording is damaged";
+}
+
 std::unique_ptr<Device> streamDeviceOf(const CommandLine& given, std::string& damage) {
   if (!given.words().empty())
-    return std::make_unique<Replay>(streamedRecording(given, damage).profile, ReplayOptions{});
+    return std::make_unique<Replay>(playedRecording(given, damage), ReplayOptions{});
   LiveHandOptions hand;
   hand.dsaPort = given.text("dsa").value();
   hand.sdhPort = given.text("sdh").value_or("");
@@ -141,7 +164,7 @@ int streamDatagrams(const CommandLine& given, std::vector<StreamTarget> targets)
   if (const std::string failure = streams.failure(); !failure.empty()) throw Error(failure);
   if (!given.quiet())
     for (const std::string& line : streams.lines()) std::printf("%s\n", line.c_str());
-  return endOf(damage);
+  return endOf(damage.empty() ? playedDamage(session, given) : damage);
 }
 
 // The whole recording, as fast as it goes.
