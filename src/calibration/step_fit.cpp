@@ -290,7 +290,6 @@ StepFit fitStep(std::span<const double> timeS,
     throw std::invalid_argument("fitStep: " + std::to_string(timeS.size()) + " times, " +
                                 std::to_string(values.size()) + " values");
   StepFit fit;
-  fit.covariance.setConstant(kStepFitNaN);
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < timeS.size(); ++i)
     if (std::isfinite(timeS[i]) && std::isfinite(values[i]) && timeS[i] >= 0.0) order.push_back(i);

@@ -220,6 +220,15 @@ TEST(StepFit, SaysWhatIsMissingWhereNothingCanBeFitted) {
   EXPECT_FALSE(none.converged);
   EXPECT_FALSE(none.usable());
   EXPECT_EQ(none.notes.size(), 1u);
+  // What wasn't fitted is not a number, and no gain of 0.
+  for (const double value : {none.parameters.gainCounts,
+                             none.parameters.driftPerS,
+                             none.parameters.timeConstantS,
+                             none.parameters.damping,
+                             none.rmse,
+                             none.residualSd,
+                             none.sd(0)})
+    EXPECT_TRUE(std::isnan(value)) << value;
   const std::vector<double> two = {0.0, 0.1}, values = {0.0, 50.0};
   EXPECT_NE(fitStep(two, values).notes.at(0).find("only 2 usable samples"), std::string::npos);
   std::vector<double> t(50), zeros(50, 0.0);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,14 +34,19 @@ struct StepFitOptions {
 };
 
 struct StepFit {
-  StepParameters parameters;
+  static constexpr double kNotFitted = std::numeric_limits<double>::quiet_NaN();
+  // All NaN where nothing was fitted, as rmse and residualSd.
+  StepParameters parameters = {.gainCounts = kNotFitted,
+                               .driftPerS = kNotFitted,
+                               .timeConstantS = kNotFitted,
+                               .damping = kNotFitted};
   std::size_t numSamples = 0;  // used
   std::size_t numDropped = 0;  // not finite, or before t = 0
-  double rmse = 0.0;           // sqrt(mean square of all residuals) [counts]
+  double rmse = kNotFitted;    // sqrt(mean square of all residuals) [counts]
   double residualSd =
-      0.0;  // sqrt(sum of (weighted) squares / (n - 4)): what the covariance rests on
+      kNotFitted;  // sqrt(sum of (weighted) squares / (n - 4)): what the covariance rests on
   // Of K, m, T1, T2 (of an oscillating one: K, m, T, d), linearised at the solution; NaN where it can't be had.
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Constant(0.0);
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Constant(kNotFitted);
   bool converged = false;     // a minimum was found
   bool identifiable = false;  // all four parameters are determined by the data
   bool gainReached =
