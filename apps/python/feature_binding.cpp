@@ -95,21 +95,6 @@ void requireRows(const FeatureTable& table) {
               (table.troubles.empty() ? "" : ": " + table.troubles.front()));
 }
 
-std::vector<std::int64_t> timesOf(const FeatureTable& table) {
-  std::vector<std::int64_t> times;
-  for (const FeatureRow& row : table.rows) times.push_back(row.timeUs);
-  return times;
-}
-
-Eigen::MatrixXd valuesOf(const FeatureTable& table) {
-  Eigen::MatrixXd x(static_cast<Eigen::Index>(table.rows.size()),
-                    static_cast<Eigen::Index>(table.names.size()));
-  for (std::size_t i = 0; i < table.rows.size(); ++i)
-    x.row(static_cast<Eigen::Index>(i)) =
-        Eigen::Map<const Eigen::RowVectorXd>(table.rows[i].values.data(), x.cols());
-  return x;
-}
-
 namespace {
 
 py::dict grasps(const Profile& profile, const std::string& rule) {

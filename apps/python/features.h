@@ -14,7 +14,5 @@ FeatureSet featureSetOf(const std::string& name);
 FeatureTable featuresOf(const pybind11::object& source, FeatureSet set);
 // Raises Error where the table has no row.
 void requireRows(const FeatureTable& table);
-std::vector<std::int64_t> timesOf(const FeatureTable& table);
-Eigen::MatrixXd valuesOf(const FeatureTable& table);
 
 }  // namespace palpate::python

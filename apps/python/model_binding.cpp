@@ -64,21 +64,15 @@ Json offsetJson(const SessionOffset& offset) {
 py::object classify(const TrainedModel& model, const py::object& source, const py::object& offset) {
   const OffsetChoice chosen = offsetOf(offset);
   const FeatureTable table = featuresOf(source, model.set);
-  Json grasps = Json::array(), warnings = Json::array();
-  for (const std::string& trouble : table.troubles) warnings.push(trouble);
-  SessionUse use;
-  if (!table.rows.empty()) {
-    requireFits(model, table);
-    const Eigen::MatrixXd x = valuesOf(table);
-    use = sessionFor(model, x, timesOf(table), chosen);
-    for (const std::string& warning : use.warnings) warnings.push(warning);
-    const std::vector<Verdict> verdicts = classifyRows(model, x, use.offset, use.sameSession);
-    for (std::size_t i = 0; i < verdicts.size(); ++i)
-      grasps.push(verdictJson(model, table.rows[i], verdicts[i]));
-  }
+  Json grasps = Json::array(), warnings = jsonList(table.troubles);
+  Classification said;
+  if (!table.rows.empty()) said = classifyTable(model, table, chosen);
+  for (const std::string& warning : said.use.warnings) warnings.push(warning);
+  for (std::size_t i = 0; i < said.verdicts.size(); ++i)
+    grasps.push(verdictJson(model, table.rows[i], said.verdicts[i]));
   return toPython(Json::object()
                       .set("grasps", std::move(grasps))
-                      .set("session_offset", offsetJson(use.offset))
+                      .set("session_offset", offsetJson(said.use.offset))
                       .set("warnings", std::move(warnings)));
 }
 

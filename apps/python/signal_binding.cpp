@@ -18,17 +18,14 @@ namespace palpate::python {
 namespace py = pybind11;
 namespace {
 
-struct Column {
-  const char* name;
-  SignalKind kind;
-};
-constexpr Column kColumns[] = {{"mean", SignalKind::kMean},
-                               {"filtered_mean", SignalKind::kFilteredMean},
-                               {"min", SignalKind::kMinimum},
-                               {"max", SignalKind::kMaximum},
-                               {"sum", SignalKind::kSum},
-                               {"active", SignalKind::kActive},
-                               {"area_mm2", SignalKind::kArea}};
+// As palpate signals prints them.
+constexpr SignalKind kColumns[] = {SignalKind::kMean,
+                                   SignalKind::kFilteredMean,
+                                   SignalKind::kMinimum,
+                                   SignalKind::kMaximum,
+                                   SignalKind::kSum,
+                                   SignalKind::kActive,
+                                   SignalKind::kArea};
 
 // Row per frame: all matrices, then the whole hand.
 std::vector<std::vector<CharacteristicSignals>> signalRowsOf(const Profile& profile,
@@ -71,7 +68,8 @@ py::dict signals(const Profile& profile, const py::object& matrix) {
   py::dict table;
   table["time_ms"] = column<std::int64_t>(
       rows.size(), [&](std::size_t i) { return profile.frameTimeUs(i) / kUsPerMs; });
-  for (const Column& one : kColumns) table[one.name] = columnOf(rows, numMatrices, place, one.kind);
+  for (const SignalKind kind : kColumns)
+    table[py::str(std::string(signalName(kind)))] = columnOf(rows, numMatrices, place, kind);
   return table;
 }
 

@@ -1,10 +1,11 @@
 // palpate.fit_step(), step_response(), calibrate_step().
-#include <limits>
+#include <stdexcept>
 #include <string>
 
 #include <pybind11/stl.h>
 
 #include "palpate/calibration/step_report.h"
+#include "palpate/filter/characteristic_signals.h"
 
 #include "python/arrays.h"
 #include "python/bindings.h"
@@ -27,14 +28,7 @@ StepFitOptions fitOptions(const std::string& loss, const std::string& damping) {
 }
 
 py::dict stepToPython(const StepFit& fit) {
-  StepParameters p = fit.parameters;
-  double rmse = fit.rmse, residualSd = fit.residualSd;
-  // Nothing was fitted: parameters are at their defaults, which are no result.
-  if (!fit.converged && fit.rmse == 0.0) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    p = {.gainCounts = kNone, .driftPerS = kNone, .timeConstantS = kNone, .damping = kNone};
-    rmse = residualSd = kNone;
-  }
+  const StepParameters& p = fit.parameters;
   py::dict result;
   result["K"] = p.gainCounts;
   result["m"] = p.driftPerS;
@@ -42,8 +36,8 @@ py::dict stepToPython(const StepFit& fit) {
   result["T2"] = p.t2S();
   result["T"] = p.timeConstantS;
   result["d"] = p.damping;
-  result["rmse"] = rmse;
-  result["residual_sd"] = residualSd;
+  result["rmse"] = fit.rmse;
+  result["residual_sd"] = fit.residualSd;
   result["converged"] = fit.converged;
   result["identifiable"] = fit.identifiable;
   result["gain_reached"] = fit.gainReached;
@@ -112,13 +106,11 @@ DoubleArray response(const Numbers& t,
 }
 
 SignalKind signalNamed(const std::string& name) {
-  return choice<SignalKind>("signal",
-                            name,
-                            {{"filtered_mean", SignalKind::kFilteredMean},
-                             {"mean", SignalKind::kMean},
-                             {"max", SignalKind::kMaximum},
-                             {"min", SignalKind::kMinimum},
-                             {"sum", SignalKind::kSum}});
+  if (const auto kind = signalKindNamed(name)) return *kind;
+  std::string known;
+  for (const SignalKind kind : kAllSignalKinds)
+    known += (known.empty() ? "" : ", ") + std::string(signalName(kind));
+  throw std::invalid_argument("signal is '" + name + "'; it is one of " + known);
 }
 
 py::object calibrateStep(const Profile& profile,

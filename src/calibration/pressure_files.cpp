@@ -11,11 +11,7 @@
 namespace palpate {
 namespace {
 
-Json listOf(const std::vector<std::string>& texts) {
-  Json list = Json::array();
-  for (const std::string& text : texts) list.push(text);
-  return list;
-}
+Json listOf(const std::vector<std::string>& texts) { return jsonList(texts); }
 
 std::vector<std::string> pressureFilesTextsOf(const Json& list) {
   std::vector<std::string> texts;

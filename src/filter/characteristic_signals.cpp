@@ -126,6 +126,32 @@ double valueOf(const CharacteristicSignals& values, SignalKind which) {
   return values.mean;
 }
 
+std::string_view signalName(SignalKind kind) {
+  switch (kind) {
+    case SignalKind::kFilteredMean:
+      return "filtered_mean";
+    case SignalKind::kMaximum:
+      return "max";
+    case SignalKind::kMinimum:
+      return "min";
+    case SignalKind::kSum:
+      return "sum";
+    case SignalKind::kActive:
+      return "active";
+    case SignalKind::kArea:
+      return "area_mm2";
+    case SignalKind::kMean:
+      break;
+  }
+  return "mean";
+}
+
+std::optional<SignalKind> signalKindNamed(std::string_view name) {
+  for (const SignalKind kind : kAllSignalKinds)
+    if (name == signalName(kind)) return kind;
+  return std::nullopt;
+}
+
 SignalTable::SignalTable(std::size_t numMatrices, std::vector<CharacteristicSignals> rows)
     : numMatrices_(numMatrices), rows_(std::move(rows)) {
   if (numMatrices_ == 0 ? !rows_.empty() : rows_.size() % numMatrices_ != 0)

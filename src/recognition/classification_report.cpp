@@ -81,15 +81,14 @@ std::vector<ClassFigures> ConfusionMatrix::figures() const {
 }
 
 Json ConfusionMatrix::classesJson() const {
-  Json list = Json::array();
-  for (const ClassFigures& one : figures())
-    list.push(Json::object()
-                  .set("name", one.name)
-                  .set("precision", one.precision)
-                  .set("recall", one.recall)
-                  .set("f", one.f)
-                  .set("support", one.support));
-  return list;
+  return jsonList(figures(), [](const ClassFigures& one) {
+    return Json::object()
+        .set("name", one.name)
+        .set("precision", one.precision)
+        .set("recall", one.recall)
+        .set("f", one.f)
+        .set("support", one.support);
+  });
 }
 
 Json ConfusionMatrix::confusionJson() const {

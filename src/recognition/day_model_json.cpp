@@ -24,11 +24,7 @@ Json dayJsonOf(const Eigen::MatrixXd& matrix) {
   return out;
 }
 
-Json dayJsonOf(const std::vector<std::string>& texts) {
-  Json out = Json::array();
-  for (const std::string& text : texts) out.push(text);
-  return out;
-}
+Json dayJsonOf(const std::vector<std::string>& texts) { return jsonList(texts); }
 
 Json dayJsonOf(const DayBell& bell) {
   return Json::object().set("mean", dayJsonOf(bell.mean)).set("scatter", dayJsonOf(bell.scatter));

@@ -39,11 +39,7 @@ Json of(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
-Json of(const std::vector<std::string>& texts) {
-  Json list = Json::array();
-  for (const std::string& text : texts) list.push(text);
-  return list;
-}
+Json of(const std::vector<std::string>& texts) { return jsonList(texts); }
 
 Json member(const Json& object, std::string_view key) {
   if (!object.isObject() || !object.contains(key)) refuseJsonNumbers(key, "is missing");

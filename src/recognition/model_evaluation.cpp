@@ -124,6 +124,17 @@ SessionUse sessionFor(const TrainedModel& model,
   return use;
 }
 
+Classification classifyTable(const TrainedModel& model,
+                             const FeatureTable& table,
+                             const OffsetChoice& choice) {
+  requireFits(model, table);
+  const Eigen::MatrixXd x = valuesOf(table);
+  Classification result;
+  result.use = sessionFor(model, x, timesOf(table), choice);
+  result.verdicts = classifyRows(model, x, result.use.offset, result.use.sameSession);
+  return result;
+}
+
 std::vector<std::vector<std::size_t>> sessionsOf(const std::vector<std::int64_t>& timesUs,
                                                  double pauseS) {
   std::vector<std::size_t> order(timesUs.size());

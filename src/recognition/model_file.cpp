@@ -17,16 +17,15 @@ namespace fs = std::filesystem;
 constexpr const char* kKind = "palpate recognition model";
 
 Json jsonOf(const std::vector<ModelInput>& inputs) {
-  Json list = Json::array();
-  for (const ModelInput& input : inputs)
-    list.push(Json::object()
-                  .set("file", input.file)
-                  .set("sha256", input.sha256)
-                  .set("class", input.className)
-                  .set("grasps", input.grasps)
-                  .set("first_us", input.firstUs)
-                  .set("last_us", input.lastUs));
-  return list;
+  return jsonList(inputs, [](const ModelInput& input) {
+    return Json::object()
+        .set("file", input.file)
+        .set("sha256", input.sha256)
+        .set("class", input.className)
+        .set("grasps", input.grasps)
+        .set("first_us", input.firstUs)
+        .set("last_us", input.lastUs);
+  });
 }
 
 std::vector<ModelInput> inputsFrom(const Json& json, std::string_view key) {

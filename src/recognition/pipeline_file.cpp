@@ -76,9 +76,8 @@ SupportVectorMachine svmFrom(const Json& json, std::size_t numClasses, Eigen::In
 }
 
 Json jsonOf(const std::vector<Sigmoid>& sigmoids) {
-  Json list = Json::array();
-  for (const Sigmoid& one : sigmoids) list.push(Json::array().push(one.a).push(one.b));
-  return list;
+  return jsonList(sigmoids,
+                  [](const Sigmoid& one) { return Json::array().push(one.a).push(one.b); });
 }
 
 std::vector<Sigmoid> sigmoidsFrom(const Json& json, std::size_t pairs) {

@@ -73,19 +73,14 @@ void SampleSet::validate() const {
 SampleSet samplesOf(const FeatureTable& table) { return samplesOf(table, table.classes()); }
 
 SampleSet samplesOf(const FeatureTable& table, const std::vector<std::string>& classes) {
-  SampleSet samples{{}, {}, classes, table.names};
-  samples.x.resize(static_cast<Eigen::Index>(table.rows.size()),
-                   static_cast<Eigen::Index>(table.names.size()));
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const FeatureRow& row = table.rows[i];
+  SampleSet samples{valuesOf(table), {}, classes, table.names};
+  for (const FeatureRow& row : table.rows) {
     const auto found = std::find(classes.begin(), classes.end(), row.className);
     if (row.className.empty())
       throw FileError(row.file, "its class isn't known: name a folder with a folder per class");
     if (found == classes.end())
       throw FileError(row.file, "its class '" + row.className + "' isn't one of the model's");
     samples.y.push_back(static_cast<int>(found - classes.begin()));
-    samples.x.row(static_cast<Eigen::Index>(i)) = Eigen::Map<const Eigen::RowVectorXd>(
-        row.values.data(), static_cast<Eigen::Index>(row.values.size()));
   }
   return samples;
 }

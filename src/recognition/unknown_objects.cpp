@@ -150,10 +150,9 @@ UnknownReport unknownOnAnotherDay(const SampleSet& training,
 }
 
 Json jsonOf(const UnknownReport& report) {
-  Json classes = Json::array();
-  for (const UnknownClass& one : report.classes)
-    classes.push(
-        Json::object().set("name", one.name).set("grasps", one.grasps).set("auroc", one.auroc));
+  Json classes = jsonList(report.classes, [](const UnknownClass& one) {
+    return Json::object().set("name", one.name).set("grasps", one.grasps).set("auroc", one.auroc);
+  });
   return Json::object()
       .set("auroc", report.auroc)
       .set("known_grasps", report.known)

@@ -95,16 +95,15 @@ fs::path notesPathOf(const fs::path& recording) {
 }
 
 Json eventsToJson(std::span<const RecordingEvent> events) {
-  Json list = Json::array();
-  for (const RecordingEvent& event : events)
-    list.push(Json::object()
-                  .set("t_us", event.tUs)
-                  .set("t1_us", event.t1Us)
-                  .set("kind", event.kind)
-                  .set("matrix", event.matrix ? Json(*event.matrix) : Json())
-                  .set("text", event.text)
-                  .set("json", event.json));
-  return list;
+  return jsonList(events, [](const RecordingEvent& event) {
+    return Json::object()
+        .set("t_us", event.tUs)
+        .set("t1_us", event.t1Us)
+        .set("kind", event.kind)
+        .set("matrix", event.matrix ? Json(*event.matrix) : Json())
+        .set("text", event.text)
+        .set("json", event.json);
+  });
 }
 
 std::string asciiJson(const std::string& json) {

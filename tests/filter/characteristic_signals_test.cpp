@@ -1,6 +1,8 @@
 #include "palpate/filter/characteristic_signals.h"
 
+#include <set>
 #include <stdexcept>
+#include <string_view>
 
 #include "palpate/core/error.h"
 #include "palpate/model/hand_description.h"
@@ -102,6 +104,19 @@ TEST(CharacteristicSignals, AllInOneAreTheSameNumbers) {
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (const SignalKind kind : kAllSignalKinds)
       EXPECT_EQ(valueOf(rows[i], kind), valueOf(expected[i], kind)) << "row " << i;
+}
+
+// docs/commands.md: the columns of palpate signals.
+TEST(SignalNames, AreThoseOfTheTables) {
+  std::set<std::string_view> names;
+  for (const SignalKind kind : kAllSignalKinds) {
+    EXPECT_EQ(signalKindNamed(signalName(kind)), kind);
+    names.insert(signalName(kind));
+  }
+  EXPECT_EQ(names,
+            (std::set<std::string_view>{
+                "mean", "filtered_mean", "min", "max", "sum", "active", "area_mm2"}));
+  EXPECT_EQ(signalKindNamed("median"), std::nullopt);
 }
 
 }  // namespace

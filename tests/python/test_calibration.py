@@ -30,6 +30,15 @@ def test_fit_finds_what_was_there():
     assert abs(np.mean(errors)) < 0.6 and 0.7 < np.std(errors) < 1.4  # the covariance is right
     flat = palpate.fit_step([0, 1, 2], [0, 0, 0])
     assert not flat["converged"] and flat["notes"]
+    for name in ("K", "m", "T1", "T2", "T", "d", "rmse", "residual_sd"):  # nothing was fitted
+        assert np.isnan(flat[name]), name
+
+
+def test_steps_of_every_signal(recordings):
+    profile = palpate.load(recordings / "grasps" / "foam_ball.dsa")
+    for signal in palpate.signals(profile, 1):
+        if signal != "time_ms":
+            assert palpate.calibrate_step(profile, 1, signal=signal)["signal"] == signal
 
 
 def test_golden_steps(golden, recordings):

@@ -11,6 +11,7 @@
 #include "palpate/core/output_file.h"
 
 #include "commands/calibrate_commands.h"
+#include "commands/filter_options.h"
 
 namespace palpate::commands {
 namespace {
@@ -44,15 +45,6 @@ void showKinds() {
       "Example:\n  palpate calibrate step A1.dsa --matrix 1");
 }
 
-constexpr std::array<std::pair<const char*, SignalKind>, 7> kCalibrateSignals = {
-    {{"filtered_mean", SignalKind::kFilteredMean},
-     {"mean", SignalKind::kMean},
-     {"max", SignalKind::kMaximum},
-     {"min", SignalKind::kMinimum},
-     {"sum", SignalKind::kSum},
-     {"active", SignalKind::kActive},
-     {"area_mm2", SignalKind::kArea}}};
-
 }  // namespace
 
 int calibrateCommand(const Words& words) {
@@ -76,13 +68,7 @@ std::size_t matrixGiven(const CommandLine& given) {
 }
 
 SignalKind signalGiven(const CommandLine& given) {
-  Words known;
-  for (const auto& [name, kind] : kCalibrateSignals) known.emplace_back(name);
-  const std::string name = given.choice("signal", known).value_or("filtered_mean");
-  return std::find_if(kCalibrateSignals.begin(),
-                      kCalibrateSignals.end(),
-                      [&](const auto& s) { return s.first == name; })
-      ->second;
+  return signalChosen(given).value_or(SignalKind::kFilteredMean);
 }
 
 void requireMatrix(const std::filesystem::path& file, std::size_t numMatrices, std::size_t matrix) {

@@ -56,14 +56,13 @@ void DemoTour::stepIf(bool ready,
 }
 
 Json demoStepsJson(const std::vector<DemoStep>& steps) {
-  Json json = Json::array();
-  for (const DemoStep& step : steps)
-    json.push(Json::object()
-                  .set("step", step.name)
-                  .set("what", step.what)
-                  .set("outcome", step.outcome)
-                  .set("figure", step.figure));
-  return json;
+  return jsonList(steps, [](const DemoStep& step) {
+    return Json::object()
+        .set("step", step.name)
+        .set("what", step.what)
+        .set("outcome", step.outcome)
+        .set("figure", step.figure);
+  });
 }
 
 }  // namespace palpate::commands

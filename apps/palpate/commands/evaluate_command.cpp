@@ -37,13 +37,12 @@ SetChoice setGiven(const CommandLine& given) {
 }
 
 Json coverageJson(const std::vector<CoveragePoint>& curve) {
-  Json list = Json::array();
-  for (const CoveragePoint& point : curve)
-    list.push(Json::object()
-                  .set("confidence", point.confidence)
-                  .set("coverage", point.coverage)
-                  .set("accuracy", point.accuracy));
-  return list;
+  return jsonList(curve, [](const CoveragePoint& point) {
+    return Json::object()
+        .set("confidence", point.confidence)
+        .set("coverage", point.coverage)
+        .set("accuracy", point.accuracy);
+  });
 }
 
 void addConfidence(const SampleSet& samples, const ValidationReport& report, Json& json) {
@@ -64,25 +63,23 @@ Json weightsJson(const SampleSet& samples, const PipelineOptions& options) {
 }
 
 Json curveJson(const std::vector<LearningPoint>& curve) {
-  Json list = Json::array();
-  for (const LearningPoint& point : curve)
-    list.push(Json::object()
-                  .set("per_class", point.perClass)
-                  .set("train_grasps", point.trainSamples)
-                  .set("accuracy_mean", point.accuracyMean)
-                  .set("accuracy_sd", point.accuracySd));
-  return list;
+  return jsonList(curve, [](const LearningPoint& point) {
+    return Json::object()
+        .set("per_class", point.perClass)
+        .set("train_grasps", point.trainSamples)
+        .set("accuracy_mean", point.accuracyMean)
+        .set("accuracy_sd", point.accuracySd);
+  });
 }
 
 Json eliminationJson(const SampleSet& samples, const std::vector<EliminationStep>& steps) {
-  Json list = Json::array();
-  for (const EliminationStep& step : steps)
-    list.push(Json::object()
-                  .set("features", step.features)
-                  .set("accuracy_mean", step.accuracyMean)
-                  .set("accuracy_sd", step.accuracySd)
-                  .set("then_dropped", samples.features[step.dropped]));
-  return list;
+  return jsonList(steps, [&](const EliminationStep& step) {
+    return Json::object()
+        .set("features", step.features)
+        .set("accuracy_mean", step.accuracyMean)
+        .set("accuracy_sd", step.accuracySd)
+        .set("then_dropped", samples.features[step.dropped]);
+  });
 }
 
 std::vector<std::size_t> curveSizes(const SampleSet& samples) {
@@ -153,8 +150,7 @@ int crossValidation(const CommandLine& given) {
     if (given.has("eliminate")) steps = eliminateFeatures(samples, options, splits, 0, progress);
   });
   const Json confusion = report.confusion.confusionJson();
-  Json accuracies = Json::array();
-  for (const double accuracy : report.accuracies) accuracies.push(accuracy);
+  Json accuracies = jsonList(report.accuracies);
   Json json = Json::object()
                   .set("accuracy_mean", report.accuracyMean)
                   .set("accuracy_sd", report.accuracySd)

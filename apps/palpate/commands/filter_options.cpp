@@ -81,6 +81,13 @@ Profile lookedAtThrough(const Recipe& recipe,
   }
 }
 
+std::optional<SignalKind> signalChosen(const CommandLine& given) {
+  Words known;
+  for (const SignalKind kind : kAllSignalKinds) known.emplace_back(signalName(kind));
+  const auto name = given.choice("signal", known);
+  return name ? signalKindNamed(*name) : std::nullopt;
+}
+
 std::string filterList() {
   std::string text;
   for (const FilterKind& kind : filterKinds()) {

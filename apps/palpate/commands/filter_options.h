@@ -1,10 +1,12 @@
-// --filter and --recipe, for every command that can look at a recording through filters.
+// --filter and --recipe, for every command that can look at a recording through filters; --signal.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include <palpate/core/progress.h>
+#include <palpate/filter/characteristic_signals.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/model/profile.h>
 
@@ -25,6 +27,9 @@ Profile lookedAtThrough(const Recipe& recipe,
                         const Profile& profile,
                         const std::filesystem::path& file,
                         const Progress& progress = {});
+
+// --signal NAME, a characteristic signal; nothing where it isn't given. Throws UsageError naming all.
+std::optional<SignalKind> signalChosen(const CommandLine& given);
 
 // All filters with their options, as `palpate filter --list` prints them.
 std::string filterList();

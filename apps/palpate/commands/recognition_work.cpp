@@ -48,27 +48,6 @@ FeatureTable gatherTable(const CommandLine& given,
   return table;
 }
 
-std::vector<std::int64_t> timesOf(const FeatureTable& table) {
-  std::vector<std::int64_t> times;
-  for (const FeatureRow& row : table.rows) times.push_back(row.timeUs);
-  return times;
-}
-
-Classification classifyTable(const TrainedModel& model,
-                             const FeatureTable& table,
-                             const OffsetChoice& choice) {
-  requireFits(model, table);
-  Eigen::MatrixXd x(static_cast<Eigen::Index>(table.rows.size()),
-                    static_cast<Eigen::Index>(table.names.size()));
-  for (std::size_t i = 0; i < table.rows.size(); ++i)
-    x.row(static_cast<Eigen::Index>(i)) =
-        Eigen::Map<const Eigen::RowVectorXd>(table.rows[i].values.data(), x.cols());
-  Classification result;
-  result.use = sessionFor(model, x, timesOf(table), choice);
-  result.verdicts = classifyRows(model, x, result.use.offset, result.use.sameSession);
-  return result;
-}
-
 OptionSpec zeroOptionSpec() {
   return {"empty-hand-zero",
           "FILE",

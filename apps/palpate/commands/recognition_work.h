@@ -34,16 +34,6 @@ void runInterruptibly(const CommandLine& given,
 FeatureTable gatherTable(const CommandLine& given,
                          const std::vector<std::filesystem::path>& paths,
                          FeatureSet set);
-std::vector<std::int64_t> timesOf(const FeatureTable& table);
-// What a model says of every row of a table, all of one session.
-struct Classification {
-  SessionUse use;
-  std::vector<Verdict> verdicts;  // one per row
-};
-// Throws Error: the table doesn't fit the model, or the model has no use for such an offset.
-Classification classifyTable(const TrainedModel& model,
-                             const FeatureTable& table,
-                             const OffsetChoice& choice);
 // --empty-hand-zero: the zero of a recording in which the empty hand closes until its pads touch; nothing: not asked for. Throws
 // Error: there is no touch in it.
 std::optional<EmptyHandZero> zeroGiven(const CommandLine& given);

@@ -129,8 +129,7 @@ std::uint64_t badChecksumsOf(const DeviceStatus& device) {
 Json recordRateJson(double hz) { return hz > 0.0 ? Json(hz) : Json(); }
 
 std::string recordJsonText(const RecordingReport& report, const DeviceStatus& device) {
-  Json files = Json::array();
-  for (const fs::path& path : report.paths) files.push(path.string());
+  Json files = jsonList(report.paths, [](const fs::path& path) { return path.string(); });
   return Json::object()
       .set("files", files)
       .set("frames", report.frames)

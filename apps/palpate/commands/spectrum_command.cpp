@@ -21,18 +21,6 @@ namespace {
 constexpr double kPercent = 100.0;
 constexpr std::size_t kMostNamed = 8;  // taxels in one line
 
-struct NamedSignal {
-  const char* word;
-  SignalKind kind;
-};
-constexpr NamedSignal kSpectrumSignals[] = {{"mean", SignalKind::kMean},
-                                            {"filtered_mean", SignalKind::kFilteredMean},
-                                            {"min", SignalKind::kMinimum},
-                                            {"max", SignalKind::kMaximum},
-                                            {"sum", SignalKind::kSum},
-                                            {"active", SignalKind::kActive},
-                                            {"area_mm2", SignalKind::kArea}};
-
 std::string placeText(std::size_t matrix, std::int64_t x, std::int64_t y) {
   return "matrix " + std::to_string(matrix) + ", x " + std::to_string(x) + ", y " +
          std::to_string(y);
@@ -87,14 +75,9 @@ SeriesChoice choiceOf(const CommandLine& given, const SensorLayout& layout) {
     throw Error(file + ": has no matrix " + std::to_string(*matrix) + ", only 0.." +
                 std::to_string(numMatrices - 1));
   const auto x = given.integer("x", 0, INT32_MAX), y = given.integer("y", 0, INT32_MAX);
-  std::vector<std::string> words;
-  for (const NamedSignal& signal : kSpectrumSignals) words.emplace_back(signal.word);
-  if (const auto word = given.choice("signal", words)) {
+  if (const auto signal = signalChosen(given)) {
     if (x || y) throw UsageError("give --signal, or --x and --y, not both");
-    SeriesChoice choice{.index = static_cast<std::size_t>(matrix.value_or(numMatrices))};
-    for (const NamedSignal& signal : kSpectrumSignals)
-      if (*word == signal.word) choice.signal = signal.kind;
-    return choice;
+    return {.index = static_cast<std::size_t>(matrix.value_or(numMatrices)), .signal = *signal};
   }
   if (!matrix || !x || !y)
     throw UsageError("spectrum needs --matrix M --x X --y Y (a taxel), or --signal");
@@ -159,14 +142,14 @@ Json spectrumJsonOf(const SpectrumReport& report,
                     const SpectrumOptions& options,
                     const MeanSpectrum& mean,
                     double strongestTimeS) {
-  Json stretches = Json::array();
-  for (const SpectrumStretch& stretch : report.stretches)
-    stretches.push(Json::object()
-                       .set("begin_s", stretch.beginS)
-                       .set("end_s", stretch.endS)
-                       .set("samples", stretch.samples)
-                       .set("rate_hz", known(stretch.rateHz))
-                       .set("segments", stretch.segments));
+  Json stretches = jsonList(report.stretches, [](const SpectrumStretch& stretch) {
+    return Json::object()
+        .set("begin_s", stretch.beginS)
+        .set("end_s", stretch.endS)
+        .set("samples", stretch.samples)
+        .set("rate_hz", known(stretch.rateHz))
+        .set("segments", stretch.segments);
+  });
   Json strongest;  // null: nothing moves
   if (mean.strongestBin() > 0)
     strongest = Json::object()

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,9 @@ inline constexpr std::array kAllSignalKinds = {SignalKind::kMean,
                                                SignalKind::kActive,
                                                SignalKind::kArea};
 double valueOf(const CharacteristicSignals& values, SignalKind which);
+// The name in tables, files and options: "mean", "filtered_mean", "max", "min", "sum", "active", "area_mm2".
+std::string_view signalName(SignalKind kind);
+std::optional<SignalKind> signalKindNamed(std::string_view name);
 
 CharacteristicSignals characteristicSignals(const Eigen::Ref<const MatrixValues>& values,
                                             const MatrixLayout& layout);

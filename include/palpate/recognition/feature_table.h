@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include <palpate/core/progress.h>
 #include <palpate/recognition/grasp_features.h>
 
@@ -45,6 +47,10 @@ struct FeatureTable {
   // The classes of the rows, sorted, each once; without class: none.
   std::vector<std::string> classes() const;
 };
+
+// Of each row: when it began [us since 1970]; its features, a row each.
+std::vector<std::int64_t> timesOf(const FeatureTable& table);
+Eigen::MatrixXd valuesOf(const FeatureTable& table);
 
 // A session ends where no grasp comes for longer: the hand reads sizes differently in the next one.
 constexpr std::int64_t kSessionPauseUs = 8LL * 3600 * 1'000'000;

@@ -43,6 +43,16 @@ SessionUse sessionFor(const TrainedModel& model,
                       const std::vector<std::int64_t>& timesUs,
                       const OffsetChoice& choice);
 
+// What a model says of every row of a table, all of one session.
+struct Classification {
+  SessionUse use;
+  std::vector<Verdict> verdicts;  // one per row
+};
+// Throws Error: the table doesn't fit the model, or the model has no use for such an offset.
+Classification classifyTable(const TrainedModel& model,
+                             const FeatureTable& table,
+                             const OffsetChoice& choice);
+
 // Grasps that belong to one session, in order of time: a pause of more than `pauseS` [s] begins another.
 std::vector<std::vector<std::size_t>> sessionsOf(const std::vector<std::int64_t>& timesUs,
                                                  double pauseS = 8.0 * 3600.0);
