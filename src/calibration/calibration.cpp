@@ -26,8 +26,7 @@ std::string textIn(const Json& json, const char* key) {
 }
 
 Json jsonOf(const PressureSample& sample) {
-  Json notes = Json::array();
-  for (const std::string& note : sample.notes) notes.push(note);
+  Json notes = jsonList(sample.notes);
   return Json::object()
       .set("file", sample.file)
       .set("sha256", sample.sha256)
@@ -78,8 +77,8 @@ Json jsonOf(const Calibration& calibration) {
   json.set("sensitivity_offset_counts", orNull(calibration.sensitivityOffset));
   if (calibration.noise) json.set("noise", jsonOf(*calibration.noise));
   json.set("options", calibration.options);
-  Json samples = Json::array();
-  for (const PressureSample& sample : calibration.samples) samples.push(jsonOf(sample));
+  Json samples =
+      jsonList(calibration.samples, [](const PressureSample& sample) { return jsonOf(sample); });
   return json.set("samples", std::move(samples));
 }
 

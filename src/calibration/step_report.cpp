@@ -19,26 +19,6 @@ constexpr double kFlicker = 1.0;
 // A step response meets a load that stays within a few per cent.
 constexpr double kBadRmseShare = 0.1;
 
-const char* nameOf(SignalKind kind) {
-  switch (kind) {
-    case SignalKind::kMean:
-      return "mean";
-    case SignalKind::kFilteredMean:
-      return "filtered_mean";
-    case SignalKind::kMaximum:
-      return "max";
-    case SignalKind::kMinimum:
-      return "min";
-    case SignalKind::kSum:
-      return "sum";
-    case SignalKind::kActive:
-      return "active";
-    case SignalKind::kArea:
-      return "area_mm2";
-  }
-  return "";
-}
-
 // 0 = the sensor has not reported yet.
 bool measured(double degC) { return std::isfinite(degC) && degC != 0.0; }
 
@@ -129,12 +109,6 @@ Json numbers(const StepFit& fit) {
   return rows;
 }
 
-Json stepReportTextsOf(const std::vector<std::string>& texts) {
-  Json list = Json::array();
-  for (const std::string& text : texts) list.push(text);
-  return list;
-}
-
 Json jsonOf(const FittedStep& fitted) {
   const StepFit& fit = fitted.fit;
   const StepParameters& p = fit.parameters;
@@ -175,7 +149,7 @@ Json jsonOf(const FittedStep& fitted) {
   json.set("released", fitted.step.released);
   std::vector<std::string> notes = fitted.notes;
   notes.insert(notes.end(), fit.notes.begin(), fit.notes.end());
-  return json.set("notes", stepReportTextsOf(notes));
+  return json.set("notes", jsonList(notes));
 }
 
 }  // namespace
@@ -237,11 +211,10 @@ StepReport reportSteps(const Profile& profile,
 
 Json jsonOf(const StepReport& report) {
   Json json = Json::object();
-  json.set("matrix", report.matrix).set("signal", nameOf(report.signal));
-  Json steps = Json::array();
-  for (const FittedStep& fitted : report.steps) steps.push(jsonOf(fitted));
-  json.set("steps", std::move(steps));
-  return json.set("notes", stepReportTextsOf(report.notes));
+  json.set("matrix", report.matrix).set("signal", signalName(report.signal));
+  json.set("steps",
+           jsonList(report.steps, [](const FittedStep& fitted) { return jsonOf(fitted); }));
+  return json.set("notes", jsonList(report.notes));
 }
 
 }  // namespace palpate

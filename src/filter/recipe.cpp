@@ -141,8 +141,7 @@ Recipe parseRecipe(std::span<const std::string> texts) {
 }
 
 Json recipeJson(const Recipe& recipe) {
-  Json steps = Json::array();
-  for (const FilterStep& step : recipe.steps) steps.push(stepJson(step));
+  Json steps = jsonList(recipe.steps, [](const FilterStep& step) { return stepJson(step); });
   return Json::object()
       .set("format", kFormat)
       .set("version", kVersion)
