@@ -31,7 +31,7 @@ class HandGlTest : public ::testing::Test {
  protected:
   void SetUp() override {
     if (const QString why = whyNoOpenGl(); !why.isEmpty())
-      GTEST_SKIP() << "no OpenGL here: " << why.toStdString();
+      PALPATE_CANNOT_SHOW("no OpenGL here: " << why.toStdString());
     use(formatOf(3, 3, QSurfaceFormat::CoreProfile));
   }
   void TearDown() override {
