@@ -9,6 +9,7 @@
 #include "palpate/device/dsa_controller.h"
 
 #include "device/dsa_records.h"
+#include "device/other_controller.h"
 
 namespace palpate {
 namespace {
@@ -54,9 +55,9 @@ const DsaFacts& DsaController::open() {
     if (!probed && clock_.monotonicUs() - startUs > usOf(2 * options_.stopAnswer)) {
       probed = true;
       if (looksLikeMotionController())
-        throw DeviceError(DeviceFault::kWrongDevice,
-                          channel_.name(),
-                          "the motion controller answers here: the two ports are swapped");
+        throw OtherController(PortAnswer::kMotion,
+                              channel_.name(),
+                              "the motion controller answers here: the two ports are swapped");
     }
     if (clock_.monotonicUs() - startUs > usOf(options_.openTimeout))
       failSilent(

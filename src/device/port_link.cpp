@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "device/other_controller.h"
+
 namespace palpate {
 namespace {
 constexpr std::int64_t kRetryUs = 100'000;  // between two attempts to open a port that is gone
@@ -114,6 +116,7 @@ void PortLink::round() {
   updateStatus([&](PortStatus& status) {
     status.state = PortState::kStreaming;
     status.message.clear();
+    status.found.reset();
     if (wasConnected_) ++status.reconnects;
   });
   lastFailure_.clear();
@@ -165,6 +168,8 @@ void PortLink::lose(const DeviceError& error) {
     return;
   }
   setState(wasConnected_ ? PortState::kLost : PortState::kConnecting, error.what());
+  if (const auto* other = dynamic_cast<const OtherController*>(&error))
+    updateStatus([&](PortStatus& status) { status.found = other->found(); });
   // Said once, not ten times a second.
   if (std::exchange(lastFailure_, error.what()) != error.what())
     eventNow(wasConnected_ ? "alarm" : "link", error.what());
@@ -239,6 +244,7 @@ void PortLink::setState(PortState state, const std::string& message) {
   std::lock_guard lock(mutex_);
   status_.state = state;
   status_.message = message;
+  status_.found.reset();
 }
 
 void PortLink::event(const std::string& kind,

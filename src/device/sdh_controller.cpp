@@ -7,6 +7,7 @@
 #include "palpate/device/dsa_packet.h"
 #include "palpate/model/hand_description.h"
 
+#include "device/other_controller.h"
 #include "device/sdh_link.h"
 #include "device/sdh_quantity.h"
 
@@ -60,9 +61,10 @@ const SdhFacts& SdhController::open() {
     throw;
   } catch (const DeviceError& error) {
     if (tactile.stats().packets > 0)
-      link_->fail(DeviceFault::kWrongDevice,
-                  "a tactile controller sends here, not a motion controller: the ports are "
-                  "swapped; exchange the two names");
+      throw OtherController(PortAnswer::kTactile,
+                            error.port(),
+                            "a tactile controller sends here, not a motion controller: the ports "
+                            "are swapped; exchange the two names");
     if (error.fault() != DeviceFault::kSilent) throw;
     const bool noise = link_->stats().bytesRead > readBefore;
     link_->fail(DeviceFault::kSilent,

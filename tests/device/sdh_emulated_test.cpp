@@ -4,10 +4,12 @@
 #include <chrono>
 
 #include "palpate/device/byte_channel.h"
+#include "palpate/device/live_hand.h"
 #include "palpate/device/port_probe.h"
 #include "palpate/device/sdh_controller.h"
 #include "palpate/emulator/emulated_hand.h"
 
+#include "device/collecting_sink.h"
 #include "emulator/still_hand.h"
 #include "testing/testing.h"
 
@@ -215,6 +217,23 @@ TEST(SdhEmulatedHand, SwappedPortsAreNoticedWhileTheTactileControllerStreams) {
   } catch (const DeviceError& error) {
     EXPECT_EQ(error.fault(), DeviceFault::kWrongDevice) << error.what();
   }
+}
+
+TEST(SdhEmulatedHand, WhatAnswersAtTheOtherOnesPortIsSaidInItsStatus) {
+  EmulatedHand emulated(std::make_unique<testing::StillHand>(), quick());
+  testing::CollectingSink sink;
+  LiveHandOptions options;
+  options.dsaPort = emulated.sdhPort();  // the motion controller's
+  LiveHand hand(options);
+  hand.start(sink);
+  EXPECT_EQ(hand.status().tactile.found, std::nullopt);
+  ASSERT_TRUE(sink.await([&] {
+    return std::any_of(sink.events.begin(), sink.events.end(), [](const DeviceEvent& event) {
+      return event.text.find("swapped") != std::string::npos;
+    });
+  }));
+  EXPECT_EQ(hand.status().tactile.found, PortAnswer::kMotion);
+  hand.stop();
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include <palpate/device/port_probe.h>
 #include <palpate/model/hand_description.h>
 #include <palpate/model/hand_state.h>
 #include <palpate/model/tactile_frame.h>
@@ -55,7 +56,10 @@ enum class PortState {
 struct PortStatus {
   std::string port;  // as named by the caller
   PortState state = PortState::kClosed;
-  std::string message;             // what is wrong and what to do, one line; empty: nothing
+  std::string message;  // what is wrong and what to do, one line; empty: nothing
+  // What was found there instead, where it is known: the hand's other controller. Nothing: what belongs there, or nobody
+  // knows yet.
+  std::optional<PortAnswer> found = {};
   std::uint64_t items = 0;         // frames or angle samples delivered
   std::uint64_t bytes = 0;         // read from the port
   std::uint64_t badChecksums = 0;  // packets or answers with a wrong checksum
@@ -112,6 +116,7 @@ struct CommandAnswer {
 struct MatrixSettings {
   double sensitivity = 0.5;
   int thresholdCounts = 0;
+  bool operator==(const MatrixSettings&) const = default;
 };
 struct DeviceFacts {
   std::string serial;                    // tactile controller, "1D9B0057"
