@@ -76,6 +76,16 @@ TEST_F(RecognisePanelTest, WhatCanNotBeJudgedIsSaid) {
   EXPECT_EQ(panel_->desk().answer().kind, Kind::kTrouble);
 }
 
+TEST_F(RecognisePanelTest, WhatWasHeldTooShortIsNotSaidOfAnEmptyHand) {
+  panel_->desk().setEmulated(true);
+  settle();
+  panel_->desk().sayTrouble("Held too short yet: ask again in a second.", kHeldNow);
+  panel_->desk().letGo();
+  EXPECT_EQ(panel_->desk().answer().kind, Kind::kNothing);
+  EXPECT_EQ(find<AnswerView>("answerView")->answer().kind, Kind::kNothing);
+  EXPECT_FALSE(panel_->desk().answer().text.contains("too short"));
+}
+
 TEST_F(RecognisePanelTest, WhatIsToldAdaptsTheDay) {
   panel_->desk().setEmulated(true);
   settle();

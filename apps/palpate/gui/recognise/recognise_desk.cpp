@@ -191,9 +191,17 @@ void RecogniseDesk::judge(const ChosenGrasp& chosen, const QString& of) {
 void RecogniseDesk::letGo() {
   ++contact_;
   if (answer_.of != kHeldNow) return;
+  // Why there was no answer yet says nothing of what is gone.
+  if (answer_.kind == RecognitionAnswer::Kind::kTrouble && !last_) return sayHowToAsk();
   if (last_) last_->second = kLastGrasp;
   answer_.of = kLastGrasp;
   emit answered(answer_);
+}
+
+void RecogniseDesk::sayHowToAsk() {
+  RecognitionAnswer answer;
+  answer.text = kHowToAsk;
+  tell(answer);
 }
 
 void RecogniseDesk::sayTrouble(const QString& text, const QString& of) {

@@ -70,6 +70,7 @@ class RecogniseDesk : public QObject {
   void setModel(std::optional<TrainedModel> model, const std::filesystem::path& path);
   void takeDefault();
   void judge(const ChosenGrasp& chosen, const QString& of);
+  void sayHowToAsk();
   void tell(RecognitionAnswer answer);
   bool isEmulatedModel() const;
   const char* settingsKey() const;
