@@ -50,6 +50,20 @@ TEST_F(HandDrawingTest, TaxelsHaveTheColoursOfTheHeatMaps) {
   EXPECT_EQ(numOf(colorsOf(Theme::kDark).taxel.rgb()), 6u * (456u - 3u));
 }
 
+// As in the heat maps: less than half a count, in a taxel that nothing presses on, is nothing to see.
+TEST_F(HandDrawingTest, WhatFiltersLeaveInTaxelsAtRestIsSeenFromHalfACount) {
+  frame_.filtered = frame_.values;
+  frame_.filtered[0] = 0.4F;
+  drawing_.setMoment(frame_, kPose);
+  fill();
+  const QRgb resting = colorsOf(Theme::kDark).taxel.rgb();
+  EXPECT_EQ(numOf(resting), 6u * (456u - 3u));
+  frame_.filtered[0] = 0.6F;
+  drawing_.setMoment(frame_, kPose);
+  fill();
+  EXPECT_EQ(numOf(resting), 6u * (456u - 4u));
+}
+
 TEST_F(HandDrawingTest, SphereAndContactsAreThoseOfTheContactGeometry) {
   drawing_.setMoment(frame_, kPose);
   const HandContact expected = contactOf(frame_, geometry_.pose(kPose));

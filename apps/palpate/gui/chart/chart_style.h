@@ -17,6 +17,10 @@ class QWidget;
 
 namespace palpate::gui {
 
+// Of the mouse's wheel.
+inline constexpr double kWheelNotch = 120.0;  // QWheelEvent::angleDelta() of one notch
+inline constexpr double kWheelZoom = 1.25;    // per notch
+
 // Numbers of both axes, their ticks and margins; once.
 void arrangeChart(QCustomPlot& plot);
 // Background and axes in the colours of a theme.

@@ -17,11 +17,9 @@ namespace {
 
 constexpr double kCompareChartShortestSeenS = 0.05;
 constexpr double kLongestSeenS = 1e9;
-constexpr double kCompareChartHeadroom = 1.06;   // the highest curve stays below the frame
-constexpr double kCompareChartWheelStep = 1.25;  // zoom per notch
-constexpr double kCompareChartNotch = 120.0;     // angleDelta of one notch
-constexpr double kCompareChartPageRest = 0.1;    // part of the old page that a new page starts with
-constexpr int kCompareChartCursorWidth = 2;      // [px]
+constexpr double kCompareChartHeadroom = 1.06;  // the highest curve stays below the frame
+constexpr double kCompareChartPageRest = 0.1;   // part of the old page that a new page starts with
+constexpr int kCompareChartCursorWidth = 2;     // [px]
 
 double compareChartLargestOf(const std::shared_ptr<const Series>& series) {
   double largest = 0.0;
@@ -231,15 +229,15 @@ void CompareChart::mouseDoubleClickEvent(QMouseEvent* event) {
 }
 
 void CompareChart::wheelEvent(QWheelEvent* event) {
-  const double notches = event->angleDelta().y() / kCompareChartNotch;
-  const double sideways = event->angleDelta().x() / kCompareChartNotch;
+  const double notches = event->angleDelta().y() / kWheelNotch;
+  const double sideways = event->angleDelta().x() / kWheelNotch;
   if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier) {
     const QCPRange range = xAxis->range();
     const double moved =
         -(sideways != 0.0 ? sideways : notches) * kCompareChartPageRest * range.size();
     setSeen(range.lower + moved, range.upper + moved);
   } else {
-    zoomAbout(secondsAt(event->position().x()), std::pow(kCompareChartWheelStep, notches));
+    zoomAbout(secondsAt(event->position().x()), std::pow(kWheelZoom, notches));
   }
   event->accept();
 }

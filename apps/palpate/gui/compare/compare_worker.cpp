@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <palpate/core/error.h>
 #include <palpate/core/time.h>
@@ -13,7 +12,6 @@ namespace {
 
 constexpr std::size_t kCompareWorkerMostKept = 12;  // recordings, and curves
 constexpr std::size_t kPairsLookedAt = 4000;        // of a long recording: for the range of colours
-constexpr double kCompareWorkerEverS = std::numeric_limits<double>::max();
 
 // How much of the whole work each part is.
 constexpr double kTimedShare = 0.2;
@@ -97,8 +95,8 @@ std::shared_ptr<const Series> CompareWorker::curve(const OpenedRecordingPtr& rec
   if (!hasSeries(recording->profile, choice)) return nullptr;
   for (const auto& each : kept_->curves)
     if (each.of.lock() == recording && each.choice == choice) return each.series;
-  auto series = std::make_shared<Series>(
-      readSeries(recording->profile, choice, -kCompareWorkerEverS, kCompareWorkerEverS, progress));
+  auto series =
+      std::make_shared<Series>(readSeries(recording->profile, choice, -kEverS, kEverS, progress));
   kept_->curves.push_back({recording, choice, series});
   if (kept_->curves.size() > kCompareWorkerMostKept) kept_->curves.pop_front();
   return series;

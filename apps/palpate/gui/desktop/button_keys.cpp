@@ -4,7 +4,6 @@
 #include <QApplication>
 #include <QDialog>
 #include <QKeyEvent>
-#include <QPointer>
 #include <QToolButton>
 
 namespace palpate::gui {

@@ -16,6 +16,7 @@
 #include "gui/export/export_movie_fields.h"
 #include "gui/export/export_place.h"
 #include "gui/export/export_preview.h"
+#include "gui/widgets/elided_text.h"
 
 namespace palpate::gui {
 namespace {
@@ -49,12 +50,6 @@ QComboBox* exportDialogComboBox(const char* name) {
   box->setObjectName(name);
   box->setMinimumHeight(kExportDialogFieldHeight);
   return box;
-}
-
-void exportDialogShowElided(QLabel* label, const QString& text, int width) {
-  label->setText(label->fontMetrics().elidedText(text, Qt::ElideMiddle, width));
-  label->setToolTip(label->text() == text ? QString() : text);
-  label->setAccessibleName(text);
 }
 
 }  // namespace
@@ -365,10 +360,9 @@ void ExportDialog::showProblem() {
   summary_->setText(preview_->summary());
   const QString path = QString::fromStdString(pathOf(now).string());
   const bool makes = now.isSeries() && !QFileInfo::exists(path);
-  exportDialogShowElided(
-      target_,
-      "in " + (now.isSeries() ? path : now.folder) + (makes ? ", a new folder" : ""),
-      preview_->width());
+  showElided(target_,
+             "in " + (now.isSeries() ? path : now.folder) + (makes ? ", a new folder" : ""),
+             preview_->width());
 }
 
 void ExportDialog::accept() {

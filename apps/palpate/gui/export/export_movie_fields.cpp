@@ -18,7 +18,7 @@ QComboBox* exportMovieFieldsComboBox(const char* name) {
   return box;
 }
 
-void chooseExportMovieFields(QComboBox* box, const QVariant& value) {
+void chooseValue(QComboBox* box, const QVariant& value) {
   box->setCurrentIndex(std::max(0, box->findData(value)));
 }
 
@@ -49,9 +49,9 @@ ExportMovieFields::ExportMovieFields(QFormLayout& form)
 }
 
 void ExportMovieFields::fill(const ExportRequest& request) {
-  chooseExportMovieFields(speed_, request.movieSpeed);
-  chooseExportMovieFields(rate_, request.moviePicturesPerS);
-  chooseExportMovieFields(height_, request.movieHeightPx);
+  chooseValue(speed_, request.movieSpeed);
+  chooseValue(rate_, request.moviePicturesPerS);
+  chooseValue(height_, request.movieHeightPx);
 }
 
 void ExportMovieFields::read(ExportRequest& request) const {

@@ -179,6 +179,14 @@ QColor matrixColor(std::size_t matrix, Theme theme) {
   return theme == Theme::kDark ? dark[matrix % dark.size()] : light[matrix % light.size()];
 }
 
+QColor mixed(const QColor& from, const QColor& to, double part) {
+  const auto mix = [share = static_cast<float>(part)](float a, float b) {
+    return a + (b - a) * share;
+  };
+  return QColor::fromRgbF(
+      mix(from.redF(), to.redF()), mix(from.greenF(), to.greenF()), mix(from.blueF(), to.blueF()));
+}
+
 QColor wholeColor(Theme theme) { return theme == Theme::kDark ? "#c3c9d3" : "#3d4654"; }
 
 Theme systemTheme() {

@@ -40,6 +40,8 @@ const ThemeColors& colorsOf(Theme theme);
 QColor matrixColor(std::size_t matrix, Theme theme);
 // The hand as a whole.
 QColor wholeColor(Theme theme);
+// `part` of the way from one to the other, 0..1.
+QColor mixed(const QColor& from, const QColor& to, double part);
 
 // The desktop's own theme, as it was when the program started.
 Theme systemTheme();

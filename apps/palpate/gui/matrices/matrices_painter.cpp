@@ -198,6 +198,10 @@ void paintMatricesBackground(QPainter& painter,
   painter.restore();
 }
 
+bool isSeen(float contact, float value) noexcept {
+  return contact > 0.0F || value >= kLeastSeenCounts;
+}
+
 void paintMatrixValues(QPainter& painter,
                        const MatricesGeometry& geometry,
                        std::size_t matrix,
@@ -227,9 +231,7 @@ void paintMatrixValues(QPainter& painter,
   for (int y = 0; y < layout.rows; ++y) {
     for (int x = 0; x < layout.columns; ++x) {
       const float value = values(y, x);
-      // Of what filters left in taxels that nothing presses on, less than half a count is nothing to see.
-      const bool seen =
-          options.difference ? value != 0.0F : contact(y, x) > 0.0F || value >= kLeastSeenCounts;
+      const bool seen = options.difference ? value != 0.0F : isSeen(contact(y, x), value);
       if (!seen || !layout.enabled(y, x)) continue;
       const int index = colorIndex(static_cast<double>(value), range.minimum, range.maximum);
       const QColor color = QColor::fromRgb(table[static_cast<std::size_t>(index)]);

@@ -85,6 +85,10 @@ struct ValueRange {
 };
 ValueRange rangeOf(const MatricesPictureOptions& options, const TactileFrame& frame);
 
+// Whether there is something to see in a taxel: it was touched as recorded (`contact`), or filters left at least half
+// a count in it.
+bool isSeen(float contact, float value) noexcept;
+
 // The parts, for a widget that keeps the first as a pixmap. Background: everything that doesn't
 // depend on the values (names, colour bar, taxels at rest, masks). Values: one matrix' active taxels.
 void paintMatricesBackground(QPainter& painter,

@@ -29,11 +29,6 @@ double nameWidth(const ConfusionMatrix& matrix, const QFont& font, double most) 
   return std::min(width + 3 * kConfusionPainterAir, most);
 }
 
-QColor confusionPainterMixed(const QColor& from, const QColor& to, double part) {
-  const auto mix = [part](int a, int b) { return static_cast<int>(a + part * (b - a)); };
-  return {mix(from.red(), to.red()), mix(from.green(), to.green()), mix(from.blue(), to.blue())};
-}
-
 bool hovered(const ConfusionMarks& marks, int row, int called) {
   return marks.hovered && (marks.hovered->first == row || marks.hovered->second == called);
 }
@@ -137,10 +132,8 @@ void paintCells(QPainter& painter,
       const bool right = called == row;
       // A single mistake is to be seen.
       const double tone = count == 0 ? 0.0 : std::max(share, right ? 0.25 : 0.75);
-      QColor ground =
-          confusionPainterMixed(colors.taxel, right ? colors.accent : colors.warning, tone);
-      if (hovered(marks, row, grid.calledOf(column)))
-        ground = confusionPainterMixed(ground, colors.text, 0.14);
+      QColor ground = mixed(colors.taxel, right ? colors.accent : colors.warning, tone);
+      if (hovered(marks, row, grid.calledOf(column))) ground = mixed(ground, colors.text, 0.14);
       painter.fillRect(cell, ground);
       if (count > 0 && grid.side >= kLeastSideForText) {
         painter.setPen(tone > 0.5 ? colors.window : colors.text);

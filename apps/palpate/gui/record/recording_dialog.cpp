@@ -17,6 +17,7 @@
 #include <algorithm>
 
 #include "gui/record/marks_by_key.h"
+#include "gui/widgets/elided_text.h"
 
 namespace palpate::gui {
 namespace {
@@ -72,12 +73,6 @@ QLabel* muted(const QString& text, QWidget* parent) {
 void letShrink(QLabel* label) {
   label->setTextFormat(Qt::PlainText);
   label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-}
-
-void recordingDialogShowElided(QLabel* label, const QString& text, Qt::TextElideMode mode) {
-  label->setText(label->fontMetrics().elidedText(text, mode, label->contentsRect().width()));
-  label->setToolTip(label->text() == text ? QString() : text);
-  label->setAccessibleName(text);
 }
 
 }  // namespace
@@ -312,13 +307,12 @@ void RecordingDialog::refresh() {
 
 void RecordingDialog::showTexts() {
   if (!ask_) return;  // while it is built
-  recordingDialogShowElided(
-      name_, QString::fromStdString(next_.path.filename().string()), Qt::ElideMiddle);
+  showElided(
+      name_, QString::fromStdString(next_.path.filename().string()), name_->contentsRect().width());
   const QString folder = QString::fromStdString(next_.path.parent_path().string());
-  recordingDialogShowElided(
-      place_,
-      next_.folderWillBeMade ? "in " + folder + ", which will be made" : "in " + folder,
-      Qt::ElideMiddle);
+  showElided(place_,
+             next_.folderWillBeMade ? "in " + folder + ", which will be made" : "in " + folder,
+             place_->contentsRect().width());
 }
 
 void RecordingDialog::accept() {

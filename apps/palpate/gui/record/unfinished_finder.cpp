@@ -16,7 +16,7 @@ constexpr qsizetype kMostIgnored = 500;                 // the oldest are forgot
 constexpr double kUnfinishedFinderSmallestNews = 0.01;  // progress is reported in steps of this
 
 std::string narrow(const QString& path) { return path.toStdString(); }
-QString unfinishedFinderWide(const std::filesystem::path& path) {
+QString pathText(const std::filesystem::path& path) {
   return QString::fromStdString(path.string());
 }
 
@@ -137,16 +137,14 @@ void UnfinishedFinder::recoverOne(const QString& path, const Progress& progress)
   if (report.state == RecoverReport::State::kNothing)
     tell([this, path, message] { emit failed(path, path + ": " + message); });
   else
-    tell([this, path, message, saved] {
-      emit recovered(path, message, unfinishedFinderWide(saved));
-    });
+    tell([this, path, message, saved] { emit recovered(path, message, pathText(saved)); });
 }
 
 void UnfinishedFinder::offer(const std::vector<UnfinishedRecording>& recordings) {
   const QStringList ignored = settings_.value(kIgnored).toStringList();
   QStringList paths;
   for (const UnfinishedRecording& recording : recordings) {
-    const QString path = unfinishedFinderWide(recording.path);
+    const QString path = pathText(recording.path);
     changedUs_[path] = recording.changedUs;
     if (!ignored.contains(entryOf(path, recording.changedUs))) paths.append(path);
   }

@@ -6,8 +6,6 @@
 #include <palpate/core/time.h>
 
 namespace palpate::gui {
-namespace {}  // namespace
-
 MatricesPictureOptions fitted(MatricesPictureOptions options, const PictureLook& look) {
   options.size = look.size;
   options.pixelRatio = look.pixelRatio;

@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "gui/matrices/matrices_painter.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -19,13 +21,7 @@ constexpr float kBarShare = 0.8F;
 constexpr float kTallestBarMm = 30.0F;  // at the end of the colour range
 constexpr float kOutlineLiftMm = 0.45F;
 constexpr float kTaxelDotPx = 3.2F;
-constexpr float kBodyVeil = 0.62F;  // how much of the background a greyed hand takes on
-
-QColor handDrawingMixed(const QColor& a, const QColor& b, float share) {
-  const auto mix = [share](float from, float to) { return from + (to - from) * share; };
-  return QColor::fromRgbF(
-      mix(a.redF(), b.redF()), mix(a.greenF(), b.greenF()), mix(a.blueF(), b.blueF()));
-}
+constexpr double kBodyVeil = 0.62;  // how much of the background a greyed hand takes on
 
 QColor bodyColor(HandBodyRole role, Theme theme) {
   const bool dark = theme == Theme::kDark;
@@ -172,7 +168,7 @@ void HandDrawing::addBodies(HandScene& scene, const HandLook& look) const {
   for (const HandBody& body : bodies_) {
     if (!isShown(body, look)) continue;
     QColor color = bodyColor(body.role, look.theme);
-    if (!posed()) color = handDrawingMixed(color, background, kBodyVeil);
+    if (!posed()) color = mixed(color, background, kBodyVeil);
     const QRgb rgb = color.rgb();
     const Eigen::Isometry3f to =
         (body.link ? pose_.baseFromLink(body.finger, *body.link) : Eigen::Isometry3d::Identity())
@@ -192,15 +188,14 @@ void HandDrawing::addTaxels(HandScene& scene, const HandLook& look) const {
   const ColorTable& table = colorTable(look.map);
   const ThemeColors& colors = colorsOf(look.theme);
   QColor resting = colors.taxel;
-  if (!posed() && !isFlat(look.taxels))
-    resting = handDrawingMixed(resting, colors.window, kBodyVeil);
+  if (!posed() && !isFlat(look.taxels)) resting = mixed(resting, colors.window, kBodyVeil);
   const bool bars = look.taxels == TaxelShape::kBars || look.taxels == TaxelShape::kFlatBars;
   const double span = std::max(1e-9, look.range.maximum - look.range.minimum);
   const SensorLayout& layout = *hand_->layout;
   eachTaxel(layout, look, [&](std::size_t place, std::size_t m, int y, int x) {
     const TaxelPatch& patch = places[place];
     const float value = moment_.frame ? moment_.frame->allValues()[place] : 0.0F;
-    const bool active = value > 0.0F;
+    const bool active = moment_.frame && isSeen(moment_.frame->values[place], value);
     const bool scanned = layout.matrix(m).enabled(y, x);
     const QRgb color =
         active ? table[static_cast<std::size_t>(colorIndex(

@@ -62,13 +62,6 @@ QString source(const char* text) {
   return QStringLiteral("#version 330 core\n") + QLatin1String(text);
 }
 
-bool handGlIsFinite(const SceneVertex& vertex) {
-  const auto& p = vertex.positionMm;
-  const auto& n = vertex.normal;
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) && std::isfinite(n[0]) &&
-         std::isfinite(n[1]) && std::isfinite(n[2]);
-}
-
 // Whole triangles of numbers; a normal that is none: not lit.
 void copyNumbers(const std::vector<SceneVertex>& from, std::vector<SceneVertex>& to) {
   to.clear();
@@ -76,8 +69,8 @@ void copyNumbers(const std::vector<SceneVertex>& from, std::vector<SceneVertex>&
     const std::size_t before = to.size();
     for (std::size_t k = 0; k < 3; ++k) {
       SceneVertex vertex = from[i + k];
-      if (!handGlIsFinite(vertex)) vertex.normal = {};
-      if (handGlIsFinite(vertex)) to.push_back(vertex);
+      if (!isFinite(vertex)) vertex.normal = {};
+      if (isFinite(vertex)) to.push_back(vertex);
     }
     if (to.size() != before + 3) to.resize(before);
   }
@@ -201,7 +194,10 @@ void HandGl::Gl::fill(Kind& kind, const std::vector<Vertex>& vertices) {
 }
 
 void HandGl::Gl::fillSurface(Kind& kind, const std::vector<SceneVertex>& vertices) {
-  if (std::all_of(vertices.begin(), vertices.end(), handGlIsFinite)) return fill(kind, vertices);
+  if (std::all_of(vertices.begin(), vertices.end(), [](const SceneVertex& vertex) {
+        return isFinite(vertex);
+      }))
+    return fill(kind, vertices);
   copyNumbers(vertices, numbers);
   fill(kind, numbers);
 }

@@ -125,6 +125,13 @@ void appendPoint(const Eye& eye, const ScenePoint& point, std::vector<ClipVertex
 
 }  // namespace
 
+bool isFinite(const SceneVertex& vertex) {
+  const auto& p = vertex.positionMm;
+  const auto& n = vertex.normal;
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) && std::isfinite(n[0]) &&
+         std::isfinite(n[1]) && std::isfinite(n[2]);
+}
+
 void HandScene::clearAll() {
   solid.clear();
   clear.clear();

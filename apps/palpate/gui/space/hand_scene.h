@@ -22,6 +22,9 @@ struct SceneVertex {
   QRgb color = 0;
 };
 
+// Position and normal are numbers.
+bool isFinite(const SceneVertex& vertex);
+
 struct SceneLine {
   Eigen::Vector3f fromMm, toMm;
   float widthPx = 1.0F;

@@ -11,21 +11,19 @@ namespace {
 using Byte4 = std::uint8_t __attribute__((vector_size(4)));
 using Long2 = std::int64_t __attribute__((vector_size(16)));
 
-Float4 handTileSplat(float value) { return Float4{value, value, value, value}; }
-Uint4 handTileSplat(std::uint32_t value) { return Uint4{value, value, value, value}; }
-
 // True where any of its bits is.
 bool any(Int4 mask) {
   const auto halves = reinterpret_cast<Long2>(mask);
   return (halves[0] | halves[1]) != 0;
 }
 
-Float4 chooseHandTile(Int4 mask, Float4 yes, Float4 no) {
+// Bit by bit: of `yes` where the mask is set, else of `no`.
+Float4 whereSet(Int4 mask, Float4 yes, Float4 no) {
   return reinterpret_cast<Float4>((mask & reinterpret_cast<Int4>(yes)) |
                                   (~mask & reinterpret_cast<Int4>(no)));
 }
 
-Uint4 chooseHandTile(Int4 mask, Uint4 yes, Uint4 no) {
+Uint4 whereSet(Int4 mask, Uint4 yes, Uint4 no) {
   const auto bits = reinterpret_cast<Uint4>(mask);
   return (bits & yes) | (~bits & no);
 }
@@ -35,18 +33,18 @@ float largest(Float4 v) { return std::max(std::max(v[0], v[1]), std::max(v[2], v
 // Blue first: in memory as in the number.
 QRgb packed(Float4 bgra) {
   static_assert(std::endian::native == std::endian::little);
-  const Int4 whole = __builtin_convertvector(bgra + handTileSplat(0.5F), Int4);
+  const Int4 whole = __builtin_convertvector(bgra + splat(0.5F), Int4);
   return std::bit_cast<QRgb>(__builtin_convertvector(whole, Byte4));
 }
 
 // source * alpha + old * (1 - alpha), of 256ths; red and blue together in one word.
 Uint4 blended(QRgb source, Uint4 old) {
   const auto alpha = static_cast<std::uint32_t>(qAlpha(source) + (qAlpha(source) >> 7));
-  const Uint4 rest = handTileSplat(256U - alpha);
+  const Uint4 rest = splat(256U - alpha);
   const std::uint32_t redBlue = (source & 0xFF00FFU) * alpha + 0x00800080U;
   const std::uint32_t green = ((source >> 8) & 0xFFU) * alpha + 0x80U;
-  const Uint4 newRedBlue = (((old & 0xFF00FFU) * rest + handTileSplat(redBlue)) >> 8) & 0xFF00FFU;
-  const Uint4 newGreen = (((old >> 8) & 0xFFU) * rest + handTileSplat(green)) & 0xFF00U;
+  const Uint4 newRedBlue = (((old & 0xFF00FFU) * rest + splat(redBlue)) >> 8) & 0xFF00FFU;
+  const Uint4 newGreen = (((old >> 8) & 0xFFU) * rest + splat(green)) & 0xFF00U;
   return newRedBlue | newGreen | 0xFF000000U;
 }
 
@@ -60,8 +58,8 @@ void HandTile::moveTo(int left, int top) {
 }
 
 void HandTile::clear(QRgb background) {
-  color_.fill(handTileSplat(background | 0xFF000000U));
-  nearness_.fill(handTileSplat(0.0F));
+  color_.fill(splat(background | 0xFF000000U));
+  nearness_.fill(splat(0.0F));
 }
 
 void HandTile::draw(const RasterTriangle& triangle,
@@ -109,13 +107,12 @@ void HandTile::fill(const RasterTriangle& triangle,
                                               static_cast<double>(triangle.nearnessY) * cornerY));
   const Float4 nearnessBySample = triangle.nearnessX * samples.x + triangle.nearnessY * samples.y;
   // In registers, where the compiler can't know that drawing doesn't change them.
-  const std::array<Float4, 3> step = {handTileSplat(triangle.edges[0].a),
-                                      handTileSplat(triangle.edges[1].a),
-                                      handTileSplat(triangle.edges[2].a)};
-  const std::array<Float4, 3> least = {handTileSplat(triangle.edges[0].least),
-                                       handTileSplat(triangle.edges[1].least),
-                                       handTileSplat(triangle.edges[2].least)};
-  const Float4 nearnessStep = handTileSplat(triangle.nearnessX);
+  const std::array<Float4, 3> step = {
+      splat(triangle.edges[0].a), splat(triangle.edges[1].a), splat(triangle.edges[2].a)};
+  const std::array<Float4, 3> least = {splat(triangle.edges[0].least),
+                                       splat(triangle.edges[1].least),
+                                       splat(triangle.edges[2].least)};
+  const Float4 nearnessStep = splat(triangle.nearnessX);
   RasterShade own;
   if constexpr (kShaded) own = *shade;
   const bool overDepth = kShaded && own.overDepth;
@@ -130,7 +127,7 @@ void HandTile::fill(const RasterTriangle& triangle,
     for (std::size_t i = 0; i < 3; ++i) {
       const RasterTriangle::Edge& edge = triangle.edges[i];
       const float atRow = corner[i] + fy * edge.b;
-      row[i] = handTileSplat(atRow) + bySample[i];
+      row[i] = splat(atRow) + bySample[i];
       const float reach = atRow + most[i];
       if (edge.a > 0.0F)
         from = std::max(from, reach * perStep[i] - 1.0F);
@@ -142,16 +139,15 @@ void HandTile::fill(const RasterTriangle& triangle,
     if (outside || !(from <= to)) continue;
     const auto begin = static_cast<int>(from), end = static_cast<int>(to);
     const float middleNearness = nearness + fy * triangle.nearnessY;
-    const Float4 rowNearness = handTileSplat(middleNearness) + nearnessBySample;
+    const Float4 rowNearness = splat(middleNearness) + nearnessBySample;
     Float4 rowShade{};
     if constexpr (kShaded)
-      rowShade = own.atMiddle +
-                 handTileSplat(static_cast<float>(top_ + y) + 0.5F - own.middleY) * own.byY +
-                 handTileSplat(static_cast<float>(left_) + 0.5F - own.middleX) * own.byX;
+      rowShade = own.atMiddle + splat(static_cast<float>(top_ + y) + 0.5F - own.middleY) * own.byY +
+                 splat(static_cast<float>(left_) + 0.5F - own.middleX) * own.byX;
 
     const std::size_t rowStart = static_cast<std::size_t>(y) * kSide;
-    Float4 fx = handTileSplat(static_cast<float>(begin));
-    for (int x = begin; x <= end; ++x, fx += handTileSplat(1.0F)) {
+    Float4 fx = splat(static_cast<float>(begin));
+    for (int x = begin; x <= end; ++x, fx += splat(1.0F)) {
       Int4 covered = (row[0] + fx * step[0] > least[0]) & (row[1] + fx * step[1] > least[1]) &
                      (row[2] + fx * step[2] > least[2]);
       const std::size_t at = rowStart + static_cast<std::size_t>(x);
@@ -162,17 +158,17 @@ void HandTile::fill(const RasterTriangle& triangle,
       QRgb here = color;
       if constexpr (kShaded) {
         Float4 bgra = rowShade + fx * own.byX;
-        if (overDepth) bgra /= handTileSplat(middleNearness) + fx * nearnessStep;
-        bgra = chooseHandTile(bgra > own.least, bgra, own.least);
-        bgra = chooseHandTile(bgra < own.most, bgra, own.most);
+        if (overDepth) bgra /= splat(middleNearness) + fx * nearnessStep;
+        bgra = whereSet(bgra > own.least, bgra, own.least);
+        bgra = whereSet(bgra < own.most, bgra, own.most);
         here = packed(bgra);
       }
       const Uint4 old = color_[at];
       if constexpr (paint == Paint::kOpaque)
-        color_[at] = chooseHandTile(covered, handTileSplat(here | 0xFF000000U), old);
+        color_[at] = whereSet(covered, splat(here | 0xFF000000U), old);
       else
-        color_[at] = chooseHandTile(covered, blended(here, old), old);
-      if constexpr (paint != Paint::kClear) nearness_[at] = chooseHandTile(covered, depth, before);
+        color_[at] = whereSet(covered, blended(here, old), old);
+      if constexpr (paint != Paint::kClear) nearness_[at] = whereSet(covered, depth, before);
     }
   }
 }

@@ -8,6 +8,7 @@
 
 #include <QRgb>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,13 @@ namespace palpate::gui {
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = std::int32_t __attribute__((vector_size(16)));
 using Uint4 = std::uint32_t __attribute__((vector_size(16)));
+
+// The same in all four.
+inline Float4 splat(float value) { return Float4{value, value, value, value}; }
+inline Uint4 splat(std::uint32_t value) { return Uint4{value, value, value, value}; }
+inline bool isFinite(const Float4& v) {
+  return std::isfinite(v[0] + v[1]) && std::isfinite(v[2] + v[3]);
+}
 
 enum class Paint : std::uint8_t {
   kOpaque,

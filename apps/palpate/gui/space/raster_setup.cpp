@@ -14,8 +14,6 @@ constexpr float kGuard = 8.0F;
 // Up to this ratio of depths the colour is taken as linear in the picture: at most one level of 255 off.
 constexpr double kSameDepth = 1.015;
 
-Float4 rasterSetupSplat(float value) { return Float4{value, value, value, value}; }
-
 Float4 channels(QRgb color) {
   return Float4{static_cast<float>(qBlue(color)),
                 static_cast<float>(qGreen(color)),
@@ -68,10 +66,6 @@ unsigned beyond(const Float4& clip) {
          (clip[1] < -w ? 8U : 0U);
 }
 
-bool rasterSetupIsFinite(const Float4& v) {
-  return std::isfinite(v[0] + v[1]) && std::isfinite(v[2] + v[3]);
-}
-
 }  // namespace
 
 struct RasterSetup::OnScreen {
@@ -122,10 +116,9 @@ void RasterSetup::addTriangles(const std::vector<SceneVertex>& vertices, Side si
     std::array<QRgb, 3> colors{};
     for (std::size_t k = 0; k < 3; ++k) {
       const SceneVertex& vertex = vertices[i + k];
-      corners[k].clip = clipFromBase_[0] * rasterSetupSplat(vertex.positionMm[0]) +
-                        clipFromBase_[1] * rasterSetupSplat(vertex.positionMm[1]) +
-                        clipFromBase_[2] * rasterSetupSplat(vertex.positionMm[2]) +
-                        clipFromBase_[3];
+      corners[k].clip = clipFromBase_[0] * splat(vertex.positionMm[0]) +
+                        clipFromBase_[1] * splat(vertex.positionMm[1]) +
+                        clipFromBase_[2] * splat(vertex.positionMm[2]) + clipFromBase_[3];
     }
     if (beyond(corners[0].clip) & beyond(corners[1].clip) & beyond(corners[2].clip)) continue;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -156,7 +149,7 @@ void RasterSetup::addWhole(const std::array<Corner, 3>& corners,
                            Paint paint) {
   unsigned any = 0, all = ~0U;
   for (const Corner& corner : corners) {
-    if (!rasterSetupIsFinite(corner.clip)) return;
+    if (!isFinite(corner.clip)) return;
     const unsigned outside = outsideOf(corner.clip);
     any |= outside;
     all &= outside;
@@ -187,14 +180,14 @@ void RasterSetup::cutAndAdd(const std::array<Corner, 3>& corners,
       const Corner& out = hereInside > 0.0F ? next : here;
       const float inBy = std::max(hereInside, nextInside), outBy = std::min(hereInside, nextInside);
       const float part = inBy / (inBy - outBy);
-      cut_.push_back({.clip = in.clip + rasterSetupSplat(part) * (out.clip - in.clip),
-                      .bgra = in.bgra + rasterSetupSplat(part) * (out.bgra - in.bgra)});
+      cut_.push_back({.clip = in.clip + splat(part) * (out.clip - in.clip),
+                      .bgra = in.bgra + splat(part) * (out.bgra - in.bgra)});
     }
     polygon_.swap(cut_);
     if (polygon_.size() < 3) return;
   }
   for (const Corner& corner : polygon_)
-    if (!(corner.clip[3] > 0.0F) || !rasterSetupIsFinite(corner.clip)) return;
+    if (!(corner.clip[3] > 0.0F) || !isFinite(corner.clip)) return;
   for (std::size_t i = 2; i < polygon_.size(); ++i)
     addOnScreen(polygon_[0], polygon_[i - 1], polygon_[i], flat, side, paint);
 }
@@ -248,8 +241,7 @@ void RasterSetup::addOnScreen(
     const bool overDepth = most > kSameDepth * least;
     std::array<Float4, 3> bgra = {p[0].bgra, p[1].bgra, p[2].bgra};
     if (overDepth)
-      for (std::size_t i = 0; i < 3; ++i)
-        bgra[i] *= rasterSetupSplat(static_cast<float>(p[i].nearness));
+      for (std::size_t i = 0; i < 3; ++i) bgra[i] *= splat(static_cast<float>(p[i].nearness));
     const Float4 c1 = bgra[1] - bgra[0], c2 = bgra[2] - bgra[0];
     list_->shades.push_back({.atMiddle = bgra[0],
                              .byX = c1 * static_cast<float>(ax) + c2 * static_cast<float>(bx),

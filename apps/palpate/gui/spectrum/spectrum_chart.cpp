@@ -20,9 +20,7 @@ constexpr double kSpectrumChartHeadroom = 1.06;
 constexpr double kSignalShare = 0.55;         // height of the signal, the spectra having 1
 constexpr int kSpectrumChartCursorWidth = 4;  // [px] with its edges
 constexpr int kSpectrumChartBarWidth = 12;    // [px] of the colours
-constexpr double kSpectrumChartWheelStep = 1.25;
 constexpr double kSpectrumChartWheelPan = 0.1;
-constexpr double kSpectrumChartNotch = 120.0;
 constexpr double kSpectrumChartLongestInS = 1200.0;  // [s] as in the timeline
 constexpr int kLowBelow = 230;  // [px] the signal's axis has no room for a name
 
@@ -364,13 +362,13 @@ void SpectrumChart::mouseDoubleClickEvent(QMouseEvent* event) {
 }
 
 void SpectrumChart::wheelEvent(QWheelEvent* event) {
-  const double notches = event->angleDelta().y() / kSpectrumChartNotch;
-  const double sideways = event->angleDelta().x() / kSpectrumChartNotch;
+  const double notches = event->angleDelta().y() / kWheelNotch;
+  const double sideways = event->angleDelta().x() / kWheelNotch;
   if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier)
     emit panAsked(-(sideways != 0.0 ? sideways : notches) * kSpectrumChartWheelPan *
                   xAxis->range().size());
   else
-    emit zoomAsked(secondsAt(event->position().x()), std::pow(kSpectrumChartWheelStep, notches));
+    emit zoomAsked(secondsAt(event->position().x()), std::pow(kWheelZoom, notches));
   event->accept();
 }
 

@@ -2,7 +2,6 @@
 
 #include <QMetaObject>
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 #include <palpate/core/error.h>
@@ -11,7 +10,6 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kSpectrumWorkerEverS = std::numeric_limits<double>::max();
 constexpr std::size_t kFramesLookedAt = 4000;  // for the strongest taxel
 // How much of the work each part is.
 constexpr double kLookShare = 0.2;
@@ -129,8 +127,8 @@ SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
         readSeries(profile, choice, question.fromS, question.toS, reading));
   } else {
     if (!kept_->series || kept_->taxels != answer.taxels) {
-      kept_->series = std::make_shared<Series>(
-          readSeries(profile, choice, -kSpectrumWorkerEverS, kSpectrumWorkerEverS, reading));
+      kept_->series =
+          std::make_shared<Series>(readSeries(profile, choice, -kEverS, kEverS, reading));
       kept_->taxels = answer.taxels;
     }
     answer.series = kept_->series;

@@ -14,8 +14,6 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kLiveChartWheelStep = 1.25;  // per notch
-constexpr double kLiveChartNotch = 120.0;     // angleDelta of one notch
 constexpr double kLiveChartHeadroom = 1.06;
 constexpr double kShrinkBelow = 0.35;  // of the axis: then it is made shorter
 constexpr double kOldS = 0.4;  // without a frame for so long the picture rolls by itself [s]
@@ -223,7 +221,7 @@ void LiveChart::shadeGap(double beginS, double endS) {
 void LiveChart::nameAxis() { yAxis->setLabel(signalAxisName(signal_, *this)); }
 
 void LiveChart::wheelEvent(QWheelEvent* event) {
-  setWindowS(windowS_ / std::pow(kLiveChartWheelStep, event->angleDelta().y() / kLiveChartNotch));
+  setWindowS(windowS_ / std::pow(kWheelZoom, event->angleDelta().y() / kWheelNotch));
   event->accept();
 }
 

@@ -37,7 +37,6 @@ MessageBanner::MessageBanner(QWidget* parent, const QString& name, const QString
 }
 
 void MessageBanner::showAbout(const QString& topic, const QString& message) {
-  if (isHidden()) lines_.clear();
   lines_.removeIf([&](const Line& line) { return line.text == message; });
   lines_.append({topic, message});
   lines_ = lines_.mid(std::max<qsizetype>(0, lines_.size() - kMessageBannerMostLines));

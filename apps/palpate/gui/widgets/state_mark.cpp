@@ -12,9 +12,7 @@ constexpr QPointF kStateMarkMiddle(8.0, 8.0);
 constexpr double kStateMarkRadius = 6.5;
 constexpr double kStateMarkStroke = 1.8;
 
-QPolygonF checkStateMark() {
-  return QPolygonF(QList<QPointF>{{5.0, 8.3}, {7.2, 10.5}, {11.2, 5.8}});
-}
+QPolygonF tick() { return QPolygonF(QList<QPointF>{{5.0, 8.3}, {7.2, 10.5}, {11.2, 5.8}}); }
 QPolygonF triangle() { return QPolygonF(QList<QPointF>{{8.0, 1.8}, {15.0, 14.2}, {1.0, 14.2}}); }
 
 }  // namespace
@@ -47,7 +45,7 @@ void StateMark::paintEvent(QPaintEvent*) {
       painter.drawEllipse(kStateMarkMiddle, kStateMarkRadius, kStateMarkRadius);
       painter.setPen(inside);
       painter.setBrush(Qt::NoBrush);
-      painter.drawPolyline(checkStateMark());
+      painter.drawPolyline(tick());
       break;
     case State::kWarning:
       painter.setBrush(colors.warning);
