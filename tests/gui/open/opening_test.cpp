@@ -9,7 +9,10 @@
 #include <QScrollBar>
 #include <QStackedWidget>
 #include <QToolButton>
+#include <utility>
 
+#include "gui/compare/compare_panel.h"
+#include "gui/library/library_panel.h"
 #include "gui/open/start_page.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/widgets/message_banner.h"
@@ -272,6 +275,31 @@ TEST_F(OpeningTest, TenRecentFilesFitIntoTheSmallestWindow) {
   EXPECT_GT(scroll->verticalScrollBar()->maximum(), 0);
 }
 
+TEST_F(OpeningTest, WhatIsAskedForWhileOthersOpenIsShownWhenItComes) {
+  QStringList shown;
+  QObject::connect(&window(), &MainWindow::recordingShown, &window(), [&] {
+    shown.append(QString::fromStdString(currentName()));
+  });
+  bool asked = false;
+  QObject::connect(&window().opener(), &RecordingOpener::opened, &window(), [&] {
+    if (!std::exchange(asked, true)) window().openFiles({file("good3.dsa")});
+  });
+  open({"good1.dsa", "good2.dsa"});
+  EXPECT_EQ(shown, QStringList({"good1.dsa", "good3.dsa"}));
+  EXPECT_EQ(window().recordings().size(), 3u);
+}
+
+TEST_F(OpeningTest, WhatIsAskedForIsShownWhateverIsComparedMeanwhile) {
+  open({"good1.dsa"});
+  window().openFiles({file("good2.dsa")});
+  emit window().library().compareAsked(QString::fromStdString(file("good3.dsa")));
+  waitUntilOpened();
+  EXPECT_EQ(currentName(), "good2.dsa");
+  EXPECT_TRUE(window().compareShown());
+  ASSERT_NE(window().compare().b(), nullptr);
+  EXPECT_EQ(window().compare().b()->path.filename(), "good3.dsa");
+}
+
 TEST_F(OpeningTest, TheDemoIsOfferedOnlyWhereItsFileIs) {
   EXPECT_EQ(find<QPushButton>("startDemo"), nullptr);
   EXPECT_FALSE(actions().openDemo->isVisible());
@@ -294,6 +322,20 @@ TEST(Demo, PlaysInALoopThatIsNotRemembered) {
   }
   MainWindow again({.dataFolder = testing::dataFolder(), .settingsPath = ini});
   EXPECT_FALSE(again.playback().loop());
+}
+
+TEST(Demo, PlaysWhateverElseIsOpenedMeanwhile) {
+  const testing::TemporaryFolder folder;
+  MainWindow window({.dataFolder = testing::dataFolder(),
+                     .settingsPath = QString::fromStdString((folder / "a.ini").string())});
+  window.show();
+  QSignalSpy finished(&window.opener(), &RecordingOpener::finished);
+  window.openDemoRecording();
+  window.openFiles({folder / "nothing.dsa"});
+  ASSERT_TRUE(finished.wait(30'000));
+  ASSERT_NE(window.current(), nullptr);
+  EXPECT_TRUE(window.playback().playing());
+  EXPECT_TRUE(window.playback().loop());
 }
 
 TEST(RealRecording, OpensAndShowsTheFrameOfTheSketch) {

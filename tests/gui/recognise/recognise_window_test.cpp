@@ -2,6 +2,8 @@
 #include <QCheckBox>
 #include <QDockWidget>
 #include <QPushButton>
+#include <chrono>
+#include <thread>
 
 #include <palpate/control/grasp_control.h>
 
@@ -108,6 +110,33 @@ TEST_F(RecogniseLiveTest, AskedByItselfWhileSomethingIsHeldItAnswers) {
   moveTo(1.0);
   EXPECT_TRUE(await([&] { return answer().name() == "pen" && answer().of == "held now"; }))
       << answer().spoken().toStdString();
+}
+
+// A window that is busy hears of a release and of the next contact at once.
+TEST_F(RecogniseLiveTest, WhatWasLetGoWhileTheWindowWasBusyIsNotHeldNow) {
+  window().showDock("Recognise");
+  auto* byItself = find<QCheckBox>("recogniseByItself");
+  byItself->setChecked(true);
+  moveTo(1.0);
+  ASSERT_TRUE(await([&] { return answer().of == kHeldNow && answer().name() == "pen"; }))
+      << answer().spoken().toStdString();
+  byItself->setChecked(false);
+  panel().desk().settle();
+  const auto moveBeside = [&](double closeRatio) {
+    GraspRequest request;
+    request.preshape = "pinch-parallel";
+    request.closeRatio = closeRatio;
+    request.velocityDegPerS = 60.0;
+    control().grasp(request);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (control().status().phase != GraspPhase::kIdle && std::chrono::steady_clock::now() < end)
+      std::this_thread::yield();
+    ASSERT_EQ(control().status().phase, GraspPhase::kIdle);
+  };
+  moveBeside(0.0);
+  moveBeside(1.0);
+  EXPECT_EQ(answer().of, kHeldNow) << "not heard yet";
+  EXPECT_TRUE(await([&] { return answer().of == kLastGrasp; })) << answer().of.toStdString();
 }
 
 // L-B1, L-M16.

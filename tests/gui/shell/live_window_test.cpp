@@ -13,8 +13,11 @@
 
 #include "control/emulated_bench.h"
 #include "gui/hand/hand_dock.h"
+#include "gui/inspect/inspect_panel.h"
 #include "gui/inspect/matrix_table.h"
 #include "gui/matrices/matrices_view.h"
+#include "gui/slip/slip_drawing.h"
+#include "gui/slip/slip_panel.h"
 #include "gui/space/hand_panel.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/live_chart.h"
@@ -226,6 +229,43 @@ TEST_F(LiveWindowTest, ClosingAsksOnceAndFinishesTheRecording) {
             VerifyReport::State::kSound);
 }
 
+TEST_F(LiveWindowTest, DiscardedLabelsStayWhenTheWindowStays) {
+  open({"good.dsa"});
+  window().askForText = [](const QString&, const QString&) {
+    return std::optional<QString>("touch");
+  };
+  window().askAboutUnsaved = [](const QString&) { return MainWindow::Unsaved::kDiscard; };
+  press(Qt::Key_B, Qt::ControlModifier);
+  ASSERT_TRUE(window().events()->unsaved());
+  connectEmulated("empty");
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return live().recording(); }));
+  mayEnd_ = false;
+  window().close();
+  EXPECT_EQ(askedToEnd_, 1);
+  EXPECT_TRUE(window().isVisible());
+  emit find<QComboBox>("recordingsBox")->activated(0);
+  ASSERT_FALSE(window().liveShown());
+  EXPECT_TRUE(window().events()->unsaved());
+  EXPECT_EQ(window().events()->events().size(), 1u);
+  mayEnd_ = true;
+}
+
+TEST_F(LiveWindowTest, ARecordingIsFoundWhereItWasLeftForTheHand) {
+  open({"good.dsa"});
+  playback().seekFrame(7);
+  connectEmulated("empty");
+  emit find<QComboBox>("recordingsBox")->activated(0);
+  ASSERT_FALSE(window().liveShown());
+  EXPECT_EQ(playback().frame(), 7u);
+  playback().seekFrame(9);
+  press(Qt::Key_F6);
+  ASSERT_TRUE(window().liveShown());
+  actions().disconnectHand->trigger();
+  ASSERT_TRUE(await([&] { return !window().liveShown(); }));
+  EXPECT_EQ(playback().frame(), 9u);
+}
+
 TEST_F(LiveWindowTest, ClosingWhileTheHandMovesStopsIt) {
   connectBench();
   click("graspHand");
@@ -321,6 +361,16 @@ TEST_F(LiveWindowTest, TheHandInSpaceIsMarkedWhenItsPictureIsOld) {
   bench_->hand->replug();
   ASSERT_TRUE(await([&] { return view().notice().isEmpty(); }));
   EXPECT_TRUE(await([&] { return pictureOf(hand) == live; }));
+}
+
+TEST_F(LiveWindowTest, OfARecordingNothingIsHeld) {
+  connectEmulated("empty");
+  ASSERT_TRUE(await([&] { return view().paintedUs() > 0; }));
+  press(Qt::Key_P);
+  ASSERT_TRUE(view().notice().contains("held"));
+  open({"empty.dsa"});
+  EXPECT_FALSE(window().liveShown());
+  EXPECT_EQ(view().notice(), "");
 }
 
 // L-M4
@@ -496,6 +546,11 @@ TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {
   chosen.add(1, 5, 1, 8, 4);
   view().select(chosen);
   EXPECT_TRUE(find<StatusStrip>("statusStrip")->status().notice.contains("16 taxels chosen"));
+  window().showDock("Slip");
+  window().findChild<SlipPanel*>()->choose(1);
+  MatrixTableModel& table = window().findChild<InspectPanel*>()->table();
+  table.setPlotted(2, false);
+  const std::vector<bool> plotted = table.plotted();
   actions().scanOnly->trigger();
   const auto enabled = [&](std::size_t matrix) {
     return live().source()->session->device().hand().layout->matrix(matrix).numEnabled();
@@ -503,6 +558,14 @@ TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {
   ASSERT_TRUE(await([&] { return enabled(1) == 16; }));
   EXPECT_EQ(enabled(0), sdh2().layout->matrix(0).numTaxels());
   EXPECT_EQ(view().selection().count(), 16u) << "what is chosen stays chosen";
+  // What is shown knows it, too, and what was plotted stays so.
+  SlipPanel& slip = *window().findChild<SlipPanel*>();
+  EXPECT_TRUE(await([&] {
+    const auto& scene = slip.drawing().scene();
+    return scene && scene->layout.numEnabled() == 16u && scene->values.size() > 0;
+  }));
+  EXPECT_EQ(table.hand().layout->matrix(1).numEnabled(), 16u);
+  EXPECT_EQ(table.plotted(), plotted);
   actions().scanAll->trigger();
   ASSERT_TRUE(await([&] { return enabled(1) == sdh2().layout->matrix(1).numTaxels(); }));
 }

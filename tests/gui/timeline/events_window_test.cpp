@@ -176,6 +176,53 @@ TEST_F(EventsWindowTest, UnsavedWorkIsAskedAboutOnce) {
   EXPECT_TRUE(readEvents(path_).events.empty());
 }
 
+TEST_F(EventsWindowTest, AFileIsReadAnewOnlyWhenItsLabelsAreSettled) {
+  const auto openAgain = [this] {
+    window().openFiles({path_});
+    waitUntilOpened();
+  };
+  press(Qt::Key_B, Qt::ControlModifier);
+  unsaved_ = MainWindow::Unsaved::kCancel;
+  openAgain();
+  EXPECT_EQ(asked_, 1);
+  EXPECT_EQ(marksIn(EventLane::kLabels), 1);
+  EXPECT_TRUE(window().events()->unsaved());
+  unsaved_ = MainWindow::Unsaved::kSave;
+  openAgain();
+  EXPECT_EQ(asked_, 2);
+  EXPECT_EQ(marksIn(EventLane::kLabels), 1) << "read from the file";
+  EXPECT_FALSE(window().events()->unsaved());
+  playback().seekSeconds(3.0);
+  press(Qt::Key_B, Qt::ControlModifier);
+  EXPECT_EQ(marksIn(EventLane::kLabels), 2);
+  unsaved_ = MainWindow::Unsaved::kDiscard;
+  openAgain();
+  EXPECT_EQ(asked_, 3);
+  EXPECT_EQ(marksIn(EventLane::kLabels), 1);
+  openAgain();
+  EXPECT_EQ(asked_, 3) << "everything is saved";
+}
+
+TEST_F(EventsWindowTest, LabelsMadeWhileTheirFileIsReadAnewStay) {
+  window().openFiles({path_});
+  press(Qt::Key_B, Qt::ControlModifier);
+  waitUntilOpened();
+  EXPECT_EQ(asked_, 0);
+  EXPECT_EQ(marksIn(EventLane::kLabels), 1);
+  EXPECT_TRUE(window().events()->unsaved());
+}
+
+TEST_F(EventsWindowTest, DiscardedLabelsGoOnlyWhenTheirFileWasReadAnew) {
+  press(Qt::Key_B, Qt::ControlModifier);
+  std::filesystem::remove(path_);
+  unsaved_ = MainWindow::Unsaved::kDiscard;
+  window().openFiles({path_});
+  waitUntilOpened();
+  EXPECT_FALSE(bannerText().isEmpty());
+  EXPECT_EQ(marksIn(EventLane::kLabels), 1);
+  EXPECT_TRUE(window().events()->unsaved());
+}
+
 TEST_F(EventsWindowTest, WhatCantBeSavedIsSaidAndStays) {
   press(Qt::Key_B, Qt::ControlModifier);
   std::filesystem::remove(path_);  // deleted while it is open

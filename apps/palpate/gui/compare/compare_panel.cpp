@@ -21,10 +21,6 @@ constexpr int kComparePanelControlHeight = 26;  // [px]
 constexpr int kViewShare = 5;                   // of the height, to the chart's two
 constexpr int kChartShare = 2;
 
-QString comparePanelNameOf(const OpenedRecordingPtr& recording) {
-  return QString::fromStdString(recording->path.filename().string());
-}
-
 bool contains(const std::vector<OpenedRecordingPtr>& all, const OpenedRecordingPtr& one) {
   return one && std::find(all.begin(), all.end(), one) != all.end();
 }
@@ -201,7 +197,7 @@ void ComparePanel::setRecordings(const std::vector<OpenedRecordingPtr>& recordin
       if (a_ && each != a_ && !b_) b_ = each;
   }
   QStringList names;
-  for (const auto& each : recordings_) names.append(comparePanelNameOf(each));
+  for (const auto& each : recordings_) names.append(fileNameOf(*each));
   header_->setRecordings(
       names, comparePanelIndexOf(recordings_, a_), comparePanelIndexOf(recordings_, b_));
   if (a_ != beforeA || b_ != beforeB) pairChanged();
@@ -214,7 +210,7 @@ void ComparePanel::setB(const OpenedRecordingPtr& b) {
   wantsNew_ = false;
   withItself_ = b_ == a_;
   QStringList names;
-  for (const auto& each : recordings_) names.append(comparePanelNameOf(each));
+  for (const auto& each : recordings_) names.append(fileNameOf(*each));
   header_->setRecordings(
       names, comparePanelIndexOf(recordings_, a_), comparePanelIndexOf(recordings_, b_));
   pairChanged();

@@ -24,10 +24,6 @@ QString figure(double value, int decimals) {
   return QString::fromStdString(fixedText(value, decimals));
 }
 
-QString comparePanelViewNameOf(const OpenedRecordingPtr& recording) {
-  return QString::fromStdString(recording->path.filename().string());
-}
-
 double comparePanelViewLargestOf(const TactileFrame& frame) {
   double largest = 0.0;
   for (const float value : frame.values)
@@ -54,7 +50,7 @@ void ComparePanel::showEmpty() {
   if (hasPair()) return;
   emptyItself_->setVisible(a_ != nullptr);
   emptyOpen_->setText(a_ ? "Open another…" : "Open recordings…");
-  emptyText_->setText(a_ ? "Only " + comparePanelViewNameOf(a_) +
+  emptyText_->setText(a_ ? "Only " + fileNameOf(*a_) +
                                " is open. Open a second recording to compare it with."
                          : QString("Open two recordings to compare them."));
 }
@@ -90,8 +86,8 @@ void ComparePanel::showFrames() {
   if (!hasPair() || !active_) return;
   ComparedFrames frames;
   auto& [inA, inB, between] = frames;
-  inA.name = comparePanelViewNameOf(a_);
-  inB.name = comparePanelViewNameOf(b_);
+  inA.name = fileNameOf(*a_);
+  inB.name = fileNameOf(*b_);
   between.name = "A − B";
   if (!answer_.a || !answer_.b) {
     inA.notice = inB.notice = answer_.failure.isEmpty() ? "reading …" : answer_.failure;
@@ -165,7 +161,7 @@ ComparePictureOptions ComparePanel::pictureOptions() const {
                           comparePanelViewLargestOf(inA.frame),
                           comparePanelViewLargestOf(inB.frame)});
       for (const OpenedRecordingPtr& side : {a_, b_})
-        if (side) maximum = std::max(maximum, side->maximumNow());
+        if (side) maximum = std::max(maximum, side->maximumNow().value_or(0.0));
       options.largestDifference = answer_.largestDifference.value_or(maximum);
       break;
   }
@@ -261,8 +257,8 @@ void ComparePanel::paint(QPainter& painter, const PictureLook& look) const {
   paintChart(painter,
              below,
              *chart_,
-             {.legend = {{"A  " + comparePanelViewNameOf(a_), chart_->graph(0)->pen()},
-                         {"B  " + comparePanelViewNameOf(b_), chart_->graph(1)->pen()}}});
+             {.legend = {{"A  " + fileNameOf(*a_), chart_->graph(0)->pen()},
+                         {"B  " + fileNameOf(*b_), chart_->graph(1)->pen()}}});
   painter.restore();
 }
 

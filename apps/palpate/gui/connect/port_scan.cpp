@@ -87,6 +87,22 @@ struct PortScan::Round {
   }
 };
 
+QHash<QString, PortProbe> knownAnswers(const Connection& connection, const DeviceStatus& status) {
+  QHash<QString, PortProbe> known;
+  const auto add = [&](const QString& name, const PortStatus& port, PortAnswer belongs) {
+    if (name.isEmpty() || (!port.found && port.state != PortState::kStreaming)) return;
+    PortProbe probe;
+    probe.port = name.toStdString();
+    probe.answer = port.found.value_or(belongs);
+    probe.message = std::string(probe.answer == PortAnswer::kTactile ? "tactile" : "motion") +
+                    " controller; this window is connected to it";
+    known.insert(name, probe);
+  };
+  add(connection.dsaPort, status.tactile, PortAnswer::kTactile);
+  add(connection.sdhPort, status.motion.value_or(PortStatus{}), PortAnswer::kMotion);
+  return known;
+}
+
 QString deviceOf(const QString& port) {
   if (!port.startsWith('/')) return port;
   std::error_code failed;

@@ -12,8 +12,11 @@
 #include <string>
 #include <vector>
 
+#include <palpate/device/device.h>
 #include <palpate/device/port_list.h>
 #include <palpate/device/port_probe.h>
+
+#include "gui/source/connection.h"
 
 namespace palpate::gui {
 
@@ -21,6 +24,9 @@ struct ScannedPort {
   PortInfo info;
   QString notAsked = {};  // why this port isn't asked, one line; empty: it is
 };
+
+// What our own connection has found behind its ports, each judged by itself; of one that doesn't answer yet nothing.
+QHash<QString, PortProbe> knownAnswers(const Connection& connection, const DeviceStatus& status);
 
 // The device that a name of a port leads to; the name itself where that is no file.
 QString deviceOf(const QString& port);

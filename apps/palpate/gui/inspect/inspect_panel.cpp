@@ -54,7 +54,9 @@ std::vector<Fact> inspectPanelFactsOf(const OpenedRecording& recording,
                        ? QString::number(taxels)
                        : QString::number(enabled) + " of " + QString::number(taxels) + " scanned",
                    enabled != taxels});
-  facts.push_back({"largest value", figure(recording.maximumNow(), 0) + " counts"});
+  const auto maximum = recording.maximumNow();
+  facts.push_back(
+      {"largest value", maximum ? figure(*maximum, 0) + " counts" : QString("being counted")});
   const auto saturated = recording.saturatedFramesNow();
   facts.push_back({"saturated frames",
                    saturated ? QString::number(*saturated) : QString("being counted"),
@@ -152,7 +154,7 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
 void InspectPanel::setRecording(const OpenedRecordingPtr& recording) {
   recording_ = recording;
   model_->setRecording(recording);
-  showEvents(recording ? recording->events.events : std::vector<RecordingEvent>());
+  showEvents({});  // as they are edited they come by showEvents()
   if (!recording) {
     facts_->setFacts({});
     angles_->setFacts({});

@@ -29,6 +29,8 @@ class InspectPanel : public QScrollArea {
   void renewFacts();
   // A live hand instead of a recording.
   void setHand(const HandDescription& hand);
+  // Of the same hand other taxels are scanned.
+  void renewHand(const HandDescription& hand) { model_->renewHand(hand); }
   void setLiveFacts(std::vector<Fact> facts);  // of the link
   void showLive(const LiveResults& results);
   void setTheme(Theme theme);

@@ -87,6 +87,12 @@ void MatrixTableModel::setHand(const HandDescription& hand) {
   emit plottedChanged();
 }
 
+void MatrixTableModel::renewHand(const HandDescription& hand) {
+  if (recording_ || hand.layout->numMatrices() != numMatrices()) return setHand(hand);
+  hand_ = hand;
+  emit dataChanged(index(0, 0), index(rowCount() - 1, kNumColumns - 1));
+}
+
 void MatrixTableModel::showRow(std::size_t row, const CharacteristicSignals& now) {
   if (sameText(now, shown_[row])) return;
   shown_[row] = now;

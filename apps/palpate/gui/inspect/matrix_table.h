@@ -24,6 +24,8 @@ class MatrixTableModel : public QAbstractTableModel {
   void setRecording(const OpenedRecordingPtr& recording);  // null: empty
   // A live hand: all matrices are plotted; values come by showSignals().
   void setHand(const HandDescription& hand);
+  // Of the same hand other taxels are scanned: what is plotted stays.
+  void renewHand(const HandDescription& hand);
   void showFrame(std::size_t frame);
   // One per matrix, the whole last; another number is ignored.
   void showSignals(const std::vector<CharacteristicSignals>& rows);

@@ -190,10 +190,15 @@ ValueRange MatricesPanel::rangeNow() const {
         maximum = std::max(maximum, static_cast<double>(value));
       break;
     case RangeMode::kRecording:
-      maximum = std::max(maximum, recording_ ? recording_->maximumNow() : largestLive_);
+      maximum =
+          std::max(maximum, recording_ ? recording_->maximumNow().value_or(0.0) : largestLive_);
       break;
   }
   return {0.0, std::ceil(maximum)};  // filters make fractions, which nobody reads on a scale
+}
+
+void MatricesPanel::renewRange() {
+  if (!(rangeNow() == view_->look().range)) applyLook();
 }
 
 void MatricesPanel::applyLook() {

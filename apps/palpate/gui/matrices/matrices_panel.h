@@ -25,6 +25,8 @@ class MatricesPanel : public QWidget {
 
   void setRecording(const OpenedRecordingPtr& recording);  // null: none
   void showFrame(std::size_t frame);
+  // More is known of a long recording now.
+  void renewRange();
   // A live hand instead of a recording; its frames come by showLive().
   void setHand(const HandDescription& hand);
   void showLive(const TactileFrame& frame);

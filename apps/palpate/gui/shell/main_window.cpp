@@ -38,7 +38,6 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kDemoFile = "demo_grasps.dsa";
-constexpr const char* kMainWindowLastFolder = "recent/folder";
 constexpr QSize kSmallestWindow(900, 600);
 constexpr QSize kUsualWindow(1440, 900);
 
@@ -55,6 +54,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
                                                            const Progress& progress) {
                                     return openRecording(path, progress);
                                   })),
+      recordings_(opener_),
       live_(surroundings.dataFolder),
       activity_(surroundings.clock ? *surroundings.clock : systemClock()),
       groups_(settings_),
@@ -87,7 +87,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   askForRecordings = [this] {
     return QFileDialog::getOpenFileNames(this,
                                          "Open recordings",
-                                         settings_.value(kMainWindowLastFolder).toString(),
+                                         recent_.lastFolder(),
                                          "Recordings (*.dsa *.palpate *.xml);;All files (*)");
   };
   resize(kUsualWindow);
@@ -230,7 +230,20 @@ void MainWindow::connectOpening() {
   connect(&opener_, &RecordingOpener::progressed, opening_, &OpeningStrip::setProgress);
   connect(&opener_, &RecordingOpener::finished, opening_, &OpeningStrip::end);
   connect(&opener_, &RecordingOpener::finished, this, &MainWindow::updateStatus);
-  connect(&opener_, &RecordingOpener::opened, this, &MainWindow::addRecording);
+  connect(&recordings_, &OpenRecordings::arrived, this, &MainWindow::addRecording);
+  recordings_.mayReadAnew = [this](const OpenedRecordingPtr& recording) {
+    if (!settleUnsaved({recording})) return false;
+    if (hasUnsaved(recording)) discarded_.insert(recording.get());
+    return true;
+  };
+  recordings_.mayReplace = [this](const OpenedRecordingPtr& recording) {
+    if (!hasUnsaved(recording) || discarded_.contains(recording.get())) return true;
+    flash(fileNameOf(*recording) + " stays as it is: not everything in it is saved");
+    return false;
+  };
+  connect(&opener_, &RecordingOpener::finished, this, [this] {
+    if (!opener_.busy()) discarded_.clear();
+  });
   connect(&opener_, &RecordingOpener::failed, this, [this](const QString&, const QString& message) {
     banner_->showMessage(message);
   });
@@ -238,7 +251,7 @@ void MainWindow::connectOpening() {
     flash("opening " + QFileInfo(path).fileName() + " was cancelled");
   });
   connect(opening_, &OpeningStrip::cancelRequested, &opener_, &RecordingOpener::cancel);
-  connect(startPage_, &StartPage::openAsked, this, &MainWindow::askAndOpen);
+  connect(startPage_, &StartPage::openAsked, this, [this] { askAndOpen(); });
   connect(startPage_, &StartPage::demoAsked, this, &MainWindow::openDemoRecording);
   connect(startPage_, &StartPage::connectAsked, this, &MainWindow::askAndConnect);
   connect(startPage_, &StartPage::emulatedAsked, this, &MainWindow::tryEmulatedHand);
@@ -248,7 +261,7 @@ void MainWindow::connectOpening() {
 }
 
 void MainWindow::connectFileActions() {
-  connect(actions_.open, &QAction::triggered, this, &MainWindow::askAndOpen);
+  connect(actions_.open, &QAction::triggered, this, [this] { askAndOpen(); });
   connect(actions_.openDemo, &QAction::triggered, this, &MainWindow::openDemoRecording);
   connect(actions_.nextRecording, &QAction::triggered, this, [this] { showNeighbour(1); });
   connect(actions_.previousRecording, &QAction::triggered, this, [this] { showNeighbour(-1); });
@@ -256,7 +269,7 @@ void MainWindow::connectFileActions() {
   connect(actions_.quit, &QAction::triggered, this, &QWidget::close);
   connect(menus_->recent, &QMenu::aboutToShow, this, &MainWindow::fillRecentMenu);
   connect(menus_->recordings, &QComboBox::activated, this, [this](int index) {
-    showRecording(recordings_.at(static_cast<std::size_t>(index)));
+    showRecording(recordings_.all().at(static_cast<std::size_t>(index)));
   });
   fillRecentMenu();
 }

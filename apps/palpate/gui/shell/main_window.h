@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include <palpate/control/tactile_masks.h>
@@ -31,6 +32,7 @@
 #include "gui/source/event_editor.h"
 #include "gui/source/filter_worker.h"
 #include "gui/source/live_controller.h"
+#include "gui/source/open_recordings.h"
 #include "gui/source/playback_controller.h"
 #include "gui/source/recent_files.h"
 #include "gui/source/recording_opener.h"
@@ -85,8 +87,9 @@ class MainWindow : public QMainWindow {
   explicit MainWindow(const WindowSurroundings& surroundings);
   ~MainWindow() override;
 
-  // Opens in the background; the first that can be opened is shown, the others can be reached.
-  void openFiles(const std::vector<std::filesystem::path>& files);
+  // Opens in the background; the first that can be opened is shown, the others can be reached. Or else, as `then` says.
+  void openFiles(const std::vector<std::filesystem::path>& files,
+                 OpenRequest::Then then = OpenRequest::Then::kShowFirst);
   // The demo recording, playing in a loop.
   void openDemoRecording();
   // What `palpate --demo` shows: the emulated hand, grasping a ball by itself.
@@ -113,7 +116,7 @@ class MainWindow : public QMainWindow {
   RecordingOpener& opener() noexcept { return opener_; }
   const Actions& actionList() const noexcept { return actions_; }
   const OpenedRecordingPtr& current() const noexcept { return current_; }
-  const std::vector<OpenedRecordingPtr>& recordings() const noexcept { return recordings_; }
+  const std::vector<OpenedRecordingPtr>& recordings() const noexcept { return recordings_.all(); }
   const ViewSettings& viewSettings() const noexcept { return view_; }
 
   // How files are asked for; an empty answer means cancelled. Tests answer themselves.
@@ -177,9 +180,11 @@ class MainWindow : public QMainWindow {
   void buildDocks(const WindowSurroundings& surroundings);
   void connectOpening();
   void connectFileActions();
-  void askAndOpen();
+  void askAndOpen(OpenRequest::Then then = OpenRequest::Then::kShowFirst);
   void fillRecentMenu();
-  void addRecording(const OpenedRecordingPtr& recording);
+  void addRecording(const OpenedRecordingPtr& recording, const OpenArrival& arrival);
+  // What was kept of a recording that is gone.
+  void forget(const OpenedRecordingPtr& recording);
   void showRecording(const OpenedRecordingPtr& recording);
   void showNeighbour(int step);
   void closeCurrent();
@@ -219,7 +224,9 @@ class MainWindow : public QMainWindow {
                    const QString& name);
   void removeEvent(std::size_t mark);
   bool saveEventsOf(const OpenedRecordingPtr& recording);
-  // Asks once about labels that aren't saved; false: the user would rather go on.
+  bool hasUnsaved(const OpenedRecordingPtr& recording) const;
+  // Asks once about labels that aren't saved; false: the user would rather go on. What is discarded is still
+  // there: it goes with its recording.
   bool settleUnsaved(const std::vector<OpenedRecordingPtr>& recordings);
   void keepFoundGrasps(EventEditor& editor, std::optional<std::size_t> without);
   const std::vector<GraspSegment>& graspsOf(const OpenedRecordingPtr& recording);
@@ -256,6 +263,8 @@ class MainWindow : public QMainWindow {
   void liveLeaving();
   void liveEnded();
   void showLive();
+  // Whose frames are shown: what is connected, or the same with other taxels scanned.
+  void showHand(const HandDescription& hand);
   void showLook();
   void showStale();
   void setPictureOld(const OldPicture& old);  // of heat maps and hand
@@ -275,7 +284,6 @@ class MainWindow : public QMainWindow {
   void connectCompare();
   void showCompare(bool on);
   void seekCompared(double seconds);
-  void listCompared();
   ExportedView compareExport();
   // main_window_recording.cpp
   void connectRecording();
@@ -314,6 +322,7 @@ class MainWindow : public QMainWindow {
   Actions actions_;
   PlaybackController playback_;
   RecordingOpener opener_;
+  OpenRecordings recordings_;
   AlarmBell bell_;
   LiveController live_;
   ActivityLog activity_;
@@ -326,10 +335,9 @@ class MainWindow : public QMainWindow {
   std::map<const OpenedRecording*, std::vector<GraspSegment>> grasps_;  // that were found
 
   std::filesystem::path demoPath_;
-  bool demoAsked_ = false;
   bool loopIsOfDemo_ = false;  // not the user's choice: not remembered
-  bool shownOfBatch_ = false;  // the first of several files has been shown
-  std::vector<OpenedRecordingPtr> recordings_;
+  // Their files are being read anew, and their labels were discarded.
+  std::set<const OpenedRecording*> discarded_;
   std::map<std::filesystem::path, LeftAt> leftAt_;
   OpenedRecordingPtr current_;
   OpenedRecordingPtr shown_;  // current_, or the same filtered
@@ -354,8 +362,6 @@ class MainWindow : public QMainWindow {
   Theme recordingTheme_ = Theme::kDark;
   const SignalHistory* shownHistory_ = nullptr;  // of the source that is shown; never looked into
 
-  bool compareWanted_ = false;                           // as soon as two recordings are open
-  std::filesystem::path comparedPath_;                   // being opened to be B
   bool compareSeeks_ = false;                            // the playback follows, and isn't followed
   QByteArray layoutBeforeCompare_;                       // of docks
   QStackedWidget *stack_ = nullptr, *centre_ = nullptr;  // centre: matrices, or the comparison

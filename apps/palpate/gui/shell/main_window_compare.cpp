@@ -37,8 +37,8 @@ void MainWindow::connectCompare() {
             if (playing) playback_.play();
           });
   connect(compare_, &ComparePanel::openAsked, this, [this] {
-    askAndOpen();
-    shownOfBatch_ = current_ != nullptr;  // A stays: what is opened here is to be B
+    // A stays: what is opened here is to be B.
+    askAndOpen(current_ ? OpenRequest::Then::kList : OpenRequest::Then::kShowFirst);
   });
   connect(compare_, &ComparePanel::signalChosen, this, [this](PlottedSignal signal) {
     changeView([&](ViewSettings& view) { view.signal = signal; });
@@ -68,11 +68,9 @@ void MainWindow::seekCompared(double seconds) {
 void MainWindow::showCompare(bool on) {
   if (on && (!current_ || liveShown_)) {
     // Nothing to compare yet: what is opened now will be.
-    compareWanted_ = true;
     actions_.compare->setChecked(false);
-    return askAndOpen();
+    return askAndOpen(OpenRequest::Then::kCompare);
   }
-  compareWanted_ = false;
   actions_.compare->setChecked(on);
   if (on == compareShown()) return;
   if (on) {
@@ -89,11 +87,6 @@ void MainWindow::showCompare(bool on) {
 }
 
 bool MainWindow::compareShown() const { return centre_->currentWidget() == compare_; }
-
-void MainWindow::listCompared() {
-  compare_->setRecordings(recordings_, current_);
-  if (compareWanted_ && recordings_.size() > 1 && current_ && !liveShown_) showCompare(true);
-}
 
 ExportedView MainWindow::compareExport() {
   ExportedView view;

@@ -13,13 +13,6 @@
 #include "gui/widgets/message_banner.h"
 
 namespace palpate::gui {
-namespace {
-
-QString mainWindowEventsNameOf(const OpenedRecording& recording) {
-  return QString::fromStdString(recording.path.filename().string());
-}
-
-}  // namespace
 
 void MainWindow::connectEvents() {
   askAboutUnsaved = [this](const QString& names) {
@@ -167,7 +160,7 @@ void MainWindow::enableEventActions() {
     action->setEnabled(selected);
   if (current_ && !liveShown_) {
     const QString star = editor && editor->unsaved() ? "*" : "";
-    setWindowTitle(mainWindowEventsNameOf(*current_) + star + " – Palpate");
+    setWindowTitle(fileNameOf(*current_) + star + " – Palpate");
   }
 }
 
@@ -260,10 +253,9 @@ void MainWindow::removeEvent(std::size_t index) {
 }
 
 bool MainWindow::saveEventsOf(const OpenedRecordingPtr& recording) {
-  const auto editor = editors_.find(recording.get());
-  if (editor == editors_.end() || !editor->second->unsaved()) return true;
+  if (!hasUnsaved(recording)) return true;
   try {
-    editor->second->save();
+    editors_.at(recording.get())->save();
     return true;
   } catch (const std::exception& error) {
     banner_->showMessage("Labels, notes and grasps were not saved: " +
@@ -272,22 +264,23 @@ bool MainWindow::saveEventsOf(const OpenedRecordingPtr& recording) {
   }
 }
 
+bool MainWindow::hasUnsaved(const OpenedRecordingPtr& recording) const {
+  const auto editor = editors_.find(recording.get());
+  return editor != editors_.end() && editor->second && editor->second->unsaved();
+}
+
 bool MainWindow::settleUnsaved(const std::vector<OpenedRecordingPtr>& recordings) {
   std::vector<OpenedRecordingPtr> unsaved;
   QStringList names;
   for (const OpenedRecordingPtr& recording : recordings) {
-    const auto editor = editors_.find(recording.get());
-    if (editor == editors_.end() || !editor->second->unsaved()) continue;
+    if (!hasUnsaved(recording)) continue;
     unsaved.push_back(recording);
-    names.append(mainWindowEventsNameOf(*recording));
+    names.append(fileNameOf(*recording));
   }
   if (unsaved.empty()) return true;
   const Unsaved answer = askAboutUnsaved(names.join("\n"));
   if (answer == Unsaved::kCancel) return false;
-  if (answer == Unsaved::kDiscard) {
-    for (const OpenedRecordingPtr& recording : unsaved) editors_.erase(recording.get());
-    return true;
-  }
+  if (answer == Unsaved::kDiscard) return true;
   bool saved = true;
   for (const OpenedRecordingPtr& recording : unsaved) saved = saveEventsOf(recording) && saved;
   return saved;

@@ -6,9 +6,11 @@
 #include <QMimeData>
 #include <QTime>
 #include <algorithm>
+#include <utility>
 
 #include <palpate/core/time.h>
 
+#include "gui/compare/compare_panel.h"
 #include "gui/inspect/inspect_panel.h"
 #include "gui/matrices/matrices_panel.h"
 #include "gui/open/start_page.h"
@@ -20,8 +22,6 @@
 namespace palpate::gui {
 namespace {
 
-constexpr const char* kMainWindowFilesLastFolder = "recent/folder";
-
 std::vector<std::filesystem::path> localFiles(const QMimeData& data) {
   std::vector<std::filesystem::path> files;
   for (const QUrl& url : data.urls())
@@ -29,39 +29,30 @@ std::vector<std::filesystem::path> localFiles(const QMimeData& data) {
   return files;
 }
 
-QString mainWindowFilesNameOf(const OpenedRecording& recording) {
-  return QString::fromStdString(recording.path.filename().string());
-}
-
 QString nameAndDate(const OpenedRecording& recording) {
-  if (recording.profile.numFrames() == 0) return mainWindowFilesNameOf(recording) + " · empty";
+  if (recording.profile.numFrames() == 0) return fileNameOf(recording) + " · empty";
   const std::string date = utcText(recording.profile.frameTimeUs(0)).substr(0, 10);
-  return mainWindowFilesNameOf(recording) + " · " + QString::fromStdString(date);
+  return fileNameOf(recording) + " · " + QString::fromStdString(date);
 }
 
 }  // namespace
 
-void MainWindow::askAndOpen() {
+void MainWindow::askAndOpen(OpenRequest::Then then) {
   std::vector<std::filesystem::path> files;
   for (const QString& path : askForRecordings()) files.emplace_back(path.toStdString());
   if (files.empty()) return;
-  settings_.setValue(kMainWindowFilesLastFolder,
-                     QFileInfo(QString::fromStdString(files[0].string())).path());
-  openFiles(files);
+  recent_.setLastFolder(QFileInfo(QString::fromStdString(files[0].string())).path());
+  openFiles(files, then);
 }
 
-void MainWindow::openFiles(const std::vector<std::filesystem::path>& files) {
+void MainWindow::openFiles(const std::vector<std::filesystem::path>& files,
+                           OpenRequest::Then then) {
   if (files.empty()) return;
   banner_->dismiss();
-  shownOfBatch_ = false;
-  demoAsked_ = false;
-  for (const auto& file : files) opener_.open(file);
+  recordings_.open({files, then});
 }
 
-void MainWindow::openDemoRecording() {
-  openFiles({demoPath_});
-  demoAsked_ = true;
-}
+void MainWindow::openDemoRecording() { openFiles({demoPath_}, OpenRequest::Then::kPlayInLoop); }
 
 void MainWindow::fillRecentMenu() {
   QMenu* menu = menus_->recent;
@@ -87,30 +78,36 @@ void MainWindow::fillRecentMenu() {
   connect(clear, &QAction::triggered, &recent_, &RecentFiles::clear);
 }
 
-void MainWindow::addRecording(const OpenedRecordingPtr& recording) {
-  const bool isDemo = recording->path == demoPath_;
-  if (!isDemo) recent_.add(QString::fromStdString(recording->path.string()));
-  // A file that is open already is replaced by what it holds now.
-  const auto same = std::find_if(recordings_.begin(), recordings_.end(), [&](const auto& other) {
-    return other->path == recording->path;
-  });
-  if (same == recordings_.end()) {
-    recordings_.push_back(recording);
-  } else {
-    editors_.erase(same->get());
-    grasps_.erase(same->get());
-    leftAt_.erase((*same)->path);
-    if (current_ == *same) current_.reset();
-    *same = recording;
-  }
+void MainWindow::forget(const OpenedRecordingPtr& recording) {
+  editors_.erase(recording.get());
+  grasps_.erase(recording.get());
+  discarded_.erase(recording.get());
+  leftAt_.erase(recording->path);
+}
+
+void MainWindow::addRecording(const OpenedRecordingPtr& recording, const OpenArrival& arrival) {
+  using Then = OpenRequest::Then;
+  if (recording->path != demoPath_) recent_.add(QString::fromStdString(recording->path.string()));
+  // A file that is open already is replaced by what it holds now; behind what is live it isn't shown for that.
+  const bool wasCurrent = arrival.replaced && arrival.replaced == current_;
+  if (arrival.replaced) forget(arrival.replaced);
+  if (wasCurrent) current_ = liveShown_ ? recording : nullptr;
   listRecordings();
-  if (shownOfBatch_) {
+  const bool compared = arrival.then == Then::kCompare;
+  const bool first = arrival.place == 0 && arrival.then != Then::kList;
+  const bool shown =
+      (wasCurrent && !liveShown_) || (first && (!compared || !current_ || liveShown_));
+  if (shown)
+    showRecording(recording);
+  else
     enableActions();
-    return;
+  // With nothing to compare yet the first is A, and the next is compared with it.
+  if (compared && shown && recordings().size() > 1) showCompare(true);
+  if (compared && !shown && (first || (arrival.place == 1 && !compareShown()))) {
+    compare_->setB(recording);
+    showCompare(true);
   }
-  shownOfBatch_ = true;
-  showRecording(recording);
-  if (!isDemo || !demoAsked_) return;
+  if (arrival.then != Then::kPlayInLoop || !first) return;
   if (!playback_.loop()) {
     playback_.setLoop(true);
     loopIsOfDemo_ = true;
@@ -121,11 +118,12 @@ void MainWindow::addRecording(const OpenedRecordingPtr& recording) {
 void MainWindow::listRecordings() {
   QComboBox* box = menus_->recordings;
   box->clear();
-  for (const auto& each : recordings_) box->addItem(nameAndDate(*each));
-  const auto at = std::find(recordings_.begin(), recordings_.end(), current_);
-  if (at != recordings_.end()) box->setCurrentIndex(static_cast<int>(at - recordings_.begin()));
-  menus_->recordingsAction->setVisible(!recordings_.empty());
-  listCompared();
+  const auto& all = recordings_.all();
+  for (const auto& each : all) box->addItem(nameAndDate(*each));
+  const auto at = std::find(all.begin(), all.end(), current_);
+  if (at != all.end()) box->setCurrentIndex(static_cast<int>(at - all.begin()));
+  menus_->recordingsAction->setVisible(!all.empty());
+  compare_->setRecordings(all, current_);
 }
 
 void MainWindow::showRecording(const OpenedRecordingPtr& recording) {
@@ -145,6 +143,7 @@ void MainWindow::showRecording(const OpenedRecordingPtr& recording) {
                            recording->profile.numAngles() > 0,
                            recording->profile.numTemperatures() > 0);
   if (!live) {
+    setPictureOld({});  // what was held, or is no more connected
     matrices_->setRecording(recording);
     handPanel_->setRecording(recording);
     inspect_->setRecording(recording);
@@ -153,13 +152,12 @@ void MainWindow::showRecording(const OpenedRecordingPtr& recording) {
     playback_.setProfile(recording->profile, recording->timingNow().gaps);
   else
     playback_.setProfile(std::nullopt);
-  setWindowTitle(recording ? mainWindowFilesNameOf(*recording) + " – Palpate" : QString("Palpate"));
+  setWindowTitle(recording ? fileNameOf(*recording) + " – Palpate" : QString("Palpate"));
   listRecordings();
   if (recording) {
     goBackToWhereWeWere();
     if (recording->profile.numFrames() == 0)
-      banner_->showMessage(mainWindowFilesNameOf(*recording) +
-                           ": holds no frame; there is nothing to show");
+      banner_->showMessage(fileNameOf(*recording) + ": holds no frame; there is nothing to show");
   }
   if (live) showLive();
   if (!live) filterNewSource();
@@ -171,30 +169,20 @@ void MainWindow::showRecording(const OpenedRecordingPtr& recording) {
 }
 
 void MainWindow::showNeighbour(int step) {
-  const auto at = std::find(recordings_.begin(), recordings_.end(), current_);
-  if (at == recordings_.end()) return;
-  const auto count = static_cast<std::ptrdiff_t>(recordings_.size());
-  const auto next = (at - recordings_.begin() + step + count) % count;
-  showRecording(recordings_[static_cast<std::size_t>(next)]);
+  if (const OpenedRecordingPtr next = recordings_.neighbour(current_, step)) showRecording(next);
 }
 
 void MainWindow::closeCurrent() {
-  const auto at = std::find(recordings_.begin(), recordings_.end(), current_);
-  if (at == recordings_.end() || !settleUnsaved({current_})) return;
-  editors_.erase(current_.get());
-  grasps_.erase(current_.get());
-  const auto index = at - recordings_.begin();
-  leftAt_.erase(current_->path);
-  current_.reset();
-  recordings_.erase(at);
-  const auto next = std::min(index, static_cast<std::ptrdiff_t>(recordings_.size()) - 1);
-  showRecording(next < 0 ? nullptr : recordings_[static_cast<std::size_t>(next)]);
+  if (!current_ || !settleUnsaved({current_})) return;
+  const OpenedRecordingPtr closed = std::exchange(current_, nullptr);
+  forget(closed);
+  showRecording(recordings_.close(closed));
 }
 
 QString MainWindow::pictureName() const {
   if (liveShown_) return "live_" + QTime::currentTime().toString("HHmmss");
   return QString("%1_frame_%2")
-      .arg(QFileInfo(mainWindowFilesNameOf(*current_)).completeBaseName())
+      .arg(QFileInfo(fileNameOf(*current_)).completeBaseName())
       .arg(playback_.frame(), 5, 10, QChar('0'));
 }
 

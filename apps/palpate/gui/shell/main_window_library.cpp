@@ -90,31 +90,20 @@ void MainWindow::connectLibrary() {
                   line);
   });
   connect(&opener_, &RecordingOpener::opened, this, [this](const OpenedRecordingPtr& recording) {
-    if (recording->path == comparedPath_) {
-      comparedPath_.clear();
-      compareWith(recording->path);
-    }
     activity_.add(LogLine::Severity::kInfo, openedText(*recording));
     for (const std::string& warning : recording->profile.info().warnings)
       activity_.add(LogLine::Severity::kWarning,
                     QString::fromStdString(recording->path.filename().string() + ": " + warning));
   });
-  connect(&opener_, &RecordingOpener::finished, this, [this] { comparedPath_.clear(); });
   connect(log_, &LogPanel::saved, this, [this](const QString& path) { flash("written: " + path); });
   connect(log_, &LogPanel::failed, banner_, &MessageBanner::showMessage);
 }
 
 // What is shown stays A.
 void MainWindow::compareWith(const std::filesystem::path& path) {
-  const auto known = std::find_if(
-      recordings_.begin(), recordings_.end(), [&](const auto& each) { return each->path == path; });
-  if (known == recordings_.end()) {
-    comparedPath_ = path;
-    openFiles({path});
-    shownOfBatch_ = true;
-    return;
-  }
-  compare_->setB(*known);
+  const OpenedRecordingPtr known = recordings_.at(path);
+  if (!known) return openFiles({path}, OpenRequest::Then::kCompare);
+  compare_->setB(known);
   showCompare(true);
 }
 

@@ -40,28 +40,6 @@ std::vector<Fact> mainWindowLiveFactsOf(const Connection& connection,
   return facts;
 }
 
-// What our own connection has found behind its ports; of a port that doesn't answer yet nothing.
-QHash<QString, PortProbe> knownAnswers(const Connection& connection, const DeviceStatus& status) {
-  const PortStatus motion = status.motion.value_or(PortStatus{});
-  const auto saysSwapped = [](const PortStatus& port) {
-    return port.message.find("swapped") != std::string::npos;
-  };
-  const bool swapped = saysSwapped(status.tactile) || saysSwapped(motion);
-  QHash<QString, PortProbe> known;
-  const auto add = [&](const QString& name, const PortStatus& port, PortAnswer answer) {
-    if (name.isEmpty() || (!swapped && port.state != PortState::kStreaming)) return;
-    PortProbe probe;
-    probe.port = name.toStdString();
-    probe.answer = answer;
-    probe.message = std::string(answer == PortAnswer::kTactile ? "tactile" : "motion") +
-                    " controller; this window is connected to it";
-    known.insert(name, probe);
-  };
-  add(connection.dsaPort, status.tactile, swapped ? PortAnswer::kMotion : PortAnswer::kTactile);
-  add(connection.sdhPort, motion, swapped ? PortAnswer::kTactile : PortAnswer::kMotion);
-  return known;
-}
-
 // It lives as long as `live`.
 void connectOtherPrograms(const Actions& actions,
                           LiveController& live,
@@ -309,19 +287,18 @@ void MainWindow::showLive() {
   if (!source) return;
   const bool another = source->history.get() != shownHistory_;
   const bool newly = !liveShown_ || another;
-  liveShown_ = true;
   playback_.pause();
+  if (!liveShown_) noteWhereWeAre();
+  liveShown_ = true;
   showCompare(false);
   setPlace(Place::kLive);
   if (newly) {
     const HandDescription hand = source->session->device().hand();
     shownHistory_ = source->history.get();
     matrices_->setRecording(nullptr);
-    matrices_->setHand(hand);
-    matrices_->view().setBlind(hand_->blind());
-    handPanel_->setHand(hand);
-    if (another) liveChart_->setHistory(source->history.get(), hand.layout->numMatrices());
     inspect_->setHand(hand);
+    showHand(hand);
+    if (another) liveChart_->setHistory(source->history.get(), hand.layout->numMatrices());
     held_ = false;
     liveChart_->setHeld(false);
     actions_.hold->setChecked(false);
@@ -332,6 +309,14 @@ void MainWindow::showLive() {
   showPlotted();
   enableActions();
   showLook();
+}
+
+void MainWindow::showHand(const HandDescription& hand) {
+  matrices_->setHand(hand);
+  matrices_->view().setBlind(hand_->blind());
+  handPanel_->setHand(hand);
+  inspect_->renewHand(hand);
+  slip_->renewHand(hand);
 }
 
 void MainWindow::showStale() {
@@ -383,11 +368,7 @@ void MainWindow::showLook() {
                                                QString::fromStdString(hand.name),
                                                calibrate_->text()));
   // Other taxels are scanned now, or another hand was found.
-  if (matrices_->hand() && !(*matrices_->hand()->layout == *hand.layout)) {
-    matrices_->setHand(hand);
-    matrices_->view().setBlind(hand_->blind());
-    handPanel_->setHand(hand);
-  }
+  if (matrices_->hand() && !(*matrices_->hand()->layout == *hand.layout)) showHand(hand);
   if (live_.stale()) {
     showStale();
     if (!held_ && live_.framesCameYet() && !finished) liveChart_->refresh(live_.silentS());

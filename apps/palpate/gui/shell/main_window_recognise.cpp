@@ -171,7 +171,6 @@ void MainWindow::RecogniseView::listen(bool on) {
   zeroStep_ = Zero::kNone;
   zero_.reset();
   panel_->desk().letGo();
-  if (full_) full_->setLive(on && window_.liveShown_);
   if (!on) panel_->teach().setLive(false);
   LiveSource* source = window_.live_.source();
   if (!on || !source) return;
@@ -194,8 +193,10 @@ void MainWindow::RecogniseView::takeItems() {
       collector_->addAngles(std::move(*angles));
   }
   items_.clear();
-  for (Profile& ended : collector_->takeEnded()) takeEnded(std::move(ended));
-  if (held && !collector_->touched()) panel_->desk().letGo();
+  std::vector<Profile> ended = collector_->takeEnded();
+  // Also when something else is held by now.
+  if (held && (!collector_->touched() || !ended.empty())) panel_->desk().letGo();
+  for (Profile& grasp : ended) takeEnded(std::move(grasp));
 }
 
 void MainWindow::RecogniseView::hear() {
@@ -302,12 +303,10 @@ void MainWindow::RecogniseView::showGrasp(const std::filesystem::path& file,
                                           std::size_t begin,
                                           std::size_t end) {
   wanted_ = Wanted{file, begin, end};
-  const auto& open = window_.recordings_;
-  const auto at = std::find_if(
-      open.begin(), open.end(), [&](const auto& recording) { return recording->path == file; });
-  if (at == open.end()) return window_.openFiles({file});
-  if (*at == window_.current_ && !window_.liveShown_) return showWanted();
-  window_.showRecording(*at);
+  const OpenedRecordingPtr open = window_.recordings_.at(file);
+  if (!open) return window_.openFiles({file});
+  if (open == window_.current_ && !window_.liveShown_) return showWanted();
+  window_.showRecording(open);
 }
 
 void MainWindow::RecogniseView::showWanted() {

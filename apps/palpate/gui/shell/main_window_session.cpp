@@ -31,7 +31,7 @@ void MainWindow::goBackToWhereWeWere() {
 void MainWindow::rememberSession() {
   if (!liveShown_) noteWhereWeAre();
   Session session;
-  for (const OpenedRecordingPtr& recording : recordings_) {
+  for (const OpenedRecordingPtr& recording : recordings_.all()) {
     if (recording->path == demoPath_) continue;
     if (recording == current_) session.current = static_cast<int>(session.files.size());
     const QString path = QString::fromStdString(recording->path.string());

@@ -97,6 +97,8 @@ void MainWindow::SlipView::showLive(const LiveResults& results) {
   panel_->showLive(*results.frame, results.slip);
 }
 
+void MainWindow::SlipView::renewHand(const HandDescription& hand) { panel_->renewLiveHand(hand); }
+
 // The alarm of what is live is the contest's, whatever gives the vector.
 void MainWindow::SlipView::tellStage() {
   const LiveSource* source = window_.live_.source();

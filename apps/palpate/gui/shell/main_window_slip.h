@@ -23,7 +23,8 @@ class MainWindow::SlipView : public QObject {
   // The slips that were found in the recording that is shown, among its events.
   void addSlips(std::vector<EventMark>& marks) const;
   void showLive(const LiveResults& results);
-  void leave();  // the window goes
+  void renewHand(const HandDescription& hand);  // other taxels are scanned
+  void leave();                                 // the window goes
 
  private:
   void showArrows();

@@ -24,10 +24,6 @@ namespace {
 
 constexpr const char* kCropFolder = "recent/crop_folder";
 
-QString mainWindowTimelineNameOf(const OpenedRecording& recording) {
-  return QString::fromStdString(recording.path.filename().string());
-}
-
 }  // namespace
 
 void MainWindow::connectTimeline() {
@@ -147,6 +143,7 @@ void MainWindow::showReading() {
       done < 1.0 ? "reading " + QString::number(static_cast<int>(done * 100.0)) + " %" : QString());
   if (current_ && current_->isLong() && done >= 1.0) {
     inspect_->renewFacts();
+    matrices_->renewRange();
     playback_.setGaps(current_->timingNow().gaps);
     showEvents();
   }
@@ -204,7 +201,7 @@ void MainWindow::cropSelection() {
   const auto number = [](std::size_t frame) { return QString("%1").arg(frame, 6, 10, QChar('0')); };
   const QString here = QFileInfo(QString::fromStdString(current_->path.string())).absolutePath();
   const QString folder = settings_.value(kCropFolder, here).toString();
-  const QString stem = QFileInfo(mainWindowTimelineNameOf(*current_)).completeBaseName();
+  const QString stem = QFileInfo(fileNameOf(*current_)).completeBaseName();
   QString path = askForCropped(folder + "/" + stem + "_" + number(frames->first) + "-" +
                                number(frames->second) + ".palpate");
   if (path.isEmpty()) return;
@@ -232,8 +229,7 @@ void MainWindow::cropSelection() {
         emit cropWritten(path);
         const QString ending = QFileInfo(path).suffix().toLower();
         if (ending == "csv" || ending == "npz") return;
-        shownOfBatch_ = true;  // it joins the open ones (Ctrl+Tab); what is looked at stays
-        opener_.open(path.toStdString());
+        recordings_.open({{path.toStdString()}, OpenRequest::Then::kList});
       });
 }
 

@@ -47,7 +47,7 @@ constexpr int kHandWidth = 380;                         // [px]
 constexpr double kMainWindowViewTimelineShare = 0.235;  // of the window's height
 
 template <class Choices, class Choice>
-void checkMainWindowView(const QActionGroup* group, const Choices& all, Choice now) {
+void checkChoice(const QActionGroup* group, const Choices& all, Choice now) {
   const auto index = std::find(std::begin(all), std::end(all), now) - std::begin(all);
   if (index < group->actions().size()) group->actions().at(index)->setChecked(true);
 }
@@ -68,10 +68,10 @@ void MainWindow::applyView() {
   showCurves();
   actions_.interpolated->setChecked(view_.interpolated);
   actions_.values->setChecked(view_.values);
-  checkMainWindowView(actions_.maps, kAllColorMaps, view_.map);
-  checkMainWindowView(actions_.ranges, kAllRangeModes, view_.range);
-  checkMainWindowView(actions_.signalsPlotted, kAllPlottedSignals, view_.signal);
-  checkMainWindowView(actions_.themes, kAllThemeChoices, view_.theme);
+  checkChoice(actions_.maps, kAllColorMaps, view_.map);
+  checkChoice(actions_.ranges, kAllRangeModes, view_.range);
+  checkChoice(actions_.signalsPlotted, kAllPlottedSignals, view_.signal);
+  checkChoice(actions_.themes, kAllThemeChoices, view_.theme);
   compare_->setSettings(view_, resolved(view_.theme));
 }
 
@@ -123,7 +123,7 @@ void MainWindow::showPlaybackState() {
   actions_.play->setToolTip(playing ? "Pause (Space)" : "Play by the real time stamps (Space)");
   actions_.loop->setChecked(playback_.loop());
   actions_.skipGaps->setChecked(playback_.skipGaps());
-  checkMainWindowView(actions_.speeds, PlaybackController::kSpeeds, playback_.speed());
+  checkChoice(actions_.speeds, PlaybackController::kSpeeds, playback_.speed());
   const auto* at = std::find(std::begin(PlaybackController::kSpeeds),
                              std::end(PlaybackController::kSpeeds),
                              playback_.speed());
@@ -295,7 +295,7 @@ void MainWindow::enableActions() {
   actions_.closeRecording->setEnabled(current_ && !liveShown_);
   enableEventActions();
   for (QAction* action : {actions_.nextRecording, actions_.previousRecording})
-    action->setEnabled(recordings_.size() > 1);
+    action->setEnabled(recordings().size() > 1);
 }
 
 // One thing at a time, the most urgent first.
@@ -365,14 +365,19 @@ void MainWindow::remember() {
 
 // What is connected is ended first, beside the window: a hand that moves is stopped, a recording finished.
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!closing_ && !settleUnsaved(recordings_)) return event->ignore();
+  // Everything is asked before anything is given up.
+  const auto mayClose = [this] {
+    return (!live_.recording() || askToEndRecording()) && settleUnsaved(recordings());
+  };
+  if (!closing_ && !mayClose()) return event->ignore();
   if (live_.state() == LiveController::State::kNone) {
+    editors_.clear();  // what wasn't saved was discarded
     remember();
     opener_.cancel();
     return event->accept();
   }
   event->ignore();
-  if (closing_ || (live_.recording() && !askToEndRecording())) return;
+  if (closing_) return;
   closing_ = true;
   remember();
   offer_->say("Closing: the hand is let go, a recording is finished …");

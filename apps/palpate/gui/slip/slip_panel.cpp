@@ -344,6 +344,12 @@ void SlipPanel::setLiveHand(const HandDescription& hand) {
   liveSeries_.matrices.resize(hand.layout->numMatrices());
 }
 
+void SlipPanel::renewLiveHand(const HandDescription& hand) {
+  if (!liveHand_) return;
+  if (hand.layout->numMatrices() != liveSeries_.matrices.size()) return setLiveHand(hand);
+  liveHand_ = hand;
+}
+
 void SlipPanel::showLive(const TactileFrame& frame, const std::vector<SlipVerdict>& verdicts) {
   if (!live() || !liveHand_ || verdicts.size() != liveSeries_.matrices.size()) return;
   if (liveSeries_.timeS.empty()) liveSeries_.firstUs = frame.hostUs;

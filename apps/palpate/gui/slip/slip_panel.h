@@ -46,6 +46,8 @@ class SlipPanel : public ComputedPage {
 
   // What is connected: its newest verdicts, with the frame they are of.
   void setLiveHand(const HandDescription& hand);
+  // Of the same hand other taxels are scanned: what came stays.
+  void renewLiveHand(const HandDescription& hand);
   void showLive(const TactileFrame& frame, const std::vector<SlipVerdict>& verdicts);
 
  signals:

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::int64_t kWholeS = 1'000'000;  // [us]
 constexpr std::size_t kFramesPerReport = 256;
+constexpr const char* kNativeFormat = "palpate";  // as ProfileInfo says it
 
 // What the per-second summary tells before any frame is read. Gaps shorter than two seconds don't show in it.
 void takeSummary(OpenedRecording& opened, const std::vector<SecondSummary>& seconds) {
@@ -46,17 +47,22 @@ void takeSummary(OpenedRecording& opened, const std::vector<SecondSummary>& seco
   opened.timing.rateHz = static_cast<double>(*middle);
 }
 
-// Of a long one. Without a summary (a .dsa, a damaged one) nothing is known but how long it is: all is taken for touched,
-// until the overview tells.
-void openBySummary(OpenedRecording& opened) {
+// Of a long one. A native recording holds its summary; of all others, which are read as a whole when they are opened,
+// it is made here. Without one (damaged) nothing is known but how long it is: all is taken for touched, until the
+// overview tells.
+void openBySummary(OpenedRecording& opened, const Progress& progress) {
   std::vector<SecondSummary> seconds;
   try {
-    seconds = readSeconds(opened.path);
+    seconds = opened.profile.info().format == kNativeFormat ? readSeconds(opened.path)
+                                                            : secondsOf(opened.profile, progress);
+  } catch (const Cancelled&) {
+    throw;
   } catch (const Error&) {
     seconds.clear();
   }
   takeSummary(opened, seconds);
   if (!seconds.empty()) return;
+  opened.maximumKnown = false;
   opened.timing.rateHz = opened.timing.meanRateHz;
   opened.touched.assign(opened.numMatrices(), true);
 }
@@ -110,12 +116,17 @@ void readTheirEvents(OpenedRecording& opened) {
 
 }  // namespace
 
+QString fileNameOf(const OpenedRecording& recording) {
+  return QString::fromStdString(recording.path.filename().string());
+}
+
 const TimingReport& OpenedRecording::timingNow() const {
   return overview && overview->complete() ? overview->timing() : timing;
 }
 
-double OpenedRecording::maximumNow() const {
-  return overview && overview->complete() ? overview->maximum() : maximum;
+std::optional<double> OpenedRecording::maximumNow() const {
+  if (overview && overview->complete()) return overview->maximum();
+  return maximumKnown ? std::optional(maximum) : std::nullopt;
 }
 
 std::optional<std::size_t> OpenedRecording::saturatedFramesNow() const {
@@ -182,7 +193,7 @@ OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
                                                                   .overview = {}});
   opened->touched.assign(opened->numMatrices(), false);
   if (isLongRecording(opened->profile, longFrom)) {
-    openBySummary(*opened);
+    openBySummary(*opened, progress);
     opened->overview = std::make_shared<SignalOverview>(opened->profile);
   } else {
     readThrough(*opened, progress);

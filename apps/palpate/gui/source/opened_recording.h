@@ -2,8 +2,10 @@
 // worker that opens it, and never changed.
 #pragma once
 
+#include <QString>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -35,6 +37,7 @@ struct OpenedRecording {
   std::vector<double> timeS;                 // from the first frame, one per frame [s]; likewise
   std::vector<std::size_t> gapFrames;        // last frame before each gap
   double maximum = 0.0;                      // largest value of all frames [counts]
+  bool maximumKnown = true;                  // false: of a long one without a summary
   std::size_t saturatedFrames = 0;           // frames with a taxel at or above saturation
   std::vector<bool> touched;                 // per matrix: has an active taxel in some frame
   EventsReport events;                       // as the file has them
@@ -44,10 +47,9 @@ struct OpenedRecording {
   std::shared_ptr<SignalOverview> overview;
 
   bool isLong() const noexcept { return overview != nullptr; }
-  // What only a pass over all frames tells; of a long one first an estimate.
+  // What only a pass over all frames tells; of a long one first an estimate. Nothing: not known yet.
   const TimingReport& timingNow() const;
-  double maximumNow() const;
-  // Nothing: not known yet.
+  std::optional<double> maximumNow() const;
   std::optional<std::size_t> saturatedFramesNow() const;
 
   // The signals of a matrix, or (matrix == number of matrices) of the whole.
@@ -62,6 +64,12 @@ struct OpenedRecording {
 };
 
 using OpenedRecordingPtr = std::shared_ptr<const OpenedRecording>;
+
+// Of readSeries(): -kEverS to kEverS is all of any recording [s].
+inline constexpr double kEverS = std::numeric_limits<double>::max();
+
+// As the window calls it: without its folder.
+QString fileNameOf(const OpenedRecording& recording);
 
 // Computes what isn't in the profile itself. Throws Cancelled.
 OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,

@@ -6,6 +6,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kRecentFilesKey = "recent/files";
+constexpr const char* kLastFolderKey = "recent/folder";
 
 }  // namespace
 
@@ -38,6 +39,12 @@ void RecentFiles::clear() {
 }
 
 bool RecentFiles::exists(const QString& path) { return QFileInfo(path).isFile(); }
+
+QString RecentFiles::lastFolder() const { return settings_.value(kLastFolderKey).toString(); }
+
+void RecentFiles::setLastFolder(const QString& folder) {
+  settings_.setValue(kLastFolderKey, folder);
+}
 
 void RecentFiles::store() {
   settings_.setValue(kRecentFilesKey, paths_);

@@ -21,6 +21,9 @@ class RecentFiles : public QObject {
   void removeMissing();
   void clear();
   static bool exists(const QString& path);
+  // Where files were chosen last; empty: nowhere yet.
+  QString lastFolder() const;
+  void setLastFolder(const QString& folder);
 
  signals:
   void changed();

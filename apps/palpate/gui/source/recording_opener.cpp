@@ -26,9 +26,10 @@ RecordingOpener::~RecordingOpener() {
   if (worker_.joinable()) worker_.join();
 }
 
-void RecordingOpener::open(const std::filesystem::path& path) {
-  waiting_.push_back(path);
+std::uint64_t RecordingOpener::open(const std::filesystem::path& path) {
+  waiting_.push_back({path, ++tickets_});
   if (!busy_) startNext();
+  return tickets_;
 }
 
 void RecordingOpener::cancel() {
@@ -42,16 +43,17 @@ void RecordingOpener::startNext() {
     emit finished();
     return;
   }
-  const std::filesystem::path path = waiting_.front();
+  const Asked asked = waiting_.front();
   waiting_.pop_front();
   busy_ = true;
   cancelRequested_ = false;
-  emit started(QString::fromStdString(path.string()));
+  emit started(QString::fromStdString(asked.path.string()));
   if (worker_.joinable()) worker_.join();  // it has reported already: this takes no time
-  worker_ = std::jthread([this, path] { work(path); });
+  worker_ = std::jthread([this, asked] { work(asked); });
 }
 
-void RecordingOpener::work(const std::filesystem::path& path) {
+void RecordingOpener::work(const Asked& asked) {
+  const std::filesystem::path& path = asked.path;
   const QString name = QString::fromStdString(path.string());
   double told = -1.0;
   const auto part = [&](double from, double share) {
@@ -69,7 +71,7 @@ void RecordingOpener::work(const std::filesystem::path& path) {
     Profile profile = read_(path, part(0.0, kRecordingOpenerReadShare));
     auto recording = makeOpenedRecording(
         path, std::move(profile), part(kRecordingOpenerReadShare, 1.0 - kRecordingOpenerReadShare));
-    conclude([this, recording] { emit opened(recording); });
+    conclude([this, recording, ticket = asked.ticket] { emit opened(recording, ticket); });
   } catch (const Cancelled&) {
     conclude([this, name] { emit cancelled(name); });
   } catch (const std::bad_alloc&) {

@@ -5,6 +5,7 @@
 #include <QObject>
 #include <QString>
 #include <atomic>
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -25,8 +26,8 @@ class RecordingOpener : public QObject {
   // Cancels and waits for the worker.
   ~RecordingOpener() override;
 
-  // Appends to what is to be opened.
-  void open(const std::filesystem::path& path);
+  // Appends to what is to be opened. The ticket comes back with opened(); none is given twice.
+  std::uint64_t open(const std::filesystem::path& path);
   // Gives up the file in work and all that wait; cancelled() follows when something was given up.
   void cancel();
   bool busy() const noexcept { return busy_; }
@@ -35,7 +36,7 @@ class RecordingOpener : public QObject {
  signals:
   void started(const QString& path);
   void progressed(double fraction);  // 0..1
-  void opened(palpate::gui::OpenedRecordingPtr recording);
+  void opened(palpate::gui::OpenedRecordingPtr recording, std::uint64_t ticket);
   // message: one line that says what is wrong, where, and what to do.
   void failed(const QString& path, const QString& message);
   void cancelled(const QString& path);
@@ -43,13 +44,18 @@ class RecordingOpener : public QObject {
   void finished();
 
  private:
+  struct Asked {
+    std::filesystem::path path;
+    std::uint64_t ticket = 0;
+  };
   void startNext();
-  void work(const std::filesystem::path& path);
+  void work(const Asked& asked);
   // Runs `report` in this object's thread, then goes on with the next file.
   void conclude(std::function<void()> report);
 
   Read read_;
-  std::deque<std::filesystem::path> waiting_;
+  std::deque<Asked> waiting_;
+  std::uint64_t tickets_ = 0;  // given
   std::atomic<bool> cancelRequested_ = false;
   bool busy_ = false;
   std::jthread worker_;

@@ -1,0 +1,71 @@
+#include "gui/source/open_recordings.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace palpate::gui {
+
+OpenRecordings::OpenRecordings(RecordingOpener& opener, QObject* parent)
+    : QObject(parent), opener_(opener) {
+  connect(&opener, &RecordingOpener::opened, this, &OpenRecordings::take);
+  connect(&opener, &RecordingOpener::finished, this, [this] {
+    // Somebody else who heard of it may have asked for more.
+    if (!opener_.busy()) running_.clear();
+  });
+}
+
+void OpenRecordings::open(const OpenRequest& request) {
+  const auto running = std::make_shared<Running>(Running{request.then, 0});
+  for (const std::filesystem::path& file : request.files) {
+    const OpenedRecordingPtr known = at(file);
+    if (known && mayReadAnew && !mayReadAnew(known))
+      arrive(known, nullptr, *running);
+    else
+      running_[opener_.open(file)] = running;
+  }
+}
+
+void OpenRecordings::take(const OpenedRecordingPtr& recording, std::uint64_t ticket) {
+  const auto asked = running_.find(ticket);
+  // Asked for past us, it is a request of its own.
+  const auto request =
+      asked != running_.end() ? asked->second : std::make_shared<Running>(Running{});
+  if (asked != running_.end()) running_.erase(asked);
+  const OpenedRecordingPtr known = at(recording->path);
+  if (known && mayReplace && !mayReplace(known)) return arrive(known, nullptr, *request);
+  if (known)
+    *std::find(all_.begin(), all_.end(), known) = recording;
+  else
+    all_.push_back(recording);
+  arrive(recording, known, *request);
+}
+
+void OpenRecordings::arrive(const OpenedRecordingPtr& recording,
+                            OpenedRecordingPtr replaced,
+                            Running& request) {
+  const OpenArrival arrival{request.then, request.numArrived++, std::move(replaced)};
+  emit arrived(recording, arrival);
+}
+
+OpenedRecordingPtr OpenRecordings::close(const OpenedRecordingPtr& recording) {
+  const auto at = std::find(all_.begin(), all_.end(), recording);
+  if (at == all_.end()) return nullptr;
+  const auto next = all_.erase(at);
+  if (all_.empty()) return nullptr;
+  return next == all_.end() ? all_.back() : *next;
+}
+
+OpenedRecordingPtr OpenRecordings::at(const std::filesystem::path& path) const {
+  const auto found = std::find_if(
+      all_.begin(), all_.end(), [&](const auto& recording) { return recording->path == path; });
+  return found == all_.end() ? nullptr : *found;
+}
+
+OpenedRecordingPtr OpenRecordings::neighbour(const OpenedRecordingPtr& of, int step) const {
+  const auto found = std::find(all_.begin(), all_.end(), of);
+  if (found == all_.end()) return nullptr;
+  const auto count = static_cast<std::ptrdiff_t>(all_.size());
+  return all_[static_cast<std::size_t>(((found - all_.begin() + step) % count + count) % count)];
+}
+
+}  // namespace palpate::gui
