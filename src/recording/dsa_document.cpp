@@ -1,6 +1,7 @@
 #include "recording/dsa_document.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -358,6 +359,140 @@ void DsaDocument::endSample(Node node) {
     throw Error(here() + error.what());
   }
   nodes_.pop_back();
+}
+
+std::span<const DsaDocument::Child> DsaDocument::childrenOf(Node node) {
+  constexpr auto sensorLeaf = [](std::string_view name, SensorField field) {
+    return Child{name, Node::kLeaf, Leaf::kSensorField, field};
+  };
+  static constexpr std::array kDocument = {Child{"root", Node::kRoot}};
+  static constexpr std::array kRoot = {Child{"sensor", Node::kSensor},
+                                       Child{"data", Node::kData},
+                                       Child{"temperatures", Node::kTemperatures},
+                                       Child{"joint_angles", Node::kAngleList}};
+  static constexpr std::array kSensor = {Child{"matrix", Node::kMatrix},
+                                         sensorLeaf("generated_by", SensorField::kFirmware),
+                                         sensorLeaf("serial_nr", SensorField::kSerial),
+                                         sensorLeaf("num_matrices", SensorField::kNumMatrices),
+                                         Child{"hw_revision", Node::kIgnored},
+                                         Child{"converter_resolution", Node::kIgnored}};
+  static constexpr std::array kMatrix = {sensorLeaf("cells_x", SensorField::kColumns),
+                                         sensorLeaf("cells_y", SensorField::kRows),
+                                         sensorLeaf("texel_width", SensorField::kPitchX),
+                                         sensorLeaf("texel_height", SensorField::kPitchY),
+                                         sensorLeaf("static_mask", SensorField::kStaticMask),
+                                         sensorLeaf("dynamic_mask", SensorField::kDynamicMask),
+                                         Child{"matrix_center_x", Node::kIgnored},
+                                         Child{"matrix_center_y", Node::kIgnored},
+                                         Child{"matrix_center_z", Node::kIgnored},
+                                         Child{"theta_x", Node::kIgnored},
+                                         Child{"theta_y", Node::kIgnored},
+                                         Child{"theta_z", Node::kIgnored},
+                                         Child{"output_unit", Node::kIgnored},
+                                         Child{"hw_revision", Node::kIgnored},
+                                         sensorLeaf("one_wire_uid", SensorField::kUniqueId),
+                                         Child{"fullscale", Node::kIgnored}};
+  static constexpr std::array kData = {Child{"frame", Node::kFrame},
+                                       Child{"frame_count", Node::kLeaf, Leaf::kFrameCount}};
+  static constexpr std::array kFrame = {Child{"time_stamp", Node::kLeaf, Leaf::kTime},
+                                        Child{"frame_data", Node::kLeaf, Leaf::kFrameData}};
+  static constexpr std::array kTemperatures = {
+      Child{"temp", Node::kTemperature}, Child{"temp_count", Node::kLeaf, Leaf::kTemperatureCount}};
+  static constexpr std::array kTemperature = {
+      Child{"time_stamp", Node::kLeaf, Leaf::kTime},
+      Child{"temp_data", Node::kLeaf, Leaf::kTemperatureData}};
+  static constexpr std::array kAngleList = {Child{"angle", Node::kAngle},
+                                            Child{"angle_count", Node::kLeaf, Leaf::kAngleCount}};
+  static constexpr std::array kAngle = {Child{"time_stamp", Node::kLeaf, Leaf::kTime},
+                                        Child{"angle_data", Node::kLeaf, Leaf::kAngleData}};
+  switch (node) {
+    case Node::kDocument:
+      return kDocument;
+    case Node::kRoot:
+      return kRoot;
+    case Node::kSensor:
+      return kSensor;
+    case Node::kMatrix:
+      return kMatrix;
+    case Node::kData:
+      return kData;
+    case Node::kFrame:
+      return kFrame;
+    case Node::kTemperatures:
+      return kTemperatures;
+    case Node::kTemperature:
+      return kTemperature;
+    case Node::kAngleList:
+      return kAngleList;
+    case Node::kAngle:
+      return kAngle;
+    case Node::kLeaf:
+    case Node::kIgnored:
+    case Node::kUnknown:
+      break;
+  }
+  return {};
+}
+
+void DsaDocument::compareCount(const Series& series, std::size_t found) {
+  if (!series.seen) {
+    warnings_.push_back("no element " + std::string(series.element));
+    return;
+  }
+  const std::string name = series.counter;
+  if (!series.declared)
+    warnings_.push_back("no " + name + "; found " + std::to_string(found));
+  else if (parseInteger(*series.declared) != static_cast<std::int64_t>(found))
+    warnings_.push_back(name + " says " + inQuotes(*series.declared) + ", found " +
+                        std::to_string(found));
+}
+
+void DsaDocument::addCountedWarnings() {
+  const auto warn = [&](std::uint64_t count, const std::string& text) {
+    if (count > 0) warnings_.push_back(text);
+  };
+  for (const Series* series : {&frames_, &temperatures_, &angles_}) {
+    const std::string name = inQuotes(series->sample);
+    warn(series->movedStamps,
+         counted(series->movedStamps, "time stamp") + " of " + name +
+             " not later than the one before: moved 1 ms behind it");
+    warn(
+        series->badIndices,
+        name + ": " + counted(series->badIndices, "index attribute") + " out of sequence, ignored");
+  }
+  warn(foreignValues_,
+       counted(foreignValues_, "value") + " at places without a taxel (static_mask): taken as 0");
+  warn(unknownElements_,
+       counted(unknownElements_, "unknown element") + " skipped, the first " + firstUnknown_);
+  warn(unknownAttributes_, counted(unknownAttributes_, "unknown attribute") + " skipped");
+  warn(strayTexts_, counted(strayTexts_, "piece") + " of text between elements skipped");
+}
+
+Profile DsaDocument::handOver() {
+  addCountedWarnings();
+  ProfileInfo info;
+  info.format = "dsa";
+  info.serial = sensor_.serial();
+  info.firmware = sensor_.firmware();
+  info.sensorRevision = sensor_.firmware();
+  info.warnings = sensor_.warnings();
+  info.warnings.insert(info.warnings.end(), warnings_.begin(), warnings_.end());
+  return builder_->finish(std::move(info));
+}
+
+Profile DsaDocument::finish() {
+  if (!layout_) throw Error("no element sensor");
+  if (!frames_.seen) throw Error("no element data");
+  compareCount(frames_, numFrames());
+  compareCount(temperatures_, numTemperatures());
+  compareCount(angles_, numAngles());
+  return handOver();
+}
+
+Profile DsaDocument::finishFragments() {
+  // Which samples are missing is said elsewhere; indices and counts mean nothing here.
+  for (Series* series : {&frames_, &temperatures_, &angles_}) series->badIndices = 0;
+  return handOver();
 }
 
 }  // namespace palpate
