@@ -11,8 +11,6 @@
 namespace palpate {
 namespace {
 
-Json listOf(const std::vector<std::string>& texts) { return jsonList(texts); }
-
 std::vector<std::string> pressureFilesTextsOf(const Json& list) {
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < list.size(); ++i)
@@ -43,7 +41,7 @@ Json jsonOf(const Surface& surface) {
       .set("terms", std::move(terms))
       .set("covariance", std::move(covariance))
       .set("valid_range_hull", std::move(hull))
-      .set("notes", listOf(surface.notes));
+      .set("notes", jsonList(surface.notes));
 }
 
 double numberAt(const Json& json, const std::string& key, const std::string& where) {
@@ -109,7 +107,7 @@ Json jsonOf(const PressureModel& model) {
       .set("area_share", model.areaShare)
       .set("area_share_sd", model.areaShareSd)
       .set("steady_s", model.steadyS)
-      .set("notes", listOf(model.notes));
+      .set("notes", jsonList(model.notes));
 }
 
 PressureModel pressureModelFrom(const Json& json) {

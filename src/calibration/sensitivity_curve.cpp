@@ -65,14 +65,13 @@ SensitivityCurve fitSensitivityCurve(std::span<const SensitivityPoint> points,
 }
 
 Json jsonOf(const SensitivityCurve& curve) {
-  Json points = Json::array(), notes = Json::array();
+  Json points = Json::array();
   for (const SensitivityPoint& p : curve.points) {
     Json point = Json::object();
     point.set("sensitivity", p.sensitivity).set("K", p.gainCounts).set("used", p.used);
     if (!p.note.empty()) point.set("note", p.note);
     points.push(std::move(point));
   }
-  for (const std::string& note : curve.notes) notes.push(note);
   const auto known = [&](double value) { return curve.valid ? Json(value) : Json(); };
   return Json::object()
       .set("points", std::move(points))
@@ -83,7 +82,7 @@ Json jsonOf(const SensitivityCurve& curve) {
       .set("offset_sd", known(curve.offsetSd))
       .set("zero_sensitivity", known(curve.zeroSensitivity))
       .set("valid", curve.valid)
-      .set("notes", std::move(notes));
+      .set("notes", jsonList(curve.notes));
 }
 
 }  // namespace palpate

@@ -33,11 +33,7 @@ Json stepJson(const FilterStep& step) {
     const double value = step.value(option.key);
     if (!std::isnan(value)) json.set(option.key, optionJson(option, value));
   }
-  if (!step.matrices.empty()) {
-    Json list = Json::array();
-    for (const std::size_t matrix : step.matrices) list.push(matrix);
-    json.set("matrices", list);
-  }
+  if (!step.matrices.empty()) json.set("matrices", jsonList(step.matrices));
   json.set("enabled", step.enabled);
   return json;
 }

@@ -1,6 +1,9 @@
 #include "palpate/core/json.h"
 
 #include <cmath>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "palpate/core/error.h"
 
@@ -100,6 +103,14 @@ TEST(Json, APartOutlivesItsWholeAndChangesAlone) {
   part.push(inner);
   EXPECT_EQ(inner.text(-1), "[2]");
   EXPECT_EQ(part.text(-1), "[1,[2],3,[2]]");
+}
+
+TEST(Json, AListIsMadeOfWhateverHoldsItems) {
+  const std::vector<std::string> texts = {"a", "b"};
+  EXPECT_EQ(jsonList(texts).text(-1), R"(["a","b"])");
+  EXPECT_EQ(jsonList(std::vector<int>{}).text(-1), "[]");
+  const auto doubled = [](int number) { return 2 * number; };
+  EXPECT_EQ(jsonList(std::set<int>{3, 1}, doubled).text(-1), "[2,6]");
 }
 
 // A matrix is read row by row and value by value: no part may cost as much as its whole.
