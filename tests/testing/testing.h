@@ -47,10 +47,10 @@ void writeFile(const std::filesystem::path& path, std::string_view bytes);
 }  // namespace palpate::testing
 
 // Ends the test: `why` it can't be shown on this machine. A failure where it must be.
-#define PALPATE_CANNOT_SHOW(why)                     \
-  do {                                               \
+#define PALPATE_CANNOT_SHOW(why)                       \
+  do {                                                 \
     if (::palpate::testing::mustShow()) FAIL() << why; \
-    GTEST_SKIP() << why;                             \
+    GTEST_SKIP() << why;                               \
   } while (false)
 
 // Ends the test as skipped where the real recordings (or golden numbers) are missing.

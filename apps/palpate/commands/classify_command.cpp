@@ -78,10 +78,9 @@ int classifyCommand(const Words& words) {
     printTable(model, table, verdicts, use);
     return codeFor(table);
   }
-  Json grasps = Json::array(), warnings = Json::array();
+  Json grasps = Json::array();
   for (std::size_t i = 0; i < verdicts.size(); ++i)
     grasps.push(verdictJson(model, table.rows[i], verdicts[i]));
-  for (const std::string& warning : use.warnings) warnings.push(warning);
   printObject(Json::object()
                   .set("grasps", std::move(grasps))
                   .set("session_offset",
@@ -89,7 +88,7 @@ int classifyCommand(const Words& words) {
                                   choice.kind == OffsetChoice::Kind::kModel
                                       ? model.todayZero
                                       : std::optional<EmptyHandZero>()))
-                  .set("warnings", std::move(warnings)));
+                  .set("warnings", jsonList(use.warnings)));
   return codeFor(table);
 }
 

@@ -123,9 +123,7 @@ std::string demoRecognitionText(const DemoRecognition& recognition) {
 Json demoRecognitionJson(const DemoRecognition& recognition,
                          const TrainedModel& model,
                          const std::string& modelName) {
-  Json grasps = Json::array(), classes = Json::array(), warnings = Json::array();
-  for (const std::string& name : model.classes) classes.push(name);
-  for (const std::string& warning : recognition.warnings) warnings.push(warning);
+  Json grasps = Json::array();
   for (const AskedGrasp& asked : recognition.grasps) {
     FeatureRow row = asked.row;
     row.file = asked.known.file.filename();
@@ -142,13 +140,13 @@ Json demoRecognitionJson(const DemoRecognition& recognition,
   }
   return Json::object()
       .set("model", modelName)
-      .set("classes", classes)
+      .set("classes", jsonList(model.classes))
       .set("taught", recognition.numTaught())
       .set("right", recognition.numRight(true))
       .set("right_of_untaught", recognition.numRight(false))
       .set("grasps", grasps)
       .set("session_offset", recognition.sessionOffset)
-      .set("warnings", warnings);
+      .set("warnings", jsonList(recognition.warnings));
 }
 
 }  // namespace palpate::commands

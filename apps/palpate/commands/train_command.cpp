@@ -32,14 +32,13 @@ ModelSearchOptions searchGiven(const CommandLine& given, FeatureSet set) {
 Json reportOf(const TrainedModel& model,
               const fs::path& out,
               const std::vector<std::string>& notes) {
-  Json classes = Json::array(), said = Json::array();
+  Json classes = Json::array();
   for (const std::string& name : model.classes) {
     std::size_t grasps = 0;
     for (const ModelInput& input : model.inputs)
       grasps += input.className == name ? input.grasps : 0;
     classes.push(Json::object().set("name", name).set("grasps", grasps));
   }
-  for (const std::string& note : notes) said.push(note);
   return Json::object()
       .set("model", out.string())
       .set("set", featureSetName(model.set))
@@ -50,7 +49,7 @@ Json reportOf(const TrainedModel& model,
       .set("features", model.features.size())
       .set("validation", model.validation)
       .set("options", model.options)
-      .set("notes", std::move(said));
+      .set("notes", jsonList(notes));
 }
 
 }  // namespace
