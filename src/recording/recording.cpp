@@ -161,6 +161,8 @@ void addNotes(const std::filesystem::path& path, ReadableRecording& recording) {
     recording.damagedEvents = report.damaged;
   } catch (const FormatError& error) {
     recording.damage = error.what();
+  } catch (const FileError& error) {  // notes that may not be read, or are no file
+    recording.damage = error.what();
   }
 }
 
@@ -224,6 +226,7 @@ ReadableRecording readableRecording(const std::filesystem::path& path, const Pro
     };
   };
   try {
+    if (!isNativeRecording(path)) return openReadable(path, partOf(0.0, 1.0));
     ReadableRecording recording = openReadable(path, partOf(0.0, 0.5));
     readThrough(recording.profile, partOf(0.5, 0.5));
     return recording;

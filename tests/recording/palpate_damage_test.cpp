@@ -185,6 +185,19 @@ TEST(PalpateDamage, whatIsReadableIsGivenAndTheRestTold) {
   EXPECT_THROW(readableRecording(path), FormatError);
 }
 
+// Notes that are no file, or may not be read, are no reason to refuse the recording beside them.
+TEST(PalpateDamage, aDsaIsReadableWhateverLiesInThePlaceOfItsNotes) {
+  const TemporaryFolder folder;
+  writeSamples(folder / "r.palpate", 60);
+  const fs::path path = folder / "r.dsa";
+  saveRecording(openRecording(folder / "r.palpate"), {}, path);
+  fs::create_directory(folder / "r.dsa.notes.json");
+  const ReadableRecording readable = readableRecording(path);
+  EXPECT_EQ(readable.profile.numFrames(), 60u);
+  EXPECT_TRUE(readable.events.empty());
+  EXPECT_NE(readable.damage.find("r.dsa.notes.json"), std::string::npos) << readable.damage;
+}
+
 // what info reads, recover saves, whatever bytes are wrong.
 TEST(PalpateDamage, whatCanBeReadCanBeSaved) {
   const TemporaryFolder folder;
