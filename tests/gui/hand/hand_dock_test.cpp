@@ -346,6 +346,26 @@ TEST_F(HandDockTest, AMatrixThatCannotTellTheLimitIsMarkedAndNamed) {
   EXPECT_TRUE(await([&] { return name->toolTip().isEmpty(); }));
 }
 
+// As the refusals: only fingers that the preshape moves, and of a slip-aware grasp the highest limit that it may go to.
+TEST_F(HandDockTest, TheMarkOfAMatrixAgreesWithTheRefusals) {
+  connectTo(testing::handWith("ball"));
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  auto* folded = find<QLabel>("matrixName3");
+  type("sensitivity3", "0");
+  EXPECT_TRUE(await([&] { return folded->toolTip().contains("finger 1 distal can't tell"); }));
+  auto* preshape = find<QComboBox>("preshape");
+  preshape->setCurrentIndex(preshape->findData("pinch-parallel"));
+  EXPECT_TRUE(await([&] { return folded->toolTip().isEmpty(); })) << "it stays folded away";
+  type("threshold0", "2000");
+  auto* name = find<QLabel>("matrixName0");
+  EXPECT_TRUE(await([&] { return name->toolTip().contains("its threshold of 2000"); }))
+      << name->toolTip().toStdString();
+  ASSERT_TRUE(await([&] { return isEnabled("slipAwareGrasp"); }));
+  click("slipAwareGrasp");
+  EXPECT_TRUE(await([&] { return state().contains("2200 counts would not be felt"); }))
+      << state().toStdString();
+}
+
 // L-M3: the hand goes on to its target, and nobody can tell it anything meanwhile.
 TEST_F(HandDockTest, DuringAnUnplugInAMotionItSaysThatTheHandGoesOnAndNothingOfItAfterwards) {
   connectTo(stillHand());
@@ -364,6 +384,21 @@ TEST_F(HandDockTest, DuringAnUnplugInAMotionItSaysThatTheHandGoesOnAndNothingOfI
   dock_->refresh();
   EXPECT_FALSE(state().contains("by itself")) << state().toStdString();
   EXPECT_TRUE(state().startsWith("Ready")) << state().toStdString();
+}
+
+// By a client, say: the buttons are grey.
+TEST_F(HandDockTest, WhatIsRefusedDuringAnUnplugHidesNotThatTheHandGoesOn) {
+  connectTo(stillHand());
+  type("velocity", "10");
+  type("closeRatio", "1");
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  click("graspHand");
+  ASSERT_TRUE(bench_->awaitMotion());
+  bench_->hand->unplug(false, true);
+  ASSERT_TRUE(await([&] { return !isEnabled("relaxHand"); })) << "the port is known to be gone";
+  EXPECT_THROW(bench_->control->grasp({}), DeviceError);
+  dock_->refresh();
+  EXPECT_TRUE(state().contains("goes on to its target by itself")) << state().toStdString();
 }
 
 // L-M8

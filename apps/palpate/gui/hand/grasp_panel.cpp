@@ -130,8 +130,6 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   showStatus({});
 }
 
-int GraspPanel::limitCounts() const { return static_cast<int>(limit_->value()); }
-
 void GraspPanel::remember() {
   settings_.setValue(kPreshape, preshape_->currentData());
   settings_.setValue(kClose, close_->value());

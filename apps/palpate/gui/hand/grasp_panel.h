@@ -24,7 +24,6 @@ class GraspPanel : public QWidget {
   // What may be begun now, and why not.
   void showStatus(const GraspStatus& status);
   GraspRequest request(GraspMode mode) const;
-  int limitCounts() const;  // as it is chosen
   // As they stand: Grasp, Reactive, Slip-aware, Open, Relax.
   QList<QPushButton*> buttons() const { return {grasp_, reactive_, slipAware_, open_, relax_}; }
 

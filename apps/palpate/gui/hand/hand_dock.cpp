@@ -9,7 +9,6 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <palpate/capture/link_health.h>
 #include <palpate/core/time.h>
@@ -27,32 +26,10 @@ namespace {
 
 constexpr int kHandDockRefreshMs = 50;
 constexpr int kHandDockMargin = 12;
-constexpr int kStateLines = 4;              // room that is kept for what is said
-constexpr double kWidestTravelDeg = 180.0;  // of an axis
-constexpr double kStartAndStopS = 0.5;      // of a motion: longer than by its velocity alone
+constexpr int kStateLines = 4;  // room that is kept for what is said
 constexpr const char* kStopTip =
     "Stops the hand now; the motors stay on and hold (Esc, wherever the keyboard is)";
 constexpr const char* kHandDockNothing = "–";
-
-// How long the motion of a grasp takes at most from a pose; no pose: from anywhere [s].
-double longestMotionS(const GraspRequest& request,
-                      const std::vector<double>& fromDeg,
-                      const HandDescription& hand) {
-  double seconds = kWidestTravelDeg / request.velocityDegPerS;
-  try {
-    const MoveJoints motion = motionTo(request, request.closeRatio, hand);
-    if (fromDeg.size() == motion.targetDeg.size()) {
-      seconds = 0.0;
-      for (std::size_t axis = 0; axis < fromDeg.size(); ++axis)
-        seconds = std::max(seconds,
-                           std::abs(motion.targetDeg[axis] - fromDeg[axis]) /
-                               std::max(1e-3, motion.velocityDegPerS[axis]));
-    }
-  } catch (const std::invalid_argument&) {
-    // Of a hand that is described otherwise by now.
-  }
-  return seconds + kStartAndStopS;
-}
 
 FeedOptions smallFeed() {
   FeedOptions options;
@@ -186,8 +163,8 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   session_ = session;
   control_ = control;
   said_.clear();
-  anglesDeg_.clear();
-  goneReturnedUs_ = 0;
+  judged_.reset();
+  layout_.reset();
   feed_ = session ? session->subscribe("the dock Hand", smallFeed()) : nullptr;
   grasp_->setControl(control);
   sensitivity_->setHand(session, control);
@@ -216,8 +193,9 @@ void HandDock::refresh() {
   const GraspStatus status = control_ ? control_->status() : GraspStatus{};
   grasp_->showStatus(status);
   sensitivity_->refresh();
-  showBlind();
-  tactile_->refresh(status);
+  const DeviceFacts facts = session_ ? session_->device().facts() : DeviceFacts{};
+  showBlind(facts.matrices);
+  tactile_->refresh(status, facts);
   showSamples();
   showState(status);
   showBound();
@@ -239,19 +217,28 @@ void HandDock::bind(const Actions& actions) {
   showBound();
 }
 
-// As the grasp would judge them that is chosen now.
-void HandDock::showBlind() {
+// As the grasps would judge them that are offered now: the reactive one, and where that one feels everything the
+// slip-aware one.
+void HandDock::showBlind(const std::vector<MatrixSettings>& settings) {
+  const GraspRequest reactive = grasp_->request(GraspMode::kReactive);
+  Judged now{settings, layout_, reactive.preshape, reactive.limitCounts};
+  if (judged_ == now) return;
+  judged_ = std::move(now);
   std::vector<QString> why;
-  const int limit = grasp_->limitCounts();
-  if (session_ && control_) {
-    const std::vector<MatrixSettings> settings = session_->device().facts().matrices;
-    if (!settings.empty())
-      for (const UnfeltLimit& unfelt : unfeltLimits(session_->device().hand(), settings, limit)) {
-        why.resize(std::max(why.size(), unfelt.matrix + 1));
-        why[unfelt.matrix] = QString::fromStdString(unfelt.why);
-      }
+  GraspRequest judged = reactive;
+  if (session_ && control_ && !settings.empty()) {
+    const HandDescription hand = session_->device().hand();
+    std::vector<UnfeltLimit> unfelt = unfeltLimits(hand, settings, judged);
+    if (unfelt.empty()) {
+      judged = grasp_->request(GraspMode::kSlip);
+      unfelt = unfeltLimits(hand, settings, judged);
+    }
+    for (const UnfeltLimit& each : unfelt) {
+      why.resize(std::max(why.size(), each.matrix + 1));
+      why[each.matrix] = QString::fromStdString(each.why);
+    }
   }
-  tactile_->showBlind(why, limit);
+  tactile_->showBlind(why, highestLimitOf(judged));
   if (why == blind_) return;
   blind_ = why;
   emit blindChanged(blind_);
@@ -282,12 +269,10 @@ void HandDock::showState(const GraspStatus& status) {
     return say(doing(status), false);
   }
   if (!status.cannotMove.empty()) return say(whyNotMoved(status), true);
-  if (status.last && status.last->outcome == GraspOutcome::kPortGone)
-    goneReturnedUs_ = status.last->beginUs;
   if (!said_.isEmpty()) return say(said_, true);
   if (!status.last) return say("Ready.", false);
-  const QString text = ending(*status.last, status);
-  const bool isPast = text.startsWith("Ready");
+  if (const auto over = whatIsOver(*status.last, status)) return say(*over, false);
+  const QString text = QString::fromStdString(status.last->text);
   switch (status.last->outcome) {
     case GraspOutcome::kFinished:
     case GraspOutcome::kLimitReached:
@@ -295,7 +280,7 @@ void HandDock::showState(const GraspStatus& status) {
     case GraspOutcome::kRelaxed:
       return say(text, false);
     default:
-      return say(text, !isPast);
+      return say(text, true);
   }
 }
 
@@ -310,27 +295,28 @@ QString HandDock::doing(const GraspStatus& status) const {
   return phase + " · " + what;
 }
 
-QString HandDock::whyNotMoved(const GraspStatus& status) {
+QString HandDock::whyNotMoved(const GraspStatus& status) const {
   const QString why = QString::fromStdString(status.cannotMove);
-  const bool inAMotion = status.last && status.last->outcome == GraspOutcome::kPortGone &&
-                         status.last->beginUs != goneReturnedUs_;
-  if (!inAMotion) return "The hand can't be moved: " + why;
-  const GraspReport& last = *status.last;
-  const double sinceS = static_cast<double>(session_->nowUs() - last.endUs) / kUsPerS;
-  const double longestS = longestMotionS(last.request, anglesDeg_, session_->device().hand());
+  if (!status.portGone) return "The hand can't be moved: " + why;
   const QString gone = "The motion port is gone (" + why + "). ";
-  if (sinceS < longestS)
-    return gone + "The hand goes on to its target by itself, " + figure(longestS, 0) +
+  const double goesOnS = status.portGone->goesOnS.value_or(0.0);
+  if (goesOnS == 0.0) return gone + "The hand stands still, and the motors hold.";
+  const double leftS =
+      goesOnS - static_cast<double>(session_->nowUs() - status.portGone->endUs) / kUsPerS;
+  if (leftS > 0.0)
+    return gone + "The hand goes on to its target by itself, " + figure(std::ceil(leftS), 0) +
            " s at most: no stop reaches it.";
   return gone + "The motion that ran is over, and the motors hold.";
 }
 
-QString HandDock::ending(const GraspReport& report, const GraspStatus& status) const {
+// Where the grasp was ended by what is no longer so.
+std::optional<QString> HandDock::whatIsOver(const GraspReport& report,
+                                            const GraspStatus& status) const {
   if (report.outcome == GraspOutcome::kPortGone)
     return "Ready. The motion port was gone during a motion, and is back.";
   if (report.outcome == GraspOutcome::kStreamDead && status.cannotReact.empty())
     return "Ready. The last grasp was stopped: no tactile frames came. Now they come.";
-  return QString::fromStdString(report.text);
+  return std::nullopt;
 }
 
 void HandDock::showSamples() {
@@ -342,8 +328,8 @@ void HandDock::showSamples() {
   for (const CaptureItem& item : items_) {
     if (const auto* sample = std::get_if<JointAngles>(&item)) angles = sample;
     if (const auto* sample = std::get_if<Temperatures>(&item)) temperatures = sample;
+    if (const auto* frame = std::get_if<SharedFrame>(&item)) layout_ = (*frame)->layout;
   }
-  if (angles) anglesDeg_ = angles->deg;
   if (angles)
     for (std::size_t i = 0; i < std::min(angles->deg.size(), angles_->facts().size()); ++i)
       angles_->setValue(i, figure(angles->deg[i], 1) + "°");

@@ -5,8 +5,9 @@
 #include <QSettings>
 #include <QTimer>
 #include <QWidget>
-#include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -61,11 +62,10 @@ class HandDock : public QWidget {
   void say(const QString& text, bool bad);
   void showState(const GraspStatus& status);
   void showBound();
-  void showBlind();
+  void showBlind(const std::vector<MatrixSettings>& settings);
   QString doing(const GraspStatus& status) const;
-  QString whyNotMoved(const GraspStatus& status);
-  // How a grasp ended, as long as that is still so.
-  QString ending(const GraspReport& report, const GraspStatus& status) const;
+  QString whyNotMoved(const GraspStatus& status) const;
+  std::optional<QString> whatIsOver(const GraspReport& report, const GraspStatus& status) const;
   void showSamples();
   void showTemperatures(const Temperatures& temperatures);
 
@@ -87,9 +87,16 @@ class HandDock : public QWidget {
   QString said_;  // a refusal, until something else is asked for
   std::vector<std::pair<QAction*, QPushButton*>> bound_;
   std::vector<QString> blind_;
-  std::vector<double> anglesDeg_;  // the newest; empty: none came
-  std::int64_t goneReturnedUs_ =
-      0;  // begin of the newest grasp after whose port the port came back
+  // What blind_ was judged by.
+  struct Judged {
+    std::vector<MatrixSettings> settings;
+    std::shared_ptr<const SensorLayout> layout;
+    std::string preshape;
+    int limitCounts = 0;
+    bool operator==(const Judged&) const = default;
+  };
+  std::optional<Judged> judged_;
+  std::shared_ptr<const SensorLayout> layout_;  // of the newest frame, its masks; null: none came
   Theme theme_ = Theme::kDark;
 };
 

@@ -58,7 +58,7 @@ TactileSettingsPanel::TactileSettingsPanel(QSettings& settings, QWidget* parent)
   column->addWidget(table_);
   column->addWidget(note_);
   makeButtons();
-  refresh({});
+  refresh({}, {});
 }
 
 QWidget* TactileSettingsPanel::makeRow(int row, const QString& name) {
@@ -147,7 +147,8 @@ void TactileSettingsPanel::setHand(CaptureSession* session, GraspControl* contro
   pending_.clear();
   listedFor_ = QString();
   listNames();
-  refresh(control ? control->status() : GraspStatus{});
+  refresh(control ? control->status() : GraspStatus{},
+          session ? session->device().facts() : DeviceFacts{});
 }
 
 QString TactileSettingsPanel::serial() const {
@@ -195,9 +196,9 @@ void TactileSettingsPanel::heedAnswers() {
   std::erase_if(pending_, isReady);
 }
 
-void TactileSettingsPanel::refresh(const GraspStatus& status) {
+void TactileSettingsPanel::refresh(const GraspStatus& status, const DeviceFacts& facts) {
   heedAnswers();
-  const TactileSettings values = session_ ? session_->device().facts().matrices : TactileSettings{};
+  const TactileSettings& values = facts.matrices;
   QString why;
   if (!session_)
     why = "No hand is connected.";
@@ -215,7 +216,7 @@ void TactileSettingsPanel::refresh(const GraspStatus& status) {
   names_->setEnabled(may && names_->count() > 1);
   save_->setEnabled(may);
   remove_->setEnabled(may && names_->currentIndex() > 0);
-  if (listedFor_ != serial()) listNames();
+  if (listedFor_ != QString::fromStdString(facts.serial)) listNames();
   if (pending_.empty() && !values.empty()) showValues(values);
   if (values.empty())
     for (const Row& row : rows_) {

@@ -28,7 +28,7 @@ class TactileSettingsPanel : public QWidget {
   // Null: no hand. Both must outlive this, or be taken away before.
   void setHand(CaptureSession* session, GraspControl* control);
   // Shows what the hand says, and whether it may be changed now. Now and then.
-  void refresh(const GraspStatus& status);
+  void refresh(const GraspStatus& status, const DeviceFacts& facts);
   void setTheme(Theme theme);
   // Marks the matrices that can't tell a limit [counts], as they are set: why, one text per matrix; empty: it can.
   void showBlind(const std::vector<QString>& why, int limitCounts);
