@@ -33,9 +33,7 @@ QWidget* overlay(QWidget* parent, const char* name) {
   return widget;
 }
 
-constexpr double kTimelineMouseWheelStep = 1.25;  // zoom per notch
-constexpr double kTimelineMouseNotch = 120.0;     // angleDelta of one notch
-constexpr double kTimelineMouseWheelPan = 0.1;    // part of what is seen per notch
+constexpr double kTimelineMouseWheelPan = 0.1;  // part of what is seen per notch
 constexpr double kHandleReach = 6.0;  // [px] beside a handle or the cursor that still take it
 
 }  // namespace
@@ -421,15 +419,15 @@ void TimelineChart::mouseDoubleClickEvent(QMouseEvent* event) {
 
 void TimelineChart::wheelEvent(QWheelEvent* event) {
   if (!recording_) return;
-  const double notches = event->angleDelta().y() / kTimelineMouseNotch;
-  const double sideways = event->angleDelta().x() / kTimelineMouseNotch;
+  const double notches = event->angleDelta().y() / kWheelNotch;
+  const double sideways = event->angleDelta().x() / kWheelNotch;
   if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier) {
     const QCPRange range = xAxis->range();
     const double moved =
         -(sideways != 0.0 ? sideways : notches) * kTimelineMouseWheelPan * range.size();
     setSeen(range.lower + moved, range.upper + moved);
   } else {
-    zoomAbout(secondsAt(event->position().x()), std::pow(kTimelineMouseWheelStep, notches));
+    zoomAbout(secondsAt(event->position().x()), std::pow(kWheelZoom, notches));
   }
   event->accept();
 }
