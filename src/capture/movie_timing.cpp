@@ -6,7 +6,7 @@
 #include <string>
 
 #include "palpate/core/time.h"
-#include "palpate/model/gap_rule.h"
+#include "palpate/model/gap_detector.h"
 #include "palpate/model/timing.h"
 
 namespace palpate {

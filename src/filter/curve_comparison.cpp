@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "palpate/model/gap_rule.h"
+#include "palpate/model/gap_detector.h"
 
 namespace palpate {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "palpate/core/error.h"
-#include "palpate/model/gap_rule.h"
+#include "palpate/model/gap_detector.h"
 
 #include "filter/real_fourier.h"
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "palpate/core/time.h"
-#include "palpate/model/gap_rule.h"
+#include "palpate/model/gap_detector.h"
 
 namespace palpate {
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "palpate/model/gap_rule.h"
-
 namespace palpate {
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "palpate/model/gap_rule.h"
+#include "palpate/model/gap_detector.h"
 
 namespace palpate {
 namespace {

@@ -8,6 +8,12 @@
 
 namespace palpate {
 
+// Two neighbours in time are a gap apart when they are further than max(kShortestGapS, kGapIntervals medians of their
+// intervals).
+inline constexpr std::int64_t kShortestGapUs = 1'000'000;  // [us]
+inline constexpr double kShortestGapS = 1.0;               // [s]
+inline constexpr int kGapIntervals = 5;
+
 class GapDetector {
  public:
   // The next stamp [us], ascending. True: the interval before it is longer than max(1 s, 5 medians of the last
