@@ -1,6 +1,7 @@
 #include "palpate/core/file_descriptor.h"
 
 #include <fcntl.h>
+#include <unistd.h>
 
 #include "testing/testing.h"
 

@@ -3,16 +3,12 @@
 
 #include <utility>
 
-#include <unistd.h>
-
 namespace palpate {
 
 class FileDescriptor {
  public:
   explicit FileDescriptor(int fd = -1) noexcept : fd_(fd) {}  // -1: none
-  ~FileDescriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
+  ~FileDescriptor();
   FileDescriptor(FileDescriptor&& other) noexcept : fd_(other.release()) {}
   // What was held before goes with `other`.
   FileDescriptor& operator=(FileDescriptor&& other) noexcept {
