@@ -6,15 +6,12 @@
 
 #include <palpate/core/error.h>
 
+#include "gui/look/path_text.h"
 #include "gui/picture/movie_writer.h"
 #include "gui/picture/picture_series.h"
 
 namespace palpate::gui {
 namespace {
-
-QString pathText(const std::filesystem::path& path) {
-  return QString::fromStdString(path.string());
-}
 
 // What can go wrong becomes a line of the report.
 ExportReport guarded(ExportReport report, const std::function<void(ExportReport&)>& work) {

@@ -8,6 +8,8 @@
 
 #include <palpate/core/error.h>
 
+#include "gui/look/path_text.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -16,9 +18,6 @@ constexpr qsizetype kMostIgnored = 500;                 // the oldest are forgot
 constexpr double kUnfinishedFinderSmallestNews = 0.01;  // progress is reported in steps of this
 
 std::string narrow(const QString& path) { return path.toStdString(); }
-QString pathText(const std::filesystem::path& path) {
-  return QString::fromStdString(path.string());
-}
 
 // A recording as it was then; when it changes it is another one.
 QString entryOf(const QString& path, std::int64_t changedUs) {
