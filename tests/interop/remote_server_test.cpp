@@ -199,7 +199,7 @@ TEST_F(RemoteServerTest, AFarTooLongLineIsSaidAndSkipped) {
       return sent == piece.size();
     }));
   }
-  client.send("\nstatus\n");
+  ASSERT_EQ(client.send("\nstatus\n", 5000), 8u) << "as soon as there is room";
   EXPECT_EQ(Json::parse(client.line().value()).at("error").asString(), "too_long");
   EXPECT_EQ(Json::parse(client.line().value()).at("command").asString(), "status");
 }
