@@ -93,7 +93,7 @@ class GraspMachine {
     return phase_ == GraspPhase::kPreshaping || phase_ == GraspPhase::kClosing ||
            phase_ == GraspPhase::kLoosening;
   }
-  // Of a slip-aware grasp (grasp_machine_slip.cpp).
+  // Of a slip-aware grasp.
   enum class Next { kEnd, kSettle, kClose };  // when a stop was taken
   bool holds() const noexcept {
     return isSlipAware() && (phase_ == GraspPhase::kSettling || phase_ == GraspPhase::kHolding);

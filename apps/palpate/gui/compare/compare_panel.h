@@ -96,7 +96,7 @@ class ComparePanel : public QWidget {
   void moveTo(double offsetS, bool keepSeen);
   void swap();
   void askForAnother();
-  // compare_panel_view.cpp: what is seen of it
+  // What is seen of it.
   void showEmpty();
   void showCurves();
   void showFrames();

@@ -96,7 +96,7 @@ void PortField::setDetail(int choice, const QString& detail) {
   if (box_->view()->isVisible()) box_->view()->viewport()->update();
 }
 
-void PortField::showState(const PortState& state) {
+void PortField::showState(const PortFieldState& state) {
   mark_->setState(state.mark);
   answer_->setText(state.text.isEmpty() && port().isEmpty() ? whenEmpty_ : state.text);
 }

@@ -13,7 +13,7 @@
 namespace palpate::gui {
 
 // What a field shows of its port.
-struct PortState {
+struct PortFieldState {
   StateMark::State mark = StateMark::State::kNone;
   QString text;
 };
@@ -38,7 +38,7 @@ class PortField : public QWidget {
   // The choices, one detail line each; what stands in the field stays.
   void setChoices(const QList<ScannedPort>& ports);
   void setDetail(int choice, const QString& detail);
-  void showState(const PortState& state);
+  void showState(const PortFieldState& state);
   QComboBox* box() { return box_; }
 
  signals:

@@ -258,11 +258,11 @@ std::optional<PortProbe> PortsPage::probeOf(const PortField& field) const {
   return *answer;
 }
 
-PortState PortsPage::stateOf(const PortField& field, PortAnswer wanted) const {
+PortFieldState PortsPage::stateOf(const PortField& field, PortAnswer wanted) const {
   if (field.port().isEmpty())
     return scan_.running() && !field.touched()
-               ? PortState{PortsPageState::kAtWork, "Looking for it…"}
-               : PortState{};
+               ? PortFieldState{PortsPageState::kAtWork, "Looking for it…"}
+               : PortFieldState{};
   const QString key = keyOf(field.port());
   if (const auto probe = probeOf(field)) {
     const bool other =

@@ -51,7 +51,7 @@ class PortsPage : public QWidget {
   QString keyOf(const QString& port) const;
   const ScannedPort* listed(const QString& key) const;
   std::optional<PortProbe> probeOf(const PortField& field) const;
-  PortState stateOf(const PortField& field, PortAnswer wanted) const;
+  PortFieldState stateOf(const PortField& field, PortAnswer wanted) const;
   QString swapText() const;
   QString helpText() const;
 
