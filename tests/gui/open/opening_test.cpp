@@ -4,6 +4,7 @@
 #include <QDropEvent>
 #include <QMenu>
 #include <QMimeData>
+#include <QMouseEvent>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QScrollBar>
@@ -13,6 +14,7 @@
 
 #include "gui/compare/compare_panel.h"
 #include "gui/library/library_panel.h"
+#include "gui/matrices/matrices_view.h"
 #include "gui/open/start_page.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/widgets/message_banner.h"
@@ -298,6 +300,22 @@ TEST_F(OpeningTest, WhatIsAskedForIsShownWhateverIsComparedMeanwhile) {
   EXPECT_TRUE(window().compareShown());
   ASSERT_NE(window().compare().b(), nullptr);
   EXPECT_EQ(window().compare().b()->path.filename(), "good3.dsa");
+}
+
+// The mouse rests on a taxel: what it says of it is asked for while recordings change.
+TEST_F(OpeningTest, AShorterRecordingIsShownUnderTheMouse) {
+  open({"good1.dsa", "gap2.dsa"});
+  playback().seekFrame(19);
+  MatricesView& view = window().matricesView();
+  const QPointF at = view.geometryOfMatrices().taxelRect(1, 7, 2).center();
+  QMouseEvent move(
+      QEvent::MouseMove, at, view.mapToGlobal(at), Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+  QApplication::sendEvent(&view, &move);
+  ASSERT_FALSE(view.hoverText().isEmpty());
+  press(Qt::Key_Tab, Qt::ControlModifier);
+  EXPECT_EQ(currentName(), "gap2.dsa");
+  EXPECT_EQ(playback().numFrames(), 10u);
+  EXPECT_EQ(playback().frame(), 0u);
 }
 
 TEST_F(OpeningTest, TheDemoIsOfferedOnlyWhereItsFileIs) {

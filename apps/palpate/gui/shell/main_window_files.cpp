@@ -129,6 +129,8 @@ void MainWindow::listRecordings() {
 void MainWindow::showRecording(const OpenedRecordingPtr& recording) {
   if (recording == current_ && current_ && !liveShown_) return;
   if (!liveShown_) noteWhereWeAre();
+  // Until the new one is everywhere nobody asks it for the old one's frame.
+  playback_.setProfile(std::nullopt);
   current_ = recording;
   shown_ = recording;
   // What is connected goes on, and comes back when no recording is left.
