@@ -27,10 +27,6 @@ constexpr int kAskAgainRounds = 10;  // by itself: twice a second
 constexpr double kSteadyS = 0.8;     // held so long before it is asked by itself
 constexpr std::size_t kWaitingItems = 2048;
 constexpr double kAirS = 1.0;  // about a grasp that is shown
-constexpr double kZeroDegPerS = 8.0, kZeroOpenDegPerS = 20.0;
-constexpr int kZeroLimitCounts = 600;
-constexpr double kZeroHoldS = 1.5;
-constexpr double kZeroOpenS = 10.0;
 
 }  // namespace
 
@@ -57,11 +53,9 @@ void MainWindow::RecogniseView::connectAll() {
   });
   connect(&panel_->today(), &TodayPage::zeroAsked, this, &RecogniseView::beginZero);
   // After a stop, or anything else that is asked of the hand, nothing of a zero moves it any more.
-  const auto giveUpZero = [this] {
-    if (zeroStep_ != Zero::kNone) endZero("given up");
-  };
-  connect(window.hand_, &HandDock::stopPressed, this, giveUpZero);
-  connect(window.hand_->findChild<GraspPanel*>(), &GraspPanel::asked, this, giveUpZero);
+  connect(window.hand_, &HandDock::stopPressed, this, &RecogniseView::giveUpZero);
+  connect(
+      window.hand_->findChild<GraspPanel*>(), &GraspPanel::asked, this, &RecogniseView::giveUpZero);
   connect(&panel_->check(), &CheckPage::graspAsked, this, &RecogniseView::showGrasp);
   connect(&window, &MainWindow::recordingShown, this, &RecogniseView::showWanted);
   panel_->teach().zeroNow = [this] { return zero_; };
@@ -168,7 +162,7 @@ void MainWindow::RecogniseView::listen(bool on) {
   feed_.reset();
   collector_.reset();
   lastGrasp_.reset();
-  zeroStep_ = Zero::kNone;
+  zeroRun_.reset();
   zero_.reset();
   panel_->desk().letGo();
   if (!on) panel_->teach().setLive(false);
@@ -178,6 +172,7 @@ void MainWindow::RecogniseView::listen(bool on) {
   options.tactileItems = options.motionItems = kWaitingItems;
   feed_ = source->session->subscribe("recognition", options);
   collector_ = std::make_unique<GraspCollector>(source->session->device().hand());
+  if (source->control) zeroRun_ = std::make_unique<EmptyHandRun>(*source->control);
   hearing_.start();
 }
 
@@ -227,16 +222,15 @@ void MainWindow::RecogniseView::showFull() {
 }
 
 void MainWindow::RecogniseView::takeEnded(Profile grasp) {
-  if (zeroStep_ == Zero::kNone) {
+  if (!zeroRun_ || !zeroRun_->active()) {
     panel_->teach().take(grasp);
     lastGrasp_ = std::move(grasp);
     return;
   }
-  if (zeroStep_ != Zero::kOpening) return endZero("the pads let go of each other");
+  if (const auto trouble = zeroRun_->padsLetGo()) return sayNoZero(*trouble);
   EmptyHandZero zero = emptyHandZero(grasp);
   zero.origin = "the connected hand";
-  if (!zero.trouble.empty()) return endZero(QString::fromStdString(zero.trouble));
-  zeroStep_ = Zero::kNone;
+  if (!zero.trouble.empty()) return sayNoZero(zero.trouble);
   zero_ = zero;
   window_.flash("the empty hand reads " + figure(zero.mm, 1) + " ± " + figure(zero.sdMm, 1) +
                 " mm");
@@ -245,58 +239,31 @@ void MainWindow::RecogniseView::takeEnded(Profile grasp) {
 
 void MainWindow::RecogniseView::beginZero() {
   LiveSource* source = window_.live_.source();
-  if (!source || !source->control) return;
+  if (!source || !zeroRun_) return;
   if (collector_->touched()) return window_.flash("the hand isn't empty: something touches it");
-  // From before the command on: the grasp it begins is told from an earlier one by its time.
-  zeroSinceUs_ = source->session->nowUs();
   try {
-    source->control->grasp({.mode = GraspMode::kReactive,
-                            .preshape = "pinch-empty",
-                            .startRatio = 0.0,
-                            .closeRatio = 1.0,
-                            .velocityDegPerS = kZeroDegPerS,
-                            .limitCounts = kZeroLimitCounts});
+    zeroRun_->begin(source->session->nowUs());
   } catch (const std::exception& error) {
-    return window_.flash(error.what());
+    window_.flash(error.what());
   }
-  zeroStep_ = Zero::kClosing;
 }
 
-void MainWindow::RecogniseView::endZero(const QString& trouble) {
-  zeroStep_ = Zero::kNone;
-  window_.flash("no zero: " + trouble);
+void MainWindow::RecogniseView::giveUpZero() {
+  if (!zeroRun_ || !zeroRun_->active()) return;
+  zeroRun_->giveUp();
+  sayNoZero("given up");
+}
+
+void MainWindow::RecogniseView::sayNoZero(const std::string& why) {
+  window_.flash("no zero: " + QString::fromStdString(why));
 }
 
 void MainWindow::RecogniseView::goOnWithZero() {
   LiveSource* source = window_.live_.source();
-  if (!source || !source->control) return;
-  const GraspStatus status = source->control->status();
-  panel_->today().setZeroPossible(QString::fromStdString(status.cannotReact),
-                                  zeroStep_ != Zero::kNone);
-  if (zeroStep_ == Zero::kNone) return;
-  const std::int64_t nowUs = source->session->nowUs();
-  const double seconds = static_cast<double>(nowUs - zeroSinceUs_) / 1e6;
-  const bool ended = status.phase == GraspPhase::kIdle && status.last;
-  const auto next = [&](Zero step) {
-    zeroStep_ = step;
-    zeroSinceUs_ = nowUs;
-  };
-  if (zeroStep_ == Zero::kClosing) {
-    if (!ended || status.last->beginUs < zeroSinceUs_) return;
-    const GraspOutcome outcome = status.last->outcome;
-    if (outcome != GraspOutcome::kLimitReached && outcome != GraspOutcome::kFinished)
-      return endZero(QString::fromStdString(status.last->text));
-    return next(Zero::kHolding);
-  }
-  if (seconds < kZeroHoldS) return;
-  if (zeroStep_ == Zero::kOpening)
-    return seconds > kZeroOpenS ? endZero("the pads didn't touch, or don't let go") : void();
-  try {
-    source->control->preshape("pinch-empty", kZeroOpenDegPerS);
-  } catch (const std::exception& error) {
-    return endZero(error.what());
-  }
-  next(Zero::kOpening);
+  if (!source || !zeroRun_) return;
+  panel_->today().setZeroPossible(QString::fromStdString(source->control->status().cannotReact),
+                                  zeroRun_->active());
+  if (const auto trouble = zeroRun_->step(source->session->nowUs())) sayNoZero(*trouble);
 }
 
 void MainWindow::RecogniseView::showGrasp(const std::filesystem::path& file,
@@ -326,13 +293,14 @@ bool MainWindow::RecogniseView::cancel() {
     return true;
   }
   // The key stops the hand, too.
-  if (zeroStep_ != Zero::kNone) endZero("given up");
+  giveUpZero();
   return panel_->cancel();
 }
 
 void MainWindow::RecogniseView::leave() {
   hearing_.stop();
   feed_.reset();
+  zeroRun_.reset();
   delete full_;
   delete dock_;
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include <palpate/control/empty_hand_run.h>
 #include <palpate/recognition/empty_hand.h>
 #include <palpate/recognition/grasp_collector.h>
 
@@ -44,7 +45,8 @@ class MainWindow::RecogniseView : public QObject {
   // The zero of the empty hand: close until the pads touch, hold, open.
   void beginZero();
   void goOnWithZero();
-  void endZero(const QString& trouble);
+  void giveUpZero();
+  void sayNoZero(const std::string& why);
   // A grasp of a recording that may have to be opened first.
   void showGrasp(const std::filesystem::path& file, std::size_t begin, std::size_t end);
   void showWanted();
@@ -60,9 +62,8 @@ class MainWindow::RecogniseView : public QObject {
   std::optional<Profile> lastGrasp_;
   QTimer hearing_;
   int sinceAsked_ = 0;  // rounds
-  enum class Zero { kNone, kClosing, kHolding, kOpening };
-  Zero zeroStep_ = Zero::kNone;
-  std::int64_t zeroSinceUs_ = 0;       // of the step, host time
+  std::unique_ptr<EmptyHandRun>
+      zeroRun_;                        // of the source that is connected; null: it has no control
   std::optional<EmptyHandZero> zero_;  // of today
   struct Wanted {
     std::filesystem::path file;
