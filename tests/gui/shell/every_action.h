@@ -131,6 +131,9 @@ class PressedWindow {
       QDesktopServices::setUrlHandler(scheme, &nobody_, "opensNothing");
     for (const char* name : {"a.dsa", "b.dsa"})
       std::filesystem::copy_file(testing::dataFolder() / "demo_grasps.dsa", folder_ / name);
+    // Labels of the demo recording are saved beside it.
+    std::filesystem::copy(
+        testing::dataFolder(), folder_ / "data", std::filesystem::copy_options::recursive);
     restart();
   }
   ~PressedWindow() {
@@ -274,7 +277,7 @@ class PressedWindow {
   void restart() {
     end();
     WindowSurroundings surroundings;
-    surroundings.dataFolder = testing::dataFolder();
+    surroundings.dataFolder = folder_ / "data";
     surroundings.settingsPath = QString::fromStdString((folder_ / "palpate.ini").string());
     window_ = std::make_unique<MainWindow>(surroundings);
     window_->resize(1440, 900);
