@@ -19,6 +19,12 @@ namespace {
 constexpr double kLeastVariancePart = 1e-6;
 constexpr double kLeastVariance = 1e-12;
 
+// std::lgamma() writes the sign into a variable of the whole process, and models are made on several threads.
+double logGamma(double x) {
+  int sign = 0;
+  return ::lgamma_r(x, &sign);
+}
+
 void requireSamples(const Eigen::MatrixXd& x,
                     const std::vector<int>& y,
                     std::size_t classes,
@@ -205,7 +211,7 @@ DayModel::Prepared DayModel::prepare(const DayBell& bell, const std::string& wha
   const double nu = data_.degreesOfFreedom, n = static_cast<double>(d);
   const double lnDeterminant =
       2.0 * (root.matrixLLT().diagonal().array().log().sum() - scale.array().log().sum());
-  out.constant = std::lgamma((nu + n) / 2.0) - std::lgamma(nu / 2.0) -
+  out.constant = logGamma((nu + n) / 2.0) - logGamma(nu / 2.0) -
                  0.5 * n * std::log(nu * std::numbers::pi) - 0.5 * lnDeterminant;
   return out;
 }

@@ -74,12 +74,12 @@ TEST_F(PackageLists, WhatIsMissingIsNamedWithTheListItBelongsTo) {
   EXPECT_EQ(result.exitCode, 1) << result.err;
   const std::string lists =
       " not brought by cmake/debian-packages.txt and cmake/debian-test-packages.txt. ";
-  const std::string begins[] = {"of no package:" + lists + path,
-                                "libqt6opengl6-dev:" + lists,
-                                "python3-matplotlib:" + lists,
-                                "xauth:" + lists};
+  std::vector<std::string> begins = {
+      "of no package:" + lists + path, "python3-matplotlib:" + lists, "xauth:" + lists};
+  // A build without the window takes nothing from Qt.
+  if (*PALPATE_PROGRAM) begins.insert(begins.begin() + 1, "libqt6opengl6-dev:" + lists);
   const auto lines = linesOf(result.out);
-  ASSERT_EQ(lines.size(), std::size(begins)) << result.out;
+  ASSERT_EQ(lines.size(), begins.size()) << result.out;
   for (std::size_t i = 0; i < lines.size(); ++i)
     EXPECT_TRUE(lines[i].starts_with(begins[i])) << lines[i];
 }
