@@ -21,6 +21,7 @@ void EmptyHandRun::begin(std::int64_t hostUs) {
   request.closeRatio = 1.0;
   request.velocityDegPerS = options_.closingDegPerS;
   request.limitCounts = options_.limitCounts;
+  stopsBefore_ = control_.status().stopsAsked;
   control_.grasp(request);
   state_ = State::kClosing;
 }
@@ -28,8 +29,9 @@ void EmptyHandRun::begin(std::int64_t hostUs) {
 std::optional<std::string> EmptyHandRun::step(std::int64_t hostUs) {
   if (state_ == State::kIdle) return std::nullopt;
   const double seconds = static_cast<double>(hostUs - sinceUs_) / kUsPerS;
+  const GraspStatus status = control_.status();
+  if (status.stopsAsked != stopsBefore_) return ended("the hand was stopped");
   if (state_ == State::kClosing) {
-    const GraspStatus status = control_.status();
     if (status.phase != GraspPhase::kIdle || !status.last || status.last->beginUs < sinceUs_)
       return std::nullopt;
     const GraspOutcome outcome = status.last->outcome;
@@ -43,6 +45,7 @@ std::optional<std::string> EmptyHandRun::step(std::int64_t hostUs) {
     if (seconds > options_.longestOpenS) return ended("the pads didn't touch, or don't let go");
     return std::nullopt;
   }
+  if (status.phase != GraspPhase::kIdle) return ended("the hand does something else");
   if (seconds < options_.holdS) return std::nullopt;
   try {
     control_.preshape(options_.preshape, options_.openingDegPerS);

@@ -195,6 +195,8 @@ void GraspControl::heedPorts() {
 std::string GraspControl::motionProblem(const DeviceStatus& status) {
   const std::optional<PortStatus>& motion = status.motion;
   if (!motion) return "no motion port is connected";
+  // Whatever the motion port hears of a tactile controller, which sends no lines.
+  if (status.tactile.found == PortAnswer::kMotion) return "the two ports are swapped";
   switch (motion->state) {
     case PortState::kStreaming:
     case PortState::kSilent:  // asked again, or given up as lost, within a second
@@ -294,6 +296,7 @@ void GraspControl::preshape(const std::string& name, double velocityDegPerS) {
 void GraspControl::stop() noexcept {
   {
     const std::lock_guard lock(mutex_);
+    ++stopsAsked_;
     try {
       machine_.stop(clock_.monotonicUs());
       const bool sentBefore = asked_ && asked_->isStop;
@@ -314,6 +317,7 @@ void GraspControl::stop() noexcept {
 void GraspControl::relax() noexcept {
   {
     const std::lock_guard lock(mutex_);
+    ++stopsAsked_;
     try {
       free_.push_back(session_.device().submit(StopMotion{}));
       free_.push_back(session_.device().submit(SetPower{}));
@@ -356,6 +360,7 @@ GraspStatus GraspControl::status() const {
   status.last = last_;
   status.cannotMove = motionProblem(session_.device().status());
   if (!status.cannotMove.empty()) status.portGone = portGone_;
+  status.stopsAsked = stopsAsked_;
   status.cannotReact = status.cannotMove;
   if (status.cannotReact.empty() && !machine_.stream().alive(clock_.monotonicUs()))
     status.cannotReact = "no tactile frames come";

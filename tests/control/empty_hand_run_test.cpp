@@ -56,12 +56,35 @@ TEST_F(EmptyHandRunTest, AStopOfTheHandEndsItAndNothingMovesAfterwards) {
   bench_.control->stop();
   bench_.feel(5);
   const std::size_t motions = numMotions();
-  const auto why = run_.step(now());
-  ASSERT_TRUE(why.has_value());
-  EXPECT_EQ(*why, bench_.control->status().last->text);
+  EXPECT_EQ(run_.step(now()), "the hand was stopped");
   EXPECT_FALSE(run_.active());
   pass(5.1);
   EXPECT_EQ(run_.step(now()), std::nullopt) << "told once";
+  EXPECT_EQ(numMotions(), motions);
+}
+
+// Nothing moves while it holds: the control has no grasp that could end.
+TEST_F(EmptyHandRunTest, AStopWhileItHoldsEndsItToo) {
+  for (const bool relaxed : {false, true}) {
+    closeUntilThePadsTouch();
+    run_.step(now());
+    ASSERT_EQ(run_.state(), EmptyHandRun::State::kHolding);
+    relaxed ? bench_.control->relax() : bench_.control->stop();
+    const std::size_t motions = numMotions();
+    pass(3.0);
+    EXPECT_EQ(run_.step(now()), "the hand was stopped");
+    EXPECT_EQ(numMotions(), motions) << "it doesn't open";
+    pass(0.9, 0.0F);
+  }
+}
+
+TEST_F(EmptyHandRunTest, AMotionOfSomebodyElseWhileItHoldsEndsIt) {
+  closeUntilThePadsTouch();
+  run_.step(now());
+  bench_.control->preshape("centrical", 5.0);
+  const std::size_t motions = numMotions();
+  pass(0.3);
+  EXPECT_EQ(run_.step(now()), "the hand does something else");
   EXPECT_EQ(numMotions(), motions);
 }
 

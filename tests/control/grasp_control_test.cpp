@@ -35,6 +35,14 @@ TEST(GraspControl, ConnectingSendsNothing) {
   EXPECT_TRUE(bench.hand->commands.empty());
 }
 
+TEST(GraspControl, SaysOfSwappedPortsThatTheyAre) {
+  GraspBench bench;
+  bench.hand->state.tactile.found = PortAnswer::kMotion;
+  bench.hand->state.motion->state = PortState::kConnecting;
+  bench.hand->state.motion->message = "no motion controller answers here; check cable and power";
+  EXPECT_EQ(bench.control->status().cannotMove, "the two ports are swapped");
+}
+
 TEST(GraspControl, ReactiveGraspStopsWithTheFrameThatCrossesTheLimit) {
   GraspBench bench;
   bench.control->grasp(reactive(200));

@@ -20,8 +20,8 @@ class EmptyHandRun {
     double openingDegPerS = 20.0;
     int limitCounts = 600;  // of the largest taxel, which ends closing
     double holdS = 1.5;     // so long the pads press on each other
-    double longestOpenS =
-        10.0;  // from the command to open until the pads must have let go of each other
+    // From the command to open until the pads must have let go of each other.
+    double longestOpenS = 10.0;
   };
   enum class State { kIdle, kClosing, kHolding, kOpening };
 
@@ -50,6 +50,7 @@ class EmptyHandRun {
   Options options_;
   State state_ = State::kIdle;
   std::int64_t sinceUs_ = 0;  // of the state
+  std::uint64_t stopsBefore_ = 0;
 };
 
 }  // namespace palpate

@@ -32,7 +32,8 @@ struct GraspStatus {
   std::string cannotMove;               // why no motion can begin, one line; empty: it can
   // The grasp whose motion port went away, as long as it has not come back, whatever was refused since.
   std::optional<GraspReport> portGone;
-  std::string cannotReact;  // why no reactive grasp can begin; empty: it can
+  std::uint64_t stopsAsked = 0;  // of stop() and relax() so far, whether something moved or not
+  std::string cannotReact;       // why no reactive grasp can begin; empty: it can
   std::string
       cannotChange;       // why sensitivity, threshold and masks can't be changed; empty: they can
   double periodMs = 0.0;  // median period of the frames [ms]; 0: not known
@@ -122,8 +123,9 @@ class GraspControl {
   std::optional<GraspReport> last_;
   std::deque<GraspChange> changes_;
   std::optional<GraspReport> portGone_;  // see GraspStatus
-  std::string lastFault_;                // said, and not again for a while in this grasp
-  std::int64_t lastFaultUs_ = 0;         // [monotonic us]
+  std::uint64_t stopsAsked_ = 0;
+  std::string lastFault_;         // said, and not again for a while in this grasp
+  std::int64_t lastFaultUs_ = 0;  // [monotonic us]
   struct Owed {
     RecordingEvent event;
     bool ends = false;  // of a grasp
