@@ -386,6 +386,26 @@ TEST_F(HandDockTest, DuringAnUnplugInAMotionItSaysThatTheHandGoesOnAndNothingOfI
   EXPECT_TRUE(state().startsWith("Ready")) << state().toStdString();
 }
 
+TEST_F(HandDockTest, AfterAnUnplugAtRestNothingOldLooksLikeNow) {
+  connectTo(stillHand());
+  type("velocity", "60");
+  type("closeRatio", "0.2");
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return state().startsWith("finished"); })) << state().toStdString();
+  const auto* angles = find<FactsView>("liveAngles");
+  EXPECT_FALSE(angles->isOld());
+  bench_->hand->unplug(false, true);
+  ASSERT_TRUE(await([&] { return !isEnabled("relaxHand"); })) << "the port is known to be gone";
+  dock_->refresh();
+  EXPECT_TRUE(angles->isOld());
+  bench_->hand->replug();
+  ASSERT_TRUE(await([&] { return isEnabled("relaxHand"); }));
+  dock_->refresh();
+  EXPECT_EQ(state().toStdString(), "Ready. The motion port was gone, and is back.");
+  EXPECT_FALSE(angles->isOld());
+}
+
 // By a client, say: the buttons are grey.
 TEST_F(HandDockTest, WhatIsRefusedDuringAnUnplugHidesNotThatTheHandGoesOn) {
   connectTo(stillHand());

@@ -165,6 +165,7 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   said_.clear();
   judged_.reset();
   layout_.reset();
+  goneUs_.reset();
   feed_ = session ? session->subscribe("the dock Hand", smallFeed()) : nullptr;
   grasp_->setControl(control);
   sensitivity_->setHand(session, control);
@@ -197,6 +198,9 @@ void HandDock::refresh() {
   showBlind(facts.matrices);
   tactile_->refresh(status, facts);
   showSamples();
+  const bool gone = control_ && !status.cannotMove.empty();
+  if (gone) goneUs_ = session_->nowUs();
+  for (FactsView* view : {angles_, temperatures_}) view->setOld(gone);
   showState(status);
   showBound();
 }
@@ -314,6 +318,7 @@ std::optional<QString> HandDock::whatIsOver(const GraspReport& report,
                                             const GraspStatus& status) const {
   if (report.outcome == GraspOutcome::kPortGone)
     return "Ready. The motion port was gone during a motion, and is back.";
+  if (goneUs_ && *goneUs_ > report.endUs) return "Ready. The motion port was gone, and is back.";
   if (report.outcome == GraspOutcome::kStreamDead && status.cannotReact.empty())
     return "Ready. The last grasp was stopped: no tactile frames came. Now they come.";
   return std::nullopt;

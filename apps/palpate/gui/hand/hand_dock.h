@@ -84,7 +84,8 @@ class HandDock : public QWidget {
   FactsView* temperatures_;
   StopKey* stopKey_;
   QTimer timer_;
-  QString said_;  // a refusal, until something else is asked for
+  std::optional<std::int64_t> goneUs_;  // when the hand could not be moved last [us since 1970]
+  QString said_;                        // a refusal, until something else is asked for
   std::vector<std::pair<QAction*, QPushButton*>> bound_;
   std::vector<QString> blind_;
   // What blind_ was judged by.

@@ -30,6 +30,12 @@ void FactsView::setValue(std::size_t row, const QString& value) {
   update(0, static_cast<int>(row) * rowHeight(), width(), rowHeight());
 }
 
+void FactsView::setOld(bool old) {
+  if (old == old_) return;
+  old_ = old;
+  update();
+}
+
 void FactsView::setTheme(Theme theme) {
   theme_ = theme;
   update();
@@ -62,7 +68,7 @@ void FactsView::paintEvent(QPaintEvent* event) {
     const Fact& fact = facts_[i];
     painter.setPen(colors.muted);
     painter.drawText(row, Qt::AlignLeft | Qt::AlignVCenter, fact.name);
-    painter.setPen(fact.warning ? colors.warning : colors.text);
+    painter.setPen(old_ ? colors.muted : fact.warning ? colors.warning : colors.text);
     const int used = fontMetrics().horizontalAdvance(fact.name) + kSpacing;
     const QRect right = row.adjusted(used, 0, 0, 0);
     painter.drawText(right,

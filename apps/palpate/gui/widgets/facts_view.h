@@ -23,6 +23,9 @@ class FactsView : public QWidget {
   void setFacts(std::vector<Fact> facts);
   void setValue(std::size_t row, const QString& value);
   const std::vector<Fact>& facts() const noexcept { return facts_; }
+  // The values are those of before: nothing comes any more that would change them.
+  void setOld(bool old);
+  bool isOld() const noexcept { return old_; }
   void setTheme(Theme theme);
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
@@ -36,6 +39,7 @@ class FactsView : public QWidget {
   int nameWidth() const;
 
   std::vector<Fact> facts_;
+  bool old_ = false;
   Theme theme_ = Theme::kDark;
 };
 
