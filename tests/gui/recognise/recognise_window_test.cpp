@@ -112,6 +112,16 @@ TEST_F(RecogniseLiveTest, AskedByItselfWhileSomethingIsHeldItAnswers) {
       << answer().spoken().toStdString();
 }
 
+TEST_F(RecogniseLiveTest, ThatNothingIsHeldIsNotSaidAnyMoreWhenSomethingIs) {
+  window().showDock("Recognise");
+  press(Qt::Key_Q);
+  ASSERT_TRUE(await([&] { return answer().text.startsWith("Nothing is held"); }))
+      << answer().text.toStdString();
+  moveTo(1.0);
+  EXPECT_TRUE(await([&] { return !answer().text.startsWith("Nothing is held"); }))
+      << answer().text.toStdString();
+}
+
 // A window that is busy hears of a release and of the next contact at once.
 TEST_F(RecogniseLiveTest, WhatWasLetGoWhileTheWindowWasBusyIsNotHeldNow) {
   window().showDock("Recognise");

@@ -188,6 +188,11 @@ void RecogniseDesk::judge(const ChosenGrasp& chosen, const QString& of) {
   tell(answer);
 }
 
+void RecogniseDesk::touchBegins() {
+  if (answer_.kind == RecognitionAnswer::Kind::kTrouble && answer_.of == kHeldNow && !last_)
+    sayHowToAsk();
+}
+
 void RecogniseDesk::letGo() {
   ++contact_;
   if (answer_.of != kHeldNow) return;

@@ -51,6 +51,8 @@ class RecogniseDesk : public QObject {
   void ask(const RecogniseQuestion& question);
   // There is nothing to ask about: why. `of` as RecognitionAnswer::of; may be empty.
   void sayTrouble(const QString& text, const QString& of = {});
+  // Something is held from now on: that nothing was is over.
+  void touchBegins();
   // Nothing is held any more: what was asked of "held now" is from here on of "the last grasp".
   void letGo();
   const RecognitionAnswer& answer() const noexcept { return answer_; }

@@ -154,7 +154,7 @@ void MainWindow::RecogniseView::askOfHand() {
   if (collector_->touched())
     return desk.sayTrouble("Held too short yet: ask again in a second.", kHeldNow);
   if (lastGrasp_) return desk.ask({*lastGrasp_, std::nullopt, kLastGrasp});
-  desk.sayTrouble("Nothing is held, and nothing was.");
+  desk.sayTrouble("Nothing is held, and nothing was.", kHeldNow);
 }
 
 void MainWindow::RecogniseView::listen(bool on) {
@@ -191,6 +191,7 @@ void MainWindow::RecogniseView::takeItems() {
   std::vector<Profile> ended = collector_->takeEnded();
   // Also when something else is held by now.
   if (held && (!collector_->touched() || !ended.empty())) panel_->desk().letGo();
+  if (!held && collector_->touched()) panel_->desk().touchBegins();
   for (Profile& grasp : ended) takeEnded(std::move(grasp));
 }
 
