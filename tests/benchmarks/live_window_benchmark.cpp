@@ -21,6 +21,8 @@
 
 #include "benchmarks/window_bench.h"
 #include "emulator/numbered_hand.h"
+#include "gui/matrices/matrices_feature.h"
+#include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
 #include "gui/shell/main_window.h"
 #include "testing/process_facts.h"
@@ -102,19 +104,22 @@ class Bench {
     connection.kind = gui::Connection::Kind::kPorts;
     connection.dsaPort = QString::fromStdString(hand_->dsaPort());
     connection.sdhPort = QString::fromStdString(hand_->sdhPort());
-    window_->connectTo(connection);
-    for (int i = 0; i < 400 && !window_->live().framesCameYet(); ++i) runFor(0.05);
-    QObject::connect(&window_->live(),
+    window_->bench().connectTo(connection);
+    for (int i = 0; i < 400 && !window_->bench().live.framesCameYet(); ++i) runFor(0.05);
+    QObject::connect(&window_->bench().live,
                      &gui::LiveController::frameCame,
                      [this](const palpate::TactileFrame& frame) {
                        if (frame.deviceMs) deviceMs_[frame.hostUs] = *frame.deviceMs;
                      });
-    QObject::connect(&window_->matricesView(), &gui::MatricesView::painted, [this](qint64 hostUs) {
-      const auto known = deviceMs_.find(hostUs);
-      if (known == deviceMs_.end()) return;
-      paintedUs_[static_cast<std::uint32_t>(known->second)] = systemClock().wallUs();
-      deviceMs_.erase(deviceMs_.begin(), std::next(known));
-    });
+    QObject::connect(&window_->feature<gui::MatricesFeature>().panel().view(),
+                     &gui::MatricesView::painted,
+                     [this](qint64 hostUs) {
+                       const auto known = deviceMs_.find(hostUs);
+                       if (known == deviceMs_.end()) return;
+                       paintedUs_[static_cast<std::uint32_t>(known->second)] =
+                           systemClock().wallUs();
+                       deviceMs_.erase(deviceMs_.begin(), std::next(known));
+                     });
   }
   ~Bench() {
     window_->close();
@@ -264,7 +269,7 @@ void windowUnderLoad(benchmark::State& state) {
     count(state, ages);
     state.counters["turn_p99_ms"] = heartbeat.p99Ms();
     state.counters["window_away_max_ms"] = heartbeat.longestMs();
-    state.counters["lost"] = static_cast<double>(bench.window().live().health().lost);
+    state.counters["lost"] = static_cast<double>(bench.window().bench().live.health().lost);
   }
 }
 
@@ -286,13 +291,13 @@ void windowReplug(benchmark::State& state) {
       clock.start();
       // Accidents wait for the hand: not in the window's thread.
       std::jthread pull([&] { bench.hand().unplug(); });
-      while (!window.live().stale() && clock.elapsed() < 5000) runFor(0.002);
+      while (!window.bench().live.stale() && clock.elapsed() < 5000) runFor(0.002);
       noticedMs.push_back(static_cast<double>(clock.nsecsElapsed()) / 1e6);
       runFor(0.05 + 0.01 * (cycle % 7));
       pull.join();
       clock.restart();
       std::jthread plug([&] { bench.hand().replug(); });
-      while (window.live().stale() && clock.elapsed() < 5000) runFor(0.002);
+      while (window.bench().live.stale() && clock.elapsed() < 5000) runFor(0.002);
       returnedMs.push_back(static_cast<double>(clock.nsecsElapsed()) / 1e6);
       runFor(0.3);
       if (cycle == 0) before = facts();

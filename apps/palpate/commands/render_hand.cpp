@@ -6,8 +6,8 @@
 #include "palpate/core/error.h"
 
 #include "commands/hand_options.h"
-#include "gui/space/frame_painters.h"
 #include "gui/space/hand_drawing.h"
+#include "gui/space/hand_frame_painter.h"
 #include "gui/space/hand_picture.h"
 
 namespace palpate::commands {

@@ -8,6 +8,7 @@
 #include "gui/calibrate/force_page.h"
 #include "gui/calibrate/step_page.h"
 #include "gui/calibrate/tare_page.h"
+#include "gui/export/export_feature.h"
 #include "gui/export/take_away.h"
 #include "gui/source/event_editor.h"
 #include "gui/testing/window_fixture.h"
@@ -30,7 +31,8 @@ class CalibrateWindowTest : public WindowTest {
   }
   std::size_t eventsOf(const std::string& kind) {
     std::size_t count = 0;
-    for (const RecordingEvent& event : window().events()->events()) count += event.kind == kind;
+    for (const RecordingEvent& event : window().bench().events.editor()->events())
+      count += event.kind == kind;
     return count;
   }
 };
@@ -40,7 +42,7 @@ TEST_F(CalibrateWindowTest, ComesAndGoesByItsKey) {
   showIt("Steps");
   EXPECT_TRUE(dock()->isVisible());
   EXPECT_GE(dock()->width(), 600);
-  EXPECT_TRUE(window().dockNames().contains("Calibrate"));
+  EXPECT_TRUE(window().docks().names().contains("Calibrate"));
   press(Qt::Key_N, Qt::ControlModifier | Qt::ShiftModifier);
   EXPECT_FALSE(dock()->isVisible());
 }
@@ -78,13 +80,13 @@ TEST_F(CalibrateWindowTest, TheSensorsSettingsAreKeptAsAnEvent) {
   showIt("Force");
   emit panel().force().keepAsked(0.5, 150.0);
   ASSERT_EQ(eventsOf("sensor_settings"), 1u);
-  for (const RecordingEvent& event : window().events()->events())
+  for (const RecordingEvent& event : window().bench().events.editor()->events())
     if (event.kind == "sensor_settings") {
       EXPECT_EQ(event.text, "sensitivity 0.5, threshold 150");
       EXPECT_EQ(Json::parse(event.json).at("sensitivity").asDouble(), 0.5);
     }
-  EXPECT_NO_THROW(window().events()->save()) << "such events are a person's";
-  window().events()->undoStack().undo();
+  EXPECT_NO_THROW(window().bench().events.editor()->save()) << "such events are a person's";
+  window().bench().events.editor()->undoStack().undo();
   EXPECT_EQ(eventsOf("sensor_settings"), 0u);
 }
 
@@ -121,8 +123,9 @@ TEST_F(CalibrateWindowTest, IsTakenAwayAsPictureAndTable) {
   request.name = "c";
   for (const ExportForm form : {ExportForm::kPng, ExportForm::kCsv}) {
     request.form = form;
-    window().takeAway().write(request);
-    ASSERT_TRUE(QTest::qWaitFor([&] { return !window().takeAway().busy(); }, 20'000));
+    window().feature<ExportFeature>().takeAway().write(request);
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return !window().feature<ExportFeature>().takeAway().busy(); }, 20'000));
     EXPECT_EQ(bannerText(), "");
   }
   EXPECT_EQ(QImage(QString::fromStdString((folder_ / "c.png").string())).pixelColor(1, 1),

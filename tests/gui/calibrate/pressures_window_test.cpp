@@ -14,13 +14,17 @@
 #include "gui/calibrate/force_page.h"
 #include "gui/calibrate/noise_page.h"
 #include "gui/calibrate/step_page.h"
+#include "gui/connect/connect_feature.h"
+#include "gui/filter/filter_feature.h"
 #include "gui/filter/filter_panel.h"
 #include "gui/hand/hand_dock.h"
+#include "gui/hand/hand_feature.h"
 #include "gui/hand/sensitivity_modes.h"
 #include "gui/inspect/inspect_panel.h"
 #include "gui/matrices/matrices_view.h"
 #include "gui/source/event_editor.h"
 #include "gui/testing/window_fixture.h"
+#include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_panel.h"
 
 namespace palpate::gui::pressures_window_test {
@@ -49,7 +53,7 @@ class PressuresWindowTest : public WindowTest {
     return {};
   }
   void showPage(const char* page) {
-    window().showDock("Calibrate");
+    window().docks().show("Calibrate");
     find<CalibratePanel>("CalibratePanel")->showPage(page);
     find<CalibratePanel>("CalibratePanel")->settle();
     for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();
@@ -72,7 +76,7 @@ TEST_F(PressuresWindowTest, AnAppliedOneTellsForcesOfEveryFrame) {
   start();
   open({"rich.dsa"});
   EXPECT_EQ(fact(), "hand.json");
-  const Profile& profile = window().current()->profile;
+  const Profile& profile = window().bench().subject.behind()->profile;
   const ForceSeries series = forceSeries(profile, calibration());
   std::size_t strongest = 0;
   for (std::size_t i = 0; i < profile.numFrames(); ++i)
@@ -104,7 +108,7 @@ TEST_F(PressuresWindowTest, StepsThatWereFoundAreARowOfTheTimeline) {
   open({"rich.dsa"});
   const auto steps = [&] {
     std::size_t count = 0;
-    for (const EventMark& mark : window().timelinePanel().rows().marks())
+    for (const EventMark& mark : window().feature<TimelineFeature>().panel().rows().marks())
       count += mark.lane == EventLane::kSteps ? 1 : 0;
     return count;
   };
@@ -122,8 +126,8 @@ TEST_F(PressuresWindowTest, ALiveHandHasForcesToo) {
   saveCalibration(calibration(), folder_ / "hand.json", Overwrite::kReplace);
   apply("hand.json");
   start();
-  window().openDemo();
-  ASSERT_TRUE(await([&] { return window().liveShown() && force(6) != "–"; }));
+  window().bench().connectTo(emulatedBall(true));
+  ASSERT_TRUE(await([&] { return window().bench().subject.isLive() && force(6) != "–"; }));
   EXPECT_TRUE(await([&] { return force(6).toDouble() > 0.5; })) << "the ball is grasped";
   EXPECT_TRUE(await([&] { return fact() == "hand.json"; }));
   showPage("Force");
@@ -138,20 +142,23 @@ TEST_F(PressuresWindowTest, NoiseLinesLeadToHighSensitivityAndAFilterAgainstGhos
   Connection connection;
   connection.kind = Connection::Kind::kEmulated;
   connection.scene = "empty";
-  window().connectTo(connection);
-  ASSERT_TRUE(await([&] { return window().liveShown() && !window().live().stale(); }));
+  window().bench().connectTo(connection);
+  ASSERT_TRUE(
+      await([&] { return window().bench().subject.isLive() && !window().bench().live.stale(); }));
   emit find<CalibratePanel>("CalibratePanel")
       ->noise()
       .applyAsked(testing::evenNoise(0.3, 40.0, 2.0));
-  window().filter().editor().setRecipe(parseRecipe(std::vector<std::string>{"gaussian"}));
-  EXPECT_FALSE(window().filter().on());
+  window().feature<FilterFeature>().panel().editor().setRecipe(
+      parseRecipe(std::vector<std::string>{"gaussian"}));
+  EXPECT_FALSE(window().feature<FilterFeature>().panel().on());
   find<QToolButton>("sensitivityHigh")->click();
-  EXPECT_EQ(window().hand().sensitivity().mode(), SensitivityMode::kHigh);
-  EXPECT_TRUE(window().filter().on());
-  EXPECT_TRUE(window().filter().editor().recipe().sameSteps(highSensitivityRecipe()));
+  EXPECT_EQ(window().feature<HandFeature>().panel().sensitivity().mode(), SensitivityMode::kHigh);
+  EXPECT_TRUE(window().feature<FilterFeature>().panel().on());
+  EXPECT_TRUE(window().feature<FilterFeature>().panel().editor().recipe().sameSteps(
+      highSensitivityRecipe()));
   find<QToolButton>("sensitivityManual")->click();
-  EXPECT_FALSE(window().filter().on());
-  EXPECT_TRUE(window().filter().editor().recipe().sameSteps(
+  EXPECT_FALSE(window().feature<FilterFeature>().panel().on());
+  EXPECT_TRUE(window().feature<FilterFeature>().panel().editor().recipe().sameSteps(
       parseRecipe(std::vector<std::string>{"gaussian"})));
 }
 

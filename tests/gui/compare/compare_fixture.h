@@ -15,6 +15,7 @@
 #include <palpate/model/profile_builder.h>
 
 #include "gui/compare/compare_chart.h"
+#include "gui/compare/compare_feature.h"
 #include "gui/compare/compare_panel.h"
 #include "gui/compare/compare_strip.h"
 #include "gui/compare/compare_view.h"
@@ -73,7 +74,7 @@ class CompareWindowFixture : public WindowTest {
     QApplication::setActiveWindow(window_.get());
     QCoreApplication::processEvents();
   }
-  ComparePanel& compare() { return window().compare(); }
+  ComparePanel& compare() { return window().feature<CompareFeature>().panel(); }
   void compareNow() {
     press(Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
     settle();
@@ -83,7 +84,7 @@ class CompareWindowFixture : public WindowTest {
     clock.start();
     do {
       QCoreApplication::processEvents(QEventLoop::AllEvents, 20);
-    } while (compare().hasPair() && window().compareShown() && !compare().complete() &&
+    } while (compare().hasPair() && window().bench().comparing.on() && !compare().complete() &&
              clock.elapsed() < 10'000);
     QCoreApplication::processEvents();
   }

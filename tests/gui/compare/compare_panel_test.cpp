@@ -124,7 +124,7 @@ TEST_F(ComparePanelTest, CurvesFollowSignalAndMatrix) {
   // 60 pairs (0, 0) x 10, (500 + k, 300 + k), k = 0..49: computed by hand from the sums.
   EXPECT_TRUE(figures.startsWith("correlation 0.999")) << figures.toStdString();
   choose("compareSignal", "active taxels");
-  EXPECT_EQ(window().viewSettings().signal, PlottedSignal::kActive);
+  EXPECT_EQ(window().bench().look.view().signal, PlottedSignal::kActive);
   EXPECT_NEAR(compare().chart().curves().curveA->values[20], 12.0, 1e-9);
   choose("compareMatrix", "finger 0 proximal");
   EXPECT_NEAR(compare().chart().curves().curveA->values[20], 0.0, 1e-9);

@@ -1,5 +1,8 @@
 // Comparing two recordings, in the window: which ones, how it comes and goes, what is said of odd ones.
+#include "gui/compare/compare_feature.h"
 #include "gui/compare/compare_fixture.h"
+#include "gui/matrices/matrices_feature.h"
+#include "gui/matrices/matrices_panel.h"
 
 namespace palpate::gui::compare_window_test {
 namespace {
@@ -11,13 +14,13 @@ TEST_F(CompareWindowTest, TakesThePlaceOfTheMatricesAndGivesItBack) {
   ASSERT_TRUE(dock("Timeline")->isVisible());
   compareNow();
   EXPECT_TRUE(compare().isVisible());
-  EXPECT_FALSE(window().matricesView().isVisible());
+  EXPECT_FALSE(window().feature<MatricesFeature>().panel().view().isVisible());
   EXPECT_FALSE(dock("Timeline")->isVisible());
   EXPECT_FALSE(dock("Inspect")->isVisible());
   EXPECT_TRUE(actions().compare->isChecked());
   QTest::mouseClick(find<QToolButton>("compareBack"), Qt::LeftButton);
   EXPECT_FALSE(compare().isVisible());
-  EXPECT_TRUE(window().matricesView().isVisible());
+  EXPECT_TRUE(window().feature<MatricesFeature>().panel().view().isVisible());
   EXPECT_TRUE(dock("Timeline")->isVisible());
   EXPECT_TRUE(dock("Inspect")->isVisible());
 }
@@ -30,7 +33,7 @@ TEST_F(CompareWindowTest, SwappingKeepsTheMoment) {
   settle();
   EXPECT_EQ(name(compare().a()), "late");
   EXPECT_EQ(name(compare().b()), "early");
-  EXPECT_EQ(window().current(), compare().a());
+  EXPECT_EQ(window().bench().subject.behind(), compare().a());
   EXPECT_NEAR(*compare().offsetS(), 1.0, 1e-9);
   EXPECT_EQ(playback().frame(), 40u);
   EXPECT_EQ(valueIn(CompareGroup::kDifference), -200.0F);
@@ -55,7 +58,7 @@ TEST_F(CompareWindowTest, AAndBAreChosenAmongWhatIsOpen) {
   EXPECT_EQ(name(compare().b()), "third");
   choose("compareB", "late.dsa");
   choose("compareA", "third.dsa");
-  EXPECT_EQ(name(window().current()), "third") << "A is what is shown and played";
+  EXPECT_EQ(name(window().bench().subject.behind()), "third") << "A is what is shown and played";
   EXPECT_EQ(name(compare().b()), "late");
   EXPECT_NEAR(*compare().offsetS(), 0.25 - 1.5, 1e-9);
   // The window shows another one: that is A.
@@ -79,7 +82,7 @@ TEST_F(CompareWindowTest, OneRecordingOffersToOpenAnotherOrItself) {
   EXPECT_TRUE(text->isVisible());
   EXPECT_TRUE(text->text().contains("Only early.dsa is open"));
   QString asked;
-  window().askForRecordings = [&] {
+  window().bench().questions.recordings = [&] {
     asked = "yes";
     return QStringList{QString::fromStdString(file("late.dsa"))};
   };
@@ -102,19 +105,19 @@ TEST_F(CompareWindowTest, EscapeGoesBack) {
   open({"early.dsa", "late.dsa"});
   compareNow();
   press(Qt::Key_Escape);
-  EXPECT_FALSE(window().compareShown());
+  EXPECT_FALSE(window().bench().comparing.on());
   EXPECT_FALSE(actions().compare->isChecked());
 }
 
 TEST_F(CompareWindowTest, WithNothingOpenItAsksAndComparesWhatComes) {
-  window().askForRecordings = [&] {
+  window().bench().questions.recordings = [&] {
     return QStringList{QString::fromStdString(file("early.dsa")),
                        QString::fromStdString(file("late.dsa"))};
   };
   press(Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
   waitUntilOpened();
   settle();
-  EXPECT_TRUE(window().compareShown());
+  EXPECT_TRUE(window().bench().comparing.on());
   EXPECT_TRUE(compare().hasPair());
 }
 
@@ -122,9 +125,9 @@ TEST_F(CompareWindowTest, ClosingEverythingLeavesIt) {
   open({"early.dsa", "late.dsa"});
   compareNow();
   press(Qt::Key_W, Qt::ControlModifier);
-  EXPECT_TRUE(window().compareShown());
+  EXPECT_TRUE(window().bench().comparing.on());
   press(Qt::Key_W, Qt::ControlModifier);
-  EXPECT_FALSE(window().compareShown());
+  EXPECT_FALSE(window().bench().comparing.on());
   open({"early.dsa"});
   EXPECT_TRUE(dock("Timeline")->isVisible()) << "docks are as they were";
 }
@@ -168,7 +171,7 @@ TEST_F(CompareWindowTest, TheAlignmentIsRemembered) {
   choose("compareAlignment", "start of both");
   window().close();
   start();
-  EXPECT_EQ(window().compare().alignment(), Alignment::kStart);
+  EXPECT_EQ(window().feature<CompareFeature>().panel().alignment(), Alignment::kStart);
   open({"good.dsa"});
   EXPECT_TRUE(dock("Timeline")->isVisible()) << "its layout isn't that of the window";
 }

@@ -1,6 +1,7 @@
 // A movie of what the real window shows.
 #include <string_view>
 
+#include "gui/export/export_feature.h"
 #include "gui/export/take_away.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/widgets/status_strip.h"
@@ -14,7 +15,7 @@ using testing::FakeFfmpeg;
 class MovieWindowTest : public WindowTest {
  protected:
   MovieWindowTest() { open({"good.dsa"}); }
-  TakeAway& takeAway() { return window().takeAway(); }
+  TakeAway& takeAway() { return window().feature<ExportFeature>().takeAway(); }
   QString notice() { return find<StatusStrip>("statusStrip")->status().notice; }
   ExportRequest request() {
     ExportRequest request;

@@ -14,6 +14,9 @@
 #include <palpate/core/number_text.h>
 
 #include "gui/chart/chart_style.h"
+#include "gui/export/export_feature.h"
+#include "gui/matrices/matrices_feature.h"
+#include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/timeline_chart.h"
@@ -36,7 +39,7 @@ std::vector<std::vector<std::string>> cellsOf(const std::string& text, char sepa
 class TakeAwayTest : public WindowTest {
  protected:
   TakeAwayTest() { open({"good.dsa"}); }
-  TakeAway& takeAway() { return window().takeAway(); }
+  TakeAway& takeAway() { return window().feature<ExportFeature>().takeAway(); }
   QString notice() { return find<StatusStrip>("statusStrip")->status().notice; }
   ExportRequest request(const QString& view, ExportForm form, const QString& name) {
     ExportRequest request;
@@ -113,7 +116,7 @@ TEST_F(TakeAwayTest, TheSeenRangeOfTheTimelineAsNumbers) {
   asked.table = "the whole recording";
   asked.name = "b";
   EXPECT_EQ(cellsOf(written(asked), ',').size(), 21u);
-  takeAway().selectedFrames = [] { return std::optional(FrameSpan{10, 11}); };
+  window().bench().selection.setSpan(TimeSpan{0.49, 0.56});  // frames 10 and 11
   asked.table = "the selected range";
   asked.name = "c";
   const auto selected = cellsOf(written(asked), ',');
@@ -125,7 +128,7 @@ TEST_F(TakeAwayTest, NumbersReadBackToTheSameDoubles) {
   open({"rich.dsa"});
   playback().seekFrame(60);
   const auto rows = cellsOf(written(request("Inspect", ExportForm::kCsv, "a")), ',');
-  const auto expected = characteristicSignals(window().current()->profile.frame(60));
+  const auto expected = characteristicSignals(window().bench().subject.behind()->profile.frame(60));
   ASSERT_EQ(rows.size(), expected.size() + 2);
   EXPECT_EQ(rows[0][2], "mean [counts]");
   bool anyFraction = false;
@@ -150,7 +153,7 @@ TEST_F(TakeAwayTest, TheFramesTaxelsAsNumbers) {
 }
 
 TEST_F(TakeAwayTest, ASeriesOfTheSelectedRange) {
-  takeAway().selectedFrames = [] { return std::optional(FrameSpan{3, 7}); };
+  window().bench().selection.setSpan(TimeSpan{0.14, 0.36});  // frames 3 to 7
   ExportRequest asked = request("Matrices", ExportForm::kPng, "good");
   asked.frames = ExportFrames::kSelected;
   asked.preset = 1;
@@ -273,7 +276,7 @@ TEST_F(TakeAwayTest, CopyTakesTheViewThatWasClickedInto) {
   EXPECT_EQ(tabbed[20][3], "200");
   EXPECT_EQ(cellsOf(data->data("text/csv").toStdString(), ','), tabbed);
   EXPECT_EQ(notice(), "copied: Timeline as picture and 20 rows");
-  clickInto(&window().matricesView());
+  clickInto(&window().feature<MatricesFeature>().panel().view());
   press(Qt::Key_C, Qt::ControlModifier);
   EXPECT_EQ(notice(), "copied: Matrices as picture");
 }

@@ -42,7 +42,8 @@ class FilterPanelTest : public ::testing::Test {
     return panel_.findChild<Widget*>(QString("option_") + key);
   }
 
-  FilterPanel panel_;
+  RecipeEditor editor_;
+  FilterPanel panel_{editor_};
 };
 
 TEST_F(FilterPanelTest, AddsFiltersBehindTheChosenOne) {

@@ -9,11 +9,13 @@
 #include <palpate/model/profile_builder.h>
 #include <palpate/recording/recording.h>
 
+#include "gui/filter/filter_feature.h"
 #include "gui/filter/filter_panel.h"
 #include "gui/inspect/matrix_table.h"
 #include "gui/matrices/matrices_panel.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/timeline_chart.h"
+#include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_panel.h"
 #include "gui/widgets/status_strip.h"
 
@@ -36,16 +38,19 @@ class FilterWindowTest : public WindowTest {
                                                               .read = {}});
     window_->show();
     QApplication::setActiveWindow(window_.get());
-    window_->openFiles({path_});
+    window_->bench().open({path_});
     waitUntilOpened();
-    window_->waitForWork();
-    window_->askAboutUnsaved = [](const QString&) { return MainWindow::Unsaved::kDiscard; };
+    window_->settle();
+    window_->bench().questions.unsaved = [](const QString&) {
+      return Questions::Unsaved::kDiscard;
+    };
   }
   void setRecipe(const std::string& text) {
-    window().filter().editor().setRecipe(parseRecipe(std::vector<std::string>{text}));
-    window().waitForWork();
+    window().feature<FilterFeature>().panel().editor().setRecipe(
+        parseRecipe(std::vector<std::string>{text}));
+    window().settle();
   }
-  std::size_t loudest() { return window().current()->table.frameOfLargestSum(); }
+  std::size_t loudest() { return window().bench().subject.behind()->table.frameOfLargestSum(); }
   const std::vector<float>& seen() { return window().findChild<MatricesPanel*>()->frame().values; }
   std::string path_;
 };
@@ -53,31 +58,31 @@ class FilterWindowTest : public WindowTest {
 TEST_F(FilterWindowTest, BeforeAndAfterOnOneKey) {
   const std::size_t frame = loudest();
   playback().seekFrame(frame);
-  const auto raw = window().current()->profile.frame(frame).values;
-  const auto filtered = filteredProfile(window().current()->profile,
+  const auto raw = window().bench().subject.behind()->profile.frame(frame).values;
+  const auto filtered = filteredProfile(window().bench().subject.behind()->profile,
                                         parseRecipe(std::vector<std::string>{"gaussian:size=5"}))
                             .frame(frame)
                             .values;
   setRecipe("gaussian:size=5");
   EXPECT_EQ(seen(), raw);  // the switch is off
   press(Qt::Key_A);
-  window().waitForWork();
+  window().settle();
   EXPECT_EQ(seen(), filtered);
-  EXPECT_TRUE(window().filteredShown());
+  EXPECT_TRUE(window().bench().filtering.applied());
   EXPECT_TRUE(find<StatusStrip>("statusStrip")->status().state.contains("filtered"));
   // All that is shown is the same recording, filtered.
-  EXPECT_EQ(window().shown()->table.at(frame, 1).maximum,
+  EXPECT_EQ(window().bench().subject.seen()->table.at(frame, 1).maximum,
             *std::max_element(filtered.begin() + 84, filtered.begin() + 162));
   press(Qt::Key_A);
   EXPECT_EQ(seen(), raw);
-  EXPECT_FALSE(window().filteredShown());
+  EXPECT_FALSE(window().bench().filtering.applied());
   press(Qt::Key_A);
   EXPECT_EQ(seen(), filtered);  // at once: it was made before
   EXPECT_EQ(playback().frame(), frame);
 }
 
 TEST_F(FilterWindowTest, TheMomentAndThePartOfTheTimelineStay) {
-  TimelineChart& chart = window().timelinePanel().chart();
+  TimelineChart& chart = window().feature<TimelineFeature>().panel().chart();
   playback().seekFrame(77);
   chart.setSeen(1.0, 4.0);
   chart.setSelection(TimeSpan{1.5, 2.0});
@@ -96,16 +101,16 @@ TEST_F(FilterWindowTest, ChangesAreSeenAtOnce) {
   playback().seekFrame(frame);
   for (const char* text : {"box", "box:size=5", "kalman", "median | (box)", "rts"}) {
     setRecipe(text);
-    EXPECT_EQ(
-        seen(),
-        filteredProfile(window().current()->profile, parseRecipe(std::vector<std::string>{text}))
-            .frame(frame)
-            .values)
+    EXPECT_EQ(seen(),
+              filteredProfile(window().bench().subject.behind()->profile,
+                              parseRecipe(std::vector<std::string>{text}))
+                  .frame(frame)
+                  .values)
         << text;
   }
   setRecipe("(box)");
-  EXPECT_EQ(seen(), window().current()->profile.frame(frame).values);
-  EXPECT_FALSE(window().filteredShown());
+  EXPECT_EQ(seen(), window().bench().subject.behind()->profile.frame(frame).values);
+  EXPECT_FALSE(window().bench().filtering.applied());
 }
 
 TEST_F(FilterWindowTest, SaturationIsLookedForInWhatWasRecorded) {
@@ -115,7 +120,7 @@ TEST_F(FilterWindowTest, SaturationIsLookedForInWhatWasRecorded) {
   frame.matrix(1)(7, 2) = 3560.0F;
   for (int i = 0; i < 10; ++i) builder.addFrame(1'000'000 + i * 30'000, frame.values);
   saveRecording(builder.finish({}), {}, folder_ / "saturated.palpate");
-  window().openFiles({folder_ / "saturated.palpate"});
+  window().bench().open({folder_ / "saturated.palpate"});
   waitUntilOpened();
   press(Qt::Key_A);
   setRecipe("median");
@@ -127,14 +132,14 @@ TEST_F(FilterWindowTest, AChainForAnotherHandIsRefusedWithAWord) {
   press(Qt::Key_A);
   setRecipe("median:matrices=9");
   EXPECT_TRUE(find<QLabel>("filterTotals")->text().contains("no matrix 9"));
-  EXPECT_EQ(window().shown(), window().current());
+  EXPECT_EQ(window().bench().subject.seen(), window().bench().subject.behind());
   setRecipe("median");
-  EXPECT_NE(window().shown(), window().current());
+  EXPECT_NE(window().bench().subject.seen(), window().bench().subject.behind());
 }
 
 TEST_F(FilterWindowTest, TheRecipeIsKeptWithTheRecordingAndFoundAgain) {
   setRecipe("median:masked=1 | kalman:q=0.2");
-  for (QMenu* menu : window().filter().findChildren<QMenu*>())
+  for (QMenu* menu : window().feature<FilterFeature>().panel().findChildren<QMenu*>())
     for (QAction* action : menu->actions())
       if (action->text() == "Keep it with the recording") action->trigger();
   actions().saveEvents->trigger();
@@ -144,19 +149,21 @@ TEST_F(FilterWindowTest, TheRecipeIsKeptWithTheRecordingAndFoundAgain) {
   EXPECT_EQ(events[0].text, "median:masked=1 | kalman:q=0.2");
   setRecipe("box");
   reopen();
-  EXPECT_EQ(recipeText(window().filter().editor().recipe()), "median:masked=1 | kalman:q=0.2");
-  EXPECT_TRUE(window().filteredShown());
-  window().filter().editor().undo();  // what was there before isn't lost
-  EXPECT_EQ(recipeText(window().filter().editor().recipe()), "box");
+  EXPECT_EQ(recipeText(window().feature<FilterFeature>().panel().editor().recipe()),
+            "median:masked=1 | kalman:q=0.2");
+  EXPECT_TRUE(window().bench().filtering.applied());
+  window().feature<FilterFeature>().panel().editor().undo();  // what was there before isn't lost
+  EXPECT_EQ(recipeText(window().feature<FilterFeature>().panel().editor().recipe()), "box");
 }
 
 TEST_F(FilterWindowTest, TheChainAndItsSwitchAreRemembered) {
   setRecipe("bilateral:sigma_value=99");
   press(Qt::Key_A);
   reopen();
-  EXPECT_EQ(recipeText(window().filter().editor().recipe()), "bilateral:sigma_value=99");
+  EXPECT_EQ(recipeText(window().feature<FilterFeature>().panel().editor().recipe()),
+            "bilateral:sigma_value=99");
   EXPECT_TRUE(actions().filtered->isChecked());
-  EXPECT_TRUE(window().filteredShown());
+  EXPECT_TRUE(window().bench().filtering.applied());
 }
 
 TEST_F(FilterWindowTest, ALiveHandIsSeenThroughTheSameChain) {
@@ -164,9 +171,9 @@ TEST_F(FilterWindowTest, ALiveHandIsSeenThroughTheSameChain) {
   Connection connection;
   connection.kind = Connection::Kind::kReplay;
   connection.recording = QString::fromStdString(path_);
-  window().connectTo(connection);
-  ASSERT_TRUE(
-      QTest::qWaitFor([&] { return window().liveShown() && !window().live().stale(); }, 20'000));
+  window().bench().connectTo(connection);
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return window().bench().subject.isLive() && !window().bench().live.stale(); }, 20'000));
   const auto alike = [&] {
     const TactileFrame& frame = window().findChild<MatricesPanel*>()->frame();
     if (frame.values.empty()) return false;
@@ -176,15 +183,15 @@ TEST_F(FilterWindowTest, ALiveHandIsSeenThroughTheSameChain) {
   };
   press(Qt::Key_A);
   EXPECT_TRUE(QTest::qWaitFor(alike, 20'000));
-  EXPECT_TRUE(window().filteredShown());
-  window().live().end();
-  EXPECT_TRUE(QTest::qWaitFor([&] { return !window().liveShown(); }, 20'000));
+  EXPECT_TRUE(window().bench().filtering.applied());
+  window().bench().live.end();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !window().bench().subject.isLive(); }, 20'000));
 }
 
 TEST_F(FilterWindowTest, ARecordingMadeThroughFiltersHoldsWhatCameAndTheRecipe) {
   setRecipe("median:size=5");
-  window().filter().setOn(true);
-  window().askForRecording = [this](RecordingSettings settings, const QString&) {
+  window().feature<FilterFeature>().panel().setOn(true);
+  window().bench().questions.recording = [this](RecordingSettings settings, const QString&) {
     settings.folder = QString::fromStdString((folder_ / "runs").string());
     settings.nameTemplate = "run";
     return std::optional(settings);
@@ -192,17 +199,19 @@ TEST_F(FilterWindowTest, ARecordingMadeThroughFiltersHoldsWhatCameAndTheRecipe) 
   Connection connection;
   connection.kind = Connection::Kind::kReplay;
   connection.recording = QString::fromStdString(path_);
-  window().connectTo(connection);
+  window().bench().connectTo(connection);
   const auto await = [](const auto& condition) { return QTest::qWaitFor(condition, 20'000); };
-  ASSERT_TRUE(await([&] { return window().liveShown() && !window().live().stale(); }));
+  ASSERT_TRUE(
+      await([&] { return window().bench().subject.isLive() && !window().bench().live.stale(); }));
   actions().record->trigger();
   ASSERT_TRUE(
-      await([&] { return window().live().source()->session->recorderStatus().frames > 20; }));
+      await([&] { return window().bench().live.source()->session->recorderStatus().frames > 20; }));
   actions().record->trigger();
   const auto made = folder_ / "runs/run.palpate";
-  ASSERT_TRUE(await([&] { return !window().live().recording() && std::filesystem::exists(made); }));
-  window().live().end();
-  ASSERT_TRUE(await([&] { return !window().liveShown(); }));
+  ASSERT_TRUE(
+      await([&] { return !window().bench().live.recording() && std::filesystem::exists(made); }));
+  window().bench().live.end();
+  ASSERT_TRUE(await([&] { return !window().bench().subject.isLive(); }));
   const auto events = readEvents(made).events;
   EXPECT_EQ(std::count_if(events.begin(),
                           events.end(),

@@ -25,8 +25,8 @@ class StopInTheWindow {
     connection.kind = Connection::Kind::kPorts;
     connection.dsaPort = QString::fromStdString(bench_.hand->dsaPort());
     connection.sdhPort = QString::fromStdString(bench_.hand->sdhPort());
-    window_->connectTo(connection);
-    EXPECT_TRUE(await([&] { return window_->liveShown() && canReact(); }));
+    window_->bench().connectTo(connection);
+    EXPECT_TRUE(await([&] { return window_->bench().subject.isLive() && canReact(); }));
   }
   ~StopInTheWindow() {
     window_->close();
@@ -67,7 +67,7 @@ class StopInTheWindow {
   static bool await(const std::function<bool()>& condition) {
     return QTest::qWaitFor(condition, 20'000);
   }
-  GraspControl& control() { return *window_->live().source()->control; }
+  GraspControl& control() { return *window_->bench().live.source()->control; }
   bool canReact() { return control().status().cannotReact.empty(); }
 
   testing::TemporaryFolder folder_;

@@ -44,7 +44,7 @@ TEST_F(ManualKeysTest, ThePageOfKeysIsTheListOfF1) {
   }
   EXPECT_GT(told.size(), 80u);
   // There is no demonstration recording here, and its action is hidden.
-  told.insert("| Ctrl+D | " + plainText(*window().actionList().openDemo).toStdString() + " |");
+  told.insert("| Ctrl+D | " + plainText(*window().bench().actions.openDemo).toStdString() + " |");
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
     if (line.starts_with("| ") && !line.starts_with("| key")) {
@@ -54,7 +54,7 @@ TEST_F(ManualKeysTest, ThePageOfKeysIsTheListOfF1) {
 
 TEST_F(ManualKeysTest, EveryDockIsDescribedWithItsKey) {
   const std::string text = page("docks.md");
-  for (const QString& name : window().dockNames()) {
+  for (const QString& name : window().docks().names()) {
     EXPECT_NE(text.find("\n## " + name.toStdString() + "\n"), std::string::npos)
         << "docs/docks.md has no section " << name.toStdString();
     const auto* dock = window().findChild<QDockWidget*>(name);

@@ -1,7 +1,9 @@
 // The Library in the window: from the key to the recording that is shown.
 #include <QLineEdit>
 
+#include "gui/compare/compare_feature.h"
 #include "gui/compare/compare_panel.h"
+#include "gui/library/library_feature.h"
 #include "gui/library/library_panel.h"
 #include "gui/testing/window_fixture.h"
 
@@ -10,7 +12,7 @@ namespace {
 
 class LibraryWindowTest : public WindowTest {
  protected:
-  LibraryPanel& library() { return window().library(); }
+  LibraryPanel& library() { return window().feature<LibraryFeature>().panel(); }
   LibraryTable* table() { return find<LibraryTable>("libraryTable"); }
   void toggle() { press(Qt::Key_L, Qt::ControlModifier | Qt::ShiftModifier); }
   // The folder of the test, with as many files as there are names.
@@ -37,8 +39,8 @@ TEST_F(LibraryWindowTest, IsThereWithNothingOpenAndOpensByKeyboard) {
   QTest::keyClick(field, Qt::Key_Return);
   QTest::keyClick(table(), Qt::Key_Return);
   waitUntilOpened();
-  ASSERT_TRUE(window().current());
-  EXPECT_EQ(window().current()->path.filename(), "good2.dsa");
+  ASSERT_TRUE(window().bench().subject.behind());
+  EXPECT_EQ(window().bench().subject.behind()->path.filename(), "good2.dsa");
   EXPECT_TRUE(library().isVisible()) << "it stays when a recording is shown";
   toggle();
   EXPECT_FALSE(library().isVisible());
@@ -66,23 +68,23 @@ TEST_F(LibraryWindowTest, ComparesWithWhatIsShown) {
   const int row = table()->model()->index(0, 0).data().toString() == "good2.dsa" ? 0 : 1;
   table()->selectRow(row);
   QTest::keyClick(table(), Qt::Key_Return, Qt::ControlModifier);
-  EXPECT_FALSE(window().opener().busy()) << "nothing is shown";
+  EXPECT_FALSE(window().bench().opener.busy()) << "nothing is shown";
   open({"good1.dsa"});
   table()->selectRow(row);
   QTest::keyClick(table(), Qt::Key_Return, Qt::ControlModifier);
   waitUntilOpened();
-  EXPECT_TRUE(window().compareShown());
-  ASSERT_TRUE(window().current());
-  EXPECT_EQ(window().current()->path.filename(), "good1.dsa");
-  ASSERT_TRUE(window().compare().b());
-  EXPECT_EQ(window().compare().b()->path.filename(), "good2.dsa");
+  EXPECT_TRUE(window().bench().comparing.on());
+  ASSERT_TRUE(window().bench().subject.behind());
+  EXPECT_EQ(window().bench().subject.behind()->path.filename(), "good1.dsa");
+  ASSERT_TRUE(window().feature<CompareFeature>().panel().b());
+  EXPECT_EQ(window().feature<CompareFeature>().panel().b()->path.filename(), "good2.dsa");
   // Open already, it is only shown.
   press(Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
-  EXPECT_FALSE(window().compareShown());
+  EXPECT_FALSE(window().bench().comparing.on());
   const int reads = reads_;
   table()->selectRow(row);
   QTest::keyClick(table(), Qt::Key_Return, Qt::ControlModifier);
-  EXPECT_TRUE(window().compareShown());
+  EXPECT_TRUE(window().bench().comparing.on());
   EXPECT_EQ(reads_, reads);
 }
 

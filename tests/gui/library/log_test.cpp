@@ -145,7 +145,7 @@ TEST_F(LogTest, StaysAtTheEndUnlessSomebodyReadsFurtherUp) {
 class WindowLogTest : public WindowTest {
  protected:
   bool logHas(Severity severity, const QString& part) {
-    const ActivityLog& log = window().activity();
+    const ActivityLog& log = window().bench().log;
     for (int row = 0; row < log.rowCount(); ++row)
       if (log.line(row).severity == severity && log.line(row).text.contains(part)) return true;
     return false;

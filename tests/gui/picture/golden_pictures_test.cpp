@@ -6,10 +6,14 @@
 #include <palpate/emulator/synthetic_profile.h>
 #include <palpate/recording/recording.h>
 
+#include "gui/matrices/matrices_feature.h"
+#include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
 #include "gui/space/hand_panel.h"
+#include "gui/space/space_feature.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/event_rows.h"
+#include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_panel.h"
 
 namespace palpate::gui::golden_pictures_test {
@@ -63,12 +67,12 @@ class GoldenPicturesTest : public WindowTest {
                                                               .settingsPath = settingsFile(),
                                                               .clock = &clock_,
                                                               .read = read});
-    window_->setTheme(theme);
+    window_->bench().look.setTheme(theme);
     window_->setFixedSize(size);
     window_->show();
     open({"any.dsa"});
-    playback().seekFrame(window().current()->table.frameOfLargestSum());
-    window().timelinePanel().chart().setSelection(TimeSpan{4.0, 6.0});
+    playback().seekFrame(window().bench().subject.behind()->table.frameOfLargestSum());
+    window().feature<TimelineFeature>().panel().chart().setSelection(TimeSpan{4.0, 6.0});
     for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();
   }
 };
@@ -77,34 +81,36 @@ TEST_F(GoldenPicturesTest, HeatMapsDark) {
   show({1440, 900}, ThemeChoice::kDark);
   press(Qt::Key_H);  // the hand in space stands beside them
   QCoreApplication::processEvents();
-  compare(window().matricesView().grab().toImage(), "matrices_dark.png");
+  compare(window().feature<MatricesFeature>().panel().view().grab().toImage(), "matrices_dark.png");
 }
 
 TEST_F(GoldenPicturesTest, TimelineLight) {
   show({1440, 900}, ThemeChoice::kLight);
-  compare(window().timelinePanel().grab().toImage(), "timeline_light.png");
+  compare(window().feature<TimelineFeature>().panel().grab().toImage(), "timeline_light.png");
 }
 
 TEST_F(GoldenPicturesTest, HandDark) {
   show({1440, 900}, ThemeChoice::kDark);
-  window().handPanel().view().setFixedSize(600, 600);
-  compare(window().handPanel().view().grab().toImage(), "hand_dark.png");
+  window().feature<SpaceFeature>().panel().view().setFixedSize(600, 600);
+  compare(window().feature<SpaceFeature>().panel().view().grab().toImage(), "hand_dark.png");
 }
 
 TEST_F(GoldenPicturesTest, HandAsBarsLight) {
   show({1440, 900}, ThemeChoice::kLight);
   press(Qt::Key_T);
   press(Qt::Key_X);
-  window().handPanel().view().setFixedSize(600, 600);
-  compare(window().handPanel().view().grab().toImage(), "hand_bars_light.png");
+  window().feature<SpaceFeature>().panel().view().setFixedSize(600, 600);
+  compare(window().feature<SpaceFeature>().panel().view().grab().toImage(), "hand_bars_light.png");
 }
 
 TEST_F(GoldenPicturesTest, AnotherPictureIsTold) {
   show({1440, 900}, ThemeChoice::kDark);
-  const QImage before = small(window().matricesView().grab().toImage());
+  const QImage before = small(window().feature<MatricesFeature>().panel().view().grab().toImage());
   playback().seekFrame(0);
   QCoreApplication::processEvents();
-  EXPECT_GT(partThatDiffers(small(window().matricesView().grab().toImage()), before), kMostOther);
+  EXPECT_GT(partThatDiffers(
+                small(window().feature<MatricesFeature>().panel().view().grab().toImage()), before),
+            kMostOther);
 }
 
 }  // namespace

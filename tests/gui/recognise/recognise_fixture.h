@@ -85,8 +85,8 @@ class RecogniseWindowTest : public WindowTest {
     return path.string();
   }
   void openIt(const std::string& path) {
-    QSignalSpy shown(&window(), &MainWindow::recordingShown);
-    window().openFiles({path});
+    QSignalSpy shown(&window().bench().subject, &Subject::shown);
+    window().bench().open({path});
     ASSERT_TRUE(shown.wait(20'000));
   }
   // Grasps a scene by its script, asks while it is held, until it is named.
@@ -95,8 +95,8 @@ class RecogniseWindowTest : public WindowTest {
     connection.kind = Connection::Kind::kEmulated;
     connection.scene = QString::fromStdString(scene);
     connection.sceneActs = true;
-    window().connectTo(connection);
-    if (!dock()->isVisible()) window().showDock("Recognise");
+    window().bench().connectTo(connection);
+    if (!dock()->isVisible()) window().docks().show("Recognise");
     const bool told = QTest::qWaitFor(
         [&] {
           QTest::qWait(250);
@@ -106,9 +106,9 @@ class RecogniseWindowTest : public WindowTest {
         },
         30'000);
     const QString name = told ? answer().name() : "not told: " + answer().spoken();
-    window().live().end();
+    window().bench().live.end();
     EXPECT_TRUE(QTest::qWaitFor(
-        [&] { return window().live().state() == LiveController::State::kNone; }, 20'000));
+        [&] { return window().bench().live.state() == LiveController::State::kNone; }, 20'000));
     return name;
   }
 };

@@ -38,9 +38,10 @@ TEST_F(RecogniseSlowTest, NothingMovesAfterAStopWhileTheZeroIsTaken) {
   Connection connection;
   connection.kind = Connection::Kind::kEmulated;
   connection.scene = "empty";
-  window().connectTo(connection);
-  const auto status = [&] { return window().live().source()->control->status(); };
-  ASSERT_TRUE(await([&] { return window().liveShown() && status().cannotReact.empty(); }));
+  window().bench().connectTo(connection);
+  const auto status = [&] { return window().bench().live.source()->control->status(); };
+  ASSERT_TRUE(
+      await([&] { return window().bench().subject.isLive() && status().cannotReact.empty(); }));
   const auto ask = [&] { emit window().findChild<TodayPage*>()->zeroAsked(); };
   const auto closed = [&] {
     return status().phase == GraspPhase::kIdle && status().last &&
@@ -70,10 +71,11 @@ TEST_F(RecogniseSlowTest, TheZeroOfTheEmptyHandIsTakenAndUsed) {
   Connection connection;
   connection.kind = Connection::Kind::kEmulated;
   connection.scene = "empty";
-  window().connectTo(connection);
-  window().showDock("Recognise");
-  const auto status = [&] { return window().live().source()->control->status(); };
-  ASSERT_TRUE(await([&] { return window().liveShown() && status().cannotReact.empty(); }));
+  window().bench().connectTo(connection);
+  window().docks().show("Recognise");
+  const auto status = [&] { return window().bench().live.source()->control->status(); };
+  ASSERT_TRUE(
+      await([&] { return window().bench().subject.isLive() && status().cannotReact.empty(); }));
   settle();
   panel().desk().openModel(folder_ / "own.json");
   settle();
@@ -117,15 +119,15 @@ TEST_F(RecogniseSlowTest, ASeriesIsCapturedWhileTheHandGrasps) {
           "script": [{"at_s": 1.5, "grasp": {"velocity_deg_per_s": 40}}, {"at_s": 7, "release": {"velocity_deg_per_s": 40}},
                      {"at_s": 11, "grasp": {"velocity_deg_per_s": 40}}, {"at_s": 17, "release": {"velocity_deg_per_s": 40}},
                      {"at_s": 21, "grasp": {"velocity_deg_per_s": 40}}, {"at_s": 27, "release": {"velocity_deg_per_s": 40}}]})");
-  window().showDock("Recognise");
+  window().docks().show("Recognise");
   panel().teaching().setFolder(folder);
   settle();
   Connection connection;
   connection.kind = Connection::Kind::kEmulated;
   connection.scene = QString::fromStdString((folder_ / "series.json").string());
   connection.sceneActs = true;
-  window().connectTo(connection);
-  ASSERT_TRUE(await([&] { return window().liveShown(); }));
+  window().bench().connectTo(connection);
+  ASSERT_TRUE(await([&] { return window().bench().subject.isLive(); }));
   panel().showPage("Teach");
   find<QLineEdit>("teachObject")->setText("thick pen");
   ASSERT_TRUE(await([&] { return find<QPushButton>("teachCapture")->isEnabled(); }));
@@ -154,8 +156,8 @@ TEST_F(RecogniseSlowTest, ASeriesIsCapturedWhileTheHandGrasps) {
   EXPECT_FALSE(std::filesystem::exists(newest)) << "undone,";
   EXPECT_TRUE(std::filesystem::exists(clips[1].path)) << "not deleted";
   EXPECT_TRUE(std::filesystem::exists(clips[0].path));
-  window().live().end();
-  EXPECT_TRUE(await([&] { return window().live().state() == LiveController::State::kNone; }));
+  window().bench().live.end();
+  EXPECT_TRUE(await([&] { return window().bench().live.state() == LiveController::State::kNone; }));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "gui/recognise/show_window.h"
 #include "gui/timeline/event_rows.h"
 #include "gui/timeline/timeline_chart.h"
+#include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_panel.h"
 
 namespace palpate::gui::recognise_window_test {
@@ -39,7 +40,7 @@ TEST_F(RecogniseWindowTest, NamesTheSelectedGrasp) {
   settle();
   EXPECT_TRUE(answer().text.startsWith("No grasp is chosen")) << answer().text.toStdString();
   press(Qt::Key_N);  // the first grasp
-  ASSERT_TRUE(window().timelinePanel().chart().selection());
+  ASSERT_TRUE(window().feature<TimelineFeature>().panel().chart().selection());
   press(Qt::Key_Q);
   settle();
   EXPECT_EQ(answer().name(), "pen") << answer().spoken().toStdString();
@@ -68,11 +69,14 @@ TEST_F(RecogniseWindowTest, AGraspOfTheCheckIsOpenedAndSelected) {
   openIt(pen);
   emit panel().check().graspAsked(ball, 60, 200);
   ASSERT_TRUE(QTest::qWaitFor(
-      [&] { return window().current() && window().current()->path == ball; }, 20'000));
-  const auto& selection = window().timelinePanel().chart().selection();
+      [&] {
+        return window().bench().subject.behind() && window().bench().subject.behind()->path == ball;
+      },
+      20'000));
+  const auto& selection = window().feature<TimelineFeature>().panel().chart().selection();
   ASSERT_TRUE(selection);
-  EXPECT_NEAR(selection->fromS, window().current()->timeAt(60), 1e-6);
-  EXPECT_NEAR(selection->toS, window().current()->timeAt(200), 1e-6);
+  EXPECT_NEAR(selection->fromS, window().bench().subject.behind()->timeAt(60), 1e-6);
+  EXPECT_NEAR(selection->toS, window().bench().subject.behind()->timeAt(200), 1e-6);
 }
 
 TEST_F(RecogniseWindowTest, NamesWhatTheEmulatedHandHolds) { EXPECT_EQ(heldName("pen"), "pen"); }
@@ -84,11 +88,12 @@ class RecogniseLiveTest : public RecogniseWindowTest {
     Connection connection;
     connection.kind = Connection::Kind::kEmulated;
     connection.scene = "pen";
-    window().connectTo(connection);
+    window().bench().connectTo(connection);
     EXPECT_TRUE(QTest::qWaitFor(
-        [&] { return window().liveShown() && control().status().cannotReact.empty(); }, 20'000));
+        [&] { return window().bench().subject.isLive() && control().status().cannotReact.empty(); },
+        20'000));
   }
-  GraspControl& control() { return *window().live().source()->control; }
+  GraspControl& control() { return *window().bench().live.source()->control; }
   void moveTo(double closeRatio) {
     GraspRequest request;
     request.preshape = "pinch-parallel";
@@ -105,7 +110,7 @@ class RecogniseLiveTest : public RecogniseWindowTest {
 
 // L-B1: it asked itself without an end.
 TEST_F(RecogniseLiveTest, AskedByItselfWhileSomethingIsHeldItAnswers) {
-  window().showDock("Recognise");
+  window().docks().show("Recognise");
   find<QCheckBox>("recogniseByItself")->setChecked(true);
   moveTo(1.0);
   EXPECT_TRUE(await([&] { return answer().name() == "pen" && answer().of == "held now"; }))
@@ -113,7 +118,7 @@ TEST_F(RecogniseLiveTest, AskedByItselfWhileSomethingIsHeldItAnswers) {
 }
 
 TEST_F(RecogniseLiveTest, ThatNothingIsHeldIsNotSaidAnyMoreWhenSomethingIs) {
-  window().showDock("Recognise");
+  window().docks().show("Recognise");
   press(Qt::Key_Q);
   ASSERT_TRUE(await([&] { return answer().text.startsWith("Nothing is held"); }))
       << answer().text.toStdString();
@@ -124,7 +129,7 @@ TEST_F(RecogniseLiveTest, ThatNothingIsHeldIsNotSaidAnyMoreWhenSomethingIs) {
 
 // A window that is busy hears of a release and of the next contact at once.
 TEST_F(RecogniseLiveTest, WhatWasLetGoWhileTheWindowWasBusyIsNotHeldNow) {
-  window().showDock("Recognise");
+  window().docks().show("Recognise");
   auto* byItself = find<QCheckBox>("recogniseByItself");
   byItself->setChecked(true);
   moveTo(1.0);

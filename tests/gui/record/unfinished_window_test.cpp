@@ -4,6 +4,7 @@
 
 #include <palpate/recording/recording.h>
 
+#include "gui/record/record_feature.h"
 #include "gui/source/recording_settings.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/widgets/offer_strip.h"
@@ -27,8 +28,8 @@ class UnfinishedWindowTest : public WindowTest {
   }
   // Waits for the answer: how many there are.
   qsizetype look() {
-    QSignalSpy found(&window().unfinished(), &UnfinishedFinder::found);
-    window().offerUnfinished();
+    QSignalSpy found(&window().feature<RecordFeature>().unfinished(), &UnfinishedFinder::found);
+    window().feature<RecordFeature>().offerUnfinished();
     return found.wait(20'000) ? found[0][0].toStringList().size() : -1;
   }
   QString offered() {
@@ -42,7 +43,7 @@ TEST_F(UnfinishedWindowTest, IsRecoveredIntoANewFileAndOpened) {
   testing::writeSamples(lost, 70, false);
   const std::string before = testing::readFile(lost);
   start();
-  window().offerUnfinished();
+  window().feature<RecordFeature>().offerUnfinished();
   ASSERT_TRUE(await([&] { return offered().contains("good_run.palpate"); }));
   EXPECT_TRUE(offered().contains("never finished"));
   QTest::mouseClick(find<QPushButton>("offerAccept"), Qt::LeftButton);
@@ -57,7 +58,7 @@ TEST_F(UnfinishedWindowTest, IsRecoveredIntoANewFileAndOpened) {
 TEST_F(UnfinishedWindowTest, ClosedItIsNotOfferedAgain) {
   testing::writeSamples(folder_ / "runs/run.palpate", 70, false);
   start();
-  window().offerUnfinished();
+  window().feature<RecordFeature>().offerUnfinished();
   ASSERT_TRUE(await([&] { return offered().contains("run.palpate"); }));
   QTest::mouseClick(find<QToolButton>("offerClose"), Qt::LeftButton);
   start();

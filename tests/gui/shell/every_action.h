@@ -145,7 +145,7 @@ class PressedWindow {
   auto& bench() { return bench_; }
   testing::Heartbeat& heartbeat() { return heartbeat_; }
   GraspControl* control() {
-    LiveSource* source = window_->live().source();
+    LiveSource* source = window_->bench().live.source();
     return source ? source->control.get() : nullptr;
   }
 
@@ -158,8 +158,8 @@ class PressedWindow {
       show->close();
       if (!await([&] { return !window_->findChild<ShowWindow*>(); })) return false;
     }
-    const Actions& actions = window_->actionList();
-    if (window_->compareShown() && state != State::kCompare) actions.compare->trigger();
+    const Actions& actions = window_->bench().actions;
+    if (window_->bench().comparing.on() && state != State::kCompare) actions.compare->trigger();
     switch (state) {
       case State::kNothing:
         return disconnect() && closeRecordings(0);
@@ -169,8 +169,8 @@ class PressedWindow {
         return disconnect() && openRecordings(2);
       case State::kCompare:
         if (!disconnect() || !openRecordings(2)) return false;
-        if (!window_->compareShown()) actions.compare->trigger();
-        return await([&] { return window_->compareShown(); });
+        if (!window_->bench().comparing.on()) actions.compare->trigger();
+        return await([&] { return window_->bench().comparing.on(); });
       case State::kLive:
         return idle() && endRecording();
       case State::kMoving:
@@ -179,17 +179,17 @@ class PressedWindow {
         return endRecording() && hold();
       case State::kRecordingLive:
         if (!idle()) return false;
-        if (!window_->live().recording()) actions.record->trigger();
-        return await([&] { return window_->live().health().recorder.framesOnDisk > 0; });
+        if (!window_->bench().live.recording()) actions.record->trigger();
+        return await([&] { return window_->bench().live.health().recorder.framesOnDisk > 0; });
       case State::kUnplugged:
         if (bench_.unplugged_) {
-          if (isOurs() && window_->liveShown()) return true;
+          if (isOurs() && window_->bench().subject.isLive()) return true;
           replug();
         }
         if (!idle() || !endRecording()) return false;
         bench_.hand->unplug();
         bench_.unplugged_ = true;
-        return await([&] { return window_->live().stale(); });
+        return await([&] { return window_->bench().live.stale(); });
       case State::kShow:
         if (!idle()) return false;
         if (!show) actions.showMode->trigger();
@@ -284,10 +284,14 @@ class PressedWindow {
     window_->show();
     QApplication::setActiveWindow(window_.get());
     // Serial ports of this machine are nobody's here.
-    window_->askForConnection = [](const Connection&) { return std::optional<Connection>(); };
-    window_->askToEndRecording = [] { return true; };
-    window_->askAboutUnsaved = [](const QString&) { return MainWindow::Unsaved::kDiscard; };
-    window_->askForRecording = [this](RecordingSettings settings, const QString&) {
+    window_->bench().questions.connection = [](const Connection&) {
+      return std::optional<Connection>();
+    };
+    window_->bench().questions.endRecording = [] { return true; };
+    window_->bench().questions.unsaved = [](const QString&) {
+      return Questions::Unsaved::kDiscard;
+    };
+    window_->bench().questions.recording = [this](RecordingSettings settings, const QString&) {
       settings.folder = QString::fromStdString((folder_ / "runs").string());
       return std::optional(settings);
     };
@@ -321,8 +325,10 @@ class PressedWindow {
   }
   void end() {
     if (!window_) return;
-    window_->askAboutUnsaved = [](const QString&) { return MainWindow::Unsaved::kDiscard; };
-    window_->askToEndRecording = [] { return true; };
+    window_->bench().questions.unsaved = [](const QString&) {
+      return Questions::Unsaved::kDiscard;
+    };
+    window_->bench().questions.endRecording = [] { return true; };
     window_->close();
     EXPECT_TRUE(await([&] { return !window_->isVisible(); }));
     window_.reset();
@@ -333,38 +339,38 @@ class PressedWindow {
       if (auto* dialog = qobject_cast<QDialog*>(each); dialog && dialog->isVisible())
         dialog->reject();
     // A window that is about to close closes.
-    if (window_->live().state() == LiveController::State::kEnding)
-      await([&] { return window_->live().state() != LiveController::State::kEnding; });
+    if (window_->bench().live.state() == LiveController::State::kEnding)
+      await([&] { return window_->bench().live.state() != LiveController::State::kEnding; });
     QCoreApplication::processEvents();
   }
   bool disconnect() {
-    if (window_->live().state() == LiveController::State::kNone) return true;
-    window_->live().end();
-    return await([&] { return window_->live().state() == LiveController::State::kNone; });
+    if (window_->bench().live.state() == LiveController::State::kNone) return true;
+    window_->bench().live.end();
+    return await([&] { return window_->bench().live.state() == LiveController::State::kNone; });
   }
   bool closeRecordings(std::size_t left) {
-    for (int i = 0; window_->recordings().size() > left && i < 20; ++i)
-      window_->actionList().closeRecording->trigger();
-    return window_->recordings().size() <= left;
+    for (int i = 0; window_->bench().recordings.all().size() > left && i < 20; ++i)
+      window_->bench().actions.closeRecording->trigger();
+    return window_->bench().recordings.all().size() <= left;
   }
   bool openRecordings(std::size_t wanted) {
     std::vector<std::filesystem::path> files{folder_ / "a.dsa", folder_ / "b.dsa"};
     files.resize(wanted);
     const auto open = [&](const std::filesystem::path& file) {
-      return std::any_of(window_->recordings().begin(),
-                         window_->recordings().end(),
+      return std::any_of(window_->bench().recordings.all().begin(),
+                         window_->bench().recordings.all().end(),
                          [&](const auto& each) { return each->path == file; });
     };
     std::erase_if(files, open);
-    if (!files.empty()) window_->openFiles(files);
+    if (!files.empty()) window_->bench().open(files);
     return await([&] {
-      return !window_->opener().busy() && window_->current() &&
-             window_->recordings().size() >= wanted;
+      return !window_->bench().opener.busy() && window_->bench().subject.behind() &&
+             window_->bench().recordings.all().size() >= wanted;
     });
   }
   bool isOurs() const {
-    return window_->live().source() &&
-           window_->live().connection().dsaPort.toStdString() == bench_.hand->dsaPort();
+    return window_->bench().live.source() &&
+           window_->bench().live.connection().dsaPort.toStdString() == bench_.hand->dsaPort();
   }
   // Connected to our hand, shown, and nothing moves.
   bool idle() {
@@ -374,10 +380,10 @@ class PressedWindow {
       connection.kind = Connection::Kind::kPorts;
       connection.dsaPort = QString::fromStdString(bench_.hand->dsaPort());
       connection.sdhPort = QString::fromStdString(bench_.hand->sdhPort());
-      window_->connectTo(connection);
+      window_->bench().connectTo(connection);
       if (!await([&] { return isOurs(); })) return false;
     }
-    if (!window_->liveShown()) window_->actionList().live->trigger();
+    if (!window_->bench().subject.isLive()) window_->bench().actions.live->trigger();
     if (control()->status().phase != GraspPhase::kIdle) control()->stop();
     return await([&] {
       return control() && control()->status().phase == GraspPhase::kIdle &&
@@ -385,9 +391,9 @@ class PressedWindow {
     });
   }
   bool endRecording() {
-    if (!window_->live().recording()) return true;
-    window_->live().stopRecording();
-    return await([&] { return !window_->live().recording(); });
+    if (!window_->bench().live.recording()) return true;
+    window_->bench().live.stopRecording();
+    return await([&] { return !window_->bench().live.recording(); });
   }
   bool begin(GraspRequest request) {
     try {
@@ -398,7 +404,8 @@ class PressedWindow {
     }
   }
   bool move() {
-    if (isOurs() && !bench_.unplugged_ && window_->liveShown() && bench_.handMoves()) return true;
+    if (isOurs() && !bench_.unplugged_ && window_->bench().subject.isLive() && bench_.handMoves())
+      return true;
     for (const double ratio : {1.0, 0.0}) {
       if (!idle()) return false;
       GraspRequest request;
@@ -415,10 +422,10 @@ class PressedWindow {
   }
   bool holds() { return control() && control()->status().phase == GraspPhase::kHolding; }
   bool hold() {
-    if (isOurs() && window_->liveShown() && holds()) return true;
+    if (isOurs() && window_->bench().subject.isLive() && holds()) return true;
     if (!idle()) return false;
     // Whatever was pressed before: the hand feels with all of its taxels, as it is delivered.
-    window_->actionList().scanAll->trigger();
+    window_->bench().actions.scanAll->trigger();
     if (auto* reset = window_->findChild<QAbstractButton*>("resetSettings")) reset->click();
     if (!await([&] { return control()->status().cannotReact.empty(); })) return false;
     GraspRequest request;

@@ -39,10 +39,10 @@ TEST(EveryActionLong, OfEachDockLivesAndAnswers) {
   std::vector<Answered> slow;
   for (const State state : {State::kRecording, State::kLive}) {
     ASSERT_TRUE(pressed.bring(state));
-    for (const QString& name : pressed.window().dockNames()) {
+    for (const QString& name : pressed.window().docks().names()) {
       SCOPED_TRACE(name.toStdString());
       ASSERT_TRUE(pressed.bring(state));
-      pressed.window().showDock(name);
+      pressed.window().docks().show(name);
       QCoreApplication::processEvents();
       const auto* dock = pressed.window().findChild<QDockWidget*>(name);
       ASSERT_NE(dock, nullptr);

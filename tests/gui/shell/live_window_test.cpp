@@ -12,13 +12,17 @@
 #include <palpate/recording/recording.h>
 
 #include "control/emulated_bench.h"
+#include "gui/connect/connect_feature.h"
 #include "gui/hand/hand_dock.h"
 #include "gui/inspect/inspect_panel.h"
 #include "gui/inspect/matrix_table.h"
+#include "gui/matrices/matrices_feature.h"
+#include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
 #include "gui/slip/slip_drawing.h"
 #include "gui/slip/slip_panel.h"
 #include "gui/space/hand_panel.h"
+#include "gui/space/space_feature.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/live_chart.h"
 #include "gui/timeline/timeline_chart.h"
@@ -39,7 +43,7 @@ class LiveWindowTest : public WindowTest {
   }
   void ready() {
     start();
-    window().askForRecording = [this](RecordingSettings settings, const QString&) {
+    window().bench().questions.recording = [this](RecordingSettings settings, const QString&) {
       ++asked_;
       settings.folder = QString::fromStdString((folder_ / "runs").string());
       settings.nameTemplate = "{object}_{run}";
@@ -47,7 +51,7 @@ class LiveWindowTest : public WindowTest {
       settings.markLabels[2] = "slip";
       return std::optional(settings);
     };
-    window().askToEndRecording = [this] {
+    window().bench().questions.endRecording = [this] {
       ++askedToEnd_;
       return mayEnd_;
     };
@@ -56,8 +60,8 @@ class LiveWindowTest : public WindowTest {
     return QTest::qWaitFor(condition, 20'000);
   }
   void connectTo(const Connection& connection) {
-    window().connectTo(connection);
-    ASSERT_TRUE(await([&] { return !live().stale() && window().liveShown(); }));
+    window().bench().connectTo(connection);
+    ASSERT_TRUE(await([&] { return !live().stale() && window().bench().subject.isLive(); }));
   }
   void connectEmulated(const QString& scene = "ball") {
     Connection connection;
@@ -74,8 +78,8 @@ class LiveWindowTest : public WindowTest {
     connectTo(connection);
     ASSERT_TRUE(await([&] { return live().source()->control->status().cannotReact.empty(); }));
   }
-  LiveController& live() { return window().live(); }
-  MatricesView& view() { return window().matricesView(); }
+  LiveController& live() { return window().bench().live; }
+  MatricesView& view() { return window().feature<MatricesFeature>().panel().view(); }
   LiveChart& chart() { return *window().findChild<LiveChart*>(); }
   QString offered() {
     const auto* strip = window().findChild<OfferStrip*>();
@@ -147,10 +151,11 @@ TEST_F(LiveWindowTest, EscapeStopsTheHandWhateverIsShown) {
   click("graspHand");
   ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
   open({"good.dsa"});
-  EXPECT_FALSE(window().liveShown());
+  EXPECT_FALSE(window().bench().subject.isLive());
   press(Qt::Key_Escape);
   ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
-  EXPECT_NE(window().current(), nullptr) << "Escape stopped the hand and did nothing else";
+  EXPECT_NE(window().bench().subject.behind(), nullptr)
+      << "Escape stopped the hand and did nothing else";
 }
 
 TEST_F(LiveWindowTest, RecordsWithMarksAndOpensWhatWasRecorded) {
@@ -180,9 +185,9 @@ TEST_F(LiveWindowTest, RecordsWithMarksAndOpensWhatWasRecorded) {
   EXPECT_GT(profile.numAngles(), 0u);
 
   click("offerAccept");
-  EXPECT_TRUE(await([&] { return window().opener().numWaiting() == 0 && reads_ > 0; }));
+  EXPECT_TRUE(await([&] { return window().bench().opener.numWaiting() == 0 && reads_ > 0; }));
   press(Qt::Key_F6);
-  EXPECT_TRUE(window().liveShown());
+  EXPECT_TRUE(window().bench().subject.isLive());
 }
 
 TEST_F(LiveWindowTest, ARecordingGoesOnWhileAnotherIsLookedAt) {
@@ -190,13 +195,13 @@ TEST_F(LiveWindowTest, ARecordingGoesOnWhileAnotherIsLookedAt) {
   press(Qt::Key_R, Qt::ControlModifier);
   ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 0; }));
   open({"good.dsa"});
-  EXPECT_FALSE(window().liveShown());
+  EXPECT_FALSE(window().bench().subject.isLive());
   EXPECT_TRUE(actions().play->isEnabled()) << "the space bar plays now";
   EXPECT_FALSE(actions().mark->isEnabled());
   const auto before = live().health().recorder.framesOnDisk;
   ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > before + 5; }));
   press(Qt::Key_F6);
-  EXPECT_TRUE(window().liveShown());
+  EXPECT_TRUE(window().bench().subject.isLive());
   EXPECT_TRUE(actions().mark->isEnabled());
   press(Qt::Key_Space);
   ASSERT_TRUE(await([&] { return chart().numEvents() == 1; }));
@@ -204,12 +209,13 @@ TEST_F(LiveWindowTest, ARecordingGoesOnWhileAnotherIsLookedAt) {
   press(Qt::Key_F6);
   EXPECT_EQ(chart().numEvents(), 1u) << "marks stay in the chart";
   press(Qt::Key_W, Qt::ControlModifier);
-  EXPECT_EQ(window().recordings().size(), 2u) << "none of them is shown: none is closed";
+  EXPECT_EQ(window().bench().recordings.all().size(), 2u)
+      << "none of them is shown: none is closed";
   press(Qt::Key_Tab, Qt::ControlModifier);
-  EXPECT_FALSE(window().liveShown());
+  EXPECT_FALSE(window().bench().subject.isLive());
   for (int i = 0; i < 2; ++i) press(Qt::Key_W, Qt::ControlModifier);
-  EXPECT_TRUE(window().recordings().empty());
-  EXPECT_TRUE(window().liveShown()) << "recordings are closed, the hand stays";
+  EXPECT_TRUE(window().bench().recordings.all().empty());
+  EXPECT_TRUE(window().bench().subject.isLive()) << "recordings are closed, the hand stays";
 }
 
 TEST_F(LiveWindowTest, ClosingAsksOnceAndFinishesTheRecording) {
@@ -231,12 +237,12 @@ TEST_F(LiveWindowTest, ClosingAsksOnceAndFinishesTheRecording) {
 
 TEST_F(LiveWindowTest, DiscardedLabelsStayWhenTheWindowStays) {
   open({"good.dsa"});
-  window().askForText = [](const QString&, const QString&) {
+  window().bench().questions.text = [](const QString&, const QString&) {
     return std::optional<QString>("touch");
   };
-  window().askAboutUnsaved = [](const QString&) { return MainWindow::Unsaved::kDiscard; };
+  window().bench().questions.unsaved = [](const QString&) { return Questions::Unsaved::kDiscard; };
   press(Qt::Key_B, Qt::ControlModifier);
-  ASSERT_TRUE(window().events()->unsaved());
+  ASSERT_TRUE(window().bench().events.editor()->unsaved());
   connectEmulated("empty");
   press(Qt::Key_R, Qt::ControlModifier);
   ASSERT_TRUE(await([&] { return live().recording(); }));
@@ -245,9 +251,9 @@ TEST_F(LiveWindowTest, DiscardedLabelsStayWhenTheWindowStays) {
   EXPECT_EQ(askedToEnd_, 1);
   EXPECT_TRUE(window().isVisible());
   emit find<QComboBox>("recordingsBox")->activated(0);
-  ASSERT_FALSE(window().liveShown());
-  EXPECT_TRUE(window().events()->unsaved());
-  EXPECT_EQ(window().events()->events().size(), 1u);
+  ASSERT_FALSE(window().bench().subject.isLive());
+  EXPECT_TRUE(window().bench().events.editor()->unsaved());
+  EXPECT_EQ(window().bench().events.editor()->events().size(), 1u);
   mayEnd_ = true;
 }
 
@@ -256,13 +262,13 @@ TEST_F(LiveWindowTest, ARecordingIsFoundWhereItWasLeftForTheHand) {
   playback().seekFrame(7);
   connectEmulated("empty");
   emit find<QComboBox>("recordingsBox")->activated(0);
-  ASSERT_FALSE(window().liveShown());
+  ASSERT_FALSE(window().bench().subject.isLive());
   EXPECT_EQ(playback().frame(), 7u);
   playback().seekFrame(9);
   press(Qt::Key_F6);
-  ASSERT_TRUE(window().liveShown());
+  ASSERT_TRUE(window().bench().subject.isLive());
   actions().disconnectHand->trigger();
-  ASSERT_TRUE(await([&] { return !window().liveShown(); }));
+  ASSERT_TRUE(await([&] { return !window().bench().subject.isLive(); }));
   EXPECT_EQ(playback().frame(), 9u);
 }
 
@@ -352,7 +358,7 @@ QImage pictureOf(QWidget& widget) { return widget.grab().toImage(); }
 // L-M4
 TEST_F(LiveWindowTest, TheHandInSpaceIsMarkedWhenItsPictureIsOld) {
   connectBench();
-  HandView& hand = window().handPanel().view();
+  HandView& hand = window().feature<SpaceFeature>().panel().view();
   ASSERT_TRUE(await([&] { return hand.isVisible() && hand.drawing().moment().frame; }));
   const QImage live = pictureOf(hand);
   bench_->hand->unplug();
@@ -369,14 +375,14 @@ TEST_F(LiveWindowTest, OfARecordingNothingIsHeld) {
   press(Qt::Key_P);
   ASSERT_TRUE(view().notice().contains("held"));
   open({"empty.dsa"});
-  EXPECT_FALSE(window().liveShown());
+  EXPECT_FALSE(window().bench().subject.isLive());
   EXPECT_EQ(view().notice(), "");
 }
 
 // L-M4
 TEST_F(LiveWindowTest, APictureThatIsHeldSaysSoInEveryView) {
   connectEmulated("empty");
-  HandView& hand = window().handPanel().view();
+  HandView& hand = window().feature<SpaceFeature>().panel().view();
   ASSERT_TRUE(await([&] { return hand.drawing().moment().frame && view().paintedUs() > 0; }));
   const auto corner = [](QWidget& widget) {
     const QImage whole = pictureOf(widget);
@@ -398,15 +404,15 @@ TEST_F(LiveWindowTest, APictureThatIsHeldSaysSoInEveryView) {
 // L-M10
 TEST_F(LiveWindowTest, WhyNothingWasRecordedGoesAsSoonAsItRecords) {
   connectEmulated("empty");
-  const auto mended = window().askForRecording;
-  window().askForRecording = [&](RecordingSettings settings, const QString& button) {
+  const auto mended = window().bench().questions.recording;
+  window().bench().questions.recording = [&](RecordingSettings settings, const QString& button) {
     settings = *mended(settings, button);
     settings.folder = "/proc/no_such_folder";
     return std::optional(settings);
   };
   press(Qt::Key_R, Qt::ControlModifier);
   ASSERT_TRUE(await([&] { return bannerText().contains("Not recording"); }));
-  window().askForRecording = mended;
+  window().bench().questions.recording = mended;
   press(Qt::Key_R, Qt::ControlModifier);
   ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 0; }));
   // The window looks after it some ten times a second.
@@ -440,8 +446,8 @@ TEST_F(LiveWindowTest, TheWheelChangesNothingThatHasNoFocus) {
     EXPECT_FALSE(widget->hasFocus()) << widget->objectName().toStdString();
     ++tried;
   };
-  for (const QString& dock : window().dockNames()) {
-    window().showDock(dock);
+  for (const QString& dock : window().docks().names()) {
+    window().docks().show(dock);
     QCoreApplication::processEvents();
     for (auto* field : window().findChildren<QSpinBox*>())
       turn(field, [field] { return field->value(); });
@@ -547,7 +553,7 @@ TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {
   chosen.add(1, 5, 1, 8, 4);
   view().select(chosen);
   EXPECT_TRUE(find<StatusStrip>("statusStrip")->status().notice.contains("16 taxels chosen"));
-  window().showDock("Slip");
+  window().docks().show("Slip");
   window().findChild<SlipPanel*>()->choose(1);
   MatrixTableModel& table = window().findChild<InspectPanel*>()->table();
   table.setPlotted(2, false);
@@ -574,11 +580,11 @@ TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {
 TEST_F(LiveWindowTest, DisconnectingComesBackToWhatWasOpen) {
   open({"good.dsa"});
   connectEmulated();
-  EXPECT_TRUE(window().liveShown());
+  EXPECT_TRUE(window().bench().subject.isLive());
   press(Qt::Key_K, Qt::ControlModifier | Qt::ShiftModifier);
   ASSERT_TRUE(await([&] { return live().state() == State::kNone; }));
-  EXPECT_FALSE(window().liveShown());
-  ASSERT_NE(window().current(), nullptr);
+  EXPECT_FALSE(window().bench().subject.isLive());
+  ASSERT_NE(window().bench().subject.behind(), nullptr);
   EXPECT_TRUE(window().findChild<TimelineChart*>()->isVisible());
   EXPECT_TRUE(view().notice().isEmpty());
 }
@@ -586,7 +592,7 @@ TEST_F(LiveWindowTest, DisconnectingComesBackToWhatWasOpen) {
 TEST_F(LiveWindowTest, AConnectionThatFailsSaysWhyAndRemembersNothing) {
   Connection wrong;
   wrong.scene = "no_such_scene";
-  window().connectTo(wrong);
+  window().bench().connectTo(wrong);
   ASSERT_TRUE(await([&] { return bannerText().contains("no_such_scene"); }));
   EXPECT_EQ(live().state(), State::kNone);
   const QSettings settings(settingsFile(), QSettings::IniFormat);
@@ -606,7 +612,7 @@ TEST_F(LiveWindowTest, TheConnectButtonOffersScenesAndTheLastConnection) {
   EXPECT_TRUE(texts.contains("&Emulated hand"));
   EXPECT_TRUE(texts.contains("&Replay of a recording"));
   menu->actions().front()->trigger();
-  ASSERT_TRUE(await([&] { return window().liveShown(); }));
+  ASSERT_TRUE(await([&] { return window().bench().subject.isLive(); }));
 }
 
 TEST_F(LiveWindowTest, AReplayThatEndsIsNoAlarm) {
@@ -618,7 +624,7 @@ TEST_F(LiveWindowTest, AReplayThatEndsIsNoAlarm) {
   Connection replay;
   replay.kind = Connection::Kind::kReplay;
   replay.recording = QString::fromStdString((folder_ / "runs/ball_001.palpate").string());
-  window().connectTo(replay);
+  window().bench().connectTo(replay);
   ASSERT_TRUE(await([&] { return live().source() && live().source()->finished(); }));
   ASSERT_TRUE(await([&] { return view().notice() == "the replay has ended"; }));
   // A second without a frame is an alarm elsewhere.
@@ -628,7 +634,7 @@ TEST_F(LiveWindowTest, AReplayThatEndsIsNoAlarm) {
 }
 
 TEST_F(LiveWindowTest, TheDemoGraspsByItself) {
-  window().openDemo();
+  window().bench().connectTo(emulatedBall(true));
   auto* table = window().findChild<MatrixTableModel*>();
   ASSERT_TRUE(await([&] {
     return table->numMatrices() > 0 &&

@@ -16,13 +16,13 @@ class WindowLayoutTest : public WindowTest {
 
 TEST_F(WindowLayoutTest, LookSpeedAndLoopAreRemembered) {
   open({"good.dsa"});
-  window().setTheme(ThemeChoice::kLight);
+  window().bench().look.setTheme(ThemeChoice::kLight);
   for (const Qt::Key key :
        {Qt::Key_M, Qt::Key_R, Qt::Key_V, Qt::Key_I, Qt::Key_S, Qt::Key_L, Qt::Key_G, Qt::Key_Up})
     press(key);
   window().close();
   start();
-  const ViewSettings& view = window().viewSettings();
+  const ViewSettings& view = window().bench().look.view();
   EXPECT_EQ(view.theme, ThemeChoice::kLight);
   EXPECT_EQ(view.map, ColorMapName::kViridis);
   EXPECT_EQ(view.range, RangeMode::kFrame);
@@ -117,9 +117,9 @@ TEST_F(WindowLayoutTest, DocksCloseByTheirButton) {
   auto* close = dock("Inspect")->titleBarWidget()->findChild<QToolButton*>();
   QTest::mouseClick(close, Qt::LeftButton);
   EXPECT_FALSE(dock("Inspect")->isVisible());
-  window().showDock("Inspect");
+  window().docks().show("Inspect");
   EXPECT_TRUE(dock("Inspect")->isVisible());
-  EXPECT_EQ(window().dockNames(),
+  EXPECT_EQ(window().docks().names(),
             (QStringList{"Inspect",
                          "Timeline",
                          "Hand",

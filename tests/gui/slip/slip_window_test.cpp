@@ -5,13 +5,16 @@
 #include <filesystem>
 #include <functional>
 
+#include "gui/export/export_feature.h"
 #include "gui/export/take_away.h"
 #include "gui/slip/slip_fixture.h"
 #include "gui/slip/slip_panel.h"
 #include "gui/source/connection.h"
 #include "gui/space/hand_panel.h"
+#include "gui/space/space_feature.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/event_rows.h"
+#include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_panel.h"
 
 namespace palpate::gui::slip_window_test {
@@ -32,7 +35,7 @@ class SlipWindowTest : public WindowTest {
   }
   std::vector<EventMark> slips() {
     std::vector<EventMark> found;
-    for (const EventMark& mark : window().timelinePanel().rows().marks())
+    for (const EventMark& mark : window().feature<TimelineFeature>().panel().rows().marks())
       if (mark.lane == EventLane::kSlips) found.push_back(mark);
     return found;
   }
@@ -43,7 +46,7 @@ TEST_F(SlipWindowTest, ComesAndGoesByItsKey) {
   showIt();
   EXPECT_TRUE(dock()->isVisible());
   EXPECT_GE(dock()->width(), 580);
-  EXPECT_TRUE(window().dockNames().contains("Slip"));
+  EXPECT_TRUE(window().docks().names().contains("Slip"));
   press(Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier);
   EXPECT_FALSE(dock()->isVisible());
 }
@@ -86,7 +89,7 @@ TEST_F(SlipWindowTest, TheKeyOfTheReferenceBringsTheDock) {
 
 TEST_F(SlipWindowTest, ArrowsAreOnTheHandWhileItSlips) {
   showIt();
-  HandView& hand = window().handPanel().view();
+  HandView& hand = window().feature<SpaceFeature>().panel().view();
   const auto of = [&](std::size_t matrix) -> const HandSlip* {
     for (const HandSlip& slip : hand.drawing().slip())
       if (slip.matrix == matrix) return &slip;
@@ -116,8 +119,9 @@ TEST_F(SlipWindowTest, IsTakenAwayAsPictureAndTable) {
   request.name = "s";
   for (const ExportForm form : {ExportForm::kPng, ExportForm::kCsv}) {
     request.form = form;
-    window().takeAway().write(request);
-    ASSERT_TRUE(QTest::qWaitFor([&] { return !window().takeAway().busy(); }, 20'000));
+    window().feature<ExportFeature>().takeAway().write(request);
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return !window().feature<ExportFeature>().takeAway().busy(); }, 20'000));
     EXPECT_EQ(bannerText(), "");
   }
   EXPECT_FALSE(QImage(QString::fromStdString((folder_ / "s.png").string())).isNull());
@@ -133,11 +137,11 @@ TEST_F(SlipWindowTest, OfAConnectedHandItTellsWhenItSlips) {
   handle.kind = Connection::Kind::kEmulated;
   handle.scene = "slipping_handle";
   handle.sceneActs = true;
-  window().connectTo(handle);
+  window().bench().connectTo(handle);
   const auto await = [](const std::function<bool()>& condition) {
     return QTest::qWaitFor(condition, 40'000);
   };
-  ASSERT_TRUE(await([&] { return window().live().framesCameYet(); }));
+  ASSERT_TRUE(await([&] { return window().bench().live.framesCameYet(); }));
   press(Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier);
   ASSERT_TRUE(await([&] { return panel().shown(); })) << panel().emptyText().toStdString();
   EXPECT_EQ(find<QComboBox>("slipMethod")->currentText(), "centroid");
@@ -151,7 +155,7 @@ TEST_F(SlipWindowTest, OfAConnectedHandItTellsWhenItSlips) {
   };
   ASSERT_TRUE(await(slipping)) << "it is pulled";
   bool arrow = false;
-  for (const HandSlip& slip : window().handPanel().view().drawing().slip())
+  for (const HandSlip& slip : window().feature<SpaceFeature>().panel().view().drawing().slip())
     arrow = arrow || slip.slipping;
   EXPECT_TRUE(arrow);
   // The frame that is shown becomes the reference: what was moved is zero again.

@@ -1,6 +1,8 @@
 #include "gui/source/session.h"
 
+#include "gui/open/session_keeper.h"
 #include "gui/testing/window_fixture.h"
+#include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_panel.h"
 
 namespace palpate::gui::session_test {
@@ -38,33 +40,33 @@ TEST_F(SessionTest, WhatMakesNoSenseIsLeftOut) {
 TEST_F(SessionTest, FilesCursorRangeAndSelectionComeBack) {
   open({"good1.dsa", "rich.dsa", "good2.dsa"});
   press(Qt::Key_Tab, Qt::ControlModifier);  // rich.dsa
-  ASSERT_EQ(window().current()->path.filename(), "rich.dsa");
-  auto& chart = window().timelinePanel().chart();
+  ASSERT_EQ(window().bench().subject.behind()->path.filename(), "rich.dsa");
+  auto& chart = window().feature<TimelineFeature>().panel().chart();
   playback().seekFrame(50);
   chart.setSeen(1.0, 2.5);
   chart.setSelection(TimeSpan{1.2, 1.7});
   window().close();
   start();
-  window().restoreSession();
+  restoreSession(window().bench());
   waitUntilOpened();
-  ASSERT_EQ(window().recordings().size(), 3u);
-  EXPECT_EQ(window().current()->path.filename(), "rich.dsa");
+  ASSERT_EQ(window().bench().recordings.all().size(), 3u);
+  EXPECT_EQ(window().bench().subject.behind()->path.filename(), "rich.dsa");
   EXPECT_EQ(playback().frame(), 50u);
-  EXPECT_EQ(window().timelinePanel().chart().selection(), (TimeSpan{1.2, 1.7}));
-  EXPECT_NEAR(window().timelinePanel().chart().seen().lower, 1.0, 1e-9);
-  EXPECT_NEAR(window().timelinePanel().chart().seen().upper, 2.5, 1e-9);
+  EXPECT_EQ(window().feature<TimelineFeature>().panel().chart().selection(), (TimeSpan{1.2, 1.7}));
+  EXPECT_NEAR(window().feature<TimelineFeature>().panel().chart().seen().lower, 1.0, 1e-9);
+  EXPECT_NEAR(window().feature<TimelineFeature>().panel().chart().seen().upper, 2.5, 1e-9);
 }
 
 TEST_F(SessionTest, WhereOneWasInEachRecordingIsKeptWhileItIsOpen) {
   open({"good1.dsa", "good2.dsa"});
   playback().seekFrame(11);
-  window().timelinePanel().chart().setSelection(TimeSpan{0.2, 0.3});
+  window().feature<TimelineFeature>().panel().chart().setSelection(TimeSpan{0.2, 0.3});
   press(Qt::Key_Tab, Qt::ControlModifier);
   EXPECT_EQ(playback().frame(), 0u);
-  EXPECT_FALSE(window().timelinePanel().chart().selection());
+  EXPECT_FALSE(window().feature<TimelineFeature>().panel().chart().selection());
   press(Qt::Key_Tab, Qt::ControlModifier);
   EXPECT_EQ(playback().frame(), 11u);
-  EXPECT_EQ(window().timelinePanel().chart().selection(), (TimeSpan{0.2, 0.3}));
+  EXPECT_EQ(window().feature<TimelineFeature>().panel().chart().selection(), (TimeSpan{0.2, 0.3}));
 }
 
 TEST_F(SessionTest, WhatIsGoneIsSaid) {
@@ -72,9 +74,9 @@ TEST_F(SessionTest, WhatIsGoneIsSaid) {
   window().close();
   std::filesystem::remove(folder_ / "good1.dsa");
   start();
-  window().restoreSession();
+  restoreSession(window().bench());
   waitUntilOpened();
-  EXPECT_EQ(window().recordings().size(), 1u);
+  EXPECT_EQ(window().bench().recordings.all().size(), 1u);
   EXPECT_TRUE(bannerText().contains("good1.dsa")) << bannerText().toStdString();
 }
 

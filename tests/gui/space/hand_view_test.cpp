@@ -7,8 +7,12 @@
 #include <palpate/emulator/synthetic_profile.h>
 #include <palpate/recording/palpate_writer.h>
 
+#include "gui/export/export_feature.h"
 #include "gui/export/take_away.h"
+#include "gui/matrices/matrices_feature.h"
+#include "gui/matrices/matrices_panel.h"
 #include "gui/space/hand_panel.h"
+#include "gui/space/space_feature.h"
 #include "gui/testing/sample_profiles.h"
 #include "gui/testing/window_fixture.h"
 
@@ -185,7 +189,7 @@ TEST_F(HandViewTest, WithoutAHandItIsEmptyAndHarmless) {
 
 class HandWindowTest : public WindowTest {
  protected:
-  HandPanel& panel() { return window().handPanel(); }
+  HandPanel& panel() { return window().feature<SpaceFeature>().panel(); }
   HandLook look() { return panel().look(); }
 };
 
@@ -194,26 +198,26 @@ TEST_F(HandWindowTest, FollowsTheCursorTheSelectionAndTheColours) {
   playback().seekFrame(12);
   ASSERT_TRUE(panel().view().drawing().moment().frame);
   EXPECT_EQ(panel().view().drawing().moment().frame->values,
-            window().current()->profile.frame(12).values);
+            window().bench().subject.behind()->profile.frame(12).values);
   EXPECT_TRUE(panel().view().drawing().posed());
   TaxelSelection chosen(*sdh2().layout);
   chosen.add(3, 2, 2, 4, 4);
-  window().matricesView().select(chosen);
+  window().feature<MatricesFeature>().panel().view().select(chosen);
   EXPECT_EQ(panel().view().selection(), chosen);
   chosen.clear();
   chosen.add(0, 1, 1, 1, 1);
   panel().view().select(chosen);
-  EXPECT_EQ(window().matricesView().selection(), chosen);
+  EXPECT_EQ(window().feature<MatricesFeature>().panel().view().selection(), chosen);
   actions().maps->actions().at(1)->trigger();
   EXPECT_EQ(look().map, kAllColorMaps[1]);
-  EXPECT_EQ(look().range, window().matricesView().look().range);
+  EXPECT_EQ(look().range, window().feature<MatricesFeature>().panel().view().look().range);
   press(Qt::Key_R);
-  EXPECT_EQ(look().range, window().matricesView().look().range);
+  EXPECT_EQ(look().range, window().feature<MatricesFeature>().panel().view().look().range);
 }
 
 TEST_F(HandWindowTest, TheFirstViewHasRoomForTheLargestGrasp) {
   open({"rich.dsa"});
-  playback().seekFrame(window().current()->table.frameOfLargestSum());
+  playback().seekFrame(window().bench().subject.behind()->table.frameOfLargestSum());
   const HandView& view = panel().view();
   ASSERT_TRUE(view.drawing().moment().contact.taxelSphere);
   for (const Eigen::Vector3d& point : view.drawing().extent(look())) {
@@ -285,22 +289,23 @@ TEST_F(HandWindowTest, ADamagedBlockIsSaidAndTheWindowGoesOn) {
       .dataFolder = folder_.path(), .settingsPath = settingsFile(), .clock = &clock_});
   window_->show();
   open({"damaged.palpate"});
-  ASSERT_TRUE(window().current());
+  ASSERT_TRUE(window().bench().subject.behind());
   std::size_t numSaid = 0;
   const std::size_t numFrames = playback().numFrames();
   for (std::size_t frame = 0; frame < numFrames; frame += 5) {
     playback().seekFrame(frame);
-    if (window().matricesView().notice().contains("is damaged")) ++numSaid;
+    if (window().feature<MatricesFeature>().panel().view().notice().contains("is damaged"))
+      ++numSaid;
   }
   EXPECT_GT(numSaid, 0u);
   EXPECT_LT(numSaid, numFrames / 10);
   playback().seekFrame(0);
-  EXPECT_EQ(window().matricesView().notice(), "");
+  EXPECT_EQ(window().feature<MatricesFeature>().panel().view().notice(), "");
 }
 
 TEST_F(HandWindowTest, CanBeTakenAway) {
   open({"rich.dsa"});
-  const auto views = window().takeAway().present();
+  const auto views = window().feature<ExportFeature>().takeAway().present();
   const auto found = std::find_if(
       views.begin(), views.end(), [](const ExportedView* view) { return view->name == "Hand"; });
   ASSERT_TRUE(found != views.end());
@@ -314,7 +319,7 @@ TEST_F(HandWindowTest, CanBeTakenAway) {
   EXPECT_EQ(image.pixelColor(3, 200), colorsOf(Theme::kLight).window);
   const auto pictures = hand->framePicturesNow();
   ASSERT_TRUE(pictures);
-  EXPECT_EQ(pictures->numFrames, window().current()->profile.numFrames());
+  EXPECT_EQ(pictures->numFrames, window().bench().subject.behind()->profile.numFrames());
   QImage of(400, 300, QImage::Format_RGB32);
   QPainter onImage(&of);
   pictures->painter({.size = {400.0, 300.0}, .pixelRatio = 1.0})(onImage, 5);

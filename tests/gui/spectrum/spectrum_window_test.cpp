@@ -2,8 +2,10 @@
 #include <QDockWidget>
 #include <QLabel>
 
+#include "gui/export/export_feature.h"
 #include "gui/export/take_away.h"
 #include "gui/matrices/matrices_view.h"
+#include "gui/spectrum/spectrum_feature.h"
 #include "gui/spectrum/spectrum_panel.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/timeline_chart.h"
@@ -15,7 +17,7 @@ class SpectrumWindowTest : public WindowTest {
  protected:
   SpectrumWindowTest() { open({"rich.dsa"}); }
   QDockWidget* dock() { return window().findChild<QDockWidget*>("Spectrum"); }
-  SpectrumPanel& panel() { return window().spectrum(); }
+  SpectrumPanel& panel() { return window().feature<SpectrumFeature>().panel(); }
   TimelineChart& timeline() { return *window().findChild<TimelineChart*>(); }
   void showIt() {
     press(Qt::Key_U, Qt::ControlModifier);
@@ -23,7 +25,7 @@ class SpectrumWindowTest : public WindowTest {
     for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();
   }
   bool canBeTaken() {
-    for (const ExportedView* view : window().takeAway().present())
+    for (const ExportedView* view : window().feature<ExportFeature>().takeAway().present())
       if (view->name == "Spectrum") return true;
     return false;
   }
@@ -107,8 +109,9 @@ TEST_F(SpectrumWindowTest, IsTakenAwayAsPictureAndTable) {
   request.name = "s";
   for (const ExportForm form : {ExportForm::kPng, ExportForm::kSvg, ExportForm::kCsv}) {
     request.form = form;
-    window().takeAway().write(request);
-    ASSERT_TRUE(QTest::qWaitFor([&] { return !window().takeAway().busy(); }, 20'000));
+    window().feature<ExportFeature>().takeAway().write(request);
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return !window().feature<ExportFeature>().takeAway().busy(); }, 20'000));
     EXPECT_EQ(bannerText(), "");
   }
   const QImage image(QString::fromStdString((folder_ / "s.png").string()));
@@ -121,7 +124,7 @@ TEST_F(SpectrumWindowTest, IsTakenAwayAsPictureAndTable) {
   EXPECT_EQ(
       testing::readFile(folder_ / "s.csv").find("segment,time_s,frequency_hz,psd,magnitude\n"), 0u);
   EXPECT_EQ(panel().chart().xAxis->labelColor(),
-            colorsOf(resolved(window().viewSettings().theme)).muted)
+            colorsOf(resolved(window().bench().look.view().theme)).muted)
       << "the screen is as before";
 }
 

@@ -52,13 +52,13 @@ std::string WindowTest::file(const std::string& name) {
 void WindowTest::open(const std::vector<std::string>& names) {
   std::vector<std::filesystem::path> paths;
   for (const std::string& name : names) paths.emplace_back(file(name));
-  window_->openFiles(paths);
+  window_->bench().open(paths);
   waitUntilOpened();
 }
 
 void WindowTest::waitUntilOpened() {
-  QSignalSpy finished(&window_->opener(), &RecordingOpener::finished);
-  while (window_->opener().busy())
+  QSignalSpy finished(&window_->bench().opener, &RecordingOpener::finished);
+  while (window_->bench().opener.busy())
     if (!finished.wait(10'000)) FAIL() << "opening doesn't end";
   QCoreApplication::processEvents();
 }

@@ -7,8 +7,11 @@
 #include <palpate/recording/recording.h>
 
 #include "gui/export/take_away.h"
+#include "gui/matrices/matrices_feature.h"
+#include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
 #include "gui/testing/window_fixture.h"
+#include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_header.h"
 #include "gui/timeline/timeline_panel.h"
 
@@ -32,20 +35,20 @@ class EventsWindowTest : public WindowTest {
                                                               .read = {}});
     window_->show();
     QApplication::setActiveWindow(window_.get());
-    window_->openFiles({path_});
+    window_->bench().open({path_});
     waitUntilOpened();
-    window_->askForText = [this](const QString&, const QString&) { return answer_; };
-    window_->askForCropped = [this](const QString& suggestion) {
+    window_->bench().questions.text = [this](const QString&, const QString&) { return answer_; };
+    window_->bench().questions.cropped = [this](const QString& suggestion) {
       suggested_ = suggestion;
       return QString::fromStdString((folder_ / cropName_).string());
     };
-    window_->askAboutUnsaved = [this](const QString&) {
+    window_->bench().questions.unsaved = [this](const QString&) {
       ++asked_;
       return unsaved_;
     };
   }
-  EventRows& rows() { return window().timelinePanel().rows(); }
-  TimelineChart& chart() { return window().timelinePanel().chart(); }
+  EventRows& rows() { return window().feature<TimelineFeature>().panel().rows(); }
+  TimelineChart& chart() { return window().feature<TimelineFeature>().panel().chart(); }
   int marksIn(EventLane lane) {
     return static_cast<int>(std::count_if(rows().marks().begin(),
                                           rows().marks().end(),
@@ -57,7 +60,7 @@ class EventsWindowTest : public WindowTest {
   std::optional<QString> answer_ = "touch";
   std::string cropName_ = "part.palpate";
   QString suggested_;
-  MainWindow::Unsaved unsaved_ = MainWindow::Unsaved::kSave;
+  Questions::Unsaved unsaved_ = Questions::Unsaved::kSave;
   int asked_ = 0;
 };
 
@@ -67,9 +70,9 @@ TEST_F(EventsWindowTest, TheThirdGraspIsFoundSelectedAndCropped) {
   ASSERT_TRUE(chart().selection());
   const auto& third = truth_.grasps[2];
   EXPECT_NEAR(static_cast<double>(playback().frame()), static_cast<double>(third.begin), 3);
-  QSignalSpy written(&window(), &MainWindow::cropWritten);
+  QSignalSpy written(&window().feature<TimelineFeature>().cropJob(), &CropJob::written);
   press(Qt::Key_X, Qt::ControlModifier | Qt::ShiftModifier);
-  window().waitForWork();
+  window().settle();
   ASSERT_EQ(written.size(), 1);
   EXPECT_TRUE(suggested_.contains("grasps_000")) << suggested_.toStdString();
   const Profile part = openRecording(folder_ / "part.palpate");
@@ -81,8 +84,8 @@ TEST_F(EventsWindowTest, TheThirdGraspIsFoundSelectedAndCropped) {
   for (std::size_t i = 0; i < part.numFrames(); ++i)
     ASSERT_EQ(part.frame(i).values, all.frame(first + i).values);
   waitUntilOpened();
-  EXPECT_EQ(window().recordings().size(), 2u) << "the part is open, too";
-  EXPECT_EQ(window().current()->path, path_) << "what is looked at stays";
+  EXPECT_EQ(window().bench().recordings.all().size(), 2u) << "the part is open, too";
+  EXPECT_EQ(window().bench().subject.behind()->path, path_) << "what is looked at stays";
 }
 
 TEST_F(EventsWindowTest, ShiftNGoesBack) {
@@ -111,7 +114,7 @@ TEST_F(EventsWindowTest, LabelsAndNotesAreMadeUndoneAndSaved) {
   ASSERT_EQ(events.size(), 2u);
   EXPECT_EQ(events[0].kind, "label");
   EXPECT_EQ(events[0].text, "touch");
-  EXPECT_EQ(events[0].tUs, window().current()->profile.frameTimeUs(0) + 2'000'000);
+  EXPECT_EQ(events[0].tUs, window().bench().subject.behind()->profile.frameTimeUs(0) + 2'000'000);
   EXPECT_EQ(events[1].kind, "note");
   EXPECT_EQ(events[1].t1Us - events[1].tUs, 1'000'000);
   EXPECT_EQ(verifyRecording(path_).state, VerifyReport::State::kSound);
@@ -125,7 +128,7 @@ TEST_F(EventsWindowTest, ACancelledOrEmptyTextMakesNothing) {
   answer_ = "";
   press(Qt::Key_B, Qt::ControlModifier);
   EXPECT_EQ(marksIn(EventLane::kLabels), 0);
-  EXPECT_FALSE(window().events()->unsaved());
+  EXPECT_FALSE(window().bench().events.editor()->unsaved());
 }
 
 TEST_F(EventsWindowTest, AGraspIsCorrectedAndAllOthersAreKept) {
@@ -141,7 +144,7 @@ TEST_F(EventsWindowTest, AGraspIsCorrectedAndAllOthersAreKept) {
   press(Qt::Key_Z, Qt::ControlModifier);
   press(Qt::Key_Z, Qt::ControlModifier);
   EXPECT_FALSE(rows().marks()[0].event) << "undone in one go: found again";
-  EXPECT_FALSE(window().events()->unsaved());
+  EXPECT_FALSE(window().bench().events.editor()->unsaved());
 }
 
 TEST_F(EventsWindowTest, GraspsAreAddedAndDeletedToTheLast) {
@@ -163,39 +166,39 @@ TEST_F(EventsWindowTest, GraspsAreAddedAndDeletedToTheLast) {
 
 TEST_F(EventsWindowTest, UnsavedWorkIsAskedAboutOnce) {
   press(Qt::Key_B, Qt::ControlModifier);
-  unsaved_ = MainWindow::Unsaved::kCancel;
+  unsaved_ = Questions::Unsaved::kCancel;
   window().close();
   EXPECT_EQ(asked_, 1);
   EXPECT_TRUE(window().isVisible()) << "the user would rather go on";
   press(Qt::Key_W, Qt::ControlModifier);
   EXPECT_EQ(asked_, 2);
-  EXPECT_TRUE(window().current());
-  unsaved_ = MainWindow::Unsaved::kDiscard;
+  EXPECT_TRUE(window().bench().subject.behind());
+  unsaved_ = Questions::Unsaved::kDiscard;
   press(Qt::Key_W, Qt::ControlModifier);
-  EXPECT_FALSE(window().current());
+  EXPECT_FALSE(window().bench().subject.behind());
   EXPECT_TRUE(readEvents(path_).events.empty());
 }
 
 TEST_F(EventsWindowTest, AFileIsReadAnewOnlyWhenItsLabelsAreSettled) {
   const auto openAgain = [this] {
-    window().openFiles({path_});
+    window().bench().open({path_});
     waitUntilOpened();
   };
   press(Qt::Key_B, Qt::ControlModifier);
-  unsaved_ = MainWindow::Unsaved::kCancel;
+  unsaved_ = Questions::Unsaved::kCancel;
   openAgain();
   EXPECT_EQ(asked_, 1);
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
-  EXPECT_TRUE(window().events()->unsaved());
-  unsaved_ = MainWindow::Unsaved::kSave;
+  EXPECT_TRUE(window().bench().events.editor()->unsaved());
+  unsaved_ = Questions::Unsaved::kSave;
   openAgain();
   EXPECT_EQ(asked_, 2);
   EXPECT_EQ(marksIn(EventLane::kLabels), 1) << "read from the file";
-  EXPECT_FALSE(window().events()->unsaved());
+  EXPECT_FALSE(window().bench().events.editor()->unsaved());
   playback().seekSeconds(3.0);
   press(Qt::Key_B, Qt::ControlModifier);
   EXPECT_EQ(marksIn(EventLane::kLabels), 2);
-  unsaved_ = MainWindow::Unsaved::kDiscard;
+  unsaved_ = Questions::Unsaved::kDiscard;
   openAgain();
   EXPECT_EQ(asked_, 3);
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
@@ -204,23 +207,23 @@ TEST_F(EventsWindowTest, AFileIsReadAnewOnlyWhenItsLabelsAreSettled) {
 }
 
 TEST_F(EventsWindowTest, LabelsMadeWhileTheirFileIsReadAnewStay) {
-  window().openFiles({path_});
+  window().bench().open({path_});
   press(Qt::Key_B, Qt::ControlModifier);
   waitUntilOpened();
   EXPECT_EQ(asked_, 0);
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
-  EXPECT_TRUE(window().events()->unsaved());
+  EXPECT_TRUE(window().bench().events.editor()->unsaved());
 }
 
 TEST_F(EventsWindowTest, DiscardedLabelsGoOnlyWhenTheirFileWasReadAnew) {
   press(Qt::Key_B, Qt::ControlModifier);
   std::filesystem::remove(path_);
-  unsaved_ = MainWindow::Unsaved::kDiscard;
-  window().openFiles({path_});
+  unsaved_ = Questions::Unsaved::kDiscard;
+  window().bench().open({path_});
   waitUntilOpened();
   EXPECT_FALSE(bannerText().isEmpty());
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
-  EXPECT_TRUE(window().events()->unsaved());
+  EXPECT_TRUE(window().bench().events.editor()->unsaved());
 }
 
 TEST_F(EventsWindowTest, WhatCantBeSavedIsSaidAndStays) {
@@ -228,7 +231,7 @@ TEST_F(EventsWindowTest, WhatCantBeSavedIsSaidAndStays) {
   std::filesystem::remove(path_);  // deleted while it is open
   press(Qt::Key_S, Qt::ControlModifier);
   EXPECT_TRUE(bannerText().contains("not saved")) << bannerText().toStdString();
-  EXPECT_TRUE(window().events()->unsaved());
+  EXPECT_TRUE(window().bench().events.editor()->unsaved());
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
   playback().seekFrame(100);
   EXPECT_EQ(playback().frame(), 100u) << "what is open can be looked at further";
@@ -248,9 +251,10 @@ TEST_F(EventsWindowTest, NothingIsCroppedOntoItself) {
   chart().setSelection(TimeSpan{1.0, 2.0});
   cropName_ = "grasps.palpate";
   press(Qt::Key_X, Qt::ControlModifier | Qt::ShiftModifier);
-  window().waitForWork();
+  window().settle();
   EXPECT_FALSE(bannerText().isEmpty());
-  EXPECT_EQ(openRecording(path_).numFrames(), window().current()->profile.numFrames());
+  EXPECT_EQ(openRecording(path_).numFrames(),
+            window().bench().subject.behind()->profile.numFrames());
 }
 
 TEST_F(EventsWindowTest, TheLabelsOfAPartGoWithIt) {
@@ -258,7 +262,7 @@ TEST_F(EventsWindowTest, TheLabelsOfAPartGoWithIt) {
   press(Qt::Key_B, Qt::ControlModifier);
   chart().setSelection(TimeSpan{1.5, 2.5});
   press(Qt::Key_X, Qt::ControlModifier | Qt::ShiftModifier);
-  window().waitForWork();
+  window().settle();
   const auto events = readEvents(folder_ / "part.palpate").events;
   ASSERT_EQ(events.size(), 1u) << "saved or not";
   EXPECT_EQ(events[0].text, "touch");
@@ -266,28 +270,28 @@ TEST_F(EventsWindowTest, TheLabelsOfAPartGoWithIt) {
 
 TEST_F(EventsWindowTest, ChosenTaxelsAreACurveAndCanBeNamed) {
   const int before = chart().graphCount();
-  TaxelSelection taxels(window().current()->profile.layout());
+  TaxelSelection taxels(window().bench().subject.behind()->profile.layout());
   taxels.add(1, 5, 2, 7, 3);
-  window().matricesView().select(taxels);
+  window().feature<MatricesFeature>().panel().view().select(taxels);
   EXPECT_EQ(chart().graphCount(), before + 1);
   EXPECT_EQ(chart().curves().back().name, "6 chosen taxels");
   answer_ = "tip";
   press(Qt::Key_G, Qt::ControlModifier | Qt::ShiftModifier);
-  window().matricesView().clearSelection();
+  window().feature<MatricesFeature>().panel().view().clearSelection();
   ASSERT_EQ(chart().graphCount(), before + 1);
   EXPECT_EQ(chart().curves().back().name, "tip");
   const auto samples = chart().store().samples(chart().curves().back().choice);
   ASSERT_TRUE(samples);
   const std::size_t frame = 60;
   EXPECT_DOUBLE_EQ(samples->values[frame],
-                   meanOf(window().current()->profile.frame(frame), taxels));
+                   meanOf(window().bench().subject.behind()->profile.frame(frame), taxels));
   reopen();
   EXPECT_EQ(chart().curves().back().name, "tip") << "remembered";
 }
 
 TEST_F(EventsWindowTest, JointAnglesAndTemperaturesHaveAxesOfTheirOwn) {
-  window().signalTree().setTicked("finger 0 distal", true);
-  window().signalTree().setTicked("motor 1", true);
+  window().feature<TimelineFeature>().signalTree().setTicked("finger 0 distal", true);
+  window().feature<TimelineFeature>().signalTree().setTicked("motor 1", true);
   chart().replot(QCustomPlot::rpImmediateRefresh);
   ASSERT_GE(chart().curves().size(), 3u);
   EXPECT_EQ(chart().graph(chart().graphCount() - 2)->valueAxis()->label(), "joint angle in °");

@@ -1,6 +1,8 @@
 #include "gui/bench/actions.h"
 
 #include <QWidget>
+#include <algorithm>
+#include <iterator>
 
 #include "gui/look/color_map.h"
 #include "gui/look/icons.h"
@@ -18,6 +20,12 @@ constexpr int kMatricesWithKeys = 9;
 constexpr int kDigits = 10;
 
 QKeySequence key(const char* text) { return QKeySequence(QString(text)); }
+
+template <class Choices, class Choice>
+void checkChoice(const QActionGroup* group, const Choices& all, Choice now) {
+  const auto index = std::find(std::begin(all), std::end(all), now) - std::begin(all);
+  if (index < group->actions().size()) group->actions().at(index)->setChecked(true);
+}
 
 }  // namespace
 
@@ -239,6 +247,13 @@ Actions::Actions(QWidget* window) : window_(window) {
   names.clear();
   for (const double speed : PlaybackController::kSpeeds) names.append(QString::number(speed) + "×");
   speeds = choices(names);
+}
+
+void Actions::showChoices(const ViewSettings& view) {
+  checkChoice(maps, kAllColorMaps, view.map);
+  checkChoice(ranges, kAllRangeModes, view.range);
+  checkChoice(signalsPlotted, kAllPlottedSignals, view.signal);
+  checkChoice(themes, kAllThemeChoices, view.theme);
 }
 
 void Actions::setTheme(Theme theme) {

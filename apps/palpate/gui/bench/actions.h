@@ -9,13 +9,19 @@
 #include <optional>
 
 #include "gui/look/theme.h"
+#include "gui/look/window_settings.h"
 
 namespace palpate::gui {
+
+// Of the action record: whether it would stop a recording.
+inline constexpr const char* kRecordingProperty = "recording";
 
 struct Actions {
   // The actions belong to the window and work wherever the keyboard is in it.
   explicit Actions(QWidget* window);
   void setTheme(Theme theme);  // icons
+  // The choices of groups stand where these settings are.
+  void showChoices(const ViewSettings& view);
 
   QAction* open;
   QAction* openDemo;

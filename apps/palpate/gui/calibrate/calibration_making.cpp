@@ -9,7 +9,7 @@
 namespace palpate::gui {
 namespace {
 
-GatheredSource openSource(const std::filesystem::path& file, const Progress& progress) {
+GatheredSource gatheredSource(const std::filesystem::path& file, const Progress& progress) {
   return {openRecording(file, progress), sha256OfFile(file)};
 }
 
@@ -28,8 +28,8 @@ ShownCalibrationPtr calibrationFromTable(const std::filesystem::path& table,
     GatherOptions gather;
     gather.matrix = choices.matrix;
     if (choices.robust) gather.steps.fit.loss = StepLoss::kHuber;
-    known = std::make_shared<const GatheredSteps>(
-        gatherSteps(readPressureTable(table), table.parent_path(), openSource, gather, progress));
+    known = std::make_shared<const GatheredSteps>(gatherSteps(
+        readPressureTable(table), table.parent_path(), gatheredSource, gather, progress));
   }
   if (known->numUnused() == known->samples.size()) {
     const auto& notes = known->samples.front().notes;

@@ -47,8 +47,6 @@ class TakeAway : public QObject {
   bool busy() const noexcept { return !waiting_.empty(); }
   void waitForDone();
 
-  // Which frames are selected in the timeline; empty or nothing: none. Filled by the window.
-  std::function<std::optional<FrameSpan>()> selectedFrames;
   // Nothing: cancelled. Tests answer themselves.
   std::function<std::optional<ExportRequest>(const ExportRequest& suggestion)> ask;
   // What would be suggested now.

@@ -31,7 +31,7 @@ QString quantity(int count, const QString& word) {
 
 }  // namespace
 
-FilterPanel::FilterPanel(QWidget* parent) : QWidget(parent) {
+FilterPanel::FilterPanel(RecipeEditor& editor, QWidget* parent) : QWidget(parent), editor_(editor) {
   list_ = new FilterList(this);
   form_ = new FilterForm(this);
   totals_ = new QLabel(this);

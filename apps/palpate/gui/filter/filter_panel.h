@@ -24,7 +24,8 @@ class FilterList;
 class FilterPanel : public QWidget {
   Q_OBJECT
  public:
-  explicit FilterPanel(QWidget* parent = nullptr);
+  // Of this chain, which must outlive it.
+  explicit FilterPanel(RecipeEditor& editor, QWidget* parent = nullptr);
 
   RecipeEditor& editor() noexcept { return editor_; }
   // Filtered is what is shown (after), or the recording as it is (before).
@@ -60,7 +61,7 @@ class FilterPanel : public QWidget {
   void openRecipe();
   void saveRecipe();
 
-  RecipeEditor editor_;
+  RecipeEditor& editor_;
   bool on_ = false;
   bool live_ = false;
   double rateHz_ = 0.0;

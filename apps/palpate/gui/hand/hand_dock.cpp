@@ -71,6 +71,7 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   connect(sensitivity_, &SensitivityModes::asked, this, asked);
   connect(grasp_, &GraspPanel::refused, this, refused);
   connect(grasp_, &GraspPanel::asked, this, &HandDock::refresh);
+  connect(grasp_, &GraspPanel::asked, this, &HandDock::asked);
   connect(tactile_, &TactileSettingsPanel::refused, this, refused);
   connect(sensitivity_, &SensitivityModes::refused, this, refused);
   connect(tactile_, &TactileSettingsPanel::changedByHand, sensitivity_, &SensitivityModes::letGo);

@@ -50,6 +50,7 @@ class HandDock : public QWidget {
 
  signals:
   void stopPressed();
+  void asked();  // a motion was begun by it, or refused
   // Why matrices can't tell the limit that is chosen: one text per matrix, empty: it can; none: all can.
   void blindChanged(const std::vector<QString>& why);
 

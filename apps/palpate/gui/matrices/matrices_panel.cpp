@@ -136,11 +136,11 @@ void MatricesPanel::setHand(const HandDescription& hand) {
   applyLook();
 }
 
-void MatricesPanel::showLive(const TactileFrame& frame) {
+void MatricesPanel::show(const TactileFrame& frame) {
   frame_ = frame;
   if (settings_.range == RangeMode::kFrame) {
     applyLook();
-  } else {
+  } else if (!recording_) {
     const auto largest =
         static_cast<double>(*std::max_element(frame_.values.begin(), frame_.values.end()));
     // In steps, so that the colours don't creep while somebody presses harder.
@@ -149,13 +149,6 @@ void MatricesPanel::showLive(const TactileFrame& frame) {
       applyLook();
     }
   }
-  view_->setFrame(frame_);
-}
-
-void MatricesPanel::showFrame(std::size_t frame) {
-  if (!recording_ || recording_->profile.numFrames() == 0) return;
-  recording_->profile.readFrame(frame, frame_);
-  if (settings_.range == RangeMode::kFrame) applyLook();
   view_->setFrame(frame_);
 }
 

@@ -24,12 +24,12 @@ class MatricesPanel : public QWidget {
   MatricesPanel(QAction* interpolated, QAction* values, QWidget* parent = nullptr);
 
   void setRecording(const OpenedRecordingPtr& recording);  // null: none
-  void showFrame(std::size_t frame);
+  // Of that recording, or of the live hand.
+  void show(const TactileFrame& frame);
   // More is known of a long recording now.
   void renewRange();
-  // A live hand instead of a recording; its frames come by showLive().
+  // A live hand instead of a recording.
   void setHand(const HandDescription& hand);
-  void showLive(const TactileFrame& frame);
   // Whose frames are shown; null: nobody's.
   const HandDescription* hand() const noexcept { return hand_ ? &*hand_ : nullptr; }
   // Map, look and range; theme as resolved.

@@ -9,17 +9,24 @@
 #include <palpate/core/output_file.h>
 #include <palpate/core/time.h>
 
+#include "gui/calibrate/calibrate_feature.h"
 #include "gui/calibrate/calibrate_panel.h"
+#include "gui/compare/compare_feature.h"
 #include "gui/compare/compare_panel.h"
+#include "gui/connect/connect_feature.h"
 #include "gui/desktop/application.h"
+#include "gui/filter/filter_feature.h"
 #include "gui/picture/picture_export.h"
+#include "gui/recognise/recognise_feature.h"
 #include "gui/recognise/recognise_panel.h"
 #include "gui/shell/main_window.h"
 #include "gui/shell/workbench.h"
-#include "gui/slip/slip_panel.h"
+#include "gui/slip/slip_feature.h"
 #include "gui/space/gl_probe.h"
 #include "gui/space/hand_panel.h"
-#include "gui/spectrum/spectrum_panel.h"
+#include "gui/space/space_feature.h"
+#include "gui/spectrum/spectrum_feature.h"
+#include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_panel.h"
 
 namespace palpate::gui {
@@ -29,14 +36,14 @@ namespace {
 void openAndWait(MainWindow& window, const ScreenshotOptions& options) {
   QEventLoop loop;
   QString failure;
-  QObject::connect(&window.opener(),
+  QObject::connect(&window.bench().opener,
                    &RecordingOpener::failed,
                    &loop,
                    [&](const QString&, const QString& message) { failure = message; });
-  QObject::connect(&window.opener(), &RecordingOpener::finished, &loop, &QEventLoop::quit);
+  QObject::connect(&window.bench().opener, &RecordingOpener::finished, &loop, &QEventLoop::quit);
   std::vector<std::filesystem::path> files = {*options.file};
   if (options.comparedWith) files.push_back(*options.comparedWith);
-  window.openFiles(files);
+  window.bench().open(files);
   loop.exec();
   if (!failure.isEmpty()) throw Error(failure.toStdString());
 }
@@ -50,14 +57,15 @@ void runFor(double seconds) {
 void showCompare(MainWindow& window, const ScreenshotOptions& options) {
   constexpr double kLookS = 0.01;
   constexpr double kPatienceS = 60.0;
-  if (!window.compareShown()) window.actionList().compare->trigger();
-  for (double waitedS = 0.0; !window.compare().complete() && waitedS < kPatienceS;
+  if (!window.bench().comparing.on()) window.bench().actions.compare->trigger();
+  for (double waitedS = 0.0;
+       !window.feature<CompareFeature>().panel().complete() && waitedS < kPatienceS;
        waitedS += kLookS)
     runFor(kLookS);
   // Where the frame wasn't chosen: one that both have.
-  const auto common = window.compare().common();
-  if (!options.frame && common && window.playback().positionS() > common->toS)
-    window.playback().seekSeconds(common->toS);
+  const auto common = window.feature<CompareFeature>().panel().common();
+  if (!options.frame && common && window.bench().playback.positionS() > common->toS)
+    window.bench().playback.seekSeconds(common->toS);
 }
 
 // Connects, and waits for the first frame.
@@ -65,10 +73,11 @@ void runDemo(MainWindow& window) {
   constexpr double kPatienceS = 30.0;
   constexpr double kLookS = 0.02;
   QString failure;
-  const auto told = QObject::connect(
-      &window.live(), &LiveController::failed, [&](const QString& message) { failure = message; });
-  window.openDemo();
-  for (double waitedS = 0.0; !window.live().framesCameYet(); waitedS += kLookS) {
+  const auto told = QObject::connect(&window.bench().live,
+                                     &LiveController::failed,
+                                     [&](const QString& message) { failure = message; });
+  window.bench().connectTo(emulatedBall(true));
+  for (double waitedS = 0.0; !window.bench().live.framesCameYet(); waitedS += kLookS) {
     if (failure.isEmpty() && waitedS > kPatienceS) failure = "no frame of the emulated hand came";
     if (!failure.isEmpty()) throw Error(failure.toStdString());
     runFor(kLookS);
@@ -77,10 +86,10 @@ void runDemo(MainWindow& window) {
 }
 
 void goToFrame(MainWindow& window, const ScreenshotOptions& options) {
-  PlaybackController& playback = window.playback();
+  PlaybackController& playback = window.bench().playback;
   if (options.frame && *options.frame >= playback.numFrames())
     throw Error("no frame " + std::to_string(*options.frame) + ": " +
-                window.current()->path.string() + " has frames 0.." +
+                window.bench().subject.behind()->path.string() + " has frames 0.." +
                 std::to_string(static_cast<long long>(playback.numFrames()) - 1));
   if (options.afterS > 0.0) {
     playback.play();
@@ -90,7 +99,7 @@ void goToFrame(MainWindow& window, const ScreenshotOptions& options) {
   if (options.frame)
     playback.seekFrame(*options.frame);
   else if (options.afterS <= 0.0)
-    playback.seekFrame(window.current()->table.frameOfLargestSum());
+    playback.seekFrame(window.bench().subject.behind()->table.frameOfLargestSum());
 }
 
 // Of a demo --after counts while it runs; of a recording it was played before: then time for what was pressed.
@@ -108,22 +117,15 @@ void useSettings(const QString& to, const ScreenshotOptions& options) {
     throw FileError(*options.settings, "the settings can't be read");
 }
 
-CalibratePanel& calibration(const MainWindow& window) {
-  return *window.findChild<CalibratePanel*>("CalibratePanel");
-}
-
-RecognisePanel& recognition(const MainWindow& window) {
-  return *window.findChild<RecognisePanel*>();
-}
-
 void settle(MainWindow& window) {
-  window.waitForFilter();
-  window.timelinePanel().chart().store().waitForFirstLook();
-  window.timelinePanel().chart().storeBefore().waitForFirstLook();
-  window.spectrum().settle();
-  calibration(window).settle();
-  recognition(window).settle();
-  window.findChild<SlipPanel*>("SlipPanel")->settle();
+  window.feature<FilterFeature>().settle();
+  TimelineChart& timeline = window.feature<TimelineFeature>().panel().chart();
+  timeline.store().waitForFirstLook();
+  timeline.storeBefore().waitForFirstLook();
+  window.feature<SpectrumFeature>().settle();
+  window.feature<CalibrateFeature>().settle();
+  window.feature<RecogniseFeature>().settle();
+  window.feature<SlipFeature>().settle();
   // Layout requests and queued replots come one after the other.
   constexpr int kRounds = 5;
   for (int i = 0; i < kRounds; ++i) QCoreApplication::processEvents();
@@ -148,14 +150,14 @@ void showPage(Panel& panel, const QString& dock, const QString& page) {
 void showDocks(MainWindow& window, const ScreenshotOptions& options) {
   for (const std::string& dock : options.docks) {
     const QString name = QString::fromStdString(dock).section('/', 0, 0);
-    if (!window.dockNames().contains(name))
+    if (!window.docks().names().contains(name))
       throw Error("no dock '" + dock + "': there are " +
-                  window.dockNames().join(", ").toStdString());
-    if (window.current() || window.liveShown()) window.showDock(name);
+                  window.docks().names().join(", ").toStdString());
+    if (window.bench().subject.kind() != Subject::Kind::kNothing) window.docks().show(name);
     // "Calibrate/Noise": one of its pages.
     const QString page = QString::fromStdString(dock).section('/', 1);
-    if (name == "Calibrate") showPage(calibration(window), name, page);
-    if (name == "Recognise") showPage(recognition(window), name, page);
+    if (name == "Calibrate") showPage(window.feature<CalibrateFeature>().panel(), name, page);
+    if (name == "Recognise") showPage(window.feature<RecogniseFeature>().panel(), name, page);
   }
 }
 
@@ -178,8 +180,9 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
                      .read = {},
                      .assumedAnglesDeg = options.assumedAnglesDeg,
                      .recipe = options.recipe});
-  if (options.openGl && whyNoOpenGl().isEmpty()) window.handPanel().view().useOpenGl();
-  window.setTheme(theme);
+  if (options.openGl && whyNoOpenGl().isEmpty())
+    window.feature<SpaceFeature>().panel().view().useOpenGl();
+  window.bench().look.setTheme(theme);
   window.setFixedSize(options.size);
   window.show();
   if (options.file) {
@@ -194,8 +197,8 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   settle(window);
   if (image.isNull()) image = window.grab().toImage();
   // Nobody is there to be asked; a recording that was opened stays as it was.
-  window.askToEndRecording = [] { return true; };
-  window.askAboutUnsaved = [](const QString&) { return MainWindow::Unsaved::kDiscard; };
+  window.bench().questions.endRecording = [] { return true; };
+  window.bench().questions.unsaved = [](const QString&) { return Questions::Unsaved::kDiscard; };
   window.close();
   writePng(options.out, image, options.force ? Overwrite::kReplace : Overwrite::kRefuse);
   return 0;

@@ -24,20 +24,26 @@ void addChoices(QMenu* menu, const QString& title, const QActionGroup* group) {
 
 }  // namespace
 
-WindowMenus::WindowMenus(QMainWindow& window,
-                         const Actions& actions,
-                         const QList<QAction*>& dockToggles) {
-  buildMenuBar(window, actions, dockToggles);
+WindowMenus::WindowMenus(QMainWindow& window, const Actions& actions)
+    : resetLayout_(actions.resetLayout) {
+  buildMenuBar(window, actions);
   buildToolBar(window, actions);
+  QObject::connect(actions.record, &QAction::changed, record_, [this, action = actions.record] {
+    showRecording(action->property(kRecordingProperty).toBool());
+  });
 }
 
-void WindowMenus::buildMenuBar(QMainWindow& window,
-                               const Actions& actions,
-                               const QList<QAction*>& toggles) {
+Menus WindowMenus::shared() const { return menus_; }
+
+void WindowMenus::addDocks(const QList<QAction*>& toggles) {
+  view_->insertActions(resetLayout_, toggles);
+}
+
+void WindowMenus::buildMenuBar(QMainWindow& window, const Actions& actions) {
   QMenu* file = window.menuBar()->addMenu("&File");
   file->addAction(actions.open);
-  recent = file->addMenu("Open &recent");
-  recent->setToolTipsVisible(true);
+  menus_.recent = file->addMenu("Open &recent");
+  menus_.recent->setToolTipsVisible(true);
   file->addAction(actions.openDemo);
   file->addSeparator();
   file->addActions({actions.nextRecording, actions.previousRecording, actions.closeRecording});
@@ -49,29 +55,29 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   file->addSeparator();
   file->addAction(actions.quit);
 
-  edit = window.menuBar()->addMenu("&Edit");
-  edit->addActions({actions.undo, actions.redo});
-  edit->addSeparator();
-  edit->addActions({actions.addLabel, actions.addNote, actions.addGrasp});
-  edit->addActions({actions.renameEvent, actions.removeEvent});
-  edit->addSeparator();
-  edit->addActions({actions.nextEvent, actions.previousEvent, actions.toEvents});
-  edit->addSeparator();
-  edit->addActions(
+  menus_.edit = window.menuBar()->addMenu("&Edit");
+  menus_.edit->addActions({actions.undo, actions.redo});
+  menus_.edit->addSeparator();
+  menus_.edit->addActions({actions.addLabel, actions.addNote, actions.addGrasp});
+  menus_.edit->addActions({actions.renameEvent, actions.removeEvent});
+  menus_.edit->addSeparator();
+  menus_.edit->addActions({actions.nextEvent, actions.previousEvent, actions.toEvents});
+  menus_.edit->addSeparator();
+  menus_.edit->addActions(
       {actions.selectFrom, actions.selectTo, actions.selectAll, actions.dropSelection});
-  edit->addActions({actions.zoomSelection, actions.crop});
-  edit->addSeparator();
-  edit->addAction(actions.nameTaxels);
+  menus_.edit->addActions({actions.zoomSelection, actions.crop});
+  menus_.edit->addSeparator();
+  menus_.edit->addAction(actions.nameTaxels);
 
-  QMenu* view = window.menuBar()->addMenu("&View");
-  view->addActions({actions.interpolated, actions.values, actions.filtered});
-  addChoices(view, "&Colour map", actions.maps);
-  view->addAction(actions.nextMap);
-  addChoices(view, "Colour r&ange", actions.ranges);
-  view->addAction(actions.nextRange);
-  view->addSeparator();
-  view->addActions({actions.matricesShown, actions.handShown});
-  QMenu* space = view->addMenu("Hand in s&pace");
+  view_ = window.menuBar()->addMenu("&View");
+  view_->addActions({actions.interpolated, actions.values, actions.filtered});
+  addChoices(view_, "&Colour map", actions.maps);
+  view_->addAction(actions.nextMap);
+  addChoices(view_, "Colour r&ange", actions.ranges);
+  view_->addAction(actions.nextRange);
+  view_->addSeparator();
+  view_->addActions({actions.matricesShown, actions.handShown});
+  QMenu* space = view_->addMenu("Hand in s&pace");
   space->addActions({actions.nextTaxelShape, actions.nextSphere, actions.sphereOfCentroids});
   space->addSeparator();
   space->addActions(
@@ -81,23 +87,22 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   QMenu* turn = space->addMenu("&Turn and move");
   turn->addActions(actions.orbits);
   turn->addActions(actions.pans);
-  only = space->addMenu("&One matrix alone");
-  only->addActions(actions.onlys);
-  view->addSeparator();
-  addChoices(view, "Signal in the &timeline", actions.signalsPlotted);
-  view->addAction(actions.nextSignal);
-  QMenu* plots = view->addMenu("&Plotted matrices");
+  menus_.only = space->addMenu("&One matrix alone");
+  menus_.only->addActions(actions.onlys);
+  view_->addSeparator();
+  addChoices(view_, "Signal in the &timeline", actions.signalsPlotted);
+  view_->addAction(actions.nextSignal);
+  QMenu* plots = view_->addMenu("&Plotted matrices");
   plots->addActions(actions.plots);
-  view->addAction(actions.chooseCurves);
-  view->addActions({actions.zoomIn, actions.zoomOut, actions.fit});
-  view->addSeparator();
-  view->addActions({actions.slipReference, actions.compare});
-  view->addActions(toggles);
-  view->addAction(actions.resetLayout);
-  view->addSeparator();
-  addChoices(view, "T&heme", actions.themes);
-  view->addAction(actions.nextTheme);
-  view->addAction(actions.fullScreen);
+  view_->addAction(actions.chooseCurves);
+  view_->addActions({actions.zoomIn, actions.zoomOut, actions.fit});
+  view_->addSeparator();
+  view_->addActions({actions.slipReference, actions.compare});
+  view_->addAction(actions.resetLayout);
+  view_->addSeparator();
+  addChoices(view_, "T&heme", actions.themes);
+  view_->addAction(actions.nextTheme);
+  view_->addAction(actions.fullScreen);
 
   QMenu* hand = window.menuBar()->addMenu("H&and");
   hand->addActions({actions.connectHand, actions.tryEmulated, actions.disconnectHand});
@@ -120,11 +125,12 @@ void WindowMenus::buildMenuBar(QMainWindow& window,
   marks->addAction(actions.mark);
   marks->addActions(actions.labels);
   hand->addSeparator();
-  scanned = hand->addMenu("Scanned &taxels");
-  scanned->setToolTipsVisible(true);
-  scanned->addActions({actions.scanOnly, actions.scanWithout, actions.scanAlso, actions.scanAll});
-  scanned->addSeparator();
-  scanned->addAction(actions.chooseNone);
+  menus_.scanned = hand->addMenu("Scanned &taxels");
+  menus_.scanned->setToolTipsVisible(true);
+  menus_.scanned->addActions(
+      {actions.scanOnly, actions.scanWithout, actions.scanAlso, actions.scanAll});
+  menus_.scanned->addSeparator();
+  menus_.scanned->addAction(actions.chooseNone);
   QMenu* others = hand->addMenu("Other &programs");
   others->setToolTipsVisible(true);
   others->addActions({actions.streamSignals, actions.streamTactile, actions.remoteControl});
@@ -159,22 +165,22 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   bar->addWidget(brand);
   bar->addActions({actions.open, actions.exportPicture});
   bar->addSeparator();
-  connections = new QMenu(bar);
-  connections->setToolTipsVisible(true);
+  menus_.connections = new QMenu(bar);
+  menus_.connections->setToolTipsVisible(true);
   auto* connectButton = new QToolButton(bar);
   connectButton->setObjectName("connectButton");
   connectButton->setDefaultAction(actions.connectHand);
-  connectButton->setMenu(connections);
+  connectButton->setMenu(menus_.connections);
   connectButton->setPopupMode(QToolButton::InstantPopup);
   connectButton->setFocusPolicy(Qt::NoFocus);  // it has a key
   bar->addWidget(connectButton);
-  link = new QLabel(bar);
-  link->setObjectName("LinkPill");
-  link->setTextFormat(Qt::PlainText);
-  linkAction_ = bar->addWidget(link);
+  link_ = new QLabel(bar);
+  link_->setObjectName("LinkPill");
+  link_->setTextFormat(Qt::PlainText);
+  linkAction_ = bar->addWidget(link_);
   bar->addAction(actions.record);
-  record = qobject_cast<QToolButton*>(bar->widgetForAction(actions.record));
-  record->setObjectName("recordButton");
+  record_ = qobject_cast<QToolButton*>(bar->widgetForAction(actions.record));
+  record_->setObjectName("recordButton");
   bar->addAction(actions.live);
   withText_.append(connectButton);
   for (QAction* action : {actions.open, actions.exportPicture, actions.live})
@@ -185,15 +191,15 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   auto* spacer = new QWidget(bar);
   spacer->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   bar->addWidget(spacer);
-  recordings = new QComboBox(bar);
-  recordings->setObjectName("recordingsBox");
-  recordings->setMinimumHeight(kWindowMenusControlHeight);
-  recordings->setToolTip("Open recordings (Ctrl+Tab)");
-  recordings->setAccessibleName("Open recordings");
-  recordings->setFocusPolicy(Qt::NoFocus);  // it has a key
-  recordings->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-  recordings->setMaximumWidth(420);
-  recordingsAction = bar->addWidget(recordings);
+  menus_.recordings = new QComboBox(bar);
+  menus_.recordings->setObjectName("recordingsBox");
+  menus_.recordings->setMinimumHeight(kWindowMenusControlHeight);
+  menus_.recordings->setToolTip("Open recordings (Ctrl+Tab)");
+  menus_.recordings->setAccessibleName("Open recordings");
+  menus_.recordings->setFocusPolicy(Qt::NoFocus);  // it has a key
+  menus_.recordings->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  menus_.recordings->setMaximumWidth(420);
+  menus_.recordingsShown = bar->addWidget(menus_.recordings);
   bar->addAction(actions.keys);
 }
 
@@ -215,14 +221,14 @@ QWidget* WindowMenus::makePlayback(QToolBar& bar, const Actions& actions) {
   add(actions.stepBack);
   play_ = add(actions.play);
   add(actions.stepForward);
-  speed = new QComboBox(group);
-  speed->setObjectName("speedBox");
-  speed->setMinimumHeight(kWindowMenusControlHeight);
-  speed->setToolTip("Speed (Up, Down)");
-  speed->setAccessibleName("Speed");
-  speed->setFocusPolicy(Qt::NoFocus);  // it has a key
-  for (const QAction* each : actions.speeds->actions()) speed->addItem(each->text());
-  row->addWidget(speed);
+  menus_.speed = new QComboBox(group);
+  menus_.speed->setObjectName("speedBox");
+  menus_.speed->setMinimumHeight(kWindowMenusControlHeight);
+  menus_.speed->setToolTip("Speed (Up, Down)");
+  menus_.speed->setAccessibleName("Speed");
+  menus_.speed->setFocusPolicy(Qt::NoFocus);  // it has a key
+  for (const QAction* each : actions.speeds->actions()) menus_.speed->addItem(each->text());
+  row->addWidget(menus_.speed);
   withText_.append({play_, add(actions.loop), add(actions.skipGaps)});
   return group;
 }
@@ -241,25 +247,25 @@ void WindowMenus::setCompact(bool on) {
 
 void WindowMenus::showLink(const QString& text, bool good) {
   if (linkAction_->isVisible() == text.isEmpty()) linkAction_->setVisible(!text.isEmpty());
-  if (link->text() != text) link->setText(text);
-  if (link->property("good").toBool() == good && link->property("good").isValid()) return;
-  link->setProperty("good", good);
-  link->style()->unpolish(link);
-  link->style()->polish(link);
+  if (link_->text() != text) link_->setText(text);
+  if (link_->property("good").toBool() == good && link_->property("good").isValid()) return;
+  link_->setProperty("good", good);
+  link_->style()->unpolish(link_);
+  link_->style()->polish(link_);
 }
 
 // While it records, how long and how much is always read.
 void WindowMenus::styleRecord() {
-  const bool text = !compact_ || record->property("recording").toBool();
-  record->setToolButtonStyle(text ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
+  const bool text = !compact_ || record_->property("recording").toBool();
+  record_->setToolButtonStyle(text ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
 }
 
 void WindowMenus::showRecording(bool on) {
-  if (record->property("recording").toBool() == on) return;
-  record->setProperty("recording", on);
+  if (record_->property("recording").toBool() == on) return;
+  record_->setProperty("recording", on);
   styleRecord();
-  record->style()->unpolish(record);
-  record->style()->polish(record);
+  record_->style()->unpolish(record_);
+  record_->style()->polish(record_);
 }
 
 }  // namespace palpate::gui

@@ -4,8 +4,9 @@
 #include <QList>
 #include <QString>
 
+#include "gui/bench/menus.h"
+
 class QAction;
-class QComboBox;
 class QLabel;
 class QMainWindow;
 class QMenu;
@@ -17,36 +18,36 @@ namespace palpate::gui {
 
 struct Actions;
 
-struct WindowMenus {
-  // dockToggles: what shows and hides the docks.
-  WindowMenus(QMainWindow& window, const Actions& actions, const QList<QAction*>& dockToggles);
+class WindowMenus {
+ public:
+  WindowMenus(QMainWindow& window, const Actions& actions);
+
+  // What shows and hides the docks, in the menu View.
+  void addDocks(const QList<QAction*>& toggles);
+  // What features fill, or open elsewhere, too.
+  Menus shared() const;
 
   // Buttons without text, for a narrow window.
   void setCompact(bool on);
   void setPlaybackShown(bool on);
   // What is connected; empty: nothing is shown. `good`: data come.
   void showLink(const QString& text, bool good);
-  void showRecording(bool on);  // the button turns red
-
-  QMenu* edit;                // also shown over the timeline
-  QMenu* connections;         // of the button Connect; filled by its owner when it is about to show
-  QMenu* only = nullptr;      // one matrix of the hand in space alone
-  QMenu* scanned;             // which taxels are scanned; also shown over the matrices
-  QLabel* link;               // beside Connect: what is connected, in a word
-  QToolButton* record;        // red while it records
-  QMenu* recent;              // filled by its owner when it is about to show
-  QComboBox* speed;           // of the toolbar; index into PlaybackController::kSpeeds
-  QComboBox* recordings;      // open recordings
-  QAction* recordingsAction;  // shows and hides it
 
  private:
+  QAction* resetLayout_;  // behind the docks
+  QMenu* view_ = nullptr;
+  Menus menus_;
+  QLabel* link_ = nullptr;         // beside Connect: what is connected, in a word
+  QToolButton* record_ = nullptr;  // red while it records
   QList<QToolButton*> withText_;
-  QToolButton* play_;
-  QAction* playback_;
+  QToolButton* play_ = nullptr;
+  QAction* playback_ = nullptr;
+  QAction* linkAction_ = nullptr;
   bool compact_ = false;
+
   void styleRecord();
-  QAction* linkAction_;
-  void buildMenuBar(QMainWindow& window, const Actions& actions, const QList<QAction*>& toggles);
+  void showRecording(bool on);  // the button turns red
+  void buildMenuBar(QMainWindow& window, const Actions& actions);
   void buildToolBar(QMainWindow& window, const Actions& actions);
   QWidget* makePlayback(QToolBar& bar, const Actions& actions);
 };

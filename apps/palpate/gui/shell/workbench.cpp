@@ -2,12 +2,15 @@
 
 #include <QGuiApplication>
 
+#include "gui/connect/connect_feature.h"
 #include "gui/desktop/application.h"
 #include "gui/desktop/first_paint.h"
 #include "gui/desktop/termination.h"
+#include "gui/open/session_keeper.h"
 #include "gui/shell/main_window.h"
 #include "gui/space/gl_probe.h"
 #include "gui/space/hand_panel.h"
+#include "gui/space/space_feature.h"
 
 namespace palpate::gui {
 
@@ -24,27 +27,28 @@ int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options) {
   const Termination termination;
   QObject::connect(&termination, &Termination::asked, &window, &MainWindow::endNow);
   window.show();
+  HandView& hand = window.feature<SpaceFeature>().panel().view();
   // A driver that crashes does so in another process; until it has answered the hand is painted.
   if (options.openGl == OpenGlChoice::kAlways && whyNoOpenGl().isEmpty())
-    window.handPanel().view().useOpenGl();
+    hand.useOpenGl();
   else if (options.openGl == OpenGlChoice::kFast)
     askForOpenGl(QCoreApplication::applicationFilePath().toStdString(),
                  &window,
-                 [&window](const QString& why) {
-                   if (why.isEmpty()) window.handPanel().view().useOpenGl();
+                 [&hand](const QString& why) {
+                   if (why.isEmpty()) hand.useOpenGl();
                  });
   if (options.remote) {
-    QAction* remote = window.actionList().remoteControl;
+    QAction* remote = window.bench().actions.remoteControl;
     remote->setData(QString::fromStdString(options.remote->string()));
     remote->setChecked(true);
   }
   // The window is on screen before the first file is read.
   if (options.demo)
-    window.openDemo();
+    window.bench().connectTo(emulatedBall(true));
   else if (options.files.empty())
-    window.restoreSession();
+    restoreSession(window.bench());
   else
-    window.openFiles(options.files);
+    window.bench().open(options.files);
   return QGuiApplication::exec();
 }
 

@@ -22,16 +22,6 @@ struct FilterFigures {
   std::optional<int> latency;  // of the chain
 };
 
-// What was found of a chain, until it changes.
-struct FilterResults {
-  OpenedRecordingPtr filtered;  // `of` through `by`; null: none yet
-  OpenedRecordingPtr of;
-  Recipe by;
-  OpenedRecordingPtr keptTaken;  // whose kept recipe was taken
-  FilterFigures live;            // of `liveOf`
-  Recipe liveOf;
-};
-
 // The same recording, filtered: stamps, angles, events and what was saturated are the source's. Throws
 // std::invalid_argument (a matrix that it hasn't), Error, Cancelled.
 OpenedRecordingPtr filteredRecording(const OpenedRecordingPtr& source,

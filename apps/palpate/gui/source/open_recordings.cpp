@@ -10,7 +10,9 @@ OpenRecordings::OpenRecordings(RecordingOpener& opener, QObject* parent)
   connect(&opener, &RecordingOpener::opened, this, &OpenRecordings::take);
   connect(&opener, &RecordingOpener::finished, this, [this] {
     // Somebody else who heard of it may have asked for more.
-    if (!opener_.busy()) running_.clear();
+    if (opener_.busy()) return;
+    running_.clear();
+    emit settled();
   });
 }
 
@@ -33,10 +35,12 @@ void OpenRecordings::take(const OpenedRecordingPtr& recording, std::uint64_t tic
   if (asked != running_.end()) running_.erase(asked);
   const OpenedRecordingPtr known = at(recording->path);
   if (known && mayReplace && !mayReplace(known)) return arrive(known, nullptr, *request);
-  if (known)
+  if (known) {
     *std::find(all_.begin(), all_.end(), known) = recording;
-  else
+    emit gone(known);
+  } else {
     all_.push_back(recording);
+  }
   arrive(recording, known, *request);
 }
 
@@ -50,9 +54,13 @@ void OpenRecordings::arrive(const OpenedRecordingPtr& recording,
 OpenedRecordingPtr OpenRecordings::close(const OpenedRecordingPtr& recording) {
   const auto at = std::find(all_.begin(), all_.end(), recording);
   if (at == all_.end()) return nullptr;
-  const auto next = all_.erase(at);
-  if (all_.empty()) return nullptr;
-  return next == all_.end() ? all_.back() : *next;
+  const OpenedRecordingPtr closed = *at;
+  const auto behind = all_.erase(at);
+  const OpenedRecordingPtr next = all_.empty()           ? nullptr
+                                  : behind == all_.end() ? all_.back()
+                                                         : *behind;
+  emit gone(closed);
+  return next;
 }
 
 OpenedRecordingPtr OpenRecordings::at(const std::filesystem::path& path) const {

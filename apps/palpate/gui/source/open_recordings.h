@@ -59,6 +59,10 @@ class OpenRecordings : public QObject {
  signals:
   void arrived(const palpate::gui::OpenedRecordingPtr& recording,
                const palpate::gui::OpenArrival& arrival);
+  // Closed, or about to be replaced by what its file holds now: forget what was kept of it.
+  void gone(const palpate::gui::OpenedRecordingPtr& recording);
+  // All that was asked for has arrived, or failed.
+  void settled();
 
  private:
   struct Running {

@@ -13,6 +13,7 @@
 #include <palpate/model/tactile_frame.h>
 #include <palpate/model/taxel_selection.h>
 
+#include "gui/bench/hand_slip.h"
 #include "gui/space/hand_camera.h"
 #include "gui/space/hand_look.h"
 #include "gui/space/hand_mesh.h"
@@ -21,17 +22,6 @@
 
 namespace palpate::gui {
 
-// How the contact of a matrix moved lately, in taxels: x right, y down.
-struct HandSlip {
-  std::size_t matrix = 0;
-  double x = 0.0;  // where it is
-  double y = 0.0;
-  double dx = 0.0;  // what it moved by
-  double dy = 0.0;
-  std::optional<double> turnDeg = {};  // clockwise on the screen
-  bool slipping = false;
-  bool operator==(const HandSlip&) const = default;
-};
 inline constexpr float kSlipEnlarged = 3.0F;  // of arrows
 
 // A hand at one moment.

@@ -131,30 +131,17 @@ void HandPanel::listMatrices(const HandDescription& hand) {
 }
 
 void HandPanel::setRecording(const OpenedRecordingPtr& recording) {
-  recording_ = recording;
-  if (!recording) {
-    view_->clear();
-    return;
-  }
+  if (!recording) return view_->clear();
   setHand(recording->profile.hand());
-  recording_ = recording;
   if (!recording->isLong()) view_->setExtent(handPanelExtentOf(*recording, view_->look()));
 }
 
 void HandPanel::setHand(const HandDescription& hand) {
-  recording_.reset();
   view_->setHand(hand);
   listMatrices(hand);
 }
 
-void HandPanel::showFrame(std::size_t frame) {
-  if (!recording_ || recording_->profile.numFrames() == 0) return;
-  recording_->profile.readFrame(frame, frame_);
-  const auto angles = recording_->profile.anglesAtFrame(frame);
-  view_->setMoment(frame_, angles ? angles->deg : std::vector<double>());
-}
-
-void HandPanel::showLive(const TactileFrame& frame, const std::vector<double>& anglesDeg) {
+void HandPanel::show(const TactileFrame& frame, const std::vector<double>& anglesDeg) {
   view_->setMoment(frame, anglesDeg);
 }
 

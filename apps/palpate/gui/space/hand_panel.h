@@ -20,10 +20,10 @@ class HandPanel : public QWidget {
   explicit HandPanel(const QList<QAction*>& shown, QWidget* parent = nullptr);
 
   void setRecording(const OpenedRecordingPtr& recording);  // null: none
-  void showFrame(std::size_t frame);
   // A live hand instead of a recording.
   void setHand(const HandDescription& hand);
-  void showLive(const TactileFrame& frame, const std::vector<double>& anglesDeg);
+  // At one moment; no angles: they aren't known.
+  void show(const TactileFrame& frame, const std::vector<double>& anglesDeg);
   // Colours as in the heat maps.
   void setColors(const MatricesLook& look);
   void setLook(const HandLook& look);  // its colours are left as they are
@@ -44,8 +44,6 @@ class HandPanel : public QWidget {
   QComboBox* taxels_;
   QComboBox* spheres_;
   QComboBox* matrix_;
-  OpenedRecordingPtr recording_;
-  TactileFrame frame_;
 };
 
 }  // namespace palpate::gui

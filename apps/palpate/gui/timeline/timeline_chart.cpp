@@ -8,14 +8,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/bench/selection.h"
 #include "gui/chart/chart_style.h"
 
 namespace palpate::gui {
 namespace {
 
-constexpr int kTimelineChartFaint = 110;  // opacity of what stands behind, of 255
-constexpr double kEmptyDurationS = 1.0;   // axis of a recording without extent
-constexpr double kTimelineChartShortestSeenS = 0.05;
+constexpr int kTimelineChartFaint = 110;         // opacity of what stands behind, of 255
+constexpr double kEmptyDurationS = 1.0;          // axis of a recording without extent
 constexpr double kTimelineChartHeadroom = 1.06;  // the highest curve stays below the frame
 constexpr double kTimelineChartAir = 0.08;       // beside a span that is shown, part of it
 constexpr int kTimelineChartCursorWidth = 2;     // [px]
@@ -68,7 +68,7 @@ TimelineChart::TimelineChart(QWidget* parent) : QCustomPlot(parent) {
 
 double TimelineChart::durationS() const {
   if (!recording_ || recording_->profile.numFrames() == 0) return kEmptyDurationS;
-  return std::max(recording_->durationS(), kTimelineChartShortestSeenS);
+  return std::max(recording_->durationS(), Selection::kShortestS);
 }
 
 void TimelineChart::setRecording(const OpenedRecordingPtr& recording) {
@@ -291,8 +291,7 @@ void TimelineChart::placeSelection() {
 
 void TimelineChart::setSeen(double from, double to) {
   const double duration = durationS();
-  const double span =
-      std::clamp(to - from, std::min(kTimelineChartShortestSeenS, duration), duration);
+  const double span = std::clamp(to - from, std::min(Selection::kShortestS, duration), duration);
   const double start = std::clamp(from, 0.0, duration - span);
   xAxis->setRange(start, start + span);
   nameTime();
@@ -322,14 +321,14 @@ void TimelineChart::zoom(double factor) {
 
 void TimelineChart::showSpan(const TimeSpan& span) {
   const double air =
-      std::max((span.toS - span.fromS) * kTimelineChartAir, kTimelineChartShortestSeenS / 2);
+      std::max((span.toS - span.fromS) * kTimelineChartAir, Selection::kShortestS / 2);
   setSeen(span.fromS - air, span.toS + air);
 }
 
 void TimelineChart::zoomAbout(double seconds, double factor) {
   const QCPRange range = xAxis->range();
-  const double span = std::clamp(
-      range.size() / factor, std::min(kTimelineChartShortestSeenS, durationS()), durationS());
+  const double span =
+      std::clamp(range.size() / factor, std::min(Selection::kShortestS, durationS()), durationS());
   const double share = (seconds - range.lower) / range.size();
   setSeen(seconds - share * span, seconds + (1.0 - share) * span);
 }

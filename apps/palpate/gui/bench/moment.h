@@ -1,0 +1,70 @@
+// The one frame that is seen, of a recording or live, and whether it is of now.
+#pragma once
+
+#include <QObject>
+#include <cstddef>
+#include <optional>
+
+#include <palpate/live/live_results.h>
+#include <palpate/model/profile.h>
+#include <palpate/model/tactile_frame.h>
+
+#include "gui/bench/filtering.h"
+#include "gui/bench/subject.h"
+#include "gui/picture/old_picture.h"
+
+namespace palpate::gui {
+
+class Moment : public QObject {
+  Q_OBJECT
+ public:
+  // All of them must outlive it.
+  Moment(Subject& subject,
+         Filtering& filtering,
+         LiveController& live,
+         PlaybackController& playback,
+         QObject* parent = nullptr);
+
+  // No values: none yet.
+  const TactileFrame& frame() const noexcept { return frame_; }
+  bool hasFrame() const { return !frame_.values.empty(); }
+  // Of a recording, the last ones at or before the frame; nothing: it has none, or they are damaged.
+  const std::optional<JointAngles>& angles() const noexcept { return angles_; }
+  // Of a recording; 0 else.
+  std::size_t index() const { return subject_.isRecording() ? playback_.frame() : 0; }
+  // Taxels at or above saturation, as recorded, whatever the filters make of them.
+  std::ptrdiff_t saturated() const;
+
+  // The live picture stands still until it isn't held any more.
+  bool held() const noexcept { return held_; }
+  void hold(bool on);
+  // Why the picture isn't of now: held, nothing comes, damaged. Without a notice it is.
+  const OldPicture& old() const noexcept { return old_; }
+
+ signals:
+  void frameChanged();  // live: before anything is computed of it
+  // What was computed of a live frame.
+  void resultsCame(const palpate::LiveResults& results);
+  void oldChanged();
+  void heldChanged();
+  // Of this source the first one: there is something to be seen now.
+  void firstFrameCame();
+
+ private:
+  void begin();
+  void showFrame(std::size_t index);
+  void takeLive(const TactileFrame& frame);
+  void renewLiveNotice();
+  void setOld(const OldPicture& old);
+
+  Subject& subject_;
+  Filtering& filtering_;
+  LiveController& live_;
+  PlaybackController& playback_;
+  TactileFrame frame_;
+  std::optional<JointAngles> angles_;
+  bool held_ = false;
+  OldPicture old_;
+};
+
+}  // namespace palpate::gui

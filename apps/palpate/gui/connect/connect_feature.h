@@ -1,0 +1,23 @@
+// What the window is connected to: the dialogue, the menu of the button Connect, showing live, holding the picture.
+#pragma once
+
+#include "gui/bench/feature.h"
+
+namespace palpate::gui {
+
+class ConnectFeature : public Feature {
+  Q_OBJECT
+ public:
+  ConnectFeature(Bench& bench, QWidget* window);
+
+ private:
+  void addQuestions();
+  void connectActions();
+  void fillMenu();
+  std::filesystem::path scenesFolder() const;
+};
+
+// An emulated hand before a ball; `acts`: it grasps by itself.
+Connection emulatedBall(bool acts);
+
+}  // namespace palpate::gui

@@ -1,0 +1,26 @@
+// The dock Filter: the chain that what is shown is seen through.
+#pragma once
+
+#include "gui/bench/feature.h"
+
+namespace palpate::gui {
+
+class FilterPanel;
+
+class FilterFeature : public Feature {
+  Q_OBJECT
+ public:
+  FilterFeature(Bench& bench, QWidget* window);
+
+  FilterPanel& panel() noexcept { return *panel_; }
+  std::vector<DockOffer> docks() override;
+  void settle() override { bench().filtering.wait(); }
+
+ private:
+  void takeSource();
+
+  FilterPanel* panel_;
+  Dock* dock_;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,29 @@
+// The dock Inspect: the moment and the recording (or the link) in numbers, and which rows are plotted.
+#pragma once
+
+#include "gui/bench/feature.h"
+
+namespace palpate::gui {
+
+class InspectPanel;
+
+class InspectFeature : public Feature {
+  Q_OBJECT
+ public:
+  InspectFeature(Bench& bench, QWidget* window);
+
+  InspectPanel& panel() noexcept { return *panel_; }
+  std::vector<DockOffer> docks() override;
+  std::vector<ExportedView> views() override;
+
+ private:
+  void takeSource();
+  void showLinkFacts();
+  void showForces();
+  void showPlotted();
+
+  InspectPanel* panel_;
+  Dock* dock_;
+};
+
+}  // namespace palpate::gui

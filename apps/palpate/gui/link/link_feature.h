@@ -1,0 +1,35 @@
+// The dock Link, its alarms, and the doors to other programs.
+#pragma once
+
+#include "gui/bench/feature.h"
+#include "gui/link/alarm_bell.h"
+#include "gui/link/other_programs.h"
+
+namespace palpate::gui {
+
+class LinkPanel;
+class MessageBanner;
+
+class LinkFeature : public Feature {
+  Q_OBJECT
+ public:
+  LinkFeature(Bench& bench, QWidget* window);
+
+  std::vector<DockOffer> docks() override;
+  std::vector<StripOffer> strips() override;
+
+ private:
+  void connectAlarms();
+  void connectLog();
+  void mute(bool muted);
+  void look();
+
+  LinkPanel* panel_;
+  Dock* dock_;
+  MessageBanner* alarms_;
+  AlarmBell bell_;
+  bool alarmIsNew_ = false;  // since what is in the strip was closed
+  OtherPrograms others_;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,141 @@
+#include "gui/link/other_programs.h"
+
+#include <palpate/core/error.h>
+
+namespace palpate::gui {
+namespace {
+
+const char* otherProgramsKeyOf(StreamKind kind) {
+  return kind == StreamKind::kSignals ? "streams/signals" : "streams/tactile";
+}
+
+QString otherProgramsNameOf(StreamKind kind) {
+  return kind == StreamKind::kSignals ? "signals (PlotJuggler)" : "taxels (TactileSensor)";
+}
+
+}  // namespace
+
+OtherPrograms::OtherPrograms(const OtherProgramsOptions& options, QObject* parent)
+    : QObject(parent),
+      actions_(options.actions),
+      live_(options.live),
+      settings_(options.settings),
+      desk_(options.live, options.recordingSettings) {
+  for (const StreamKind kind : kAllStreamKinds) {
+    actionOf(kind)->setChecked(settings_.value(otherProgramsKeyOf(kind), false).toBool());
+    connect(actionOf(kind), &QAction::toggled, this, [this, kind](bool on) {
+      settings_.setValue(otherProgramsKeyOf(kind), on);
+      switchStream(kind, on);
+    });
+  }
+  connect(actions_.remoteControl, &QAction::toggled, this, &OtherPrograms::switchRemote);
+  connect(&live_, &LiveController::came, this, &OtherPrograms::useStreams);
+  connect(&live_, &LiveController::ended, this, &OtherPrograms::changed);
+  connect(&live_, &LiveController::looked, this, &OtherPrograms::changed);
+}
+
+QAction* OtherPrograms::actionOf(StreamKind kind) const {
+  return kind == StreamKind::kSignals ? actions_.streamSignals : actions_.streamTactile;
+}
+
+std::uint16_t OtherPrograms::portOf(StreamKind kind) const {
+  const int port =
+      settings_.value(QString(otherProgramsKeyOf(kind)) + "_port", usualPort(kind)).toInt();
+  return port >= 1 && port <= UINT16_MAX ? static_cast<std::uint16_t>(port) : usualPort(kind);
+}
+
+void OtherPrograms::useStreams() {
+  for (const StreamKind kind : kAllStreamKinds)
+    if (actionOf(kind)->isChecked()) switchStream(kind, true);
+}
+
+void OtherPrograms::switchStream(StreamKind kind, bool on) {
+  if (LiveSource* source = live_.source()) {
+    try {
+      if (on)
+        source->stream->switchOn(kind, portOf(kind));
+      else
+        source->stream->switchOff(kind);
+    } catch (const Error& error) {
+      actionOf(kind)->setChecked(false);
+      emit failed("Not streaming: " + QString::fromUtf8(error.what()));
+      return;
+    }
+  }
+  emit logged(QString(on ? "streaming " : "no longer streaming ") + otherProgramsNameOf(kind) +
+              (on ? " to 127.0.0.1:" + QString::number(portOf(kind)) : QString()));
+  emit changed();
+}
+
+void OtherPrograms::switchRemote(bool on) {
+  if (on == (server_ != nullptr)) return;
+  if (!on) {
+    server_.reset();
+    emit logged("remote control is off");
+    emit changed();
+    return;
+  }
+  try {
+    const QString named = actions_.remoteControl->data().toString();
+    RemoteServerOptions options;
+    options.onAnswer = [this](const RemoteRequest& request, const RemoteAnswer& answer) {
+      QMetaObject::invokeMethod(
+          this, [this, request, answer] { tell(request, answer); }, Qt::QueuedConnection);
+    };
+    server_ = std::make_unique<RemoteServer>(
+        named.isEmpty() ? usualRemoteSocket() : std::filesystem::path(named.toStdString()),
+        desk_,
+        std::move(options));
+  } catch (const Error& error) {
+    actions_.remoteControl->setChecked(false);
+    emit failed("No remote control: " + QString::fromUtf8(error.what()));
+    return;
+  }
+  emit logged("remote control is on at " + QString::fromStdString(server_->socket().string()));
+  emit changed();
+}
+
+void OtherPrograms::tell(const RemoteRequest& request, const RemoteAnswer& answer) {
+  QString line =
+      "remote control: " + QString::fromStdString(std::string(palpate::nameOf(request.verb)));
+  if (!request.text.empty()) line += " " + QString::fromStdString(request.text);
+  if (!answer.ok()) line += ": refused, " + QString::fromStdString(answer.message);
+  emit logged(line);
+  emit changed();
+}
+
+std::vector<Fact> OtherPrograms::facts() const {
+  std::vector<Fact> facts;
+  for (const StreamKind kind : kAllStreamKinds) {
+    if (!actionOf(kind)->isChecked()) continue;
+    std::optional<DatagramStats> stats;
+    if (const LiveSource* source = live_.source()) stats = source->stream->stats(kind);
+    QString value = "127.0.0.1:" + QString::number(portOf(kind));
+    if (!stats)
+      value += " · nothing is connected";
+    else if (stats->sent + stats->dropped == 0)
+      value += " · nothing sent yet";
+    else
+      value += stats->heard ? " · " + QString::number(stats->sent) + " sent"
+                            : QString(" · nobody listens");
+    facts.push_back({otherProgramsNameOf(kind), value});
+  }
+  if (server_) {
+    const std::size_t clients = server_->stats().clients;
+    facts.push_back(
+        {"remote control",
+         QString::fromStdString(server_->socket().string()) + " · " +
+             (clients == 1 ? QString("1 client") : QString::number(clients) + " clients")});
+  }
+  return facts;
+}
+
+QString OtherPrograms::shortText(const Actions& actions) {
+  QStringList open;
+  if (actions.streamSignals->isChecked() || actions.streamTactile->isChecked())
+    open.append("streaming");
+  if (actions.remoteControl->isChecked()) open.append("remote control");
+  return open.join(", ");
+}
+
+}  // namespace palpate::gui

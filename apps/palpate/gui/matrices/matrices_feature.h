@@ -1,0 +1,33 @@
+// The heat maps in the middle of the window: what they show, which taxels are chosen in them, which ones the hand scans.
+#pragma once
+
+#include "gui/bench/feature.h"
+#include "gui/matrices/matrices_painter.h"
+#include "gui/matrices/scan_choice.h"
+
+namespace palpate::gui {
+
+class MatricesPanel;
+
+class MatricesFeature : public Feature {
+  Q_OBJECT
+ public:
+  MatricesFeature(Bench& bench, QWidget* window);
+
+  MatricesPanel& panel() noexcept { return *panel_; }
+  std::vector<CentreOffer> centre() override;
+  std::vector<ExportedView> views() override;
+
+ private:
+  void connectLook();
+  void connectChosen();
+  void takeSource();
+
+  MatricesPanel* panel_;
+  ScanChoice scan_;
+};
+
+// Title, caption and look of a picture of what is shown.
+MatricesPictureOptions pictureOptions(const Bench& bench, const MatricesPanel& panel);
+
+}  // namespace palpate::gui

@@ -1,0 +1,66 @@
+#include "gui/matrices/scan_choice.h"
+
+#include <QMenu>
+#include <chrono>
+
+namespace palpate::gui {
+
+ScanChoice::ScanChoice(Bench& bench) : bench_(bench) {
+  Actions& actions = bench.actions;
+  const auto on = [this](QAction* action, auto what) {
+    connect(action, &QAction::triggered, this, what);
+  };
+  on(actions.scanOnly, [this] { scan(MaskChoice::kOnly); });
+  on(actions.scanWithout, [this] { scan(MaskChoice::kWithout); });
+  on(actions.scanAlso, [this] { scan(MaskChoice::kAlso); });
+  on(actions.scanAll, [this] { scan(MaskChoice::kAll); });
+  on(actions.chooseNone, [this] { bench_.selection.clearTaxels(); });
+  connect(bench.menus.scanned, &QMenu::aboutToShow, this, [this, &actions] {
+    const LiveSource* source = bench_.subject.source();
+    const bool live = source && source->control;
+    const bool chosen = !bench_.selection.taxels().empty();
+    for (QAction* action : {actions.scanOnly, actions.scanWithout, actions.scanAlso})
+      action->setEnabled(live && chosen);
+    actions.scanAll->setEnabled(live);
+    actions.chooseNone->setEnabled(chosen);
+  });
+  // Enabled again when the menu is gone: their keys must not depend on it.
+  connect(bench.menus.scanned, &QMenu::aboutToHide, this, [&actions] {
+    actions.chooseNone->setEnabled(true);
+  });
+  connect(&bench.live, &LiveController::looked, this, &ScanChoice::takeAnswers);
+  connect(&bench.live, &LiveController::leaving, this, [this] { answers_.clear(); });
+}
+
+void ScanChoice::scan(MaskChoice choice) {
+  LiveSource* source = bench_.live.source();
+  if (!source || !source->control) return;
+  try {
+    const auto commands =
+        maskCommands(*source->session->device().hand().layout, bench_.selection.taxels(), choice);
+    for (const DeviceCommand& command : commands)
+      answers_.push_back(source->control->change(command));
+    bench_.messages.flash(commands.empty()
+                              ? "these taxels are scanned already"
+                              : "which taxels are scanned is being changed: the stream pauses");
+  } catch (const std::exception& error) {
+    bench_.messages.fail(error.what());
+  }
+}
+
+void ScanChoice::takeAnswers() {
+  const auto isReady = [](const auto& answer) {
+    return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  };
+  for (const auto& answer : answers_) {
+    if (!isReady(answer)) continue;
+    try {
+      answer.get();
+    } catch (const std::exception& error) {
+      bench_.messages.fail("Which taxels are scanned was not changed: " + QString(error.what()));
+    }
+  }
+  std::erase_if(answers_, isReady);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,40 @@
+// Opening recordings: start page, menus, drag and drop, and what is done with each that arrives.
+#pragma once
+
+#include "gui/bench/feature.h"
+
+namespace palpate::gui {
+
+class OpeningStrip;
+class StartPage;
+
+class OpenFeature : public Feature {
+  Q_OBJECT
+ public:
+  OpenFeature(Bench& bench, QWidget* window);
+
+  std::vector<CentreOffer> centre() override;
+  std::vector<StripOffer> strips() override;
+  void start() override;
+  void remember() override;
+
+ protected:
+  // Files that are dragged over the window.
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void connectOpener();
+  void connectActions();
+  void connectStartPage();
+  void openDemoRecording();
+  void take(const OpenedRecordingPtr& recording, const OpenArrival& arrival);
+  void listRecordings();
+  void fillRecentMenu();
+  void showNeighbour(int step);
+  void closeCurrent();
+
+  StartPage* startPage_;
+  OpeningStrip* strip_;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,27 @@
+// Plays the recording that is looked at: the bar below the views, speeds, keys.
+#pragma once
+
+#include "gui/bench/feature.h"
+
+namespace palpate::gui {
+
+class PlaybackBar;
+
+class PlaybackFeature : public Feature {
+  Q_OBJECT
+ public:
+  PlaybackFeature(Bench& bench, QWidget* window);
+
+  std::vector<CentreOffer> centre() override;
+  void start() override;
+  void remember() override;
+
+ private:
+  void connectActions();
+  void showState();
+
+  PlaybackBar* bar_;
+  bool userLoops_ = false;  // as chosen by hand: the demo's loop is not remembered
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,312 @@
+#include "gui/recognise/recognise_feature.h"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "gui/look/captions.h"
+#include "gui/recognise/answer_view.h"
+#include "gui/recognise/ask_page.h"
+#include "gui/recognise/check_page.h"
+#include "gui/recognise/recognise_panel.h"
+#include "gui/recognise/show_window.h"
+#include "gui/recognise/teach_page.h"
+#include "gui/recognise/today_page.h"
+#include "gui/widgets/dock.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kRecogniseUsualWidth = 430;  // [px]
+constexpr int kHearingMs = 50;
+constexpr int kAskAgainRounds = 10;  // by itself: twice a second
+constexpr double kSteadyS = 0.8;     // held so long before it is asked by itself
+constexpr std::size_t kWaitingItems = 2048;
+constexpr double kAirS = 1.0;  // about a grasp that is shown
+
+}  // namespace
+
+RecogniseFeature::RecogniseFeature(Bench& bench, QWidget* window)
+    : Feature(bench, window),
+      panel_(new RecognisePanel(bench.settings, bench.surroundings.dataFolder, window)) {
+  dock_ = new Dock("Recognise", panel_, &panel_->header(), window);
+  connectAll();
+}
+
+RecogniseFeature::~RecogniseFeature() {
+  hearing_.stop();
+  feed_.reset();
+  zeroRun_.reset();
+  delete full_;
+}
+
+void RecogniseFeature::connectAll() {
+  Bench& bench = this->bench();
+  connect(panel_, &RecognisePanel::said, &bench.messages, &Messages::flash);
+  connect(panel_, &RecognisePanel::failed, &bench.messages, &Messages::fail);
+  connect(&panel_->today(), &TodayPage::zeroAsked, this, &RecogniseFeature::beginZero);
+  // After a stop, or anything else that is asked of the hand, nothing of a zero moves it any more.
+  connect(&bench.handRequests, &HandRequests::asked, this, &RecogniseFeature::giveUpZero);
+  connect(&panel_->check(), &CheckPage::graspAsked, this, &RecogniseFeature::showGrasp);
+  panel_->teach().zeroNow = [this] { return zero_; };
+  connect(&panel_->ask(), &AskPage::asked, this, &RecogniseFeature::ask);
+  connect(&panel_->ask(), &AskPage::showAsked, this, &RecogniseFeature::showFull);
+  on(bench.actions.whatIsIt, [this] {
+    if (!dock_->isVisible() && !full_) emit dockAsked(dock_);
+    panel_->showPage("Ask");
+    ask();
+  });
+  on(bench.actions.showMode, [this] { showFull(); });
+  // However it is shown, its model is looked for.
+  connect(dock_, &QDockWidget::visibilityChanged, this, [this](bool seen) {
+    if (seen) renew();
+  });
+  connect(&bench.subject, &Subject::shown, this, [this] {
+    renew();
+    showWanted();
+  });
+  connect(&bench.look, &ViewLook::themeChanged, this, &RecogniseFeature::renew);
+  connect(&bench.live, &LiveController::came, this, [this] { listen(true); });
+  connect(&bench.live, &LiveController::leaving, this, [this] { listen(false); });
+  connect(&hearing_, &QTimer::timeout, this, &RecogniseFeature::hear);
+  hearing_.setInterval(kHearingMs);
+  bench.escape.add(Escape::Order::kShow, [this] { return cancel(); });
+}
+
+void RecogniseFeature::renew() {
+  panel_->setTheme(bench().look.theme());
+  if (!dock_->isVisible() && !full_) return;
+  const LiveSource* source = bench().live.source();
+  const LiveSource* shown = bench().subject.source();
+  if (full_) full_->setLive(shown != nullptr);
+  panel_->desk().setEmulated(shown && shown->emulated);
+  panel_->ask().setLive(shown != nullptr, collector_ && collector_->touched());
+  panel_->teach().setLive(source != nullptr);
+  if (!source || !source->control)
+    panel_->today().setZeroPossible(source ? "A replay can't be moved." : "No hand is connected.",
+                                    false);
+}
+
+void RecogniseFeature::ask() {
+  renew();
+  if (bench().subject.source())
+    askOfHand();
+  else
+    askOfRecording();
+}
+
+// The selection; else the grasp under the cursor; else the only one.
+void RecogniseFeature::askOfRecording() {
+  RecogniseDesk& desk = panel_->desk();
+  const OpenedRecordingPtr recording = bench().subject.recorded();
+  if (!recording) return desk.sayTrouble("Open a recording, or connect a hand.");
+  if (recording->profile.numFrames() == 0) return desk.sayTrouble("This recording holds no frame.");
+  const QString name = QString::fromStdString(recording->path.filename().string());
+  const auto question = [&](double fromS, double toS) {
+    const auto frames = recording->framesWithin(fromS, toS);
+    if (!frames) return desk.sayTrouble("No frame is selected.");
+    desk.ask({recording->profile,
+              frames,
+              name + ", " + figure(fromS, 2) + " – " + figure(toS, 2) + " s"});
+  };
+  if (const auto& span = bench().selection.span()) return question(span->fromS, span->toS);
+  const auto frame = static_cast<std::size_t>(bench().playback.frame());
+  const std::vector<GraspSegment>& grasps = bench().events.graspsOf(recording);
+  const auto at = std::find_if(grasps.begin(), grasps.end(), [&](const GraspSegment& grasp) {
+    return frame >= grasp.begin && frame <= grasp.end;
+  });
+  const auto* chosen = at != grasps.end() ? &*at : grasps.size() == 1 ? &grasps.front() : nullptr;
+  if (!chosen)
+    return desk.sayTrouble(grasps.empty()
+                               ? "There is no grasp in this recording."
+                               : "No grasp is chosen: select one in the timeline (N), or put the "
+                                 "cursor into one.");
+  question(recording->timeAt(chosen->begin), recording->timeAt(chosen->end));
+}
+
+// What is held now; else the last grasp.
+void RecogniseFeature::askOfHand() {
+  takeItems();
+  RecogniseDesk& desk = panel_->desk();
+  if (!collector_) return desk.sayTrouble("No hand is connected.");
+  sinceAsked_ = 0;
+  if (auto held = collector_->now()) return desk.ask({std::move(*held), std::nullopt, kHeldNow});
+  if (collector_->touched())
+    return desk.sayTrouble("Held too short yet: ask again in a second.", kHeldNow);
+  if (lastGrasp_) return desk.ask({*lastGrasp_, std::nullopt, kLastGrasp});
+  desk.sayTrouble("Nothing is held, and nothing was.", kHeldNow);
+}
+
+void RecogniseFeature::listen(bool on) {
+  hearing_.stop();
+  feed_.reset();
+  collector_.reset();
+  lastGrasp_.reset();
+  zeroRun_.reset();
+  zero_.reset();
+  panel_->desk().letGo();
+  if (!on) panel_->teach().setLive(false);
+  LiveSource* source = bench().live.source();
+  if (!on || !source) return;
+  FeedOptions options;
+  options.tactileItems = options.motionItems = kWaitingItems;
+  feed_ = source->session->subscribe("recognition", options);
+  collector_ = std::make_unique<GraspCollector>(source->session->device().hand());
+  if (source->control) zeroRun_ = std::make_unique<EmptyHandRun>(*source->control);
+  hearing_.start();
+}
+
+void RecogniseFeature::takeItems() {
+  if (!feed_) return;
+  const bool held = collector_->touched();
+  items_.clear();
+  feed_->take(items_);
+  for (CaptureItem& item : items_) {
+    if (auto* frame = std::get_if<SharedFrame>(&item))
+      collector_->addFrame(std::move(*frame));
+    else if (auto* angles = std::get_if<JointAngles>(&item))
+      collector_->addAngles(std::move(*angles));
+  }
+  items_.clear();
+  std::vector<Profile> ended = collector_->takeEnded();
+  // Also when something else is held by now.
+  if (held && (!collector_->touched() || !ended.empty())) panel_->desk().letGo();
+  if (!held && collector_->touched()) panel_->desk().touchBegins();
+  for (Profile& grasp : ended) takeEnded(std::move(grasp));
+}
+
+void RecogniseFeature::hear() {
+  if (!feed_) return;
+  takeItems();
+  goOnWithZero();
+  ++sinceAsked_;
+  if (full_) full_->setLive(bench().subject.isLive());
+  if (!bench().subject.isLive() || (!dock_->isVisible() && !full_)) return;
+  panel_->ask().setLive(true, collector_->touched());
+  if ((panel_->ask().byItself() || full_) && sinceAsked_ >= kAskAgainRounds &&
+      collector_->touchedS() >= kSteadyS && !panel_->desk().busy())
+    askOfHand();
+}
+
+void RecogniseFeature::showFull() {
+  if (full_) {
+    full_->close();
+    return;
+  }
+  full_ = new ShowWindow(
+      panel_->desk(), bench().subject.source() != nullptr, bench().look.theme(), window());
+  connect(full_, &ShowWindow::asked, this, &RecogniseFeature::ask);
+  full_->showFullScreen();
+  renew();
+}
+
+void RecogniseFeature::takeEnded(Profile grasp) {
+  if (!zeroRun_ || !zeroRun_->active()) {
+    panel_->teach().take(grasp);
+    lastGrasp_ = std::move(grasp);
+    return;
+  }
+  if (const auto trouble = zeroRun_->padsLetGo()) return sayNoZero(*trouble);
+  EmptyHandZero zero = emptyHandZero(grasp);
+  zero.origin = "the connected hand";
+  if (!zero.trouble.empty()) return sayNoZero(zero.trouble);
+  zero_ = zero;
+  bench().messages.flash("the empty hand reads " + figure(zero.mm, 1) + " ± " +
+                         figure(zero.sdMm, 1) + " mm");
+  panel_->desk().changeDay([&](RecognitionDay& day) { day.setZero(zero); });
+}
+
+void RecogniseFeature::beginZero() {
+  LiveSource* source = bench().live.source();
+  if (!source || !zeroRun_) return;
+  if (collector_->touched())
+    return bench().messages.flash("the hand isn't empty: something touches it");
+  try {
+    zeroRun_->begin(source->session->nowUs());
+  } catch (const std::exception& error) {
+    bench().messages.flash(error.what());
+  }
+}
+
+void RecogniseFeature::giveUpZero() {
+  if (!zeroRun_ || !zeroRun_->active()) return;
+  zeroRun_->giveUp();
+  sayNoZero("given up");
+}
+
+void RecogniseFeature::sayNoZero(const std::string& why) {
+  bench().messages.flash("no zero: " + QString::fromStdString(why));
+}
+
+void RecogniseFeature::goOnWithZero() {
+  LiveSource* source = bench().live.source();
+  if (!source || !zeroRun_) return;
+  panel_->today().setZeroPossible(QString::fromStdString(source->control->status().cannotReact),
+                                  zeroRun_->active());
+  if (const auto trouble = zeroRun_->step(source->session->nowUs())) sayNoZero(*trouble);
+}
+
+void RecogniseFeature::showGrasp(const std::filesystem::path& file,
+                                 std::size_t begin,
+                                 std::size_t end) {
+  wanted_ = Wanted{file, begin, end};
+  const OpenedRecordingPtr open = bench().recordings.at(file);
+  if (!open) return bench().open({file});
+  if (open == bench().subject.recorded()) return showWanted();
+  bench().subject.show(open);
+}
+
+void RecogniseFeature::showWanted() {
+  const OpenedRecordingPtr recording = bench().subject.recorded();
+  if (!wanted_ || !recording || recording->path != wanted_->file) return;
+  const Wanted wanted = *std::exchange(wanted_, std::nullopt);
+  if (wanted.end >= recording->profile.numFrames()) return;  // another one by now
+  const TimeSpan span{recording->timeAt(wanted.begin), recording->timeAt(wanted.end)};
+  bench().selection.showWithAir({span.fromS - kAirS, span.toS + kAirS});
+  bench().selection.setSpan(span);
+  bench().playback.seekSeconds(span.fromS);
+}
+
+bool RecogniseFeature::cancel() {
+  if (full_) {
+    full_->close();
+    return true;
+  }
+  // The key stops the hand, too.
+  giveUpZero();
+  return panel_->cancel();
+}
+
+void RecogniseFeature::settle() { panel_->settle(); }
+
+std::vector<DockOffer> RecogniseFeature::docks() {
+  return {{.dock = dock_,
+           .key = QKeySequence("Ctrl+Shift+I"),
+           .tab = 5,
+           .roomPx = kRecogniseUsualWidth}};
+}
+
+std::vector<ExportedView> RecogniseFeature::views() {
+  ExportedView view;
+  view.name = "Recognise";
+  view.widget = panel_;
+  view.isThere = [this] {
+    return panel_->isVisible() &&
+           (panel_->check().shown() || !panel_->desk().answer().name().isEmpty());
+  };
+  view.fileName = [] { return QString("recognised"); };
+  view.tables = [this] { return panel_->check().tables(); };
+  view.paint = [this](QPainter& painter, const PictureLook& look) {
+    if (panel_->check().shown()) return panel_->check().paint(painter, look);
+    const RecognitionAnswer& answer = panel_->desk().answer();
+    paintAnswer(painter,
+                QRectF(QPointF(0, 0), look.size).adjusted(24, 24, -24, -24),
+                answer,
+                panel_->desk().photos().photo(answer.name()),
+                look.forPrint ? Theme::kLight : bench().look.theme(),
+                look.textUnits > 0 ? look.textUnits : 16);
+  };
+  return {view};
+}
+
+}  // namespace palpate::gui

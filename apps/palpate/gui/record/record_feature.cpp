@@ -1,0 +1,235 @@
+#include "gui/record/record_feature.h"
+
+#include <QTimer>
+
+#include "gui/look/captions.h"
+#include "gui/look/icons.h"
+#include "gui/record/recording_dialog.h"
+#include "gui/widgets/offer_strip.h"
+
+namespace palpate::gui {
+namespace {
+
+// Messages that the next recording answers.
+constexpr const char* kRecordingTopic = "recording";
+
+// "01:16", "1:02:03"
+QString clockText(double seconds) {
+  constexpr int kSixty = 60;
+  const auto whole = static_cast<int>(seconds);
+  const auto two = [](int value) { return QString("%1").arg(value, 2, 10, QChar('0')); };
+  const int hours = whole / kSixty / kSixty;
+  const QString rest = two(whole / kSixty % kSixty) + ":" + two(whole % kSixty);
+  return hours == 0 ? rest : QString::number(hours) + ":" + rest;
+}
+
+QString megabytes(std::int64_t bytes) {
+  constexpr double kMega = 1e6;
+  return figure(static_cast<double>(bytes) / kMega, 1) + " MB";
+}
+
+QString summaryOf(const RecordingReport& report) {
+  QString text = QString::fromStdString(report.paths.front().filename().string());
+  if (report.paths.size() > 1) text += " and " + QString::number(report.paths.size() - 1) + " more";
+  text += ": " + QString::number(report.frames) + " frames in " + figure(report.durationS, 1) +
+          " s, " + megabytes(report.bytes);
+  text += report.lost > 0 ? ", " + QString::number(report.lost) + " lost" : ", nothing lost";
+  if (report.gaps > 0)
+    text += report.gaps == 1 ? ", 1 gap" : ", " + QString::number(report.gaps) + " gaps";
+  return text;
+}
+
+}  // namespace
+
+RecordFeature::RecordFeature(Bench& bench, QWidget* window)
+    : Feature(bench, window), offer_(new OfferStrip(window)), unfinished_(bench.settings) {
+  bench.questions.recording = [window](const RecordingSettings& last,
+                                       const QString& button) -> std::optional<RecordingSettings> {
+    RecordingDialog dialog(last, button, window);
+    if (dialog.exec() != QDialog::Accepted) return std::nullopt;
+    return dialog.settings();
+  };
+  connectActions();
+  connectRecorder();
+  connectUnfinished();
+  use(loadRecordingSettings(bench.settings));
+  connect(&bench.messages, &Messages::announced, offer_, &OfferStrip::say);
+  connect(&bench.look, &ViewLook::themeChanged, this, [this] {
+    offer_->setTheme(this->bench().look.theme());
+    this->bench().actions.record->setIcon({});  // in the colours of before
+    showState();
+  });
+}
+
+void RecordFeature::connectActions() {
+  Actions& actions = bench().actions;
+  on(actions.record, [this] { toggle(); });
+  on(actions.recordingSettings, [this] {
+    if (const auto wanted = bench().questions.recording(settings_, "Keep")) use(*wanted);
+  });
+  actions.openRecorded->setEnabled(false);
+  on(actions.openRecorded, [this] { bench().open(lastRecorded_); });
+  on(actions.mark, [this] { mark({}, std::nullopt); });
+  for (qsizetype digit = 0; digit < actions.labels.size(); ++digit)
+    on(actions.labels[digit], [this, digit] {
+      const QString& label = settings_.markLabels.at(static_cast<std::size_t>(digit));
+      const auto key = static_cast<int>(digit);
+      mark(label.isEmpty() ? "mark " + QString::number(key) : label, key);
+    });
+  bench().enabling.add({actions.record}, [this] { return bench().live.source() != nullptr; });
+  // The space bar and the digits: marks while live is shown, playback else.
+  bench().enabling.add(actions.labels + QList<QAction*>{actions.mark},
+                       [this] { return bench().subject.isLive(); });
+}
+
+void RecordFeature::connectRecorder() {
+  LiveController& live = bench().live;
+  connect(&live, &LiveController::recordingStarted, this, [this] {
+    bench().messages.withdraw(kRecordingTopic);
+    bench().messages.logLink("recording begins");
+    showState();
+  });
+  connect(&live, &LiveController::recordingFailed, this, [this](const QString& message) {
+    bench().messages.failAbout(kRecordingTopic, "Not recording: " + message);
+    bench().messages.logLink("not recording: " + message);
+    showState();
+  });
+  connect(&live, &LiveController::recordingEnded, this, &RecordFeature::offer);
+  connect(&live, &LiveController::looked, this, &RecordFeature::showState);
+  connect(&live, &LiveController::stateChanged, this, &RecordFeature::showState);
+}
+
+void RecordFeature::connectUnfinished() {
+  connect(&unfinished_, &UnfinishedFinder::found, this, [this](const QStringList& paths) {
+    // What was just recorded is more urgent.
+    if (paths.isEmpty() || !offer_->isHidden()) return;
+    constexpr qsizetype kMostNames = 3;
+    QStringList names;
+    for (const QString& path : paths.mid(0, kMostNames)) names.append(path.section('/', -1));
+    if (paths.size() > kMostNames)
+      names.append(QString::number(paths.size() - kMostNames) + " more");
+    offer_->offer(
+        (paths.size() == 1 ? QString("A recording was never finished: ")
+                           : QString::number(paths.size()) + " recordings were never finished: ") +
+            names.join(", ") + ". Recovering makes a new file beside it and changes nothing.",
+        "Recover",
+        [this, paths] {
+          recovered_.clear();
+          offer_->say("Recovering …");
+          unfinished_.recover(paths);
+        },
+        [this, paths] { unfinished_.ignore(paths); });
+  });
+  connect(&unfinished_, &UnfinishedFinder::progressed, this, [this](double fraction) {
+    offer_->say("Recovering … " + figure(100.0 * fraction, 0) + " %");
+  });
+  connect(&unfinished_,
+          &UnfinishedFinder::recovered,
+          this,
+          [this](const QString& path, const QString& message, const QString& saved) {
+            recovered_.emplace_back(saved.toStdString());
+            bench().messages.logLink("recovered " + path.section('/', -1) + ": " + message);
+          });
+  connect(&unfinished_,
+          &UnfinishedFinder::failed,
+          this,
+          [this](const QString&, const QString& message) { bench().messages.fail(message); });
+  connect(&unfinished_, &UnfinishedFinder::finished, this, [this] {
+    offer_->dismiss();
+    if (recovered_.empty()) return;
+    const auto count = recovered_.size();
+    offer_->offer(
+        count == 1 ? "Recovered " + QString::fromStdString(recovered_.front().filename().string())
+                   : QString("Recovered %1 recordings").arg(count),
+        "Open",
+        [this, paths = recovered_] { bench().open(paths); });
+  });
+}
+
+void RecordFeature::offerUnfinished() { unfinished_.look(settings_.folder); }
+
+// The window comes first.
+void RecordFeature::start() {
+  if (bench().surroundings.offerUnfinished)
+    QTimer::singleShot(0, this, &RecordFeature::offerUnfinished);
+}
+
+void RecordFeature::use(const RecordingSettings& settings) {
+  settings_ = settings;
+  saveRecordingSettings(settings_, bench().settings);
+  bench().live.setFolder(settings_.folder.toStdString());
+  const QList<QAction*>& labels = bench().actions.labels;
+  for (qsizetype digit = 0; digit < labels.size(); ++digit) {
+    const QString& label = settings_.markLabels.at(static_cast<std::size_t>(digit));
+    labels[digit]->setText("Mark " + QString::number(digit) +
+                           (label.isEmpty() ? "" : ": " + QString(label).replace('&', "&&")));
+  }
+}
+
+void RecordFeature::toggle() {
+  LiveController& live = bench().live;
+  if (live.recording()) return live.stopRecording();
+  if (settings_.askEachTime) {
+    const auto wanted = bench().questions.recording(settings_, "Start recording");
+    if (!wanted) return;
+    use(*wanted);
+  }
+  offer_->dismiss();
+  live.startRecording([settings = settings_] {
+    return recordingOptions(settings, nextPath(settings, systemClock().wallUs()));
+  });
+  showState();
+}
+
+void RecordFeature::mark(const QString& label, std::optional<int> digit) {
+  LiveController& live = bench().live;
+  live.mark(label, digit);
+  bench().messages.flash((label.isEmpty() ? QString("marked") : "marked: " + label) +
+                         (live.recording() ? "" : " (nothing is being recorded)"));
+}
+
+// What the button says: how long, and how much is on disk.
+void RecordFeature::showState() {
+  QAction* action = bench().actions.record;
+  const bool on = bench().live.source() && bench().live.recording();
+  if (on != action->property(kRecordingProperty).toBool() || action->icon().isNull()) {
+    action->setProperty(kRecordingProperty, on);
+    action->setIcon(
+        makeIcon(on ? IconShape::kStopRecording : IconShape::kRecord, bench().look.theme()));
+    action->setText(on ? "Stop &recording" : "&Record");
+    action->setToolTip(on ? "Stop and finish the recording (Ctrl+R)"
+                          : "Record what comes, with the two seconds before (Ctrl+R)");
+  }
+  QString text = " Record";
+  if (on) {
+    const RecorderStatus& recorder = bench().live.health().recorder;
+    text = recorder.state == RecorderStatus::State::kRecording
+               ? " " + clockText(recorder.elapsedS) + " · " + megabytes(recorder.bytesOnDisk)
+               : QString(" waiting for a frame");
+  }
+  if (action->iconText() != text) action->setIconText(text);
+}
+
+void RecordFeature::offer(const RecordingReport& report) {
+  Messages& messages = bench().messages;
+  showState();
+  if (report.paths.empty()) {
+    const QString why = report.message.empty() ? QString("no frame came while it ran")
+                                               : QString::fromStdString(report.message);
+    messages.failAbout(kRecordingTopic, "Nothing was recorded: " + why);
+    messages.logLink("nothing was recorded: " + why);
+    return;
+  }
+  lastRecorded_ = report.paths;
+  bench().actions.openRecorded->setEnabled(true);
+  const QString summary = summaryOf(report);
+  messages.logLink("recorded " + summary);
+  if (!report.complete)
+    messages.fail(QString::fromStdString(report.paths.front().filename().string()) +
+                  ": something is missing: " + QString::fromStdString(report.message));
+  offer_->offer("Recorded " + summary, "Open", [this] { bench().open(lastRecorded_); });
+}
+
+std::vector<StripOffer> RecordFeature::strips() { return {{StripOffer::Order::kOffer, offer_}}; }
+
+}  // namespace palpate::gui

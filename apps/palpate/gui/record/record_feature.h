@@ -1,0 +1,45 @@
+// Recordings that are made of what is connected: start, stop, marks, what is offered afterwards, and what an earlier day left
+// unfinished.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "gui/bench/feature.h"
+#include "gui/record/unfinished_finder.h"
+#include "gui/source/recording_settings.h"
+
+namespace palpate::gui {
+
+class OfferStrip;
+
+class RecordFeature : public Feature {
+  Q_OBJECT
+ public:
+  RecordFeature(Bench& bench, QWidget* window);
+
+  UnfinishedFinder& unfinished() noexcept { return unfinished_; }
+  // Looks for recordings that were never finished, and offers to recover them.
+  void offerUnfinished();
+  std::vector<StripOffer> strips() override;
+  void start() override;
+
+ private:
+  void connectActions();
+  void connectRecorder();
+  void connectUnfinished();
+  void use(const RecordingSettings& settings);
+  void toggle();
+  void mark(const QString& label, std::optional<int> digit);
+  void showState();
+  void offer(const RecordingReport& report);
+
+  OfferStrip* offer_;
+  RecordingSettings settings_;
+  std::vector<std::filesystem::path> lastRecorded_;  // parts
+  UnfinishedFinder unfinished_;
+  std::vector<std::filesystem::path> recovered_;  // files of the recovery that runs
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,56 @@
+#include "gui/shell/features.h"
+
+#include "gui/calibrate/calibrate_feature.h"
+#include "gui/compare/compare_feature.h"
+#include "gui/connect/connect_feature.h"
+#include "gui/export/export_feature.h"
+#include "gui/filter/filter_feature.h"
+#include "gui/hand/hand_feature.h"
+#include "gui/help/help_feature.h"
+#include "gui/inspect/inspect_feature.h"
+#include "gui/library/library_feature.h"
+#include "gui/library/log_feature.h"
+#include "gui/link/link_feature.h"
+#include "gui/matrices/matrices_feature.h"
+#include "gui/open/open_feature.h"
+#include "gui/playback/playback_feature.h"
+#include "gui/recognise/recognise_feature.h"
+#include "gui/record/record_feature.h"
+#include "gui/slip/slip_feature.h"
+#include "gui/space/space_feature.h"
+#include "gui/spectrum/spectrum_feature.h"
+#include "gui/timeline/timeline_feature.h"
+
+namespace palpate::gui {
+
+std::vector<std::unique_ptr<Feature>> allFeatures(Bench& bench, QWidget* window) {
+  std::vector<std::unique_ptr<Feature>> all;
+  const auto add = [&all](auto feature) -> auto& {
+    auto& made = *feature;
+    all.push_back(std::move(feature));
+    return made;
+  };
+  auto& matrices = add(std::make_unique<MatricesFeature>(bench, window));
+  add(std::make_unique<SpaceFeature>(bench, window, matrices.panel()));
+  add(std::make_unique<InspectFeature>(bench, window));
+  add(std::make_unique<TimelineFeature>(bench, window));
+  add(std::make_unique<HandFeature>(bench, window));
+  add(std::make_unique<LinkFeature>(bench, window));
+  add(std::make_unique<FilterFeature>(bench, window));
+  add(std::make_unique<SpectrumFeature>(bench, window));
+  add(std::make_unique<CalibrateFeature>(bench, window));
+  add(std::make_unique<SlipFeature>(bench, window));
+  add(std::make_unique<LibraryFeature>(bench, window));
+  add(std::make_unique<LogFeature>(bench, window));
+  add(std::make_unique<RecogniseFeature>(bench, window));
+  add(std::make_unique<CompareFeature>(bench, window));
+  add(std::make_unique<PlaybackFeature>(bench, window));
+  add(std::make_unique<ConnectFeature>(bench, window));
+  add(std::make_unique<RecordFeature>(bench, window));
+  add(std::make_unique<OpenFeature>(bench, window));
+  add(std::make_unique<ExportFeature>(bench, window));
+  add(std::make_unique<HelpFeature>(bench, window));
+  return all;
+}
+
+}  // namespace palpate::gui

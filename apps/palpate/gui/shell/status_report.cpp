@@ -1,0 +1,156 @@
+#include "gui/shell/status_report.h"
+
+#include <algorithm>
+
+#include <palpate/capture/link_health.h>
+#include <palpate/core/number_text.h>
+
+#include "gui/link/other_programs.h"
+#include "gui/look/captions.h"
+#include "gui/widgets/status_strip.h"
+
+namespace palpate::gui {
+
+StatusReport::StatusReport(Bench& bench, StatusStrip& strip, WindowMenus& menus)
+    : bench_(bench), strip_(strip), menus_(menus) {
+  const auto report = [this] { this->report(); };
+  connect(&bench.messages, &Messages::changed, this, report);
+  connect(&bench.subject, &Subject::shown, this, report);
+  connect(&bench.playback, &PlaybackController::positionChanged, this, report);
+  connect(&bench.playback, &PlaybackController::stateChanged, this, report);
+  connect(&bench.opener, &RecordingOpener::started, this, report);
+  connect(&bench.opener, &RecordingOpener::finished, this, report);
+  connect(&bench.selection, &Selection::taxelsChanged, this, report);
+  connect(&bench.moment, &Moment::heldChanged, this, report);
+  connect(&bench.filtering, &Filtering::onChanged, this, report);
+  connect(&bench.live, &LiveController::stateChanged, this, [this] {
+    reportLink();
+    this->report();
+  });
+  connect(&bench.live, &LiveController::ended, this, &StatusReport::reportLink);
+  connect(&bench.live, &LiveController::looked, this, [this] {
+    reportLink();
+    if (bench_.subject.isLive()) this->report();
+  });
+  connect(
+      &bench.look, &ViewLook::themeChanged, this, [this] { strip_.setTheme(bench_.look.theme()); });
+}
+
+void StatusReport::reportLink() {
+  LiveController& live = bench_.live;
+  const LiveSource* source = live.source();
+  if (!source) {
+    const bool connecting = live.state() == LiveController::State::kConnecting;
+    return menus_.showLink(connecting ? "connecting …" : "", false);
+  }
+  const QString how = source->finished() ? " · ended"
+                      : live.stale()     ? " · no data"
+                                         : " · " + figure(live.health().frames.rateHz, 1) + " fps";
+  menus_.showLink(describe(source->connection) + how, !live.stale());
+}
+
+void StatusReport::report() {
+  if (bench_.subject.isLive()) return reportLive();
+  const PlaybackController& playback = bench_.playback;
+  Status now;
+  const bool opening = bench_.opener.busy();
+  const OpenedRecordingPtr recording = bench_.subject.recorded();
+  if (!recording) {
+    const QString& flashed = bench_.messages.flashed();
+    now.state = bench_.live.state() == LiveController::State::kConnecting
+                    ? "connecting: " + describe(bench_.live.connection())
+                : opening ? QString("opening a recording")
+                          : QString("nothing open");
+    now.notice =
+        flashed.isEmpty() ? "Connect a hand (Ctrl+K) or open a recording (Ctrl+O)" : flashed;
+    now.right = "F1 shows all keys";
+    return strip_.setStatus(now);
+  }
+  const bool playing = playback.playing();
+  const bool inGap = recording->gapAt(playback.positionS()) != nullptr;
+  now.lamp = inGap ? Status::Lamp::kWarning : playing ? Status::Lamp::kGood : Status::Lamp::kIdle;
+  now.state = "playback · " + QString(playing ? "playing " : "paused ") +
+              QString::number(playback.speed()) + "×" +
+              (bench_.filtering.applied() ? " · filtered" : "") +
+              (opening ? " · opening another" : "");
+  if (playback.hasFrames()) {
+    const OpenedRecordingPtr& seen = bench_.subject.seen();
+    const CharacteristicSignals all = seen->at(playback.frame(), seen->numMatrices());
+    now.figures = {"active " + QString::number(all.active),
+                   "max " + QString::number(all.maximum, 'f', 0),
+                   "saturated " + QString::number(bench_.moment.saturated())};
+    now.right = "frame " + QString::number(playback.frame()) + " of " +
+                QString::number(playback.numFrames()) + "   " +
+                QString::fromStdString(fixedText(playback.positionS(), 2)) + " s";
+  }
+  now.notice = notice();
+  strip_.setStatus(now);
+}
+
+void StatusReport::reportLive() {
+  LiveController& live = bench_.live;
+  const bool held = bench_.moment.held();
+  const LinkHealth& health = live.health();
+  const RecorderStatus& recorder = health.recorder;
+  Status now;
+  now.lamp = live.stale() || held ? Status::Lamp::kWarning : Status::Lamp::kGood;
+  if (live.source() && live.source()->finished())
+    now.state = "the replay has ended";
+  else if (live.stale())
+    now.state = live.framesCameYet() ? "no data" : "waiting for data";
+  else if (recorder.state != RecorderStatus::State::kIdle)
+    now.state =
+        recorder.framesOnDisk >= recorder.frames
+            ? "all frames on disk"
+            : "frames to write: " + QString::number(recorder.frames - recorder.framesOnDisk);
+  else
+    now.state = "live";
+  if (held) now.state = "held (P goes on) · " + now.state;
+  now.figures = {
+      "rate " + figure(health.frames.rateHz, 1) + " fps",
+      "age " + (live.stale() ? QString("–") : figure(health.device.tactile.ageMs, 0)) + " ms",
+      "lost " + QString::number(health.lost),
+      "bad " + QString::number(health.badChecksums),
+      "saturated " + QString::number(health.frames.saturatedFrames)};
+  now.notice = notice();
+  now.right = describe(live.connection());
+  if (const QString open = OtherPrograms::shortText(bench_.actions); !open.isEmpty())
+    now.right = open + " · " + now.right;
+  strip_.setStatus(now);
+}
+
+QString StatusReport::notice() const {
+  if (!bench_.messages.flashed().isEmpty()) return bench_.messages.flashed();
+  if (!bench_.messages.hovered().isEmpty()) return bench_.messages.hovered();
+  if (const QString chosen = chosenTaxels(); !chosen.isEmpty()) return chosen;
+  const OpenedRecordingPtr recording = bench_.subject.recorded();
+  if (!recording) return {};
+  if (const Gap* gap = recording->gapAt(bench_.playback.positionS()))
+    return "gap of " + QString::number(gap->seconds, 'f', 1) + " s: nothing was recorded";
+  const auto gaps = recording->timingNow().gaps.size();
+  if (gaps == 1) return "1 gap";
+  return gaps == 0 ? QString() : QString::number(gaps) + " gaps";
+}
+
+QString StatusReport::chosenTaxels() const {
+  const TaxelSelection& chosen = bench_.selection.taxels();
+  const std::size_t count = chosen.count();
+  if (count == 0) return {};
+  QString text = QString::number(count) + (count == 1 ? " taxel chosen" : " taxels chosen");
+  const TactileFrame& frame = bench_.moment.frame();
+  if (frame.values.empty() || frame.layout->numMatrices() != chosen.numMatrices()) return text;
+  double sum = 0.0, largest = 0.0;
+  for (std::size_t m = 0; m < chosen.numMatrices(); ++m) {
+    const auto values = frame.allValues(m);
+    for (int y = 0; y < values.rows(); ++y)
+      for (int x = 0; x < values.cols(); ++x)
+        if (chosen.contains(m, y, x)) {
+          sum += static_cast<double>(values(y, x));
+          largest = std::max(largest, static_cast<double>(values(y, x)));
+        }
+  }
+  return text + ": mean " + figure(sum / static_cast<double>(count), 0) + ", max " +
+         figure(largest, 0) + " counts";
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,33 @@
+// The dock Slip: whose slip it shows, what of it stands below the timeline and on the hand in space.
+#pragma once
+
+#include "gui/bench/feature.h"
+
+namespace palpate::gui {
+
+class SlipPanel;
+
+class SlipFeature : public Feature {
+  Q_OBJECT
+ public:
+  SlipFeature(Bench& bench, QWidget* window);
+
+  SlipPanel& panel() noexcept { return *panel_; }
+  std::vector<DockOffer> docks() override;
+  std::vector<ExportedView> views() override;
+  void settle() override;
+
+ private:
+  void connectBench();
+  void takeSource();
+  void takeLook();
+  void showLive(const LiveResults& results);
+  void showArrows();
+  void setUpStage();
+
+  SlipPanel* panel_;
+  Dock* dock_;
+  const void* liveOf_ = nullptr;  // the source whose hand the panel has
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,31 @@
+// The dock Spectrum: of the chosen taxels of the recording that is looked at, on the timeline's axis of time.
+#pragma once
+
+#include "gui/bench/feature.h"
+
+namespace palpate::gui {
+
+class SpectrumPanel;
+
+class SpectrumFeature : public Feature {
+  Q_OBJECT
+ public:
+  SpectrumFeature(Bench& bench, QWidget* window);
+
+  SpectrumPanel& panel() noexcept { return *panel_; }
+  std::vector<DockOffer> docks() override;
+  std::vector<ExportedView> views() override;
+  void settle() override;
+
+ private:
+  void connectChart();
+  void takeSource();
+  void takeTaxels();
+  void takeSight();
+  void takeLook();
+
+  SpectrumPanel* panel_;
+  Dock* dock_;
+};
+
+}  // namespace palpate::gui

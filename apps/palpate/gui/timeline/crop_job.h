@@ -1,0 +1,37 @@
+// Cuts the selected part of a recording into a new one, beside the window.
+#pragma once
+
+#include <QObject>
+#include <cstddef>
+
+#include "gui/bench/bench.h"
+#include "gui/source/background_job.h"
+
+namespace palpate::gui {
+
+class OpeningStrip;
+
+class CropJob : public QObject {
+  Q_OBJECT
+ public:
+  // The bench must outlive it.
+  CropJob(Bench& bench, QWidget* window);
+
+  // Of the recording that is looked at: asks where to.
+  void cropSelection();
+  // A line over the centre while it is at work.
+  OpeningStrip& strip() noexcept { return *strip_; }
+  bool busy() const noexcept { return job_.busy(); }
+
+ signals:
+  void written(const QString& path);
+
+ private:
+  void start(const QString& path, std::size_t first, std::size_t last);
+
+  Bench& bench_;
+  OpeningStrip* strip_;
+  BackgroundJob job_;
+};
+
+}  // namespace palpate::gui

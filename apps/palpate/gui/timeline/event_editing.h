@@ -1,0 +1,33 @@
+// Events edited in the rows below the timeline and by keys: labels, notes and grasps, with undo.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <cstddef>
+
+#include "gui/bench/bench.h"
+
+namespace palpate::gui {
+
+class EventRows;
+
+class EventEditing : public QObject {
+  Q_OBJECT
+ public:
+  // Both must outlive it.
+  EventEditing(Bench& bench, EventRows& rows, QWidget* window);
+
+ private:
+  void connectActions();
+  void connectRows();
+  void addConditions();
+  void add(const char* kind, const QString& title, const QString& name);
+  void addGrasp();
+  void show(std::size_t mark);
+  void showUndo();
+
+  Bench& bench_;
+  EventRows& rows_;
+};
+
+}  // namespace palpate::gui

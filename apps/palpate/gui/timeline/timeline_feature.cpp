@@ -1,0 +1,380 @@
+#include "gui/timeline/timeline_feature.h"
+
+#include <QInputDialog>
+#include <QMenu>
+#include <QToolButton>
+
+#include "gui/chart/chart_picture.h"
+#include "gui/look/captions.h"
+#include "gui/look/next_choice.h"
+#include "gui/timeline/curve_table.h"
+#include "gui/timeline/live_chart.h"
+#include "gui/timeline/timeline_chart.h"
+#include "gui/timeline/timeline_header.h"
+#include "gui/timeline/timeline_panel.h"
+#include "gui/widgets/dock.h"
+#include "gui/widgets/opening_strip.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kZoomStep = 1.5;
+
+}  // namespace
+
+TimelineFeature::TimelineFeature(Bench& bench, QWidget* window)
+    : Feature(bench, window), groups_(bench.settings), extras_(loadPlottedExtras(bench.settings)) {
+  Actions& actions = bench.actions;
+  header_ = new TimelineHeader(
+      {actions.zoomSelection, actions.addLabel, actions.crop, actions.dropSelection}, window);
+  signalTree_ = new SignalTree(groups_, window);
+  signalTree_->setExtras(extras_);
+  charts_ = new QStackedWidget(window);
+  panel_ = new TimelinePanel(charts_);
+  chart_ = &panel_->chart();
+  liveChart_ = new LiveChart(charts_);
+  charts_->addWidget(panel_);
+  charts_->addWidget(liveChart_);
+  dock_ = new Dock("Timeline", charts_, header_, window);
+  crop_ = std::make_unique<CropJob>(bench, window);
+  bench.questions.text = [window](const QString& title,
+                                  const QString& text) -> std::optional<QString> {
+    bool good = false;
+    const QString answer =
+        QInputDialog::getText(window, title, title + ":", QLineEdit::Normal, text, &good);
+    return good ? std::optional(answer.simplified()) : std::nullopt;
+  };
+  connectSubject();
+  connectLive();
+  connectSelection();
+  connectActions();
+  connectCurves();
+  editing_ = std::make_unique<EventEditing>(bench, panel_->rows(), window);
+}
+
+TimelineFeature::~TimelineFeature() { liveChart_->setHistory(nullptr, 0); }
+
+void TimelineFeature::connectSubject() {
+  Subject& subject = bench().subject;
+  connect(&subject, &Subject::changed, this, [this, &subject] {
+    charts_->setCurrentIndex(subject.isLive() ? 1 : 0);
+  });
+  connect(&subject, &Subject::seenChanged, this, &TimelineFeature::takeSource);
+  connect(&subject, &Subject::shown, this, [this] {
+    showCurves();
+    showReading();
+    showSelection();
+  });
+  connect(
+      &bench().playback, &PlaybackController::positionChanged, chart_, &TimelineChart::setPosition);
+  connect(chart_, &TimelineChart::sought, &bench().playback, &PlaybackController::seekSeconds);
+  connect(chart_, &TimelineChart::menuAsked, this, [this](const QPoint& at) {
+    bench().menus.edit->popup(at);
+  });
+  connect(&chart_->store(), &SeriesStore::changed, this, &TimelineFeature::showReading);
+  ViewLook& look = bench().look;
+  connect(&look, &ViewLook::themeChanged, this, [this, &look] {
+    panel_->setTheme(look.theme());
+    liveChart_->setTheme(look.theme());
+  });
+  connect(&look, &ViewLook::changed, this, [this, &look] {
+    header_->setSignal(look.view().signal);
+    liveChart_->setSignal(look.view().signal);
+    showCurves();
+  });
+  const auto useSignal = [&look](PlottedSignal signal) {
+    look.change([&](ViewSettings& view) { view.signal = signal; });
+  };
+  connect(header_, &TimelineHeader::signalChosen, this, useSignal);
+  on(bench().actions.nextSignal, [&look] {
+    look.change([](ViewSettings& view) { view.signal = after(kAllPlottedSignals, view.signal); });
+  });
+  connect(bench().actions.signalsPlotted,
+          &QActionGroup::triggered,
+          this,
+          [useSignal](const QAction* action) {
+            useSignal(kAllPlottedSignals.at(action->data().toUInt()));
+          });
+}
+
+void TimelineFeature::takeSource() {
+  const Subject& subject = bench().subject;
+  const OpenedRecordingPtr& behind = subject.behind();
+  chart_->setRecording(subject.seen());
+  chart_->setBefore(subject.seen() != behind ? behind : nullptr);
+  const QCPRange seen = chart_->seen();
+  bench().selection.setInSight({seen.lower, seen.upper});
+  if (subject.isRecording())
+    signalTree_->setSource(behind->profile.hand(),
+                           behind->profile.numAngles() > 0,
+                           behind->profile.numTemperatures() > 0);
+  if (subject.isLive()) takeLive();
+}
+
+void TimelineFeature::takeLive() {
+  const LiveSource* source = bench().subject.source();
+  if (!source || source->history.get() == history_) return;
+  history_ = source->history.get();
+  liveChart_->setHistory(history_, bench().subject.hand()->layout->numMatrices());
+}
+
+void TimelineFeature::connectLive() {
+  LiveController& live = bench().live;
+  Moment& moment = bench().moment;
+  connect(&live, &LiveController::leaving, this, [this] {
+    liveChart_->setHistory(nullptr, 0);
+    history_ = nullptr;
+  });
+  connect(
+      &live, &LiveController::eventsCame, this, [this](const std::vector<RecordingEvent>& events) {
+        for (const RecordingEvent& event : events) liveChart_->addEvent(event);
+      });
+  connect(&moment, &Moment::resultsCame, this, [this] { liveChart_->refresh(0.0); });
+  connect(
+      &moment, &Moment::heldChanged, this, [this, &moment] { liveChart_->setHeld(moment.held()); });
+  // Nothing comes: the picture rolls on.
+  connect(&live, &LiveController::looked, this, [this, &live, &moment] {
+    const LiveSource* source = bench().subject.source();
+    if (source && live.stale() && !moment.held() && live.framesCameYet() && !source->finished())
+      liveChart_->refresh(live.silentS());
+  });
+  QSettings& settings = bench().settings;
+  liveChart_->setWindowS(settings.value("live/window_s", LiveChart::kUsualS).toDouble());
+  connect(liveChart_, &LiveChart::windowChanged, this, [&settings](double seconds) {
+    settings.setValue("live/window_s", seconds);
+  });
+}
+
+void TimelineFeature::connectSelection() {
+  Selection& selection = bench().selection;
+  connect(chart_, &TimelineChart::selectionChanged, this, [this, &selection] {
+    selection.setSpan(chart_->selection());
+  });
+  connect(&selection, &Selection::spanChanged, this, [this, &selection] {
+    chart_->setSelection(selection.span());
+    showSelection();
+  });
+  connect(chart_->xAxis,
+          qOverload<const QCPRange&>(&QCPAxis::rangeChanged),
+          this,
+          [&selection](const QCPRange& seen) {
+            selection.setInSight({seen.lower, seen.upper});
+          });
+  connect(&selection, &Selection::sightAsked, this, [this](const TimeSpan& span) {
+    chart_->setSeen(span.fromS, span.toS);
+  });
+  connect(&selection, &Selection::spanAsked, chart_, &TimelineChart::showSpan);
+  connect(&selection, &Selection::allAsked, chart_, &TimelineChart::fit);
+  connect(&selection, &Selection::zoomAsked, chart_, &TimelineChart::zoomAbout);
+  connect(&selection, &Selection::plottedChanged, this, [this, &selection] {
+    if (bench().subject.isLive()) liveChart_->setPlotted(selection.plotted());
+    showCurves();
+  });
+  connect(&selection, &Selection::taxelsChanged, this, [this, &selection] {
+    signalTree_->setNumChosen(selection.taxels().count());
+    if (extras_.chosenTaxels) showCurves();
+  });
+  bench().escape.add(Escape::Order::kSpan, [this, &selection] {
+    if (!selection.span() || bench().subject.isLive()) return false;
+    selection.setSpan(std::nullopt);
+    return true;
+  });
+}
+
+void TimelineFeature::connectActions() {
+  Actions& actions = bench().actions;
+  Selection& selection = bench().selection;
+  on(actions.selectFrom, [this] { selectEnd(true); });
+  on(actions.selectTo, [this] { selectEnd(false); });
+  on(actions.selectAll, [&selection] { selection.setSpan(TimeSpan{0.0, selection.durationS()}); });
+  on(actions.dropSelection, [&selection] { selection.setSpan(std::nullopt); });
+  on(actions.zoomSelection, [&selection] {
+    if (selection.span()) selection.showWithAir(*selection.span());
+  });
+  const auto zoom = [this](double factor) {
+    if (bench().subject.isLive())
+      liveChart_->setWindowS(liveChart_->windowS() / factor);
+    else
+      chart_->zoom(factor);
+  };
+  on(actions.zoomIn, [zoom] { zoom(kZoomStep); });
+  on(actions.zoomOut, [zoom] { zoom(1.0 / kZoomStep); });
+  on(actions.fit, [this] {
+    bench().subject.isLive() ? liveChart_->setWindowS(LiveChart::kUsualS) : chart_->fit();
+  });
+  Enabling& enabling = bench().enabling;
+  const auto frames = [this] { return bench().subject.hasFrames(); };
+  enabling.add({actions.zoomIn, actions.zoomOut, actions.fit},
+               [this, frames] { return frames() || bench().subject.isLive(); });
+  enabling.add({actions.selectFrom, actions.selectTo, actions.selectAll, actions.chooseCurves},
+               frames);
+  enabling.add({actions.crop, actions.zoomSelection, actions.dropSelection},
+               [frames, &selection] { return frames() && selection.span().has_value(); });
+}
+
+void TimelineFeature::connectCurves() {
+  const auto choose = [this] { signalTree_->openBelow(*header_->curvesButton()); };
+  on(bench().actions.chooseCurves, choose);
+  connect(header_, &TimelineHeader::curvesAsked, this, choose);
+  connect(signalTree_, &SignalTree::extrasChanged, this, [this] {
+    extras_ = signalTree_->extras();
+    showCurves();
+  });
+  connect(signalTree_, &SignalTree::groupAsked, this, &TimelineFeature::nameChosenTaxels);
+  on(bench().actions.nameTaxels, [this] { nameChosenTaxels(); });
+  connect(&groups_, &TaxelGroups::changed, this, &TimelineFeature::showCurves);
+}
+
+std::vector<PlottedCurve> TimelineFeature::curves() const {
+  std::vector<PlottedCurve> curves;
+  const HandDescription* hand = bench().subject.hand();
+  if (!hand) return curves;
+  const Theme theme = bench().look.theme();
+  const std::vector<bool>& plotted = bench().selection.plotted();
+  for (std::size_t row = 0; row < plotted.size(); ++row)
+    if (plotted[row]) curves.push_back(matrixCurve(*hand, row, bench().look.view().signal, theme));
+  const OpenedRecordingPtr recording = bench().subject.recorded();
+  if (!recording) return curves;
+  const auto add = [&](PlottedCurve curve) {
+    if (hasSeries(recording->profile, curve.choice)) curves.push_back(std::move(curve));
+  };
+  const TaxelSelection& chosen = bench().selection.taxels();
+  if (extras_.chosenTaxels && !chosen.empty()) {
+    const std::size_t count = chosen.count();
+    add(taxelCurve(chosen,
+                   count == 1 ? QString("chosen taxel") : QString::number(count) + " chosen taxels",
+                   0,
+                   theme));
+  }
+  std::size_t place = 1;
+  for (const TaxelGroups::Group& group : groups_.of(recording->profile.layout()))
+    if (extras_.groups.contains(group.name))
+      add(taxelCurve(group.taxels, group.name, place++, theme));
+  for (const int axis : extras_.angles)
+    if (axis < static_cast<int>(hand->axes.size()))
+      add(angleCurve(*hand, static_cast<std::size_t>(axis), theme));
+  for (const int sensor : extras_.temperatures)
+    if (sensor < static_cast<int>(hand->temperatureSensors.size()))
+      add(temperatureCurve(*hand, static_cast<std::size_t>(sensor), theme));
+  return curves;
+}
+
+void TimelineFeature::showCurves() {
+  const bool live = bench().subject.isLive();
+  const std::vector<PlottedCurve> now = curves();
+  header_->setCurves(now, bench().look.theme());
+  header_->setPlain(live);
+  if (!live) chart_->setCurves(now);
+}
+
+void TimelineFeature::showReading() {
+  const OpenedRecordingPtr recording = bench().subject.recorded();
+  if (bench().subject.isLive()) return;
+  const double done = chart_->store().progress();
+  header_->setReading(
+      done < 1.0 ? "reading " + QString::number(static_cast<int>(done * 100.0)) + " %" : QString());
+  if (recording && recording->isLong() && done >= 1.0) bench().subject.tellMoreKnown();
+}
+
+void TimelineFeature::showSelection() {
+  if (bench().subject.isLive()) return;
+  QString words;
+  const auto& span = bench().selection.span();
+  if (span && bench().subject.isRecording()) {
+    const auto frames = bench().selectedFrames();
+    const std::size_t count = frames ? frames->count() : 0;
+    words = figure(span->fromS, 2) + " – " + figure(span->toS, 2) + " s · " +
+            (count == 0   ? QString("no frame")
+             : count == 1 ? QString("1 frame")
+                          : QString::number(count) + " frames");
+  }
+  header_->setSelection(words);
+  bench().enabling.refresh();
+}
+
+void TimelineFeature::selectEnd(bool begin) {
+  if (!bench().subject.hasFrames()) return;
+  Selection& selection = bench().selection;
+  const double now = bench().playback.positionS();
+  const double end = selection.durationS();
+  TimeSpan span = selection.span().value_or(begin ? TimeSpan{now, end} : TimeSpan{0.0, now});
+  (begin ? span.fromS : span.toS) = now;
+  // Begun behind its end: it ends at the end of the recording, and the other way round.
+  if (span.fromS > span.toS) (begin ? span.toS : span.fromS) = begin ? end : 0.0;
+  selection.setSpan(span);
+}
+
+void TimelineFeature::nameChosenTaxels() {
+  const TaxelSelection chosen = bench().selection.taxels();
+  Messages& messages = bench().messages;
+  if (chosen.empty())
+    return messages.flash("no taxel is chosen: click or drag over some of the matrices");
+  const auto name = bench().questions.text("Name of the taxels", "");
+  if (!name) return;
+  if (name->isEmpty()) return messages.flash("a group of taxels needs a name");
+  if (!groups_.keep(*name, chosen))
+    return messages.fail("There are too many groups of taxels: forget some (Curves, Del)");
+  extras_.groups.insert(*name);
+  signalTree_->setExtras(extras_);
+  showCurves();
+  messages.flash("kept: " + *name + ", " + QString::number(chosen.count()) + " taxels");
+}
+
+std::vector<DockOffer> TimelineFeature::docks() {
+  return {{.dock = dock_,
+           .key = QKeySequence("Ctrl+L"),
+           .area = Qt::BottomDockWidgetArea,
+           .liveArea = Qt::BottomDockWidgetArea,
+           .shown = true,
+           .shownLive = true}};
+}
+
+std::vector<StripOffer> TimelineFeature::strips() {
+  return {{StripOffer::Order::kWork, &crop_->strip()}};
+}
+
+void TimelineFeature::remember() { savePlottedExtras(extras_, bench().settings); }
+
+void TimelineFeature::settle() {
+  chart_->store().waitUntilRead();
+  chart_->storeBefore().waitUntilRead();
+  while (crop_->busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+}
+
+std::vector<ExportedView> TimelineFeature::views() {
+  Bench& bench = this->bench();
+  ExportedView view;
+  view.name = "Timeline";
+  view.widget = charts_;
+  view.isThere = [&bench] { return bench.moment.hasFrame(); };
+  view.fileName = [&bench] {
+    return bench.recordingStem() + "_" + nameOf(bench.look.view().signal).replace(' ', '_');
+  };
+  view.paint = [this, &bench](QPainter& painter, const PictureLook& look) {
+    ChartPictureOptions options;
+    options.title = bench.pictureTitle();
+    for (const PlottedCurve& curve : curves()) options.legend.push_back({curve.name, curve.pen});
+    QCustomPlot* plot = bench.subject.isLive() ? static_cast<QCustomPlot*>(liveChart_) : chart_;
+    paintChart(painter, look, *plot, options);
+  };
+  view.tables = [this, &bench] {
+    std::vector<ExportedTable> tables;
+    const OpenedRecordingPtr recording = bench.subject.recorded();
+    if (!recording) return tables;
+    const auto add = [&](const QString& name, const std::optional<FrameSpan>& span) {
+      if (!span) return;
+      tables.push_back({name, [seen = bench.subject.seen(), now = curves(), span = *span] {
+                          return curveTable(seen, now, span);
+                        }});
+    };
+    add("the selected range", bench.selectedFrames());
+    const QCPRange seen = chart_->seen();
+    if (const auto frames = recording->framesWithin(seen.lower, seen.upper))
+      add("what is seen", FrameSpan{frames->first, frames->second});
+    add("the whole recording", FrameSpan{0, recording->profile.numFrames() - 1});
+    return tables;
+  };
+  return {view};
+}
+
+}  // namespace palpate::gui

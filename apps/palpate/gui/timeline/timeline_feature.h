@@ -1,0 +1,68 @@
+// The dock Timeline: curves over time of a recording or of what is live, which part is selected and in sight, what is cut from it.
+#pragma once
+
+#include <QStackedWidget>
+#include <memory>
+
+#include "gui/bench/feature.h"
+#include "gui/chart/plotted_curve.h"
+#include "gui/timeline/crop_job.h"
+#include "gui/timeline/event_editing.h"
+#include "gui/timeline/signal_tree.h"
+#include "gui/timeline/taxel_groups.h"
+
+namespace palpate::gui {
+
+class LiveChart;
+class TimelineChart;
+class TimelineHeader;
+class TimelinePanel;
+
+class TimelineFeature : public Feature {
+  Q_OBJECT
+ public:
+  TimelineFeature(Bench& bench, QWidget* window);
+  ~TimelineFeature() override;
+
+  TimelinePanel& panel() noexcept { return *panel_; }
+  LiveChart& liveChart() noexcept { return *liveChart_; }
+  TaxelGroups& groups() noexcept { return groups_; }
+  SignalTree& signalTree() noexcept { return *signalTree_; }
+  CropJob& cropJob() noexcept { return *crop_; }
+
+  std::vector<DockOffer> docks() override;
+  std::vector<ExportedView> views() override;
+  std::vector<StripOffer> strips() override;
+  void remember() override;
+  void settle() override;
+
+ private:
+  void connectSubject();
+  void connectLive();
+  void connectSelection();
+  void connectActions();
+  void connectCurves();
+  void takeSource();
+  void takeLive();
+  std::vector<PlottedCurve> curves() const;
+  void showCurves();
+  void showReading();
+  void showSelection();
+  void selectEnd(bool begin);
+  void nameChosenTaxels();
+
+  TaxelGroups groups_;
+  PlottedExtras extras_;
+  TimelineHeader* header_;
+  SignalTree* signalTree_;
+  QStackedWidget* charts_;
+  TimelinePanel* panel_;
+  TimelineChart* chart_;  // of the panel
+  LiveChart* liveChart_;
+  Dock* dock_;
+  std::unique_ptr<CropJob> crop_;
+  std::unique_ptr<EventEditing> editing_;
+  const SignalHistory* history_ = nullptr;  // that the live chart shows; never looked into
+};
+
+}  // namespace palpate::gui

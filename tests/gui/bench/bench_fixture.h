@@ -1,0 +1,53 @@
+// The models of the window without a window: settings, clock, files and answers in the test's hands.
+#pragma once
+
+#include <QTest>
+#include <QWidget>
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "gui/bench/bench.h"
+#include "gui/testing/fake_clock.h"
+#include "gui/testing/sample_profiles.h"
+#include "testing/testing.h"
+
+namespace palpate::gui {
+
+class BenchTest : public ::testing::Test {
+ protected:
+  BenchTest() {
+    bench_ = std::make_unique<Bench>(
+        WindowSurroundings{
+            .dataFolder = testing::dataFolder(),
+            .settingsPath = QString::fromStdString((folder_ / "p.ini").string()),
+            .clock = &clock_,
+            .read = [](const std::filesystem::path&, const Progress&) { return twentyFrames(); }},
+        &actionsOf_);
+  }
+  // Twenty frames, 50 ms apart, under this name.
+  static OpenedRecordingPtr recording(const std::string& name) {
+    return makeOpenedRecording(name, twentyFrames());
+  }
+  void connectEmulated() {
+    Connection connection;
+    connection.kind = Connection::Kind::kEmulated;
+    connection.scene = "ball";
+    bench_->connectTo(connection);
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return bench_->subject.isLive() && bench_->moment.hasFrame(); }, 20'000));
+  }
+  void disconnect() {
+    bench_->live.end();
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return bench_->live.state() == LiveController::State::kNone; }, 20'000));
+  }
+
+  testing::TemporaryFolder folder_;
+  FakeClock clock_;
+  QWidget actionsOf_;  // whose actions they are; never shown
+  std::unique_ptr<Bench> bench_;
+};
+
+}  // namespace palpate::gui
