@@ -4,11 +4,11 @@
 
 #include <pybind11/stl.h>
 
-#include "palpate/filter/characteristic_signals.h"
-#include "palpate/filter/first_contact.h"
-#include "palpate/filter/spectrum.h"
-#include "palpate/filter/strongest_taxel.h"
 #include "palpate/model/timing.h"
+#include "palpate/signals/characteristic_signals.h"
+#include "palpate/signals/first_contact.h"
+#include "palpate/signals/spectrum.h"
+#include "palpate/signals/strongest_taxel.h"
 
 #include "python/arrays.h"
 #include "python/bindings.h"

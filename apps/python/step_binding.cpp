@@ -5,7 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "palpate/calibration/step_report.h"
-#include "palpate/filter/characteristic_signals.h"
+#include "palpate/signals/characteristic_signals.h"
 
 #include "python/arrays.h"
 #include "python/bindings.h"

@@ -9,8 +9,8 @@
 
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
-#include "palpate/filter/characteristic_signals.h"
 #include "palpate/filter/gaussian.h"
+#include "palpate/signals/characteristic_signals.h"
 
 namespace palpate {
 namespace {

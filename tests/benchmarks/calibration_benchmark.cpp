@@ -9,8 +9,8 @@
 #include "palpate/calibration/least_squares.h"
 #include "palpate/calibration/pressure_map.h"
 #include "palpate/calibration/step_report.h"
-#include "palpate/filter/characteristic_signals.h"
 #include "palpate/model/profile_builder.h"
+#include "palpate/signals/characteristic_signals.h"
 
 namespace palpate::calibration_benchmark {
 namespace {

@@ -12,7 +12,7 @@
 #include "palpate/filter/kalman.h"
 #include "palpate/filter/kelvin_voigt_estimation.h"
 #include "palpate/filter/savitzky_golay.h"
-#include "palpate/filter/spectrogram.h"
+#include "palpate/signals/spectrogram.h"
 
 namespace {
 using namespace palpate;

@@ -5,7 +5,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "palpate/filter/characteristic_signals.h"
+#include "palpate/signals/characteristic_signals.h"
 
 #include "testing/testing.h"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/core/number_text.h"
-#include "palpate/filter/characteristic_signals.h"
+#include "palpate/signals/characteristic_signals.h"
 
 #include "testing/testing.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "palpate/filter/characteristic_signals.h"
 #include "palpate/model/timing.h"
+#include "palpate/signals/characteristic_signals.h"
 
 #include "testing/testing.h"
 

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "palpate/emulator/synthetic_profile.h"
-#include "palpate/filter/characteristic_signals.h"
 #include "palpate/filter/filter_chain.h"
 #include "palpate/filter/filtered_profile.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
+#include "palpate/signals/characteristic_signals.h"
 
 #include "testing/testing.h"
 

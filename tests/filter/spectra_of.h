@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "palpate/filter/spectrum.h"
+#include "palpate/signals/spectrum.h"
 
 namespace palpate::testing {
 

@@ -9,9 +9,9 @@
 #include "palpate/capture/replay.h"
 #include "palpate/core/error.h"
 #include "palpate/emulator/synthetic_profile.h"
-#include "palpate/filter/characteristic_signals.h"
 #include "palpate/live/signals_stage.h"
 #include "palpate/recording/recording.h"
+#include "palpate/signals/characteristic_signals.h"
 
 #include "capture/scripted_device.h"
 #include "testing/testing.h"

@@ -18,6 +18,7 @@ TEST(FrameTable, ARowPerTaxelThatIsScannedMatrixAfterMatrix) {
   MatrixLayout small;
   small.rows = 2;
   small.columns = 2;
+  small.pitchMm = 3.4;
   small.staticMask = small.dynamicMask = {1, 1, 1, 1};
   MatrixLayout masked = small;
   masked.dynamicMask[1] = 0;

@@ -6,7 +6,7 @@
 
 #include "palpate/calibration/step_fit.h"
 #include "palpate/core/json.h"
-#include "palpate/filter/characteristic_signals.h"
+#include "palpate/signals/characteristic_signals.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"

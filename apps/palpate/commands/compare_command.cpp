@@ -4,9 +4,9 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
-#include "palpate/filter/characteristic_signals.h"
-#include "palpate/filter/frame_difference.h"
 #include "palpate/recording/recording.h"
+#include "palpate/signals/characteristic_signals.h"
+#include "palpate/signals/frame_difference.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"

@@ -12,9 +12,9 @@
 #include "palpate/core/output_file.h"
 #include "palpate/core/time.h"
 #include "palpate/emulator/truth.h"
-#include "palpate/filter/characteristic_signals.h"
 #include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
+#include "palpate/signals/characteristic_signals.h"
 
 #include "commands/commands.h"
 #include "commands/demo_pictures.h"

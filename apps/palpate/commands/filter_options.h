@@ -6,9 +6,9 @@
 #include <vector>
 
 #include <palpate/core/progress.h>
-#include <palpate/filter/characteristic_signals.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/model/profile.h>
+#include <palpate/signals/characteristic_signals.h>
 
 #include "commands/command_line.h"
 

@@ -8,8 +8,8 @@
 #include "palpate/core/error.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
-#include "palpate/filter/characteristic_signals.h"
 #include "palpate/recording/recording.h"
+#include "palpate/signals/characteristic_signals.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"

@@ -6,8 +6,8 @@
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
-#include "palpate/filter/characteristic_signals.h"
-#include "palpate/filter/signal_filter.h"
+#include "palpate/signals/characteristic_signals.h"
+#include "palpate/signals/signal_filter.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"

@@ -7,9 +7,9 @@
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
-#include "palpate/filter/profile_series.h"
-#include "palpate/filter/spectrum.h"
 #include "palpate/recording/recording.h"
+#include "palpate/signals/profile_series.h"
+#include "palpate/signals/spectrum.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"

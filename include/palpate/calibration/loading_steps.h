@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <palpate/core/progress.h>
-#include <palpate/filter/characteristic_signals.h>
 #include <palpate/model/profile.h>
+#include <palpate/signals/characteristic_signals.h>
 
 namespace palpate {
 

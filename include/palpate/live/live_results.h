@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <palpate/capture/capture_feed.h>
-#include <palpate/filter/characteristic_signals.h>
 #include <palpate/model/hand_state.h>
+#include <palpate/signals/characteristic_signals.h>
 #include <palpate/slip/slip_detector.h>
 
 namespace palpate {

@@ -8,8 +8,8 @@
 #include <mutex>
 #include <vector>
 
-#include <palpate/filter/characteristic_signals.h>
 #include <palpate/live/live_results.h>
+#include <palpate/signals/characteristic_signals.h>
 
 namespace palpate {
 

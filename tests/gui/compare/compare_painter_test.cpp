@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <palpate/filter/frame_difference.h>
+#include <palpate/signals/frame_difference.h>
 
 #include "gui/look/difference_map.h"
 #include "gui/testing/sample_profiles.h"

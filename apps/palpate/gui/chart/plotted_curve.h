@@ -5,8 +5,8 @@
 #include <QString>
 #include <vector>
 
-#include <palpate/filter/profile_series.h>
 #include <palpate/model/hand_description.h>
+#include <palpate/signals/profile_series.h>
 
 #include "gui/look/theme.h"
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <palpate/filter/min_max_decimation.h>
+#include <palpate/signals/min_max_decimation.h>
 
 #include "gui/chart/chart_style.h"
 #include "gui/look/difference_map.h"

@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include <palpate/filter/alignment.h>
-#include <palpate/filter/profile_series.h>
+#include <palpate/signals/alignment.h>
+#include <palpate/signals/profile_series.h>
 
 #include "gui/chart/plot.h"
 #include "gui/look/plotted_signal.h"

@@ -5,7 +5,7 @@
 #include <QString>
 #include <QWidget>
 
-#include <palpate/filter/alignment.h>
+#include <palpate/signals/alignment.h>
 
 #include "gui/look/theme.h"
 

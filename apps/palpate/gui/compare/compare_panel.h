@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <palpate/core/text_table.h>
-#include <palpate/filter/frame_difference.h>
+#include <palpate/signals/frame_difference.h>
 
 #include "gui/compare/compare_painter.h"
 #include "gui/compare/compare_worker.h"

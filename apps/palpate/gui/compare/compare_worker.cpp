@@ -5,7 +5,7 @@
 
 #include <palpate/core/error.h>
 #include <palpate/core/time.h>
-#include <palpate/filter/frame_difference.h>
+#include <palpate/signals/frame_difference.h>
 
 namespace palpate::gui {
 namespace {

@@ -9,9 +9,9 @@
 #include <memory>
 #include <optional>
 
-#include <palpate/filter/alignment.h>
-#include <palpate/filter/curve_comparison.h>
-#include <palpate/filter/profile_series.h>
+#include <palpate/signals/alignment.h>
+#include <palpate/signals/curve_comparison.h>
+#include <palpate/signals/profile_series.h>
 
 #include "gui/source/opened_recording.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include <palpate/core/error.h>
-#include <palpate/filter/signal_text_table.h>
+#include <palpate/signals/signal_text_table.h>
 
 #include "gui/inspect/inspect_panel.h"
 #include "gui/picture/table_picture.h"

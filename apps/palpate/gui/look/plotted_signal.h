@@ -3,7 +3,7 @@
 
 #include <QString>
 
-#include <palpate/filter/characteristic_signals.h>
+#include <palpate/signals/characteristic_signals.h>
 
 namespace palpate::gui {
 

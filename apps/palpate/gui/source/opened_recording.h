@@ -14,11 +14,11 @@
 #include <vector>
 
 #include <palpate/core/progress.h>
-#include <palpate/filter/characteristic_signals.h>
-#include <palpate/filter/signal_overview.h>
 #include <palpate/model/profile.h>
 #include <palpate/model/timing.h>
 #include <palpate/recording/recording_event.h>
+#include <palpate/signals/characteristic_signals.h>
+#include <palpate/signals/signal_overview.h>
 
 namespace palpate::gui {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include <palpate/core/error.h>
-#include <palpate/filter/strongest_taxel.h>
+#include <palpate/signals/strongest_taxel.h>
 
 namespace palpate::gui {
 namespace {

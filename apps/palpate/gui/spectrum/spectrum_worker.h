@@ -7,8 +7,8 @@
 #include <atomic>
 #include <memory>
 
-#include <palpate/filter/profile_series.h>
-#include <palpate/filter/spectrogram.h>
+#include <palpate/signals/profile_series.h>
+#include <palpate/signals/spectrogram.h>
 
 #include "gui/source/opened_recording.h"
 

@@ -13,9 +13,9 @@
 #include <optional>
 #include <vector>
 
-#include <palpate/filter/bucket_series.h>
-#include <palpate/filter/min_max_decimation.h>
-#include <palpate/filter/profile_series.h>
+#include <palpate/signals/bucket_series.h>
+#include <palpate/signals/min_max_decimation.h>
+#include <palpate/signals/profile_series.h>
 
 #include "gui/source/opened_recording.h"
 

@@ -1,0 +1,205 @@
+#include "palpate/signals/profile_series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "palpate/core/error.h"
+#include "palpate/core/time.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kProfileSeriesFurthestS = 1e12;
+constexpr std::size_t kSamplesPerReport = 512;
+
+using ProfileSeriesKind = SeriesChoice::Kind;
+
+std::size_t countOf(const Profile& profile, ProfileSeriesKind kind) {
+  if (kind == ProfileSeriesKind::kAngle) return profile.numAngles();
+  if (kind == ProfileSeriesKind::kTemperature) return profile.numTemperatures();
+  return profile.numFrames();
+}
+
+// Seconds from the first frame; where there is none, from the first angles or temperatures.
+std::int64_t originUs(const Profile& profile) {
+  if (profile.numFrames() > 0) return profile.frameTimeUs(0);
+  if (profile.numAngles() > 0) return profile.angleTimeUs(0);
+  return profile.numTemperatures() > 0 ? profile.temperatureTimeUs(0) : 0;
+}
+
+std::optional<std::size_t> sampleAt(const Profile& profile,
+                                    ProfileSeriesKind kind,
+                                    std::int64_t timeUs) {
+  if (kind == ProfileSeriesKind::kAngle) return profile.angleSampleAt(timeUs);
+  if (kind == ProfileSeriesKind::kTemperature) return profile.temperatureSampleAt(timeUs);
+  return profile.frameAt(timeUs);
+}
+
+std::int64_t usOf(const Profile& profile, double seconds) {
+  return originUs(profile) +
+         std::llround(std::clamp(seconds, -kProfileSeriesFurthestS, kProfileSeriesFurthestS) *
+                      kUsPerS);
+}
+
+double valueAt(const std::vector<double>& values, std::size_t index) {
+  return index < values.size() ? values[index] : std::numeric_limits<double>::quiet_NaN();
+}
+
+// Reads samples one after the other.
+class Reader {
+ public:
+  Reader(const Profile& profile, const SeriesChoice& choice)
+      : profile_(profile), choice_(choice), originUs_(originUs(profile)) {}
+
+  std::pair<double, double> read(std::size_t sample) {
+    switch (choice_.kind) {
+      case ProfileSeriesKind::kAngle: {
+        const JointAngles angles = profile_.angles(sample);
+        return {seconds(angles.hostUs), valueAt(angles.deg, choice_.index)};
+      }
+      case ProfileSeriesKind::kTemperature: {
+        const Temperatures temperatures = profile_.temperatures(sample);
+        const double degC = valueAt(temperatures.degC, choice_.index);
+        return {seconds(temperatures.hostUs),
+                degC == 0.0 ? std::numeric_limits<double>::quiet_NaN() : degC};
+      }
+      case ProfileSeriesKind::kTaxels:
+        profile_.readFrame(sample, frame_);
+        return {seconds(frame_.hostUs), meanOf(frame_, choice_.taxels)};
+      case ProfileSeriesKind::kMatrix:
+        break;
+    }
+    profile_.readFrame(sample, frame_);
+    const std::size_t m = choice_.index;
+    const CharacteristicSignals values =
+        m == frame_.layout->numMatrices()
+            ? wholeFrameSignals(frame_)
+            : characteristicSignals(frame_.matrix(m), frame_.layout->matrix(m));
+    return {seconds(frame_.hostUs), valueOf(values, choice_.signal)};
+  }
+
+ private:
+  double seconds(std::int64_t us) const { return static_cast<double>(us - originUs_) / kUsPerS; }
+
+  const Profile& profile_;
+  const SeriesChoice& choice_;
+  std::int64_t originUs_;
+  TactileFrame frame_;
+};
+
+void requireSeries(const Profile& profile, const SeriesChoice& choice) {
+  if (!hasSeries(profile, choice))
+    throw std::invalid_argument("readSeries: the profile hasn't what was chosen");
+}
+
+template <class Sink>
+void readAll(const Profile& profile,
+             const SeriesChoice& choice,
+             std::size_t begin,
+             std::size_t end,
+             const Progress& progress,
+             Sink sink) {
+  Reader reader(profile, choice);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (progress && (i - begin) % kSamplesPerReport == 0 &&
+        !progress(static_cast<double>(i - begin) / static_cast<double>(end - begin)))
+      throw Cancelled();
+    const auto [timeS, value] = reader.read(i);
+    sink(timeS, value);
+  }
+}
+
+}  // namespace
+
+double meanOf(const TactileFrame& frame, const TaxelSelection& taxels) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  const std::size_t matrices = std::min(taxels.numMatrices(), frame.layout->numMatrices());
+  for (std::size_t m = 0; m < matrices; ++m) {
+    const auto values = frame.allValues(m);
+    const Mask& mask = taxels.mask(m);
+    const auto places = std::min(mask.size(), static_cast<std::size_t>(values.size()));
+    for (std::size_t i = 0; i < places; ++i)
+      if (mask[i]) {
+        sum += static_cast<double>(values.data()[i]);
+        ++count;
+      }
+  }
+  return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+bool hasSeries(const Profile& profile, const SeriesChoice& choice) {
+  if (countOf(profile, choice.kind) == 0) return false;
+  switch (choice.kind) {
+    case ProfileSeriesKind::kAngle:
+      return choice.index < profile.angles(0).deg.size();
+    case ProfileSeriesKind::kTemperature:
+      return choice.index < profile.temperatures(0).degC.size();
+    case ProfileSeriesKind::kTaxels:
+      return !choice.taxels.empty() && TaxelSelection(profile.layout()).sameSensor(choice.taxels);
+    case ProfileSeriesKind::kMatrix:
+      break;
+  }
+  return choice.index <= profile.layout().numMatrices();
+}
+
+std::size_t numSamples(const Profile& profile,
+                       const SeriesChoice& choice,
+                       double fromS,
+                       double toS) {
+  if (countOf(profile, choice.kind) == 0 || !(fromS <= toS)) return 0;
+  return *sampleAt(profile, choice.kind, usOf(profile, toS)) -
+         *sampleAt(profile, choice.kind, usOf(profile, fromS)) + 1;
+}
+
+Series readSeries(const Profile& profile,
+                  const SeriesChoice& choice,
+                  double fromS,
+                  double toS,
+                  const Progress& progress) {
+  requireSeries(profile, choice);
+  Series series;
+  if (!(fromS <= toS)) return series;
+  const std::size_t begin = *sampleAt(profile, choice.kind, usOf(profile, fromS));
+  const std::size_t end = std::min(*sampleAt(profile, choice.kind, usOf(profile, toS)) + 2,
+                                   countOf(profile, choice.kind));
+  series.timeS.reserve(end - begin);
+  series.values.reserve(end - begin);
+  readAll(profile, choice, begin, end, progress, [&](double timeS, double value) {
+    series.timeS.push_back(timeS);
+    series.values.push_back(value);
+  });
+  return series;
+}
+
+void visitSeries(const Profile& profile,
+                 const SeriesChoice& choice,
+                 const std::function<void(double, double)>& sink,
+                 const Progress& progress) {
+  requireSeries(profile, choice);
+  readAll(profile, choice, 0, countOf(profile, choice.kind), progress, sink);
+}
+
+Series readSpread(const Profile& profile,
+                  const SeriesChoice& choice,
+                  std::size_t numSteps,
+                  const Progress& progress) {
+  requireSeries(profile, choice);
+  if (numSteps == 0) throw std::invalid_argument("readSpread: no step");
+  Series series;
+  const double durationS = static_cast<double>(profile.durationUs()) / kUsPerS;
+  for (std::size_t i = 0; i <= numSteps; ++i) {
+    const double done = static_cast<double>(i) / static_cast<double>(numSteps);
+    if (progress && !progress(done)) throw Cancelled();
+    const Series one = readSeries(profile, choice, durationS * done, durationS * done);
+    if (one.values.empty()) continue;
+    if (!series.timeS.empty() && one.timeS.front() <= series.timeS.back()) continue;
+    series.timeS.push_back(one.timeS.front());
+    series.values.push_back(one.values.front());
+  }
+  return series;
+}
+
+}  // namespace palpate

@@ -1,0 +1,66 @@
+#include "palpate/signals/signal_overview.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "palpate/core/error.h"
+#include "palpate/core/time.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kSignalOverviewPlacesPerReport = 250'000;  // some milliseconds
+// Of all series together: 49 of an SDH-2 with a bucket per second for 47 hours take 64 MB. What claims to be longer, or
+// to have more matrices, has longer buckets.
+constexpr double kMostBucketsOfAll = 8'388'608.0;
+
+}  // namespace
+
+SignalOverview::SignalOverview(const Profile& profile, double bucketS)
+    : profile_(profile), numRows_(profile.layout().numMatrices() + 1) {
+  if (profile.numFrames() == 0)
+    throw std::invalid_argument("SignalOverview: the profile holds no frame");
+  const double durationS = static_cast<double>(profile.durationUs()) / kUsPerS;
+  const std::size_t count = numRows_ * kAllSignalKinds.size();
+  if (!(bucketS > 0.0))
+    throw std::invalid_argument("SignalOverview: buckets of " + std::to_string(bucketS) + " s");
+  const double most = kMostBucketsOfAll / static_cast<double>(count);
+  const double lengthS = std::max(bucketS, durationS / most);
+  for (std::size_t i = 0; i < count; ++i)
+    series_.push_back(std::make_unique<BucketSeries>(durationS, lengthS));
+}
+
+void SignalOverview::compute(const Progress& progress) {
+  const std::size_t frames = profile_.numFrames();
+  const std::size_t framesPerReport =
+      std::max<std::size_t>(1, kSignalOverviewPlacesPerReport / profile_.layout().numPlaces());
+  const auto saturation = static_cast<double>(profile_.hand().saturationCounts);
+  std::vector<std::int64_t> stampsUs;
+  stampsUs.reserve(frames);
+  std::vector<CharacteristicSignals> rows;
+  TactileFrame frame;
+  for (std::size_t i = 0; i < frames; ++i) {
+    if (progress && i % framesPerReport == 0 &&
+        !progress(static_cast<double>(i) / static_cast<double>(frames)))
+      throw Cancelled();
+    profile_.readFrame(i, frame);
+    stampsUs.push_back(frame.hostUs);
+    const double timeS = static_cast<double>(frame.hostUs - stampsUs.front()) / kUsPerS;
+    allSignals(frame, rows);
+    auto series = series_.begin();
+    for (const CharacteristicSignals& row : rows)
+      for (const SignalKind kind : kAllSignalKinds) (*series++)->add(timeS, valueOf(row, kind));
+    maximum_ = std::max(maximum_, rows.back().maximum);
+    if (rows.back().maximum >= saturation) ++saturatedFrames_;
+  }
+  timing_ = timingOf(stampsUs);
+  // The first one last: it tells that all are complete.
+  for (auto series = series_.rbegin(); series != series_.rend(); ++series) (*series)->finish();
+}
+
+const BucketSeries& SignalOverview::of(std::size_t row, SignalKind kind) const {
+  if (row >= numRows_) throw std::out_of_range("SignalOverview: no row " + std::to_string(row));
+  return *series_[row * kAllSignalKinds.size() + static_cast<std::size_t>(kind)];
+}
+
+}  // namespace palpate

@@ -1,0 +1,123 @@
+#include "palpate/signals/characteristic_signals.h"
+
+#include <set>
+#include <stdexcept>
+#include <string_view>
+
+#include "palpate/core/error.h"
+#include "palpate/model/hand_description.h"
+#include "palpate/model/profile_builder.h"
+
+#include "testing/testing.h"
+
+namespace palpate::characteristic_signals_test {
+namespace {
+
+TEST(CharacteristicSignals, OfAMatrixComputedByHand) {
+  const MatrixLayout layout = MatrixLayout::full(5, 5, 2.0);
+  MatrixValues values = MatrixValues::Zero(5, 5);
+  values(2, 2) = 16.0F;
+  values(0, 4) = 8.0F;
+  const CharacteristicSignals signals = characteristicSignals(values, layout);
+  EXPECT_DOUBLE_EQ(signals.mean, 12.0);
+  EXPECT_DOUBLE_EQ(signals.minimum, 8.0);
+  EXPECT_DOUBLE_EQ(signals.maximum, 16.0);
+  EXPECT_DOUBLE_EQ(signals.sum, 24.0);
+  EXPECT_EQ(signals.active, 2);
+  EXPECT_DOUBLE_EQ(signals.areaMm2, 8.0);
+  // [1 2 1]/4 both ways, border replicated. The middle spreads 16 over 9 taxels: 4, 4 x 2, 4 x 1.
+  // The corner: 8 * 9/16 = 4.5 in the corner, 8 * 3/16 = 1.5 on both sides, 8 * 1/16 = 0.5 on the
+  // diagonal, which the middle's patch also reaches (1 + 0.5). 12 taxels are active, sum 24.
+  EXPECT_NEAR(signals.filteredMean, 24.0 / 12.0, 1e-4);
+}
+
+TEST(CharacteristicSignals, OfAPartOfAMatrixLookAtThatPartOnly) {
+  MatrixValues values = MatrixValues::Constant(4, 4, 1000.0F);
+  values.block(1, 1, 2, 2) << 1.0F, 2.0F, 3.0F, 6.0F;
+  const CharacteristicSignals signals =
+      characteristicSignals(values.block(1, 1, 2, 2), MatrixLayout::full(2, 2, 1.0));
+  EXPECT_DOUBLE_EQ(signals.sum, 12.0);
+  EXPECT_DOUBLE_EQ(signals.maximum, 6.0);
+}
+
+TEST(CharacteristicSignals, OfAnEmptyMatrixAreZero) {
+  const CharacteristicSignals signals =
+      characteristicSignals(MatrixValues::Zero(3, 3), MatrixLayout::full(3, 3, 1.0));
+  EXPECT_EQ(signals.mean, 0.0);
+  EXPECT_EQ(signals.filteredMean, 0.0);
+  EXPECT_EQ(signals.minimum, 0.0);
+  EXPECT_EQ(signals.maximum, 0.0);
+  EXPECT_EQ(signals.active, 0);
+}
+
+TEST(CharacteristicSignals, OfTheWholeFrameAverageTaxelsNotMatrices) {
+  TactileFrame frame(sdh2().layout);
+  frame.matrix(0)(3, 3) = 100.0F;
+  frame.matrix(1)(8, 2) = 200.0F;
+  frame.matrix(1)(8, 3) = 300.0F;
+  const CharacteristicSignals whole = wholeFrameSignals(frame);
+  EXPECT_DOUBLE_EQ(whole.mean, 200.0);
+  EXPECT_DOUBLE_EQ(whole.minimum, 100.0);
+  EXPECT_DOUBLE_EQ(whole.maximum, 300.0);
+  EXPECT_EQ(whole.active, 3);
+  EXPECT_NEAR(whole.areaMm2, 3 * 3.4 * 3.4, 1e-9);
+  EXPECT_EQ(characteristicSignals(frame).size(), 6u);
+  EXPECT_DOUBLE_EQ(characteristicSignals(frame)[1].mean, 250.0);
+}
+
+Profile threeFrames() {
+  ProfileBuilder builder(sdh2().layout);
+  std::vector<float> values(486, 0.0F);
+  builder.addFrame(1000, values);
+  values[100] = 50.0F;
+  builder.addFrame(2000, values);
+  values[100] = 20.0F;
+  builder.addFrame(3000, values);
+  return builder.finish({});
+}
+
+TEST(SignalTable, HoldsEveryFrameAndFindsTheLargestSum) {
+  const SignalTable table = SignalTable::of(threeFrames());
+  EXPECT_EQ(table.numFrames(), 3u);
+  EXPECT_EQ(table.numMatrices(), 6u);
+  EXPECT_EQ(table.at(2, 1).sum, 20.0);  // place 100 is in matrix 1 (84..161)
+  EXPECT_EQ(table.at(0, 1).sum, 0.0);
+  EXPECT_EQ(table.frameOfLargestSum(), 1u);
+  EXPECT_THROW(table.at(3, 0), std::out_of_range);
+  EXPECT_THROW(table.at(0, 6), std::out_of_range);
+}
+
+TEST(SignalTable, CanBeCancelled) {
+  EXPECT_THROW(SignalTable::of(threeFrames(), [](double) { return false; }), Cancelled);
+}
+
+TEST(CharacteristicSignals, AllInOneAreTheSameNumbers) {
+  TactileFrame frame(sdh2().layout);
+  frame.matrix(0)(3, 3) = 100.0F;
+  frame.matrix(1)(8, 2) = 200.0F;
+  frame.matrix(1)(8, 3) = 300.0F;
+  std::vector<CharacteristicSignals> rows(3);
+  allSignals(frame, rows);
+  auto expected = characteristicSignals(frame);
+  expected.push_back(wholeFrameSignals(frame));
+  ASSERT_EQ(rows.size(), expected.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const SignalKind kind : kAllSignalKinds)
+      EXPECT_EQ(valueOf(rows[i], kind), valueOf(expected[i], kind)) << "row " << i;
+}
+
+// docs/commands.md: the columns of palpate signals.
+TEST(SignalNames, AreThoseOfTheTables) {
+  std::set<std::string_view> names;
+  for (const SignalKind kind : kAllSignalKinds) {
+    EXPECT_EQ(signalKindNamed(signalName(kind)), kind);
+    names.insert(signalName(kind));
+  }
+  EXPECT_EQ(names,
+            (std::set<std::string_view>{
+                "mean", "filtered_mean", "min", "max", "sum", "active", "area_mm2"}));
+  EXPECT_EQ(signalKindNamed("median"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace palpate::characteristic_signals_test

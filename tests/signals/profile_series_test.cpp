@@ -1,0 +1,133 @@
+#include "palpate/signals/profile_series.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "palpate/core/error.h"
+#include "palpate/emulator/synthetic_profile.h"
+#include "palpate/model/hand_description.h"
+#include "palpate/model/profile_builder.h"
+
+#include "testing/testing.h"
+
+namespace palpate::profile_series_test {
+namespace {
+
+using Kind = SeriesChoice::Kind;
+constexpr std::int64_t kStartUs = 1'400'000'000'000'000;
+
+// Ten frames 100 ms apart; frame i: 10 * (i + 1) counts at (7, 2), 4 * i at (8, 3) of matrix 1. Angles every 40 ms
+// from 20 ms before the first frame; axis 3 goes up by a degree each. Temperatures: sensor 2 says nothing.
+Profile small() {
+  ProfileBuilder builder(sdh2().layout);
+  for (int i = 0; i < 10; ++i) {
+    TactileFrame frame(sdh2().layout);
+    frame.matrix(1)(7, 2) = 10.0F * static_cast<float>(i + 1);
+    frame.matrix(1)(8, 3) = 4.0F * static_cast<float>(i);
+    builder.addFrame(kStartUs + i * 100'000, frame.values);
+  }
+  for (int i = 0; i < 20; ++i) {
+    std::vector<double> deg(7, 1.0);
+    deg[3] = i;
+    builder.addAngles(kStartUs - 20'000 + i * 40'000, deg);
+  }
+  for (int i = 0; i < 2; ++i) {
+    std::vector<double> degC(9, 30.0 + i);
+    degC[2] = 0.0;
+    builder.addTemperatures(kStartUs + i * 500'000, degC);
+  }
+  return builder.finish({});
+}
+
+TEST(ProfileSeries, OfAMatrixIsItsSignal) {
+  const Profile profile = small();
+  const Series series = readSeries(profile, {Kind::kMatrix, 1, SignalKind::kMaximum}, -1.0, 9.0);
+  ASSERT_EQ(series.values.size(), 10u);
+  EXPECT_DOUBLE_EQ(series.timeS[4], 0.4);
+  EXPECT_DOUBLE_EQ(series.values[4], 50.0);
+  const Series whole = readSeries(profile, {Kind::kMatrix, 6, SignalKind::kSum}, 0.0, 9.0);
+  EXPECT_DOUBLE_EQ(whole.values[4], 66.0);
+}
+
+TEST(ProfileSeries, OfTaxelsIsTheirMean) {
+  const Profile profile = small();
+  TaxelSelection taxels(profile.layout());
+  taxels.toggle(1, 7, 2);
+  taxels.toggle(1, 8, 3);
+  taxels.toggle(4, 2, 2);
+  const SeriesChoice choice{.kind = Kind::kTaxels, .taxels = taxels};
+  const Series series = readSeries(profile, choice, 0.0, 0.9);
+  EXPECT_DOUBLE_EQ(series.values[5], (60.0 + 20.0 + 0.0) / 3.0);
+  EXPECT_EQ(meanOf(profile.frame(5), TaxelSelection(profile.layout())), 0.0);
+}
+
+TEST(ProfileSeries, AnglesAndTemperaturesHaveTheirOwnStamps) {
+  const Profile profile = small();
+  const Series angles = readSeries(profile, {.kind = Kind::kAngle, .index = 3}, -1.0, 9.0);
+  ASSERT_EQ(angles.values.size(), 20u);
+  EXPECT_DOUBLE_EQ(angles.timeS[0], -0.02);
+  EXPECT_DOUBLE_EQ(angles.values[7], 7.0);
+  const Series sensor = readSeries(profile, {.kind = Kind::kTemperature, .index = 1}, 0.0, 9.0);
+  EXPECT_EQ(sensor.values, (std::vector<double>{30.0, 31.0}));
+  const Series silent = readSeries(profile, {.kind = Kind::kTemperature, .index = 2}, 0.0, 9.0);
+  EXPECT_TRUE(std::isnan(silent.values[0])) << "an exact 0 is no temperature";
+}
+
+TEST(ProfileSeries, APartComesWithItsNeighbours) {
+  const Profile profile = small();
+  const SeriesChoice choice{Kind::kMatrix, 1, SignalKind::kMaximum};
+  const Series part = readSeries(profile, choice, 0.25, 0.45);
+  EXPECT_EQ(part.values, (std::vector<double>{30.0, 40.0, 50.0, 60.0}));
+  EXPECT_EQ(numSamples(profile, choice, 0.25, 0.45), 3u);
+  EXPECT_EQ(numSamples(profile, choice, -5.0, 50.0), 10u);
+  EXPECT_EQ(numSamples(profile, choice, 1.0, 0.0), 0u);
+  EXPECT_TRUE(readSeries(profile, choice, 1.0, 0.0).values.empty());
+}
+
+TEST(ProfileSeries, VisitsWhatItReads) {
+  const Profile profile = small();
+  const SeriesChoice choice{.kind = Kind::kAngle, .index = 3};
+  const Series read = readSeries(profile, choice, -100.0, 100.0);
+  Series visited;
+  visitSeries(profile, choice, [&](double timeS, double value) {
+    visited.timeS.push_back(timeS);
+    visited.values.push_back(value);
+  });
+  EXPECT_EQ(visited.timeS, read.timeS);
+  EXPECT_EQ(visited.values, read.values);
+}
+
+TEST(ProfileSeries, ASpreadTakesSamplesEvenlyAndNoneTwice) {
+  const Profile profile = small();
+  const SeriesChoice choice{.kind = Kind::kMatrix, .index = 1, .signal = SignalKind::kMaximum};
+  const Series three = readSpread(profile, choice, 3);
+  EXPECT_EQ(three.timeS, (std::vector<double>{0.0, 0.3, 0.6, 0.9}));
+  EXPECT_EQ(three.values, (std::vector<double>{10.0, 40.0, 70.0, 100.0}));
+  EXPECT_EQ(readSpread(profile, choice, 1000).timeS.size(), profile.numFrames());
+  EXPECT_THROW(readSpread(profile, choice, 0), std::invalid_argument);
+  EXPECT_THROW(readSpread(profile, choice, 3, [](double) { return false; }), Cancelled);
+}
+
+TEST(ProfileSeries, WhatIsNotThereIsSaid) {
+  const Profile profile = small();
+  const Profile bare =
+      synthesize({.durationS = 1.0, .angleRateHz = 0.0, .temperatureRateHz = 0.0, .grasps = 0});
+  EXPECT_TRUE(hasSeries(profile, {.kind = Kind::kAngle, .index = 6}));
+  EXPECT_FALSE(hasSeries(profile, {.kind = Kind::kAngle, .index = 7}));
+  EXPECT_FALSE(hasSeries(bare, {.kind = Kind::kAngle, .index = 0}));
+  EXPECT_FALSE(hasSeries(bare, {.kind = Kind::kTemperature, .index = 0}));
+  EXPECT_FALSE(hasSeries(profile, {.kind = Kind::kMatrix, .index = 7}));
+  EXPECT_FALSE(hasSeries(profile, {.kind = Kind::kTaxels})) << "none chosen";
+  EXPECT_THROW(readSeries(bare, {.kind = Kind::kAngle}, 0.0, 1.0), std::invalid_argument);
+  EXPECT_THROW(visitSeries(bare, {.kind = Kind::kAngle}, [](double, double) {}),
+               std::invalid_argument);
+  EXPECT_FALSE(hasSeries(ProfileBuilder(sdh2().layout).finish({}), {}));
+  EXPECT_EQ(numSamples(bare, {.kind = Kind::kAngle}, 0.0, 1.0), 0u);
+}
+
+TEST(ProfileSeries, CanBeCancelled) {
+  EXPECT_THROW(readSeries(small(), {}, 0.0, 9.0, [](double) { return false; }), Cancelled);
+}
+
+}  // namespace
+}  // namespace palpate::profile_series_test
