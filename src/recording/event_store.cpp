@@ -16,9 +16,9 @@
 #include "palpate/core/error.h"
 
 #include "recording/event_notes.h"
-#include "recording/palpate_access.h"
-#include "recording/palpate_lock.h"
-#include "recording/palpate_rows.h"
+#include "recording/native/palpate_access.h"
+#include "recording/native/palpate_lock.h"
+#include "recording/native/palpate_rows.h"
 #include "recording/recording_form.h"
 
 namespace palpate {

@@ -9,8 +9,8 @@
 #include "palpate/recording/dsa_reader.h"
 #include "palpate/recording/palpate_schema.h"
 
-#include "recording/palpate_access.h"
-#include "recording/palpate_rows.h"
+#include "recording/native/palpate_access.h"
+#include "recording/native/palpate_rows.h"
 #include "recording/recording_form.h"
 
 namespace palpate {

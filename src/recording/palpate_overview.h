@@ -9,7 +9,7 @@
 
 #include "palpate/recording/second_summary.h"
 
-#include "recording/sqlite_database.h"
+#include "recording/native/sqlite_database.h"
 
 namespace palpate {
 

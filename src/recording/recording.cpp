@@ -18,9 +18,9 @@
 
 #include "recording/event_notes.h"
 #include "recording/message_text.h"
-#include "recording/palpate_access.h"
-#include "recording/palpate_content.h"
-#include "recording/palpate_rows.h"
+#include "recording/native/palpate_access.h"
+#include "recording/native/palpate_content.h"
+#include "recording/native/palpate_rows.h"
 #include "recording/recording_form.h"
 
 namespace palpate {

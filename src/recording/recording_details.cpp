@@ -13,7 +13,7 @@
 #include "palpate/recording/dsa_reader.h"
 
 #include "recording/event_notes.h"
-#include "recording/palpate_access.h"
+#include "recording/native/palpate_access.h"
 #include "recording/recording_form.h"
 
 namespace palpate {

@@ -5,8 +5,8 @@
 #include <cctype>
 #include <string_view>
 
-#include "recording/byte_source.h"
-#include "recording/palpate_lock.h"
+#include "recording/dsa/byte_source.h"
+#include "recording/native/palpate_lock.h"
 
 namespace palpate {
 namespace {

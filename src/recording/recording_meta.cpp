@@ -1,6 +1,6 @@
 #include "palpate/recording/recording_meta.h"
 
-#include "recording/palpate_access.h"
+#include "recording/native/palpate_access.h"
 #include "recording/recording_form.h"
 
 namespace palpate {

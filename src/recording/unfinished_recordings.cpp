@@ -16,8 +16,8 @@
 #include "palpate/core/one_line.h"
 #include "palpate/recording/palpate_schema.h"
 
-#include "recording/palpate_access.h"
-#include "recording/palpate_lock.h"
+#include "recording/native/palpate_access.h"
+#include "recording/native/palpate_lock.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

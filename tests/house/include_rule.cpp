@@ -38,6 +38,15 @@ const std::string kWindow = "apps/palpate/gui";
 
 bool isPublic(std::string_view path) { return path.starts_with("include/"); }
 
+// "dsa" of src/recording/dsa/x.cpp and of the private header recording/dsa/x.h; empty: directly in its room.
+std::string privateFolderOf(std::string path) {
+  if (path.starts_with("src/")) path = path.substr(4);
+  const std::size_t room = path.find('/');
+  const std::size_t folder = path.rfind('/');
+  return room == folder || room == std::string::npos ? std::string()
+                                                     : path.substr(room + 1, folder - room - 1);
+}
+
 class Judge {
  public:
   Judge(const SourceFile& file, const IncludeRules& rules)
@@ -67,9 +76,7 @@ class Judge {
   std::string faultOfOurs(const std::string& name, const std::string& target) const {
     const bool targetIsPublic = name.starts_with("palpate/");
     if (target == kWindow) return name + " lies in no folder of the window";
-    if (target == room_)
-      return isPublic(path_) && !targetIsPublic ? "a public header includes the private " + name
-                                                : "";
+    if (target == room_) return faultWithinRoom(name, targetIsPublic);
     if (!targetIsPublic && !target.starts_with("apps/"))
       return name + " is private to the room " + target;
     if (room_ == "apps/palpate") return {};  // main.cpp
@@ -79,6 +86,16 @@ class Judge {
     if (allowed.contains("all") && !target.starts_with("apps/") && isRoom) return {};
     if (allowed.contains(kWindow) && target.starts_with(kWindow + "/") && isRoom) return {};
     return room_ + " may not include " + name;
+  }
+
+  // Private headers of a folder of a room serve this folder, and what lies directly in the room and joins them.
+  std::string faultWithinRoom(const std::string& name, bool targetIsPublic) const {
+    if (targetIsPublic) return {};
+    if (isPublic(path_)) return "a public header includes the private " + name;
+    if (!path_.starts_with("src/")) return {};
+    const std::string from = privateFolderOf(path_), to = privateFolderOf(name);
+    return from.empty() || to.empty() || from == to ? std::string()
+                                                    : name + " is private to the folder " + to;
   }
 
   std::string faultOfForeign(const std::string& name) const {

@@ -94,6 +94,7 @@ TEST(IncludeRule, FindsAPlantedWrongInclude) {
   // Private headers.
   EXPECT_EQ(numFaults("src/capture/x.cpp", "#include \"recording/byte_source.h\""), 1u);
   EXPECT_EQ(numFaults("include/palpate/recording/x.h", "#include \"recording/byte_source.h\""), 1u);
+  EXPECT_EQ(numFaults("src/recording/native/x.cpp", "#include \"recording/dsa/dsa_text.h\""), 1u);
   // Quotes make no neighbour of it.
   EXPECT_EQ(numFaults("src/model/x.cpp", "#include \"sqlite3.h\""), 1u);
   // A room without a row.
@@ -130,6 +131,9 @@ TEST(IncludeRule, AllowsWhatTheTablesAllow) {
   EXPECT_EQ(numFaults("src/core/x.cpp", "#include <expat.h>"), 0u);
   EXPECT_EQ(numFaults("src/core/x.cpp", "#include <sys/stat.h>"), 0u);
   EXPECT_EQ(numFaults("src/recording/x.cpp", "#include \"recording/byte_source.h\""), 0u);
+  EXPECT_EQ(numFaults("src/recording/x.cpp", "#include \"recording/dsa/dsa_text.h\""), 0u);
+  EXPECT_EQ(numFaults("src/recording/dsa/x.cpp", "#include \"recording/dsa/dsa_text.h\""), 0u);
+  EXPECT_EQ(numFaults("src/recording/dsa/x.cpp", "#include \"recording/dsa_sensor.h\""), 0u);
   EXPECT_EQ(numFaults("src/recording/x.cpp", "#include <palpate/model/profile.h>"), 0u);
   EXPECT_EQ(numFaults("apps/palpate/gui/slip/x.h", "#include <QWidget>"), 0u);
   EXPECT_EQ(numFaults("apps/palpate/commands/x.cpp", "#include \"gui/shell/workbench.h\""), 0u);

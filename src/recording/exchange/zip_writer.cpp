@@ -1,4 +1,4 @@
-#include "recording/zip_writer.h"
+#include "recording/exchange/zip_writer.h"
 
 #include <zlib.h>
 

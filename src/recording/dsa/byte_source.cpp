@@ -1,4 +1,4 @@
-#include "recording/byte_source.h"
+#include "recording/dsa/byte_source.h"
 
 #include <algorithm>
 #include <cerrno>

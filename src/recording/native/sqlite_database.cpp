@@ -1,4 +1,4 @@
-#include "recording/sqlite_database.h"
+#include "recording/native/sqlite_database.h"
 
 #include <utility>
 

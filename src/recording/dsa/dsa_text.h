@@ -13,8 +13,8 @@
 
 #include "palpate/core/bounded_queue.h"
 
-#include "recording/byte_source.h"
-#include "recording/bzip2_decoder.h"
+#include "recording/dsa/byte_source.h"
+#include "recording/dsa/bzip2_decoder.h"
 
 namespace palpate {
 

@@ -1,4 +1,4 @@
-#include "recording/palpate_lock.h"
+#include "recording/native/palpate_lock.h"
 
 #include <cerrno>
 #include <ctime>

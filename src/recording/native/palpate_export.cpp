@@ -4,8 +4,8 @@
 #include "palpate/core/error.h"
 #include "palpate/recording/palpate_writer.h"
 
-#include "recording/palpate_lock.h"
-#include "recording/sqlite_database.h"
+#include "recording/native/palpate_lock.h"
+#include "recording/native/sqlite_database.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

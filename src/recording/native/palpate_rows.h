@@ -13,7 +13,7 @@
 #include "palpate/recording/recording_event.h"
 #include "palpate/recording/second_summary.h"
 
-#include "recording/sqlite_database.h"
+#include "recording/native/sqlite_database.h"
 
 namespace palpate {
 

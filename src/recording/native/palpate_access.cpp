@@ -1,4 +1,4 @@
-#include "recording/palpate_access.h"
+#include "recording/native/palpate_access.h"
 
 #include <array>
 #include <cerrno>
@@ -15,7 +15,7 @@
 #include "palpate/core/file_descriptor.h"
 #include "palpate/recording/palpate_schema.h"
 
-#include "recording/palpate_lock.h"
+#include "recording/native/palpate_lock.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

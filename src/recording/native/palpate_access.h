@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "recording/palpate_rows.h"
-#include "recording/sqlite_database.h"
+#include "recording/native/palpate_rows.h"
+#include "recording/native/sqlite_database.h"
 
 namespace palpate {
 

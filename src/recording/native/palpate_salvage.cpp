@@ -8,12 +8,12 @@
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/second_summary.h"
 
-#include "recording/block_store.h"
-#include "recording/page_scan.h"
-#include "recording/palpate_access.h"
+#include "recording/native/block_store.h"
+#include "recording/native/page_scan.h"
+#include "recording/native/palpate_access.h"
+#include "recording/native/palpate_rows.h"
+#include "recording/native/palpate_storage.h"
 #include "recording/palpate_overview.h"
-#include "recording/palpate_rows.h"
-#include "recording/palpate_storage.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

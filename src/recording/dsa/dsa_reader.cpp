@@ -7,9 +7,9 @@
 #include "palpate/core/error.h"
 #include "palpate/core/xml.h"
 
-#include "recording/byte_source.h"
-#include "recording/dsa_document.h"
-#include "recording/dsa_text.h"
+#include "recording/dsa/byte_source.h"
+#include "recording/dsa/dsa_document.h"
+#include "recording/dsa/dsa_text.h"
 
 namespace palpate {
 namespace {

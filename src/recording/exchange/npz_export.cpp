@@ -8,7 +8,7 @@
 #include "palpate/recording/table_export.h"
 
 #include "recording/event_notes.h"
-#include "recording/zip_writer.h"
+#include "recording/exchange/zip_writer.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

@@ -1,4 +1,4 @@
-#include "recording/dsa_document.h"
+#include "recording/dsa/dsa_document.h"
 
 #include <algorithm>
 #include <array>

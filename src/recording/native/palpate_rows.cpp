@@ -1,4 +1,4 @@
-#include "recording/palpate_rows.h"
+#include "recording/native/palpate_rows.h"
 
 #include <algorithm>
 #include <array>

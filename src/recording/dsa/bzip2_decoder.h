@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "recording/byte_source.h"
+#include "recording/dsa/byte_source.h"
 
 namespace palpate {
 

@@ -12,10 +12,10 @@
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
 
-#include "recording/palpate_lock.h"
+#include "recording/native/palpate_lock.h"
+#include "recording/native/palpate_rows.h"
+#include "recording/native/sqlite_database.h"
 #include "recording/palpate_overview.h"
-#include "recording/palpate_rows.h"
-#include "recording/sqlite_database.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

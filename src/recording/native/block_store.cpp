@@ -1,4 +1,4 @@
-#include "recording/block_store.h"
+#include "recording/native/block_store.h"
 
 #include <algorithm>
 

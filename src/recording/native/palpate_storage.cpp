@@ -1,4 +1,4 @@
-#include "recording/palpate_storage.h"
+#include "recording/native/palpate_storage.h"
 
 #include <algorithm>
 

@@ -7,10 +7,10 @@
 #include "palpate/core/error.h"
 #include "palpate/recording/palpate_schema.h"
 
-#include "recording/palpate_access.h"
-#include "recording/palpate_content.h"
-#include "recording/palpate_rows.h"
-#include "recording/palpate_storage.h"
+#include "recording/native/palpate_access.h"
+#include "recording/native/palpate_content.h"
+#include "recording/native/palpate_rows.h"
+#include "recording/native/palpate_storage.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

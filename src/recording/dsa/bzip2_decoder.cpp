@@ -1,4 +1,4 @@
-#include "recording/bzip2_decoder.h"
+#include "recording/dsa/bzip2_decoder.h"
 
 #include <string>
 

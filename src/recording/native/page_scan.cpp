@@ -1,4 +1,4 @@
-#include "recording/page_scan.h"
+#include "recording/native/page_scan.h"
 
 #include <array>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "recording/dsa_text.h"
+#include "recording/dsa/dsa_text.h"
 
 #include <algorithm>
 #include <string>

@@ -10,9 +10,9 @@
 #include "palpate/core/xml.h"
 #include "palpate/recording/bzip2_blocks.h"
 
-#include "recording/byte_source.h"
-#include "recording/dsa_document.h"
-#include "recording/dsa_text.h"
+#include "recording/dsa/byte_source.h"
+#include "recording/dsa/dsa_document.h"
+#include "recording/dsa/dsa_text.h"
 
 namespace palpate {
 namespace {
