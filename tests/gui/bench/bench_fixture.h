@@ -1,6 +1,9 @@
-// The models of the window without a window: settings, clock, files and answers in the test's hands.
+// The models of the window without the window, for tests of them and of single features: settings, clock, files and answers
+// in the test's hands.
 #pragma once
 
+#include <QComboBox>
+#include <QMenu>
 #include <QTest>
 #include <QWidget>
 #include <memory>
@@ -25,6 +28,14 @@ class BenchTest : public ::testing::Test {
             .clock = &clock_,
             .read = [](const std::filesystem::path&, const Progress&) { return twentyFrames(); }},
         &actionsOf_);
+    bench_->subject.follow();
+    bench_->menus = {.edit = new QMenu(&actionsOf_),
+                     .connections = new QMenu(&actionsOf_),
+                     .only = new QMenu(&actionsOf_),
+                     .scanned = new QMenu(&actionsOf_),
+                     .recent = new QMenu(&actionsOf_),
+                     .speed = new QComboBox(&actionsOf_),
+                     .recordings = new QComboBox(&actionsOf_)};
   }
   // Twenty frames, 50 ms apart, under this name.
   static OpenedRecordingPtr recording(const std::string& name) {

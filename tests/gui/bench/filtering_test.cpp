@@ -78,6 +78,17 @@ TEST_F(FilteringTest, IsRememberedWithItsSwitch) {
   EXPECT_TRUE(later.recipe().sameSteps(filtering_.recipe()));
 }
 
+TEST_F(FilteringTest, ARecipeGivenForOneDayIsNotRememberedForTheNext) {
+  setRecipe("gaussian:size=5");
+  Filtering today(
+      bench_->subject, bench_->events, bench_->live, bench_->messages, bench_->settings);
+  today.restore(parseRecipe(std::vector<std::string>{"median:size=3"}));
+  Filtering tomorrow(
+      bench_->subject, bench_->events, bench_->live, bench_->messages, bench_->settings);
+  tomorrow.restore(std::nullopt);
+  EXPECT_TRUE(tomorrow.recipe().sameSteps(filtering_.recipe()));
+}
+
 TEST_F(FilteringTest, ARecipeKeptWithTheRecordingIsTakenWhenItIsShown) {
   const Recipe kept = parseRecipe(std::vector<std::string>{"gaussian:size=5"});
   auto made = std::make_shared<OpenedRecording>(*recording((folder_ / "a.dsa").string()));

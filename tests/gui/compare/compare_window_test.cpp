@@ -17,7 +17,7 @@ TEST_F(CompareWindowTest, TakesThePlaceOfTheMatricesAndGivesItBack) {
   EXPECT_FALSE(window().feature<MatricesFeature>().panel().view().isVisible());
   EXPECT_FALSE(dock("Timeline")->isVisible());
   EXPECT_FALSE(dock("Inspect")->isVisible());
-  EXPECT_TRUE(actions().compare->isChecked());
+  EXPECT_TRUE(actions().at("compare")->isChecked());
   QTest::mouseClick(find<QToolButton>("compareBack"), Qt::LeftButton);
   EXPECT_FALSE(compare().isVisible());
   EXPECT_TRUE(window().feature<MatricesFeature>().panel().view().isVisible());
@@ -36,6 +36,7 @@ TEST_F(CompareWindowTest, SwappingKeepsTheMoment) {
   EXPECT_EQ(window().bench().subject.behind(), compare().a());
   EXPECT_NEAR(*compare().offsetS(), 1.0, 1e-9);
   EXPECT_EQ(playback().frame(), 40u);
+  EXPECT_EQ(playback().numFrames(), 80u) << "what is played is A";
   EXPECT_EQ(valueIn(CompareGroup::kDifference), -200.0F);
 }
 
@@ -106,7 +107,7 @@ TEST_F(CompareWindowTest, EscapeGoesBack) {
   compareNow();
   press(Qt::Key_Escape);
   EXPECT_FALSE(window().bench().comparing.on());
-  EXPECT_FALSE(actions().compare->isChecked());
+  EXPECT_FALSE(actions().at("compare")->isChecked());
 }
 
 TEST_F(CompareWindowTest, WithNothingOpenItAsksAndComparesWhatComes) {

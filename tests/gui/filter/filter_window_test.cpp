@@ -142,7 +142,7 @@ TEST_F(FilterWindowTest, TheRecipeIsKeptWithTheRecordingAndFoundAgain) {
   for (QMenu* menu : window().feature<FilterFeature>().panel().findChildren<QMenu*>())
     for (QAction* action : menu->actions())
       if (action->text() == "Keep it with the recording") action->trigger();
-  actions().saveEvents->trigger();
+  actions().at("saveEvents")->trigger();
   const auto events = readEvents(path_).events;
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].kind, "recipe");
@@ -162,7 +162,7 @@ TEST_F(FilterWindowTest, TheChainAndItsSwitchAreRemembered) {
   reopen();
   EXPECT_EQ(recipeText(window().feature<FilterFeature>().panel().editor().recipe()),
             "bilateral:sigma_value=99");
-  EXPECT_TRUE(actions().filtered->isChecked());
+  EXPECT_TRUE(actions().at("filtered")->isChecked());
   EXPECT_TRUE(window().bench().filtering.applied());
 }
 
@@ -203,10 +203,10 @@ TEST_F(FilterWindowTest, ARecordingMadeThroughFiltersHoldsWhatCameAndTheRecipe) 
   const auto await = [](const auto& condition) { return QTest::qWaitFor(condition, 20'000); };
   ASSERT_TRUE(
       await([&] { return window().bench().subject.isLive() && !window().bench().live.stale(); }));
-  actions().record->trigger();
+  actions().at("record")->trigger();
   ASSERT_TRUE(
       await([&] { return window().bench().live.source()->session->recorderStatus().frames > 20; }));
-  actions().record->trigger();
+  actions().at("record")->trigger();
   const auto made = folder_ / "runs/run.palpate";
   ASSERT_TRUE(
       await([&] { return !window().bench().live.recording() && std::filesystem::exists(made); }));

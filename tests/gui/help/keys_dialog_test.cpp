@@ -44,7 +44,7 @@ TEST_F(KeysDialogTest, ListsEveryKeyOfEveryAction) {
 }
 
 TEST_F(KeysDialogTest, FollowsAChangedKey) {
-  actions().play->setShortcut(QKeySequence("P"));
+  actions().at("play")->setShortcut(QKeySequence("P"));
   const auto entries = keysOf(window().actions());
   EXPECT_TRUE(std::any_of(entries.begin(), entries.end(), [](const KeyEntry& entry) {
     return entry.what == "Play or pause" && entry.keys == "P";

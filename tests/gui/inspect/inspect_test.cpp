@@ -70,7 +70,7 @@ TEST_F(InspectTest, AClickOnATickPlotsTheRow) {
       view->viewport(), Qt::LeftButton, {}, QPoint(row.left() + 10, row.center().y()));
   EXPECT_TRUE(table().plotted()[4]);
   EXPECT_EQ(chart->graphCount(), 2);
-  EXPECT_TRUE(actions().plots[4]->isChecked());
+  EXPECT_TRUE(actions().all("plots")[4]->isChecked());
   QTest::mouseClick(
       view->viewport(), Qt::LeftButton, {}, QPoint(row.left() + 10, row.center().y()));
   EXPECT_EQ(chart->graphCount(), 1);

@@ -47,9 +47,9 @@ class OtherProgramsTest : public WindowTest {
   LiveController& live() { return window().bench().live; }
   std::string socket() const { return folder_ / "s"; }
   void switchRemoteOn() {
-    actions().remoteControl->setData(QString::fromStdString(socket()));
-    actions().remoteControl->trigger();
-    ASSERT_TRUE(actions().remoteControl->isChecked());
+    actions().at("remoteControl")->setData(QString::fromStdString(socket()));
+    actions().at("remoteControl")->trigger();
+    ASSERT_TRUE(actions().at("remoteControl")->isChecked());
   }
   // From another thread, as another program would.
   std::future<std::string> asking(const std::string& request) {
@@ -79,7 +79,7 @@ TEST_F(OtherProgramsTest, SignalsAreStreamedAsLongAsTheSwitchSays) {
   testing::UdpReceiver receiver;
   set("streams/signals_port", receiver.port());
   start();
-  actions().streamSignals->trigger();  // before there is a hand
+  actions().at("streamSignals")->trigger();  // before there is a hand
   ASSERT_EQ(facts().size(), 1u);
   EXPECT_TRUE(facts()[0].value.endsWith("nothing is connected"));
   connectEmulated();
@@ -91,7 +91,7 @@ TEST_F(OtherProgramsTest, SignalsAreStreamedAsLongAsTheSwitchSays) {
       [&] { return find<StatusStrip>("statusStrip")->status().right.startsWith("streaming · "); }));
   receiver.close();
   EXPECT_TRUE(await([&] { return facts()[0].value.endsWith("nobody listens"); }));
-  actions().streamSignals->trigger();
+  actions().at("streamSignals")->trigger();
   EXPECT_FALSE(live().source()->stream->on(StreamKind::kSignals));
   EXPECT_TRUE(facts().empty());
 }
@@ -101,35 +101,35 @@ TEST_F(OtherProgramsTest, TaxelsAreStreamed) {
   set("streams/tactile_port", receiver.port());
   start();
   connectEmulated();
-  actions().streamTactile->trigger();
+  actions().at("streamTactile")->trigger();
   const auto text = receiver.receive();
   ASSERT_TRUE(text);
   EXPECT_EQ(Json::parse(*text).at("tactile_matrix").size(), 6u);
 }
 
 TEST_F(OtherProgramsTest, StreamsAreRememberedRemoteControlIsNot) {
-  actions().streamSignals->trigger();
+  actions().at("streamSignals")->trigger();
   switchRemoteOn();
   EXPECT_EQ(OtherPrograms::shortText(actions()), "streaming, remote control");
   start();
-  EXPECT_TRUE(actions().streamSignals->isChecked());
-  EXPECT_FALSE(actions().streamTactile->isChecked());
-  EXPECT_FALSE(actions().remoteControl->isChecked());
+  EXPECT_TRUE(actions().at("streamSignals")->isChecked());
+  EXPECT_FALSE(actions().at("streamTactile")->isChecked());
+  EXPECT_FALSE(actions().at("remoteControl")->isChecked());
   EXPECT_FALSE(fs::exists(socket()));
 }
 
 TEST_F(OtherProgramsTest, APortThatIsNoneIsReplacedByTheUsualOne) {
   set("streams/signals_port", "70000");
   start();
-  actions().streamSignals->trigger();
+  actions().at("streamSignals")->trigger();
   EXPECT_TRUE(facts().at(0).value.startsWith("127.0.0.1:9870"));
 }
 
 TEST_F(OtherProgramsTest, ASocketThatCantBeMadeIsSaid) {
   testing::writeFile(socket(), "precious");
-  actions().remoteControl->setData(QString::fromStdString(socket()));
-  actions().remoteControl->trigger();
-  EXPECT_FALSE(actions().remoteControl->isChecked());
+  actions().at("remoteControl")->setData(QString::fromStdString(socket()));
+  actions().at("remoteControl")->trigger();
+  EXPECT_FALSE(actions().at("remoteControl")->isChecked());
   EXPECT_TRUE(bannerText().contains("No remote control")) << bannerText().toStdString();
   EXPECT_EQ(testing::readFile(socket()), "precious");
 }
@@ -185,14 +185,14 @@ TEST_F(OtherProgramsTest, NamesStayInTheFolder) {
 TEST_F(OtherProgramsTest, BothMayStopWhatEitherStarted) {
   switchRemoteOn();
   connectEmulated();
-  actions().record->trigger();
+  actions().at("record")->trigger();
   ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 0; }));
   EXPECT_EQ(error("start b"), "already_recording");
   EXPECT_TRUE(ask("mark").at("ok").asBool());
   EXPECT_TRUE(ask("stop").at("ok").asBool());
   EXPECT_FALSE(live().recording());
   EXPECT_TRUE(ask("start").at("ok").asBool());
-  actions().record->trigger();
+  actions().at("record")->trigger();
   ASSERT_TRUE(await([&] { return !live().recording(); }));
   EXPECT_EQ(error("stop"), "not_recording");
 }

@@ -61,7 +61,7 @@ TEST_F(OpeningTest, StartsOnTheStartPageWithoutDocks) {
   EXPECT_TRUE(onStartPage());
   for (const QString& name : window().docks().names())
     EXPECT_FALSE(window().findChild<QDockWidget*>(name)->isVisible());
-  EXPECT_FALSE(actions().play->isEnabled());
+  EXPECT_FALSE(actions().at("play")->isEnabled());
   EXPECT_EQ(find<StatusStrip>("statusStrip")->status().state, "nothing open");
 }
 
@@ -71,7 +71,7 @@ TEST_F(OpeningTest, ShowsTheRecordingAtItsFirstFrame) {
   EXPECT_EQ(currentName(), "good.dsa");
   EXPECT_EQ(playback().frame(), 0u);
   EXPECT_FALSE(playback().playing());
-  EXPECT_TRUE(actions().play->isEnabled());
+  EXPECT_TRUE(actions().at("play")->isEnabled());
   EXPECT_EQ(window().windowTitle(), "good.dsa – Palpate");
 }
 
@@ -124,7 +124,7 @@ TEST_F(OpeningTest, OfSeveralTheFirstIsShownAndTheOthersAreReached) {
   EXPECT_EQ(currentName(), "good1.dsa") << "around";
   EXPECT_EQ(playback().frame(), 5u) << "where it was left";
   // Shift+Tab arrives as Backtab from a keyboard.
-  actions().previousRecording->trigger();
+  actions().at("previousRecording")->trigger();
   EXPECT_EQ(currentName(), "good3.dsa");
   emit box->activated(1);
   EXPECT_EQ(currentName(), "good2.dsa");
@@ -136,7 +136,7 @@ TEST_F(OpeningTest, CloseGoesToTheNextAndAtLastToTheStartPage) {
   EXPECT_EQ(currentName(), "good2.dsa");
   press(Qt::Key_W, Qt::ControlModifier);
   EXPECT_TRUE(onStartPage());
-  EXPECT_FALSE(actions().play->isEnabled());
+  EXPECT_FALSE(actions().at("play")->isEnabled());
   EXPECT_EQ(window().windowTitle(), "Palpate");
   open({"good1.dsa"});
   EXPECT_EQ(currentName(), "good1.dsa");
@@ -211,7 +211,7 @@ TEST_F(OpeningTest, TheWindowClosesWhileItOpens) {
 TEST_F(OpeningTest, AnEmptyRecordingIsSaidToBeEmpty) {
   open({"empty.dsa"});
   EXPECT_TRUE(bannerText().contains("no frame"));
-  EXPECT_FALSE(actions().play->isEnabled());
+  EXPECT_FALSE(actions().at("play")->isEnabled());
   press(Qt::Key_Space);
   press(Qt::Key_Right);
   press(Qt::Key_E, Qt::ControlModifier);
@@ -327,7 +327,7 @@ TEST_F(OpeningTest, AShorterRecordingIsShownUnderTheMouse) {
 
 TEST_F(OpeningTest, TheDemoIsOfferedOnlyWhereItsFileIs) {
   EXPECT_EQ(find<QPushButton>("startDemo"), nullptr);
-  EXPECT_FALSE(actions().openDemo->isVisible());
+  EXPECT_FALSE(actions().at("openDemo")->isVisible());
 }
 
 // With the real reader and the recording that comes with the program.
@@ -355,7 +355,7 @@ TEST(Demo, PlaysWhateverElseIsOpenedMeanwhile) {
                      .settingsPath = QString::fromStdString((folder / "a.ini").string())});
   window.show();
   QSignalSpy finished(&window.bench().opener, &RecordingOpener::finished);
-  window.bench().actions.openDemo->trigger();
+  window.bench().actions.at("openDemo")->trigger();
   window.bench().open({folder / "nothing.dsa"});
   ASSERT_TRUE(finished.wait(30'000));
   ASSERT_NE(window.bench().subject.behind(), nullptr);

@@ -158,8 +158,9 @@ class PressedWindow {
       show->close();
       if (!await([&] { return !window_->findChild<ShowWindow*>(); })) return false;
     }
-    const Actions& actions = window_->bench().actions;
-    if (window_->bench().comparing.on() && state != State::kCompare) actions.compare->trigger();
+    const ActionBook& actions = window_->bench().actions;
+    if (window_->bench().comparing.on() && state != State::kCompare)
+      actions.at("compare")->trigger();
     switch (state) {
       case State::kNothing:
         return disconnect() && closeRecordings(0);
@@ -169,7 +170,7 @@ class PressedWindow {
         return disconnect() && openRecordings(2);
       case State::kCompare:
         if (!disconnect() || !openRecordings(2)) return false;
-        if (!window_->bench().comparing.on()) actions.compare->trigger();
+        if (!window_->bench().comparing.on()) actions.at("compare")->trigger();
         return await([&] { return window_->bench().comparing.on(); });
       case State::kLive:
         return idle() && endRecording();
@@ -179,7 +180,7 @@ class PressedWindow {
         return endRecording() && hold();
       case State::kRecordingLive:
         if (!idle()) return false;
-        if (!window_->bench().live.recording()) actions.record->trigger();
+        if (!window_->bench().live.recording()) actions.at("record")->trigger();
         return await([&] { return window_->bench().live.health().recorder.framesOnDisk > 0; });
       case State::kUnplugged:
         if (bench_.unplugged_) {
@@ -192,7 +193,7 @@ class PressedWindow {
         return await([&] { return window_->bench().live.stale(); });
       case State::kShow:
         if (!idle()) return false;
-        if (!show) actions.showMode->trigger();
+        if (!show) actions.at("showMode")->trigger();
         return window_->findChild<ShowWindow*>() != nullptr;
     }
     return false;
@@ -350,7 +351,7 @@ class PressedWindow {
   }
   bool closeRecordings(std::size_t left) {
     for (int i = 0; window_->bench().recordings.all().size() > left && i < 20; ++i)
-      window_->bench().actions.closeRecording->trigger();
+      window_->bench().actions.at("closeRecording")->trigger();
     return window_->bench().recordings.all().size() <= left;
   }
   bool openRecordings(std::size_t wanted) {
@@ -383,7 +384,7 @@ class PressedWindow {
       window_->bench().connectTo(connection);
       if (!await([&] { return isOurs(); })) return false;
     }
-    if (!window_->bench().subject.isLive()) window_->bench().actions.live->trigger();
+    if (!window_->bench().subject.isLive()) window_->bench().actions.at("live")->trigger();
     if (control()->status().phase != GraspPhase::kIdle) control()->stop();
     return await([&] {
       return control() && control()->status().phase == GraspPhase::kIdle &&
@@ -425,7 +426,7 @@ class PressedWindow {
     if (isOurs() && window_->bench().subject.isLive() && holds()) return true;
     if (!idle()) return false;
     // Whatever was pressed before: the hand feels with all of its taxels, as it is delivered.
-    window_->bench().actions.scanAll->trigger();
+    window_->bench().actions.at("scanAll")->trigger();
     if (auto* reset = window_->findChild<QAbstractButton*>("resetSettings")) reset->click();
     if (!await([&] { return control()->status().cannotReact.empty(); })) return false;
     GraspRequest request;

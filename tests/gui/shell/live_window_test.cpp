@@ -107,8 +107,8 @@ TEST_F(LiveWindowTest, ShowsWhatIsConnected) {
   EXPECT_TRUE(await([&] { return find<StatusStrip>("statusStrip")->status().state == "live"; }));
   EXPECT_TRUE(await([&] { return find<QLabel>("LinkPill")->text().contains("fps"); }));
   EXPECT_TRUE(view().notice().isEmpty());
-  EXPECT_TRUE(actions().record->isEnabled());
-  EXPECT_FALSE(actions().play->isEnabled());
+  EXPECT_TRUE(actions().at("record")->isEnabled());
+  EXPECT_FALSE(actions().at("play")->isEnabled());
 }
 
 TEST_F(LiveWindowTest, NoKeyMeansTwoThingsAtOnce) {
@@ -124,10 +124,10 @@ TEST_F(LiveWindowTest, NoKeyMeansTwoThingsAtOnce) {
 
 TEST_F(LiveWindowTest, NothingIsConnectedWithoutBeingAsked) {
   EXPECT_EQ(live().state(), State::kNone);
-  EXPECT_FALSE(actions().record->isEnabled());
-  EXPECT_FALSE(actions().live->isEnabled());
-  EXPECT_FALSE(actions().disconnectHand->isEnabled());
-  EXPECT_FALSE(actions().mark->isEnabled());
+  EXPECT_FALSE(actions().at("record")->isEnabled());
+  EXPECT_FALSE(actions().at("live")->isEnabled());
+  EXPECT_FALSE(actions().at("disconnectHand")->isEnabled());
+  EXPECT_FALSE(actions().at("mark")->isEnabled());
 }
 
 TEST_F(LiveWindowTest, AReactiveGraspIsFeltSeenAndStopped) {
@@ -163,8 +163,8 @@ TEST_F(LiveWindowTest, RecordsWithMarksAndOpensWhatWasRecorded) {
   press(Qt::Key_R, Qt::ControlModifier);
   EXPECT_EQ(asked_, 1);
   ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 5; }));
-  EXPECT_TRUE(await([&] { return actions().record->iconText().contains("MB"); }))
-      << actions().record->iconText().toStdString();
+  EXPECT_TRUE(await([&] { return actions().at("record")->iconText().contains("MB"); }))
+      << actions().at("record")->iconText().toStdString();
   EXPECT_TRUE(find<QToolButton>("recordButton")->property("recording").toBool());
   press(Qt::Key_Space);
   press(Qt::Key_2);
@@ -196,13 +196,13 @@ TEST_F(LiveWindowTest, ARecordingGoesOnWhileAnotherIsLookedAt) {
   ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 0; }));
   open({"good.dsa"});
   EXPECT_FALSE(window().bench().subject.isLive());
-  EXPECT_TRUE(actions().play->isEnabled()) << "the space bar plays now";
-  EXPECT_FALSE(actions().mark->isEnabled());
+  EXPECT_TRUE(actions().at("play")->isEnabled()) << "the space bar plays now";
+  EXPECT_FALSE(actions().at("mark")->isEnabled());
   const auto before = live().health().recorder.framesOnDisk;
   ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > before + 5; }));
   press(Qt::Key_F6);
   EXPECT_TRUE(window().bench().subject.isLive());
-  EXPECT_TRUE(actions().mark->isEnabled());
+  EXPECT_TRUE(actions().at("mark")->isEnabled());
   press(Qt::Key_Space);
   ASSERT_TRUE(await([&] { return chart().numEvents() == 1; }));
   open({"good2.dsa"});
@@ -267,7 +267,7 @@ TEST_F(LiveWindowTest, ARecordingIsFoundWhereItWasLeftForTheHand) {
   playback().seekFrame(9);
   press(Qt::Key_F6);
   ASSERT_TRUE(window().bench().subject.isLive());
-  actions().disconnectHand->trigger();
+  actions().at("disconnectHand")->trigger();
   ASSERT_TRUE(await([&] { return !window().bench().subject.isLive(); }));
   EXPECT_EQ(playback().frame(), 9u);
 }
@@ -558,7 +558,7 @@ TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {
   MatrixTableModel& table = window().findChild<InspectPanel*>()->table();
   table.setPlotted(2, false);
   const std::vector<bool> plotted = table.plotted();
-  actions().scanOnly->trigger();
+  actions().at("scanOnly")->trigger();
   const auto enabled = [&](std::size_t matrix) {
     return live().source()->session->device().hand().layout->matrix(matrix).numEnabled();
   };
@@ -573,7 +573,7 @@ TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {
   }));
   EXPECT_EQ(table.hand().layout->matrix(1).numEnabled(), 16u);
   EXPECT_EQ(table.plotted(), plotted);
-  actions().scanAll->trigger();
+  actions().at("scanAll")->trigger();
   ASSERT_TRUE(await([&] { return enabled(1) == sdh2().layout->matrix(1).numTaxels(); }));
 }
 

@@ -79,7 +79,7 @@ TEST_F(MainWindowTest, TheSpeedBoxAndItsMenuSetTheSpeed) {
   ASSERT_EQ(box->count(), 8);
   emit box->activated(7);
   EXPECT_EQ(playback().speed(), 16.0);
-  actions().speeds->actions().at(0)->trigger();
+  actions().group("speeds")->actions().at(0)->trigger();
   EXPECT_EQ(playback().speed(), 0.1);
   EXPECT_EQ(box->currentIndex(), 0);
 }
@@ -87,7 +87,7 @@ TEST_F(MainWindowTest, TheSpeedBoxAndItsMenuSetTheSpeed) {
 TEST_F(MainWindowTest, LoopAndSkipGaps) {
   press(Qt::Key_L);
   EXPECT_TRUE(playback().loop());
-  EXPECT_TRUE(actions().loop->isChecked());
+  EXPECT_TRUE(actions().at("loop")->isChecked());
   press(Qt::Key_G);
   EXPECT_TRUE(playback().skipGaps());
   press(Qt::Key_L);
@@ -125,8 +125,8 @@ TEST_F(MainWindowTest, ColourMapsByKeyBoxAndMenu) {
   auto* box = find<QComboBox>("mapBox");
   emit box->activated(4);
   EXPECT_EQ(look().map, ColorMapName::kCividis);
-  EXPECT_TRUE(actions().maps->actions().at(4)->isChecked());
-  actions().maps->actions().at(6)->trigger();
+  EXPECT_TRUE(actions().group("maps")->actions().at(4)->isChecked());
+  actions().group("maps")->actions().at(6)->trigger();
   EXPECT_EQ(look().map, ColorMapName::kGrey);
   EXPECT_EQ(box->currentText(), "grey");
 }
@@ -153,7 +153,7 @@ TEST_F(MainWindowTest, RangesByKeyBoxMenuAndFields) {
   emit find<QComboBox>("rangeBox")->activated(0);
   EXPECT_EQ(look().range, (ValueRange{0, 200}));
   EXPECT_FALSE(low->isVisible());
-  actions().ranges->actions().at(2)->trigger();
+  actions().group("ranges")->actions().at(2)->trigger();
   EXPECT_EQ(look().range, (ValueRange{0, 4095}));
 }
 
@@ -166,7 +166,7 @@ TEST_F(MainWindowTest, SignalsByKeyBoxAndMenu) {
   EXPECT_EQ(timeline().yAxis->label(), "filtered mean in counts");
   emit find<QComboBox>("signalBox")->activated(6);
   EXPECT_EQ(timeline().yAxis->label(), "active area in mm²");
-  actions().signalsPlotted->actions().at(5)->trigger();
+  actions().group("signalsPlotted")->actions().at(5)->trigger();
   EXPECT_EQ(timeline().yAxis->label(), "active taxels");
   EXPECT_EQ(find<QComboBox>("signalBox")->currentText(), "active taxels");
   window().resize(900, 600);
@@ -195,9 +195,9 @@ TEST_F(MainWindowTest, DigitsPlotMatrices) {
   EXPECT_EQ(timeline().graphCount(), 3);
   press(Qt::Key_2, Qt::ControlModifier);
   EXPECT_EQ(timeline().graphCount(), 2);
-  EXPECT_EQ(actions().plots[1]->text(), "Plot finger 0 distal");
-  EXPECT_FALSE(actions().plots[1]->isChecked());
-  EXPECT_FALSE(actions().plots[6]->isVisible()) << "there is no seventh matrix";
+  EXPECT_EQ(actions().all("plots")[1]->text(), "Plot finger 0 distal");
+  EXPECT_FALSE(actions().all("plots")[1]->isChecked());
+  EXPECT_FALSE(actions().all("plots")[6]->isVisible()) << "there is no seventh matrix";
 }
 
 TEST_F(MainWindowTest, ThemeTogglesAndCanBeChosen) {
@@ -209,7 +209,7 @@ TEST_F(MainWindowTest, ThemeTogglesAndCanBeChosen) {
   press(Qt::Key_T, Qt::ControlModifier);
   EXPECT_EQ(look().theme, Theme::kDark);
   EXPECT_LT(qApp->palette().color(QPalette::Window).lightness(), 60);
-  actions().themes->actions().at(0)->trigger();
+  actions().group("themes")->actions().at(0)->trigger();
   EXPECT_EQ(window().bench().look.view().theme, ThemeChoice::kSystem);
   EXPECT_EQ(look().theme, systemTheme());
 }
@@ -217,10 +217,10 @@ TEST_F(MainWindowTest, ThemeTogglesAndCanBeChosen) {
 TEST_F(MainWindowTest, FullScreenAndBack) {
   press(Qt::Key_F11);
   EXPECT_TRUE(window().isFullScreen());
-  EXPECT_TRUE(actions().fullScreen->isChecked());
+  EXPECT_TRUE(actions().at("fullScreen")->isChecked());
   press(Qt::Key_Escape);
   EXPECT_FALSE(window().isFullScreen());
-  EXPECT_FALSE(actions().fullScreen->isChecked());
+  EXPECT_FALSE(actions().at("fullScreen")->isChecked());
 }
 
 TEST_F(MainWindowTest, CopyPutsTheFrameOnTheClipboard) {
@@ -282,7 +282,7 @@ TEST_F(MainWindowTest, ExportCancelledDoesNothing) {
 TEST_F(MainWindowTest, KeysAndAboutOpen) {
   press(Qt::Key_F1);
   EXPECT_NE(window().findChild<KeysDialog*>(), nullptr);
-  actions().about->trigger();
+  actions().at("about")->trigger();
   EXPECT_NE(window().findChild<AboutDialog*>(), nullptr);
   for (const char* part : {"General Public License", "version 3", "Qt 6", "QCustomPlot"})
     EXPECT_TRUE(AboutDialog::text().contains(part)) << part;
@@ -336,15 +336,15 @@ TEST_F(MainWindowTest, NoKeyMeansTwoThingsAtOnce) {
 }
 
 TEST_F(MainWindowTest, EveryActionOfTheToolbarHasIconAndToolTip) {
-  for (const QAction* action : {actions().open,
-                                actions().exportPicture,
-                                actions().toStart,
-                                actions().stepBack,
-                                actions().play,
-                                actions().stepForward,
-                                actions().loop,
-                                actions().skipGaps,
-                                actions().keys}) {
+  for (const QAction* action : {actions().at("open"),
+                                actions().at("exportPicture"),
+                                actions().at("toStart"),
+                                actions().at("stepBack"),
+                                actions().at("play"),
+                                actions().at("stepForward"),
+                                actions().at("loop"),
+                                actions().at("skipGaps"),
+                                actions().at("keys")}) {
     EXPECT_FALSE(action->icon().isNull()) << action->text().toStdString();
     EXPECT_TRUE(action->toolTip().contains('(')) << action->text().toStdString();
   }

@@ -30,7 +30,7 @@ TEST_F(WindowLayoutTest, LookSpeedAndLoopAreRemembered) {
   EXPECT_EQ(view.signal, PlottedSignal::kFilteredMean);
   EXPECT_EQ(playback().speed(), 2.0);
   EXPECT_TRUE(playback().loop() && playback().skipGaps());
-  EXPECT_TRUE(actions().loop->isChecked() && actions().values->isChecked());
+  EXPECT_TRUE(actions().at("loop")->isChecked() && actions().at("values")->isChecked());
   open({"good.dsa"});
   const MatricesLook& look = find<MatricesView>("matricesView")->look();
   EXPECT_EQ(look.map, ColorMapName::kViridis);

@@ -108,7 +108,7 @@ TEST_F(SlipWindowTest, ArrowsAreOnTheHandWhileItSlips) {
   EXPECT_GT(with.lines.size(), without.lines.size() + 4);
   press(Qt::Key_K, Qt::ShiftModifier);
   EXPECT_FALSE(hand.look().slip);
-  EXPECT_FALSE(actions().slipArrows->isChecked());
+  EXPECT_FALSE(actions().at("slipArrows")->isChecked());
 }
 
 TEST_F(SlipWindowTest, IsTakenAwayAsPictureAndTable) {

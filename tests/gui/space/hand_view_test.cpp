@@ -208,7 +208,7 @@ TEST_F(HandWindowTest, FollowsTheCursorTheSelectionAndTheColours) {
   chosen.add(0, 1, 1, 1, 1);
   panel().view().select(chosen);
   EXPECT_EQ(window().feature<MatricesFeature>().panel().view().selection(), chosen);
-  actions().maps->actions().at(1)->trigger();
+  actions().group("maps")->actions().at(1)->trigger();
   EXPECT_EQ(look().map, kAllColorMaps[1]);
   EXPECT_EQ(look().range, window().feature<MatricesFeature>().panel().view().look().range);
   press(Qt::Key_R);
@@ -267,7 +267,7 @@ TEST_F(HandWindowTest, OneOfTheViewsIsAlwaysThereAndTheLookIsRemembered) {
   start();
   EXPECT_EQ(look().taxels, TaxelShape::kBars);
   EXPECT_FALSE(panel().isHidden());
-  EXPECT_FALSE(actions().matricesShown->isChecked());
+  EXPECT_FALSE(actions().at("matricesShown")->isChecked());
 }
 
 TEST_F(HandWindowTest, ARecordingWithoutAnglesIsShownAtRest) {

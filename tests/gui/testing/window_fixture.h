@@ -30,7 +30,7 @@ class WindowTest : public ::testing::Test {
   // Makes the window anew, as after a restart of the program.
   MainWindow& start();
   MainWindow& window() { return *window_; }
-  const Actions& actions() { return window_->bench().actions; }
+  const ActionBook& actions() { return window_->bench().actions; }
   PlaybackController& playback() { return window_->bench().playback; }
   // Makes an empty file, so that it exists; returns its path.
   std::string file(const std::string& name);

@@ -10,7 +10,7 @@
 #include <palpate/core/time.h>
 #include <palpate/filter/recipe.h>
 
-#include "gui/bench/actions.h"
+#include "gui/bench/action_book.h"
 #include "gui/bench/activity_log.h"
 #include "gui/bench/comparing.h"
 #include "gui/bench/enabling.h"
@@ -58,7 +58,7 @@ struct Bench {
   Messages messages;
   Questions questions;
   Escape escape;
-  Actions actions;
+  ActionBook actions;
   Enabling enabling;
   Menus menus;
   PlaybackController playback;

@@ -15,6 +15,7 @@ class Enabling {
   void add(const QList<QAction*>& actions, std::function<bool()> condition) {
     all_.emplace_back(actions, std::move(condition));
   }
+  void clear() { all_.clear(); }
   void refresh() const {
     for (const auto& [actions, condition] : all_) {
       const bool possible = condition();

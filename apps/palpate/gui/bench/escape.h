@@ -26,6 +26,7 @@ class Escape {
   };
   // `leave` returns whether there was anything to leave. What it refers to must outlive this.
   void add(Order order, std::function<bool()> leave) { all_[order].push_back(std::move(leave)); }
+  void clear() { all_.clear(); }
   // The first of all that has anything to leave, at this order or behind it.
   void press(Order from = Order::kShow) const {
     for (auto at = all_.lower_bound(from); at != all_.end(); ++at)

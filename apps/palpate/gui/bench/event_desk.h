@@ -40,9 +40,10 @@ class EventDesk : public QObject {
   const std::vector<GraspSegment>& graspsOf(const OpenedRecordingPtr& recording);
   // Of the recording that is looked at.
   const std::vector<EventMark>& marks() const noexcept { return marks_; }
-  // What others found, among the marks: called whenever they are made anew. It must outlive this.
+  // What others found, among the marks: called whenever they are made anew. It must outlive this, or be forgotten.
   using Found = std::function<void(const OpenedRecordingPtr&, std::vector<EventMark>&)>;
   void addFound(Found found) { found_.push_back(std::move(found)); }
+  void forgetFound() { found_.clear(); }
   void renewMarks();
 
   void add(const RecordingEvent& event, const QString& name);

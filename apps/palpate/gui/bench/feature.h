@@ -46,7 +46,7 @@ struct CentreOffer {
 
 // A line over the centre, seen while it has something to say.
 struct StripOffer {
-  enum class Order { kAlarm, kMessage, kOffer, kWork };
+  enum class Order { kAlarm, kMessage, kOffer, kOpening, kExport, kWork };
   Order order = Order::kWork;
   QWidget* widget = nullptr;
 };

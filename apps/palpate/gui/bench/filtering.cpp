@@ -1,5 +1,6 @@
 #include "gui/bench/filtering.h"
 
+#include <QSignalBlocker>
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -82,6 +83,7 @@ Filtering::Filtering(Subject& subject,
 void Filtering::restore(const std::optional<Recipe>& recipe) {
   const auto last =
       recipe ? recipe : recipeFrom(settings_.value(kRecipeKey).toString().toStdString());
+  const QSignalBlocker quiet(editor_);  // what is given for one day is not remembered for the next
   if (last) editor_.restore(*last);
   on_ = recipe || settings_.value(kOnKey, false).toBool();
 }

@@ -18,6 +18,8 @@ Moment::Moment(Subject& subject,
   connect(&subject_, &Subject::valuesChanged, this, [this] {
     if (playback_.hasFrames()) showFrame(playback_.frame());
   });
+  // Its frames are of other taxels from now on.
+  connect(&subject_, &Subject::handChanged, this, [this] { frame_ = TactileFrame(); });
   connect(&playback_, &PlaybackController::frameChanged, this, &Moment::showFrame);
   connect(&live_, &LiveController::frameCame, this, [this](const TactileFrame& frame) {
     if (!filtering_.applied()) takeLive(frame);
@@ -68,6 +70,7 @@ void Moment::showFrame(std::size_t index) {
   } catch (const Error& error) {
     damage = error.what();  // a part of it is of another one
   }
+  damaged_ = !damage.isEmpty();
   emit frameChanged();
   setOld({damage});
 }

@@ -30,6 +30,8 @@ class Moment : public QObject {
   bool hasFrame() const { return !frame_.values.empty(); }
   // Of a recording, the last ones at or before the frame; nothing: it has none, or they are damaged.
   const std::optional<JointAngles>& angles() const noexcept { return angles_; }
+  // They can't be read: what is known of them is of another frame.
+  bool damaged() const noexcept { return damaged_; }
   // Of a recording; 0 else.
   std::size_t index() const { return subject_.isRecording() ? playback_.frame() : 0; }
   // Taxels at or above saturation, as recorded, whatever the filters make of them.
@@ -63,6 +65,7 @@ class Moment : public QObject {
   PlaybackController& playback_;
   TactileFrame frame_;
   std::optional<JointAngles> angles_;
+  bool damaged_ = false;
   bool held_ = false;
   OldPicture old_;
 };

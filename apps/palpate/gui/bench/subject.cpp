@@ -9,13 +9,14 @@ Subject::Subject(LiveController& live,
                  Selection& selection,
                  QObject* parent)
     : QObject(parent), live_(live), playback_(playback), selection_(selection) {
-  connect(&live_, &LiveController::came, this, &Subject::showLive);
   connect(&live_, &LiveController::leaving, this, [this] { history_ = nullptr; });
   connect(&live_, &LiveController::looked, this, &Subject::look);
   connect(&live_, &LiveController::ended, this, [this] {
     if (isLive() && live_.state() == LiveController::State::kNone) show(behind_);
   });
 }
+
+void Subject::follow() { connect(&live_, &LiveController::came, this, &Subject::showLive); }
 
 const HandDescription* Subject::hand() const {
   if (isLive()) return hand_ ? &*hand_ : nullptr;
@@ -24,7 +25,7 @@ const HandDescription* Subject::hand() const {
 
 bool Subject::hasFrames() const { return isRecording() && playback_.hasFrames(); }
 
-void Subject::show(const OpenedRecordingPtr& recording) {
+void Subject::show(OpenedRecordingPtr recording) {
   if (recording && isRecording() && recording == behind_) return;
   if (!recording && live_.source()) {
     behind_ = seen_ = nullptr;
@@ -72,7 +73,7 @@ void Subject::showLive() {
   emit shown();
 }
 
-void Subject::setSeen(const OpenedRecordingPtr& seen) {
+void Subject::setSeen(OpenedRecordingPtr seen) {
   if (!isRecording() || seen == seen_) return;
   noteWhereWeAre();
   seen_ = seen;

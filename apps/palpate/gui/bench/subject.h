@@ -30,6 +30,9 @@ class Subject : public QObject {
           Selection& selection,
           QObject* parent = nullptr);
 
+  // From now on what is connected is looked at when it comes: once all others that must know of it first listen.
+  void follow();
+
   Kind kind() const noexcept { return kind_; }
   bool isLive() const noexcept { return kind_ == Kind::kLive; }
   bool isRecording() const noexcept { return kind_ == Kind::kRecording; }
@@ -47,10 +50,10 @@ class Subject : public QObject {
   bool hasFrames() const;
 
   // Null: what is connected is looked at, else nothing.
-  void show(const OpenedRecordingPtr& recording);
+  void show(OpenedRecordingPtr recording);
   void showLive();
   // The same recording, other values: filtered, or as recorded.
-  void setSeen(const OpenedRecordingPtr& seen);
+  void setSeen(OpenedRecordingPtr seen);
   // A long recording has been read through: its range, gaps and what is found in it are known now.
   void tellMoreKnown();
   // Closed, or read anew as `now` (null: closed): it isn't looked at any more. show() follows.

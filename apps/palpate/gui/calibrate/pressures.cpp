@@ -34,6 +34,7 @@ void Pressures::reload() {
 void Pressures::renew() {
   const Subject& subject = bench_.subject;
   LiveSource* source = subject.source();
+  if (subject.isLive() && !source) return of_.reset();  // it is about to go
   const std::string hand = subject.hand() ? subject.hand()->name : std::string();
   const QString path = hand.empty() ? QString() : appliedCalibration(bench_.settings, hand);
   Of now{source ? static_cast<const void*>(source->history.get())

@@ -14,8 +14,10 @@ constexpr const char* kAlignmentKey = "compare/alignment";
 
 CompareFeature::CompareFeature(Bench& bench, QWidget* window)
     : Feature(bench, window),
+      action_(bench.actions.make(
+          "compare", "View", "Com&pare two recordings…", {key("Ctrl+Shift+C")}, true)),
       panel_(new ComparePanel(
-          bench.actions.compare, bench.actions.interpolated, bench.actions.values, window)) {
+          action_, bench.actions.at("interpolated"), bench.actions.at("values"), window)) {
   const std::string last = bench.settings.value(kAlignmentKey).toString().toStdString();
   if (const auto known = alignmentFrom(last))
     if (*known != Alignment::kByHand) panel_->setAlignment(*known);
@@ -54,7 +56,7 @@ void CompareFeature::connectPanel() {
 
 void CompareFeature::connectBench() {
   Bench& bench = this->bench();
-  on(bench.actions.compare, [this](bool on) { show(on); });
+  on(action_, [this](bool on) { show(on); });
   const auto list = [this, &bench] {
     panel_->setRecordings(bench.recordings.all(), bench.subject.behind());
   };
@@ -63,7 +65,7 @@ void CompareFeature::connectBench() {
     panel_->setB(b);
   });
   connect(&bench.comparing, &Comparing::changed, this, [this, &bench](bool on) {
-    bench.actions.compare->setChecked(on);
+    action_->setChecked(on);
     if (on) panel_->setTime(bench.playback.positionS());
     panel_->setActive(on);
   });
@@ -96,7 +98,7 @@ void CompareFeature::seek(double seconds) {
 void CompareFeature::show(bool on) {
   if (!on || bench().subject.isRecording()) return bench().comparing.set(on);
   // Nothing to compare yet: what is opened now will be.
-  bench().actions.compare->setChecked(false);
+  action_->setChecked(false);
   bench().askAndOpen(OpenRequest::Then::kCompare);
 }
 
@@ -108,6 +110,7 @@ std::vector<ExportedView> CompareFeature::views() {
   Bench& bench = this->bench();
   ExportedView view;
   view.name = "Compare";
+  view.rank = 3;
   view.widget = panel_;
   view.isThere = [this, &bench] { return bench.comparing.on() && panel_->hasPair(); };
   view.fileName = [this, &bench] {

@@ -23,6 +23,7 @@ class CompareFeature : public Feature {
   void show(bool on);
   void seek(double seconds);
 
+  QAction* action_;  // checked: two recordings are compared
   ComparePanel* panel_;
 };
 

@@ -18,7 +18,8 @@ Connection emulatedBall(bool acts) {
   return ball;
 }
 
-ConnectFeature::ConnectFeature(Bench& bench, QWidget* window) : Feature(bench, window) {
+ConnectFeature::ConnectFeature(Bench& bench, QWidget* window)
+    : Feature(bench, window), actions_(bench.actions) {
   addQuestions();
   connectActions();
   LiveController& live = bench.live;
@@ -27,8 +28,8 @@ ConnectFeature::ConnectFeature(Bench& bench, QWidget* window) : Feature(bench, w
   });
   connect(&live, &LiveController::stateChanged, this, [&bench] { bench.enabling.refresh(); });
   connect(&bench.moment, &Moment::firstFrameCame, this, [&bench] { bench.enabling.refresh(); });
-  connect(&bench.moment, &Moment::heldChanged, this, [&bench] {
-    bench.actions.hold->setChecked(bench.moment.held());
+  connect(&bench.moment, &Moment::heldChanged, this, [this, &bench] {
+    actions_.hold->setChecked(bench.moment.held());
   });
   connect(bench.menus.connections, &QMenu::aboutToShow, this, &ConnectFeature::fillMenu);
   bench.escape.add(Escape::Order::kConnecting, [&live] {
@@ -71,7 +72,7 @@ void ConnectFeature::addQuestions() {
 
 void ConnectFeature::connectActions() {
   Bench& bench = this->bench();
-  Actions& actions = bench.actions;
+  ConnectActions& actions = actions_;
   on(actions.connectHand, [&bench] {
     if (const auto wanted = bench.questions.connection(loadConnection(bench.settings)))
       bench.connectTo(*wanted);
@@ -80,14 +81,14 @@ void ConnectFeature::connectActions() {
   on(actions.disconnectHand, [&bench] {
     if (!bench.live.recording() || bench.questions.endRecording()) bench.live.end();
   });
-  on(actions.live, [&bench] {
+  on(actions.live, [this, &bench] {
     bench.subject.showLive();
     bench.enabling.refresh();
-    bench.actions.live->setChecked(bench.subject.isLive());
+    actions_.live->setChecked(bench.subject.isLive());
   });
   on(actions.hold, [&bench](bool held) { bench.moment.hold(held); });
-  connect(&bench.subject, &Subject::shown, this, [&bench] {
-    bench.actions.live->setChecked(bench.subject.isLive());
+  connect(&bench.subject, &Subject::shown, this, [this, &bench] {
+    actions_.live->setChecked(bench.subject.isLive());
     bench.enabling.refresh();
   });
   bench.enabling.add({actions.disconnectHand},
@@ -109,7 +110,7 @@ void ConnectFeature::fillMenu() {
   };
   const Connection last = loadConnection(bench.settings);
   if (problemOf(last).isEmpty()) add(menu, "Again: " + describe(last), last);
-  menu->addAction(bench.actions.connectHand);
+  menu->addAction(actions_.connectHand);
   menu->addSeparator();
   QMenu* scenes = menu->addMenu("&Emulated hand");
   for (const std::string& name : sceneNames(scenesFolder())) {
@@ -127,10 +128,10 @@ void ConnectFeature::fillMenu() {
   };
   for (const QString& path : bench.recent.paths())
     if (RecentFiles::exists(path)) replay(path);
-  if (bench.actions.openDemo->isEnabled()) replay(pathText(bench.demoRecording()));
+  if (bench.actions.at("openDemo")->isEnabled()) replay(pathText(bench.demoRecording()));
   if (replays->isEmpty()) replays->addAction("no recent recording")->setEnabled(false);
   menu->addSeparator();
-  menu->addAction(bench.actions.disconnectHand);
+  menu->addAction(actions_.disconnectHand);
 }
 
 }  // namespace palpate::gui

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gui/bench/feature.h"
+#include "gui/connect/connect_actions.h"
 
 namespace palpate::gui {
 
@@ -15,6 +16,8 @@ class ConnectFeature : public Feature {
   void connectActions();
   void fillMenu();
   std::filesystem::path scenesFolder() const;
+
+  ConnectActions actions_;
 };
 
 // An emulated hand before a ball; `acts`: it grasps by itself.

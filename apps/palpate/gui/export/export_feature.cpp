@@ -6,9 +6,10 @@ namespace palpate::gui {
 
 ExportFeature::ExportFeature(Bench& bench, QWidget* window)
     : Feature(bench, window),
+      actions_(bench.actions),
       takeAway_(bench.settings, window),
       strip_(new OpeningStrip(window, "Exporting", "exporting")) {
-  Actions& actions = bench.actions;
+  ExportActions& actions = actions_;
   on(actions.exportPicture, [this] { takeAway_.exportNow(); });
   on(actions.exportAgain, [this] { takeAway_.repeatLast(); });
   on(actions.copyPicture, [this] { takeAway_.copyPicture(); });
@@ -29,6 +30,6 @@ ExportFeature::ExportFeature(Bench& bench, QWidget* window)
   });
 }
 
-std::vector<StripOffer> ExportFeature::strips() { return {{StripOffer::Order::kWork, strip_}}; }
+std::vector<StripOffer> ExportFeature::strips() { return {{StripOffer::Order::kExport, strip_}}; }
 
 }  // namespace palpate::gui

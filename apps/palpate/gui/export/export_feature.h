@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gui/bench/feature.h"
+#include "gui/export/export_actions.h"
 #include "gui/export/take_away.h"
 
 namespace palpate::gui {
@@ -17,6 +18,7 @@ class ExportFeature : public Feature {
   std::vector<StripOffer> strips() override;
 
  private:
+  ExportActions actions_;
   TakeAway takeAway_;
   OpeningStrip* strip_;
 };

@@ -18,16 +18,20 @@ QStringList matrixNamesOf(const HandDescription& hand) {
 }  // namespace
 
 FilterFeature::FilterFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window), panel_(new FilterPanel(bench.filtering.editor(), window)) {
+    : Feature(bench, window),
+      action_(
+          bench.actions.make("filtered", "View", "&Filtered, or as recorded", {key("A")}, true)),
+      panel_(new FilterPanel(bench.filtering.editor(), window)) {
   dock_ = new Dock("Filter", panel_, nullptr, window);
   Filtering& filtering = bench.filtering;
+  action_->setToolTip("After the filters, or before (A)");
   panel_->setOn(filtering.on());
-  bench.actions.filtered->setChecked(filtering.on());
-  on(bench.actions.filtered, [&filtering](bool on) { filtering.setOn(on); });
+  action_->setChecked(filtering.on());
+  on(action_, [&filtering](bool on) { filtering.setOn(on); });
   connect(panel_, &FilterPanel::onChanged, &filtering, &Filtering::setOn);
-  connect(&filtering, &Filtering::onChanged, this, [this, &bench](bool on) {
+  connect(&filtering, &Filtering::onChanged, this, [this](bool on) {
     panel_->setOn(on);
-    bench.actions.filtered->setChecked(on);
+    action_->setChecked(on);
   });
   connect(&filtering, &Filtering::sourceChanged, this, &FilterFeature::takeSource);
   connect(&filtering, &Filtering::progressed, panel_, &FilterPanel::showProgress);

@@ -19,6 +19,7 @@ class FilterFeature : public Feature {
  private:
   void takeSource();
 
+  QAction* action_;  // checked: filtered is what is shown
   FilterPanel* panel_;
   Dock* dock_;
 };

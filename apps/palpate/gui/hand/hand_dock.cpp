@@ -13,8 +13,8 @@
 #include <palpate/capture/link_health.h>
 #include <palpate/core/time.h>
 
-#include "gui/bench/actions.h"
 #include "gui/hand/grasp_panel.h"
+#include "gui/hand/hand_actions.h"
 #include "gui/hand/sensitivity_modes.h"
 #include "gui/hand/stop_key.h"
 #include "gui/hand/tactile_settings_panel.h"
@@ -206,7 +206,7 @@ void HandDock::refresh() {
   showBound();
 }
 
-void HandDock::bind(const Actions& actions) {
+void HandDock::bind(const HandActions& actions) {
   QList<QPushButton*> buttons = grasp_->buttons();
   buttons.append(stop_);
   const QList<QAction*> all{actions.graspHand,

@@ -23,7 +23,7 @@ class QScrollArea;
 
 namespace palpate::gui {
 
-struct Actions;
+struct HandActions;
 class FactsView;
 class GraspPanel;
 class SensitivityModes;
@@ -39,7 +39,7 @@ class HandDock : public QWidget {
   // The hand that is connected, null: none. Both must outlive this, or be taken away by null before they end.
   void setHand(CaptureSession* session, GraspControl* control);
   // Menu entries and keys do what the buttons do, and can be chosen when those can. Once.
-  void bind(const Actions& actions);
+  void bind(const HandActions& actions);
   void setTheme(Theme theme);
   TactileSettingsPanel& tactileSettings() noexcept { return *tactile_; }
   const std::vector<QString>& blind() const noexcept { return blind_; }  // as blindChanged()

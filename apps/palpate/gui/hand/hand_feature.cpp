@@ -7,9 +7,11 @@
 namespace palpate::gui {
 
 HandFeature::HandFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window), panel_(new HandDock(bench.settings, window)) {
+    : Feature(bench, window),
+      actions_(bench.actions),
+      panel_(new HandDock(bench.settings, window)) {
   dock_ = new Dock("Hand", panel_, nullptr, window);
-  panel_->bind(bench.actions);
+  panel_->bind(actions_);
   LiveController& live = bench.live;
   connect(&live, &LiveController::came, this, [this, &live] {
     panel_->setHand(live.source()->session.get(), live.source()->control.get());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gui/bench/feature.h"
+#include "gui/hand/hand_actions.h"
 
 namespace palpate::gui {
 
@@ -17,6 +18,7 @@ class HandFeature : public Feature {
   std::vector<DockOffer> docks() override;
 
  private:
+  HandActions actions_;
   HandDock* panel_;
   Dock* dock_;
 };

@@ -6,12 +6,15 @@
 namespace palpate::gui {
 
 HelpFeature::HelpFeature(Bench& bench, QWidget* window) : Feature(bench, window) {
-  on(bench.actions.keys, [window] {
+  QAction* keys = bench.actions.make("keys", "Help", "&Keys", {key("F1")});
+  QAction* about = bench.actions.make("about", "Help", "&About Palpate");
+  bench.actions.setIcon(keys, IconShape::kHelp);
+  on(keys, [window] {
     auto* dialog = new KeysDialog(window->actions(), window);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->show();
   });
-  on(bench.actions.about, [window] {
+  on(about, [window] {
     auto* dialog = new AboutDialog(window);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->show();

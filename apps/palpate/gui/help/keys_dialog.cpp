@@ -8,7 +8,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "gui/bench/actions.h"
+#include "gui/bench/action_book.h"
 
 namespace palpate::gui {
 namespace {

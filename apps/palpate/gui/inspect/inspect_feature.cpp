@@ -81,12 +81,24 @@ InspectFeature::InspectFeature(Bench& bench, QWidget* window)
     showPlotted();
   });
   connect(&table, &MatrixTableModel::plottedChanged, this, &InspectFeature::showPlotted);
-  const auto last = bench.actions.plots.size() - 1;
+  makeActions();
+  const auto last = plots_.size() - 1;
   for (qsizetype i = 0; i <= last; ++i)
-    on(bench.actions.plots[i], [&table, i, last](bool checked) {
+    on(plots_[i], [&table, i, last](bool checked) {
       if (table.numMatrices() == 0) return;
       table.setPlotted(i == last ? table.numMatrices() : static_cast<std::size_t>(i), checked);
     });
+}
+
+void InspectFeature::makeActions() {
+  ActionBook& book = bench().actions;
+  for (int i = 0; i < ActionBook::kMatricesWithKeys; ++i)
+    plots_.append(book.add("plots",
+                           "View",
+                           "Plot matrix " + QString::number(i),
+                           {QKeySequence("Ctrl+" + QString::number(i + 1))},
+                           true));
+  plots_.append(book.add("plots", "View", "Plot all matrices together", {key("Ctrl+0")}, true));
 }
 
 void InspectFeature::takeSource() {
@@ -95,7 +107,7 @@ void InspectFeature::takeSource() {
     panel_->setHand(*subject.hand());
   else
     panel_->setRecording(subject.seen());
-  panel_->table().setOld(false);
+  panel_->table().setOld(subject.isLive() && !bench().moment.old().notice.isEmpty());
   showPlotted();
   showLinkFacts();
 }
@@ -121,19 +133,18 @@ void InspectFeature::showPlotted() {
   const MatrixTableModel& table = panel_->table();
   const auto& plotted = table.plotted();
   bench().selection.setPlotted(plotted);
-  const QList<QAction*>& plots = bench().actions.plots;
-  const auto last = plots.size() - 1;
+  const auto last = plots_.size() - 1;
   for (qsizetype i = 0; i < last; ++i) {
     const auto row = static_cast<std::size_t>(i);
     const bool there = row < table.numMatrices();
-    plots[i]->setVisible(there);
-    plots[i]->setEnabled(there);
+    plots_[i]->setVisible(there);
+    plots_[i]->setEnabled(there);
     if (!there) continue;
-    plots[i]->setText("Plot " + QString::fromStdString(table.hand().matrixName(row)));
-    plots[i]->setChecked(plotted[row]);
+    plots_[i]->setText("Plot " + QString::fromStdString(table.hand().matrixName(row)));
+    plots_[i]->setChecked(plotted[row]);
   }
-  plots[last]->setEnabled(table.numMatrices() > 0);
-  plots[last]->setChecked(!plotted.empty() && plotted.back());
+  plots_[last]->setEnabled(table.numMatrices() > 0);
+  plots_[last]->setChecked(!plotted.empty() && plotted.back());
 }
 
 std::vector<DockOffer> InspectFeature::docks() {
@@ -145,6 +156,7 @@ std::vector<ExportedView> InspectFeature::views() {
   Bench& bench = this->bench();
   ExportedView view;
   view.name = "Inspect";
+  view.rank = 1;
   view.widget = panel_;
   view.isThere = [&bench] { return bench.moment.hasFrame(); };
   view.fileName = [&bench] { return bench.frameStem() + "_signals"; };

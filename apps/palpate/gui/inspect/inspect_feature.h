@@ -17,11 +17,13 @@ class InspectFeature : public Feature {
   std::vector<ExportedView> views() override;
 
  private:
+  void makeActions();
   void takeSource();
   void showLinkFacts();
   void showForces();
   void showPlotted();
 
+  QList<QAction*> plots_;  // a matrix: the first nine, then the whole hand
   InspectPanel* panel_;
   Dock* dock_;
 };

@@ -15,16 +15,13 @@ constexpr const char* kMutedKey = "alarms/muted";
 
 LinkFeature::LinkFeature(Bench& bench, QWidget* window)
     : Feature(bench, window),
+      actions_(bench.actions),
       panel_(new LinkPanel(window)),
-      alarms_(new MessageBanner(window, "AlarmStrip", "alarm")),
-      others_({bench.actions,
-               bench.live,
-               bench.settings,
-               [&bench] { return loadRecordingSettings(bench.settings); }},
-              nullptr) {
+      alarms_(new MessageBanner(window, "AlarmStrip", "alarm")) {
   dock_ = new Dock("Link", panel_, nullptr, window);
   connectLog();
   connectAlarms();
+  connectOthers();
   connect(&bench.live, &LiveController::looked, this, &LinkFeature::look);
   connect(&bench.live,
           &LiveController::eventsCame,
@@ -36,15 +33,26 @@ LinkFeature::LinkFeature(Bench& bench, QWidget* window)
     panel_->setTheme(this->bench().look.theme());
     alarms_->setTheme(this->bench().look.theme());
   });
-  connect(&others_, &OtherPrograms::changed, panel_, [this] {
-    panel_->showOtherPrograms(others_.facts());
+}
+
+// Behind the log: who listens is told that a hand is connected before what streams of it.
+void LinkFeature::connectOthers() {
+  Bench& bench = this->bench();
+  others_ = std::make_unique<OtherPrograms>(
+      OtherProgramsOptions{actions_,
+                           bench.live,
+                           bench.settings,
+                           [&bench] { return loadRecordingSettings(bench.settings); }},
+      nullptr);
+  connect(others_.get(), &OtherPrograms::changed, panel_, [this] {
+    panel_->showOtherPrograms(others_->facts());
   });
-  connect(&others_, &OtherPrograms::logged, panel_, &LinkPanel::log);
-  connect(&others_, &OtherPrograms::failed, panel_, [this](const QString& why) {
+  connect(others_.get(), &OtherPrograms::logged, panel_, &LinkPanel::log);
+  connect(others_.get(), &OtherPrograms::failed, panel_, [this](const QString& why) {
     this->bench().messages.fail(why);
     panel_->log(why);
   });
-  panel_->showOtherPrograms(others_.facts());
+  panel_->showOtherPrograms(others_->facts());
 }
 
 void LinkFeature::connectLog() {
@@ -85,7 +93,7 @@ void LinkFeature::connectAlarms() {
     QApplication::alert(window());
   });
   connect(panel_, &LinkPanel::mutedChanged, this, &LinkFeature::mute);
-  on(bench().actions.muteAlarms, [this](bool muted) { mute(muted); });
+  on(actions_.muteAlarms, [this](bool muted) { mute(muted); });
   mute(bench().settings.value(kMutedKey, false).toBool());
   bench().escape.add(Escape::Order::kAlarm, [this] {
     if (alarms_->isHidden()) return false;
@@ -97,7 +105,7 @@ void LinkFeature::connectAlarms() {
 void LinkFeature::mute(bool muted) {
   bell_.setMuted(muted);
   panel_->setMuted(muted);
-  bench().actions.muteAlarms->setChecked(muted);
+  actions_.muteAlarms->setChecked(muted);
   bench().settings.setValue(kMutedKey, muted);
 }
 

@@ -1,8 +1,11 @@
 // The dock Link, its alarms, and the doors to other programs.
 #pragma once
 
+#include <memory>
+
 #include "gui/bench/feature.h"
 #include "gui/link/alarm_bell.h"
+#include "gui/link/link_actions.h"
 #include "gui/link/other_programs.h"
 
 namespace palpate::gui {
@@ -21,15 +24,17 @@ class LinkFeature : public Feature {
  private:
   void connectAlarms();
   void connectLog();
+  void connectOthers();
   void mute(bool muted);
   void look();
 
+  LinkActions actions_;
   LinkPanel* panel_;
   Dock* dock_;
   MessageBanner* alarms_;
   AlarmBell bell_;
   bool alarmIsNew_ = false;  // since what is in the strip was closed
-  OtherPrograms others_;
+  std::unique_ptr<OtherPrograms> others_;
 };
 
 }  // namespace palpate::gui

@@ -130,11 +130,11 @@ std::vector<Fact> OtherPrograms::facts() const {
   return facts;
 }
 
-QString OtherPrograms::shortText(const Actions& actions) {
+QString OtherPrograms::shortText(const ActionBook& actions) {
   QStringList open;
-  if (actions.streamSignals->isChecked() || actions.streamTactile->isChecked())
+  if (actions.at("streamSignals")->isChecked() || actions.at("streamTactile")->isChecked())
     open.append("streaming");
-  if (actions.remoteControl->isChecked()) open.append("remote control");
+  if (actions.at("remoteControl")->isChecked()) open.append("remote control");
   return open.join(", ");
 }
 

@@ -11,7 +11,7 @@
 #include <palpate/interop/live_stream.h>
 #include <palpate/interop/remote_server.h>
 
-#include "gui/bench/actions.h"
+#include "gui/link/link_actions.h"
 #include "gui/link/remote_desk.h"
 #include "gui/source/live_controller.h"
 #include "gui/widgets/facts_view.h"
@@ -19,7 +19,7 @@
 namespace palpate::gui {
 
 struct OtherProgramsOptions {
-  const Actions& actions;
+  const LinkActions& actions;
   LiveController& live;
   QSettings& settings;
   std::function<RecordingSettings()> recordingSettings;
@@ -35,7 +35,7 @@ class OtherPrograms : public QObject {
   // What is open, row by row; empty: nothing is.
   std::vector<Fact> facts() const;
   // "streaming, remote control"; empty: nothing is open.
-  static QString shortText(const Actions& actions);
+  static QString shortText(const ActionBook& actions);
   RemoteDesk& desk() noexcept { return desk_; }
 
  signals:
@@ -51,7 +51,7 @@ class OtherPrograms : public QObject {
   void switchRemote(bool on);
   void tell(const RemoteRequest& request, const RemoteAnswer& answer);
 
-  const Actions& actions_;
+  const LinkActions& actions_;
   LiveController& live_;
   QSettings& settings_;
   RemoteDesk desk_;

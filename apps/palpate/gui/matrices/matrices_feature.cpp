@@ -14,12 +14,15 @@ namespace palpate::gui {
 
 MatricesFeature::MatricesFeature(Bench& bench, QWidget* window)
     : Feature(bench, window),
-      panel_(new MatricesPanel(bench.actions.interpolated, bench.actions.values, window)),
-      scan_(bench) {
+      actions_(bench.actions),
+      panel_(new MatricesPanel(actions_.interpolated, actions_.values, window)),
+      scan_(bench, actions_) {
   Subject& subject = bench.subject;
   connect(&subject, &Subject::seenChanged, this, &MatricesFeature::takeSource);
   connect(&subject, &Subject::handChanged, this, [this] {
     panel_->setHand(*this->bench().subject.hand());
+    panel_->view().setBlind(this->bench().overlays.blind());
+    this->bench().selection.setTaxels(panel_->view().selection());
   });
   connect(&subject, &Subject::moreKnown, panel_, &MatricesPanel::renewRange);
   connect(&bench.moment, &Moment::frameChanged, this, [this] {
@@ -45,15 +48,19 @@ void MatricesFeature::takeSource() {
   panel_->setRecording(subject.isRecording() ? subject.seen() : nullptr);
   if (subject.isLive()) panel_->setHand(*subject.hand());
   panel_->view().setBlind(subject.isLive() ? bench().overlays.blind() : std::vector<QString>());
+  panel_->view().setOld(bench().moment.old());
+  bench().selection.setTaxels(panel_->view().selection());  // of these matrices
 }
 
 void MatricesFeature::connectLook() {
   ViewLook& look = bench().look;
-  Actions& actions = bench().actions;
+  MatricesActions& actions = actions_;
   connect(&look, &ViewLook::changed, this, [this, &look, &actions] {
     panel_->setSettings(look.view(), look.theme());
     actions.interpolated->setChecked(look.view().interpolated);
     actions.values->setChecked(look.view().values);
+    checkChoice(actions.maps, kAllColorMaps, look.view().map);
+    checkChoice(actions.ranges, kAllRangeModes, look.view().range);
   });
   on(actions.interpolated, [&look](bool checked) {
     look.change([&](ViewSettings& view) { view.interpolated = checked; });
@@ -101,9 +108,9 @@ void MatricesFeature::connectChosen() {
   connect(&view, &MatricesView::menuAsked, this, [this](const QPoint& at) {
     bench().menus.scanned->popup(at);
   });
-  bench().escape.add(Escape::Order::kTaxels, [&view] {
-    if (view.selection().empty()) return false;
-    view.clearSelection();
+  bench().escape.add(Escape::Order::kTaxels, [&selection] {
+    if (selection.taxels().empty()) return false;
+    selection.clearTaxels();
     return true;
   });
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gui/bench/feature.h"
+#include "gui/matrices/matrices_actions.h"
 #include "gui/matrices/matrices_painter.h"
 #include "gui/matrices/scan_choice.h"
 
@@ -23,6 +24,7 @@ class MatricesFeature : public Feature {
   void connectChosen();
   void takeSource();
 
+  MatricesActions actions_;
   MatricesPanel* panel_;
   ScanChoice scan_;
 };

@@ -5,8 +5,7 @@
 
 namespace palpate::gui {
 
-ScanChoice::ScanChoice(Bench& bench) : bench_(bench) {
-  Actions& actions = bench.actions;
+ScanChoice::ScanChoice(Bench& bench, const MatricesActions& actions) : bench_(bench) {
   const auto on = [this](QAction* action, auto what) {
     connect(action, &QAction::triggered, this, what);
   };

@@ -9,14 +9,15 @@
 #include <palpate/device/device.h>
 
 #include "gui/bench/bench.h"
+#include "gui/matrices/matrices_actions.h"
 
 namespace palpate::gui {
 
 class ScanChoice : public QObject {
   Q_OBJECT
  public:
-  // The bench must outlive it.
-  explicit ScanChoice(Bench& bench);
+  // Both must outlive it.
+  ScanChoice(Bench& bench, const MatricesActions& actions);
 
  private:
   void scan(MaskChoice choice);

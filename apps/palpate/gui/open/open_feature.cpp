@@ -38,10 +38,11 @@ bool hasDemo(const Bench& bench) {
 
 OpenFeature::OpenFeature(Bench& bench, QWidget* window)
     : Feature(bench, window),
+      actions_(bench.actions),
       startPage_(new StartPage(bench.recent, hasDemo(bench), window)),
       strip_(new OpeningStrip(window)) {
-  bench.actions.openDemo->setVisible(hasDemo(bench));
-  bench.actions.openDemo->setEnabled(hasDemo(bench));
+  actions_.openDemo->setVisible(hasDemo(bench));
+  actions_.openDemo->setEnabled(hasDemo(bench));
   bench.questions.recordings = [&bench, window] {
     return QFileDialog::getOpenFileNames(window,
                                          "Open recordings",
@@ -50,7 +51,6 @@ OpenFeature::OpenFeature(Bench& bench, QWidget* window)
   };
   connectOpener();
   connectActions();
-  connectStartPage();
   window->installEventFilter(this);
 }
 
@@ -86,7 +86,7 @@ void OpenFeature::connectOpener() {
 
 void OpenFeature::connectActions() {
   Bench& bench = this->bench();
-  Actions& actions = bench.actions;
+  OpenActions& actions = actions_;
   on(actions.open, [&bench] { bench.askAndOpen(); });
   on(actions.openDemo, [this] { openDemoRecording(); });
   on(actions.nextRecording, [this] { showNeighbour(1); });
@@ -103,10 +103,11 @@ void OpenFeature::connectActions() {
 
 void OpenFeature::connectStartPage() {
   Bench& bench = this->bench();
-  connect(startPage_, &StartPage::openAsked, bench.actions.open, &QAction::trigger);
-  connect(startPage_, &StartPage::demoAsked, bench.actions.openDemo, &QAction::trigger);
-  connect(startPage_, &StartPage::connectAsked, bench.actions.connectHand, &QAction::trigger);
-  connect(startPage_, &StartPage::emulatedAsked, bench.actions.tryEmulated, &QAction::trigger);
+  connect(startPage_, &StartPage::openAsked, actions_.open, &QAction::trigger);
+  connect(startPage_, &StartPage::demoAsked, actions_.openDemo, &QAction::trigger);
+  connect(startPage_, &StartPage::connectAsked, bench.actions.at("connectHand"), &QAction::trigger);
+  connect(
+      startPage_, &StartPage::emulatedAsked, bench.actions.at("tryEmulated"), &QAction::trigger);
   connect(startPage_, &StartPage::fileChosen, this, [&bench](const QString& path) {
     bench.open({path.toStdString()});
   });
@@ -116,6 +117,8 @@ void OpenFeature::connectStartPage() {
 }
 
 void OpenFeature::start() {
+  connectStartPage();
+  startPage_->setTheme(bench().look.theme());
   fillRecentMenu();
   listRecordings();
 }
@@ -141,7 +144,8 @@ void OpenFeature::take(const OpenedRecordingPtr& recording, const OpenArrival& a
     bench.enabling.refresh();
   // With nothing to compare yet the first is A, and the next is compared with it.
   if (compared && shown && bench.recordings.all().size() > 1) bench.comparing.set(true);
-  if (compared && !shown && (first || (arrival.place == 1 && !bench.comparing.on())))
+  if (compared && !shown && subject.isRecording() &&
+      (first || (arrival.place == 1 && !bench.comparing.on())))
     bench.comparing.with(recording);
   if (arrival.then != Then::kPlayInLoop || !first) return;
   if (!bench.playback.loop()) bench.playback.setLoop(true);
@@ -223,6 +227,6 @@ std::vector<CentreOffer> OpenFeature::centre() {
   return {{CentreOffer::Where::kStart, startPage_}};
 }
 
-std::vector<StripOffer> OpenFeature::strips() { return {{StripOffer::Order::kWork, strip_}}; }
+std::vector<StripOffer> OpenFeature::strips() { return {{StripOffer::Order::kOpening, strip_}}; }
 
 }  // namespace palpate::gui

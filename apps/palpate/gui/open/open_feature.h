@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gui/bench/feature.h"
+#include "gui/open/open_actions.h"
 
 namespace palpate::gui {
 
@@ -33,6 +34,7 @@ class OpenFeature : public Feature {
   void showNeighbour(int step);
   void closeCurrent();
 
+  OpenActions actions_;
   StartPage* startPage_;
   OpeningStrip* strip_;
 };

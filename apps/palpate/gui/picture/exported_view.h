@@ -59,6 +59,7 @@ struct ExportedTable {
 // All functions but those above are called in the window's thread.
 struct ExportedView {
   QString name;                       // "Matrices"
+  int rank = 0;                       // offered in this order
   QPointer<QWidget> widget;           // whose part of the window is this view
   std::function<bool()> isThere;      // is there anything to take away now
   std::function<QString()> fileName;  // suggested, without folder and ending: "ball_frame_00042"

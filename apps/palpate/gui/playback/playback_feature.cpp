@@ -15,7 +15,9 @@ constexpr int kTenFrames = 10;
 }  // namespace
 
 PlaybackFeature::PlaybackFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window), bar_(new PlaybackBar(bench.playback, window)) {
+    : Feature(bench, window),
+      actions_(bench.actions),
+      bar_(new PlaybackBar(bench.playback, window)) {
   connectActions();
   connect(&bench.playback, &PlaybackController::stateChanged, this, &PlaybackFeature::showState);
   connect(&bench.look, &ViewLook::themeChanged, this, [this] {
@@ -25,7 +27,7 @@ PlaybackFeature::PlaybackFeature(Bench& bench, QWidget* window)
 }
 
 void PlaybackFeature::connectActions() {
-  Actions& actions = bench().actions;
+  PlaybackActions& actions = actions_;
   PlaybackController& playback = bench().playback;
   on(actions.play, [&playback] { playback.togglePlay(); });
   on(actions.stepBack, [&playback] { playback.step(-1); });
@@ -77,7 +79,7 @@ void PlaybackFeature::remember() {
 }
 
 void PlaybackFeature::showState() {
-  Actions& actions = bench().actions;
+  PlaybackActions& actions = actions_;
   const PlaybackController& playback = bench().playback;
   const Theme theme = bench().look.theme();
   const bool playing = playback.playing();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gui/bench/feature.h"
+#include "gui/playback/playback_actions.h"
 
 namespace palpate::gui {
 
@@ -20,6 +21,7 @@ class PlaybackFeature : public Feature {
   void connectActions();
   void showState();
 
+  PlaybackActions actions_;
   PlaybackBar* bar_;
   bool userLoops_ = false;  // as chosen by hand: the demo's loop is not remembered
 };

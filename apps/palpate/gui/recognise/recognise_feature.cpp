@@ -28,6 +28,7 @@ constexpr double kAirS = 1.0;  // about a grasp that is shown
 
 RecogniseFeature::RecogniseFeature(Bench& bench, QWidget* window)
     : Feature(bench, window),
+      actions_(bench.actions),
       panel_(new RecognisePanel(bench.settings, bench.surroundings.dataFolder, window)) {
   dock_ = new Dock("Recognise", panel_, &panel_->header(), window);
   connectAll();
@@ -51,12 +52,12 @@ void RecogniseFeature::connectAll() {
   panel_->teach().zeroNow = [this] { return zero_; };
   connect(&panel_->ask(), &AskPage::asked, this, &RecogniseFeature::ask);
   connect(&panel_->ask(), &AskPage::showAsked, this, &RecogniseFeature::showFull);
-  on(bench.actions.whatIsIt, [this] {
+  on(actions_.whatIsIt, [this] {
     if (!dock_->isVisible() && !full_) emit dockAsked(dock_);
     panel_->showPage("Ask");
     ask();
   });
-  on(bench.actions.showMode, [this] { showFull(); });
+  on(actions_.showMode, [this] { showFull(); });
   // However it is shown, its model is looked for.
   connect(dock_, &QDockWidget::visibilityChanged, this, [this](bool seen) {
     if (seen) renew();
@@ -289,6 +290,7 @@ std::vector<DockOffer> RecogniseFeature::docks() {
 std::vector<ExportedView> RecogniseFeature::views() {
   ExportedView view;
   view.name = "Recognise";
+  view.rank = 2;
   view.widget = panel_;
   view.isThere = [this] {
     return panel_->isVisible() &&

@@ -14,6 +14,7 @@
 #include <palpate/recognition/grasp_collector.h>
 
 #include "gui/bench/feature.h"
+#include "gui/recognise/recognise_actions.h"
 
 namespace palpate::gui {
 
@@ -54,6 +55,7 @@ class RecogniseFeature : public Feature {
   void showWanted();
   bool cancel();
 
+  RecogniseActions actions_;
   RecognisePanel* panel_;
   Dock* dock_;
   QPointer<ShowWindow> full_;

@@ -42,7 +42,10 @@ QString summaryOf(const RecordingReport& report) {
 }  // namespace
 
 RecordFeature::RecordFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window), offer_(new OfferStrip(window)), unfinished_(bench.settings) {
+    : Feature(bench, window),
+      actions_(bench.actions),
+      offer_(new OfferStrip(window)),
+      unfinished_(bench.settings) {
   bench.questions.recording = [window](const RecordingSettings& last,
                                        const QString& button) -> std::optional<RecordingSettings> {
     RecordingDialog dialog(last, button, window);
@@ -53,16 +56,19 @@ RecordFeature::RecordFeature(Bench& bench, QWidget* window)
   connectRecorder();
   connectUnfinished();
   use(loadRecordingSettings(bench.settings));
-  connect(&bench.messages, &Messages::announced, offer_, &OfferStrip::say);
+  connect(&bench.messages, &Messages::announced, this, [this](const QString& text) {
+    offering_ = false;
+    offer_->say(text);
+  });
   connect(&bench.look, &ViewLook::themeChanged, this, [this] {
     offer_->setTheme(this->bench().look.theme());
-    this->bench().actions.record->setIcon({});  // in the colours of before
+    actions_.record->setIcon({});  // in the colours of before
     showState();
   });
 }
 
 void RecordFeature::connectActions() {
-  Actions& actions = bench().actions;
+  RecordActions& actions = actions_;
   on(actions.record, [this] { toggle(); });
   on(actions.recordingSettings, [this] {
     if (const auto wanted = bench().questions.recording(settings_, "Keep")) use(*wanted);
@@ -158,7 +164,7 @@ void RecordFeature::use(const RecordingSettings& settings) {
   settings_ = settings;
   saveRecordingSettings(settings_, bench().settings);
   bench().live.setFolder(settings_.folder.toStdString());
-  const QList<QAction*>& labels = bench().actions.labels;
+  const QList<QAction*>& labels = actions_.labels;
   for (qsizetype digit = 0; digit < labels.size(); ++digit) {
     const QString& label = settings_.markLabels.at(static_cast<std::size_t>(digit));
     labels[digit]->setText("Mark " + QString::number(digit) +
@@ -190,7 +196,7 @@ void RecordFeature::mark(const QString& label, std::optional<int> digit) {
 
 // What the button says: how long, and how much is on disk.
 void RecordFeature::showState() {
-  QAction* action = bench().actions.record;
+  QAction* action = actions_.record;
   const bool on = bench().live.source() && bench().live.recording();
   if (on != action->property(kRecordingProperty).toBool() || action->icon().isNull()) {
     action->setProperty(kRecordingProperty, on);
@@ -221,12 +227,13 @@ void RecordFeature::offer(const RecordingReport& report) {
     return;
   }
   lastRecorded_ = report.paths;
-  bench().actions.openRecorded->setEnabled(true);
+  actions_.openRecorded->setEnabled(true);
   const QString summary = summaryOf(report);
   messages.logLink("recorded " + summary);
   if (!report.complete)
     messages.fail(QString::fromStdString(report.paths.front().filename().string()) +
                   ": something is missing: " + QString::fromStdString(report.message));
+  if (!offering_) return;
   offer_->offer("Recorded " + summary, "Open", [this] { bench().open(lastRecorded_); });
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gui/bench/feature.h"
+#include "gui/record/record_actions.h"
 #include "gui/record/unfinished_finder.h"
 #include "gui/source/recording_settings.h"
 
@@ -35,7 +36,9 @@ class RecordFeature : public Feature {
   void showState();
   void offer(const RecordingReport& report);
 
+  RecordActions actions_;
   OfferStrip* offer_;
+  bool offering_ = true;  // false: something that ends the window was announced
   RecordingSettings settings_;
   std::vector<std::filesystem::path> lastRecorded_;  // parts
   UnfinishedFinder unfinished_;

@@ -4,7 +4,7 @@
 #include <QTimer>
 #include <algorithm>
 
-#include "gui/bench/actions.h"
+#include "gui/bench/action_book.h"
 #include "gui/widgets/dock.h"
 
 namespace palpate::gui {

@@ -30,8 +30,12 @@ std::vector<std::unique_ptr<Feature>> allFeatures(Bench& bench, QWidget* window)
     all.push_back(std::move(feature));
     return made;
   };
+  // What stands in the middle comes first: the key Tab goes through it in this order.
+  add(std::make_unique<OpenFeature>(bench, window));
   auto& matrices = add(std::make_unique<MatricesFeature>(bench, window));
   add(std::make_unique<SpaceFeature>(bench, window, matrices.panel()));
+  add(std::make_unique<PlaybackFeature>(bench, window));
+  add(std::make_unique<CompareFeature>(bench, window));
   add(std::make_unique<InspectFeature>(bench, window));
   add(std::make_unique<TimelineFeature>(bench, window));
   add(std::make_unique<HandFeature>(bench, window));
@@ -43,11 +47,8 @@ std::vector<std::unique_ptr<Feature>> allFeatures(Bench& bench, QWidget* window)
   add(std::make_unique<LibraryFeature>(bench, window));
   add(std::make_unique<LogFeature>(bench, window));
   add(std::make_unique<RecogniseFeature>(bench, window));
-  add(std::make_unique<CompareFeature>(bench, window));
-  add(std::make_unique<PlaybackFeature>(bench, window));
   add(std::make_unique<ConnectFeature>(bench, window));
   add(std::make_unique<RecordFeature>(bench, window));
-  add(std::make_unique<OpenFeature>(bench, window));
   add(std::make_unique<ExportFeature>(bench, window));
   add(std::make_unique<HelpFeature>(bench, window));
   return all;

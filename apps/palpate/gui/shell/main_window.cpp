@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QCloseEvent>
 #include <QStatusBar>
+#include <algorithm>
 
 #include "gui/desktop/application.h"
 #include "gui/export/export_feature.h"
@@ -24,7 +25,8 @@ constexpr int kCompactBelow = 1340;  // [px] of width: buttons lose their text
 
 MainWindow::MainWindow(const WindowSurroundings& surroundings)
     : bench_(std::make_unique<Bench>(surroundings, this)),
-      menus_(std::make_unique<WindowMenus>(*this, bench_->actions)),
+      actions_(bench_->actions),
+      menus_(std::make_unique<WindowMenus>(*this)),
       docks_(std::make_unique<DockYard>(*this, bench_->settings)),
       centre_(new Centre(bench_->settings, this)),
       banner_(new MessageBanner(centre_)) {
@@ -45,6 +47,7 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
   connectActions();
   connectMessages();
   addFeatures();
+  bench_->subject.follow();  // the dock Hand and its Stop know of a hand before the window changes
   resize(kUsualWindow);
   restoreGeometry(bench_->settings.value("window/geometry").toByteArray());
   centre_->begin();
@@ -57,7 +60,10 @@ MainWindow::MainWindow(const WindowSurroundings& surroundings)
 
 MainWindow::~MainWindow() {
   // What they show goes while all that it refers to is there.
-  features_.clear();
+  bench_->enabling.clear();
+  bench_->escape.clear();
+  bench_->events.forgetFound();
+  while (!features_.empty()) features_.pop_back();
   status_.reset();
   for (Dock* dock : findChildren<Dock*>()) delete dock;
   delete takeCentralWidget();
@@ -75,10 +81,15 @@ void MainWindow::addFeatures() {
     });
   }
   centre_->add(std::move(strips));
-  menus_->addDocks(docks_->toggles());
-  auto& takeAway = feature<ExportFeature>().takeAway();
+  menus_->fill(bench_->actions, docks_->toggles());
+  bench_->menus = menus_->shared();
+  std::vector<ExportedView> views;
   for (const auto& feature : features_)
-    for (ExportedView& view : feature->views()) takeAway.add(std::move(view));
+    for (ExportedView& view : feature->views()) views.push_back(std::move(view));
+  std::stable_sort(views.begin(), views.end(), [](const ExportedView& a, const ExportedView& b) {
+    return a.rank < b.rank;
+  });
+  for (ExportedView& view : views) feature<ExportFeature>().takeAway().add(std::move(view));
 }
 
 // Before the features hear of another source: their docks stand where they belong by then.
@@ -96,13 +107,10 @@ void MainWindow::connectPlace() {
     on ? docks_->hideAll() : docks_->bringBack();
     centre_->setComparing(on);
   });
-  connect(&bench_->live, &LiveController::ended, this, [this] {
-    if (closing_) close();
-  });
 }
 
 void MainWindow::connectActions() {
-  Actions& actions = bench_->actions;
+  ShellActions& actions = actions_;
   ViewLook& look = bench_->look;
   connect(actions.quit, &QAction::triggered, this, &QWidget::close);
   connect(actions.resetLayout, &QAction::triggered, docks_.get(), &DockYard::reset);
@@ -114,7 +122,9 @@ void MainWindow::connectActions() {
     look.setTheme(kAllThemeChoices.at(action->data().toUInt()));
   });
   connect(&look, &ViewLook::themeChanged, this, &MainWindow::showTheme);
-  connect(&look, &ViewLook::changed, this, [&actions, &look] { actions.showChoices(look.view()); });
+  connect(&look, &ViewLook::changed, this, [&actions, &look] {
+    checkChoice(actions.themes, kAllThemeChoices, look.view().theme);
+  });
   Escape& escape = bench_->escape;
   connect(actions.dismiss, &QAction::triggered, this, [&escape] { escape.press(); });
   escape.add(Escape::Order::kAlarm, [this] {
@@ -146,6 +156,7 @@ void MainWindow::showTitle() {
   const Subject& subject = bench_->subject;
   if (const LiveSource* source = subject.source())
     return setWindowTitle(describe(source->connection) + " – Palpate");
+  if (subject.isLive()) return;  // about to go
   const OpenedRecordingPtr recording = subject.recorded();
   if (!recording) return setWindowTitle("Palpate");
   const QString star = bench_->events.hasUnsaved(recording) ? "*" : "";
@@ -162,7 +173,7 @@ void MainWindow::showTheme() {
 
 void MainWindow::setFullScreen(bool on) {
   setWindowState(on ? windowState() | Qt::WindowFullScreen : windowState() & ~Qt::WindowFullScreen);
-  bench_->actions.fullScreen->setChecked(on);
+  actions_.fullScreen->setChecked(on);
 }
 
 void MainWindow::remember() {
@@ -174,25 +185,23 @@ void MainWindow::remember() {
   bench_->settings.sync();
 }
 
-// What is connected is ended first, beside the window: a hand that moves is stopped, a recording finished.
+// What is connected is ended first, beside the window: a hand that moves is stopped, a recording finished. Then it closes.
 void MainWindow::closeEvent(QCloseEvent* event) {
   LiveController& live = bench_->live;
-  // Everything is asked before anything is given up.
-  const auto mayClose = [this, &live] {
-    return (!live.recording() || bench_->questions.endRecording()) &&
-           bench_->events.settle(bench_->recordings.all());
-  };
-  if (!closing_ && !mayClose()) return event->ignore();
-  if (live.state() == LiveController::State::kNone) {
-    bench_->events.discardAll();
-    remember();
-    bench_->opener.cancel();
-    return event->accept();
+  if (closing_) {
+    if (live.state() != LiveController::State::kNone) return event->ignore();
+  } else if ((live.recording() && !bench_->questions.endRecording()) ||
+             !bench_->events.settle(bench_->recordings.all())) {
+    return event->ignore();  // all is asked before anything is given up
   }
+  if (!closing_) remember();
+  bench_->events.discardAll();
+  bench_->opener.cancel();
+  if (live.state() == LiveController::State::kNone) return event->accept();
   event->ignore();
-  if (closing_) return;
-  closing_ = true;
-  remember();
+  // Nothing else is shown any more.
+  disconnect(&live, &LiveController::ended, &bench_->subject, nullptr);
+  closing_ = connect(&live, &LiveController::ended, this, &QWidget::close);
   bench_->messages.announce("Closing: the hand is let go, a recording is finished …");
   live.end();
 }

@@ -10,6 +10,7 @@
 #include "gui/bench/bench.h"
 #include "gui/bench/feature.h"
 #include "gui/shell/dock_yard.h"
+#include "gui/shell/shell_actions.h"
 #include "gui/shell/window_menus.h"
 
 namespace palpate::gui {
@@ -55,13 +56,14 @@ class MainWindow : public QMainWindow {
   void remember();
 
   std::unique_ptr<Bench> bench_;
+  ShellActions actions_;
   std::unique_ptr<WindowMenus> menus_;
   std::unique_ptr<DockYard> docks_;
   Centre* centre_;
   MessageBanner* banner_;
   std::unique_ptr<StatusReport> status_;
   std::vector<std::unique_ptr<Feature>> features_;
-  bool closing_ = false;  // as soon as nothing is connected any more
+  QMetaObject::Connection closing_;  // as soon as nothing is connected any more; none: it stays
 };
 
 }  // namespace palpate::gui

@@ -57,7 +57,7 @@ void runFor(double seconds) {
 void showCompare(MainWindow& window, const ScreenshotOptions& options) {
   constexpr double kLookS = 0.01;
   constexpr double kPatienceS = 60.0;
-  if (!window.bench().comparing.on()) window.bench().actions.compare->trigger();
+  if (!window.bench().comparing.on()) window.bench().actions.at("compare")->trigger();
   for (double waitedS = 0.0;
        !window.feature<CompareFeature>().panel().complete() && waitedS < kPatienceS;
        waitedS += kLookS)

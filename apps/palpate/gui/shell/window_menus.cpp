@@ -9,7 +9,7 @@
 #include <QToolBar>
 #include <QToolButton>
 
-#include "gui/bench/actions.h"
+#include "gui/bench/action_book.h"
 
 namespace palpate::gui {
 namespace {
@@ -24,138 +24,157 @@ void addChoices(QMenu* menu, const QString& title, const QActionGroup* group) {
 
 }  // namespace
 
-WindowMenus::WindowMenus(QMainWindow& window, const Actions& actions)
-    : resetLayout_(actions.resetLayout) {
-  buildMenuBar(window, actions);
-  buildToolBar(window, actions);
-  QObject::connect(actions.record, &QAction::changed, record_, [this, action = actions.record] {
-    showRecording(action->property(kRecordingProperty).toBool());
+WindowMenus::WindowMenus(QMainWindow& window) : window_(window) {
+  menus_.edit = new QMenu("&Edit", &window);
+  menus_.connections = new QMenu(&window);
+  menus_.only = new QMenu("&One matrix alone", &window);
+  menus_.scanned = new QMenu("Scanned &taxels", &window);
+  menus_.recent = new QMenu("Open &recent", &window);
+  menus_.speed = new QComboBox(&window);
+  menus_.recordings = new QComboBox(&window);
+}
+
+void WindowMenus::fill(const ActionBook& book, const QList<QAction*>& dockToggles) {
+  buildMenuBar(book, dockToggles);
+  buildToolBar(book);
+  addOthers(book);
+  QAction* record = book.at("record");
+  QObject::connect(record, &QAction::changed, record_, [this, record] {
+    showRecording(record->property(kRecordingProperty).toBool());
   });
+}
+
+// What no line below names stands at the end of the menu of its section.
+void WindowMenus::addOthers(const ActionBook& book) {
+  for (QAction* action : book.all())
+    if (action->associatedObjects().size() == 1 && !staysOutOfMenus(*action))
+      if (QMenu* menu = sections_.value(sectionOf(*action))) menu->addAction(action);
 }
 
 Menus WindowMenus::shared() const { return menus_; }
 
-void WindowMenus::addDocks(const QList<QAction*>& toggles) {
-  view_->insertActions(resetLayout_, toggles);
-}
-
-void WindowMenus::buildMenuBar(QMainWindow& window, const Actions& actions) {
-  QMenu* file = window.menuBar()->addMenu("&File");
-  file->addAction(actions.open);
-  menus_.recent = file->addMenu("Open &recent");
+void WindowMenus::buildMenuBar(const ActionBook& book, const QList<QAction*>& dockToggles) {
+  const auto at = [&book](const char* id) { return book.at(id); };
+  const auto menu = [this](const QString& title) {
+    QMenu* made = window_.menuBar()->addMenu(title);
+    sections_[QString(title).remove('&')] = made;
+    return made;
+  };
+  QMenu* file = menu("&File");
+  file->addAction(at("open"));
+  file->addMenu(menus_.recent);
   menus_.recent->setToolTipsVisible(true);
-  file->addAction(actions.openDemo);
+  file->addAction(at("openDemo"));
   file->addSeparator();
-  file->addActions({actions.nextRecording, actions.previousRecording, actions.closeRecording});
+  file->addActions({at("nextRecording"), at("previousRecording"), at("closeRecording")});
   file->addSeparator();
-  file->addAction(actions.saveEvents);
+  file->addAction(at("saveEvents"));
   file->addSeparator();
-  file->addActions(
-      {actions.exportPicture, actions.exportAgain, actions.copyPicture, actions.copyTable});
+  file->addActions({at("exportPicture"), at("exportAgain"), at("copyPicture"), at("copyTable")});
   file->addSeparator();
-  file->addAction(actions.quit);
+  file->addAction(at("quit"));
 
-  menus_.edit = window.menuBar()->addMenu("&Edit");
-  menus_.edit->addActions({actions.undo, actions.redo});
+  window_.menuBar()->addMenu(menus_.edit);
+  sections_["Edit"] = menus_.edit;
+  menus_.edit->addActions({at("undo"), at("redo")});
   menus_.edit->addSeparator();
-  menus_.edit->addActions({actions.addLabel, actions.addNote, actions.addGrasp});
-  menus_.edit->addActions({actions.renameEvent, actions.removeEvent});
+  menus_.edit->addActions({at("addLabel"), at("addNote"), at("addGrasp")});
+  menus_.edit->addActions({at("renameEvent"), at("removeEvent")});
   menus_.edit->addSeparator();
-  menus_.edit->addActions({actions.nextEvent, actions.previousEvent, actions.toEvents});
+  menus_.edit->addActions({at("nextEvent"), at("previousEvent"), at("toEvents")});
   menus_.edit->addSeparator();
-  menus_.edit->addActions(
-      {actions.selectFrom, actions.selectTo, actions.selectAll, actions.dropSelection});
-  menus_.edit->addActions({actions.zoomSelection, actions.crop});
+  menus_.edit->addActions({at("selectFrom"), at("selectTo"), at("selectAll"), at("dropSelection")});
+  menus_.edit->addActions({at("zoomSelection"), at("crop")});
   menus_.edit->addSeparator();
-  menus_.edit->addAction(actions.nameTaxels);
+  menus_.edit->addAction(at("nameTaxels"));
 
-  view_ = window.menuBar()->addMenu("&View");
-  view_->addActions({actions.interpolated, actions.values, actions.filtered});
-  addChoices(view_, "&Colour map", actions.maps);
-  view_->addAction(actions.nextMap);
-  addChoices(view_, "Colour r&ange", actions.ranges);
-  view_->addAction(actions.nextRange);
-  view_->addSeparator();
-  view_->addActions({actions.matricesShown, actions.handShown});
-  QMenu* space = view_->addMenu("Hand in s&pace");
-  space->addActions({actions.nextTaxelShape, actions.nextSphere, actions.sphereOfCentroids});
+  QMenu* view = menu("&View");
+  view->addActions({at("interpolated"), at("values"), at("filtered")});
+  addChoices(view, "&Colour map", book.group("maps"));
+  view->addAction(at("nextMap"));
+  addChoices(view, "Colour r&ange", book.group("ranges"));
+  view->addAction(at("nextRange"));
+  view->addSeparator();
+  view->addActions({at("matricesShown"), at("handShown")});
+  QMenu* space = view->addMenu("Hand in s&pace");
+  space->addActions({at("nextTaxelShape"), at("nextSphere"), at("sphereOfCentroids")});
   space->addSeparator();
-  space->addActions(
-      {actions.normals, actions.contacts, actions.slipArrows, actions.wire, actions.axes});
+  space->addActions({at("normals"), at("contacts"), at("slipArrows"), at("wire"), at("axes")});
   space->addSeparator();
-  space->addActions({actions.fitHand, actions.resetHand, actions.nearer, actions.further});
+  space->addActions({at("fitHand"), at("resetHand"), at("nearer"), at("further")});
   QMenu* turn = space->addMenu("&Turn and move");
-  turn->addActions(actions.orbits);
-  turn->addActions(actions.pans);
-  menus_.only = space->addMenu("&One matrix alone");
-  menus_.only->addActions(actions.onlys);
-  view_->addSeparator();
-  addChoices(view_, "Signal in the &timeline", actions.signalsPlotted);
-  view_->addAction(actions.nextSignal);
-  QMenu* plots = view_->addMenu("&Plotted matrices");
-  plots->addActions(actions.plots);
-  view_->addAction(actions.chooseCurves);
-  view_->addActions({actions.zoomIn, actions.zoomOut, actions.fit});
-  view_->addSeparator();
-  view_->addActions({actions.slipReference, actions.compare});
-  view_->addAction(actions.resetLayout);
-  view_->addSeparator();
-  addChoices(view_, "T&heme", actions.themes);
-  view_->addAction(actions.nextTheme);
-  view_->addAction(actions.fullScreen);
+  turn->addActions(book.all("orbits"));
+  turn->addActions(book.all("pans"));
+  space->addMenu(menus_.only);
+  menus_.only->addActions(book.all("onlys"));
+  view->addSeparator();
+  addChoices(view, "Signal in the &timeline", book.group("signalsPlotted"));
+  view->addAction(at("nextSignal"));
+  QMenu* plots = view->addMenu("&Plotted matrices");
+  plots->addActions(book.all("plots"));
+  view->addAction(at("chooseCurves"));
+  view->addActions({at("zoomIn"), at("zoomOut"), at("fit")});
+  view->addSeparator();
+  view->addActions({at("slipReference"), at("compare")});
+  view->addActions(dockToggles);
+  view->addAction(at("resetLayout"));
+  view->addSeparator();
+  addChoices(view, "T&heme", book.group("themes"));
+  view->addAction(at("nextTheme"));
+  view->addAction(at("fullScreen"));
 
-  QMenu* hand = window.menuBar()->addMenu("H&and");
-  hand->addActions({actions.connectHand, actions.tryEmulated, actions.disconnectHand});
+  QMenu* hand = menu("H&and");
+  hand->addActions({at("connectHand"), at("tryEmulated"), at("disconnectHand")});
   hand->addSeparator();
   QMenu* move = hand->addMenu("Mo&ve the hand");
   move->setToolTipsVisible(true);
-  move->addActions({actions.graspHand,
-                    actions.reactiveGrasp,
-                    actions.slipAwareGrasp,
-                    actions.openHand,
-                    actions.relaxHand});
-  hand->addAction(actions.stopHand);
+  move->addActions({at("graspHand"),
+                    at("reactiveGrasp"),
+                    at("slipAwareGrasp"),
+                    at("openHand"),
+                    at("relaxHand")});
+  hand->addAction(at("stopHand"));
   hand->addSeparator();
-  hand->addActions({actions.whatIsIt, actions.showMode});
+  hand->addActions({at("whatIsIt"), at("showMode")});
   hand->addSeparator();
-  hand->addActions({actions.live, actions.hold});
+  hand->addActions({at("live"), at("hold")});
   hand->addSeparator();
-  hand->addActions({actions.record, actions.recordingSettings, actions.openRecorded});
+  hand->addActions({at("record"), at("recordingSettings"), at("openRecorded")});
   QMenu* marks = hand->addMenu("&Marks");
-  marks->addAction(actions.mark);
-  marks->addActions(actions.labels);
+  marks->addAction(at("mark"));
+  marks->addActions(book.all("labels"));
   hand->addSeparator();
-  menus_.scanned = hand->addMenu("Scanned &taxels");
+  hand->addMenu(menus_.scanned);
   menus_.scanned->setToolTipsVisible(true);
-  menus_.scanned->addActions(
-      {actions.scanOnly, actions.scanWithout, actions.scanAlso, actions.scanAll});
+  menus_.scanned->addActions({at("scanOnly"), at("scanWithout"), at("scanAlso"), at("scanAll")});
   menus_.scanned->addSeparator();
-  menus_.scanned->addAction(actions.chooseNone);
+  menus_.scanned->addAction(at("chooseNone"));
   QMenu* others = hand->addMenu("Other &programs");
   others->setToolTipsVisible(true);
-  others->addActions({actions.streamSignals, actions.streamTactile, actions.remoteControl});
-  hand->addAction(actions.muteAlarms);
+  others->addActions({at("streamSignals"), at("streamTactile"), at("remoteControl")});
+  hand->addAction(at("muteAlarms"));
 
-  QMenu* playback = window.menuBar()->addMenu("&Playback");
-  playback->addAction(actions.play);
+  QMenu* playback = menu("&Playback");
+  playback->addAction(at("play"));
   playback->addSeparator();
-  playback->addActions({actions.stepBack,
-                        actions.stepForward,
-                        actions.tenBack,
-                        actions.tenForward,
-                        actions.toStart,
-                        actions.toEnd,
-                        actions.goToFrame});
+  playback->addActions({at("stepBack"),
+                        at("stepForward"),
+                        at("tenBack"),
+                        at("tenForward"),
+                        at("toStart"),
+                        at("toEnd"),
+                        at("goToFrame")});
   playback->addSeparator();
-  addChoices(playback, "Sp&eed", actions.speeds);
-  playback->addActions({actions.faster, actions.slower, actions.loop, actions.skipGaps});
+  addChoices(playback, "Sp&eed", book.group("speeds"));
+  playback->addActions({at("faster"), at("slower"), at("loop"), at("skipGaps")});
 
-  QMenu* help = window.menuBar()->addMenu("&Help");
-  help->addActions({actions.keys, actions.about});
+  QMenu* help = menu("&Help");
+  help->addActions({at("keys"), at("about")});
 }
 
-void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
-  QToolBar* bar = window.addToolBar("Toolbar");
+void WindowMenus::buildToolBar(const ActionBook& book) {
+  const auto at = [&book](const char* id) { return book.at(id); };
+  QToolBar* bar = window_.addToolBar("Toolbar");
   bar->setObjectName("Toolbar");
   bar->setMovable(false);
   bar->setContextMenuPolicy(Qt::PreventContextMenu);
@@ -163,13 +182,12 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   auto* brand = new QLabel("<b>Palpate</b>", bar);
   brand->setContentsMargins(4, 0, 10, 0);
   bar->addWidget(brand);
-  bar->addActions({actions.open, actions.exportPicture});
+  bar->addActions({at("open"), at("exportPicture")});
   bar->addSeparator();
-  menus_.connections = new QMenu(bar);
   menus_.connections->setToolTipsVisible(true);
   auto* connectButton = new QToolButton(bar);
   connectButton->setObjectName("connectButton");
-  connectButton->setDefaultAction(actions.connectHand);
+  connectButton->setDefaultAction(at("connectHand"));
   connectButton->setMenu(menus_.connections);
   connectButton->setPopupMode(QToolButton::InstantPopup);
   connectButton->setFocusPolicy(Qt::NoFocus);  // it has a key
@@ -178,20 +196,19 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   link_->setObjectName("LinkPill");
   link_->setTextFormat(Qt::PlainText);
   linkAction_ = bar->addWidget(link_);
-  bar->addAction(actions.record);
-  record_ = qobject_cast<QToolButton*>(bar->widgetForAction(actions.record));
+  bar->addAction(at("record"));
+  record_ = qobject_cast<QToolButton*>(bar->widgetForAction(at("record")));
   record_->setObjectName("recordButton");
-  bar->addAction(actions.live);
+  bar->addAction(at("live"));
   withText_.append(connectButton);
-  for (QAction* action : {actions.open, actions.exportPicture, actions.live})
+  for (QAction* action : {at("open"), at("exportPicture"), at("live")})
     withText_.append(qobject_cast<QToolButton*>(bar->widgetForAction(action)));
-  playback_ = bar->addWidget(makePlayback(*bar, actions));
+  playback_ = bar->addWidget(makePlayback(*bar, book));
   showLink({}, false);
   setCompact(false);
   auto* spacer = new QWidget(bar);
   spacer->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   bar->addWidget(spacer);
-  menus_.recordings = new QComboBox(bar);
   menus_.recordings->setObjectName("recordingsBox");
   menus_.recordings->setMinimumHeight(kWindowMenusControlHeight);
   menus_.recordings->setToolTip("Open recordings (Ctrl+Tab)");
@@ -200,11 +217,12 @@ void WindowMenus::buildToolBar(QMainWindow& window, const Actions& actions) {
   menus_.recordings->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   menus_.recordings->setMaximumWidth(420);
   menus_.recordingsShown = bar->addWidget(menus_.recordings);
-  bar->addAction(actions.keys);
+  bar->addAction(at("keys"));
 }
 
 // What plays a recording, as one: while live is shown nothing of it is of use.
-QWidget* WindowMenus::makePlayback(QToolBar& bar, const Actions& actions) {
+QWidget* WindowMenus::makePlayback(QToolBar& bar, const ActionBook& book) {
+  const auto at = [&book](const char* id) { return book.at(id); };
   auto* group = new QWidget(&bar);
   auto* row = new QHBoxLayout(group);
   row->setContentsMargins(8, 0, 0, 0);
@@ -217,19 +235,18 @@ QWidget* WindowMenus::makePlayback(QToolBar& bar, const Actions& actions) {
     row->addWidget(button);
     return button;
   };
-  add(actions.toStart);
-  add(actions.stepBack);
-  play_ = add(actions.play);
-  add(actions.stepForward);
-  menus_.speed = new QComboBox(group);
+  add(at("toStart"));
+  add(at("stepBack"));
+  play_ = add(at("play"));
+  add(at("stepForward"));
   menus_.speed->setObjectName("speedBox");
   menus_.speed->setMinimumHeight(kWindowMenusControlHeight);
   menus_.speed->setToolTip("Speed (Up, Down)");
   menus_.speed->setAccessibleName("Speed");
   menus_.speed->setFocusPolicy(Qt::NoFocus);  // it has a key
-  for (const QAction* each : actions.speeds->actions()) menus_.speed->addItem(each->text());
+  for (const QAction* each : book.group("speeds")->actions()) menus_.speed->addItem(each->text());
   row->addWidget(menus_.speed);
-  withText_.append({play_, add(actions.loop), add(actions.skipGaps)});
+  withText_.append({play_, add(at("loop")), add(at("skipGaps"))});
   return group;
 }
 

@@ -1,7 +1,8 @@
-// Menu bar and toolbar, built from the actions.
+// Menu bar and toolbar, filled with the actions of the features.
 #pragma once
 
 #include <QList>
+#include <QMap>
 #include <QString>
 
 #include "gui/bench/menus.h"
@@ -16,14 +17,15 @@ class QWidget;
 
 namespace palpate::gui {
 
-struct Actions;
+class ActionBook;
 
 class WindowMenus {
  public:
-  WindowMenus(QMainWindow& window, const Actions& actions);
+  explicit WindowMenus(QMainWindow& window);
 
-  // What shows and hides the docks, in the menu View.
-  void addDocks(const QList<QAction*>& toggles);
+  // Once all actions are made: in the order that is written down here; others at the end of the menu of their section.
+  // `dockToggles`: what shows and hides the docks, in the menu View.
+  void fill(const ActionBook& book, const QList<QAction*>& dockToggles);
   // What features fill, or open elsewhere, too.
   Menus shared() const;
 
@@ -34,8 +36,8 @@ class WindowMenus {
   void showLink(const QString& text, bool good);
 
  private:
-  QAction* resetLayout_;  // behind the docks
-  QMenu* view_ = nullptr;
+  QMainWindow& window_;
+  QMap<QString, QMenu*> sections_;  // by title
   Menus menus_;
   QLabel* link_ = nullptr;         // beside Connect: what is connected, in a word
   QToolButton* record_ = nullptr;  // red while it records
@@ -47,9 +49,10 @@ class WindowMenus {
 
   void styleRecord();
   void showRecording(bool on);  // the button turns red
-  void buildMenuBar(QMainWindow& window, const Actions& actions);
-  void buildToolBar(QMainWindow& window, const Actions& actions);
-  QWidget* makePlayback(QToolBar& bar, const Actions& actions);
+  void buildMenuBar(const ActionBook& book, const QList<QAction*>& dockToggles);
+  void buildToolBar(const ActionBook& book);
+  void addOthers(const ActionBook& book);
+  QWidget* makePlayback(QToolBar& bar, const ActionBook& book);
 };
 
 }  // namespace palpate::gui

@@ -38,7 +38,7 @@ int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options) {
                    if (why.isEmpty()) hand.useOpenGl();
                  });
   if (options.remote) {
-    QAction* remote = window.bench().actions.remoteControl;
+    QAction* remote = window.bench().actions.at("remoteControl");
     remote->setData(QString::fromStdString(options.remote->string()));
     remote->setChecked(true);
   }

@@ -16,8 +16,12 @@ constexpr int kSlipUsualWidth = 620;  // [px] list and drawing stand beside each
 }  // namespace
 
 SlipFeature::SlipFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window), panel_(new SlipPanel(bench.settings, window)) {
+    : Feature(bench, window),
+      reference_(
+          bench.actions.make("slipReference", "View", "Slip is measured &from here", {key("O")})),
+      panel_(new SlipPanel(bench.settings, window)) {
   dock_ = new Dock("Slip", panel_, nullptr, window);
+  reference_->setToolTip("The frame that is shown becomes the reference of slip (O)");
   connectBench();
   connect(panel_, &SlipPanel::said, &bench.messages, &Messages::flash);
   connect(panel_, &SlipPanel::foundChanged, &bench.events, &EventDesk::renewMarks);
@@ -29,11 +33,11 @@ SlipFeature::SlipFeature(Bench& bench, QWidget* window)
     if (const LiveSource* source = bench.live.source()) source->slip->setReference();
     bench.messages.flash("slip is measured from this frame on");
   });
-  on(bench.actions.slipReference, [this] {
+  on(reference_, [this] {
     if (dock_->isHidden()) emit dockAsked(dock_);
     panel_->setReference();
   });
-  bench.enabling.add({bench.actions.slipReference}, [&bench] { return bench.moment.hasFrame(); });
+  bench.enabling.add({reference_}, [&bench] { return bench.moment.hasFrame(); });
   bench.events.addFound([this](const OpenedRecordingPtr& recording, std::vector<EventMark>& marks) {
     if (panel_->source() == recording && panel_->found())
       addSlips(*panel_->found(), *recording, marks);

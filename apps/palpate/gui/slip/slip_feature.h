@@ -25,6 +25,7 @@ class SlipFeature : public Feature {
   void showArrows();
   void setUpStage();
 
+  QAction* reference_;  // slip is measured from the frame that is shown
   SlipPanel* panel_;
   Dock* dock_;
   const void* liveOf_ = nullptr;  // the source whose hand the panel has

@@ -17,7 +17,7 @@ constexpr double kTurnDeg = 10.0;    // by a key
 constexpr double kMoveShare = 0.06;  // of the view's height, by a key
 constexpr double kNearer = 1.2;
 
-HandPanel* makePanel(const Actions& actions, QWidget* window) {
+HandPanel* makePanel(const SpaceActions& actions, QWidget* window) {
   return new HandPanel({actions.normals,
                         actions.contacts,
                         actions.slipArrows,
@@ -30,7 +30,10 @@ HandPanel* makePanel(const Actions& actions, QWidget* window) {
 }  // namespace
 
 SpaceFeature::SpaceFeature(Bench& bench, QWidget* window, MatricesPanel& matrices)
-    : Feature(bench, window), matrices_(matrices), panel_(makePanel(bench.actions, window)) {
+    : Feature(bench, window),
+      actions_(bench.actions),
+      matrices_(matrices),
+      panel_(makePanel(actions_, window)) {
   panel_->view().setAssumedAngles(bench.surroundings.assumedAnglesDeg);
   connectMoment();
   connectLook();
@@ -85,12 +88,13 @@ void SpaceFeature::takeSource() {
 void SpaceFeature::showMoment() {
   const Subject& subject = bench().subject;
   if (panel_->isHidden() || !subject.isRecording() || !bench().moment.hasFrame()) return;
+  if (bench().moment.damaged()) return;  // it stays as it was, and says so
   const auto& angles = bench().moment.angles();
   panel_->show(bench().moment.frame(), angles ? angles->deg : std::vector<double>());
 }
 
 void SpaceFeature::connectLook() {
-  Actions& actions = bench().actions;
+  SpaceActions& actions = actions_;
   const auto tick = [this](QAction* action, bool HandLook::*part) {
     on(action, [this, part](bool yes) { changeLook([=](HandLook& look) { look.*part = yes; }); });
   };
@@ -128,7 +132,7 @@ void SpaceFeature::connectLook() {
 }
 
 void SpaceFeature::connectCamera() {
-  Actions& actions = bench().actions;
+  SpaceActions& actions = actions_;
   HandView& view = panel_->view();
   on(actions.fitHand, [&view] { view.fit(); });
   on(actions.resetHand, [&view] { view.resetCamera(); });
@@ -163,7 +167,7 @@ void SpaceFeature::changeLook(const std::function<void(HandLook&)>& change) {
 }
 
 void SpaceFeature::showLook() {
-  Actions& actions = bench().actions;
+  SpaceActions& actions = actions_;
   const HandLook& look = panel_->look();
   actions.sphereOfCentroids->setChecked(look.sphereOf == SphereOf::kCentroids);
   actions.normals->setChecked(look.normals);
@@ -190,8 +194,8 @@ void SpaceFeature::showViews(bool matrices, bool hand) {
   const bool late = hand && panel_->isHidden();
   panel_->setVisible(hand);
   panel_->view().setColorBar(!matrices);
-  bench().actions.matricesShown->setChecked(matrices);
-  bench().actions.handShown->setChecked(hand);
+  actions_.matricesShown->setChecked(matrices);
+  actions_.handShown->setChecked(hand);
   bench().settings.setValue("window/matrices_shown", matrices);
   bench().settings.setValue("window/hand_shown", hand);
   if (late) showMoment();

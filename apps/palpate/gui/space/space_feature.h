@@ -6,6 +6,7 @@
 
 #include "gui/bench/feature.h"
 #include "gui/space/hand_look.h"
+#include "gui/space/space_actions.h"
 
 namespace palpate::gui {
 
@@ -34,6 +35,7 @@ class SpaceFeature : public Feature {
   void showLook();
   void showViews(bool matrices, bool hand);
 
+  SpaceActions actions_;
   MatricesPanel& matrices_;
   HandPanel* panel_;
 };

@@ -17,7 +17,7 @@ constexpr const char* kCropFolder = "recent/crop_folder";
 
 }  // namespace
 
-CropJob::CropJob(Bench& bench, QWidget* window)
+CropJob::CropJob(Bench& bench, QAction& crop, QWidget* window)
     : bench_(bench), strip_(new OpeningStrip(window, "Cropping", "working")) {
   bench.questions.cropped = [window](const QString& suggestion) {
     return QFileDialog::getSaveFileName(
@@ -26,7 +26,7 @@ CropJob::CropJob(Bench& bench, QWidget* window)
         suggestion,
         "Palpate recording (*.palpate);;DSA recording (*.dsa);;CSV table (*.csv);;NumPy (*.npz)");
   };
-  connect(bench.actions.crop, &QAction::triggered, this, &CropJob::cropSelection);
+  connect(&crop, &QAction::triggered, this, &CropJob::cropSelection);
   connect(&job_, &BackgroundJob::started, strip_, &OpeningStrip::begin);
   connect(&job_, &BackgroundJob::progressed, strip_, &OpeningStrip::setProgress);
   connect(&job_, &BackgroundJob::finished, strip_, &OpeningStrip::end);

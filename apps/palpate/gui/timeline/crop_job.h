@@ -14,8 +14,8 @@ class OpeningStrip;
 class CropJob : public QObject {
   Q_OBJECT
  public:
-  // The bench must outlive it.
-  CropJob(Bench& bench, QWidget* window);
+  // The bench must outlive it. `crop` asks for it.
+  CropJob(Bench& bench, QAction& crop, QWidget* window);
 
   // Of the recording that is looked at: asks where to.
   void cropSelection();

@@ -9,8 +9,11 @@
 
 namespace palpate::gui {
 
-EventEditing::EventEditing(Bench& bench, EventRows& rows, QWidget* window)
-    : bench_(bench), rows_(rows) {
+EventEditing::EventEditing(Bench& bench,
+                           const TimelineActions& actions,
+                           EventRows& rows,
+                           QWidget* window)
+    : bench_(bench), actions_(actions), rows_(rows) {
   bench.questions.unsaved = [window](const QString& names) {
     QMessageBox box(QMessageBox::Question,
                     "Palpate",
@@ -28,7 +31,7 @@ EventEditing::EventEditing(Bench& bench, EventRows& rows, QWidget* window)
 }
 
 void EventEditing::connectActions() {
-  Actions& actions = bench_.actions;
+  const TimelineActions& actions = actions_;
   const auto on = [this](QAction* action, auto what) {
     connect(action, &QAction::triggered, this, what);
   };
@@ -60,7 +63,8 @@ void EventEditing::connectActions() {
 
 void EventEditing::connectRows() {
   connect(&bench_.events, &EventDesk::changed, this, [this] {
-    rows_.setMarks(bench_.events.marks());
+    // Behind what is live they stay, with the one that is chosen.
+    if (!bench_.subject.isLive()) rows_.setMarks(bench_.events.marks());
     showUndo();
     bench_.enabling.refresh();
   });
@@ -98,7 +102,7 @@ void EventEditing::connectRows() {
 }
 
 void EventEditing::addConditions() {
-  Actions& actions = bench_.actions;
+  const TimelineActions& actions = actions_;
   Enabling& enabling = bench_.enabling;
   const auto frames = [this] { return bench_.events.editor() && bench_.subject.hasFrames(); };
   const auto editable = [this, frames] {
@@ -130,9 +134,9 @@ void EventEditing::showUndo() {
     return editor && can ? verb + " " + what : verb;
   };
   QUndoStack* stack = editor ? &editor->undoStack() : nullptr;
-  bench_.actions.undo->setText(
+  actions_.undo->setText(
       text("&Undo", stack && stack->canUndo(), stack ? stack->undoText() : QString()));
-  bench_.actions.redo->setText(
+  actions_.redo->setText(
       text("&Redo", stack && stack->canRedo(), stack ? stack->redoText() : QString()));
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "gui/bench/bench.h"
+#include "gui/timeline/timeline_actions.h"
 
 namespace palpate::gui {
 
@@ -14,8 +15,8 @@ class EventRows;
 class EventEditing : public QObject {
   Q_OBJECT
  public:
-  // Both must outlive it.
-  EventEditing(Bench& bench, EventRows& rows, QWidget* window);
+  // All of them must outlive it.
+  EventEditing(Bench& bench, const TimelineActions& actions, EventRows& rows, QWidget* window);
 
  private:
   void connectActions();
@@ -27,6 +28,7 @@ class EventEditing : public QObject {
   void showUndo();
 
   Bench& bench_;
+  const TimelineActions& actions_;
   EventRows& rows_;
 };
 

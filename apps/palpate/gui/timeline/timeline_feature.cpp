@@ -23,8 +23,11 @@ constexpr double kZoomStep = 1.5;
 }  // namespace
 
 TimelineFeature::TimelineFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window), groups_(bench.settings), extras_(loadPlottedExtras(bench.settings)) {
-  Actions& actions = bench.actions;
+    : Feature(bench, window),
+      actions_(bench.actions),
+      groups_(bench.settings),
+      extras_(loadPlottedExtras(bench.settings)) {
+  TimelineActions& actions = actions_;
   header_ = new TimelineHeader(
       {actions.zoomSelection, actions.addLabel, actions.crop, actions.dropSelection}, window);
   signalTree_ = new SignalTree(groups_, window);
@@ -36,7 +39,7 @@ TimelineFeature::TimelineFeature(Bench& bench, QWidget* window)
   charts_->addWidget(panel_);
   charts_->addWidget(liveChart_);
   dock_ = new Dock("Timeline", charts_, header_, window);
-  crop_ = std::make_unique<CropJob>(bench, window);
+  crop_ = std::make_unique<CropJob>(bench, *actions_.crop, window);
   bench.questions.text = [window](const QString& title,
                                   const QString& text) -> std::optional<QString> {
     bool good = false;
@@ -49,7 +52,7 @@ TimelineFeature::TimelineFeature(Bench& bench, QWidget* window)
   connectSelection();
   connectActions();
   connectCurves();
-  editing_ = std::make_unique<EventEditing>(bench, panel_->rows(), window);
+  editing_ = std::make_unique<EventEditing>(bench, actions_, panel_->rows(), window);
 }
 
 TimelineFeature::~TimelineFeature() { liveChart_->setHistory(nullptr, 0); }
@@ -79,6 +82,7 @@ void TimelineFeature::connectSubject() {
   });
   connect(&look, &ViewLook::changed, this, [this, &look] {
     header_->setSignal(look.view().signal);
+    checkChoice(actions_.signalsPlotted, kAllPlottedSignals, look.view().signal);
     liveChart_->setSignal(look.view().signal);
     showCurves();
   });
@@ -86,15 +90,13 @@ void TimelineFeature::connectSubject() {
     look.change([&](ViewSettings& view) { view.signal = signal; });
   };
   connect(header_, &TimelineHeader::signalChosen, this, useSignal);
-  on(bench().actions.nextSignal, [&look] {
+  on(actions_.nextSignal, [&look] {
     look.change([](ViewSettings& view) { view.signal = after(kAllPlottedSignals, view.signal); });
   });
-  connect(bench().actions.signalsPlotted,
-          &QActionGroup::triggered,
-          this,
-          [useSignal](const QAction* action) {
-            useSignal(kAllPlottedSignals.at(action->data().toUInt()));
-          });
+  connect(
+      actions_.signalsPlotted, &QActionGroup::triggered, this, [useSignal](const QAction* action) {
+        useSignal(kAllPlottedSignals.at(action->data().toUInt()));
+      });
 }
 
 void TimelineFeature::takeSource() {
@@ -113,9 +115,12 @@ void TimelineFeature::takeSource() {
 
 void TimelineFeature::takeLive() {
   const LiveSource* source = bench().subject.source();
-  if (!source || source->history.get() == history_) return;
-  history_ = source->history.get();
-  liveChart_->setHistory(history_, bench().subject.hand()->layout->numMatrices());
+  if (!source) return;
+  if (source->history.get() != history_) {
+    history_ = source->history.get();
+    liveChart_->setHistory(history_, bench().subject.hand()->layout->numMatrices());
+  }
+  liveChart_->setPlotted(bench().selection.plotted());
 }
 
 void TimelineFeature::connectLive() {
@@ -182,7 +187,7 @@ void TimelineFeature::connectSelection() {
 }
 
 void TimelineFeature::connectActions() {
-  Actions& actions = bench().actions;
+  TimelineActions& actions = actions_;
   Selection& selection = bench().selection;
   on(actions.selectFrom, [this] { selectEnd(true); });
   on(actions.selectTo, [this] { selectEnd(false); });
@@ -214,14 +219,14 @@ void TimelineFeature::connectActions() {
 
 void TimelineFeature::connectCurves() {
   const auto choose = [this] { signalTree_->openBelow(*header_->curvesButton()); };
-  on(bench().actions.chooseCurves, choose);
+  on(actions_.chooseCurves, choose);
   connect(header_, &TimelineHeader::curvesAsked, this, choose);
   connect(signalTree_, &SignalTree::extrasChanged, this, [this] {
     extras_ = signalTree_->extras();
     showCurves();
   });
   connect(signalTree_, &SignalTree::groupAsked, this, &TimelineFeature::nameChosenTaxels);
-  on(bench().actions.nameTaxels, [this] { nameChosenTaxels(); });
+  on(actions_.nameTaxels, [this] { nameChosenTaxels(); });
   connect(&groups_, &TaxelGroups::changed, this, &TimelineFeature::showCurves);
 }
 

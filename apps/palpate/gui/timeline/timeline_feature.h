@@ -10,6 +10,7 @@
 #include "gui/timeline/event_editing.h"
 #include "gui/timeline/signal_tree.h"
 #include "gui/timeline/taxel_groups.h"
+#include "gui/timeline/timeline_actions.h"
 
 namespace palpate::gui {
 
@@ -51,6 +52,7 @@ class TimelineFeature : public Feature {
   void selectEnd(bool begin);
   void nameChosenTaxels();
 
+  TimelineActions actions_;
   TaxelGroups groups_;
   PlottedExtras extras_;
   TimelineHeader* header_;

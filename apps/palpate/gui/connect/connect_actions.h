@@ -1,0 +1,23 @@
+// What connects, and shows what is connected, as actions.
+#pragma once
+
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
+
+#include "gui/bench/action_book.h"
+
+namespace palpate::gui {
+
+struct ConnectActions {
+  explicit ConnectActions(ActionBook& book);
+
+  QAction* connectHand = nullptr;
+  QAction* tryEmulated = nullptr;
+  QAction* disconnectHand = nullptr;
+  // checked: what is connected is shown, not a recording
+  QAction* live = nullptr;
+  QAction* hold = nullptr;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,17 @@
+#include "gui/export/export_actions.h"
+
+#include "gui/look/icons.h"
+
+namespace palpate::gui {
+
+ExportActions::ExportActions(ActionBook& book) {
+  exportPicture = book.make("exportPicture", "File", "&Export…", {key("Ctrl+E")});
+  exportAgain = book.make("exportAgain", "File", "Export as &last time", {key("Ctrl+Shift+E")});
+  copyPicture = book.make("copyPicture", "File", "Cop&y", {key("Ctrl+C")});
+  copyPicture->setToolTip("Copy the view that was clicked into last (Ctrl+C)");
+  copyTable = book.make("copyTable", "File", "Copy &table", {key("Ctrl+Alt+C")});
+  exportPicture->setIconText(" Export");
+  book.setIcon(exportPicture, IconShape::kExport);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,24 @@
+// What moves the connected hand: as the buttons of the dock Hand, as actions.
+#pragma once
+
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
+
+#include "gui/bench/action_book.h"
+
+namespace palpate::gui {
+
+struct HandActions {
+  explicit HandActions(ActionBook& book);
+
+  QAction* graspHand = nullptr;
+  QAction* reactiveGrasp = nullptr;
+  QAction* slipAwareGrasp = nullptr;
+  QAction* openHand = nullptr;
+  QAction* relaxHand = nullptr;
+  // Esc does the same, wherever the keyboard is
+  QAction* stopHand = nullptr;
+};
+
+}  // namespace palpate::gui

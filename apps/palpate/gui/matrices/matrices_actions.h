@@ -1,0 +1,29 @@
+// What the heat maps do, and which taxels are scanned, as actions.
+#pragma once
+
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
+
+#include "gui/bench/action_book.h"
+
+namespace palpate::gui {
+
+struct MatricesActions {
+  explicit MatricesActions(ActionBook& book);
+
+  QAction* interpolated = nullptr;
+  QAction* values = nullptr;
+  QAction* nextMap = nullptr;
+  QAction* nextRange = nullptr;
+  // masks, from the taxels that are chosen
+  QAction* scanOnly = nullptr;
+  QAction* scanWithout = nullptr;
+  QAction* scanAlso = nullptr;
+  QAction* scanAll = nullptr;
+  QAction* chooseNone = nullptr;
+  QActionGroup* maps = nullptr;
+  QActionGroup* ranges = nullptr;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,22 @@
+// What opens recordings and goes from one to the other, as actions.
+#pragma once
+
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
+
+#include "gui/bench/action_book.h"
+
+namespace palpate::gui {
+
+struct OpenActions {
+  explicit OpenActions(ActionBook& book);
+
+  QAction* open = nullptr;
+  QAction* openDemo = nullptr;
+  QAction* nextRecording = nullptr;
+  QAction* previousRecording = nullptr;
+  QAction* closeRecording = nullptr;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,30 @@
+// What plays a recording, as actions.
+#pragma once
+
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
+
+#include "gui/bench/action_book.h"
+
+namespace palpate::gui {
+
+struct PlaybackActions {
+  explicit PlaybackActions(ActionBook& book);
+
+  QAction* play = nullptr;
+  QAction* stepBack = nullptr;
+  QAction* stepForward = nullptr;
+  QAction* tenBack = nullptr;
+  QAction* tenForward = nullptr;
+  QAction* toStart = nullptr;
+  QAction* toEnd = nullptr;
+  QAction* goToFrame = nullptr;
+  QAction* faster = nullptr;
+  QAction* slower = nullptr;
+  QAction* loop = nullptr;
+  QAction* skipGaps = nullptr;
+  QActionGroup* speeds = nullptr;
+};
+
+}  // namespace palpate::gui

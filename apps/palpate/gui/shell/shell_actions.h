@@ -1,0 +1,23 @@
+// What is the window's own, as actions.
+#pragma once
+
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
+
+#include "gui/bench/action_book.h"
+
+namespace palpate::gui {
+
+struct ShellActions {
+  explicit ShellActions(ActionBook& book);
+
+  QAction* quit = nullptr;
+  QAction* nextTheme = nullptr;
+  QAction* fullScreen = nullptr;
+  QAction* resetLayout = nullptr;
+  QAction* dismiss = nullptr;
+  QActionGroup* themes = nullptr;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,42 @@
+#include "gui/timeline/timeline_actions.h"
+
+#include "gui/look/plotted_signal.h"
+
+namespace palpate::gui {
+
+TimelineActions::TimelineActions(ActionBook& book) {
+  saveEvents = book.make("saveEvents", "File", "&Save labels, notes and grasps", {key("Ctrl+S")});
+  undo = book.make("undo", "Edit", "&Undo", {key("Ctrl+Z")});
+  redo = book.make("redo", "Edit", "&Redo", {key("Ctrl+Shift+Z"), key("Ctrl+Y")});
+  addLabel = book.make("addLabel", "Edit", "&Label the selection or the moment…", {key("Ctrl+B")});
+  addNote =
+      book.make("addNote", "Edit", "&Note on the selection or the moment…", {key("Ctrl+Shift+B")});
+  addGrasp = book.make("addGrasp", "Edit", "The selection is a &grasp", {key("Ctrl+Shift+P")});
+  renameEvent = book.make("renameEvent", "Edit", "Re&name the event", {key("F2")});
+  removeEvent = book.make("removeEvent", "Edit", "&Delete the event", {key("Del")});
+  nextEvent = book.make("nextEvent", "Edit", "Ne&xt event", {key("N")});
+  nextEvent->setToolTip("Chooses and selects the next grasp, label, .. of the row (N)");
+  previousEvent = book.make("previousEvent", "Edit", "&Previous event", {key("Shift+N")});
+  toEvents = book.make("toEvents", "Edit", "&Keyboard into the events", {key("F7")});
+  selectFrom = book.make("selectFrom", "Edit", "Selection begins &here", {key("[")});
+  selectTo = book.make("selectTo", "Edit", "Selection &ends here", {key("]")});
+  selectAll = book.make("selectAll", "Edit", "Select &all of it", {key("Ctrl+A")});
+  crop = book.make("crop", "Edit", "&Crop to a new recording…", {key("Ctrl+Shift+X")});
+  zoomSelection = book.make("zoomSelection", "Edit", "&Zoom to the selection", {key("Z")});
+  dropSelection = book.make("dropSelection", "Edit", "Select n&othing", {key("Ctrl+Shift+Space")});
+  nameTaxels = book.make("nameTaxels", "Edit", "Name the chosen &taxels…", {key("Ctrl+Shift+G")});
+  nextSignal = book.make("nextSignal", "View", "Next &signal in the timeline", {key("S")});
+  chooseCurves = book.make("chooseCurves", "View", "C&urves in the timeline…", {key("C")});
+  zoomIn = book.make("zoomIn", "View", "Zoom the timeline &in", {key("Ctrl++"), key("Ctrl+=")});
+  zoomOut = book.make("zoomOut", "View", "Zoom the timeline &out", {key("Ctrl+-")});
+  fit = book.make("fit", "View", "Show the &whole timeline", {key("F")});
+  crop->setIconText("Crop…");
+  addLabel->setIconText("Label…");
+  zoomSelection->setIconText("Zoom");
+  dropSelection->setIconText("×");
+  QStringList names;
+  for (const PlottedSignal signal : kAllPlottedSignals) names.append(nameOf(signal));
+  signalsPlotted = book.choices("signalsPlotted", names);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,42 @@
+// What the timeline, its selection and its events do, as actions.
+#pragma once
+
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
+
+#include "gui/bench/action_book.h"
+
+namespace palpate::gui {
+
+struct TimelineActions {
+  explicit TimelineActions(ActionBook& book);
+
+  QAction* saveEvents = nullptr;
+  QAction* undo = nullptr;
+  QAction* redo = nullptr;
+  QAction* addLabel = nullptr;
+  QAction* addNote = nullptr;
+  QAction* addGrasp = nullptr;
+  QAction* renameEvent = nullptr;
+  QAction* removeEvent = nullptr;
+  QAction* nextEvent = nullptr;
+  QAction* previousEvent = nullptr;
+  QAction* toEvents = nullptr;
+  QAction* selectFrom = nullptr;
+  QAction* selectTo = nullptr;
+  QAction* selectAll = nullptr;
+  QAction* crop = nullptr;
+  QAction* zoomSelection = nullptr;
+  QAction* dropSelection = nullptr;
+  // a group of those that are chosen
+  QAction* nameTaxels = nullptr;
+  QAction* nextSignal = nullptr;
+  QAction* chooseCurves = nullptr;
+  QAction* zoomIn = nullptr;
+  QAction* zoomOut = nullptr;
+  QAction* fit = nullptr;
+  QActionGroup* signalsPlotted = nullptr;
+};
+
+}  // namespace palpate::gui

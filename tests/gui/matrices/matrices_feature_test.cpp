@@ -1,0 +1,64 @@
+// The heat maps over the bench: what is chosen and marked belongs to the matrices that are shown.
+#include "gui/matrices/matrices_feature.h"
+
+#include "gui/bench/bench_fixture.h"
+#include "gui/matrices/matrices_panel.h"
+
+namespace palpate::gui::matrices_feature_test {
+namespace {
+
+class MatricesFeatureTest : public BenchTest {
+ protected:
+  MatricesFeatureTest() : feature_(*bench_, &actionsOf_) {}
+  MatricesView& view() { return feature_.panel().view(); }
+  TaxelSelection chosen() const {
+    TaxelSelection taxels(bench_->subject.hand()->layout ? *bench_->subject.hand()->layout
+                                                         : SensorLayout());
+    taxels.add(1, 7, 2, 8, 3);
+    return taxels;
+  }
+  MatricesFeature feature_;
+};
+
+TEST_F(MatricesFeatureTest, WhatIsChosenIsTheSameInViewAndModel) {
+  bench_->subject.show(recording("a"));
+  bench_->selection.setTaxels(chosen());
+  EXPECT_EQ(view().selection(), chosen());
+  view().clearSelection();
+  EXPECT_TRUE(bench_->selection.taxels().empty());
+}
+
+TEST_F(MatricesFeatureTest, WithoutAChoiceTheModelKnowsTheMatricesThatAreShown) {
+  connectEmulated();
+  EXPECT_TRUE(
+      bench_->selection.taxels().sameSensor(TaxelSelection(*bench_->subject.hand()->layout)))
+      << "scanning all taxels of it is possible";
+}
+
+TEST_F(MatricesFeatureTest, NothingUnseenIsChosen) {
+  bench_->subject.show(recording("a"));
+  bench_->selection.setTaxels(chosen());
+  connectEmulated();
+  EXPECT_EQ(view().selection(), bench_->selection.taxels());
+}
+
+TEST_F(MatricesFeatureTest, MatricesThatFeelNoLimitStayMarkedWhenOtherTaxelsAreScanned) {
+  connectEmulated();
+  const std::vector<QString> why{"", "its threshold is above the limit"};
+  bench_->overlays.setBlind(why);
+  EXPECT_EQ(view().blind(), why);
+  emit bench_->subject.handChanged();
+  EXPECT_EQ(view().blind(), why);
+}
+
+TEST_F(MatricesFeatureTest, ALivePictureWithoutAFrameSaysWhyFromTheStart) {
+  QStringList notices;
+  QObject::connect(&bench_->subject, &Subject::shown, [&] { notices.append(view().notice()); });
+  connectEmulated();
+  ASSERT_EQ(notices.size(), 1);
+  EXPECT_TRUE(notices[0].startsWith("waiting for the first frame")) << notices[0].toStdString();
+  EXPECT_EQ(view().notice(), "") << "it has come";
+}
+
+}  // namespace
+}  // namespace palpate::gui::matrices_feature_test

@@ -1,0 +1,37 @@
+// Recording over the bench: what is offered when one has ended.
+#include "gui/record/record_feature.h"
+
+#include "gui/bench/bench_fixture.h"
+#include "gui/widgets/offer_strip.h"
+
+namespace palpate::gui::record_feature_test {
+namespace {
+
+class RecordFeatureTest : public BenchTest {
+ protected:
+  RecordFeatureTest() : feature_(*bench_, &actionsOf_) {}
+  QString offered() { return qobject_cast<OfferStrip*>(feature_.strips().front().widget)->text(); }
+  void endRecording() {
+    RecordingReport report;
+    report.paths = {folder_ / "run_001.palpate"};
+    report.frames = 412;
+    report.complete = true;
+    emit bench_->live.recordingEnded(report);
+  }
+  RecordFeature feature_;
+};
+
+TEST_F(RecordFeatureTest, WhatWasRecordedIsOffered) {
+  endRecording();
+  EXPECT_TRUE(offered().startsWith("Recorded run_001.palpate")) << offered().toStdString();
+  EXPECT_TRUE(bench_->actions.at("openRecorded")->isEnabled());
+}
+
+TEST_F(RecordFeatureTest, AWindowThatClosesOffersNothingAnyMore) {
+  bench_->messages.announce("Closing");
+  endRecording();
+  EXPECT_EQ(offered(), "Closing");
+}
+
+}  // namespace
+}  // namespace palpate::gui::record_feature_test
