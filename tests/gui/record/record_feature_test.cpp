@@ -11,8 +11,9 @@ class RecordFeatureTest : public BenchTest {
  protected:
   RecordFeatureTest() : feature_(*bench_, &actionsOf_) {}
   QString offered() { return qobject_cast<OfferStrip*>(feature_.strips().front().widget)->text(); }
-  void endRecording() {
+  void endRecording(std::int64_t gaps = 0) {
     RecordingReport report;
+    report.gaps = gaps;
     report.paths = {folder_ / "run_001.palpate"};
     report.frames = 412;
     report.complete = true;
@@ -25,6 +26,13 @@ TEST_F(RecordFeatureTest, WhatWasRecordedIsOffered) {
   endRecording();
   EXPECT_TRUE(offered().startsWith("Recorded run_001.palpate")) << offered().toStdString();
   EXPECT_TRUE(bench_->actions.at("openRecorded")->isEnabled());
+}
+
+TEST_F(RecordFeatureTest, ThatNothingIsLostIsNotSaidBesideAGap) {
+  endRecording();
+  EXPECT_TRUE(offered().endsWith("nothing lost")) << offered().toStdString();
+  endRecording(1);
+  EXPECT_TRUE(offered().endsWith("1 gap in which no frame came")) << offered().toStdString();
 }
 
 TEST_F(RecordFeatureTest, AWindowThatClosesOffersNothingAnyMore) {

@@ -538,13 +538,14 @@ TEST_F(LiveWindowTest, OpeningAndRefusalsAreNamedInTheLog) {
   ASSERT_TRUE(await([&] { return !logged.isEmpty(); }));
   EXPECT_TRUE(logged.front().startsWith("opening")) << logged.front().toStdString();
   ASSERT_TRUE(await([&] { return live().source()->control->status().phase == GraspPhase::kIdle; }));
-  logged.clear();
   GraspRequest wrong;
   wrong.mode = GraspMode::kReactive;
   wrong.limitCounts = 1;
   EXPECT_THROW(live().source()->control->grasp(wrong), std::invalid_argument);
-  ASSERT_TRUE(await([&] { return !logged.isEmpty(); }));
-  EXPECT_TRUE(logged.front().startsWith("reactive grasp refused")) << logged.front().toStdString();
+  // The end of the opening may be told meanwhile.
+  EXPECT_TRUE(await([&] {
+    return !logged.filter(QRegularExpression("^reactive grasp refused")).isEmpty();
+  })) << logged.join("; ").toStdString();
 }
 
 TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {

@@ -33,9 +33,11 @@ QString summaryOf(const RecordingReport& report) {
   if (report.paths.size() > 1) text += " and " + QString::number(report.paths.size() - 1) + " more";
   text += ": " + QString::number(report.frames) + " frames in " + figure(report.durationS, 1) +
           " s, " + megabytes(report.bytes);
-  text += report.lost > 0 ? ", " + QString::number(report.lost) + " lost" : ", nothing lost";
+  if (report.lost > 0) text += ", " + QString::number(report.lost) + " lost";
   if (report.gaps > 0)
-    text += report.gaps == 1 ? ", 1 gap" : ", " + QString::number(report.gaps) + " gaps";
+    text += (report.gaps == 1 ? QString(", 1 gap") : ", " + QString::number(report.gaps) + " gaps") +
+            " in which no frame came";
+  if (report.lost == 0 && report.gaps == 0) text += ", nothing lost";
   return text;
 }
 
