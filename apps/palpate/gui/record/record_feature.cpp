@@ -35,8 +35,9 @@ QString summaryOf(const RecordingReport& report) {
           " s, " + megabytes(report.bytes);
   if (report.lost > 0) text += ", " + QString::number(report.lost) + " lost";
   if (report.gaps > 0)
-    text += (report.gaps == 1 ? QString(", 1 gap") : ", " + QString::number(report.gaps) + " gaps") +
-            " in which no frame came";
+    text +=
+        (report.gaps == 1 ? QString(", 1 gap") : ", " + QString::number(report.gaps) + " gaps") +
+        " in which no frame came";
   if (report.lost == 0 && report.gaps == 0) text += ", nothing lost";
   return text;
 }
