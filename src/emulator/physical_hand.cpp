@@ -92,7 +92,7 @@ struct PhysicalHand::Impl {
     for (const JointLine& line : pose.jointLines())
       for (std::size_t m = 0; m < objects.contacts().size(); ++m) {
         const SensorSurface& surface = geometry.description().surfaces[m];
-        const MatrixContact& contact = objects.contacts()[m];
+        const SimulatedMatrixContact& contact = objects.contacts()[m];
         if (surface.finger != line.finger || surface.link < line.link || contact.forceN <= 0.0)
           continue;
         torqueNmm[line.axis] +=
@@ -108,7 +108,7 @@ struct PhysicalHand::Impl {
   // How objects move over the matrices.
   void follow(double dtS, bool moved) {
     for (std::size_t m = 0; m < truth.size(); ++m) {
-      const MatrixContact& contact = objects.contacts()[m];
+      const SimulatedMatrixContact& contact = objects.contacts()[m];
       MatrixTruth& now = truth[m];
       if (contact.forceN < kContactN) {
         now = MatrixTruth{};

@@ -53,11 +53,11 @@ PhysicalObjects::PhysicalObjects(const std::vector<SceneObject>& objects,
 
 void PhysicalObjects::press(const HandPose& pose, std::vector<double>& pressureKpa) {
   pressureKpa.assign(geometry_.description().layout.numPlaces(), 0.0);
-  std::fill(contacts_.begin(), contacts_.end(), MatrixContact{});
+  std::fill(contacts_.begin(), contacts_.end(), SimulatedMatrixContact{});
   std::fill(strongestN_.begin(), strongestN_.end(), 0.0);
   for (std::size_t b = 0; b < bodies_.size(); ++b) pressBody(b, pose, pressureKpa);
   pressPads(pose, pressureKpa);
-  for (MatrixContact& contact : contacts_) {
+  for (SimulatedMatrixContact& contact : contacts_) {
     if (contact.forceN <= 0.0) continue;
     contact.centreMm /= contact.forceN;
     contact.surfaceXMm /= contact.forceN;
@@ -75,7 +75,7 @@ void PhysicalObjects::pressPads(const HandPose& pose, std::vector<double>& press
     const double forceN = k * depthMm * matrix.taxelAreaMm2();
     const Vector3d outwardN = pose.normals()[place] * forceN;
     pressureKpa[place] += k * depthMm * kKpaPerNPerMm2;
-    MatrixContact& contact = contacts_[m];
+    SimulatedMatrixContact& contact = contacts_[m];
     contact.forceN += forceN;
     contact.forceOnPadN -= outwardN;
     contact.centreMm += pose.positionsMm()[place] * forceN;
@@ -106,7 +106,7 @@ void PhysicalObjects::pressBody(std::size_t index,
         radius + kPhysicalObjectsReachMm)
       continue;
     const double area = matrix.taxelAreaMm2();
-    MatrixContact& contact = contacts_[m];
+    SimulatedMatrixContact& contact = contacts_[m];
     Touch touch;
     double armSquares = 0.0;
     std::size_t place = layout.offset(m);

@@ -18,7 +18,7 @@
 namespace palpate {
 
 // What presses on one matrix.
-struct MatrixContact {
+struct SimulatedMatrixContact {
   double forceN = 0.0;                                    // sum of the normal forces
   Eigen::Vector3d forceOnPadN = Eigen::Vector3d::Zero();  // base frame
   Eigen::Vector3d centreMm = Eigen::Vector3d::Zero();     // of pressure, base frame
@@ -35,7 +35,7 @@ class PhysicalObjects {
 
   // Finds contact in a pose, with the objects and of pads with each other: pressure per place [kPa] and contact per matrix.
   void press(const HandPose& pose, std::vector<double>& pressureKpa);
-  const std::vector<MatrixContact>& contacts() const noexcept { return contacts_; }
+  const std::vector<SimulatedMatrixContact>& contacts() const noexcept { return contacts_; }
   // Moves the objects for a time under what press() found.
   void advance(double dtS);
   // Whether nothing moves: no object gives way or slides, nor is moved.
@@ -97,7 +97,7 @@ class PhysicalObjects {
   const HandGeometry& geometry_;
   double rubberNPerMm3_;
   std::vector<Body> bodies_;
-  std::vector<MatrixContact> contacts_;
+  std::vector<SimulatedMatrixContact> contacts_;
   std::vector<double> strongestN_;  // per matrix: of the object that presses it most
 };
 

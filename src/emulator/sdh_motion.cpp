@@ -18,7 +18,7 @@ constexpr FirmwareVersion kVelocityLimits{0, 0, 2, 1};
 constexpr FirmwareVersion kSdhMotionControllers{0, 0, 2, 6};
 constexpr FirmwareVersion kAccelerationLimits{0, 0, 2, 7};
 
-constexpr SdhQuantity kQuantities[] = {
+constexpr SdhAxisVariable kQuantities[] = {
     {"v", 0x80, true, false, kAlways},
     {"vel", 0x81, false, false, kAlways},
     {"rvel", 0x82, false, false, kSdhMotionControllers},
@@ -137,19 +137,19 @@ void SdhMotion::powerCycle() {
   joints.setPower(std::vector<bool>(numAxes(), false));
 }
 
-const SdhQuantity* SdhMotion::quantity(std::string_view name) const {
-  for (const SdhQuantity& known : kQuantities)
+const SdhAxisVariable* SdhMotion::quantity(std::string_view name) const {
+  for (const SdhAxisVariable& known : kQuantities)
     if (known.name == name && !isBefore(known.since)) return &known;
   return nullptr;
 }
 
-const SdhQuantity* SdhMotion::quantity(unsigned number) const {
-  for (const SdhQuantity& known : kQuantities)
+const SdhAxisVariable* SdhMotion::quantity(unsigned number) const {
+  for (const SdhAxisVariable& known : kQuantities)
     if (known.number == number && number != 0 && !isBefore(known.since)) return &known;
   return nullptr;
 }
 
-std::vector<double> SdhMotion::get(const SdhQuantity& quantity) const {
+std::vector<double> SdhMotion::get(const SdhAxisVariable& quantity) const {
   const JointMotion& joints = model_.joints();
   const std::string_view name = quantity.name;
   std::vector<double> values;
@@ -178,7 +178,7 @@ std::vector<double> SdhMotion::get(const SdhQuantity& quantity) const {
   return values;
 }
 
-std::vector<double> SdhMotion::set(const SdhQuantity& quantity, const std::vector<double>& values) {
+std::vector<double> SdhMotion::set(const SdhAxisVariable& quantity, const std::vector<double>& values) {
   JointMotion& joints = model_.joints();
   const std::string_view name = quantity.name;
   if (!quantity.settable) throw SdhRefusal{kSdhNoParameters};
@@ -292,7 +292,7 @@ SdhAnswer SdhMotion::execute(const std::string& line) {
                                                  "use_fixed_length",
                                                  "change_rs232",
                                                  "change_channel"};
-  const SdhQuantity* known = quantity(name);
+  const SdhAxisVariable* known = quantity(name);
   if (!known && std::find(std::begin(kOthers), std::end(kOthers), name) == std::end(kOthers))
     throw SdhRefusal{kSdhUnknownCommand};
   // What follows `stop` is ignored.
@@ -307,7 +307,7 @@ SdhAnswer SdhMotion::execute(const std::string& line) {
   throw SdhRefusal{kSdhUnsupported};
 }
 
-SdhAnswer SdhMotion::quantityCommand(const SdhQuantity& quantity, const Words& words) {
+SdhAnswer SdhMotion::quantityCommand(const SdhAxisVariable& quantity, const Words& words) {
   const int decimals = quantity.whole ? 0 : kDecimals;
   std::vector<double> result;
   if (!words.hasValues) {

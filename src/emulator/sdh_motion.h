@@ -40,7 +40,7 @@ using FirmwareVersion = std::array<int, 4>;
 FirmwareVersion parseFirmware(std::string_view text);
 
 // One value per axis.
-struct SdhQuantity {
+struct SdhAxisVariable {
   std::string_view name;
   unsigned number = 0;  // of the binary record; 0: text only
   bool settable = false;
@@ -60,11 +60,11 @@ class SdhMotion {
   SdhMotion(HandModel& model, const SdhServerOptions& options);
 
   // Quantities by name or number; null: no such one (in this firmware).
-  const SdhQuantity* quantity(std::string_view name) const;
-  const SdhQuantity* quantity(unsigned number) const;
+  const SdhAxisVariable* quantity(std::string_view name) const;
+  const SdhAxisVariable* quantity(unsigned number) const;
   // Throw SdhRefusal. `set` returns the resulting values, and of tpap and tvav the actual ones.
-  std::vector<double> get(const SdhQuantity& quantity) const;
-  std::vector<double> set(const SdhQuantity& quantity, const std::vector<double>& values);
+  std::vector<double> get(const SdhAxisVariable& quantity) const;
+  std::vector<double> set(const SdhAxisVariable& quantity, const std::vector<double>& values);
   // Carries out a text command. Throws SdhRefusal.
   SdhAnswer execute(const std::string& line);
   bool moving() const { return model_.joints().moving(); }
@@ -72,7 +72,7 @@ class SdhMotion {
 
  private:
   struct Words;
-  SdhAnswer quantityCommand(const SdhQuantity& quantity, const Words& words);
+  SdhAnswer quantityCommand(const SdhAxisVariable& quantity, const Words& words);
   std::optional<SdhAnswer> textCommand(const Words& words) const;
   std::optional<SdhAnswer> motionCommand(const Words& words);
   SdhAnswer gainCommand(const Words& words, std::vector<std::vector<double>>& gains);

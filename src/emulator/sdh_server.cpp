@@ -218,7 +218,7 @@ void SdhServer::executeRecord(std::span<const std::byte> record) {
   try {
     if (options_.checksum && in.u16() != weissChecksum(record.first(record.size() - 2)))
       throw SdhRefusal{kSdhChecksumError};
-    const SdhQuantity* quantity = motion_->quantity(number);
+    const SdhAxisVariable* quantity = motion_->quantity(number);
     if (!quantity) throw SdhRefusal{kSdhUnknownCommand};
     // A hand with fewer axes has nothing behind the rest.
     values.resize(std::min(values.size(), model_.hand().axes.size()));
