@@ -178,7 +178,8 @@ std::vector<double> SdhMotion::get(const SdhAxisVariable& quantity) const {
   return values;
 }
 
-std::vector<double> SdhMotion::set(const SdhAxisVariable& quantity, const std::vector<double>& values) {
+std::vector<double> SdhMotion::set(const SdhAxisVariable& quantity,
+                                   const std::vector<double>& values) {
   JointMotion& joints = model_.joints();
   const std::string_view name = quantity.name;
   if (!quantity.settable) throw SdhRefusal{kSdhNoParameters};
