@@ -15,7 +15,6 @@ class SubjectTest : public BenchTest {
  protected:
   SubjectTest() : subject_(bench_->subject) {
     const auto note = [this](const char* name) { return [this, name] { heard_.append(name); }; };
-    QObject::connect(&subject_, &Subject::leaving, note("leaving"));
     QObject::connect(&subject_, &Subject::changed, note("changed"));
     QObject::connect(&subject_, &Subject::seenChanged, note("seen"));
     QObject::connect(&subject_, &Subject::valuesChanged, note("values"));
@@ -38,7 +37,7 @@ TEST_F(SubjectTest, EachSignalComesOnceAndInOrder) {
   subject_.show(recording("a"));
   EXPECT_EQ(heard(), QStringList({"changed", "seen", "shown"}));
   subject_.show(recording("b"));
-  EXPECT_EQ(heard(), QStringList({"leaving", "changed", "seen", "shown"}));
+  EXPECT_EQ(heard(), QStringList({"changed", "seen", "shown"}));
   subject_.show(subject_.behind());
   EXPECT_EQ(heard(), QStringList()) << "the same one again";
   subject_.setSeen(recording("b filtered"));
@@ -102,7 +101,7 @@ TEST_F(SubjectTest, LiveAndBackTheRecordingStandsWhereItWas) {
   bench_->playback.seekFrame(9);
   heard();
   connectEmulated();
-  EXPECT_EQ(heard(), QStringList({"leaving", "changed", "seen", "shown"}));
+  EXPECT_EQ(heard(), QStringList({"changed", "seen", "shown"}));
   EXPECT_TRUE(subject_.isLive());
   EXPECT_EQ(subject_.recorded(), nullptr);
   EXPECT_EQ(subject_.behind(), first);

@@ -60,5 +60,21 @@ TEST_F(MatricesFeatureTest, ALivePictureWithoutAFrameSaysWhyFromTheStart) {
   EXPECT_EQ(view().notice(), "") << "it has come";
 }
 
+// docs/live_window.md: "largest so far" never shrinks while connected.
+TEST_F(MatricesFeatureTest, TheLargestSoFarOutlivesALookAtARecording) {
+  connectEmulated();
+  bench_->moment.hold(true);  // what comes besides is not shown
+  TactileFrame pressed(bench_->subject.hand()->layout);
+  pressed.matrix(1)(7, 2) = 3100.0F;
+  feature_.panel().show(pressed);
+  EXPECT_EQ(view().look().range.maximum, 3250.0);
+  bench_->subject.show(recording("a"));
+  bench_->subject.showLive();
+  EXPECT_EQ(view().look().range.maximum, 3250.0);
+  disconnect();
+  connectEmulated();
+  EXPECT_LT(view().look().range.maximum, 3250.0) << "another one was connected";
+}
+
 }  // namespace
 }  // namespace palpate::gui::matrices_feature_test

@@ -42,6 +42,8 @@ Moment::Moment(Subject& subject,
 void Moment::begin() {
   frame_ = TactileFrame();
   angles_.reset();
+  temperatures_.reset();
+  damaged_ = false;
   hold(false);
   setOld({});
   renewLiveNotice();
@@ -58,6 +60,7 @@ void Moment::showFrame(std::size_t index) {
   const OpenedRecordingPtr& seen = subject_.seen();
   if (!subject_.isRecording() || !seen || index >= seen->profile.numFrames()) return;
   angles_.reset();
+  temperatures_.reset();
   QString damage;
   try {
     seen->profile.readFrame(index, frame_);
@@ -66,7 +69,7 @@ void Moment::showFrame(std::size_t index) {
   }
   try {
     angles_ = seen->profile.anglesAtFrame(index);
-    seen->profile.temperaturesAtFrame(index);
+    temperatures_ = seen->profile.temperaturesAtFrame(index);
   } catch (const Error& error) {
     damage = error.what();  // a part of it is of another one
   }

@@ -30,6 +30,7 @@ class Moment : public QObject {
   bool hasFrame() const { return !frame_.values.empty(); }
   // Of a recording, the last ones at or before the frame; nothing: it has none, or they are damaged.
   const std::optional<JointAngles>& angles() const noexcept { return angles_; }
+  const std::optional<Temperatures>& temperatures() const noexcept { return temperatures_; }
   // They can't be read: what is known of them is of another frame.
   bool damaged() const noexcept { return damaged_; }
   // Of a recording; 0 else.
@@ -65,6 +66,7 @@ class Moment : public QObject {
   PlaybackController& playback_;
   TactileFrame frame_;
   std::optional<JointAngles> angles_;
+  std::optional<Temperatures> temperatures_;
   bool damaged_ = false;
   bool held_ = false;
   OldPicture old_;

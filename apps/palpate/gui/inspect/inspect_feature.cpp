@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <palpate/core/error.h>
 #include <palpate/signals/signal_text_table.h>
 
 #include "gui/inspect/inspect_panel.h"
@@ -58,11 +57,7 @@ InspectFeature::InspectFeature(Bench& bench, QWidget* window)
   connect(&subject, &Subject::moreKnown, panel_, &InspectPanel::renewFacts);
   connect(&bench.moment, &Moment::frameChanged, this, [this, &bench] {
     if (!bench.subject.isRecording()) return;
-    try {
-      panel_->showFrame(bench.moment.index());
-    } catch (const Error&) {
-      return;  // said where the frame is shown
-    }
+    panel_->showFrame(bench.moment.index(), bench.moment.angles(), bench.moment.temperatures());
   });
   connect(&bench.moment, &Moment::resultsCame, panel_, &InspectPanel::showLive);
   connect(&bench.moment, &Moment::oldChanged, this, [&bench, &table] {
@@ -75,11 +70,9 @@ InspectFeature::InspectFeature(Bench& bench, QWidget* window)
     panel_->setCalibration(bench.overlays.calibration());
   });
   connect(&bench.overlays, &Overlays::pressureChanged, this, &InspectFeature::showForces);
+  connect(&bench.live, &LiveController::leaving, this, [this] { liveTicks_.clear(); });
   connect(&bench.live, &LiveController::looked, this, &InspectFeature::showLinkFacts);
-  connect(&bench.look, &ViewLook::themeChanged, this, [this, &bench] {
-    panel_->setTheme(bench.look.theme());
-    showPlotted();
-  });
+  followTheme(panel_);
   connect(&table, &MatrixTableModel::plottedChanged, this, &InspectFeature::showPlotted);
   makeActions();
   const auto last = plots_.size() - 1;
@@ -103,10 +96,15 @@ void InspectFeature::makeActions() {
 
 void InspectFeature::takeSource() {
   const Subject& subject = bench().subject;
-  if (subject.isLive())
+  if (subject.isLive()) {
+    const std::vector<bool> ticks =
+        liveTicks_;  // as they were left, before a recording was looked at
     panel_->setHand(*subject.hand());
-  else
+    for (std::size_t row = 0; row < ticks.size(); ++row)
+      panel_->table().setPlotted(row, ticks[row]);
+  } else {
     panel_->setRecording(subject.seen());
+  }
   panel_->table().setOld(subject.isLive() && !bench().moment.old().notice.isEmpty());
   showPlotted();
   showLinkFacts();
@@ -133,6 +131,7 @@ void InspectFeature::showPlotted() {
   const MatrixTableModel& table = panel_->table();
   const auto& plotted = table.plotted();
   bench().selection.setPlotted(plotted);
+  if (bench().subject.isLive()) liveTicks_ = plotted;
   const auto last = plots_.size() - 1;
   for (qsizetype i = 0; i < last; ++i) {
     const auto row = static_cast<std::size_t>(i);

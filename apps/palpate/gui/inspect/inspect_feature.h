@@ -23,7 +23,8 @@ class InspectFeature : public Feature {
   void showForces();
   void showPlotted();
 
-  QList<QAction*> plots_;  // a matrix: the first nine, then the whole hand
+  QList<QAction*> plots_;        // a matrix: the first nine, then the whole hand
+  std::vector<bool> liveTicks_;  // of the rows of what is connected; none: it was not looked at yet
   InspectPanel* panel_;
   Dock* dock_;
 };

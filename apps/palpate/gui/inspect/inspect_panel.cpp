@@ -216,12 +216,13 @@ void InspectPanel::showLive(const LiveResults& results) {
   if (results.temperatures) showTemperatures(*results.temperatures);
 }
 
-void InspectPanel::showFrame(std::size_t frame) {
+void InspectPanel::showFrame(std::size_t frame,
+                             const std::optional<JointAngles>& angles,
+                             const std::optional<Temperatures>& temperatures) {
   if (!recording_) return;
   model_->showFrame(frame);
-  if (const auto angles = recording_->profile.anglesAtFrame(frame)) showAngles(*angles);
-  if (const auto temperatures = recording_->profile.temperaturesAtFrame(frame))
-    showTemperatures(*temperatures);
+  if (angles) showAngles(*angles);
+  if (temperatures) showTemperatures(*temperatures);
 }
 
 void InspectPanel::showAngles(const JointAngles& angles) {

@@ -20,7 +20,10 @@ class InspectPanel : public QScrollArea {
  public:
   explicit InspectPanel(QWidget* parent = nullptr);
   void setRecording(const OpenedRecordingPtr& recording);
-  void showFrame(std::size_t frame);
+  // Of that recording; angles and temperatures that aren't known stay as they are.
+  void showFrame(std::size_t frame,
+                 const std::optional<JointAngles>& angles,
+                 const std::optional<Temperatures>& temperatures);
   // Events of the recording, as they were edited, too.
   void showEvents(const std::vector<RecordingEvent>& events);
   // What values are told in beside counts: "none: values are counts", or the calibration's name.

@@ -126,11 +126,12 @@ void MatricesPanel::setRecording(const OpenedRecordingPtr& recording) {
   applyLook();
 }
 
+void MatricesPanel::forgetLargest() { largestLive_ = kLeastLiveRange; }
+
 void MatricesPanel::setHand(const HandDescription& hand) {
   recording_.reset();
   frame_ = TactileFrame();
-  range_->setItemText(0, "largest so far");    // there is no whole recording yet
-  if (!hand_) largestLive_ = kLeastLiveRange;  // else the same one, with other taxels scanned
+  range_->setItemText(0, "largest so far");  // there is no whole recording yet
   hand_ = hand;
   view_->setHand(hand);
   applyLook();

@@ -28,6 +28,8 @@ class MatricesPanel : public QWidget {
   void show(const TactileFrame& frame);
   // More is known of a long recording now.
   void renewRange();
+  // The connection ends: the largest value of the next hand is not known yet.
+  void forgetLargest();
   // A live hand instead of a recording.
   void setHand(const HandDescription& hand);
   // Whose frames are shown; null: nobody's.
