@@ -75,6 +75,19 @@ std::optional<FrameSpan> Bench::selectedFrames() const {
   return FrameSpan{frames->first, frames->second};
 }
 
+std::optional<FramePictures> Bench::framePictures(const QString& suffix) const {
+  if (!subject.isRecording()) return std::nullopt;
+  const OpenedRecordingPtr recording = subject.seen();
+  FramePictures pictures;
+  pictures.fileName = recordingStem() + suffix;
+  pictures.numFrames = recording->profile.numFrames();
+  pictures.selected = selectedFrames();
+  pictures.timeUs = [recording](std::size_t frame) {
+    return recording->profile.frameTimeUs(frame);
+  };
+  return pictures;
+}
+
 QString Bench::recordingStem() const {
   if (!subject.isRecording()) return frameStem();
   return QFileInfo(fileNameOf(*subject.behind())).completeBaseName();

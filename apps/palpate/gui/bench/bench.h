@@ -89,6 +89,8 @@ struct Bench {
   // Of files that are made of what is shown, without folder and ending: "ball", "ball_frame_00042", "live_101502".
   QString recordingStem() const;
   QString frameStem() const;
+  // Of every frame of the recording that is looked at, without their painter; nothing: none is.
+  std::optional<FramePictures> framePictures(const QString& suffix) const;
   // What of, and when, over and below a picture.
   QString pictureTitle() const;
   QString pictureCaption() const;

@@ -70,7 +70,14 @@ class Feature : public QObject {
  protected:
   Bench& bench() const noexcept { return bench_; }
   QWidget* window() const noexcept { return window_; }
-  // What an action does, and when it can be chosen.
+  // A widget of its own is in the colours of the window, always.
+  template <class Widget>
+  void followTheme(Widget* widget) {
+    connect(&bench_.look, &ViewLook::themeChanged, widget, [this, widget] {
+      widget->setTheme(bench_.look.theme());
+    });
+  }
+  // What an action does when it is chosen.
   template <class Do>
   void on(QAction* action, Do what) {
     connect(action, &QAction::triggered, this, what);

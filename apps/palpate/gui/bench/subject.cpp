@@ -33,10 +33,7 @@ void Subject::show(OpenedRecordingPtr recording) {
     if (isLive()) history_ = nullptr;  // to be taken anew by all
     return showLive();
   }
-  if (isRecording()) {
-    emit leaving();
-    noteWhereWeAre();
-  }
+  noteWhereWeAre();
   // Until the new one is everywhere nobody asks it for the old one's frame.
   playback_.setProfile(std::nullopt);
   behind_ = recording;
@@ -61,10 +58,7 @@ void Subject::showLive() {
   LiveSource* source = live_.source();
   if (!source || (isLive() && source->history.get() == history_)) return;
   playback_.pause();
-  if (isRecording()) {
-    emit leaving();
-    noteWhereWeAre();
-  }
+  noteWhereWeAre();
   kind_ = Kind::kLive;
   history_ = source->history.get();
   hand_ = source->session->device().hand();

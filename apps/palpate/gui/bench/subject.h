@@ -68,8 +68,6 @@ class Subject : public QObject {
   std::function<OpenedRecordingPtr(const OpenedRecordingPtr&)> filtered;
 
  signals:
-  // All is as it was: note what is to be kept.
-  void leaving();
   // What is looked at is another one.
   void changed();
   // So are the values of seen() or of the source, or they alone: take them.

@@ -28,9 +28,7 @@ CalibrateFeature::CalibrateFeature(Bench& bench, QWidget* window)
   pressures_ = std::make_unique<Pressures>(bench, panel_->force());
   connect(&bench.subject, &Subject::shown, this, &CalibrateFeature::takeSource);
   connect(&bench.events, &EventDesk::changed, this, &CalibrateFeature::takeKept);
-  connect(&bench.look, &ViewLook::themeChanged, this, [this] {
-    panel_->setTheme(this->bench().look.theme());
-  });
+  followTheme(panel_);
   connect(
       &bench.playback, &PlaybackController::positionChanged, panel_, &CalibratePanel::setPosition);
   connect(panel_, &CalibratePanel::said, &bench.messages, &Messages::flash);

@@ -20,9 +20,7 @@ HandFeature::HandFeature(Bench& bench, QWidget* window)
   connect(panel_, &HandDock::blindChanged, &bench.overlays, &Overlays::setBlind);
   connect(panel_, &HandDock::stopPressed, &bench.handRequests, &HandRequests::asked);
   connect(panel_, &HandDock::asked, &bench.handRequests, &HandRequests::asked);
-  connect(&bench.look, &ViewLook::themeChanged, this, [this] {
-    panel_->setTheme(this->bench().look.theme());
-  });
+  followTheme(panel_);
   SensitivityModes& modes = panel_->sensitivity();
   modes.noiseLines = [&bench](const std::string& hand) {
     const auto& lines = bench.handRequests.noiseLines;

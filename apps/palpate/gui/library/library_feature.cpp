@@ -40,9 +40,7 @@ LibraryFeature::LibraryFeature(Bench& bench, QWidget* window)
         if (panel_->folder().isEmpty() && !report.paths.empty())
           panel_->setFolder(QString::fromStdString(report.paths.front().parent_path().string()));
       });
-  connect(&bench.look, &ViewLook::themeChanged, this, [this] {
-    panel_->setTheme(this->bench().look.theme());
-  });
+  followTheme(panel_);
 }
 
 // What is shown stays A.

@@ -31,9 +31,7 @@ LogFeature::LogFeature(Bench& bench, QWidget* window)
     bench.messages.flash("written: " + path);
   });
   connect(panel_, &LogPanel::failed, &bench.messages, &Messages::fail);
-  connect(&bench.look, &ViewLook::themeChanged, this, [this] {
-    panel_->setTheme(this->bench().look.theme());
-  });
+  followTheme(panel_);
 }
 
 std::vector<DockOffer> LogFeature::docks() {

@@ -29,10 +29,8 @@ LinkFeature::LinkFeature(Bench& bench, QWidget* window)
           [this](const std::vector<RecordingEvent>& events) {
             for (const RecordingEvent& event : events) panel_->addEvent(event);
           });
-  connect(&bench.look, &ViewLook::themeChanged, this, [this] {
-    panel_->setTheme(this->bench().look.theme());
-    alarms_->setTheme(this->bench().look.theme());
-  });
+  followTheme(panel_);
+  followTheme(alarms_);
 }
 
 // Behind the log: who listens is told that a hand is connected before what streams of it.

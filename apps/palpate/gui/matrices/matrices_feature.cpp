@@ -39,6 +39,7 @@ MatricesFeature::MatricesFeature(Bench& bench, QWidget* window)
     const std::vector<QString>& why = overlays.blind();
     if (this->bench().subject.isLive() || why.empty()) panel_->view().setBlind(why);
   });
+  connect(&bench.live, &LiveController::leaving, panel_, &MatricesPanel::forgetLargest);
   connectLook();
   connectChosen();
 }
@@ -149,19 +150,13 @@ std::vector<ExportedView> MatricesFeature::views() {
          [shown = bench.moment.frame(), frame] { return taxelTable(shown, frame); }}};
   };
   view.framePictures = [this, &bench]() -> std::optional<FramePictures> {
-    if (!bench.subject.isRecording()) return std::nullopt;
+    std::optional<FramePictures> pictures = bench.framePictures({});
+    if (!pictures) return pictures;
     const OpenedRecordingPtr recording = bench.subject.seen();
-    FramePictures pictures;
-    pictures.fileName = bench.recordingStem();
-    pictures.numFrames = recording->profile.numFrames();
-    pictures.selected = bench.selectedFrames();
-    pictures.timeUs = [recording](std::size_t frame) {
-      return recording->profile.frameTimeUs(frame);
-    };
     MatricesPictureOptions options = pictureOptions(bench, *panel_);
     if (bench.look.view().range == RangeMode::kFrame)
       options.rangeMax = options.rangeMin = 0.0;  // of each
-    pictures.painter = [recording, options](const PictureLook& look) {
+    pictures->painter = [recording, options](const PictureLook& look) {
       return matricesFramePainter(recording, fitted(options, look));
     };
     return pictures;

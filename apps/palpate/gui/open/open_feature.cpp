@@ -41,6 +41,7 @@ OpenFeature::OpenFeature(Bench& bench, QWidget* window)
       actions_(bench.actions),
       startPage_(new StartPage(bench.recent, hasDemo(bench), window)),
       strip_(new OpeningStrip(window)) {
+  followTheme(startPage_);
   actions_.openDemo->setVisible(hasDemo(bench));
   actions_.openDemo->setEnabled(hasDemo(bench));
   bench.questions.recordings = [&bench, window] {
@@ -71,7 +72,7 @@ void OpenFeature::connectOpener() {
   connect(&bench.recordings, &OpenRecordings::gone, this, [&bench](const OpenedRecordingPtr& gone) {
     bench.subject.replace(gone, bench.recordings.at(gone->path));
   });
-  connect(&bench.subject, &Subject::shown, this, [this, &bench] {
+  connect(&bench.subject, &Subject::changed, this, [this, &bench] {
     listRecordings();
     const OpenedRecordingPtr recording = bench.subject.recorded();
     if (recording && recording->profile.numFrames() == 0)
@@ -111,14 +112,10 @@ void OpenFeature::connectStartPage() {
   connect(startPage_, &StartPage::fileChosen, this, [&bench](const QString& path) {
     bench.open({path.toStdString()});
   });
-  connect(&bench.look, &ViewLook::themeChanged, this, [this, &bench] {
-    startPage_->setTheme(bench.look.theme());
-  });
 }
 
 void OpenFeature::start() {
   connectStartPage();
-  startPage_->setTheme(bench().look.theme());
   fillRecentMenu();
   listRecordings();
 }

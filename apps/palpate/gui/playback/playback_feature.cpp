@@ -20,10 +20,8 @@ PlaybackFeature::PlaybackFeature(Bench& bench, QWidget* window)
       bar_(new PlaybackBar(bench.playback, window)) {
   connectActions();
   connect(&bench.playback, &PlaybackController::stateChanged, this, &PlaybackFeature::showState);
-  connect(&bench.look, &ViewLook::themeChanged, this, [this] {
-    bar_->setTheme(this->bench().look.theme());
-    showState();
-  });
+  followTheme(bar_);
+  connect(&bench.look, &ViewLook::themeChanged, this, &PlaybackFeature::showState);
 }
 
 void PlaybackFeature::connectActions() {

@@ -63,8 +63,8 @@ RecordFeature::RecordFeature(Bench& bench, QWidget* window)
     offering_ = false;
     offer_->say(text);
   });
+  followTheme(offer_);
   connect(&bench.look, &ViewLook::themeChanged, this, [this] {
-    offer_->setTheme(this->bench().look.theme());
     actions_.record->setIcon({});  // in the colours of before
     showState();
   });

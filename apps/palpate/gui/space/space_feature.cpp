@@ -220,18 +220,12 @@ std::vector<ExportedView> SpaceFeature::views() {
         painter, QRectF(QPointF(), look.size), shown.drawing(), shown.pictureOptions(page));
   };
   view.framePictures = [this, &bench]() -> std::optional<FramePictures> {
-    if (!bench.subject.isRecording()) return std::nullopt;
+    std::optional<FramePictures> pictures = bench.framePictures("_hand");
+    if (!pictures) return pictures;
     const OpenedRecordingPtr recording = bench.subject.seen();
-    FramePictures pictures;
-    pictures.fileName = bench.recordingStem() + "_hand";
-    pictures.numFrames = recording->profile.numFrames();
-    pictures.selected = bench.selectedFrames();
-    pictures.timeUs = [recording](std::size_t frame) {
-      return recording->profile.frameTimeUs(frame);
-    };
-    pictures.painter = [recording,
-                        options = pictureOptions(bench, matrices_),
-                        shown = &panel_->view()](const PictureLook& look) {
+    pictures->painter = [recording,
+                         options = pictureOptions(bench, matrices_),
+                         shown = &panel_->view()](const PictureLook& look) {
       return handFramePainter(
           recording->profile, shown->pictureOptions(fitted(options, look)), shown->assumedAngles());
     };

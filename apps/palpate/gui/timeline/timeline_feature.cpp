@@ -76,10 +76,8 @@ void TimelineFeature::connectSubject() {
   });
   connect(&chart_->store(), &SeriesStore::changed, this, &TimelineFeature::showReading);
   ViewLook& look = bench().look;
-  connect(&look, &ViewLook::themeChanged, this, [this, &look] {
-    panel_->setTheme(look.theme());
-    liveChart_->setTheme(look.theme());
-  });
+  followTheme(panel_);
+  followTheme(liveChart_);
   connect(&look, &ViewLook::changed, this, [this, &look] {
     header_->setSignal(look.view().signal);
     checkChoice(actions_.signalsPlotted, kAllPlottedSignals, look.view().signal);

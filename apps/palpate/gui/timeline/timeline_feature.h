@@ -27,7 +27,6 @@ class TimelineFeature : public Feature {
 
   TimelinePanel& panel() noexcept { return *panel_; }
   LiveChart& liveChart() noexcept { return *liveChart_; }
-  TaxelGroups& groups() noexcept { return groups_; }
   SignalTree& signalTree() noexcept { return *signalTree_; }
   CropJob& cropJob() noexcept { return *crop_; }
 
