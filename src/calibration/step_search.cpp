@@ -12,8 +12,8 @@ namespace palpate {
 namespace {
 
 constexpr double kStepSearchSettled = 38.0;  // e^-38 is below the rounding of 1
-constexpr double kNear =
-    1.0;  // a step beyond a factor of e says nothing about the place it leads to
+// a step beyond a factor of e says nothing about the place it leads to
+constexpr double kNear = 1.0;
 // A search that comes so near to a known minimum, and goes on towards it, finds nothing new.
 constexpr double kSame = 0.02;
 // T1/T2 - 1 below which the search by times gives up: towards d = 1 its two logarithms run along a bent valley.

@@ -17,8 +17,8 @@ constexpr std::size_t kMostHeld = 32'768;  // items that wait for a file: 64 MB 
 constexpr std::int64_t kHeldWithoutFrameUs = 60'000'000;
 constexpr std::size_t kMostDirty = 4096;  // items of one commit
 constexpr std::int64_t kCountersUs = 1'000'000;
-constexpr std::int64_t kEndGraceUs =
-    1'000'000;  // no frame comes any more: the end is noticed so late
+// no frame comes any more: the end is noticed so late
+constexpr std::int64_t kEndGraceUs = 1'000'000;
 
 std::int64_t microseconds(double seconds) {
   return static_cast<std::int64_t>(std::llround(seconds * 1e6));

@@ -17,8 +17,8 @@ constexpr std::int64_t kQuietUs = 200'000;  // half a request is given up after 
 constexpr std::int64_t kTickUs = 50'000;    // the model's time goes on at least so often
 constexpr std::int64_t kCutUs = 5000;       // for the client to read what came ahead of a hang-up
 constexpr std::int64_t kTidyUs = 500'000;
-constexpr std::int64_t kRetryUs =
-    1000;  // of a line that takes nothing; doubled up to 16 times that
+// of a line that takes nothing; doubled up to 16 times that
+constexpr std::int64_t kRetryUs = 1000;
 constexpr int kMaxRetryDoublings = 4;
 constexpr int kFramesPerTurn = 16;
 constexpr std::size_t kRememberedFrames = 8192;

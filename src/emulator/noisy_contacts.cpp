@@ -120,8 +120,8 @@ class NoisyContactsGenerator {
   // What presses in a frame, before the rubber.
   void load(std::size_t frame) {
     if (!options_.contacts) return;
-    const double timeS =
-        static_cast<double>(frame) / options_.rateHz - kRestsS;  // a rest comes first
+    // a rest comes first
+    const double timeS = static_cast<double>(frame) / options_.rateHz - kRestsS;
     if (timeS < 0.0) return;
     const auto index = static_cast<std::size_t>(timeS / kContactS);
     if (index >= contacts_.size()) begin(index, frame);

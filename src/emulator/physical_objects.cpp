@@ -24,8 +24,8 @@ constexpr double kLeastHoldN = 1e-6;  // of friction, along a normal
 constexpr double kTouchN = 0.05;      // less is no contact
 constexpr double kPutDownS = 0.5;     // untouched for so long it stands again
 constexpr double kQuietMmPerS = 0.05;
-constexpr double kPhysicalObjectsReachMm =
-    8.0;  // sensor surfaces are bent: slack of the quick check
+// sensor surfaces are bent: slack of the quick check
+constexpr double kPhysicalObjectsReachMm = 8.0;
 
 Vector3d limited(const Vector3d& v, double most) {
   const double norm = v.norm();

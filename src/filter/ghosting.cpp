@@ -227,8 +227,8 @@ double GhostingReport::largestDelayFrames() const {
   double largest = kNone;
   for (const ContactGhosting& contact : contacts)
     if (const auto delay = contact.delayFrames())
-      largest =
-          std::fmax(largest, static_cast<double>(*delay));  // of a NaN and a number the number
+      // of a NaN and a number the number
+      largest = std::fmax(largest, static_cast<double>(*delay));
   return largest;
 }
 

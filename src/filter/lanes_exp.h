@@ -12,8 +12,8 @@ inline FourLanes expOf(FourLanes x) {
   typedef int FourWords __attribute__((vector_size(16)));  // NOLINT: as FourLanes
   constexpr float kLog2E = 1.44269504F;
   constexpr float kLowest = -126.0F;
-  constexpr float kRounder =
-      12582912.0F;  // 1.5 * 2^23: adding it leaves the whole part in the low bits
+  // 1.5 * 2^23: adding it leaves the whole part in the low bits
+  constexpr float kRounder = 12582912.0F;
   constexpr int kMantissaBits = 23;
   const FourLanes t = most(x * kLog2E, FourLanes{} + kLowest);
   const FourLanes rounded = t + kRounder;

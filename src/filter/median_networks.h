@@ -56,8 +56,8 @@ inline void sort(Nine& v) { exchange<kSortNine>(v, std::make_index_sequence<25>(
 // order; then 7 of the 27 are surely too small and 7 too large. Of the others the 7th of 13 is wanted: four of the
 // lowest of a rank, five of the middle ones, four of the highest.
 inline FourLanes median27(const Nine& a, const Nine& b, const Nine& c) {
-  std::array<FourLanes, 8>
-      outer;  // two runs of four in order: highest of ranks 0..3, lowest of 5..8
+  // two runs of four in order: highest of ranks 0..3, lowest of 5..8
+  std::array<FourLanes, 8> outer;
   std::array<FourLanes, 5> mids;  // of ranks 2..6
   for (std::size_t i = 0; i < 4; ++i) outer[i] = most(most(a[i], b[i]), c[i]);
   for (std::size_t i = 0; i < 4; ++i) outer[i + 4] = least(least(a[i + 5], b[i + 5]), c[i + 5]);

@@ -9,8 +9,8 @@
 namespace palpate {
 namespace {
 
-constexpr double kAlignmentFurthestS =
-    1e9;  // beyond it nothing is: keeps microseconds within 64 bit
+// beyond it nothing is: keeps microseconds within 64 bit
+constexpr double kAlignmentFurthestS = 1e9;
 
 bool empty(const TimedProfile& side) { return side.profile.numFrames() == 0; }
 

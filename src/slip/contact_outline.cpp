@@ -99,8 +99,8 @@ OutlineShape ContactOutline::borderOf(int start) const {
     x += kX[way];
     y += kY[way];
     place += offsets[way];
-    direction =
-        (found + 6) & 7;  // two before: the first that can't have been seen from the last place
+    // two before: the first that can't have been seen from the last place
+    direction = (found + 6) & 7;
     if (found % 2 == 1) direction = (found + 5) & 7;
   }
   shape.area = 0.5 * std::abs(twiceArea);

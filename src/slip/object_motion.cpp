@@ -32,8 +32,8 @@ SlipArrow slipArrow(const HandPose& pose,
   arrow.matrix = matrix;
   arrow.originMm = surface.translation();
   arrow.alongX = surface.linear().col(0);
-  arrow.alongY =
-      -surface.linear().col(1);  // its Y points to the fingertip, rows rise towards the palm
+  // its Y points to the fingertip, rows rise towards the palm
+  arrow.alongY = -surface.linear().col(1);
   arrow.normal = surface.linear().col(2);
   arrow.vectorMm = pitchMm * (dx * arrow.alongX + dy * arrow.alongY);
   if (turnDeg) arrow.turnRad = -*turnDeg * kObjectMotionRadians;

@@ -7,8 +7,8 @@
 namespace palpate {
 namespace {
 
-constexpr double kReading =
-    2.0;  // the reading trusts the contest this much more than the alarm does
+// the reading trusts the contest this much more than the alarm does
+constexpr double kReading = 2.0;
 constexpr double kDoubtFrom = 3.0;  // ShapeCondition
 constexpr double kDoubt = 4.0;
 constexpr double kSureP = 0.9;

@@ -8,8 +8,8 @@
 namespace palpate {
 namespace {
 
-constexpr double kSlipRuleCentroidPart =
-    1.3;  // the centroid loses motion where a contact reaches over an edge
+// the centroid loses motion where a contact reaches over an edge
+constexpr double kSlipRuleCentroidPart = 1.3;
 constexpr double kStillMoves = 0.5;  // of the middle window's threshold
 constexpr double kUndecided = 0.5;
 constexpr double kFarSlack = 0.3;  // [taxels]

@@ -107,8 +107,8 @@ TEST(Surface, ItsBandHoldsNewMeasurements) {
         fitSurface(plane(2.0, seed, 20), surfaceTerms(1), SurfaceSelection::kAllTerms);
     for (const SurfacePoint& p : plane(2.0, seed + 1000, 10)) {
       const SurfaceEstimate estimate = surface.at(p.x, p.t);
-      inside +=
-          std::abs(estimate.value - p.z) <= 2.12 * estimate.sd ? 1 : 0;  // t(16 dof) at 97.5 %
+      // t(16 dof) at 97.5 %
+      inside += std::abs(estimate.value - p.z) <= 2.12 * estimate.sd ? 1 : 0;
       ++all;
     }
   }

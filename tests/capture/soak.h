@@ -52,8 +52,8 @@ inline void soak(std::size_t frames) {
   ports.dsaPort = hand.dsaPort();
   ports.sdhPort = hand.sdhPort();
   CaptureOptions capture;
-  capture.recorder.feed.waitForRoom =
-      true;  // the hand waits for the disk: it runs faster than any real one
+  // the hand waits for the disk: it runs faster than any real one
+  capture.recorder.feed.waitForRoom = true;
   CaptureSession session(std::make_unique<LiveHand>(ports), capture);
   RecordingOptions recording;
   recording.path = folder / "day.palpate";

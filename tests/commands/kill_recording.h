@@ -28,8 +28,8 @@ struct KillFigures {
   int kills = 0;
   int opened = 0;
   std::uint64_t frames = 0;  // in all files
-  double mostLostMs =
-      0.0;              // from the first frame that left the hand and isn't in the file to the kill
+  // from the first frame that left the hand and isn't in the file to the kill
+  double mostLostMs = 0.0;
   int withJournal = 0;  // killed inside of a commit
 };
 

@@ -16,8 +16,8 @@ using testing::HeldObject;
 
 struct Reach {
   GraspReport report;
-  double largest =
-      0.0;  // of any taxel, from the stop to a second later, as the test saw it [counts]
+  // of any taxel, from the stop to a second later, as the test saw it [counts]
+  double largest = 0.0;
 };
 
 // One grasp. A hair of velocity more puts the frames elsewhere against the touch.

@@ -13,8 +13,8 @@ namespace palpate::testing::package_lists_test {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int kCannotTell =
-    77;  // exit code of the script: no Debian 12, no apt, no index of packages
+// exit code of the script: no Debian 12, no apt, no index of packages
+constexpr int kCannotTell = 77;
 
 class PackageLists : public ::testing::Test {
  protected:

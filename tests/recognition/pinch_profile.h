@@ -24,8 +24,8 @@ inline std::vector<double> anglesForGap(double gapMm) {
 struct PinchStep {
   double gapMm = 50.0;
   float first = 0.0F,
-        second =
-            0.0F;  // counts of taxel (2, 10) of matrix 1, (3, 10) of matrix 5: opposite each other
+        // counts of taxel (2, 10) of matrix 1, (3, 10) of matrix 5: opposite each other
+        second = 0.0F;
   // More of the first pad: column, row, counts; the second one's are opposite.
   std::vector<std::tuple<int, int, float>> more = {};
 };

@@ -150,8 +150,8 @@ TEST(SupportVectorMachine, TiesGoByTheSumOfDistances) {
   EXPECT_EQ(best, 2);
   EXPECT_EQ(std::floor(votes[3] + 0.5), 0.0);
   for (const int c : {0, 1, 2}) EXPECT_EQ(std::floor(votes[c] + 0.5), 2.0);
-  machine.weights(1, 0) =
-      100.0;  // the same decision, a hundredth of the distance: sums 6.95, 7, 4.05
+  // the same decision, a hundredth of the distance: sums 6.95, 7, 4.05
+  machine.weights(1, 0) = 100.0;
   machine.votes(decisions).maxCoeff(&best);
   EXPECT_EQ(best, 1);
 }

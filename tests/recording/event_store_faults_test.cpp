@@ -149,8 +149,8 @@ TEST(EventStoreFaults, killedAtAnyMomentItHasTheOldOrTheNewOnes) {
     int told = 0;
     for (unsigned i = 0; i <= random() % 4; ++i)
       ASSERT_EQ(read(ends[0], &told, sizeof told), static_cast<ssize_t>(sizeof told));
-    volatile unsigned wait =
-        random() % 4'000'000;  // some part of a save; no clock decides anything
+    // some part of a save; no clock decides anything
+    volatile unsigned wait = random() % 4'000'000;
     while (wait > 0) wait = wait - 1;
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);

@@ -64,8 +64,8 @@ TEST(SpectrumSeries, WhatIsNoNumberIsLeftOutAndCounted) {
   const auto whole = spectraOf(timeS, values);
   values[0] = values[40] = values[41] = kNan;
   values[70] = std::numeric_limits<double>::infinity();
-  const auto spectra =
-      spectraOf(timeS, values, {.gridRate = GridRate::kMedian});  // the same grid as before
+  // the same grid as before
+  const auto spectra = spectraOf(timeS, values, {.gridRate = GridRate::kMedian});
   EXPECT_EQ(spectra.report.notFinite, 4u);
   ASSERT_EQ(spectra.report.stretches.size(), 1u);
   EXPECT_EQ(spectra.report.stretches[0].first, 1u);

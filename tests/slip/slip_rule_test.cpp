@@ -98,8 +98,8 @@ TEST(SlipRule, CentroidAndRegistrationMustAgree) {
   evidence = shifted(kShortWindow, 0.26);  // 1.3 * 0.26 = 0.338
   evidence.windows[kShortWindow].contest.motion.dx = 1.0;
   EXPECT_FALSE(rule.decide(evidence).alarm);
-  evidence =
-      shifted(kShortWindow, 0.4);  // a registration that far off isn't believed: P counts 0.5
+  // a registration that far off isn't believed: P counts 0.5
+  evidence = shifted(kShortWindow, 0.4);
   evidence.windows[kShortWindow].contest.motion.dx = 4.0;
   EXPECT_FALSE(rule.decide(evidence).alarm);
 }

@@ -26,8 +26,8 @@ struct AskedGrasp {
   FeatureRow row;                  // of the longest grasp of the recording
   std::optional<Verdict> verdict;  // nothing: there was none to ask about
   std::string called;              // the verdict's label; empty without one
-  std::optional<std::size_t>
-      rank;  // of the object among the classes, from 1; nothing: not taught, or no verdict
+  // of the object among the classes, from 1; nothing: not taught, or no verdict
+  std::optional<std::size_t> rank;
   double probability = 0.0;  // of the object, were it one of the known ones
   std::string trouble;       // why there is no verdict; else empty
 

@@ -33,8 +33,8 @@ struct Calibration {
   SensorSettings settings;  // it was measured with
   PressureModel pressure;
   std::vector<PressureSample> samples;  // every row of the table
-  std::optional<double>
-      sensitivityOffset;  // of K = slope s + offset [counts] (sensitivity_curve.h), where it was measured
+  // of K = slope s + offset [counts] (sensitivity_curve.h), where it was measured
+  std::optional<double> sensitivityOffset;
   std::optional<NoiseFloor> noise;
   Json options;  // of the command that made it
 };

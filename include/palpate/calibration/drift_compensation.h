@@ -1,5 +1,6 @@
-// Takes the creep out of a contact that lasts: rubber under a constant load answers K + m t (study, 3.1), with m told by
-// K and temperature. From the steady state on (when the lag is over) the reading a at t gives K = a - m(K, T) t.
+// Removes creep from a lasting contact: under a constant load the rubber responds with K + m t
+// (study, 3.1), where the rate m [counts/s] depends on K and the temperature. After the lag has
+// ended, the reading a at time t gives K = a - m(K, T) t.
 #pragma once
 
 #include <optional>
@@ -11,8 +12,8 @@ namespace palpate {
 struct DriftCompensationOptions {
   double steadyS = 1.0;    // the lag is over so long after contact began [s]
   double longestS = 30.0;  // creep was measured so long; later it counts as ended [s]
-  // A reading that differs by more from the one before is another load, once it has lasted for flickerS: single frames
-  // jump when a taxel at the edge comes or goes.
+  // Relative change of the reading above which the load is taken as changed, if the change lasts at
+  // least flickerS: single frames change when a taxel at the edge becomes active or inactive.
   double sameLoadShare = 0.15;
   double flickerS = 0.1;  // [s]
 };

@@ -29,8 +29,8 @@ struct LeastSquaresReport {
   Eigen::VectorXd x;
   double sumOfSquares = 0.0;
   double residualSd = 0.0;  // sqrt(sum / (n - p)); 0 where n = p
-  Eigen::MatrixXd
-      covariance;  // of x, linearised, scaled by residualSd^2; NaN where the derivatives are dependent
+  // of x, linearised, scaled by residualSd^2; NaN where the derivatives are dependent
+  Eigen::MatrixXd covariance;
   bool converged = false;  // a minimum was found
   int iterations = 0;
   std::string message;  // what ended it, one line

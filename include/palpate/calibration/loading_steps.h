@@ -1,6 +1,6 @@
-// Finds the loading steps of one matrix: spans in which something was put onto it and stayed. The signal (by default
-// the filtered mean, eq. 3.2 of the study) rises from 0; the step begins with the last frame before that, which is
-// t = 0 of its fit, and ends before the load is taken away.
+// Finds the loading steps of one matrix: spans in which a constant load was applied. The signal (by
+// default the filtered mean, eq. 3.2 of the study) rises from 0; a step begins with the last
+// unloaded frame, which is t = 0 of its fit, and ends before the load is removed.
 #pragma once
 
 #include <cstddef>
@@ -32,8 +32,8 @@ struct LoadingStepOptions {
 struct LoadingStep {
   std::size_t begin = 0;
   std::size_t end = 0;
-  bool beginSeen =
-      true;  // false: loaded from the recording's first frame, or behind a gap: no t = 0
+  // false: loaded from the recording's first frame, or behind a gap: no t = 0
+  bool beginSeen = true;
   bool released = false;          // the load was taken away inside the recording
   std::size_t flickerFrames = 0;  // bridged
   bool operator==(const LoadingStep&) const = default;
@@ -45,8 +45,8 @@ struct StepSignal {
   std::vector<double> values;        // the characteristic signal
   std::vector<int> activeTaxels;     // taxels above 0; empty: not known
   std::vector<int> saturatedTaxels;  // taxels at or above the sensor's saturation; empty: not known
-  std::vector<int>
-      switchedTaxels;  // taxels that became active or inactive since the frame before; empty: not known
+  // taxels that became active or inactive since the frame before; empty: not known
+  std::vector<int> switchedTaxels;
 };
 // Of one matrix of a profile. Throws std::out_of_range (no such matrix), Cancelled.
 StepSignal stepSignal(const Profile& profile,

@@ -1,7 +1,8 @@
-// High-sensitivity mode (study, 3.4): sensitivity 1.0, and thresholds theta_m(T) = line + 3 RMSE that follow the live
-// temperatures. A setting pauses the stream for a few hundred ms, so that thresholds move in steps. When noise eats the
-// bandwidth (the run-length code fails, and the frame rate collapses), they rise until it doesn't. Logic only: whoever
-// owns the device sets what this proposes.
+// High-sensitivity mode (study, 3.4): sensitivity 1.0 and thresholds theta_m(T) = line + 3 RMSE
+// [counts] that follow the measured temperatures. A change of settings pauses the stream for some
+// hundred ms, so thresholds change in steps. If noise reduces the frame rate (run-length coding
+// becomes inefficient), the thresholds rise until the rate recovers. This class only proposes
+// settings; the owner of the device applies them.
 #pragma once
 
 #include <cstddef>
@@ -31,12 +32,13 @@ struct NoiseThresholdOptions {
   double sensitivity = 1.0;  // of the mode; 0..1
   int leastCounts = 0;       // never below
   int mostCounts = 1000;     // never above; the limit of the guard as well
-  int hysteresisCounts =
-      3;  // a threshold moves when the wanted one is so far above it (and twice that below); >= 1
-  double leastIntervalS =
-      10;  // between two settings; a rising guard waits only guardWindowS [s], >= 0
-  // The guard: below this share of the usual rate for guardWindowS all thresholds rise by guardStepCounts; above it
-  // for guardCalmS they come down by as much again.
+  // a threshold moves when the wanted one is so far above it (and twice that below); >= 1
+  int hysteresisCounts = 3;
+  // between two settings; a rising guard waits only guardWindowS [s], >= 0
+  double leastIntervalS = 10;
+  // Guard against a collapsing frame rate: if the rate stays below collapseShare of the usual rate
+  // for guardWindowS [s], all thresholds rise by guardStepCounts; after guardCalmS [s] above it
+  // they fall by the same amount.
   double collapseShare = 0.6;  // 0..1
   double guardWindowS = 1.0;   // > 0
   double guardCalmS = 60.0;    // > 0
@@ -54,10 +56,10 @@ struct NoiseThresholdStatus {
   bool guarding = false;  // thresholds are raised
   int guardCounts = 0;    // by so much
   bool atLimit = false;   // and can't rise further
-  std::vector<std::size_t>
-      extrapolated;  // matrices outside the temperatures that their line was measured at
-  std::vector<std::size_t>
-      unknown;  // matrices without a temperature or line: the reset value stands
+  // matrices outside the temperatures that their line was measured at
+  std::vector<std::size_t> extrapolated;
+  // matrices without a temperature or line: the reset value stands
+  std::vector<std::size_t> unknown;
 };
 
 // Follows temperatures and rate; not thread-safe. Times are the caller's and never go back.

@@ -30,8 +30,8 @@ using OpenSource =
 
 struct GatherOptions {
   StepReportOptions steps = {};
-  std::optional<std::size_t> matrix =
-      std::nullopt;  // nothing: the loaded one of the first recording that can be read
+  // nothing: the loaded one of the first recording that can be read
+  std::optional<std::size_t> matrix = std::nullopt;
 };
 
 struct GatheredSteps {

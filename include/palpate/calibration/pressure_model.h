@@ -22,8 +22,8 @@ struct PressureSample {
   double pressureKpa = 0.0;
   double gainCounts = 0.0;  // K
   double driftPerS = 0.0;   // m
-  std::optional<double> nearestDegC =
-      std::nullopt;  // sensor nearest to the matrix, mean over the step
+  // sensor nearest to the matrix, mean over the step
+  std::optional<double> nearestDegC = std::nullopt;
   std::optional<double> studyDegC = std::nullopt;  // what the study took (step_report.h)
   double activeAreaMm2 = 0.0;                      // of the contact when steady; 0: not known
   bool used = true;                                // false: left out, notes say why
@@ -32,8 +32,8 @@ struct PressureSample {
 
 struct PressureModelOptions {
   bool study = false;  // the study's choices: its temperature, all terms
-  double assumedDegC =
-      35.0;  // where a sample has no temperature, and later where a contact has none
+  // where a sample has no temperature, and later where a contact has none
+  double assumedDegC = 35.0;
   double assumedSdDegC = 8.0;  // how far off that may be; > 0
   // Of the stamp [mm^2]; 0: not known. Rubber spreads a load: more taxels are active than it covers.
   double stampAreaMm2 = 0.0;
@@ -55,8 +55,10 @@ struct PressureModel {
   Surface drift;        // P(m, T)
   Surface driftOfGain;  // m(K, T) [counts/s]: takes the creep out of a contact that lasts
   PressureModelOptions options;
+  // Ratio of the loaded area to the area of the active taxels, if the area of the stamp is
+  // known; the rubber spreads a load over more taxels than it covers.
   double areaShare =
-      1.0;  // of the active area that the load covers (stamp / active taxels), where the stamp is known
+      1.0;
   double areaShareSd = 0.0;  // from step to step
   double steadyS = 0.0;      // after so long the lag is over [s]: median of the steps; 0: not known
   std::vector<std::string> notes;

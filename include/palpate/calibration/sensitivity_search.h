@@ -1,7 +1,8 @@
-// Adaptive sensitivity (the study's idea, 3.4): seeks the highest sensitivity at which nothing saturates, from what is
-// seen. A reading is sensitivity * gain - threshold, so one unsaturated look tells about where the limit is; a saturated
-// one only that it is lower: then the interval is halved. Logic only: whoever owns the device sets what this proposes
-// (it pauses the stream for a few hundred ms) and reports what comes then.
+// Adaptive sensitivity (study, 3.4): finds the highest sensitivity without saturation from the
+// largest readings. A reading is sensitivity x gain - threshold, so one unsaturated measurement
+// predicts where saturation begins; a saturated one only gives an upper bound, and the interval is
+// bisected. This class only proposes settings: the owner of the device applies them (each pauses
+// the stream for some hundred ms) and passes the following frames to observe().
 #pragma once
 
 #include <cstddef>
@@ -15,12 +16,13 @@ struct SensitivitySearchOptions {
   double least = 0.1;  // sensitivities tried, 0..1
   double most = 1.0;
   double resolution = 0.03;  // ends where less is to be won; > 0
-  double saturationCounts =
-      static_cast<double>(kSdh2SaturationCounts);  // a taxel at or above is saturated [counts]
+  // a taxel at or above is saturated [counts]
+  double saturationCounts = static_cast<double>(kSdh2SaturationCounts);
   double headroom = 0.1;                           // aim so far below saturation; 0..0.9
   std::size_t framesToLook = 10;                   // with contact, at one sensitivity; >= 1
+  // After this time with a low maximum [s], >= 0, the upper bound is dropped and tested again.
   double loosenAfterS =
-      5.0;  // an end is looked at anew when the maximum stays low so long [s]; >= 0
+      5.0;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;

@@ -43,14 +43,16 @@ struct StepFit {
   std::size_t numSamples = 0;  // used
   std::size_t numDropped = 0;  // not finite, or before t = 0
   double rmse = kNotFitted;    // sqrt(mean square of all residuals) [counts]
-  double residualSd =
-      kNotFitted;  // sqrt(sum of (weighted) squares / (n - 4)): what the covariance rests on
+  // sqrt(sum of (weighted) squares / (n - 4)): what the covariance rests on
+  double residualSd = kNotFitted;
   // Of K, m, T1, T2 (of an oscillating one: K, m, T, d), linearised at the solution; NaN where it can't be had.
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Constant(kNotFitted);
   bool converged = false;     // a minimum was found
   bool identifiable = false;  // all four parameters are determined by the data
+  // The lag has ended (phi >= 95 %) before the data end, so that K and m can be estimated
+  // separately.
   bool gainReached =
-      false;  // the lag was over (phi >= 95 %) before the data end: K and m are told apart
+      false;
   std::size_t numDownweighted = 0;  // robust losses: samples that count less than half
   int evaluations = 0;              // of the model, over all starts
   std::vector<std::string> notes;   // what is missing or doubtful, a sentence each

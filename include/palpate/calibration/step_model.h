@@ -25,10 +25,10 @@ struct StepParameters {
 struct StepShape {
   double phi = 0.0;   // 0 at t = 0, 1 at infinity
   double rate = 0.0;  // d phi / dt [1/s]
-  double byFirst =
-      0.0;  // d >= 1: d phi / d log T2 at fixed T1/T2; d < 1: d phi / d log T at fixed d
-  double bySecond =
-      0.0;  // d >= 1: d phi / d log(T1/T2 - 1) at fixed T2; d < 1: d phi / d d at fixed T
+  // d >= 1: d phi / d log T2 at fixed T1/T2; d < 1: d phi / d log T at fixed d
+  double byFirst = 0.0;
+  // d >= 1: d phi / d log(T1/T2 - 1) at fixed T2; d < 1: d phi / d d at fixed T
+  double bySecond = 0.0;
 };
 // d >= 1, through its time constants; exact for T1 = T2 as well. t1S >= t2S > 0.
 StepShape overdampedShape(double tS, double t1S, double t2S);

@@ -1,5 +1,6 @@
-// A polynomial z(x, T) fitted by least squares, with what it is worth: leave-one-out error, covariance, and the range
-// of its data, beyond which it isn't to be believed (the study's drift surface has a condition number of 1.3e8).
+// Polynomial z(x, T) fitted by least squares, with its leave-one-out error, its covariance matrix,
+// and the range of its data; outside of that range the value is an extrapolation (the study's drift
+// surface has a condition number of 1.3e8).
 #pragma once
 
 #include <cstddef>
@@ -51,8 +52,10 @@ struct Surface {
 };
 
 enum class SurfaceSelection {
-  kAllTerms,  // as given
-  kLeaveOneOut  // those subsets with the constant are tried; the smallest within 1 % of the least error is taken
+  // as given
+  kAllTerms,
+  // those subsets with the constant are tried; the smallest within 1 % of the least error is taken
+  kLeaveOneOut
 };
 
 // Points with something that is no number are left out (and noted). Collinear data: subsets that it doesn't determine are

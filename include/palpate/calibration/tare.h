@@ -1,5 +1,6 @@
-// Tare: what the taxels read when nothing touches them (ghosts, noise above the threshold), found in the recording
-// itself and taken off. It is kept as an event beside the data: raw stays raw, and without the event all is as it was.
+// Tare: the readings of unloaded taxels (false activations, noise above the threshold), found in
+// the recording itself and subtracted. It is stored as an event; the recorded values are not
+// changed, and removing the event restores them.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +18,8 @@ namespace palpate {
 struct TareOptions {
   double windowS = 1.0;         // a window is judged as a whole [s]; > 0
   double mostRestCounts = 150;  // a matrix whose calmest window reads more is never unloaded; >= 0
-  double sameRestCounts =
-      10;                   // windows within so much of the calmest one are unloaded as well; >= 0
+  // windows within so much of the calmest one are unloaded as well; >= 0
+  double sameRestCounts = 10;
   double mostSdCounts = 6;  // of each taxel within a window; more: something moves; >= 0
 
   // Throws std::invalid_argument with the field's name.
@@ -40,8 +41,8 @@ struct MatrixTare {
 };
 
 struct Tare {
-  std::vector<float>
-      zero;  // per place [counts]: median over the unloaded windows of the taxel's mean; 0 where not valid
+  // per place [counts]: median over the unloaded windows of the taxel's mean; 0 where not valid
+  std::vector<float> zero;
   std::vector<MatrixTare> matrices;
   bool any() const;  // a taxel has a zero above 0
 };

@@ -53,8 +53,8 @@ class LinkMeter {
     double saturatedShare = 0.0;        // of the last 2 s, 0..1
     double lowRateS = 0.0;              // for how long the rate has been low [s]
     double expectedRateHz = 0.0;        // what low is measured by; 0: not known yet
-    double lineRateHz =
-        0.0;  // that the line carries of frames like those of the last 2 s; 0: not known
+    // that the line carries of frames like those of the last 2 s; 0: not known
+    double lineRateHz = 0.0;
   };
 
   // What the device gives as it is set now [Hz]; nothing: not known.
@@ -126,7 +126,7 @@ LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options =
 // What a port says is wrong, without its name in front: where the name is said already.
 std::string withoutPort(const PortStatus& port);
 
-// One line before a run, green (ready) or red.
+// Result of the check before a run: ready or not, in one line.
 struct BeforeRun {
   bool ready = false;
   std::string text;

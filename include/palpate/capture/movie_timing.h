@@ -1,6 +1,6 @@
-// Which frame each picture of a movie shows. A movie has so many pictures a second, all alike long; frames come as
-// they came. So a frame is shown by none, one or several pictures: those whose middle lies between its stamp and
-// the next one's. The first and the last frame are always seen.
+// Assigns frames to the pictures of a movie. A movie has a constant picture rate, the frames have
+// irregular time stamps: a frame is shown by all pictures whose middle lies between its stamp and
+// the next one's, which may be none, one or several. The first and the last frame are always shown.
 #pragma once
 
 #include <cstddef>

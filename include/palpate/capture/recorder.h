@@ -57,16 +57,20 @@ struct RecordingOptions {
 std::filesystem::path partPath(const std::filesystem::path& path, int part);
 
 struct RecordingReport {
-  std::vector<std::filesystem::path>
-      paths;                // parts in order; empty: no frame came, no file was made
+  // parts in order; empty: no frame came, no file was made
+  std::vector<std::filesystem::path> paths;
   std::int64_t frames = 0;  // taken into the recording, in all parts
   std::int64_t angles = 0;
   std::int64_t temperatures = 0;
   std::int64_t events = 0;
+  // Number of received items that are missing in the recording because a queue overflowed or
+  // the disk failed; gap events say which.
   std::int64_t lost =
-      0;  // items that came, and are not in it (overflow, disk): gap events tell which
+      0;
+  // Number of items that could not be recorded, because their time is not later than the
+  // previous one or a value is not a number.
   std::int64_t refused =
-      0;  // items that can't be recorded (not later than the last one, not a number)
+      0;
   std::int64_t gaps = 0;           // intervals longer than max(1 s, 5 median intervals)
   std::int64_t writeFailures = 0;  // commits that failed, and were tried again
   double durationS = 0.0;          // first to last frame [s]
@@ -96,7 +100,8 @@ struct RecorderStatus {
   std::int64_t lost = 0;
   std::int64_t refused = 0;
   std::string writeError;  // what the disk said last; empty: writing works
-  double blockedS = 0.0;   // how long the disk has been keeping the recorder waiting [s]
+  // Time for which a write has been blocked by the disk [s].
+  double blockedS = 0.0;
   std::optional<std::uint64_t> freeBytes;  // on the recording's disk, asked for once a second
 };
 
@@ -117,8 +122,8 @@ class Recorder {
 
   // Where items go in; never waits (unless feed.waitForRoom). False: lost, and counted.
   bool offer(CaptureItem item);
-  // Forgets what was kept from before: a source starts anew. Only while no thread runs and nothing is
-  // being recorded (std::logic_error).
+  // Clears the stored pre-trigger data, because a new source begins. Throws std::logic_error while
+  // the thread runs or a recording is made.
   void forget();
 
   // Asks for a recording. Throws FileError (exists, no such folder, not writable), std::invalid_argument

@@ -10,8 +10,8 @@
 
 namespace palpate {
 
-// Driven by its caller, some ten times a second, in one thread. It sends nothing but through the control, which
-// checks every command; a stop of the hand, by whomever, ends the run.
+// One thread calls step() about ten times a second. All commands go through GraspControl, which
+// checks them; a stop from any source ends the run.
 class EmptyHandRun {
  public:
   struct Options {

@@ -1,9 +1,10 @@
-// Whether the matrices of a hand can tell that a limit is exceeded, as they are set: a grasp under tactile control
-// stands on that.
+// Checks whether the matrices, with their present settings, can measure that a force limit is
+// exceeded. A grasp under tactile control depends on this.
 //
-// What a matrix reads at most: its saturation; what its threshold leaves of the converter's range (readings are sent
-// less the threshold, so that a threshold above the limit hides light touches, but not the limit itself); what its
-// sensitivity makes of the firmest grasp; nothing, where no taxel of it is scanned.
+// Largest possible reading of a matrix: its saturation; the converter's range minus its threshold
+// (the threshold is subtracted before sending, so a threshold above the limit hides light contacts
+// but not the limit); the reading of the firmest grasp at its sensitivity; 0 if no taxel of it is
+// scanned.
 #pragma once
 
 #include <cstddef>
@@ -16,13 +17,13 @@
 
 namespace palpate {
 
-// A limit ends so far below what a matrix reads at most: it must be able to say that it is over it [counts].
+// Margin between the limit and the largest possible reading [counts].
 constexpr int kFeltMarginCounts = 200;
 
 struct UnfeltLimit {
   std::size_t matrix = 0;
-  std::string
-      why;  // "finger 0 distal can't tell: its threshold of 4095 leaves no more than 0 counts"
+  // "finger 0 distal can't tell: its threshold of 4095 leaves no more than 0 counts"
+  std::string why;
 };
 
 // Those that can't tell; in the order of the matrices. `settings`: as the controller told them, one per matrix; of

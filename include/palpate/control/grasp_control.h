@@ -32,10 +32,11 @@ struct GraspStatus {
   std::string cannotMove;               // why no motion can begin, one line; empty: it can
   // The grasp whose motion port went away, as long as it has not come back, whatever was refused since.
   std::optional<GraspReport> portGone;
-  std::uint64_t stopsAsked = 0;  // of stop() and relax() so far, whether something moved or not
+  // Number of calls of stop() and relax() so far, whether or not something was moving.
+  std::uint64_t stopsAsked = 0;
   std::string cannotReact;       // why no reactive grasp can begin; empty: it can
-  std::string
-      cannotChange;       // why sensitivity, threshold and masks can't be changed; empty: they can
+  // why sensitivity, threshold and masks can't be changed; empty: they can
+  std::string cannotChange;
   double periodMs = 0.0;  // median period of the frames [ms]; 0: not known
   double silenceLimitMs = 0.0;  // after so long without a frame the stream is dead [ms]
 };
@@ -58,12 +59,13 @@ class GraspControl {
   GraspControl(const GraspControl&) = delete;
   GraspControl& operator=(const GraspControl&) = delete;
 
-  // Makes the rounds on a thread; does nothing when one makes them already. Without it, the caller makes
-  // them by step(): after each frame, and every 5 ms while something moves.
+  // Runs the control cycle on a thread of its own; has no effect if it runs already. Without it the
+  // caller runs the cycle by step(), after each frame and every 5 ms during a motion.
   void run();
   void step();
 
-  // What is thrown in a round (a bug, no memory left) ends no process: a stop goes out, the grasp ends as failed, an
+  // An exception in a cycle (a defect, no memory) does not end the process: a stop is sent, the
+  // grasp ends as failed, an
   // event "alarm" says why, and the rounds go on.
 
   // Begins a grasp. Throws std::invalid_argument (a value out of range or not a number) and DeviceError,

@@ -1,9 +1,10 @@
-// A grasp as a machine of states: told what is felt, what the axes do and what time it is, it says what to send.
-// Knows no thread, no port and no clock; GraspControl runs it.
+// State machine of a grasp. Its inputs are frames, axis states and times; its outputs are the
+// commands to be sent. It uses no thread, no port and no clock; GraspControl runs it.
 //
 //   idle --begin--> preshaping --> closing --> idle        (preshaping only with a start ratio)
 //                        `------------`--> stopping --> idle
-// At the limit it rests half a second more (settling) to see how far the reading rises after the stop.
+// At the limit it stays in the state settling for 0.5 s and measures how far the reading rises
+// after the stop.
 // A slip-aware grasp goes on from its first stop (and ends, from anywhere, as the others do):
 //
 //   closing --limit--> stopping --> settling --> holding --slips--> closing (limit raised) ..

@@ -15,9 +15,12 @@
 namespace palpate {
 
 enum class GraspMode {
-  kPlain,     // to the close ratio, whatever is felt
-  kReactive,  // closes until the first taxel of any matrix is over the limit; needs a tactile stream
-  kSlip,  // closes as a reactive grasp, then holds: closes again to a higher limit when what is held slips
+  // to the close ratio, whatever is felt
+  kPlain,
+  // closes until the first taxel of any matrix is over the limit; needs a tactile stream
+  kReactive,
+  // closes as a reactive grasp, then holds: closes again to a higher limit when what is held slips
+  kSlip,
 };
 std::string_view nameOf(GraspMode mode);  // "plain", "reactive", "slip"
 
@@ -42,8 +45,8 @@ struct HoldingOptions {
   // Of the object; with it the hand is told to open slowly once, until the object slips, and to catch it: what it
   // felt then tells friction [N], 0: not known.
   double weightN = 0.0;
-  double newtonsPerCount =
-      0.0;  // normal force per count of all taxels, of a calibration; 0: not known, no friction
+  // normal force per count of all taxels, of a calibration; 0: not known, no friction
+  double newtonsPerCount = 0.0;
 
   void validate(
       int limitCounts) const;  // throws std::invalid_argument naming field, value and range
@@ -103,11 +106,11 @@ struct GraspReport {
   std::int64_t endUs = 0;     //
   TaxelPeak peak;             // of kLimitReached: the largest taxel of the frame that crossed it
   std::vector<int> heldAxes;  // of kFinished: axes that something holds short of their target
-  // The largest taxel in the half second after the stop of a grasp under tactile control: the rubber answers late,
-  // so a reading goes on rising. Nothing: not measured.
+  // Largest taxel in the 0.5 s after the stop of a grasp under tactile control: the rubber responds
+  // with a delay, so the reading rises after the stop [counts]. Empty if it was not measured.
   std::optional<TaxelPeak> reached = {};
-  // Of kPortGone: how long from endUs on the motion that was under way can go on without anybody [s], at most; 0: none
-  // was under way, the hand stands still and holds.
+  // kPortGone: longest time from endUs for which the running motion can continue without control
+  // [s]; 0 if no motion was running and the hand holds its position.
   std::optional<double> goesOnS = {};
   // Of a slip-aware grasp:
   bool held = false;    // it came to hold

@@ -1,9 +1,12 @@
-// Whether what a hand holds slips: looks at all matrices that carry load, frame by frame, against references that are taken
-// when the grasp has come to rest.
+// Monitors whether a held object slips: compares every frame of all loaded matrices with reference
+// frames that are taken when the grasp is at rest.
 //
-// A matrix counts when it has three active taxels, 400 counts and a reading that is believed. It slips when the contact moved by
-// more than 0.20 taxel per frame in two frames in a row, or by more than 0.3 taxel or 5 degrees since the reference: less than an
-// alarm asks for (1.0), since what slips out of a grasp leaves its imprint behind, and a false one costs no more than force.
+// A matrix is evaluated if it has at least three active taxels, 400 counts in sum, and a confidence
+// of at least 0.3. It slips if the contact moves by more than 0.20 taxel per frame in two
+// consecutive frames, or by more than 0.3 taxel or 5 deg from the reference. These limits are lower
+// than the 1.0 taxel of an alarm, because the imprint of an object that is pulled out moves only
+// about a quarter as far as the object (docs/slip.md), and because a false detection only increases
+// the force.
 #pragma once
 
 #include <optional>

@@ -1,8 +1,9 @@
-// Holds sensitivity and thresholds of a hand where the signal is best. Two modes: high sensitivity (thresholds just
-// above the noise, following the temperatures; they rise when noise eats the bandwidth) and adaptive sensitivity (the
-// highest without saturation). The rules are calibration/noise_threshold.h and sensitivity_search.h; here they meet the
-// hand. Every setting pauses the stream for about half a second; while fingers move under tactile control nothing is
-// set, and what is wanted waits.
+// Controls sensitivity and thresholds of a hand. High sensitivity: thresholds just above the noise,
+// which follow the temperatures and rise when noise overloads the link. Adaptive sensitivity: the
+// highest sensitivity without saturation. The rules are in calibration/noise_threshold.h and
+// sensitivity_search.h; this class applies them to the device. Each change pauses the stream for
+// about 0.5 s; during a motion under tactile control no setting is changed, and pending changes
+// wait.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +27,11 @@ enum class SensitivityMode { kManual, kHigh, kAdaptive };
 
 struct SensitivityStatus {
   SensitivityMode mode = SensitivityMode::kManual;
-  bool measuring = false;      // looks at the usual rate first, about a second
+  // Measures the frame rate first, for about 1 s.
+  bool measuring = false;
   bool setting = false;        // commands are on their way
-  std::string waiting;         // why what is wanted can't be set now, one line; empty: it can
+  // Reason why the wanted settings can't be applied now, one line; empty: they can.
+  std::string waiting;
   std::string failure;         // what the hand said to the last command; empty: it did it
   NoiseThresholdStatus noise;  // of high sensitivity
   double sensitivity = 0.0;    // of adaptive sensitivity: present
@@ -77,8 +80,8 @@ class SensitivityControl {
   SensitivitySearchOptions searchOptions_;
   std::optional<TactileSettings> wanted_;  // to be set
   std::vector<std::shared_future<CommandAnswer>> pending_;
-  std::deque<std::int64_t>
-      stampsUs_;                    // of the newest frames since the last setting [us since 1970]
+  // of the newest frames since the last setting [us since 1970]
+  std::deque<std::int64_t> stampsUs_;
   std::int64_t settledFromUs_ = 0;  // frames before were made at other settings
   std::vector<double> degC_;        // empty: none came yet
   double begunS_ = 0.0;

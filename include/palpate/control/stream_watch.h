@@ -1,4 +1,4 @@
-// Whether a tactile stream is alive: what a grasp under tactile control stands on.
+// Watchdog of the tactile stream: a grasp under tactile control requires a live stream.
 //
 // Dead means: no frame for 100 ms, or for three median periods where that is longer (a raw stream brings a frame
 // every 85 ms).

@@ -1,5 +1,5 @@
-// Sensitivities and thresholds of all matrices as one thing: kept by name, compared, brought to the hand with as
-// few commands as that takes (each one pauses the stream for about half a second).
+// Sensitivities and thresholds of all matrices as one value: stored under a name, compared, and
+// applied with as few commands as possible (each command pauses the stream for about 0.5 s).
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
-// The errors of the house. A broken contract is std::invalid_argument or std::out_of_range; when
-// the world fails (a file, a port), a leaf of Error says what, where, and what to do. Bad data that
-// is normal (a wrong checksum, a saturated taxel) is counted, never thrown.
+// Exceptions of the project. A violated precondition throws std::invalid_argument or
+// std::out_of_range. A failure of the environment (file, port) throws a class derived from Error,
+// whose text says what failed, where, and what to do. Expected defects of data (a wrong checksum, a
+// saturated taxel) are counted and never thrown.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 namespace palpate {
 
-// Base of all failures of the world. what() is one line, fit for a person.
+// Base class of all failures of the environment. what() is one line for the user.
 class Error : public std::runtime_error {
  public:
   // What would break or bend the line is escaped (core/one_line.h).

@@ -6,9 +6,10 @@
 
 namespace palpate {
 
-// One at a time, from before the first thread of ours until its end. A handler, not a blocked signal: libraries
-// have threads of their own, which would take it, and the program would be killed. What was ignored when we were
-// started (nohup) stays so.
+// Handles SIGINT, SIGTERM and SIGHUP. At most one object may exist, and it must be created before
+// the first thread. Signal handlers are used instead of blocked signals, because threads of
+// libraries would receive the signal and end the program. Signals that were ignored at the start
+// (nohup) stay ignored.
 class Interruption {
  public:
   Interruption();
@@ -16,7 +17,7 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  // Waits so long at most; whether one came, once for each call that says so.
+  // Waits at most `withinMs` [ms] for a signal; returns true once for each signal that arrived.
   bool came(int withinMs);
   // Can be read when one came: for a loop that waits for more than this.
   int descriptor() const noexcept;

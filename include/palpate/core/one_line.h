@@ -1,4 +1,4 @@
-// Text from files, names and other strangers, made fit for one line of a terminal.
+// Escapes text of unknown origin (file contents, names) for one line of a terminal.
 #pragma once
 
 #include <cstddef>

@@ -44,12 +44,18 @@ class DeviceSink {
 };
 
 enum class PortState {
-  kClosed,      // not started, or stopped
-  kConnecting,  // looking for the device
-  kStreaming,   // data come
-  kSilent,      // open, but no data for 500 ms (or three periods, if longer)
-  kLost,        // the port is gone; looking for its return
-  kFault,  // the program failed at this port (out of memory, a bug); it was closed and is tried anew
+  // not started, or stopped
+  kClosed,
+  // looking for the device
+  kConnecting,
+  // data come
+  kStreaming,
+  // open, but no data for 500 ms (or three periods, if longer)
+  kSilent,
+  // the port is gone; looking for its return
+  kLost,
+  // the program failed at this port (out of memory, a bug); it was closed and is tried anew
+  kFault,
 };
 
 // Counts since start(). A snapshot.
@@ -65,8 +71,8 @@ struct PortStatus {
   std::uint64_t badChecksums = 0;  // packets or answers with a wrong checksum
   std::uint64_t suspect = 0;       // right checksum, implausible content: dropped
   std::uint64_t skippedBytes = 0;  // outside of any packet
-  // Frames that were sent and never came whole, by the device clock. Over a gap in which nobody heard that clock:
-  // as many as would have come at the usual rate (estimatedLost of them).
+  // Number of frames that were sent but never received completely, counted by the device clock.
+  // During a gap without device times it is estimated from the usual rate (estimatedLost of them).
   std::uint64_t lost = 0;
   std::uint64_t estimatedLost = 0;
   std::uint64_t reconnects = 0;

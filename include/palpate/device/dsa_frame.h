@@ -1,5 +1,5 @@
-// The payload of a full-frame packet of the DSACON32-M, and the gate that catches what its weak
-// checksum lets through.
+// Payload of a full-frame packet of the DSACON32-M, and the plausibility check for frames whose
+// corruption the 16-bit checksum does not detect.
 //   time stamp u32 [ms since controller start] | flags u8 (bit 0: run-length) | taxels
 // Taxels raw: u16 each. Run-length: u16 units, run << 12 | value, runs across rows and matrices; they add
 // up to the number of places.
@@ -36,11 +36,16 @@ std::optional<DsaFrame> decodeDsaFrame(std::span<const std::byte> payload,
 class DsaClock {
  public:
   enum class Verdict {
-    kAccept,     // deviceMs is good
-    kHold,       // implausible so far: keep the frame
-    kRestarted,  // this frame continues the one held: both are good, the controller's clock was reset
-    kReplaceHeld,  // the frame held was wrong; this one is implausible as well: keep this one
-    kDropHeld,     // the frame held was wrong; this one is good
+    // deviceMs is good
+    kAccept,
+    // implausible so far: keep the frame
+    kHold,
+    // this frame continues the one held: both are good, the controller's clock was reset
+    kRestarted,
+    // the frame held was wrong; this one is implausible as well: keep this one
+    kReplaceHeld,
+    // the frame held was wrong; this one is good
+    kDropHeld,
   };
   // hostUs: when the frame came [us, monotonic].
   Verdict judge(std::uint32_t stampMs, std::int64_t hostUs);

@@ -29,8 +29,8 @@ struct PortProbe {
   PortAnswer answer = PortAnswer::kNothing;
   std::string firmware;  // "0.0.3.3", of a tactile controller "2.9.0.0" or "268"
   std::string serial;    // "48", of a tactile controller "1D9B0057"; empty where it doesn't tell
-  std::string
-      message;  // the answer for a person, one line; what to do where there is something to do
+  // the answer for a person, one line; what to do where there is something to do
+  std::string message;
 
   // "motion", "tactile", "nothing", "something", "busy", "no_permission", "not_found", "gone".
   std::string answerName() const;

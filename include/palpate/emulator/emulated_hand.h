@@ -1,6 +1,6 @@
-// The hand that isn't there: both controllers on two ports, with a thread of its own that keeps
-// their time. What a client sees is what it would see on the lines of a real hand; what a test
-// needs besides (truth, counters, accidents) is here.
+// Emulated hand: both controllers on two ports, with a thread of its own that simulates their
+// timing. A client sees the same bytes as on the lines of a real hand. Functions that only tests
+// need (ground truth, counters, fault injection) are here as well.
 #pragma once
 
 #include <cstdint>
@@ -107,8 +107,8 @@ class EmulatedHand {
   // The last few thousand frames that have left, oldest first.
   std::vector<SentFrame> sentFrames() const;
 
-  // Accidents. Pulls plugs, in the middle of a packet or where it is: the client sees a hang-up,
-  // the link is gone. The controllers go on and notice nothing.
+  // Fault injection. Disconnects the ports, also in the middle of a packet: the client sees a
+  // hang-up and the link is removed. The emulated controllers continue as if connected.
   void unplug(bool dsa = true, bool sdh = true);
   // Pulls the tactile plug at a certain byte: so many more leave, the client has 5 ms to read them,
   // then it sees the hang-up. Returns at once.

@@ -1,6 +1,6 @@
-// Bad days of a hand, on purpose: spoilt checksums, bytes that vanish or appear, silence, a pulled
-// plug, junk at the start, a slow boot. Seeded: the same seed makes the same faults in the same
-// bytes.
+// Fault injection for the emulated hand: wrong checksums, lost or inserted bytes, silence,
+// disconnection, random bytes at the start, a slow boot. The same seed gives the same faults in the
+// same bytes.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ struct Faults {
   std::vector<Outage> stalls = {};   // the controllers neither listen nor speak
   std::vector<Outage> unplugs = {};  // both plugs are pulled
   std::size_t junkStartBytes = 0;    // random bytes ahead of a port's first answer, 0..1e9
-  std::optional<double> bootS =
-      {};  // the hand has just been switched on and takes so long to boot [s]
+  // the hand has just been switched on and takes so long to boot [s]
+  std::optional<double> bootS = {};
   bool operator==(const Faults&) const = default;
 };
 
@@ -64,7 +64,8 @@ class ByteFaults {
   double crcRate_, dropRate_, insertRate_;
   std::mt19937_64 random_;
   std::uint64_t untilDrop_ = 0;    // bytes that pass before the next one vanishes
-  std::uint64_t untilInsert_ = 0;  // bytes that pass before the next one is followed by a stranger
+  // Number of bytes until the next one is followed by a random byte.
+  std::uint64_t untilInsert_ = 0;
 };
 
 }  // namespace palpate

@@ -54,9 +54,9 @@ class JointMotion {
   void stop();  // `stop`: the motion ends where it is; power stays
 
   void advance(double dtS);
-  // What the fingers meet: the share of its strength that an axis needs against it, 0 (free) .. 1 (held), when
-  // it moves clockwise or counter-clockwise. It slows down by that share; held, its state is "blocked", and
-  // it goes on as soon as it can.
+  // Resistance of an axis against clockwise and counter-clockwise motion as a fraction of its
+  // torque, 0 (free) .. 1 (held). The speed is reduced by this fraction; at 1 the state is
+  // "blocked", and the motion continues when the resistance decreases.
   void setResistance(std::size_t axis, double clockwise, double counterClockwise);
   void setBlocked(std::size_t axis, bool clockwise, bool counterClockwise) {
     setResistance(axis, clockwise ? 1.0 : 0.0, counterClockwise ? 1.0 : 0.0);
@@ -73,8 +73,8 @@ class JointMotion {
   ControllerType controller() const noexcept { return controller_; }
   VelocityProfile profile() const noexcept { return profile_; }
   bool moving() const;
-  // Motions begun, and motions stopped before their end: who counts his own knows when somebody else
-  // moves the hand.
+  // Number of motions begun and of motions stopped early. A caller that counts its own detects
+  // motions by others.
   std::uint64_t orders() const noexcept { return orders_; }
 
  private:

@@ -33,12 +33,12 @@ struct NoisyContactsOptions {
   double rateHz = 30.0;       // [Hz], 1..1000
   double degC = 30.0;         // of all sensors [deg C], 0..80
   double sensitivity = 1.0;   // 0..1
-  double noiseMultiple =
-      3.0;  // threshold: the line of the maximum and so many of its RMSE (methods: 3), -20..20
+  // threshold: the line of the maximum and so many of its RMSE (methods: 3), -20..20
+  double noiseMultiple = 3.0;
   double belowCounts = 0.0;  // and so many counts less, -100..100
   bool contacts = true;      // false: nothing touches anything
-  double lightestKpa =
-      8.0;  // peak pressure of a contact, drawn from a logarithmic scale [kPa], > 0
+  // peak pressure of a contact, drawn from a logarithmic scale [kPa], > 0
+  double lightestKpa = 8.0;
   double heaviestKpa = 60.0;
 
   // Throws std::invalid_argument with the field's name.

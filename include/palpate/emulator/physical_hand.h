@@ -1,5 +1,5 @@
-// The emulated hand as a body: joints that move and are stopped by what they meet, objects pressed by the
-// fingers, rubber, sensors, motors that warm up, and a script of what happens.
+// Physical model of the emulated hand: joints that are stopped by contact, objects pressed by the
+// fingers, rubber, sensors, motor temperatures, and a script of events.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ struct PhysicalHandOptions {
   // Elastic foundation of the sensor's rubber: 1 mm of indentation are 150 kPa, which read about the 3554
   // counts that the study takes for 1 mm.
   double rubberNPerMm3 = 0.15;
-  // What each motor holds against before it gives up (current limit) [N mm].
+  // Torque at which each motor stalls (current limit) [N mm].
   std::vector<double> motorNmm = {3000, 2100, 1400, 2100, 1400, 2100, 1400};
-  // Error of the joints' zeros: an axis that reports an angle stands so much further [deg]. Empty: none. What a hand
-  // brings along from day to day (recognition's session offset).
+  // Zero error of each joint [deg]: the true angle minus the reported one. Empty: none. On a real
+  // hand it differs between sessions (recognition/session_offset.h).
   std::vector<double> zeroErrorDeg = {};
   double stepS = 0.004;  // of the simulation while something moves [s]
 };

@@ -5,8 +5,8 @@
 //    "script": [{"at_s": 1, "grasp": {"close": 1, "velocity_deg_per_s": 30}}, ..],
 //    "description": "A soft ball in the middle"}
 // Every key but "shape", "size_mm" and "at_s" may be absent. Positions in the hand's base frame; rotations about
-// its fixed axes x, y, z, in that order. An object stands where it is put until fingers touch it; then
-// it gives way to them, and weight and load pull at it.
+// its fixed axes x, y, z, in that order. An object keeps its pose until fingers touch it; then it
+// moves under the contact forces, its weight and the applied load.
 #pragma once
 
 #include <filesystem>
@@ -24,8 +24,8 @@ namespace palpate {
 
 struct SceneObject {
   Shape shape;
-  double stiffnessNPerMm3 =
-      10.0;               // of its surface, against indentation; 10: rigid beside the rubber
+  // of its surface, against indentation; 10: rigid beside the rubber
+  double stiffnessNPerMm3 = 10.0;
   double friction = 0.6;  // coefficient against the rubber
   double massKg = 0.1;
   bool fixed = false;  // held in place: only a script moves it

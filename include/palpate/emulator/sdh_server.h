@@ -34,8 +34,8 @@ struct SdhServerOptions {
   std::string socDate = "2009-10-26";
   std::string id = "SDH-2";
   std::string serial = "48";
-  bool checksum =
-      true;  // of binary records: on serial lines yes, over TCP no (records of 32 bytes)
+  // of binary records: on serial lines yes, over TCP no (records of 32 bytes)
+  bool checksum = true;
   double leastThinkUs = 0.0;   // time from a command to its answer, evenly between these two [us]
   double mostThinkUs = 0.0;    // (a real one: 2000..3000)
   double requestByteUs = 0.0;  // line time of each byte of a request [us]

@@ -1,5 +1,6 @@
-// From pressure to counts, as the tactile controller delivers them: rubber that spreads, lags, creeps and lets
-// go, gain by sensitivity and temperature, noise at rest, threshold subtracted, saturation, 12 bit, masks.
+// Sensor model, from pressure to counts of the tactile controller: spreading, lag, creep and
+// release of the rubber; gain as a function of sensitivity and temperature; noise; threshold;
+// saturation; 12-bit quantisation; masks.
 #pragma once
 
 #include <cstdint>

@@ -16,8 +16,8 @@ struct SyntheticOptions {
   double temperatureRateHz = 1.0;  // [Hz], 0..100; 0: none
   int grasps = 3;                  // 0..10,000, spread evenly; each needs 12 frames
   double peakCounts = 1800.0;      // value under the middle of the contact [counts], 50..3500
-  double contactRadiusTaxels =
-      2.4;                         // standard deviation of the contact's pressure [taxels], 0.5..5
+  // standard deviation of the contact's pressure [taxels], 0.5..5
+  double contactRadiusTaxels = 2.4;
   double thresholdCounts = 100.0;  // subtracted by the sensor; lower values read 0 [counts]
   double noiseCounts = 0.0;        // standard deviation of the noise on loaded taxels [counts]
   std::uint32_t seed = 1;          // of the noise

@@ -41,8 +41,8 @@ struct FilterKind {
   FilterDomain domain = FilterDomain::kSpatial;
   std::vector<FilterOption> options;
   std::string purpose;  // what it is good for, one sentence
-  std::string
-      border;  // what stands outside of the matrix, before the first and after the last frame
+  // what stands outside of the matrix, before the first and after the last frame
+  std::string border;
   std::string source;  // chapter, equation, paper
 
   // Null: it has none of that name.

@@ -1,9 +1,10 @@
 // A recipe at work: frames go in as they come, filtered ones come out. The same class runs live, on recordings and
 // on the command line; it looks at stamps and values alone, so all three give the same results bit by bit.
 //
-// What counts as touched is said by the frames as they went in: a taxel that was 0 there is 0 in the `values` that come
-// out, and what the filters gave it stands in `filtered` (model/tactile_frame.h). A filter can so end a contact, and
-// never make, lengthen or widen one. A frame that was filtered before is filtered on as a whole.
+// Active taxels are defined by the input frames: a taxel that is 0 in the input is 0 in `values` of
+// the output, and its filtered value is in `filtered` (model/tactile_frame.h). A filter can
+// therefore shorten a contact, but never create, lengthen or enlarge one. A frame that was filtered
+// before is filtered as a whole.
 //
 // Filters over time restart after a gap (gap_detector.h), where the layout changes (other masks), and where the
 // caller says so. What no filter knows: saturation. A filtered value may lie below it while the taxel was saturated;
@@ -64,11 +65,12 @@ class FilterChain {
   friend class Link;
 };
 
-// How much later a contact is seen: frames until a step of load has come through to half of its height. Nothing:
-// it never does (a derivative). Of steps that see the future: 0.
+// Delay of the chain [frames]: the number of frames until a step of load reaches half of its height
+// at the output. Empty if it never does (a derivative). 0 for steps that use future frames.
 std::optional<int> latencyFrames(const Recipe& recipe);
 std::optional<int> latencyFrames(const FilterStep& step);
-// How many frames before a frame have a say in it, at most; nothing: all of its stretch.
+// Largest number of earlier frames that influence an output frame (length of the impulse response);
+// empty: all of its gap-free span.
 std::optional<std::size_t> memoryFrames(const Recipe& recipe);
 
 }  // namespace palpate

@@ -1,6 +1,6 @@
-// Ghosting (study, chapter 2.4): with low thresholds the noise of the sensor shows taxels as touched that nothing
-// touches. Counts those false taxels in a profile, how many of them a recipe removes, and what of the true contact
-// it takes away or brings later.
+// False activations ("ghosts"; study, chapter 2.4): with low thresholds the sensor's noise makes
+// taxels active that nothing touches. Counts these taxels in a profile, how many of them a recipe
+// removes, and how much of the true contacts it removes or delays.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,9 @@ struct GhostingOptions {
   int leastTaxels = 1;
   // A value above it is active [counts]; what is filtered without mask keeps small remainders for long. >= 0
   double activeAboveCounts = 0.0;
-  // More than this share of a matrix' taxels falsely active: the whole matrix is lifted over its threshold, and no
-  // neighbourhood tells its taxels from a contact. Counted apart. 0..1
+  // Fraction of a matrix' taxels, 0..1, above which false activations are counted separately: the
+  // whole matrix is then above its threshold, and no spatial filter can separate them from a
+  // contact.
   double wholeMatrixShare = 0.25;
   // Moments at which counts begin to mean something else [us since 1970], ascending: filters over time restart.
   std::vector<std::int64_t> restartsUs = {};
@@ -45,8 +46,8 @@ struct BeforeAfter {
 
 struct MatrixGhosting {
   BeforeAfter falseTaxels;  // summed over the frames
-  BeforeAfter
-      scattered;  // of them, those in frames in which the matrix as it came was not lifted as a whole
+  // of them, those in frames in which the matrix as it came was not lifted as a whole
+  BeforeAfter scattered;
   BeforeAfter framesWithFalse;  // at least one false taxel
   BeforeAfter framesWhole;      // more than wholeMatrixShare of the taxels are false
 };

@@ -18,8 +18,8 @@
 namespace palpate {
 
 struct KalmanOptions {
-  double q =
-      0.05;  // variance of the process noise per sample [units^2], >= 0; 0: the mean of all values so far
+  // variance of the process noise per sample [units^2], >= 0; 0: the mean of all values so far
+  double q = 0.05;
   double r = 0.5;  // variance of the measurement noise [units^2], > 0
 
   // Throws std::invalid_argument with the field's name.

@@ -38,9 +38,12 @@ struct KelvinVoigtEstimationOptions {
 };
 
 enum class KelvinVoigtEnd {
-  kConverged,   // a round brought less than the tolerance
-  kMostRounds,  // more rounds might bring more
-  kNothingToFit  // fewer than 3 finite values in every stretch, or all of them equal: the model is the start
+  // a round brought less than the tolerance
+  kConverged,
+  // more rounds might bring more
+  kMostRounds,
+  // fewer than 3 finite values in every stretch, or all of them equal: the model is the start
+  kNothingToFit
 };
 
 struct KelvinVoigtEstimate {

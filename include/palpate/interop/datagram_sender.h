@@ -8,11 +8,16 @@
 namespace palpate {
 
 struct DatagramStats {
+  // Number of datagrams that the operating system accepted. Whether a program received them is
+  // unknown, unless the system reports a closed port.
   std::uint64_t sent =
-      0;  // the system took them; whether somebody listens is known only when nobody does
-  std::uint64_t dropped = 0;  // nobody listens, no room, or too long
+      0;
+  // Number of datagrams without a receiver, without buffer space, or too long.
+  std::uint64_t dropped = 0;
+  // Whether the last two datagrams were accepted: the system reports a missing receiver only
+  // with the next datagram.
   bool heard =
-      false;  // the last two were taken: the system tells of one that nobody heard with the next one
+      false;
 };
 
 // Not thread-safe.

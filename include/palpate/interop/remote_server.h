@@ -1,6 +1,7 @@
-// The door of remote control: a socket in the file system (AF_UNIX) that its owner alone may open (mode 600). Nothing of
-// it is reachable from another machine. It has a thread of its own, and no client can hold up another one or whoever
-// carries requests out: one request at a time is taken from each, nothing more is read while its answer waits.
+// Server of the remote control: a Unix domain socket (AF_UNIX) that only its owner can open (mode
+// 600); it is not reachable from other machines. It has a thread of its own. One request at a time
+// is taken from each client and no more is read until it is answered, so that no client delays
+// another client or the program.
 #pragma once
 
 #include <cstddef>

@@ -31,8 +31,8 @@ struct ContactOptions {
 struct MatrixContact {
   std::size_t numActive = 0;  // active taxels
   double sum = 0.0;           // of their values
-  double areaMm2 =
-      0.0;  // number x area of a taxel (pitch squared: along the curve arc length is kept)
+  // number x area of a taxel (pitch squared: along the curve arc length is kept)
+  double areaMm2 = 0.0;
   // The value-weighted mean of the taxels' places on the unrolled surface, in mm from the centre of taxel (0, 0):
   // x across, y towards the palm; and that point of the surface in the base frame (the study's contact point).
   double xMm = 0.0, yMm = 0.0;

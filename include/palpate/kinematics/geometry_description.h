@@ -2,7 +2,8 @@
 // their links. Another hand is another table.
 //
 // Frames: the hand's base frame (the palm's) has z up from the palm. A link's frame has X along the link towards the
-// tip, Y out of the sensor surface, Z across. Lengths in mm, angles in degrees at every door.
+// tip, Y out of the sensor surface, Z across. All interfaces use lengths in mm and angles in
+// degrees.
 // Source of the SDH-2's: the study, chapter 4 (tables 4.1 to 4.3), with the constants of its program where the printed
 // ones are slips (d2 = 14.8, t_y = 12 w).
 #pragma once

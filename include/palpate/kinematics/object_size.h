@@ -1,4 +1,5 @@
-// How large what a hand holds is, and how much it gives way: the distance of two opposite pads through a grasp.
+// Size and compression of a held object: the distance between two opposite finger pads during a
+// grasp [mm].
 //
 // Two pads tilted by an angle a touch a sphere or a cylinder on a chord, not on its diameter:
 //   D = (P2 - P1) . n / cos a,   n = unit(N1 - N2),   cos a = sqrt((1 - N1 . N2) / 2)
@@ -10,7 +11,8 @@
 //   indentation of a pad = foamMm sqrt(peak taxel / 1000 counts)
 // with foamMm = 0.80, fitted to 28 classes of rigid objects (455 grasps of 12 to 15 September 2014): +- 24 % from object
 // to object, 0.4 on flat blocks, 1.1 on the hockey ball (pointed contacts sink in deeper). docs/contact.md has the table.
-// It knows nothing of the foam's memory and temperature, nor of other sensitivities: counts, not forces.
+// The model does not include hysteresis and temperature of the foam, nor other sensitivities: it
+// uses counts, not forces.
 #pragma once
 
 #include <cstddef>
@@ -44,8 +46,8 @@ struct SizeSample {
   std::size_t frame = 0;
   std::int64_t timeUs = 0;  // host time [us since 1970]
   double sphereMm = 0.0;  // diameter of the smallest sphere around all active taxels [mm]; 0: none
-  double distanceMm =
-      0.0;                 // D between the plateau's centroids [mm]: the course of the joints alone
+  // D between the plateau's centroids [mm]: the course of the joints alone
+  double distanceMm = 0.0;
   double foamMm = 0.0;     // modelled indentation of both pads together [mm]
   double load = 0.0;       // of both pads, as part of the largest: 0..1
   bool bothTouch = false;  // both pads have active taxels
@@ -53,8 +55,8 @@ struct SizeSample {
 
 struct ObjectSizeReport {
   bool valid = false;
-  std::string
-      trouble;  // why not: no joint angles, fewer than two pads, pads that don't face each other
+  // why not: no joint angles, fewer than two pads, pads that don't face each other
+  std::string trouble;
   std::size_t unusableFrames = 0;  // without usable joint angles: left out
   std::pair<std::size_t, std::size_t> pads{0, 0};
   std::vector<SizeSample> samples;  // a row per frame that counts

@@ -26,10 +26,12 @@ class SlipStage final : public Stage {
   // All begins anew. Throws std::invalid_argument.
   void setOptions(const SlipDetectorOptions& options);
   SlipDetectorOptions options() const;
-  // The next frame is the reference, of one matrix or of all; the one behind it is the first to be read against it.
+  // The next frame becomes the reference of one matrix or of all matrices; motion is measured
+  // against it from the following frame on.
   void setReference(std::optional<std::size_t> matrix = {});
   void clearReference();
-  // Switched off, a matrix says nothing but watches on; on again it speaks at once.
+  // While a matrix is off, its state is still updated but nothing is reported; after switching it
+  // on, results are available at once.
   void setOn(std::size_t matrix, bool on);
 
   void reset() override;

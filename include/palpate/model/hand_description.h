@@ -16,9 +16,10 @@ namespace palpate {
 // Readings of an SDH-2's tactile sensor [counts]. The converter has 12 bits, but the amplifier ends before: the
 // largest reading in 1052 recordings is 3567.
 constexpr float kSdh2FullScaleCounts = 4095.0F;
-// Readings bend towards this one ..
+// Value that readings approach at high pressure [counts].
 constexpr float kSdh2LargestCounts = 3560.0F;
-// .. and from here on they say no more than "at least": a taxel at or above is saturated.
+// A taxel at or above this value [counts] is saturated: its reading is only a lower bound of the
+// load.
 constexpr float kSdh2SaturationCounts = 3500.0F;
 
 struct MatrixDescription {

@@ -22,8 +22,8 @@ enum class ValueType { kCounts, kFloat };
 struct ProfileInfo {
   std::string format;  // "dsa", "palpate", "synthetic"
   std::string serial;  // tactile controller, as written ("1D9B0057"); may be empty
-  std::string
-      firmware;  // of the tactile controller ("2.9.0.0"); of a .dsa its generated_by; may be empty
+  // of the tactile controller ("2.9.0.0"); of a .dsa its generated_by; may be empty
+  std::string firmware;
   std::string sensorRevision;  // generated_by of the sensor's description ("105"); may be empty
   ValueType valueType = ValueType::kCounts;
   std::vector<std::string> warnings;  // oddities that cost nothing ("declared 12 frames, found 10")

@@ -7,7 +7,8 @@
 
 namespace palpate {
 
-// A taxel that rests higher than the others of its matrix, and less quietly.
+// A taxel whose reading at rest and whose noise are larger than those of the other taxels of its
+// matrix.
 struct RaisedTaxel {
   std::size_t place = 0;   // in the matrix, row by row
   double intercept = 0.0;  // reading at rest: a line over the temperature of its motor [counts]

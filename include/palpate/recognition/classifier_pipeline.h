@@ -20,8 +20,10 @@
 
 namespace palpate {
 
-// svm: one against one, linear. qda: a Gaussian per class. lda: Gaussians of one covariance. gauss: bells that hold on
-// another day (day_model.h), of the features as they are: no discriminant analysis.
+// svm: linear support vector machines, one against one. qda: one Gaussian distribution per class
+// (quadratic discriminant analysis). lda: Gaussian distributions with a common covariance matrix.
+// gauss: the session-adaptive classifier of day_model.h, on the original features without
+// discriminant analysis.
 enum class ClassifierKind { kSvm, kQda, kLda, kGauss };
 std::string_view classifierName(ClassifierKind kind) noexcept;
 std::optional<ClassifierKind> classifierNamed(std::string_view name) noexcept;

@@ -1,5 +1,5 @@
-// Examines a pipeline on samples that did not teach it: every split fits anew, so nothing of the samples that examine is
-// known beforehand. Splits run in parallel; the figures don't depend on the number of threads.
+// Cross-validation: the pipeline is fitted anew for each split, so that the test samples are never
+// used for fitting. Splits run in parallel; the results do not depend on the number of threads.
 #pragma once
 
 #include <cstddef>
@@ -48,7 +48,7 @@ std::vector<ValidationReport> crossValidateAll(const SampleSet& samples,
                                                std::size_t threads = 0,
                                                const Progress& progress = {});
 
-// Accuracy against the number of grasps a class that teach.
+// Accuracy as a function of the number of training grasps per class (learning curve).
 struct LearningPoint {
   std::size_t perClass = 0;
   double trainSamples = 0.0;  // mean over splits

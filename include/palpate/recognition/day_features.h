@@ -1,5 +1,6 @@
-// Eleven features of a grasp that hold on another day: contact geometry and force on the load plateau of two opposite
-// pads, away from the moments of touching and letting go, from where nothing repeats.
+// Eleven features of a grasp that are stable between sessions: contact geometry and force on the
+// load plateau of two opposite finger pads. The phases of contact and release are left out, because
+// they are not repeatable.
 //
 //   size_z           40 ln(1 + D / 40): D is the distance of the pads with the chord corrected (kinematics/object_size.h), at the
 //                    effective fingertip radius, of the mean plateau frame's centroids and the plateau's median angles
@@ -12,10 +13,12 @@
 //   ln_sum           ln(sum of counts)
 //   compression_mm   D at a quarter of the load, less D on the plateau
 //
-// All but the two of D are means over both pads, of the mean plateau frame; a taxel counts above 3 % of its pad's largest. Load:
-// sum of both pads, the second one multiplied by its gain, five-frame mean; plateau: frames with at least 0.9 of the largest load,
-// at most 25 of them, evenly taken. Where the hand's two pads don't face each other (three fingers around a thing), another
-// pair of it is taken that does (PinchHand::otherPads), over the frames in which both of it touch.
+// All features except the two that depend on D are means over both pads of the mean plateau frame;
+// a taxel is active above 3 % of the largest value of its pad. Load: sum of both pads [counts], the
+// second multiplied by its gain, moving average over five frames. Plateau: at most 25 frames,
+// evenly selected, with at least 90 % of the largest load. If the two pads do not face each other
+// (three-finger grasp), another pair that does is used (PinchHand::otherPads), over the frames in
+// which both of its pads touch.
 #pragma once
 
 #include <array>
@@ -58,8 +61,8 @@ struct PlateauPad {
 };
 
 struct DayFeatures {
-  std::string
-      trouble;  // why there are none: no joint angles, no contact, too short, pads that don't face each other, ..
+  // why there are none: no joint angles, no contact, too short, pads that don't face each other, ..
+  std::string trouble;
   std::size_t startFrame = 0;    // the first one with a quarter of the load
   std::size_t plateauFrame = 0;  // first and last one of the plateau
   std::size_t plateauEndFrame = 0;

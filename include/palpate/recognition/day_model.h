@@ -1,11 +1,16 @@
-// Classes that hold on another day: a heavy-tailed bell (multivariate Student t) per class, widened by what changes from day to
-// day, over features of which one (size_z) moves with an unknown offset of the hand (session_offset.h). Beside the classes
-// stands a background: what any object of this kind could read, a bell over all class means; what fits it better than
-// every class is unknown.
+// Session-adaptive classifier. Each class is a multivariate Student t distribution (heavy tails),
+// whose scatter matrix is enlarged by the variance between sessions. One feature, size_z, is
+// shifted by an unknown size offset of the hand (session_offset.h). A background distribution over
+// all class means (multivariate t, too) stands for objects in general: a sample that fits the
+// background better than every class is classified as unknown. Source: Kotz and Nadarajah 2004,
+// Multivariate t Distributions; background model: Reynolds, Quatieri, Dunn 2000.
 //
-//   scatter of class c = ownPart S_c + (1 - ownPart) S_w, off-diagonals times offDiagonal, + diag(day variance)
+// Scatter of class c = ownPart S_c + (1 - ownPart) S_w, with off-diagonal elements multiplied by
+// offDiagonal, plus the diagonal matrix of the session variances (regularised discriminant
+// analysis, Friedman 1989).
 //   ln p(x | c, o) = ln t_nu(x with D - o; mean_c, scatter_c)
-// S_c: covariance of the class, S_w: pooled within classes. Uniform priors. Samples are rows.
+// S_c is the covariance matrix of class c, S_w the pooled within-class covariance matrix. All
+// classes have the same prior probability. x holds one sample per row.
 #pragma once
 
 #include <cstddef>
@@ -20,20 +25,26 @@
 
 namespace palpate {
 
-// Defaults were chosen on the last thirds of the September recordings and sessions simulated from them, the sds of a day taken
-// over from earlier work (docs/recognition.md says what that means for the figures).
+// The defaults were chosen on the last third of each recording of September 2014 and on sessions
+// simulated from them; the standard deviations of a session come from earlier work.
+// docs/recognition.md ("How the constants were chosen") says what this means for the reported
+// accuracies.
 struct DayModelOptions {
   double ownPart = 0.5;           // 0..1
   double offDiagonal = 1.0;       // 0..1
   double degreesOfFreedom = 8.0;  // nu of the t, > 2; the smaller the heavier the tails
-  // Day variance of a feature: this part of its pooled variance, >= 0,
+  // Session variance of a feature as a fraction of its pooled variance, >= 0,
   double dayVariancePart = 1.0;
-  // or, where named, this standard deviation.
+  // or, for the features named here, this standard deviation, in the unit of the feature.
   std::vector<std::pair<std::string, double>> daySd = {
       {"size_z", 0.225}, {"ln_sum", 0.175}, {"compression_mm", 0.6}};
+  // Name of the feature that the size offset shifts. If no feature has this name, the offset
+  // has no effect.
   std::string sizeFeature =
-      "size_z";  // what moves with the offset; where there is no such feature nothing does
-  // Few-shot components (addToday): scatter = newScatter (1 + 1/K) S_w; what a class seen today has ahead of one that was not [ln].
+      "size_z";
+  // Few-shot components (addToday()): their scatter matrix is newScatter (1 + 1/K) S_w for K
+  // labelled grasps. seenToday is the prior log odds [ln] of a class that was grasped in this
+  // session over one that was not.
   double newScatter = 1.5;  // > 0
   double seenToday = 3.0;   // >= 0
 
@@ -41,22 +52,23 @@ struct DayModelOptions {
   void validate() const;
 };
 
-// A bell: ln density by its mean and scatter.
+// One multivariate t component: its location vector and its scatter matrix.
 struct DayBell {
   Eigen::VectorXd mean;
   Eigen::MatrixXd scatter;  // symmetric, positive definite
   bool operator==(const DayBell&) const = default;
 };
 
-// Of a class, from labelled grasps of today.
+// Component of one class, made from grasps of the present session whose class is known.
 struct TodayComponent {
   std::size_t classIndex = 0;
-  std::size_t count = 0;  // K, of the grasps it comes from
+  // Number K of grasps that the component was made from.
+  std::size_t count = 0;
   DayBell bell;
   bool operator==(const TodayComponent&) const = default;
 };
 
-// All a model knows: what a file holds.
+// All parameters of a fitted model, as the model file stores them.
 struct DayModelData {
   std::vector<std::string> features, classes;
   std::optional<std::size_t> sizeColumn;
@@ -86,29 +98,32 @@ class DayModel {
   const DayModelData& data() const noexcept { return data_; }
   std::size_t numClasses() const noexcept { return data_.classes.size(); }
   std::size_t numFeatures() const noexcept { return data_.features.size(); }
-  // What never varied in training, by name: it was given a little scatter, lest any other value be impossible.
+  // Names of the features that were constant in the training samples. They were given a small
+  // variance, because otherwise any other value would have probability 0.
   const std::vector<std::string>& constantFeatures() const noexcept { return constant_; }
 
-  // ln p(x | class, offset), one per class, the better of the class's bell and what was seen of it today. Throws
+  // Returns ln p(x | class, offset) for each class: the larger of the densities of the training
+  // component and of this session's component. Throws
   // std::invalid_argument: another number of features, values that aren't finite.
   Eigen::VectorXd logLikelihoods(const Eigen::VectorXd& x, double offsetMm) const;
-  // What a class has ahead of the others beforehand [ln]: seenToday, or 0.
+  // Log prior [ln] of each class: seenToday for classes grasped in this session, else 0.
   Eigen::VectorXd logPrior() const;
-  // Of the background.
+  // Returns ln p(x | background, offset).
   double logBackground(const Eigen::VectorXd& x, double offsetMm) const;
 
-  // Adds a component per class of labelled grasps of today, whose offset is known or estimated: the grasps are moved by it. A
-  // class's older component of today is replaced. Throws std::invalid_argument as learn().
+  // Adds one component per class, made from labelled grasps of this session; their size feature is
+  // corrected by `offsetMm` [mm] first. A component that the class already has for this session is
+  // replaced. Throws std::invalid_argument as learn() does.
   void addToday(const Eigen::MatrixXd& x, const std::vector<int>& y, double offsetMm);
 
-  // As it would read had the hand no offset.
+  // Returns the features that the hand would measure with an offset of 0.
   Eigen::VectorXd withoutOffset(const Eigen::VectorXd& x, double offsetMm) const;
 
  private:
   struct Prepared {
     Eigen::VectorXd mean;
-    Eigen::MatrixXd
-        inverseRoot;        // lower triangular W, |W (x - mean)|^2 = squared Mahalanobis distance
+    // lower triangular W, |W (x - mean)|^2 = squared Mahalanobis distance
+    Eigen::MatrixXd inverseRoot;
     double constant = 0.0;  // ln of the density at the mean
   };
   Prepared prepare(const DayBell& bell, const std::string& what) const;

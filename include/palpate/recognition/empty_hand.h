@@ -1,11 +1,14 @@
-// The zero of an empty hand: closed until its pads touch, their distance is known to be none, and what the joints say instead is
-// what the hand reads wrong today. One such touch on the day of training and one today give the session offset without any
-// label or object (preshape "pinch-empty").
+// Zero adjustment of the hand without an object. The empty hand closes until its own finger pads
+// touch, so that their true distance is 0; the distance computed from the joint angles is then the
+// size error of this session. The difference of two such measurements, one made when the model was
+// trained and one of this session, is the session offset (preshape "pinch-empty"). No labelled
+// grasp and no object is needed.
 //
-// On the load plateau of the touch:  zero = D + foam,  foam = foamMm (sqrt(peak1 / 1000) + sqrt(peak2 / 1000))
-// (D, foam: kinematics/object_size.h). The model of the foam is crude for flat pads, but only its difference between two
-// touches counts: with the same force it cancels. Joints that stand elsewhere than they say don't move pads that touch and pads
-// that are apart by exactly the same: that part of the difference is unsure (transferPart).
+// On the load plateau of the contact: zero = D + foam, with foam = foamMm (sqrt(peak1 / 1000) +
+// sqrt(peak2 / 1000)) [mm], peaks in counts (D and foam: kinematics/object_size.h). The foam model
+// is inaccurate for flat pads, but the error cancels in the difference of two contacts with the
+// same force. An error of the joint zeros moves touching pads and pads that are apart by different
+// amounts; transferPart is the resulting uncertainty.
 #pragma once
 
 #include <cstddef>
@@ -22,25 +25,33 @@ namespace palpate {
 
 struct EmptyHandOptions {
   double foamMm = 0.80;         // [mm] at a peak of 1000 counts, per pad, >= 0
-  double foamRelativeSd = 0.5;  // of flat pads against each other, >= 0
-  double touchSdMm = 0.25;      // from touch to touch, > 0
-  // sd of an object's offset about the touch's, as part of it: the emulated hand's objects of 12 to 76 mm read by up to a
-  // quarter more or less than its touch says, by .15 in the mean; >= 0
+  // Relative standard deviation of the foam indentation when two flat pads press on each other, >=
+  // 0.
+  double foamRelativeSd = 0.5;
+  // Standard deviation from one contact to the next [mm], > 0.
+  double touchSdMm = 0.25;
+  // Standard deviation of an object's offset about the offset of the empty hand, as a fraction of
+  // that offset, >= 0. In the emulated hand, objects of 12 to 76 mm had offsets that differ by up
+  // to 25 % from it, on average by 15 %.
   double transferPart = 0.15;
+  // Largest plausible zero [mm], > 0. A larger value means that an object lies between the
+  // pads.
   double mostMm =
-      12.0;  // a zero further away than this is no touch of pads: something lies between, > 0
+      12.0;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
 };
 
 struct EmptyHandZero {
-  std::string
-      trouble;  // why there is none: no touch, no joint angles, something between the pads; else empty
+  // why there is none: no touch, no joint angles, something between the pads; else empty
+  std::string trouble;
   double mm = 0.0;          // zero, mean of the touches
-  double sdMm = 0.0;        // of the mean, without the foam's error
+  // Standard error of the mean zero [mm], without the error of the foam model.
+  double sdMm = 0.0;
   double foamMm = 0.0;      // mean of what was added for the foam
-  std::size_t touches = 0;  // it comes from
+  // Number of contacts that `mm` is the mean of.
+  std::size_t touches = 0;
   std::size_t leftOut = 0;  // touches without usable data
   std::int64_t timeUs = 0;  // host time of the first touch [us since 1970]; 0: not known
   std::string origin;       // where the touches are from: a recording, a hand; may be empty
@@ -56,7 +67,8 @@ EmptyHandZero emptyHandZero(const Profile& profile,
                             const EmptyHandOptions& options = {},
                             const Progress& progress = {});
 
-// By how much today's hand reads sizes other than the hand of training did. Throws std::invalid_argument: a zero with trouble.
+// Returns the difference between the size errors of this session and of the training session.
+// Throws std::invalid_argument if `today` has no valid zero.
 SessionOffset emptyHandOffset(const EmptyHandZero& today,
                               const EmptyHandZero& training,
                               const EmptyHandOptions& options = {},

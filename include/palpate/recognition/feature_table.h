@@ -66,8 +66,8 @@ std::string classOfFolder(const std::filesystem::path& folder);
 struct FeatureGatherOptions {
   FeatureSet set = FeatureSet::kBest;
   PinchHand hand = sdh2PinchHand();
-  std::size_t threads =
-      0;  // 0: as many as the machine runs at once; the table doesn't depend on it
+  // 0: as many as the machine runs at once; the table doesn't depend on it
+  std::size_t threads = 0;
 };
 
 // Paths: folders (as above) and recordings. One bad file doesn't stop the others. Throws Cancelled; FileError when a path

@@ -25,8 +25,8 @@ struct GaussianClassifier {
   struct Class {
     bool present = false;  // had samples
     Eigen::VectorXd mean;
-    Eigen::MatrixXd
-        whitening;  // lower triangular W: |W (x - mean)|^2 is the squared Mahalanobis distance
+    // lower triangular W: |W (x - mean)|^2 is the squared Mahalanobis distance
+    Eigen::MatrixXd whitening;
     double logDeterminant = 0.0;  // of the covariance
   };
   std::vector<Class> classes;

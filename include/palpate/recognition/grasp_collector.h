@@ -1,5 +1,5 @@
-// Grasps as they come: watches the frames of a running hand, and keeps each grasp, with a little before and after it, as a
-// profile of its own, like a recording of that grasp alone.
+// Detects grasps in the frames of a running hand and returns each one, with some frames before and
+// after it, as a separate profile, as if that grasp alone had been recorded.
 //
 // A contact: at least `fewestFingers` different fingers with an active taxel (value > 0), up to `bridgedFrames` frames without
 // bridged, as the rule `general` of grasp_segments.h has it; a gap of the stream ends it. Only what came counts, no clock.

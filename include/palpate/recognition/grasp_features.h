@@ -2,8 +2,9 @@
 //
 //   study    the study's 54 (study_features.h): to compare with it
 //   best     what holds on another day (day_features.h): contact geometry and force on the load plateau
-//   session  `best` with the joint angles at rest and plain statistics of both pads: best within one session, and only there: it
-//            remembers the pose in which a thing was presented (sessionSetWarning())
+// session: the features of `best`, the joint angles at rest and simple statistics of both pads. It
+// is the most accurate set within one session and must not be used in another one, because it
+// contains the pose in which an object was presented (sessionSetWarning()).
 #pragma once
 
 #include <cstddef>

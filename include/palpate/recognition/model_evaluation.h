@@ -58,8 +58,8 @@ std::vector<std::vector<std::size_t>> sessionsOf(const std::vector<std::int64_t>
                                                  double pauseS = 8.0 * 3600.0);
 
 struct EvaluationOptions {
-  std::size_t adaptPerClass =
-      0;  // the first so many in time of each class and session are labelled
+  // the first so many in time of each class and session are labelled
+  std::size_t adaptPerClass = 0;
   OffsetChoice offset;
 };
 

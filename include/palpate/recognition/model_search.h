@@ -53,8 +53,8 @@ Json jsonOf(const ModelSearchReport& report);
 struct EliminationStep {
   std::size_t features = 0;  // how many were left
   std::size_t dropped = 0;   // then this one was dropped (column; by all samples)
-  double accuracyMean =
-      0.0;  // with those that were left; each split eliminates by its own training samples
+  // with those that were left; each split eliminates by its own training samples
+  double accuracyMean = 0.0;
   double accuracySd = 0.0;
 };
 // From all features down to one. A discriminant analysis keeps at most as many components as features are left.

@@ -17,11 +17,14 @@ struct PinchHand {
   std::array<std::size_t, 2> pads{0, 1};  // matrices
   // Where the two don't face each other (three fingers around a thing), the first of these that do; all alike in gain.
   std::vector<std::array<std::size_t, 2>> otherPads = {};
-  // The second pad's counts times this are the first one's for the same force, > 0.
+  // Gain ratio, > 0: counts of the second pad multiplied by this equal the counts of the first pad
+  // for the same force.
   double secondPadGain = 1.0;
   double fullScaleCounts = 4096.0;  // counts are divided by it in the study's features
+  // Side length [pixels] of the square image that the study's features are computed from; the
+  // pad's values are placed at the middle of its top edge.
   int pictureSize =
-      1;  // the study lays a pad's picture into a square of so many pixels: middle of its top
+      1;
   std::array<double, 2> largestCounts{
       1.0, 1.0};  // seen on each pad: 1 mm of impression there (study), > 0
   // Geometry of the study, and the one in which a rigid object measures the same everywhere on the pads; never null.

@@ -1,4 +1,5 @@
-// Probabilities from scores, without chance: fitted to decisions on samples that did not teach (docs/recognition.md).
+// Calibrates classifier scores to probabilities. The method is deterministic and uses test samples
+// that were not used for training (docs/recognition.md).
 //   pairs     P(first) = 1 / (1 + exp(a f + b)): Platt 2000, in the form of Lin, Lin, Weng 2007, "A note on Platt's
 //             probabilistic outputs for support vector machines", Machine Learning 68
 //   classes   from the pairs: Wu, Lin, Weng 2004, "Probability estimates for multi-class classification by pairwise

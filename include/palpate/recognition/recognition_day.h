@@ -1,8 +1,10 @@
-// A day with a model: the grasps that were made, what a person said of them, the zero of the empty hand, and the session offset
-// that follows from all that; verdicts are given with it.
+// One recognition session: the grasps that were made, the class labels the user gave them, the zero
+// adjustment of the empty hand, and the session offset estimated from these. Predictions use this
+// offset.
 //
-// What is known best counts: a value that a person gives; else the zero of the empty hand and the grasps that were named, one on
-// top of the other; else, and on top of a zero, the day's unlabelled grasps where they are chosen; else what the model says.
+// The offset comes from the best source that is available, in this order: a value entered by the
+// user; the zero adjustment combined with the labelled grasps; the unlabelled grasps of the
+// session, if selected, combined with a zero adjustment; the offset stored in the model.
 #pragma once
 
 #include <cstddef>
@@ -28,8 +30,9 @@ class RecognitionDay {
   explicit RecognitionDay(TrainedModel model);
   const TrainedModel& model() const noexcept { return model_; }
 
-  // Its place among the day's; the same one again (same time) keeps its place. A grasp of more than 8 hours before or after
-  // the last one begins another day: what was known of the last one is forgotten. Throws std::invalid_argument (another number of
+  // Adds a grasp and returns its index; a grasp with the same time keeps its index. A grasp more
+  // than 8 h before or after the previous one starts a new session, which clears all grasps, labels
+  // and the zero. Throws std::invalid_argument (another number of
   // features).
   std::size_t add(std::vector<double> values, std::int64_t timeUs);
   const std::vector<Grasp>& grasps() const noexcept { return grasps_; }
@@ -44,7 +47,7 @@ class RecognitionDay {
   void forget();  // grasps, names, zero
 
   const SessionOffset& offset() const noexcept { return offset_; }
-  // Why nothing is sure, one line; empty: it may be.
+  // Reason why no prediction can be sure, one line; empty if a prediction can be sure.
   const std::string& unsure() const noexcept { return unsure_; }
   // Of a grasp that needn't be one of the day's. Throws std::invalid_argument.
   Verdict judge(const std::vector<double>& values, std::int64_t timeUs) const;

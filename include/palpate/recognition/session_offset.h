@@ -1,11 +1,13 @@
-// The session offset: by how much the hand reads all sizes wrong today (measured D = true D + offset), with its error and
-// where it comes from, and what classes are certain with it.
+// Session offset: the systematic error of all measured sizes in one session (measured D = true D +
+// offset) [mm], with its standard deviation and its source, and the classification under that
+// uncertainty.
 //
-// Each time the hand is referenced anew its fingers stand a few millimetres closer or wider than before; nothing in the
-// recording shows it. So the offset is carried as a distribution on a grid (-8..8 mm, steps of .25; before anything is
-// known N(0, 3 mm)), learnt from labelled or unlabelled grasps of the day or from one touch of the empty hand, and classes
-// are judged by summing over it. It is never certain on the word of a single object: one object of unknown size fits a
-// neighbour of another size as well, with confidence.
+// After each reference run of the joints the fingers stand a few millimetres closer or wider than
+// before, and nothing in the recording shows it. The offset is therefore a probability distribution
+// on a grid (-8..8 mm in steps of 0.25 mm, prior N(0, 3 mm)). It is estimated from labelled or
+// unlabelled grasps of the session or from one contact of the empty hand; class probabilities are
+// marginalised over it. One object alone never makes the offset trusted: an object of unknown size
+// fits a class of another size equally well.
 #pragma once
 
 #include <cstddef>
@@ -21,35 +23,48 @@
 namespace palpate {
 
 enum class OffsetOrigin {
-  kNone,        // 0, as on the day of training: an assumption
-  kUnknown,     // nothing is known of today
-  kGiven,       // a person said so
+  // The offset is assumed to be 0, as in the training session.
+  kNone,
+  // Nothing is known about this session: the prior distribution is used.
+  kUnknown,
+  // The user entered the value.
+  kGiven,
   kBatch,       // from unlabelled grasps of today
   kReferences,  // from labelled grasps of today
   kEmptyHand,   // the pads of the empty hand touched (empty_hand.h)
 };
 std::string_view offsetOriginName(
-    OffsetOrigin
-        origin) noexcept;  // "none", "unknown", "given", "batch", "references", "empty_hand"
+    // "none", "unknown", "given", "batch", "references", "empty_hand"
+    OffsetOrigin origin) noexcept;
 
 struct SessionOffsetOptions {
   double priorSdMm = 3.0;  // of the offset before anything is known, > 0
   double reachMm = 8.0;    // the grid goes from -reach to reach, > 0
   double stepMm = 0.25;    // > 0
+  // Weight of the log likelihood of an unlabelled grasp, 0..1: grasps of one object are not
+  // independent observations.
   double batchWeight =
-      0.3;  // of an unlabelled grasp: grasps of one object are no independent witnesses, 0..1
+      0.3;
+  // Lower bound of an unlabelled grasp's relative log likelihood [nat], > 0, so that one
+  // outlier cannot exclude an offset.
   double floorNats =
-      12.0;  // an unlabelled grasp speaks no stronger than this against any offset, > 0
+      12.0;
+  // Labelled grasps of one object count as at most this many independent observations, > 0.
   double mostReferences =
-      2.0;  // so many labelled grasps of one object count, however many there are, > 0
-  // An offset makes classes certain when it rests on so many different objects,
+      2.0;
+  // An offset is trusted only if it was estimated from at least this many different objects.
   std::size_t fewestObjects = 2;
+  // Two objects are different if their sizes differ by more than this [mm], >= 0,
   double objectGapMm =
-      3.0;  // which differ by more than this in size, >= 0, or, whatever their sizes,
+      3.0;
+  // or if the Mahalanobis distance of their other features, with the within-class covariance
+  // matrix, exceeds this, > 0.
   double objectDistance =
-      5.0;  // by this in everything else (Mahalanobis, as grasps of one class scatter), > 0,
-  double objectProbability = 0.8;  // and were told with this probability,
-  double largestSdMm = 1.0;        // and its own error is no larger, > 0
+      5.0;
+  // Each object must have been classified with at least this probability, 0..1,
+  double objectProbability = 0.8;
+  // and the standard deviation of the offset must not exceed this [mm], > 0.
+  double largestSdMm = 1.0;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -57,11 +72,13 @@ struct SessionOffsetOptions {
 
 struct SessionOffset {
   double mm = 0.0;    // mean: measured D - true D
-  double sdMm = 0.0;  // 0: assumed or given as exact
+  // Standard deviation [mm]; 0: the value is assumed, or was entered as exact.
+  double sdMm = 0.0;
   OffsetOrigin origin = OffsetOrigin::kNone;
   std::size_t grasps = 0;   // it rests on
   std::size_t objects = 0;  // different ones among them
-  // Whether a verdict may be called sure with it. Never with kNone, kUnknown, or on one object.
+  // Whether a classification with this offset may be reported as sure. Never true for kNone and
+  // kUnknown, nor if only one object was grasped.
   bool trusted = false;
   // The distribution on a grid.
   std::vector<double> gridMm, probability;  // same size, sum 1
@@ -70,36 +87,43 @@ struct SessionOffset {
   std::string text() const;
 };
 
-// The one value 0 (never makes sure); nothing known; a value that a person gives (trusted: it is the person's word), exact or
-// with an error. Throw std::invalid_argument: not finite, sd < 0.
+// noOffset(): the fixed value 0, which never allows a sure result. unknownOffset(): the prior
+// distribution. givenOffset(): a value entered by the user, trusted, exact or with a standard
+// deviation. All throw std::invalid_argument if a value is not finite or the standard deviation is
+// negative.
 SessionOffset noOffset();
 SessionOffset unknownOffset(const SessionOffsetOptions& options = {});
 SessionOffset givenOffset(double mm, double sdMm = 0.0);
-// A value somebody measured, whose distribution others can narrow: kEmptyHand. Trusted when it is certain enough.
+// An offset that was measured (kEmptyHand), as a distribution that later observations can narrow.
+// It is trusted if its standard deviation is small enough.
 SessionOffset measuredOffset(double mm,
                              double sdMm,
                              OffsetOrigin origin,
                              const SessionOffsetOptions& options = {});
 
-// What grasps say on top of what was known before. x: rows. Throw std::invalid_argument (sizes, y).
-// Unlabelled: all grasps of a day together.
+// Posterior distribution of the offset given grasps and the distribution `before`. x has one grasp
+// per row. Both throw std::invalid_argument (sizes, y). offsetFromBatch(): all grasps of the
+// session, without labels.
 SessionOffset offsetFromBatch(const DayModel& model,
                               const Eigen::MatrixXd& x,
                               const SessionOffset& before = unknownOffset(),
                               const SessionOffsetOptions& options = {});
-// Labelled, y: class of each. Rigid objects make the better references.
+// offsetFromReferences(): labelled grasps, y is the class index of each row. Rigid objects give
+// more accurate offsets than soft ones.
 SessionOffset offsetFromReferences(const DayModel& model,
                                    const Eigen::MatrixXd& x,
                                    const std::vector<int>& y,
                                    const SessionOffset& before = unknownOffset(),
                                    const SessionOffsetOptions& options = {});
 
-// What one grasp is.
+// Classification of one grasp.
 struct DayVerdict {
-  Eigen::VectorXd probability;       // per class, of the known ones: sums up to 1
+  // Posterior probability of each known class; the values sum to 1.
+  Eigen::VectorXd probability;
   std::vector<std::size_t> ranking;  // classes, best first
-  // ln of (best class over background), summed over the offset: the smaller the stranger. Known ones lie above
-  // VerdictOptions::leastKnown nearly always.
+  // Log likelihood ratio [ln] of the best class against the background, marginalised over the
+  // offset. Small values mean an unknown object; known objects are nearly always above
+  // VerdictOptions::leastKnown.
   double knownness = 0.0;
   bool unknown = false;  // knownness is below
   // The best class is certain enough, it is known, and the offset can be trusted.
@@ -107,7 +131,9 @@ struct DayVerdict {
 };
 
 struct VerdictOptions {
-  double leastKnown = 1.0;        // [ln]; 1 % of known grasps lie below, 60 % of unknown ones
+  // Threshold [ln] of the ratio: 1 % of the known and 60 % of the unknown grasps are below it
+  // (data: docs/recognition.md).
+  double leastKnown = 1.0;
   double sureProbability = 0.97;  // of the best class, 0.5..1
 
   void validate() const;

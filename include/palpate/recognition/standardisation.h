@@ -1,5 +1,6 @@
-// Standardisation: every feature shifted by its mean and divided by its standard deviation, both of the samples it was
-// fitted to (population form, n below; study, 6.8.1). A feature that doesn't vary becomes 0 for every sample.
+// Standardisation: subtracts the mean of each feature and divides by its standard deviation, both
+// estimated from the samples it was fitted to (divisor n; study, 6.8.1). A constant feature becomes
+// 0 for every sample.
 #pragma once
 
 #include <Eigen/Core>

@@ -24,8 +24,8 @@ namespace palpate {
 std::vector<std::string> studyFeatureNames(const PinchHand& hand = sdh2PinchHand());
 
 struct StudyFeatures {
-  std::string
-      trouble;  // why there are none: no joint angles, no contact, too short, .. ; else empty
+  // why there are none: no joint angles, no contact, too short, .. ; else empty
+  std::string trouble;
   std::size_t initialFrame = 0;
   std::size_t endFrame = 0;
   std::size_t otherEndFrame = 0;  // the tied candidate

@@ -15,8 +15,8 @@ namespace palpate {
 
 struct SvmOptions {
   double c = 100.0;  // cost of a sample on the wrong side, > 0
-  double tolerance =
-      1e-3;  // how far the conditions of the optimum may be missed (LIBSVM's eps), > 0
+  // how far the conditions of the optimum may be missed (LIBSVM's eps), > 0
+  double tolerance = 1e-3;
   int mostIterations = 100000;  // of one pair, >= 1; then it is taken as it is
 
   // Throws std::invalid_argument with the field's name.
@@ -25,8 +25,8 @@ struct SvmOptions {
 
 struct SupportVectorMachine {
   std::size_t numClasses = 0;
-  std::vector<std::pair<int, int>>
-      pairs;                // (first, second), first < second, of classes with samples
+  // (first, second), first < second, of classes with samples
+  std::vector<std::pair<int, int>> pairs;
   Eigen::MatrixXd weights;  // pairs x features
   Eigen::VectorXd offsets;  // per pair
 
@@ -38,7 +38,8 @@ struct SupportVectorMachine {
                                  const SvmOptions& options = {});
   // Per sample and pair; above 0 speaks for the first class of the pair.
   Eigen::MatrixXd decisions(const Eigen::MatrixXd& x) const;
-  // Per class of one sample's decisions: votes + a share below 1/2 that orders classes of as many votes by distance.
+  // Votes of each class for one sample, plus a value below 1/2 that orders classes with equal votes
+  // by their distance from the hyperplanes.
   Eigen::VectorXd votes(const Eigen::VectorXd& decisions) const;
   // Of each feature: root mean square of its weight over the pairs' unit normals, scaled to a sum of 1.
   Eigen::VectorXd featureWeights() const;

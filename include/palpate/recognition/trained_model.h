@@ -32,12 +32,16 @@ struct ModelInput {
 // What a model says of one grasp.
 struct Verdict {
   static constexpr int kUnknown = -1;
-  int label = kUnknown;      // class, or kUnknown: nothing that was learnt
+  // Class index, or kUnknown if the grasp belongs to no known class.
+  int label = kUnknown;
   double confidence = 0.0;   // probability of the best class, were it one of the known ones
-  bool sure = false;         // right 95 times in 100; never without an offset that can be trusted
+  // True if the result is expected to be correct in 95 % of the cases; never true without a trusted
+  // session offset.
+  bool sure = false;
   std::vector<int> ranking;  // all classes, best first, whether known or not
   std::vector<double> p;     // of each class of the ranking
-  double novelty = 0.0;      // how far from everything that was learnt; the larger the stranger
+  // Novelty score: distance from the training samples; larger for unknown objects.
+  double novelty = 0.0;
 };
 
 struct TrainedModel {
@@ -49,17 +53,19 @@ struct TrainedModel {
   FeatureSet set = FeatureSet::kBest;
   std::vector<std::string> features, classes;
   ClassifierPipeline pipeline;  // calibrated
-  // Of a classifier that isn't gauss: sure from this confidence on (above 1: never), unknown from this novelty on.
+  // For all classifiers except gauss: results with at least this confidence are sure (above 1:
+  // never); results with at least mostNovelty are unknown.
   double sureConfidence = 2.0;
   double mostNovelty = 0.0;
-  SessionOffset offset = noOffset();  // what `adapt` stored; none in a fresh model
+  // Session offset that `palpate adapt` stored; noOffset() in a model that was never adapted.
+  SessionOffset offset = noOffset();
   // Of the empty hand: on the day of training, and on the day whose offset is stored.
   std::optional<EmptyHandZero> trainingZero, todayZero;
   std::vector<ModelInput> inputs, adaptedFrom;
   Json options = Json::object();     // of the command that made it
   Json validation = Json::object();  // how well it did on blocks of its own recordings
 
-  // Whether it knows a session offset, and can adapt: gauss.
+  // Whether the classifier models a session offset and can be adapted; true for gauss only.
   bool carriesOver() const noexcept { return pipeline.day.has_value(); }
   // Whether a time lies within half a day of the day its offset is of: that of what it learnt from, or, once it is adapted,
   // of what adapted it. The same session, as far as one can tell.
@@ -69,8 +75,8 @@ struct TrainedModel {
 // Classes and their number of grasps, by file: hashes every file. Throws FileError, Cancelled.
 std::vector<ModelInput> inputsOf(const FeatureTable& table, const Progress& progress = {});
 
-// Fits a model and what it takes to be sure: the pipeline's blocks calibrate (5 where none are given). What it is made of
-// (inputs, options, versions) is the caller's to add. Throws as ClassifierPipeline::of(), Cancelled.
+// Fits a classifier and its confidence thresholds; the probabilities are calibrated on contiguous
+// blocks (5 if the options name none). The caller fills in inputs, options and versions.
 TrainedModel trainModel(const SampleSet& samples,
                         FeatureSet set,
                         const std::string& sensor,

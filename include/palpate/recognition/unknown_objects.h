@@ -1,5 +1,7 @@
-// How well unknown objects are told from known ones: every class is taken out of the training in turn, and its grasps are strangers
-// to a model of the others. Area under the curve (auroc, classification_report.h) of how strange grasps look.
+// Measures how well grasps of unknown objects are detected. Each class in turn is removed from the
+// training samples; its grasps are then unknown objects for a classifier of the remaining classes.
+// The result is the area under the receiver operating characteristic (classification_report.h) of
+// the novelty scores.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +19,8 @@ namespace palpate {
 struct UnknownClass {
   std::string name;
   std::size_t grasps = 0;
-  double auroc = 0.0;  // of this stranger against all known grasps
+  // Area under the curve for the grasps of this class against all grasps of known classes.
+  double auroc = 0.0;
 };
 
 struct UnknownReport {
@@ -26,18 +29,24 @@ struct UnknownReport {
   std::vector<UnknownClass> classes;
 };
 
-// The same day. Known ones: grasps of blocks that did not teach (protocol B), with the class in the model. Throws Error (less than
+// Same session. Grasps of known classes come from test blocks (protocol B) and are scored by a
+// classifier that knows their class. Throws Error (fewer than
 // three classes with two samples each), std::invalid_argument (options), Cancelled.
 UnknownReport unknownWithin(const SampleSet& samples,
                             const PipelineOptions& options,
                             std::size_t blocks = 5,
                             const Progress& progress = {});
 
-// Another day, with a session offset that ..
+// Another session. How its offset is obtained:
 enum class StrangerOffset {
-  kKnown,  // .. is known: here from the day's grasps, with the whole model. As a touch of the empty hand would tell
-  kBatch,  // .. has to come from the day's grasps, strangers among them, with the model that lacks one
-  kUnknown  // .. isn't known: summed over
+  // Estimated from all grasps of the session with a classifier of all classes; this simulates a
+  // zero adjustment of the empty hand.
+  kKnown,
+  // Estimated from all grasps of the session, those of the unknown object included, with the
+  // classifier that lacks its class.
+  kBatch,
+  // Not estimated: the probabilities are marginalised over the prior distribution of the offset.
+  kUnknown
 };
 // `later` with the classes of `training`; sessions: places in `later`, each with an offset of its own. Known ones: the session's
 // grasps with the whole model. Only gauss knows offsets. Throws Error (other classes, nothing to examine), Cancelled.

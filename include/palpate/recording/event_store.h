@@ -1,9 +1,9 @@
 // Stores what a person has noted in a recording that lies on disk: labels, notes, marks, corrected
 // segments. Samples are never touched, and what happened (gaps, settings, grasps, motions) never changes.
 //
-// A .palpate takes its events in one transaction, a .dsa in its sidecar NAME.dsa.notes.json, which
-// appears whole or not at all: a process killed at any moment leaves the old events or the new ones.
-// Profiles of the recording that are open, here or in other programs, are read on undisturbed.
+// A .palpate file stores its events in one transaction, a .dsa in its sidecar file
+// NAME.dsa.notes.json, which is replaced atomically: a process that is killed leaves either the old
+// or the new events. Profiles of the recording that are open in any program can still be read.
 #pragma once
 
 #include <filesystem>

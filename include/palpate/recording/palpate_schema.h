@@ -19,8 +19,8 @@ namespace palpate {
 
 constexpr std::int32_t kPalpateApplicationId = 0x50414C50;  // "PALP"
 constexpr std::int32_t kPalpateVersion = 1;                 // user_version
-constexpr std::size_t kMaxBlockBytes =
-    4000;  // of data: a block then never overflows its 4096-byte page
+// of data: a block then never overflows its 4096-byte page
+constexpr std::size_t kMaxBlockBytes = 4000;
 
 // Bounds of what is read, so that a hostile file costs little.
 constexpr std::size_t kMaxMatrices = 64;
@@ -34,8 +34,8 @@ enum class BlockCoding : std::uint8_t {
   kFloatRuns = 1,   // pairs (u8 run, f32 value)
   kPlainF32 = 2,
   kPlainF64 = 3,
-  kFilteredRuns =
-      4,  // a bit per value (it counts as active), then as kFloatRuns (frame_coding.h, kFiltered)
+  // a bit per value (it counts as active), then as kFloatRuns (frame_coding.h, kFiltered)
+  kFilteredRuns = 4,
 };
 
 struct Block {

@@ -1,4 +1,4 @@
-// Opens and checks a recording of any form: the one door for commands and windows.
+// Opens and checks recordings of all formats; commands and windows use these functions only.
 #pragma once
 
 #include <filesystem>

@@ -16,9 +16,8 @@ namespace palpate {
 // Called in the thread that goes through the folder.
 struct CatalogSink {
   std::function<void(std::size_t numFiles)> listed = {};  // once, before the first recording
-  std::function<void(RecordingDetails&& details)> take =
-      {};  // one after the other; first those that
-           // the cache knows, each by its path
+  // one after the other; first those that the cache knows, each by its path
+  std::function<void(RecordingDetails&& details)> take = {};
 };
 
 struct CatalogReport {

@@ -36,8 +36,8 @@ struct RecordingDetails {
   std::string object;
   std::string run;
   std::string notes;  // those, and every event "note", a line each
-  std::vector<std::string>
-      labels;  // of events "label" and "segment": each text once, in order of time
+  // of events "label" and "segment": each text once, in order of time
+  std::vector<std::string> labels;
   bool operator==(const RecordingDetails&) const = default;
 };
 

@@ -23,8 +23,8 @@ struct CurveComparison {
   double rmsDifference = 0.0;
   double largestDifference = 0.0;  // of largest magnitude, with its sign
   double largestAtS = 0.0;
-  std::optional<double> correlation =
-      {};  // -1..1; nothing: fewer than three samples, or a curve that is constant
+  // -1..1; nothing: fewer than three samples, or a curve that is constant
+  std::optional<double> correlation = {};
 };
 
 // Times ascend [s]; b's are shifted by `offsetS` onto a's axis. Intervals longer than `gapS` (a's, b's) are gaps; 0:

@@ -20,8 +20,8 @@ struct DecimationOptions {
   double from = 0.0;           // what is seen, in the unit of x
   double to = 1.0;             // not below `from`
   std::size_t columns = 1000;  // pixel columns between from and to, 1..1,000,000
-  std::span<const std::size_t> breaks =
-      {};  // ascending: no line from sample i to sample i+1 (a gap)
+  // ascending: no line from sample i to sample i+1 (a gap)
+  std::span<const std::size_t> breaks = {};
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;

@@ -1,10 +1,11 @@
 // Spectra of one signal over time: the short-time Fourier transform of a series whose samples come when they come
 // (study 5.1; Welch 1967 for the scaling; the window's values as in Harris 1978).
 //
-// Real frames are jittered (25 % at 74 Hz), a Fourier transform wants even steps. So each stretch of the series
-// without a gap is interpolated linearly onto an even grid of its own rate. Nothing above half that rate (Nyquist)
-// can be seen, and what the hand felt above folds down. Where stamps are uneven the interpolation damps high
-// frequencies: interpolationGain(). Even stamps lose nothing.
+// Time stamps are irregular (25 % jitter at 74 Hz), but a Fourier transform needs a regular grid.
+// Each gap-free span is therefore interpolated linearly onto a regular grid at its own rate.
+// Frequencies above half of that rate (Nyquist) cannot be measured, and components above it are
+// aliased. Interpolation attenuates high frequencies if the stamps are irregular:
+// interpolationGain(). Regular stamps lose nothing.
 //
 // Segment of N samples x_n, every `hop` = N - overlap samples; its trend is taken away (detrend), then the periodic
 // Hann window w_n = (1 - cos(2 pi n / N)) / 2 is laid on (periodic: zero at n = 0, not at n = N - 1; its bins are
@@ -65,13 +66,13 @@ struct SpectrumStretch {
 
 struct SpectrumReport {
   std::size_t samples = 0;  // given
-  std::size_t notFinite =
-      0;  // of them NaN or infinite: left out, interpolated over unless that makes a gap
+  // of them NaN or infinite: left out, interpolated over unless that makes a gap
+  std::size_t notFinite = 0;
   std::size_t inNoSegment = 0;  // finite samples of stretches shorter than a window
   std::vector<SpectrumStretch> stretches;
   std::size_t segments = 0;
-  std::size_t hop =
-      1;  // [samples of the grid] between segments; above window - overlap where mostSegments asked
+  // [samples of the grid] between segments; above window - overlap where mostSegments asked
+  std::size_t hop = 1;
   double rateHz = 0.0;     // of the longest stretch; 0: fewer than two samples
   double nyquistHz = 0.0;  // half of it: nothing above can be seen
   double jitter = 0.0;  // sd of the intervals within stretches / their mean; 0 with fewer than two

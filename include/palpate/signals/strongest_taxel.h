@@ -1,4 +1,5 @@
-// The taxel of a recording that feels most: what is looked at while nobody has chosen one.
+// Finds the taxel with the largest total value of a recording, which is displayed until the user
+// selects another one.
 #pragma once
 
 #include <cstddef>

@@ -13,8 +13,8 @@ namespace palpate {
 
 struct OutlineShape {
   int groups = 0;
-  double area =
-      0.0;  // enclosed by the border of the largest group (by area, then by length) [taxels^2]
+  // enclosed by the border of the largest group (by area, then by length) [taxels^2]
+  double area = 0.0;
   double length = 0.0;  // of that border [taxels]
   // 4 pi area / length^2: 1 for a circle, 0 for a line or a single taxel.
   double roundness = 0.0;

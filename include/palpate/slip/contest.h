@@ -1,15 +1,20 @@
-// Did the contact move, or did only its load shift? Two explanations of the same two frames compete:
+// Compares two hypotheses about two frames of one contact: the contact moved (rigid motion), or it
+// stayed and its load was redistributed. Comparison of non-nested hypotheses by their residuals
+// (Cox 1961).
 //
 //   still:  F(p) ~ (gain + alongX (x - cx) + alongY (y - cy)) K(p)   a field of load over what doesn't move
 //   moved:  F(p) ~ gain K(R(-angle)(p - c - d) + c)                  rigid_registration.h
 //
-// with the same weights, and the same rule for a silent taxel, which says no more than "below the threshold" (that the edge of a contact
-// is known so badly is what tells the two apart safely). Residuals are weighted squares per active taxel: 0 at best, about
-// 1 where the model holds. The field is linear on purpose: an exponential one imitates motion.
+// Both hypotheses use the same weights and the same rule for a taxel that reads 0: its value is
+// only known to be below the threshold (left-censored). This censoring at the edge of the contact
+// is what distinguishes the hypotheses reliably. Residuals are weighted squares per active taxel: 0
+// for a perfect fit, about 1 if the hypothesis is true. The load field is linear, because an
+// exponential field could imitate a motion.
 //
 //   P(moved) = 1 / (1 + ((moved + 1) / (still + 1))^p),   p = sharpness / (1 + min(still, moved) / misfit)
 //
-// so that the contest counts less where neither holds. P is a score, not a calibrated probability.
+// If neither hypothesis fits, the exponent p decreases and the score approaches 0.5. P is a score,
+// not a calibrated probability.
 // x = column (right), y = row (down), in taxels; angles from +x towards +y [deg].
 #pragma once
 
@@ -20,7 +25,8 @@
 namespace palpate {
 
 struct ContestOptions {
-  // Noise and relative error count for both explanations. These are wider than the sensor's: real contacts do neither exactly.
+  // Both hypotheses use this noise and relative error. They are larger than those of the sensor,
+  // because real contacts follow neither hypothesis exactly.
   RegistrationOptions registration = {.passes = 7, .noiseCounts = 8.0, .relativeError = 0.03};
   double sharpness = 3.0;  // > 0
   double misfit = 10.0;    // > 0
@@ -46,9 +52,12 @@ LoadFieldResult fitLoadField(const KeyFrame& key,
                              const RegistrationOptions& options);
 
 struct ContestResult {
-  bool computed = false;  // false: an explanation could not be fitted, the rest means nothing
-  RigidMotion motion;     // were it moved
-  LoadField field;        // were it still
+  // False if one of the hypotheses could not be fitted; the other fields are then undefined.
+  bool computed = false;
+  // Estimated motion under the hypothesis that the contact moved.
+  RigidMotion motion;
+  // Estimated load field under the hypothesis that the contact did not move.
+  LoadField field;
   double stillResidual = 0.0;
   double movedResidual = 0.0;
   double pMoved = 0.5;
@@ -59,17 +68,20 @@ struct ContestResult {
 // P(moved) of two residuals.
 double probabilityMoved(double stillResidual, double movedResidual, const ContestOptions& options);
 
-// The motion is looked for from each start; the best one counts. The key must not be blurred (KeyFrameOptions);
+// Fits the motion from each start and keeps the one with the smallest residual. The key frame must
+// not be blurred (KeyFrameOptions);
 // throws std::invalid_argument (size, blur).
 ContestResult contest(const KeyFrame& key,
                       const ConstMatrixMap& frame,
                       std::span<const RigidMotion> starts,
                       const ContestOptions& options);
 
-// How much worse motion is known when the load may tilt: sd(d | field free) / sd(d | only a gain free), per axis, to
-// first order, from one key frame. 1.5 to 4 for shapes with edges. In theory it has no bound for a Gaussian (a Gaussian moved IS a
-// Gaussian times an exponential); estimated from noisy taxels it comes out as 5 to 15. Above kShapeCannotTell the
-// shape can't tell a shift of load from a small motion along that axis.
+// Ratio, per axis, of the standard deviation of the motion with a free load field to that with only
+// a free gain, to first order, from one key frame: the square root of the variance inflation factor
+// (Belsley, Kuh, Welsch 1980). Contacts with edges have 1.5 to 4. A Gaussian contact has no finite
+// value in theory (a shifted Gaussian is the Gaussian times an exponential); estimates from noisy
+// taxels are 5 to 15. Above kShapeCannotTell a load shift and a small motion along this axis cannot
+// be distinguished.
 struct ShapeCondition {
   double x = 1.0;
   double y = 1.0;

@@ -1,8 +1,9 @@
 // A key frame of one matrix as a smooth surface: what a later frame is registered to.
 //
-// The counts become a cubic B-spline that goes through them (optionally through their Gauss-smoothed values). A taxel that reads 0 has
-// felt something between nothing and the sensor's threshold: beside active taxels it is filled by a part of the
-// threshold and counts as unknown. Masked taxels are unknown, too, and filled from their neighbours.
+// A cubic B-spline interpolates the counts, or their Gaussian-smoothed values. A taxel that reads 0
+// has a true value between 0 and the sensor's threshold: next to an active taxel it is set to a
+// fraction of the threshold and marked as unknown. Masked taxels are unknown as well and are filled
+// from their neighbours.
 // x = column, y = row, in taxels; the surface reaches from -0.5 to columns - 0.5 and rows - 0.5.
 #pragma once
 
@@ -15,9 +16,11 @@
 namespace palpate {
 
 struct KeyFrameOptions {
-  double blurTaxels =
-      0.0;  // sd of the Gaussian over 3 x 3 that smooths key and frames; 0: none, at most 2
-  double fillOfThreshold = 0.4;  // what a silent taxel beside an active one is taken for, 0..1
+  // sd of the Gaussian over 3 x 3 that smooths key and frames; 0: none, at most 2
+  double blurTaxels = 0.0;
+  // Value of a taxel below the threshold next to an active one, as a fraction of the threshold,
+  // 0..1.
+  double fillOfThreshold = 0.4;
 
   void validate() const;  // throws std::invalid_argument naming the field
 };
@@ -31,7 +34,7 @@ void smoothMatrix(const MatrixLayout& layout,
 
 class KeyFrame {
  public:
-  // Value and slope of the surface, and how much of it is unknown, 0 .. 1.
+  // Value of the surface, its gradient, and the fraction of the value that is unknown, 0..1.
   struct Sample {
     float value = 0.0F;
     float alongX = 0.0F;  // [counts per taxel]
@@ -58,8 +61,9 @@ class KeyFrame {
   float leastCounts() const noexcept {
     return least_;
   }  // the smallest active value: at or above the threshold
-  // How much turning the contact would change: the part of its slopes that runs around the centroid instead of towards
-  // it, by squares over the taxels with known neighbours. 0: round (nothing tells an angle), 0.5 at most for what has no order.
+  // Sensitivity to rotation: the fraction of the squared gradient that points around the centroid
+  // instead of towards it, over the taxels with known neighbours. 0: a round contact, whose angle
+  // cannot be estimated; at most 0.5 for a contact without structure.
   float turning() const noexcept { return turning_; }
   const MatrixLayout& layout() const noexcept { return layout_; }
   const KeyFrameOptions& options() const noexcept { return options_; }

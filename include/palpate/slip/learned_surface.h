@@ -1,10 +1,12 @@
-// A key frame that learns: a contact's surface, finer than the taxels, which every registered frame makes better known.
+// Surface of a contact with a resolution finer than the taxels, refined by every registered frame.
 //
-// One frame samples an edged contact too coarsely: between taxels its interpolation is wrong by some counts, which moves a registration by hundredths of a taxel.
-// Frames at other places fill that in. The surface is a cubic B-spline with a knot every half taxel; every
-// coefficient has a variance, and a reading F = gain T(source) + noise corrects the sixteen around its source as a Kalman
-// filter with a diagonal covariance does. It starts as the interpolation of one frame (KeyFrame), unsure where that one bends, where it is silent, and
-// outside of the matrix, where nothing was felt yet.
+// One frame samples a contact with edges too coarsely: the interpolation between taxels is wrong by
+// some counts, which shifts a registration by some hundredths of a taxel. Frames at other positions
+// add the missing samples. The surface is a cubic B-spline with a knot every half taxel. Each
+// coefficient has a variance, and each reading F = gain T(source) + noise updates the sixteen
+// coefficients around its source as a Kalman filter with a diagonal covariance matrix does. The
+// initial surface is the interpolation of one frame (KeyFrame), with a larger variance where its
+// curvature is high, where taxels are below the threshold, and outside of the matrix.
 // x = column, y = row, in taxels; the surface reaches kMargin taxels beyond the outer taxels.
 #pragma once
 
@@ -16,12 +18,18 @@
 namespace palpate {
 
 struct LearnedSurfaceOptions {
-  double unsureOfBend = 0.03;  // sd of the start per count of second difference, >= 0
+  // Initial standard deviation [counts] per count of the second difference of the frame, >= 0.
+  double unsureOfBend = 0.03;
+  // Initial standard deviation of a taxel below the threshold that is next to an active one, as
+  // a fraction of the threshold, >= 0.
   double unsureOfSilence =
-      0.5;  // sd of what a silent taxel beside an active one feels, per threshold, >= 0
-  double unsureOutside = 0.3;  // sd outside of the matrix, per largest count, > 0
+      0.5;
+  // Initial standard deviation outside of the matrix, as a fraction of the largest count, > 0.
+  double unsureOutside = 0.3;
+  // Process noise: variance added per frame as a fraction of the measurement noise variance, >=
+  // 0. It lets the surface follow a contact whose shape changes.
   double forgetting =
-      0.001;  // variance that a frame adds, per variance of the noise, >= 0: follows a shape that changes
+      0.001;
   KeyFrameOptions key = {};
 
   void validate() const;  // throws std::invalid_argument naming the field
@@ -47,7 +55,8 @@ class LearnedSurface {
   bool empty() const noexcept { return key_.empty(); }
   // x within -kMargin .. columns - 1 + kMargin, y alike.
   Sample at(float x, float y) const noexcept;
-  // Takes what a registered frame says, by as much as its motion is known; the options as they were used.
+  // Updates the surface with a registered frame, weighted by the accuracy of its motion; `options`
+  // must be those of the registration.
   void learn(const ConstMatrixMap& frame,
              const RegistrationResult& found,
              const RegistrationOptions& options) noexcept;

@@ -23,8 +23,8 @@ namespace palpate {
 // Slip of one matrix as an arrow in space.
 struct SlipArrow {
   std::size_t matrix = 0;
-  Eigen::Vector3d originMm =
-      Eigen::Vector3d::Zero();  // the contact's centroid on the surface, base frame
+  // the contact's centroid on the surface, base frame
+  Eigen::Vector3d originMm = Eigen::Vector3d::Zero();
   Eigen::Vector3d vectorMm = Eigen::Vector3d::Zero();  // along the surface
   Eigen::Vector3d alongX = Eigen::Vector3d::UnitX();   // unit tangents: rising column, rising row
   Eigen::Vector3d alongY = Eigen::Vector3d::UnitY();

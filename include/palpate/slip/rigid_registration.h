@@ -2,9 +2,10 @@
 //
 //   F(p) ~ gain K(R(-angle)(p - c - d) + c),   c the centroid of the key, d = (dx, dy)
 //
-// by Gauss-Newton least squares from a start, over the taxels whose source lies inside of the matrix. Only what
-// was measured counts: a silent taxel says no more than "below the threshold", a saturated one "at least so much", a masked
-// one nothing. Weights 1 / (noise^2 + (relative model)^2 + (what the key doesn't know)^2).
+// Gauss-Newton least squares from a start value, over the taxels whose source position lies inside
+// the matrix. A taxel that reads 0 is only known to be below the threshold, a saturated one to be
+// at least at saturation; masked taxels are ignored. Weights: 1 / (noise^2 + (relative error x
+// model)^2 + variance of the key frame).
 // x = column (right), y = row (down), in taxels; angles from +x towards +y [deg].
 #pragma once
 
@@ -27,11 +28,13 @@ struct RegistrationOptions {
   double noiseCounts = 4.0;     // > 0
   double relativeError = 0.01;  // of the model, >= 0
   double saturationCounts = static_cast<double>(kSdh2SaturationCounts);  // at or above: saturated
+  // Prior standard deviation of the rotation from the start value [deg], > 0.
   double anglePriorDeg =
-      6.0;  // sd of the turn from the start; what the shape says of it overrules [deg], > 0
+      6.0;
   double leastTurning = 0.06;  // KeyFrame::turning() below which the angle is held, 0..0.5
-  // A direction along which the motion's sd is larger is not told by this contact (a bar along itself): the motion
-  // along it is held at the start [taxels], > 0.
+  // Largest standard deviation [taxels], > 0, up to which a direction of motion counts as
+  // observable. Along a less observable direction (a bar along its own axis) the motion is held at
+  // its start value.
   double untoldTaxels = 0.15;
   double gainPrior = 0.7;      // sd of ln gain from the start, > 0
   double leastOverlap = 0.25;  // of the key's load that must lie inside, 0..1
@@ -39,9 +42,11 @@ struct RegistrationOptions {
   void validate() const;  // throws std::invalid_argument naming the field
 };
 
-// Directions along which the contact doesn't tell its motion.
+// Directions along which the motion cannot be estimated from this contact (degenerate directions;
+// Zhang, Kaess, Singh 2016).
 struct Untold {
-  int count = 0;   // 0: it tells all, 1: none along (x, y), 2: none at all
+  // 0: the motion is fully observable, 1: not along (x, y), 2: not at all.
+  int count = 0;
   double x = 0.0;  // unit vector
   double y = 0.0;
 };
@@ -52,7 +57,8 @@ struct RegistrationResult {
   double overlap = 0.0;    // part of the key's load whose place lies inside of the matrix, 0..1
   int taxels = 0;          // counted
   bool converged = false;  // false also: no key, nothing active, too little overlap
-  // Standard deviations by the weights, were the model right [taxels, deg]: a shape that can't tell has large ones.
+  // Standard deviations from the weights, valid if the model is correct [taxels, deg]; large for
+  // shapes that do not determine the motion.
   double sdX = 0.0;
   double sdY = 0.0;
   double sdAngleDeg = 0.0;

@@ -1,7 +1,8 @@
 // Follows the principal axis of a contact over the frames: how far it turned since the last one, and since a reference.
 //
-// An axis looks the same after half a turn: of both directions the one nearer to the last is taken, and whole turns are counted. What is too round
-// has no direction that could be followed: eccentricity (the study's) below 0.6 and roundness above 0.9.
+// A principal axis is ambiguous by 180 deg: the direction closer to the previous one is taken, and
+// whole turns are counted. The axis is not tracked if the contact is too round: eccentricity (the
+// study's definition) below 0.6 and roundness above 0.9.
 // Angles from +x towards +y (clockwise on the screen) [deg].
 #pragma once
 
@@ -23,8 +24,8 @@ struct SlipRotation {
   bool valid = false;        // so has that of the frame before: `rotationDeg` is known
   double rotationDeg = 0.0;  // from the last frame to this one, -90 .. 90
   bool refValid = false;     // and the reference has one
-  double refRotationDeg =
-      0.0;  // since the reference, whole turns counted; keeps its last value while not valid
+  // since the reference, whole turns counted; keeps its last value while not valid
+  double refRotationDeg = 0.0;
   PrincipalAxis axis;
   double roundness = 0.0;
 };

@@ -1,8 +1,10 @@
 // How well methods measure slip, against contacts whose motion is known, and beside the Cramer-Rao bound.
 //
-// Per shape and trial a contact wanders for 100 frames: (+-0.6, +-1.2) taxels, +-15 deg where the shape has a direction, at most about 0.13
-// taxel and 1 deg per frame. Then it leaves over the right side by 1.5 taxels in 10 frames; and rests while 40 % of its load tilts along
-// the rows in 12 frames. Steps and bounds are of the first.
+// For each shape and trial a contact moves on a random path of 100 frames within (+-0.6, +-1.2)
+// taxels and +-15 deg (shapes with a direction), by at most about 0.13 taxel and 1 deg per frame.
+// Then it leaves the matrix over the right edge by 1.5 taxels in 10 frames. Finally it rests while
+// a load gradient of 40 % develops along the rows in 12 frames. Step errors and bounds are those of
+// the first part.
 #pragma once
 
 #include <cstdint>
@@ -42,15 +44,15 @@ struct SlipAccuracy {
   double bias = 0.0;   // mean error of a step along its true direction [taxels]
   double gainX = 0.0;  // regression of the measured on the true step: 1 is right
   double gainY = 0.0;
-  double drift100 =
-      0.0;  // rms error of the motion since the reference, after 100 frames, per component [taxels]
+  // rms error of the motion since the reference, after 100 frames, per component [taxels]
+  double drift100 = 0.0;
   double driftDeg100 = 0.0;
   double rmseDeg = 0.0;  // of a turn per frame; over shapes with a direction
   double crb = 0.0;      // rms of the bound over the same steps [taxels]
   double crbDeg = 0.0;
   double edge = 0.0;  // rms error of the motion over the side edge, of 1.5 taxels
-  double tilt =
-      0.0;  // rms reading of a load tilt of 40 % without motion, per trial at its end [taxels]
+  // rms reading of a load tilt of 40 % without motion, per trial at its end [taxels]
+  double tilt = 0.0;
   int invalid = 0;  // steps the method couldn't give
   int steps = 0;
   double nsPerStep = 0.0;

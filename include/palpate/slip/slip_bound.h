@@ -3,7 +3,8 @@
 // Fisher information of the ideal counts of one frame towards (x, y, angle, gain), by central differences. A taxel whose
 // reading may fall below the threshold or above saturation carries that of a censored normal value (Tobit, type I): with
 // z = (mean - threshold)/sd it is Phi(z) - z phi(z) + phi(z)^2 / (1 - Phi(z)) of the whole. Rounding to counts adds a variance of
-// 1/12. A step lies between two such frames: sqrt(2) times the sd of one. The shape is taken as known, which favours the bound.
+// 1/12 counts^2. A step is the difference of two such frames: its standard deviation is sqrt(2)
+// times that of one. The shape is assumed to be known, so the bound is optimistic.
 #pragma once
 
 #include <limits>

@@ -1,8 +1,9 @@
 // Watches one matrix: how its contact moves, and whether that is slip.
 //
-// The vector comes from one of the methods of SlipTracker, or from `contest`: the motion of `register`, weighed by P(moved) of the
-// reference and the frame (contest.h) until it is certain: P > 0.9 over 0.35 taxel in two frames, or an alarm. From then on it is the motion
-// itself, until the next reference.
+// The motion is measured by one of the methods of SlipTracker, or by the method `contest`: the
+// motion of `register`, multiplied by the score P(moved) of the reference frame and the present
+// frame (contest.h), until slip is confirmed (P > 0.9 over 0.35 taxel in two frames, or an alarm).
+// From then on the unscaled motion is reported, until the next reference.
 // The alarm comes from the contest of three windows (slip_rule.h), whatever gives the vector; or, plain, from thresholds on the
 // vector: |step| > 0.20 or |since reference| > 1.0 taxel along an axis, as the prior program had it.
 #pragma once
@@ -21,7 +22,9 @@ namespace palpate {
 
 enum class SlipReference {
   kFirst,  // the first frame with an active taxel, kept whatever comes
-  kRest,  // each contact anew: the first frame in which it rests; and again when it rests after a slip
+  // A new reference for each contact: the first frame in which it is at rest, and again when it is
+  // at rest after a slip.
+  kRest,
   kGiven,  // none until setReference()
 };
 
@@ -40,10 +43,13 @@ struct SlipVerdict {
   SlipMotion motion;  // valid false: nothing is known of this frame's motion
   SlipLamp lamp = SlipLamp::kNotComputable;
   SlipState state = SlipState::kInvalid;
-  bool slipping = false;  // held until it is calm again: translation or, with the contest, turning
+  // True from the alarm until the contact is at rest again; translation or, with the contest,
+  // rotation.
+  bool slipping = false;
   bool alarm = false;     // of this frame alone
   bool turning = false;
-  // Of the contest that decides in this frame; nothing: none was needed or possible. The least residual of both explanations.
+  // Motion score of the window that decides in this frame; empty if no comparison was needed or
+  // possible. `residual` is the smaller residual of both hypotheses.
   std::optional<double> pMoved;
   double residual = 0.0;
   double confidence = 0.0;    // in the state, 0..1: a score
@@ -64,7 +70,7 @@ class SlipDetector {
   void setReference();
   void clearReference();
   void reset();
-  // Switched off it says nothing, but goes on watching.
+  // While off, it reports nothing but keeps its state up to date.
   void setOn(bool on) noexcept { on_ = on; }
 
   const SlipVerdict& last() const noexcept { return verdict_; }

@@ -1,9 +1,11 @@
 // How good alarms of slip are on real recordings: false alarms per hour of contact that doesn't slip, slips found, delay.
 //
-// No slip: recordings of single grasps, assumed free of it (some alarms may be real settling: nobody looked). Slip: recordings
-// in which something was pulled through the fingers, labelled by rule: the centroid of a matrix moved by more than 1 taxel in 10
-// frames of unbroken contact (spans of such frames with at most 5 between are one); it began when it was 0.2 taxel away from where it was 10
-// frames before the first of them. The rule favours the centroid, and knows no slip below 0.1 taxel per frame.
+// No slip: recordings of single grasps that are assumed to be free of slip (not verified; some
+// alarms may be real settling). Slip: recordings in which an object was pulled through the fingers,
+// labelled by a rule: the centroid of a matrix moved by more than 1 taxel in 10 frames of
+// uninterrupted contact (spans with at most 5 frames between them are joined). The onset is the
+// frame in which it was 0.2 taxel away from its position 10 frames before the first of these. The
+// rule favours the centroid method and misses slip below 0.1 taxel per frame.
 // Contact: at least 4 active taxels and a load over 400 counts. Settled: 15 frames of it. Quiet: settled, and the load within
 // 5 % over 10 frames. Alarms less than 10 frames apart are one. A slip is found by an alarm from its onset to its end.
 #pragma once

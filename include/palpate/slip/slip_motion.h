@@ -24,13 +24,14 @@ struct SlipMotion {
   double refDy = 0.0;
 
   SlipRotation rotation;
-  // Squares of the residual per taxel, in units of the expected noise (register), 1 - correlation (ncc, phase); 0 for centroids.
+  // Weighted squared residual per taxel, 1 for the expected noise (register); 1 - correlation (ncc,
+  // phase); 0 for centroids.
   double residual = 0.0;
   // 0..1, a score: how much of the load speaks for the reading (centroid: what isn't saturated or at an edge of the
   // matrix, where the contact may go on unseen; ncc, phase: the correlation; register: overlap over the misfit).
   double confidence = 0.0;
-  // register: directions along which the contact looks the same, as a bar along itself: no motion is seen there, and 0
-  // is given. 0: all is seen, 1: none along (untoldX, untoldY), 2: none at all.
+  // register: directions in which the contact looks the same (a bar along its own axis). Motion
+  // along them cannot be measured and is given as 0. 0: none, 1: along (untoldX, untoldY), 2: all.
   int untold = 0;
   double untoldX = 0.0;
   double untoldY = 0.0;

@@ -1,13 +1,16 @@
-// When a matrix raises the alarm: thresholds on what three windows of the past say, and what is allowed for load that
-// changes and joints that move.
+// Slip alarm of one matrix: thresholds on the motion over three windows of past frames, raised by
+// allowances for changing load and moving joints.
 //
 // Each window compares the frame with an earlier one of the same contact: 3, 10 and 30 frames before (at rates above 50 Hz
 // 60, 200 and 600 ms, slip_windows.h). Of each, m = min(1.3 |centroid shift|, |d of the registration|), and
 //   P m > threshold + allowance         short window: at once; the others: in two frames in a row
-//   m > accumulated + allowance         middle window, whatever P: a tilt of the load saturates, slip goes on
-//   |angle| - 2 sd > rotation + ..      middle window, P > 0.5: it turns
-// allowance = rise max(0, ln(load / load before)) + joints [deg] x 0.1 taxel. Windows that reach into the first frames of a
-// contact don't count, nor does the long one where the middle one sees less than half of its threshold: there nothing moves any more. One contest per frame is enough: of the window that is nearest to its threshold.
+// m > accumulated + allowance: middle window, independent of P, because a load tilt saturates while
+// slip continues. |angle| - 2 sd > rotation + allowance: middle window, P > 0.5, an alarm of
+// rotation.
+// allowance = rise max(0, ln(load / earlier load)) + 0.1 taxel per degree of joint motion. A window
+// that reaches into the first frames of a contact is ignored, and so is the long window while the
+// middle one is below half of its threshold, because the contact then no longer moves. Only the
+// window closest to its threshold is compared, once per frame.
 #pragma once
 
 #include <array>
@@ -53,8 +56,9 @@ struct SlipRuleOptions {
   double rotationPerLog = 20.0;  // [deg]: of the load's change, up or down
   // Age of the contact at a window's earlier frame, at least [frames].
   std::array<std::size_t, kSlipWindows> settled = {5, 10, 10};
+  // A registered motion is rejected if it exceeds this many centroid shifts plus 0.3 taxel.
   double furthest =
-      3.0;  // a registration beyond so many centroid shifts + 0.3 taxel isn't believed
+      3.0;
 
   void validate() const;  // throws std::invalid_argument naming the field
 };
@@ -63,9 +67,10 @@ struct SlipRuleOptions {
 struct RuleOutcome {
   bool alarm = false;    // of translation
   bool turning = false;  // alarm of rotation
-  std::optional<SlipWindow>
-      leading;  // the window nearest to its threshold; nothing: none is filled
-  // Of the leading window: largest motion it could mean, over its threshold without and with allowance.
+  // the window nearest to its threshold; nothing: none is filled
+  std::optional<SlipWindow> leading;
+  // Ratio of the largest possible motion of the leading window to its threshold, without and with
+  // the allowance.
   double reach = 0.0;
   double allowedReach = 0.0;
 };
@@ -77,7 +82,8 @@ class SlipRule {
 
   // The window whose contest would decide something in this frame; nothing: no window can raise an alarm.
   std::optional<SlipWindow> asksFor(const SlipEvidence& evidence) const;
-  // Whether a contest of the middle window could tell that it turns: worth a look now and then where nothing is asked for.
+  // Whether a comparison over the middle window could detect a rotation; it is then evaluated every
+  // few frames even if no window requires it.
   bool canTurn(const SlipEvidence& evidence) const;
   // The next frame. Read are the contest of the window that asksFor() names, and for turning that of the middle window
   // where it was made (two such looks in a row must agree).

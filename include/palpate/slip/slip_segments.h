@@ -19,8 +19,9 @@ struct SlipPassOptions {
   std::size_t referenceFrame = 0;
 };
 
-// One pass over a profile: `sink` is given every frame with its verdicts (one per matrix), in order. Joint angles of the profile
-// are used where it has any. Throws Cancelled; std::invalid_argument (options, reference frame not in the profile).
+// Runs the slip detector over a profile: `sink` receives every frame in order with one result per
+// matrix. Joint angles of the profile are used if it has any. Throws Cancelled;
+// std::invalid_argument (options, reference frame not in the profile).
 using SlipSink = std::function<void(
     std::size_t frame, std::int64_t timeUs, const std::vector<SlipVerdict>& verdicts)>;
 void passSlip(const Profile& profile,
@@ -42,8 +43,8 @@ struct SlipSegment {
 
 struct SlipSegmentOptions {
   SlipPassOptions pass;
-  std::size_t bridgedFrames =
-      5;  // slipping spans of a matrix with at most so many frames between are one
+  // slipping spans of a matrix with at most so many frames between are one
+  std::size_t bridgedFrames = 5;
 };
 
 // By begin, then matrix. Throws as passSlip.

@@ -7,9 +7,13 @@
 namespace palpate {
 
 enum class SlipState {
-  kInvalid,  // nothing can be said: too little is touched, or neither explanation of what changed holds
-  kStill,  // nothing moves that would count
-  kLoading,  // it shifts, but no more than contacts do while their load changes so fast, or joints move
+  // No statement is possible: the contact is too small, or neither hypothesis fits.
+  kInvalid,
+  // No significant motion.
+  kStill,
+  // Motion no larger than that of a resting contact whose load changes as fast or whose joints move
+  // as much.
+  kLoading,
   kLoadShift,  // the load went to another place, the contact stayed: p_moved < 0.25
   kAmbiguous,  // 0.25 .. 0.75: the shape doesn't tell; or not confirmed yet
   kSlip,       // p_moved > 0.75, or an alarm

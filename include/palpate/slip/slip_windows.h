@@ -1,8 +1,10 @@
 // The last second of one matrix, for windows that compare a frame with earlier ones of the same contact.
 //
-// A window of n frames reaches n kept frames back; a frame is kept when the last kept one is at least 20 ms old. So up to 50 Hz
-// a window counts frames, above it time: slow recordings keep the noise of a frame pair small, fast ones see the same motion.
-// A gap (model/gap_detector.h), or a contact that isn't computable, empties the windows.
+// A window of n frames compares with the n-th last stored frame; a frame is stored if the last
+// stored one is at least 20 ms old. Up to 50 frames/s a window is therefore a number of frames,
+// above it a duration. Slow recordings keep the noise of a single pair of frames small, and fast
+// ones see the same motion. A gap (model/gap_detector.h), or a contact that is too small, clears
+// the windows.
 #pragma once
 
 #include <cstdint>

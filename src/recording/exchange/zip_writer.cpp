@@ -11,8 +11,8 @@ namespace {
 constexpr std::uint16_t kZipWriterVersion = 45;      // 4.5: zip64
 constexpr std::uint16_t kChecksumFollows = 1u << 3;  // general purpose flag
 constexpr std::uint32_t kMax32 = 0xFFFFFFFF;
-constexpr std::uint16_t kDosDate =
-    0x0021;  // 1980-01-01: files do not depend on when they were made
+// 1980-01-01: files do not depend on when they were made
+constexpr std::uint16_t kDosDate = 0x0021;
 
 // Extra field 1: sizes and offset as 64-bit numbers.
 std::string zip64(std::uint64_t size, bool withOffset, std::uint64_t offset) {

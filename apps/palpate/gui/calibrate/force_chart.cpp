@@ -18,8 +18,8 @@ enum Graph { kLow, kHigh, kForce, kBeyond };
 constexpr double kForceChartSigmas = 1.96;  // the band: 95 %
 constexpr double kForceChartHeadroom = 1.1;
 constexpr int kForceChartBandAlpha = 46;
-constexpr std::size_t kForceChartMostPoints =
-    20'000;  // drawn; more frames: the largest of each bunch
+// drawn; more frames: the largest of each bunch
+constexpr std::size_t kForceChartMostPoints = 20'000;
 
 }  // namespace
 

@@ -9,8 +9,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kBarSpace =
-    86.0;  // [px] more for a group with a colour bar (matrices_geometry.cpp)
+// [px] more for a group with a colour bar (matrices_geometry.cpp)
+constexpr double kBarSpace = 86.0;
 constexpr double kComparePainterAround = 14.0;  // [px] of titles, as of the matrices below them
 constexpr double kSwatch = 10.0;                // [px]
 

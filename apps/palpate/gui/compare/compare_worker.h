@@ -28,8 +28,8 @@ struct CompareQuestion {
 // What is known so far; what isn't yet is null.
 struct CompareAnswer {
   std::shared_ptr<const TimedProfile> a, b;
-  Alignment alignment =
-      Alignment::kContact;  // kStart where contact was asked for and there is none
+  // kStart where contact was asked for and there is none
+  Alignment alignment = Alignment::kContact;
   double offsetS = 0.0;     // once a and b are there
   // null although complete: that recording hasn't the chosen matrix.
   std::shared_ptr<const Series> curveA, curveB;

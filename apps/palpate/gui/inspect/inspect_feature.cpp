@@ -97,8 +97,8 @@ void InspectFeature::makeActions() {
 void InspectFeature::takeSource() {
   const Subject& subject = bench().subject;
   if (subject.isLive()) {
-    const std::vector<bool> ticks =
-        liveTicks_;  // as they were left, before a recording was looked at
+    // as they were left, before a recording was looked at
+    const std::vector<bool> ticks = liveTicks_;
     panel_->setHand(*subject.hand());
     for (std::size_t row = 0; row < ticks.size(); ++row)
       panel_->table().setPlotted(row, ticks[row]);

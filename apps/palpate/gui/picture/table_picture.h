@@ -17,8 +17,8 @@ struct TablePicture {
   QString title = {};
   QString caption = {};
   QStringList header = {};
-  std::vector<QStringList> rows =
-      {};  // as many cells as the header has; the first is the row's name
+  // as many cells as the header has; the first is the row's name
+  std::vector<QStringList> rows = {};
 };
 
 // In the colours of `theme`, or of paper. Text shrinks where the table wouldn't fit.

@@ -13,8 +13,8 @@
 
 namespace palpate::gui {
 
-using ConfusionCell =
-    std::pair<int, int>;  // truth, called (ConfusionMatrix::kUnknown: the last column)
+// truth, called (ConfusionMatrix::kUnknown: the last column)
+using ConfusionCell = std::pair<int, int>;
 
 constexpr double kSmallestConfusionSide = 3.0;   // of a cell [px],
 constexpr double kReadableConfusionSide = 14.0;  // from here on names beside one another are read

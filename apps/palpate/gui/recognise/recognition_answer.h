@@ -30,8 +30,8 @@ struct RecognitionAnswer {
   Kind kind = Kind::kNothing;
   QString text;       // of kTrouble: why there is no name; of kNothing: what to do
   bool sure = false;  // right 95 times in 100
-  std::vector<Place>
-      best;    // of kNamed, kUnknown: up to three, best first; the first one is what it is called
+  // of kNamed, kUnknown: up to three, best first; the first one is what it is called
+  std::vector<Place> best;
   QString of;  // which grasp: "foam_ball.dsa, 12.40 – 14.10 s"
   QString offset;                    // "today the hand reads ..."
   QString unsure;                    // why nothing is sure; may be empty

@@ -24,8 +24,8 @@ namespace {
 
 constexpr int kRecordingDialogWidth = 580;  // [px]
 constexpr int kRecordingDialogMargin = 20;  // [px]
-constexpr int kRecordingDialogMostLetters =
-    200;  // of a field: the name of the file is cut far before
+// of a field: the name of the file is cut far before
+constexpr int kRecordingDialogMostLetters = 200;
 constexpr int kNoteLines = 3;
 constexpr int kRecordingDialogRefreshMs = 1000;  // {time} goes on, and others write into the folder
 

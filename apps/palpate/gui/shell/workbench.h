@@ -39,8 +39,8 @@ struct ScreenshotOptions {
   double afterS = 0.0;                        // let it play for so long first [s]
   std::vector<std::string> docks;             // to show, by name; empty: the usual ones
   std::vector<ScreenshotPress> presses = {};  // before the picture
-  std::optional<std::filesystem::path> settings =
-      {};                      // INI file the window starts with; it stays as it is
+  // INI file the window starts with; it stays as it is
+  std::optional<std::filesystem::path> settings = {};
   std::string theme = "dark";  // "dark" or "light"
   std::optional<std::filesystem::path> file;
   std::optional<std::filesystem::path> comparedWith;  // show Compare, `file` as A and this as B

@@ -17,8 +17,8 @@ namespace palpate::gui {
 
 struct FilterFigures {
   std::vector<double> costsUs;  // per step and frame; 0: off
-  std::vector<std::optional<int>>
-      latencies;               // per step [frames]; nothing: a step of load never comes through
+  // per step [frames]; nothing: a step of load never comes through
+  std::vector<std::optional<int>> latencies;
   std::optional<int> latency;  // of the chain
 };
 

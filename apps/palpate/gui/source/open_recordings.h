@@ -31,8 +31,8 @@ struct OpenRequest {
 struct OpenArrival {
   OpenRequest::Then then = OpenRequest::Then::kShowFirst;
   std::size_t place = 0;  // among those of its request that could be opened; 0: the first
-  OpenedRecordingPtr
-      replaced;  // the same file as it was open before; null: it wasn't, or stays as it is
+  // the same file as it was open before; null: it wasn't, or stays as it is
+  OpenedRecordingPtr replaced;
 };
 
 class OpenRecordings : public QObject {

@@ -18,8 +18,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr float kCellShare =
-    0.93F;  // of a taxel's side that is filled: a line of the body stays between
+// of a taxel's side that is filled: a line of the body stays between
+constexpr float kCellShare = 0.93F;
 constexpr float kCellLiftMm = 0.15F;
 constexpr float kBarShare = 0.8F;
 constexpr float kTallestBarMm = 30.0F;  // at the end of the colour range

@@ -17,8 +17,8 @@ namespace palpate::gui {
 
 struct SceneVertex {
   std::array<float, 3> positionMm{};
-  std::array<float, 3>
-      normal{};  // unit vector out of the surface; zero: not lit, the colour as it is
+  // unit vector out of the surface; zero: not lit, the colour as it is
+  std::array<float, 3> normal{};
   QRgb color = 0;
 };
 
@@ -46,10 +46,10 @@ struct SceneLabel {
 };
 
 struct HandScene {
-  std::vector<SceneVertex>
-      solid;  // triangles, three each, counter-clockwise seen from outside; opaque
-  std::vector<SceneVertex>
-      clear;                     // the same, transparent: after what is solid, seen from both sides
+  // triangles, three each, counter-clockwise seen from outside; opaque
+  std::vector<SceneVertex> solid;
+  // the same, transparent: after what is solid, seen from both sides
+  std::vector<SceneVertex> clear;
   std::vector<SceneLine> lines;  // hidden by what is solid
   std::vector<ScenePoint> points;  // the same
   std::vector<SceneLabel> labels;

@@ -16,8 +16,8 @@ namespace {
 constexpr const char* kWindowKey = "spectrum/window";
 constexpr const char* kOverlapKey = "spectrum/overlap";
 constexpr const char* kScaleKey = "spectrum/scale";
-constexpr int kSpectrumPanelCalmMs =
-    120;  // so long nothing moves before a long recording is computed anew
+// so long nothing moves before a long recording is computed anew
+constexpr int kSpectrumPanelCalmMs = 120;
 
 SpectrumSetting loaded(const QSettings& settings) {
   const SpectrumSetting usual;

@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t kReadAtOnce = 3000;   // samples, in the window's thread (a few milliseconds)
 constexpr std::size_t kMostExact = 16'000;  // samples that are read for what is seen
 constexpr std::size_t kSpread = 1500;       // samples of the first look at a long recording
-constexpr std::size_t kMostLookedAt =
-    5'000'000;  // places in those samples: fewer of a sensor that claims many
+// places in those samples: fewer of a sensor that claims many
+constexpr std::size_t kMostLookedAt = 5'000'000;
 constexpr int kNewsMs = 200;
 constexpr double kForever = 1e12;  // [s]
 
