@@ -152,7 +152,8 @@ Profile fromArrays(const py::object& timeMs,
   return builder.finish(info);
 }
 
-// Directions and places have three numbers of their own, called x, y, z; what else has several, has one per matrix, axis ..
+// Directions and places have three numbers of their own, called x, y, z; what else has several, has
+// one per matrix, axis ..
 bool isVector(const std::string& name) {
   for (const char* vector : {"sphere_mm",
                              "centroid_sphere_mm",

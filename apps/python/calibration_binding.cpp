@@ -1,4 +1,5 @@
-// palpate.calibrate_noise(), calibrate_sensitivity(), calibrate_tare(), calibrate_pressure(), Calibration.
+// palpate.calibrate_noise(), calibrate_sensitivity(), calibrate_tare(), calibrate_pressure(),
+// Calibration.
 #include <filesystem>
 #include <string>
 

@@ -22,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// $PALPATE_DATA, else beside the installed module (PREFIX/lib/python3/dist-packages), else that of the source tree.
+// $PALPATE_DATA, else beside the installed module (PREFIX/lib/python3/dist-packages), else that of
+// the source tree.
 fs::path scenesFolder() {
   if (const char* given = std::getenv("PALPATE_DATA"); given && *given)
     return fs::path(given) / "scenes";

@@ -1,4 +1,5 @@
-// Long work without Python's lock: other Python threads go on, and Ctrl-C ends it with KeyboardInterrupt.
+// Long work without Python's lock: other Python threads go on, and Ctrl-C ends it with
+// KeyboardInterrupt.
 #pragma once
 
 #include <atomic>

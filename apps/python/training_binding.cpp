@@ -54,7 +54,8 @@ Wishes wishesOf(const std::optional<std::string>& classifier,
   return wishes;
 }
 
-// Of the set best only gauss carries over to another day, and is taken where nothing else is wished.
+// Of the set best only gauss carries over to another day, and is taken where nothing else is
+// wished.
 ClassifierKind classifierFor(const Wishes& wishes, FeatureSet set) {
   if (wishes.classifier) return *wishes.classifier;
   return set == FeatureSet::kBest && !wishes.components ? ClassifierKind::kGauss

@@ -39,8 +39,9 @@ bool evaluated(const LeastSquaresProblem& problem,
          std::all_of(residuals.begin(), residuals.end(), [](double r) { return std::isfinite(r); });
 }
 
-// Central differences of two widths, extrapolated: the error falls with the fourth power of the width, which lets it
-// be wide (rounding: 1e-13 relative). Where the model isn't defined on both sides, nothing.
+// Central differences of two widths, extrapolated: the error falls with the fourth power of the
+// width, which lets it be wide (rounding: 1e-13 relative). Where the model isn't defined on both
+// sides, nothing.
 bool differences(const LeastSquaresProblem& problem,
                  std::span<const double> x,
                  std::span<double> jacobian) {
@@ -187,7 +188,8 @@ LeastSquaresReport solveLeastSquares(const LeastSquaresProblem& problem,
     report.sumOfSquares = report.residualSd = std::numeric_limits<double>::quiet_NaN();
     return report;
   }
-  // A long first step may end where the model is flat: no minimum, though nothing descends. Then shorter ones.
+  // A long first step may end where the model is flat: no minimum, though nothing descends. Then
+  // shorter ones.
   LeastSquaresReport best;
   for (const double radius : {1e4, 1.0, 1e-3}) {
     const LeastSquaresReport report = descend(problem, start, options, radius);

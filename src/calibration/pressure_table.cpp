@@ -131,7 +131,8 @@ std::vector<PressureSample> samplesOf(const PressureTableRow& row,
     sample.activeAreaMm2 = step.activeAreaMm2;
     sample.notes = step.notes;
     sample.notes.insert(sample.notes.end(), step.fit.notes.begin(), step.fit.notes.end());
-    // A few saturated taxels make K a little too small, and are told; a fit without gain says nothing.
+    // A few saturated taxels make K a little too small, and are told; a fit without gain says
+    // nothing.
     sample.used = step.fit.usable();
     samples.push_back(std::move(sample));
   }

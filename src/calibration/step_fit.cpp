@@ -31,7 +31,8 @@ constexpr double kHuberScale = 1.345, kCauchyScale = 2.385;
 constexpr double kSdPerMad = 1.4826;
 constexpr int kMostReweightings = 25;
 constexpr int kMostTurns = 4;
-// An oscillating fit must be so much better to be believed: its two parameters have no reason in the rubber.
+// An oscillating fit must be so much better to be believed: its two parameters have no reason in
+// the rubber.
 constexpr double kOscillatingGain = 0.98;
 
 StepParameters parametersOf(const StepSearch& found) {

@@ -12,7 +12,8 @@ namespace {
 constexpr double kStepModelNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kStepModelSettled = 0.01;  // 1 - phi where the lag is over
 
-// Of z^2, which may be negative (then cosh and sinh): cos z, sin z / z and (sin z / z - cos z) / z^2.
+// Of z^2, which may be negative (then cosh and sinh): cos z, sin z / z and (sin z / z - cos z) /
+// z^2.
 struct Oscillation {
   double cosine, sine, difference;
 };

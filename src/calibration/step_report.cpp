@@ -13,8 +13,8 @@
 namespace palpate {
 namespace {
 
-// Of the active taxels of a plain contact some at its edge come and go; beyond this share of a taxel per frame the
-// mean over active taxels jumps with them.
+// Of the active taxels of a plain contact some at its edge come and go; beyond this share of a
+// taxel per frame the mean over active taxels jumps with them.
 constexpr double kFlicker = 1.0;
 // A step response meets a load that stays within a few per cent.
 constexpr double kBadRmseShare = 0.1;

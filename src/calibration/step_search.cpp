@@ -16,7 +16,8 @@ constexpr double kStepSearchSettled = 38.0;  // e^-38 is below the rounding of 1
 constexpr double kNear = 1.0;
 // A search that comes so near to a known minimum, and goes on towards it, finds nothing new.
 constexpr double kSame = 0.02;
-// T1/T2 - 1 below which the search by times gives up: towards d = 1 its two logarithms run along a bent valley.
+// T1/T2 - 1 below which the search by times gives up: towards d = 1 its two logarithms run along a
+// bent valley.
 constexpr double kNearlyCritical = -0.5;
 
 // Linear part of the fit: K and m from the moments; false where they can't be told apart.
@@ -81,8 +82,9 @@ Eigen::Vector2d dampedStep(const Normal& normal,
   return step;
 }
 
-// What the products of the derivatives leave out of the second derivatives, learnt from how the gradient changed
-// (the structured secant update of NL2SOL): with large residuals the search would only creep without it.
+// What the products of the derivatives leave out of the second derivatives, learnt from how the
+// gradient changed (the structured secant update of NL2SOL): with large residuals the search would
+// only creep without it.
 class SecantPart {
  public:
   // `gradient` is minus the derivative of half the sum of squares; `products` at the new place.
@@ -247,7 +249,8 @@ StepSearch searchStep(const StepSamples& samples,
     const Eigen::Vector2d step = dampedStep(secant.completed(normal), lambda, search.at, bounds);
     const Eigen::Vector2d next = (search.at + step).cwiseMax(bounds.least).cwiseMin(bounds.most);
     const double moved = (next - search.at).cwiseAbs().maxCoeff();
-    // What the linearised model promises: where that is nothing beside the sum itself, here is the minimum.
+    // What the linearised model promises: where that is nothing beside the sum itself, here is the
+    // minimum.
     const double promised = std::abs(normal.gradient.dot(next - search.at));
     if (moved < 1e-10 || promised <= 1e-12 * linear.sumOfSquares) {
       search.converged = true;

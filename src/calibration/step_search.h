@@ -1,4 +1,5 @@
-// The search behind step_fit: moments of one shape, and Levenberg-Marquardt over its two parameters.
+// The search behind step_fit: moments of one shape, and Levenberg-Marquardt over its two
+// parameters.
 #pragma once
 
 #include <span>
@@ -8,17 +9,19 @@
 
 namespace palpate {
 
-// What is searched: (log T2, log(T1/T2 - 1)), good for d clearly above 1, or (log T, d) around and below it.
+// What is searched: (log T2, log(T1/T2 - 1)), good for d clearly above 1, or (log T, d) around and
+// below it.
 enum class StepCoordinates { kTimes, kDamping };
 
-// Samples in order of time, with weights, and the sums over all later samples of what the settled tail needs.
+// Samples in order of time, with weights, and the sums over all later samples of what the settled
+// tail needs.
 class StepSamples {
  public:
   // Both of the same size, time ascending from 0.
   StepSamples(std::vector<double> timeS, std::vector<double> values);
   void setWeights(std::vector<double> weights);
-  // Means of neighbours that span at most this share of their time, weighted by their number: nearly all that the
-  // samples say, in a fraction of them.
+  // Means of neighbours that span at most this share of their time, weighted by their number:
+  // nearly all that the samples say, in a fraction of them.
   StepSamples merged(double shareOfTime) const;
 
   std::size_t size() const noexcept { return t_.size(); }
@@ -59,8 +62,8 @@ struct StepSearchBounds {
   Eigen::Vector2d least, most;
 };
 
-// Bounded Levenberg-Marquardt. `known`: minima found before. By times it stops, not converged, where T1/T2 comes below
-// 1.6: the caller goes on by damping.
+// Bounded Levenberg-Marquardt. `known`: minima found before. By times it stops, not converged,
+// where T1/T2 comes below 1.6: the caller goes on by damping.
 StepSearch searchStep(const StepSamples& samples,
                       StepCoordinates by,
                       const Eigen::Vector2d& start,

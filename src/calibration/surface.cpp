@@ -19,7 +19,8 @@ using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
 constexpr double kSurfaceNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostTerms = 12;
-// Columns that differ by less than this share of their length say the same. Nine honest terms come to 1e-6.
+// Columns that differ by less than this share of their length say the same. Nine honest terms come
+// to 1e-6.
 constexpr long double kSurfaceDependent = 1e-8L;
 constexpr double kWorthATerm = 1.01;
 constexpr double kHullGrowth = 1.05;
@@ -36,8 +37,8 @@ struct Fit {
   double squares = 0.0, looSquares = 0.0;
 };
 
-// Of the chosen columns; nothing where the points don't determine them. Long double: nine terms of the drift are
-// nearly dependent.
+// Of the chosen columns; nothing where the points don't determine them. Long double: nine terms of
+// the drift are nearly dependent.
 std::optional<Fit> fitTerms(std::span<const SurfacePoint> points,
                             const std::vector<SurfaceTerm>& terms,
                             std::uint32_t chosen) {

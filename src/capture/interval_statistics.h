@@ -1,5 +1,5 @@
-// How the frames of a running recording lie in time, as model/timing.h says it of a finished one, in
-// memory that doesn't grow with the number of frames.
+// How the frames of a running recording lie in time, as model/timing.h says it of a finished one,
+// in memory that doesn't grow with the number of frames.
 #pragma once
 
 #include <array>

@@ -81,7 +81,8 @@ void RecordingParts::add(const CaptureItem& item, RoundTime time) {
   take(item, time);
 }
 
-// Into the part it belongs to, which is a new one when the part that is open is full or of another layout.
+// Into the part it belongs to, which is a new one when the part that is open is full or of another
+// layout.
 void RecordingParts::take(const CaptureItem& item, RoundTime time) {
   if (const auto* frame = std::get_if<SharedFrame>(&item)) {
     if (splitDue(**frame)) split(**frame, time);

@@ -1,5 +1,5 @@
-// One recording in the making: which items belong to it, its parts on disk, what to do when the disk
-// fails. Not thread-safe: the recorder's thread owns it.
+// One recording in the making: which items belong to it, its parts on disk, what to do when the
+// disk fails. Not thread-safe: the recorder's thread owns it.
 #pragma once
 
 #include <array>
@@ -19,7 +19,8 @@ namespace palpate {
 // Keys of `meta` that the writer sets itself.
 bool isReservedMeta(std::string_view key) noexcept;
 
-// Says before the first frame what would fail there. Throws FileError: exists, no folder, not writable.
+// Says before the first frame what would fail there. Throws FileError: exists, no folder, not
+// writable.
 void requireNewFile(const std::filesystem::path& path);
 
 // The moment of a round on both clocks.

@@ -50,7 +50,8 @@ struct Replay::Impl {
     ended = false;
   }
 
-  // Stamp of what comes next; kNever at the end. Samples whose stamps can't be read are passed over.
+  // Stamp of what comes next; kNever at the end. Samples whose stamps can't be read are passed
+  // over.
   std::int64_t nextUs() { return std::min({eventUs(), temperatureUs(), angleUs(), frameUs()}); }
   std::int64_t frameUs() {
     return stampUs(

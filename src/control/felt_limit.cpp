@@ -10,8 +10,8 @@
 namespace palpate {
 namespace {
 
-// The firmest a finger presses. At sensitivity 0.5 the largest readings of the recordings (3567 counts, thresholds
-// 150 and 300) are about 160 kPa.
+// The firmest a finger presses. At sensitivity 0.5 the largest readings of the recordings (3567
+// counts, thresholds 150 and 300) are about 160 kPa.
 constexpr double kFirmestKpa = 200.0;
 constexpr double kUsualDegC = 35.0;
 

@@ -103,7 +103,8 @@ void GraspControl::guardedRound() noexcept {
   }
 }
 
-// Each thing by itself: where memory is short one may fail, and the next must be tried all the same. The stop first.
+// Each thing by itself: where memory is short one may fail, and the next must be tried all the
+// same. The stop first.
 void GraspControl::fault(const char* what) noexcept {
   const auto whateverHappens = [](auto&& work) {
     try {
@@ -116,7 +117,8 @@ void GraspControl::fault(const char* what) noexcept {
     machine_.fault(what, nowUs);
     send();
   });
-  // What is thrown in every round must not keep a stop from being sent again, nor its answer from being heard.
+  // What is thrown in every round must not keep a stop from being sent again, nor its answer from
+  // being heard.
   whateverHappens([&] { heedAnswers(); });
   whateverHappens([&] {
     machine_.onTime(nowUs);
@@ -180,7 +182,8 @@ void GraspControl::heedPorts() {
   }
   const std::int64_t nowUs = clock_.monotonicUs();
   const DeviceStatus status = session_.device().status();
-  // Its thread has tried to stop the hand, and opens the port anew: the stop goes out again until it is answered.
+  // Its thread has tried to stop the hand, and opens the port anew: the stop goes out again until
+  // it is answered.
   if (status.motion && status.motion->state == PortState::kFault)
     return machine_.fault("the motion port failed", nowUs);
   if (const std::string why = motionProblem(status); !why.empty())

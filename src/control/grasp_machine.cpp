@@ -17,7 +17,8 @@ constexpr int kStops = 20;                      // .. so often, then it is given
 // A motion may take so much longer than announced: fingers slow down at what they press.
 constexpr double kDurationFactor = 3.0;
 constexpr double kDurationMoreS = 5.0;
-// A motion without resistance may take so much longer than announced, or than by its velocity alone.
+// A motion without resistance may take so much longer than announced, or than by its velocity
+// alone.
 constexpr double kStartAndStopS = 0.5;
 // The rubber answers with a lag of 0.16 s: after three of them little comes.
 constexpr std::int64_t kLookOnUs = 500'000;
@@ -214,7 +215,8 @@ void GraspMachine::motionEnded(const std::vector<int>& states, std::int64_t mono
   if (isSlipAware() && phase_ != GraspPhase::kPreshaping && grip_.touches())
     return pause(Next::kSettle, "closed as far as it goes", monoUs);
   const std::string text = axes.empty() ? "finished: at its target" : "finished: held: " + axes;
-  // Where it is held the motors go on pushing. Nobody watches the taxels after this, so they must not.
+  // Where it is held the motors go on pushing. Nobody watches the taxels after this, so they must
+  // not.
   if (!axes.empty() && underTactileControl())
     return halt(GraspOutcome::kFinished, text + "; the limit was not reached", monoUs);
   end(GraspOutcome::kFinished, text);
@@ -243,7 +245,8 @@ void GraspMachine::onStopTaken(std::int64_t monoUs) {
   underWay_.reset();
   if (next_ == Next::kSettle) return settle(monoUs);
   if (next_ == Next::kClose) return move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
-  // One that is slip-aware was not closing yet, but on its way to the start: it has nothing to hold, and must not close.
+  // One that is slip-aware was not closing yet, but on its way to the start: it has nothing to
+  // hold, and must not close.
   if (report_.outcome == GraspOutcome::kLimitReached && !isSlipAware()) return lookOn(monoUs);
   end(report_.outcome, report_.text);
 }
@@ -273,7 +276,8 @@ void GraspMachine::endLooking() { end(report_.outcome, report_.text + riseText()
 
 void GraspMachine::onCommandFailed(const std::string& why, bool sent, std::int64_t monoUs) {
   if (active() && !sent) return end(GraspOutcome::kRefused, "refused: " + why);
-  // The hand may move all the same: an answer can get lost. A stop is sent again when its time comes.
+  // The hand may move all the same: an answer can get lost. A stop is sent again when its time
+  // comes.
   if (moves()) halt(GraspOutcome::kFailed, "failed: " + why, monoUs);
 }
 
@@ -414,7 +418,8 @@ void GraspMachine::settle(std::int64_t monoUs) {
   if (endUs_ == 0 && holding.holdS > 0.0) endUs_ = settledUs_ + microsecondsOf(holding.holdS);
 }
 
-// "holding: limit 200 counts; rose to 3331 after the stop, above its highest limit of 2200: close more slowly"
+// "holding: limit 200 counts; rose to 3331 after the stop, above its highest limit of 2200: close
+// more slowly"
 std::string GraspMachine::holdingText() const {
   std::string text = "holding: limit " + std::to_string(limit_) + " counts";
   const int highest = report_.request.holding.mostLimitCounts;

@@ -26,7 +26,8 @@ std::string problemOf(const TactileSettings& settings) {
   return {};
 }
 
-// Commands that make `get` of all matrices what it is in `to`; `command` makes one, for a matrix or for all.
+// Commands that make `get` of all matrices what it is in `to`; `command` makes one, for a matrix or
+// for all.
 template <typename Get, typename MakeCommand>
 void bring(const TactileSettings& from,
            const TactileSettings& to,

@@ -95,7 +95,8 @@ DsaController::DsaController(ByteChannel& channel,
       options_(std::move(options)),
       buffer_(kDsaControllerReadBytes) {}
 
-// --- reading --------------------------------------------------------------------------------------
+// --- reading
+// --------------------------------------------------------------------------------------
 
 bool DsaController::take(const DsaPacket& packet) {
   if (packet.id == DsaId::kFrame) {
@@ -156,7 +157,8 @@ void DsaController::awaitSilence(milliseconds silence, milliseconds limit) {
   flush();
 }
 
-// --- asking ---------------------------------------------------------------------------------------
+// --- asking
+// ---------------------------------------------------------------------------------------
 
 void DsaController::send(DsaId id, const Bytes& payload) {
   channel_.write(dsaRequest(id, payload));
@@ -215,7 +217,8 @@ void DsaController::acquisition(bool on, int rate) {
   request(DsaId::kAcquisition, payload, 2);
 }
 
-// --- streaming ------------------------------------------------------------------------------------
+// --- streaming
+// ------------------------------------------------------------------------------------
 
 void DsaController::startStream() {
   acquisition(true, 1);
@@ -264,7 +267,8 @@ DsaControllerStats DsaController::stats() const {
   return {parser_.stats(), retries_, strayAnswers_};
 }
 
-// --- opening --------------------------------------------------------------------------------------
+// --- opening
+// --------------------------------------------------------------------------------------
 
 // The blank line ends what a motion controller may have half received.
 bool DsaController::looksLikeMotionController() {
@@ -399,7 +403,8 @@ void DsaController::readMasks() {
   options_.tries = tries;
 }
 
-// --- settings -------------------------------------------------------------------------------------
+// --- settings
+// -------------------------------------------------------------------------------------
 
 void DsaController::checkMatrix(std::size_t matrix) const {
   if (matrix >= facts_.matrices.size())

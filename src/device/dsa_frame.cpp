@@ -78,8 +78,8 @@ std::optional<DsaFrame> decodeDsaFrame(std::span<const std::byte> payload,
 // --- clock ---------------------------------------------------------------------------------------
 
 namespace {
-// How far ahead of the host's clock the controller's may run between two frames [ms]: a controller that
-// was held up hands over late, never early; emulated ones may run faster than time.
+// How far ahead of the host's clock the controller's may run between two frames [ms]: a controller
+// that was held up hands over late, never early; emulated ones may run faster than time.
 constexpr double kAheadMs = 10'000.0;
 }  // namespace
 

@@ -53,7 +53,8 @@ bool DsaPacketParser::plausible(std::uint8_t id, std::size_t size) const noexcep
     case DsaId::kSetThreshold:
     case DsaId::kSetDynamicMask:
       return size == 2;
-    // Masks, strings, echoes, and what newer firmware may add (no id is AA: a run of AA is preamble).
+    // Masks, strings, echoes, and what newer firmware may add (no id is AA: a run of AA is
+    // preamble).
     default:
       return id != 0xAA && size > 0 && size <= kLargestAnswer;
   }

@@ -101,7 +101,8 @@ void MotionLink::connect(ByteChannel& channel) {
   controller_ = std::make_unique<SdhController>(channel, clock_, options);
   const bool leftMoving = stopAfterReturn_;
   if (leftMoving) {
-    // The port went away during a motion: nobody watched it. Stop, whatever it is doing, ahead of all questions.
+    // The port went away during a motion: nobody watched it. Stop, whatever it is doing, ahead of
+    // all questions.
     controller_->stop();
     stopAfterReturn_ = false;
     eventNow("motion", "stopped: the motion port had been gone during a motion");

@@ -1,4 +1,5 @@
-// What is thrown where the hand's other controller answers at a port: the two are swapped. Private to the room.
+// What is thrown where the hand's other controller answers at a port: the two are swapped. Private
+// to the room.
 #pragma once
 
 #include <string>

@@ -12,8 +12,8 @@ namespace {
 constexpr std::int64_t kRetryUs = 100'000;  // between two attempts to open a port that is gone
 constexpr std::int64_t kFaultRetryUs = 1'000'000;  // after a failure of the program
 
-// A pseudo-terminal named by its number, not by a link. Once it is gone the number may belong to anybody:
-// to another program's terminal.
+// A pseudo-terminal named by its number, not by a link. Once it is gone the number may belong to
+// anybody: to another program's terminal.
 bool namesAPtyByNumber(const std::string& port) { return port.starts_with("/dev/pts/"); }
 
 // Where memory is short one thing may fail, and the next must be done all the same.

@@ -1,5 +1,5 @@
-// What the threads of the two ports have in common: orders with answers, a status to read from outside,
-// connecting, losing and finding the port again.
+// What the threads of the two ports have in common: orders with answers, a status to read from
+// outside, connecting, losing and finding the port again.
 #pragma once
 
 #include <atomic>
@@ -41,8 +41,8 @@ class PortLink {
 
   // The port's thread: step() until requestStop(), then finish().
   void begin(DeviceSink& sink);
-  // Whatever is thrown inside ends here: where it is no trouble of the port (a bug, no memory left) the hand is
-  // stopped, the port closed and tried anew a second later.
+  // Whatever is thrown inside ends here: where it is no trouble of the port (a bug, no memory left)
+  // the hand is stopped, the port closed and tried anew a second later.
   void step() noexcept;
   void finish() noexcept;
   bool stopping() const noexcept { return stopping_; }
@@ -63,8 +63,8 @@ class PortLink {
   virtual void closing() = 0;  // last words on an open port, before stop() returns
   virtual CommandAnswer execute(const DeviceCommand& command) = 0;
 
-  // Takes orders one by one; an order that fails carries its exception. DeviceErrors that mean the port
-  // is gone are thrown on.
+  // Takes orders one by one; an order that fails carries its exception. DeviceErrors that mean the
+  // port is gone are thrown on.
   void executeOrders();
   void rejectOrders(const std::string& why);
   bool ordersWait() const;

@@ -19,7 +19,8 @@ namespace {
 using std::chrono::milliseconds;
 using SdhControllerValues = SdhController::Values;
 
-// An echoed target that differs by more was not understood: lines have few decimals, records 24 bits.
+// An echoed target that differs by more was not understood: lines have few decimals, records 24
+// bits.
 constexpr double kEchoDeg = 0.5;
 constexpr int kSdhControllerPositioning = 1;
 constexpr int kSdhControllerSpeedMode = 2;
@@ -87,7 +88,8 @@ SdhController::~SdhController() = default;
 
 SdhStats SdhController::stats() const noexcept { return link_->stats(); }
 
-// --- opening --------------------------------------------------------------------------------------
+// --- opening
+// --------------------------------------------------------------------------------------
 
 const SdhFacts& SdhController::open() {
   DsaPacketParser tactile;
@@ -125,7 +127,8 @@ const SdhFacts& SdhController::open() {
 
 void SdhController::readFacts() {
   const SdhPatience briefly{.timeout = milliseconds(500), .tries = 2};
-  // Older firmware knows not all of these: it refuses, or keeps silent (then the others aren't asked).
+  // Older firmware knows not all of these: it refuses, or keeps silent (then the others aren't
+  // asked).
   bool answers = true;
   const auto ifTold = [&](const auto& ask) {
     if (!answers) return;
@@ -166,7 +169,8 @@ void SdhController::needFirmware(const std::string& what, int a, int b, int c, i
                   (facts_.firmware.empty() ? "not been opened" : facts_.firmware));
 }
 
-// --- asking ---------------------------------------------------------------------------------------
+// --- asking
+// ---------------------------------------------------------------------------------------
 
 std::string SdhController::word(const std::string& command, const SdhPatience& patience) {
   std::string name = command;
@@ -222,7 +226,8 @@ SdhControllerValues SdhController::withAxis(std::size_t axis,
   return values;
 }
 
-// --- state ----------------------------------------------------------------------------------------
+// --- state
+// ----------------------------------------------------------------------------------------
 
 SdhControllerValues SdhController::angles() { return exchange(sdh::kAngle, {}); }
 SdhControllerValues SdhController::velocities() { return exchange(sdh::kVelocity, {}); }
@@ -246,7 +251,8 @@ SdhControllerValues SdhController::temperatures() {
   return numbers("temp", "TEMP", std::nullopt, sdh::kTemperature, kSdhTemperatures, {});
 }
 
-// --- targets --------------------------------------------------------------------------------------
+// --- targets
+// --------------------------------------------------------------------------------------
 
 SdhControllerValues SdhController::setTargets(const SdhControllerValues& deg) {
   checkSdhValues(sdh::kTarget,
@@ -323,7 +329,8 @@ SdhControllerValues SdhController::setAxisPower(std::size_t axis, bool on) {
   return setPower(withAxis(axis, power(), on ? 1.0 : 0.0));
 }
 
-// --- motion ---------------------------------------------------------------------------------------
+// --- motion
+// ---------------------------------------------------------------------------------------
 
 double SdhController::move() {
   constexpr SdhPatience kOnce{.tries = 1};

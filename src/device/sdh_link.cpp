@@ -49,7 +49,8 @@ SdhStats SdhLink::stats() const noexcept {
   return stats;
 }
 
-// --- bytes ----------------------------------------------------------------------------------------
+// --- bytes
+// ----------------------------------------------------------------------------------------
 
 std::size_t SdhLink::readOnce(milliseconds timeout) {
   const std::size_t count = channel_.read(buffer_, timeout);
@@ -89,15 +90,17 @@ void SdhLink::resync(bool thorough) {
   replies_.clear();
   outOfStep_ = true;
   drain(kSilence, kDrainLimit);
-  // Blanks before a command mean nothing. As many as the longest record fill up one that the hand got in
-  // part; it fails by its checksum, which a network has not: there the hand would take it for values.
+  // Blanks before a command mean nothing. As many as the longest record fill up one that the hand
+  // got in part; it fails by its checksum, which a network has not: there the hand would take it
+  // for values.
   if (thorough && !channel_.isNetwork()) sendText(std::string(40, ' '));
   sendText(" \r\n");
   drain(kSilence, kDrainLimit);
   outOfStep_ = false;
 }
 
-// --- one question ---------------------------------------------------------------------------------
+// --- one question
+// ---------------------------------------------------------------------------------
 
 void SdhLink::giveUpIfUrgent() {
   if (!urgent_ || !urgent_()) return;
@@ -254,7 +257,8 @@ std::vector<double> SdhLink::askRecord(SdhCommand command,
   return std::get<SdhRecord>(exchange(request, std::string(sdhName(command)), judge, {})).values;
 }
 
-// --- stop -----------------------------------------------------------------------------------------
+// --- stop
+// -----------------------------------------------------------------------------------------
 
 void SdhLink::stop() {
   ++stats_.stops;
@@ -283,8 +287,9 @@ void SdhLink::stop() {
       }
       replies_.clear();
     }
-    // Another line may answer an earlier question, or be how this hand confirms: the line is alive, and the next
-    // question starts by a resync. But a stop that was lost must not pass for taken by such a line: not the first one.
+    // Another line may answer an earlier question, or be how this hand confirms: the line is alive,
+    // and the next question starts by a resync. But a stop that was lost must not pass for taken by
+    // such a line: not the first one.
     if (heard && timeout != kWaits[0]) return;
   }
   fail(DeviceFault::kSilent,

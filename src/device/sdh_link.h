@@ -1,5 +1,6 @@
-// One question, one answer with the SDH-2's motion controller, whatever the line does to them: finds the
-// answer that belongs to the question, brings a line that lost bytes back into step, asks again.
+// One question, one answer with the SDH-2's motion controller, whatever the line does to them:
+// finds the answer that belongs to the question, brings a line that lost bytes back into step, asks
+// again.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +33,8 @@ class SdhLink {
 
   SdhLink(ByteChannel& channel, const Clock& clock, std::function<bool()> urgent);
 
-  // Sends a line and returns the answer to it: the line NAME=.. with `axis`, or the values of the record.
+  // Sends a line and returns the answer to it: the line NAME=.. with `axis`, or the values of the
+  // record.
   SdhLine ask(const std::string& request,
               std::string_view name,
               std::optional<int> axis,
@@ -41,8 +43,8 @@ class SdhLink {
   std::vector<double> askRecord(SdhCommand command,
                                 std::span<const double> values,
                                 const RecordCheck& check);
-  // Puts `stop` on the wire before anything else, and waits for STOP; where that doesn't come in time, any
-  // other line will do.
+  // Puts `stop` on the wire before anything else, and waits for STOP; where that doesn't come in
+  // time, any other line will do.
   void stop();
   // Ends a command of the hand that was received in part, and waits until nothing comes any more.
   // `thorough` also fills up a binary record that was received in part.

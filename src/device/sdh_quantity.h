@@ -54,8 +54,8 @@ inline constexpr SdhQuantity kAccelerationLimit{
 
 }  // namespace sdh
 
-// Throws std::invalid_argument that names axis, value and range unless there are seven finite values, each
-// within `least[axis]`..`most[axis]`.
+// Throws std::invalid_argument that names axis, value and range unless there are seven finite
+// values, each within `least[axis]`..`most[axis]`.
 void checkSdhValues(const SdhQuantity& quantity,
                     std::span<const double> values,
                     std::span<const double> least,

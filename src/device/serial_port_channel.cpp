@@ -29,7 +29,8 @@ void require(sp_return result, const std::string& name, const std::string& what)
 void SerialPortChannel::Closer::operator()(sp_port* port) const noexcept {
   int fd = -1;
   if (sp_get_port_handle(port, &fd) == SP_OK && fd >= 0) {
-    // Does not end by itself while something else has the port open. Never another program's: as root that is allowed.
+    // Does not end by itself while something else has the port open. Never another program's: as
+    // root that is allowed.
     if (ours) ::ioctl(fd, TIOCNXCL);
     sp_close(port);
   }

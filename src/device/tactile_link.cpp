@@ -48,7 +48,8 @@ std::optional<DsaFacts> TactileLink::facts() const {
   return known_;
 }
 
-// --- the connection -------------------------------------------------------------------------------
+// --- the connection
+// -------------------------------------------------------------------------------
 
 void TactileLink::connect(ByteChannel& channel) {
   DsaControllerOptions options;
@@ -146,7 +147,8 @@ void TactileLink::countPackets() {
   });
 }
 
-// --- frames ---------------------------------------------------------------------------------------
+// --- frames
+// ---------------------------------------------------------------------------------------
 
 void TactileLink::onPayload(std::span<const std::byte> payload) {
   if (!delivering_) return;
@@ -232,7 +234,8 @@ void TactileLink::measureAge(std::int64_t hostUs, std::int64_t deviceMs) {
       [&](PortStatus& status) { status.ageMs = static_cast<double>(offsetUs - least) / 1000.0; });
 }
 
-// --- silence and noise ------------------------------------------------------------------------------
+// --- silence and noise
+// ------------------------------------------------------------------------------
 
 void TactileLink::watchSilence() {
   const std::int64_t nowUs = clock_.monotonicUs();
@@ -264,7 +267,8 @@ void TactileLink::watchSilence() {
   }
 }
 
-// The controller's rate, and what its clock says, are to be learned anew: what isn't sent meanwhile is no loss.
+// The controller's rate, and what its clock says, are to be learned anew: what isn't sent meanwhile
+// is no loss.
 void TactileLink::rateMayChange() { session_.loss.reset(); }
 
 // By the usual rate: nobody heard the controller's clock over all of the gap.
@@ -295,8 +299,8 @@ void TactileLink::endGap(std::int64_t nowUs, const Missing& missing) {
   event("gap", text, fromUs, nowUs, {}, json.text(-1));
 }
 
-// Now and then a wrong checksum is normal. Every tenth means that both ends are out of step, or that
-// another program writes to the port.
+// Now and then a wrong checksum is normal. Every tenth means that both ends are out of step, or
+// that another program writes to the port.
 void TactileLink::watchChecksums() {
   const std::int64_t nowUs = clock_.monotonicUs();
   if (nowUs - session_.windowFromUs < kChecksumWindowUs) return;

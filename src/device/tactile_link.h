@@ -105,7 +105,8 @@ class TactileLink : public PortLink {
     std::int64_t lastCureUs = 0;
     bool restartedForChecksums = false;
 
-    // Least (host - device) of this and the last half minute: what a frame takes when nothing delays it.
+    // Least (host - device) of this and the last half minute: what a frame takes when nothing
+    // delays it.
     std::array<std::optional<std::int64_t>, 2> leastOffsetUs;
     std::int64_t offsetWindowUs = 0;
   };

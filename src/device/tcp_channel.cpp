@@ -64,8 +64,8 @@ void look(const Place& place, int flags, Addresses& found) {
   found.error = ::getaddrinfo(place.host.c_str(), place.port.c_str(), &hints, &found.first);
 }
 
-// The addresses of a host. The resolver knows no time limit: a name is looked up in a thread of its own,
-// which is left behind when it takes too long, and ends when the resolver gives up.
+// The addresses of a host. The resolver knows no time limit: a name is looked up in a thread of its
+// own, which is left behind when it takes too long, and ends when the resolver gives up.
 std::shared_ptr<const Addresses> resolve(const std::string& name,
                                          const Place& place,
                                          TcpChannelSteadyClock::time_point deadline) {

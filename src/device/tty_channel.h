@@ -7,10 +7,11 @@
 
 namespace palpate {
 
-// Takes the line for this program alone (flock); throws DeviceError (kBusy). `name` is for the message.
+// Takes the line for this program alone (flock); throws DeviceError (kBusy). `name` is for the
+// message.
 void lockLine(int fd, const std::string& name);
-// Raw and 8-bit clean whatever was set before: no translation, no flow control, no signals by control
-// characters or modem lines, no DTR drop on close. The speed stays. False: errno says why.
+// Raw and 8-bit clean whatever was set before: no translation, no flow control, no signals by
+// control characters or modem lines, no DTR drop on close. The speed stays. False: errno says why.
 bool makeRaw(int fd) noexcept;
 
 class TtyChannel final : public DescriptorChannel {

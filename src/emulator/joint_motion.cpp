@@ -67,7 +67,8 @@ void JointMotion::require(const char* what,
   }
 }
 
-// --- settings -------------------------------------------------------------------------------------
+// --- settings
+// -------------------------------------------------------------------------------------
 
 void JointMotion::setTargets(const std::vector<double>& deg) {
   std::vector<double> least, most;
@@ -124,7 +125,8 @@ void JointMotion::setResistance(std::size_t axis, double clockwise, double count
   resistsCounterClockwise_.at(axis) = std::clamp(counterClockwise, 0.0, 1.0);
 }
 
-// --- motion ---------------------------------------------------------------------------------------
+// --- motion
+// ---------------------------------------------------------------------------------------
 
 double JointMotion::soloDuration(std::size_t axis) const {
   const double distance = std::abs(targetDeg_[axis] - angleDeg_[axis]);

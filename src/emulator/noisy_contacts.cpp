@@ -35,7 +35,8 @@ double loadAt(double timeS) {
   return std::max(0.0, 1.0 - timeS / kGoesS);
 }
 
-// Height of a contact's pressure over its peak, at a distance from its middle [taxels], in its own axes.
+// Height of a contact's pressure over its peak, at a distance from its middle [taxels], in its own
+// axes.
 double pressureShare(ContactSize size, double along, double across, double radius) {
   switch (size) {
     case ContactSize::kPoint:

@@ -196,8 +196,8 @@ void PhysicalObjects::advanceBody(Body& body, double dtS) {
   if (body.untouchedS > kPutDownS) body.held = false;
   if (body.grip >= kTouchN && holdsN(body, pull.normalized()) >= pull.norm()) body.held = true;
 
-  // What friction doesn't hold moves it: as fast as thick oil lets it, and never past the place where the
-  // contacts' springs balance it (the denominator).
+  // What friction doesn't hold moves it: as fast as thick oil lets it, and never past the place
+  // where the contacts' springs balance it (the denominator).
   Vector3d velocity = Vector3d::Zero(), angular = Vector3d::Zero();
   if (!body.object.fixed) {
     const auto speed = [dtS](double mobility, double spring) {

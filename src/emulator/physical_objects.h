@@ -1,9 +1,10 @@
-// The objects of a scene between the fingers: elastic contact, giving way, friction, weight and load.
-// Quasi-static: an object moves as in thick oil, until forces balance or friction holds it. Friction is
-// Coulomb's, contact by contact: across a contact it holds up to friction times normal force, and about its
-// normal up to that times the print's radius; along the normal it holds nothing. Forces in several
-// directions at once share it: an ellipsoid over the principal axes of the normals is the limit (the limit
-// surface of Goyal, Ruina and Papadopoulos, 1991, in its usual approximation).
+// The objects of a scene between the fingers: elastic contact, giving way, friction, weight and
+// load. Quasi-static: an object moves as in thick oil, until forces balance or friction holds it.
+// Friction is Coulomb's, contact by contact: across a contact it holds up to friction times normal
+// force, and about its normal up to that times the print's radius; along the normal it holds
+// nothing. Forces in several directions at once share it: an ellipsoid over the principal axes of
+// the normals is the limit (the limit surface of Goyal, Ruina and Papadopoulos, 1991, in its usual
+// approximation).
 #pragma once
 
 #include <array>
@@ -33,7 +34,8 @@ class PhysicalObjects {
                   const HandGeometry& geometry,
                   double rubberNPerMm3);
 
-  // Finds contact in a pose, with the objects and of pads with each other: pressure per place [kPa] and contact per matrix.
+  // Finds contact in a pose, with the objects and of pads with each other: pressure per place [kPa]
+  // and contact per matrix.
   void press(const HandPose& pose, std::vector<double>& pressureKpa);
   const std::vector<SimulatedMatrixContact>& contacts() const noexcept { return contacts_; }
   // Moves the objects for a time under what press() found.
@@ -90,7 +92,8 @@ class PhysicalObjects {
   static void advanceBody(Body& body, double dtS);
   // What is left of a force [N] that friction opposes; zero where it holds.
   static Eigen::Vector3d unheldN(const Body& body, const Eigen::Vector3d& forceN);
-  // What friction holds against a force in a direction [N], a torque about an axis [N mm] (unit vectors).
+  // What friction holds against a force in a direction [N], a torque about an axis [N mm] (unit
+  // vectors).
   static double holdsN(const Body& body, const Eigen::Vector3d& direction);
   static double holdsNmm(const Body& body, const Eigen::Vector3d& axis);
 

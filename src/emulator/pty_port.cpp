@@ -97,8 +97,8 @@ class PtyPort final : public PortServer {
     }
   }
 
-  // TIOCEXCL outlives the client that set it, because we hold the terminal open. A living client holds the lock as
-  // well (as ours does), or does without both.
+  // TIOCEXCL outlives the client that set it, because we hold the terminal open. A living client
+  // holds the lock as well (as ours does), or does without both.
   void tidy() noexcept override {
     int exclusive = 0;
     if (slave_ < 0 || ::ioctl(slave_, TIOCGEXCL, &exclusive) != 0 || exclusive == 0) return;

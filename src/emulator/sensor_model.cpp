@@ -14,8 +14,9 @@ constexpr double kRestKpa = 1e-6;     // below: the rubber is at rest
 constexpr double kNoiseReach = 8.0;   // farther noise never comes [standard deviations]
 constexpr double kHeavyReach = 45.0;  // heavyTailed(kNoiseReach)
 
-// A draw of unit variance with the tails that the noise of ordinary taxels has: of their readings (sd 0.9) 1.8 %
-// lie 3 counts or more from the mean, 0.5 % 4 or more; of a normal distribution it would be 0.7 and 0.01 %.
+// A draw of unit variance with the tails that the noise of ordinary taxels has: of their readings
+// (sd 0.9) 1.8 % lie 3 counts or more from the mean, 0.5 % 4 or more; of a normal distribution it
+// would be 0.7 and 0.01 %.
 double heavyTailed(double z) { return z * (0.756 + 0.0756 * z * z); }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Bilateral filter (Tomasi and Manduchi 1998): neighbours within a round window, weighed by distance and by
-// difference of value.
+// Bilateral filter (Tomasi and Manduchi 1998): neighbours within a round window, weighed by
+// distance and by difference of value.
 #include <cmath>
 
 #include "filter/lanes_exp.h"

@@ -53,8 +53,8 @@ class FilterChain::Link final : public FrameSink {
   FrameSink* next_ = nullptr;
 };
 
-// Remembers which taxels were active in the frames that went in, and says so in those that come out: they come in the
-// same order, every one of them.
+// Remembers which taxels were active in the frames that went in, and says so in those that come
+// out: they come in the same order, every one of them.
 class FilterChain::Contact final : public FrameSink {
  public:
   explicit Contact(FrameSink& out) : out_(out) {}
@@ -102,7 +102,8 @@ void FilterChain::build(const std::shared_ptr<const SensorLayout>& layout) {
   layout_ = layout;
 }
 
-// Which frames are still inside nobody knows when a filter has failed: none, and the next one begins anew.
+// Which frames are still inside nobody knows when a filter has failed: none, and the next one
+// begins anew.
 template <typename Work>
 void FilterChain::guarded(const Work& work) {
   try {

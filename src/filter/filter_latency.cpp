@@ -29,8 +29,8 @@ class StepWatcher final : public FrameSink {
   std::optional<int> arrived_;
 };
 
-// Everywhere, and without what looks into the future. The load is the same on all taxels, so what happens among
-// neighbours changes nothing: only time is tried.
+// Everywhere, and without what looks into the future. The load is the same on all taxels, so what
+// happens among neighbours changes nothing: only time is tried.
 Recipe tried(const Recipe& recipe) {
   Recipe causal;
   for (FilterStep step : recipe.steps) {

@@ -37,8 +37,8 @@ class FilteredProfileCursor final : public FrameSink {
     return pushed_.empty() ? next_ : pushed_.front();
   }
 
-  // The next filtered frame up to `last`; nothing where there is none. What can't be read is passed by, but for
-  // `wanted`: that throws.
+  // The next filtered frame up to `last`; nothing where there is none. What can't be read is passed
+  // by, but for `wanted`: that throws.
   std::optional<std::pair<std::size_t, TactileFrame>> advance(std::size_t last,
                                                               std::size_t wanted) {
     while (out_.empty() && next_ <= last) push(wanted);

@@ -20,7 +20,8 @@ constexpr std::size_t kGhostingFramesPerReport = 256;
 // Keeps what comes out until it is counted: so the counting isn't in the time of the chain.
 class Outcome final : public FrameSink {
  public:
-  // All that the filters gave: how they deal with ghosts is asked here, not what counts as contact afterwards.
+  // All that the filters gave: how they deal with ghosts is asked here, not what counts as contact
+  // afterwards.
   void take(TactileFrame& frame) override {
     frames_.push_back(std::move(frame.filtered.empty() ? frame.values : frame.filtered));
   }

@@ -23,8 +23,9 @@ constexpr double kLargestStep = 1.0;  // of a Newton step in a logarithm
 constexpr int kHalvings = 12;
 constexpr double kWidestPace = 1e8;  // of a parameter against its start, either way
 
-// Sums over all transitions with one interval: E(x x^T) of the state before, E(w x^T), E(w w^T), with w = x' - F x by the
-// transition F of the E step. (About x' itself they would be differences of large numbers.)
+// Sums over all transitions with one interval: E(x x^T) of the state before, E(w x^T), E(w w^T),
+// with w = x' - F x by the transition F of the E step. (About x' itself they would be differences
+// of large numbers.)
 struct Transitions {
   KelvinVoigtStep step = {};  // F
   double intervalS = 0.0;
@@ -122,7 +123,8 @@ double mean(double sum, std::size_t count) {
   return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
-// Returns false where there is nothing to fit; the model is then as given, with defaults for the rest.
+// Returns false where there is nothing to fit; the model is then as given, with defaults for the
+// rest.
 bool Estimation::start(KelvinVoigtModel& model) {
   double squares = 0.0, slopes = 0.0, bends = 0.0, least = std::numeric_limits<double>::max(),
          most = std::numeric_limits<double>::lowest();
@@ -142,7 +144,8 @@ bool Estimation::start(KelvinVoigtModel& model) {
       least = std::min(least, value);
       most = std::max(most, value);
       if (n < 3) continue;
-      // The middle one against the line between its neighbours: variance r (1 + u^2 + (1-u)^2) for a straight signal.
+      // The middle one against the line between its neighbours: variance r (1 + u^2 + (1-u)^2) for
+      // a straight signal.
       const double u = (t[1] - t[0]) / (t[2] - t[0]);
       const double bend = z[1] - (1.0 - u) * z[0] - u * z[2];
       bends += bend * bend / (1.0 + u * u + (1.0 - u) * (1.0 - u));
@@ -198,8 +201,8 @@ void Estimation::expect(const KelvinVoigtModel& model, Expectation& out) {
   }
 }
 
-// The part of the expected log-density that the dynamics have a say in, with the best S where that is free (it is set in
-// `model`).
+// The part of the expected log-density that the dynamics have a say in, with the best S where that
+// is free (it is set in `model`).
 double Estimation::dynamicPart(const Expectation& expectation, KelvinVoigtModel& model) const {
   const double a = model.stiffness / model.mass, b = model.viscosity / model.mass;
   double logs = 0.0, trace = 0.0;
@@ -231,8 +234,8 @@ double Estimation::dynamicPart(const Expectation& expectation, KelvinVoigtModel&
   return -0.5 * (logs + 2.0 * n * std::log(q) + trace / q);
 }
 
-// One Newton step in the logarithms of the free parameters, by differences; along the gradient where the expression
-// isn't curved like a hill. Returns whether it brought anything.
+// One Newton step in the logarithms of the free parameters, by differences; along the gradient
+// where the expression isn't curved like a hill. Returns whether it brought anything.
 bool Estimation::raise(const Expectation& expectation,
                        KelvinVoigtModel& model,
                        double& best) const {

@@ -9,10 +9,12 @@
 namespace palpate {
 namespace {
 
-// Sampled this much finer than the model's own pace (per T), the noise's power series is exact to rounding.
+// Sampled this much finer than the model's own pace (per T), the noise's power series is exact to
+// rounding.
 constexpr double kSmall = 0.25;
 constexpr int kTerms = 14;
-// |D| T^2 below which sinh(sqrt(D) T) / sqrt(D) goes by its power series (the limit d = 1 lies in it).
+// |D| T^2 below which sinh(sqrt(D) T) / sqrt(D) goes by its power series (the limit d = 1 lies in
+// it).
 constexpr double kNearCritical = 0.01;
 
 void setTransition(KelvinVoigtStep& step, double a, double b, double t) noexcept {
@@ -154,7 +156,8 @@ void forwardPass(std::span<const double> timeS,
   }
 }
 
-// G = P F^T P(predicted)^-1;  x += G (x' - x'(predicted)),  P += G (P' - P'(predicted)) G^T,  Cov(x', x) = P' G^T.
+// G = P F^T P(predicted)^-1;  x += G (x' - x'(predicted)),  P += G (P' - P'(predicted)) G^T,
+// Cov(x', x) = P' G^T.
 void backwardPass(KelvinVoigtPass& pass) {
   for (std::size_t i = pass.moments.size(); i-- > 1;) {
     KelvinVoigtMoment& next = pass.moments[i];

@@ -1,5 +1,5 @@
-// Eight neighbouring taxels at once: what the kernels of the spatial filters are written in. Two vectors of four,
-// which every machine of interest has.
+// Eight neighbouring taxels at once: what the kernels of the spatial filters are written in. Two
+// vectors of four, which every machine of interest has.
 #pragma once
 
 #include <cstring>

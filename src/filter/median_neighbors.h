@@ -1,6 +1,6 @@
-// The neighbours of taxels that have masked ones around them, gathered so that the median networks can be used:
-// each masked neighbour is replaced by an infinity, in turn a low and a high one, so that the middle stays the
-// middle (of an even number the lower middle value).
+// The neighbours of taxels that have masked ones around them, gathered so that the median networks
+// can be used: each masked neighbour is replaced by an infinity, in turn a low and a high one, so
+// that the middle stays the middle (of an even number the lower middle value).
 #pragma once
 
 #include <span>

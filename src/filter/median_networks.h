@@ -1,5 +1,5 @@
-// Medians of four taxels at once by comparing and swapping alone: no branch depends on a value, and what is compared
-// fits into the registers.
+// Medians of four taxels at once by comparing and swapping alone: no branch depends on a value, and
+// what is compared fits into the registers.
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ inline SortedTriple sorted(FourLanes a, FourLanes b, FourLanes c) {
   return {a, b, c};
 }
 
-// Middle of nine, of three columns each in order: the middle of the largest low, the middle mid and the smallest
-// high one (Smith 1996).
+// Middle of nine, of three columns each in order: the middle of the largest low, the middle mid and
+// the smallest high one (Smith 1996).
 inline FourLanes median9(const SortedTriple& a, const SortedTriple& b, const SortedTriple& c) {
   return middle(most(most(a.low, b.low), c.low),
                 middle(a.mid, b.mid, c.mid),
@@ -52,9 +52,9 @@ inline constexpr Pairs9 kMergeFours = {
 
 inline void sort(Nine& v) { exchange<kSortNine>(v, std::make_index_sequence<25>()); }
 
-// Middle of 27, of three columns of nine, each in order. Ordering the three of a rank leaves both directions in
-// order; then 7 of the 27 are surely too small and 7 too large. Of the others the 7th of 13 is wanted: four of the
-// lowest of a rank, five of the middle ones, four of the highest.
+// Middle of 27, of three columns of nine, each in order. Ordering the three of a rank leaves both
+// directions in order; then 7 of the 27 are surely too small and 7 too large. Of the others the 7th
+// of 13 is wanted: four of the lowest of a rank, five of the middle ones, four of the highest.
 inline FourLanes median27(const Nine& a, const Nine& b, const Nine& c) {
   // two runs of four in order: highest of ranks 0..3, lowest of 5..8
   std::array<FourLanes, 8> outer;

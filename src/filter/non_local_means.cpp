@@ -1,5 +1,5 @@
-// Non-local means (Buades, Coll and Morel 2005): taxels of the neighbourhood weighed by exp(-d^2 / h^2), d^2 the
-// mean squared difference of the patches around both.
+// Non-local means (Buades, Coll and Morel 2005): taxels of the neighbourhood weighed by exp(-d^2 /
+// h^2), d^2 the mean squared difference of the patches around both.
 #include <cmath>
 
 #include "filter/lanes_exp.h"

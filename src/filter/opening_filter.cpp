@@ -1,4 +1,5 @@
-// Morphological opening: erosion, then dilation. Masked taxels, and what lies outside, take no part.
+// Morphological opening: erosion, then dilation. Masked taxels, and what lies outside, take no
+// part.
 #include <cmath>
 #include <limits>
 

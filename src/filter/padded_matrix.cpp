@@ -7,8 +7,8 @@
 namespace palpate::detail {
 namespace {
 
-// Rows have few taxels: cheaper than a call for each. Up to three values more than a row has are copied, which
-// belong to the next row and are overwritten with it; the last row is copied exactly.
+// Rows have few taxels: cheaper than a call for each. Up to three values more than a row has are
+// copied, which belong to the next row and are overwritten with it; the last row is copied exactly.
 inline void copyRows(
     const float* from, int fromStride, float* to, int toStride, int rows, int columns) {
   if (columns >= kFour) {

@@ -1,5 +1,5 @@
-// A matrix with its border repeated, for kernels that look around a taxel: rows and columns are widened by a
-// radius, and each row by what a block of lanes may read beyond it.
+// A matrix with its border repeated, for kernels that look around a taxel: rows and columns are
+// widened by a radius, and each row by what a block of lanes may read beyond it.
 #pragma once
 
 #include <span>
@@ -15,7 +15,8 @@ class PaddedMatrix {
 
   // Copies the matrix in; masked places get `maskedValue`.
   void fill(const float* values, float maskedValue);
-  // Writes the enabled taxels of a plane laid out like values() into a matrix; changes the others of the plane.
+  // Writes the enabled taxels of a plane laid out like values() into a matrix; changes the others
+  // of the plane.
   void writeBack(std::vector<float>& plane, float* values) const;
   // 1 at places that stand for an enabled taxel, else 0, widened like the values.
   std::vector<float> onPlane() const;

@@ -12,8 +12,8 @@ struct SampleRange {
   std::size_t end = 0;  // one behind the last
 };
 
-// `gapSamples`: last sample before each gap. Throws std::invalid_argument unless they ascend and each has a sample
-// behind it.
+// `gapSamples`: last sample before each gap. Throws std::invalid_argument unless they ascend and
+// each has a sample behind it.
 std::vector<SampleRange> sampleStretches(std::size_t numSamples,
                                          std::span<const std::size_t> gapSamples);
 

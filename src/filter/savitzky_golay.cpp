@@ -24,7 +24,8 @@ void validate(int window, int order, int derivative, double position) {
     fail("position", "0.." + std::to_string(window - 1), std::to_string(position));
 }
 
-// A polynomial by what is needed of it: its values on the grid, and its derivatives at the position.
+// A polynomial by what is needed of it: its values on the grid, and its derivatives at the
+// position.
 struct Polynomial {
   std::vector<Real> onGrid;
   std::vector<Real> derivatives;  // 0th, 1st, ..
@@ -46,7 +47,8 @@ Real product(const Polynomial& a, const Polynomial& b) {
   return sum;
 }
 
-// The next orthonormal polynomial: x times the last one, without its parts along all before (twice: rounding).
+// The next orthonormal polynomial: x times the last one, without its parts along all before (twice:
+// rounding).
 Polynomial next(const std::vector<Polynomial>& basis, const std::vector<Real>& grid, Real at) {
   Polynomial p = basis.back();
   for (std::size_t i = 0; i < grid.size(); ++i) p.onGrid[i] *= grid[i];

@@ -1,5 +1,5 @@
-// What the spatial filters share: a kernel per matrix, empty matrices passed by, the original where `masked` asks
-// for it.
+// What the spatial filters share: a kernel per matrix, empty matrices passed by, the original where
+// `masked` asks for it.
 #pragma once
 
 #include <functional>
@@ -10,14 +10,16 @@
 
 namespace palpate::detail {
 
-// Filters one matrix in place; masked taxels are neither read nor written. A matrix of zeros must stay one.
+// Filters one matrix in place; masked taxels are neither read nor written. A matrix of zeros must
+// stay one.
 class MatrixKernel {
  public:
   virtual ~MatrixKernel() = default;
   virtual void apply(float* values) = 0;
 };
 
-// Replaces what lies in `values` by the original where it is above 0, else by 0; enabled taxels only.
+// Replaces what lies in `values` by the original where it is above 0, else by 0; enabled taxels
+// only.
 void keepOriginal(const float* original, float* values, const MatrixLayout& layout);
 bool allZero(const float* values, std::size_t count);
 

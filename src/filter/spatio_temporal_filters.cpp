@@ -9,7 +9,8 @@
 namespace palpate::detail {
 namespace {
 
-// Median of the neighbours in space and time; the first frame (the last one) stands for those beyond it.
+// Median of the neighbours in space and time; the first frame (the last one) stands for those
+// beyond it.
 class Median3d final : public WindowedFilter {
  public:
   Median3d(const FilterStep& step, std::shared_ptr<const SensorLayout> layout)

@@ -82,8 +82,8 @@ class TemporalGaussian final : public WeightedFilter {
   std::vector<double> weights_;
 };
 
-// At the ends the polynomial of the first (last) window; of fewer frames than its order needs, the one that goes
-// through them all.
+// At the ends the polynomial of the first (last) window; of fewer frames than its order needs, the
+// one that goes through them all.
 class SavitzkyGolay final : public WeightedFilter {
  public:
   SavitzkyGolay(const FilterStep& step, const SensorLayout& layout)

@@ -13,7 +13,8 @@ std::unique_ptr<FrameFilter> temporalFilter(const FilterStep& step,
 // median3d and min-median.
 std::unique_ptr<FrameFilter> spatioTemporalFilter(const FilterStep& step,
                                                   std::shared_ptr<const SensorLayout> layout);
-// What needs a whole stretch: rts, kalman and kelvin-voigt with smoothing, kelvin-voigt with unknown parameters.
+// What needs a whole stretch: rts, kalman and kelvin-voigt with smoothing, kelvin-voigt with
+// unknown parameters.
 std::unique_ptr<FrameFilter> stretchFilter(const FilterStep& step,
                                            std::shared_ptr<const SensorLayout> layout);
 

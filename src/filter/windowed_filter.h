@@ -1,4 +1,5 @@
-// What filters share that look at several frames: the last ones (causal), or those around a frame (centred).
+// What filters share that look at several frames: the last ones (causal), or those around a frame
+// (centred).
 #pragma once
 
 #include <deque>
@@ -11,7 +12,8 @@ namespace palpate::detail {
 
 class WindowedFilter : public FrameFilter {
  public:
-  // At the ends of a stretch the window holds fewer frames, or (centred) as many, but not around the frame.
+  // At the ends of a stretch the window holds fewer frames, or (centred) as many, but not around
+  // the frame.
   enum class Edge { kShrink, kShift };
 
   void push(TactileFrame& frame, FrameSink& out) final;
@@ -19,8 +21,8 @@ class WindowedFilter : public FrameFilter {
 
  protected:
   WindowedFilter(int window, bool centred, Edge edge);
-  // `window`: the values of the frames, oldest first; `current`: which of them is filtered. `values` has that
-  // frame's own and takes the filtered ones.
+  // `window`: the values of the frames, oldest first; `current`: which of them is filtered.
+  // `values` has that frame's own and takes the filtered ones.
   virtual void compute(std::span<const float* const> window,
                        std::size_t current,
                        float* values) = 0;

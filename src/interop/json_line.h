@@ -1,5 +1,5 @@
-// Writes one JSON object on one line, piece by piece, without a tree in memory: for what is said hundreds of times a
-// second. Keys are ours and need no escaping.
+// Writes one JSON object on one line, piece by piece, without a tree in memory: for what is said
+// hundreds of times a second. Keys are ours and need no escaping.
 #pragma once
 
 #include <cmath>

@@ -83,7 +83,8 @@ ReadRequest readRequest(std::string_view line) {
   if (line.size() > kMostRequestBytes)
     return refuse("too_long",
                   "a request has at most " + std::to_string(kMostRequestBytes) + " bytes");
-  // Whatever oneLine() would change is no text: control characters, bytes that are no UTF-8. Tabs are blanks.
+  // Whatever oneLine() would change is no text: control characters, bytes that are no UTF-8. Tabs
+  // are blanks.
   std::string plain(line);
   std::replace(plain.begin(), plain.end(), '\t', ' ');
   if (oneLine(plain) != plain)

@@ -48,8 +48,8 @@ bool connects(int socket, const sockaddr_un& address) {
   return ::connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
 }
 
-// Two programs that begin at the same time look one after the other at what is there. The lock is on the folder:
-// nothing of it stays.
+// Two programs that begin at the same time look one after the other at what is there. The lock is
+// on the folder: nothing of it stays.
 FileDescriptor lockFolderOf(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   FileDescriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

@@ -11,7 +11,8 @@
 
 namespace palpate {
 
-// Non-blocking, mode 600, listening; the name goes with it. What nobody listens at any more is taken away.
+// Non-blocking, mode 600, listening; the name goes with it. What nobody listens at any more is
+// taken away.
 class ListeningSocket {
  public:
   explicit ListeningSocket(std::filesystem::path path);  // throws FileError
@@ -20,7 +21,8 @@ class ListeningSocket {
   ListeningSocket& operator=(const ListeningSocket&) = delete;
   int descriptor() const noexcept { return socket_.get(); }
   const std::filesystem::path& path() const noexcept { return path_; }
-  // The next client, non-blocking; -1: none (errno says why). One of another user is turned away: -1, errno EACCES.
+  // The next client, non-blocking; -1: none (errno says why). One of another user is turned away:
+  // -1, errno EACCES.
   FileDescriptor accept() const;
 
  private:

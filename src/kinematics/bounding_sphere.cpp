@@ -1,5 +1,5 @@
-// The one source that knows CGAL: header-only use of its bounding volumes, with own traits, so that neither its
-// kernels nor its flags come along.
+// The one source that knows CGAL: header-only use of its bounding volumes, with own traits, so that
+// neither its kernels nor its flags come along.
 #include "palpate/kinematics/bounding_sphere.h"
 
 #include <algorithm>
@@ -39,7 +39,8 @@ struct Candidate {
 
 // For weights w >= 0 that sum up to 1, every enclosing sphere has
 //   radius^2 >= sum w |p|^2 - |sum w p|^2
-// (the weighted variance). Equal for the smallest one, with its centre as the weighted mean of points on it.
+// (the weighted variance). Equal for the smallest one, with its centre as the weighted mean of
+// points on it.
 double lowerBound(CgalSphere& found, const Vector3d& centre, double radius) {
   Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 4> system(4, 0);
   for (auto point = found.support_begin(); point != found.support_end(); ++point) {
@@ -87,8 +88,9 @@ std::optional<Sphere> boundingSphere(const std::vector<Vector3d>& pointsMm) {
   std::vector<Vector3d> points(pointsMm);
   for (Vector3d& point : points) point -= middle;
 
-  // Many points on one sphere (taxels of a flat matrix) make CGAL's pivoting end early once in a hundred times, far
-  // from the smallest. It depends on the order of the points: with another one it arrives.
+  // Many points on one sphere (taxels of a flat matrix) make CGAL's pivoting end early once in a
+  // hundred times, far from the smallest. It depends on the order of the points: with another one
+  // it arrives.
   Candidate best = tryOrder(points);
   std::minstd_rand order;
   for (int i = 1; i < kMostOrders && !(best.excess <= kLargestExcess); ++i) {

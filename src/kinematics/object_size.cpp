@@ -92,8 +92,8 @@ std::optional<std::pair<std::size_t, std::size_t>> strongestPads(
   return std::minmax({strongest[0].second, strongest[1].second});
 }
 
-// The load of both pads, each as part of its own largest sum (they may differ in sensitivity), smoothed, as
-// part of its largest value.
+// The load of both pads, each as part of its own largest sum (they may differ in sensitivity),
+// smoothed, as part of its largest value.
 void setLoads(std::vector<GraspFrame>& frames, std::pair<std::size_t, std::size_t> pads) {
   double largest1 = 0.0, largest2 = 0.0;
   for (const GraspFrame& frame : frames) {

@@ -91,9 +91,9 @@ std::size_t ProcessingChain::step() {
 
 // Returns how many items were taken or processed.
 //
-// The feed's queues are emptied one after the other, frames first. So what lies behind the newest frame taken
-// may have come after another frame that wasn't there yet when its queue was looked at: it is held back
-// until the next look, which finds that frame.
+// The feed's queues are emptied one after the other, frames first. So what lies behind the newest
+// frame taken may have come after another frame that wasn't there yet when its queue was looked at:
+// it is held back until the next look, which finds that frame.
 std::size_t ProcessingChain::processWaiting() {
   std::int64_t safeUs = std::numeric_limits<std::int64_t>::min();
   for (const CaptureItem& item : items_) safeUs = std::max(safeUs, stampOf(item));  // held back

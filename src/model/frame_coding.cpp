@@ -86,8 +86,8 @@ void encodeFrame(const TactileFrame& frame, FrameCoding coding, std::vector<std:
 
 namespace {
 
-// Calls fill(filled, run, value) for every run until `numValues` values are there. Returns the bytes
-// used; 0 for bytes that are no such frame.
+// Calls fill(filled, run, value) for every run until `numValues` values are there. Returns the
+// bytes used; 0 for bytes that are no such frame.
 template <typename Fill>
 std::size_t eachRun(std::span<const std::byte> bytes,
                     FrameCoding coding,

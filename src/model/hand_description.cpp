@@ -44,7 +44,8 @@ HandDescription handDescriptionMakeSdh2() {
   }
   // The motor in the joint below a matrix drives axis m + 1 (study, 3.4).
   for (std::size_t m = 0; m < hand.matrices.size(); ++m) hand.matrices[m].temperatureSensor = m + 1;
-  // Ranges, velocities and accelerations: what the controller answers to vlim and alim (SDH-2 firmware 0.0.3.3).
+  // Ranges, velocities and accelerations: what the controller answers to vlim and alim (SDH-2
+  // firmware 0.0.3.3).
   hand.axes = {{"fingers 0 and 2 base", 0.0, 90.0, 83.0, 5000.0},
                {"finger 0 proximal", -90.0, 90.0, 140.0, 400.0},
                {"finger 0 distal", -90.0, 90.0, 200.0, 1500.0},

@@ -20,8 +20,8 @@ std::vector<RaisedTaxel> raisedEdge(const double (&lines)[7][3]) {
 
 SensorCharacteristics sensorCharacteristicsMakeSdh2() {
   SensorCharacteristics sensor;
-  // Slope, intercept, rmse of the maximum; slope, intercept, noise of an ordinary taxel (without the part
-  // that rounding makes), shared noise.
+  // Slope, intercept, rmse of the maximum; slope, intercept, noise of an ordinary taxel (without
+  // the part that rounding makes), shared noise.
   const double lines[6][7] = {{0.3317, 33.628, 2.425417, 0.152, 34.625, 0.71, 0.12},
                               {0.1999, 42.565, 0.708428, 0.198, 40.542, 0.75, 0.33},
                               {0.3604, 41.551, 2.894096, 0.123, 31.364, 0.86, 0.21},

@@ -62,7 +62,8 @@ bool hasScatter(const SampleSet& samples) {
   return std::any_of(counts.begin(), counts.end(), [](std::size_t n) { return n > 1; });
 }
 
-// Scores of samples that did not teach, split by split: decisions of pairs (svm) or logarithms of densities.
+// Scores of samples that did not teach, split by split: decisions of pairs (svm) or logarithms of
+// densities.
 struct HeldOut {
   Eigen::MatrixXd scores;
   std::vector<int> y;
@@ -101,7 +102,8 @@ std::vector<Sigmoid> sigmoidsOf(const SupportVectorMachine& svm, const HeldOut& 
   return sigmoids;
 }
 
-// Logarithms of the coupled probabilities of one sample; classes without samples take part in no pair: -infinity.
+// Logarithms of the coupled probabilities of one sample; classes without samples take part in no
+// pair: -infinity.
 Eigen::VectorXd coupledLogs(const ClassifierPipeline& pipeline, const Eigen::VectorXd& decisions) {
   std::vector<int> place(pipeline.numClasses, -1);
   int present = 0;
@@ -137,7 +139,8 @@ void calibrate(const SampleSet& samples,
   const HeldOut held = heldOut(samples, options);
   if (options.classifier == ClassifierKind::kSvm) {
     pipeline.sigmoids = sigmoidsOf(pipeline.svm, held);
-    // Coupled probabilities of many classes with few samples are far too even: one exponent for all mends it.
+    // Coupled probabilities of many classes with few samples are far too even: one exponent for all
+    // mends it.
     pipeline.exponent = fitExponent(coupledRows(pipeline, held.scores), held.y);
   } else {
     pipeline.exponent = fitExponent(held.scores, held.y);
@@ -163,7 +166,8 @@ ClassifierPipeline ofDay(const SampleSet& samples) {
   return pipeline;
 }
 
-// Of each feature: how far the means of classes lie apart, against what grasps of one class scatter.
+// Of each feature: how far the means of classes lie apart, against what grasps of one class
+// scatter.
 Eigen::VectorXd separationWeights(const Eigen::MatrixXd& means, const Eigen::VectorXd& variance) {
   const Eigen::MatrixXd away = means.rowwise() - means.colwise().mean();
   const Eigen::VectorXd between =

@@ -15,11 +15,13 @@
 namespace palpate {
 namespace {
 
-// Least variance of a feature, as a part of its variance over all samples: what never varies within a class.
+// Least variance of a feature, as a part of its variance over all samples: what never varies within
+// a class.
 constexpr double kLeastVariancePart = 1e-6;
 constexpr double kLeastVariance = 1e-12;
 
-// std::lgamma() writes the sign into a variable of the whole process, and models are made on several threads.
+// std::lgamma() writes the sign into a variable of the whole process, and models are made on
+// several threads.
 double logGamma(double x) {
   int sign = 0;
   return ::lgamma_r(x, &sign);

@@ -86,7 +86,8 @@ EmptyHandZero emptyHandZero(const Profile& profile,
   for (const double zero : zeros) out.mm += zero / count;
   double squares = 0.0;
   for (const double zero : zeros) squares += (zero - out.mm) * (zero - out.mm);
-  // A few touches say little about their own scatter: it is never taken for less than what is known of touches.
+  // A few touches say little about their own scatter: it is never taken for less than what is known
+  // of touches.
   const double scatter = zeros.size() > 1 ? std::sqrt(squares / (count - 1.0)) : 0.0;
   out.sdMm = std::max(scatter, options.touchSdMm) / std::sqrt(count);
   return out;

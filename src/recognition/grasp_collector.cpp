@@ -94,7 +94,8 @@ void GraspCollector::addAngles(JointAngles angles) {
   if (!angles_.empty() &&
       (angles.hostUs <= angles_.back().hostUs || angles.deg.size() != angles_.back().deg.size()))
     return;
-  // Behind the last frame that is kept only the newest sample is of use: to the frames that are kept next.
+  // Behind the last frame that is kept only the newest sample is of use: to the frames that are
+  // kept next.
   const bool beyond = contactFrames_ > options_.mostFrames && angles_.size() > 1 &&
                       angles_.back().hostUs > frames_.back()->hostUs;
   if (beyond) angles_.pop_back();

@@ -1,5 +1,5 @@
-// Vectors and matrices of a model file: arrays of numbers, checked on the way back. A model that is damaged must not
-// classify by nonsense: all of these throw Error naming the key.
+// Vectors and matrices of a model file: arrays of numbers, checked on the way back. A model that is
+// damaged must not classify by nonsense: all of these throw Error naming the key.
 #pragma once
 
 #include <cstddef>

@@ -22,8 +22,8 @@ struct PadLoad {
   double xMm = 0.0, yMm = 0.0;  // centroid on the unrolled surface, from the centre of taxel (0, 0)
 };
 
-// Why a span is no grasp that features can be had of ("" when it is): too short, not finite values, no joint
-// angles, pads that don't touch, another hand.
+// Why a span is no grasp that features can be had of ("" when it is): too short, not finite values,
+// no joint angles, pads that don't touch, another hand.
 struct PinchFrames {
   std::string trouble;
   std::size_t begin = 0;
@@ -37,7 +37,8 @@ PinchFrames readPinch(const Profile& profile,
                       const PinchHand& hand,
                       bool allMatrices);
 
-// The longest run of frames within a grasp in which both pads touch; nothing when it is shorter than kFewestPinchFrames.
+// The longest run of frames within a grasp in which both pads touch; nothing when it is shorter
+// than kFewestPinchFrames.
 std::optional<GraspSegment> longestTouch(const Profile& profile,
                                          const GraspSegment& grasp,
                                          const std::array<std::size_t, 2>& pads);

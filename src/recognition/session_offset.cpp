@@ -79,7 +79,8 @@ Eigen::MatrixXd overGrid(const DayModel& model,
   return out;
 }
 
-// Distance of two classes in everything but size, as grasps of one class scatter, today and on another day.
+// Distance of two classes in everything but size, as grasps of one class scatter, today and on
+// another day.
 class ShapeDistance {
  public:
   explicit ShapeDistance(const DayModel& model) : model_(model) {
@@ -104,8 +105,8 @@ class ShapeDistance {
   Eigen::LDLT<Eigen::MatrixXd> scatter_;
 };
 
-// Different objects: classes that were told with certainty in enough grasps, and can't be taken for one another by a wrong
-// offset.
+// Different objects: classes that were told with certainty in enough grasps, and can't be taken for
+// one another by a wrong offset.
 std::size_t objectsIn(const DayModel& model,
                       const std::vector<std::pair<std::size_t, double>>& told,
                       const SessionOffsetOptions& options) {

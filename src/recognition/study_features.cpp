@@ -26,7 +26,8 @@ double impressionMm(const std::vector<PadLoad>& loads, const PinchHand& hand) {
   return sum;
 }
 
-// D_k of the frames of a grasp: the diameter of the smallest sphere around the centroids of all matrices that touch.
+// D_k of the frames of a grasp: the diameter of the smallest sphere around the centroids of all
+// matrices that touch.
 class Diameters {
  public:
   Diameters(const PinchFrames& frames, const PinchHand& hand) : frames_(frames), hand_(hand) {}
@@ -56,7 +57,8 @@ class Diameters {
   std::vector<Vector3d> points_;
 };
 
-// The two of the last frames whose diameters are nearest to their median (which lies in the middle between them), less one.
+// The two of the last frames whose diameters are nearest to their median (which lies in the middle
+// between them), less one.
 std::array<std::size_t, 2> endFrames(const std::array<double, kTail>& diameters,
                                      std::size_t count) {
   std::array<std::pair<double, std::size_t>, kTail> tail;

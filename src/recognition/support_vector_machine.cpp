@@ -74,7 +74,8 @@ SupportVectorMachine SupportVectorMachine::of(const Eigen::MatrixXd& x,
                                  std::to_string(numClasses) + " classes");
     present[static_cast<std::size_t>(label)] = true;
   }
-  // OpenCV refuses by an exception of its own, printed on stderr: so nothing reaches it that it would refuse.
+  // OpenCV refuses by an exception of its own, printed on stderr: so nothing reaches it that it
+  // would refuse.
   if (!x.allFinite()) refuseSupportVectorMachine("a feature is no number");
   if (x.cols() == 0) refuseSupportVectorMachine("no features");
   SupportVectorMachine machine;

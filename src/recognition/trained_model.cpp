@@ -24,7 +24,8 @@ bool within(const std::vector<ModelInput>& inputs, std::int64_t timeUs) {
   });
 }
 
-// From grasps that did not teach: from which confidence on it is sure, from which novelty on unknown.
+// From grasps that did not teach: from which confidence on it is sure, from which novelty on
+// unknown.
 void setThresholds(const SampleSet& samples, const ValidationReport& report, TrainedModel& model) {
   std::vector<ConfidentAnswer> answers;
   std::vector<double> novelty;

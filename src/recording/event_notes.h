@@ -23,8 +23,8 @@ std::string asciiJson(const std::string& json);
 // FormatError.
 EventsReport readEventNotes(const std::filesystem::path& recording);
 
-// Replaces the events in the sidecar, whole or not at all; what was damaged in it stays. None left: the
-// sidecar goes. Throws FileError, FormatError.
+// Replaces the events in the sidecar, whole or not at all; what was damaged in it stays. None left:
+// the sidecar goes. Throws FileError, FormatError.
 void replaceEventNotes(const std::filesystem::path& recording,
                        std::span<const RecordingEvent> events);
 

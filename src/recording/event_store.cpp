@@ -105,8 +105,8 @@ std::unique_ptr<RecordingLock> locked(const fs::path& recording, const fs::path&
   }
 }
 
-// Rows that are in the new list stay as they are; the others go, and what is new gets numbers behind
-// all that ever were.
+// Rows that are in the new list stay as they are; the others go, and what is new gets numbers
+// behind all that ever were.
 void replaceRows(SqliteDatabase& database, std::span<const RecordingEvent> events) {
   EventCounts wanted = countsOf(events);
   std::vector<std::int64_t> obsolete;

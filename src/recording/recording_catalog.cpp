@@ -30,7 +30,8 @@ constexpr std::string_view kRecordingCatalogFormat = "palpate library";
 constexpr std::int64_t kRecordingCatalogVersion = 1;
 constexpr std::uintmax_t kLargestCache = 256u << 20;
 
-// Tells whether a recording and its sidecar are what they were: size, time of change and of status of both.
+// Tells whether a recording and its sidecar are what they were: size, time of change and of status
+// of both.
 using Stamp = std::array<std::int64_t, 6>;
 
 void recordingCatalogStampOf(const fs::path& path, std::span<std::int64_t, 3> out) {

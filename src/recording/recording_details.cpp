@@ -53,8 +53,9 @@ void addEvents(RecordingDetails& details, const EventsReport& report) {
   }
 }
 
-// The first and the last block of frames are found without a look at the others: by the index over the
-// blocks, or, where an unfinished recording has none, because blocks lie in the order of their writing.
+// The first and the last block of frames are found without a look at the others: by the index over
+// the blocks, or, where an unfinished recording has none, because blocks lie in the order of their
+// writing.
 void readSpan(RecordingDetails& details, PalpateAccess& access) {
   SqliteDatabase& database = access.database();
   const bool indexed = !access.unfinished() && !access.beingWritten();

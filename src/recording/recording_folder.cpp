@@ -18,7 +18,8 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-// SQLite's header: its name, and at byte 68 the application_id of a native recording (docs/palpate_format.md).
+// SQLite's header: its name, and at byte 68 the application_id of a native recording
+// (docs/palpate_format.md).
 bool beginsAsNativeRecording(const fs::path& file) {
   constexpr std::string_view kSqlite("SQLite format 3\0", 16);
   constexpr std::string_view kPalpate("PALP");
@@ -60,8 +61,8 @@ bool leadsBack(const fs::path& link) {
          target.end();
 }
 
-// What lies below one folder. Real folders come first, links to others behind them: a recording that can be
-// reached in both ways has its real name.
+// What lies below one folder. Real folders come first, links to others behind them: a recording
+// that can be reached in both ways has its real name.
 class FolderWalk {
  public:
   FolderWalk(const fs::path& root, const Progress& progress) : progress_(progress) {
@@ -114,7 +115,8 @@ class FolderWalk {
     }
   }
 
-  // A link that leads nowhere is kept when it is called like a recording: that it can't be read will be said.
+  // A link that leads nowhere is kept when it is called like a recording: that it can't be read
+  // will be said.
   void takeLinkedFiles() {
     if (linkedFiles_.empty()) return;
     std::set<FileId> known;

@@ -87,8 +87,8 @@ std::string beginning(const fs::path& path, std::size_t numBytes) {
   return bytes;
 }
 
-// A journal that has to be played back: its writer died inside a commit (the database file format of
-// SQLite, section 3). Of an empty database it would leave nothing.
+// A journal that has to be played back: its writer died inside a commit (the database file format
+// of SQLite, section 3). Of an empty database it would leave nothing.
 bool diedInCommit(const fs::path& recording) {
   constexpr std::string_view kMagic = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
   constexpr std::size_t kPagesAt = 16;  // pages of the database before

@@ -13,7 +13,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// The library (kissfft) takes n^2 steps for a large prime factor; from here on the detour by convolution is faster.
+// The library (kissfft) takes n^2 steps for a large prime factor; from here on the detour by
+// convolution is faster.
 constexpr std::size_t kLargestPrimeFactor = 64;
 
 std::size_t largestPrimeFactor(std::size_t n) {
@@ -25,8 +26,9 @@ std::size_t largestPrimeFactor(std::size_t n) {
 
 }  // namespace
 
-// Sizes with a large prime factor go by Bluestein's identity k n = (k^2 + n^2 - (k - n)^2) / 2: with the chirp
-// c_n = e^(-pi i n^2 / N), X_k = c_k sum (x_n c_n) conj(c_(k-n)), a convolution, done with transforms of a power of two.
+// Sizes with a large prime factor go by Bluestein's identity k n = (k^2 + n^2 - (k - n)^2) / 2:
+// with the chirp c_n = e^(-pi i n^2 / N), X_k = c_k sum (x_n c_n) conj(c_(k-n)), a convolution,
+// done with transforms of a power of two.
 struct RealFourier::Impl {
   explicit Impl(std::size_t n) : size(n), spectrum(n / 2 + 1) {
     fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);

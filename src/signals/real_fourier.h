@@ -1,4 +1,5 @@
-// The discrete Fourier transform of real samples, X_k = sum x_n e^(-2 pi i k n / N), for any N >= 2 in O(N log N).
+// The discrete Fourier transform of real samples, X_k = sum x_n e^(-2 pi i k n / N), for any N >= 2
+// in O(N log N).
 #pragma once
 
 #include <complex>
@@ -15,7 +16,8 @@ class RealFourier {
   ~RealFourier();
   RealFourier(const RealFourier&) = delete;
   RealFourier& operator=(const RealFourier&) = delete;
-  // X_k for k = 0..size/2; valid until the next call. Throws std::invalid_argument for another number of samples.
+  // X_k for k = 0..size/2; valid until the next call. Throws std::invalid_argument for another
+  // number of samples.
   std::span<const std::complex<double>> transform(std::span<const double> samples);
 
  private:

@@ -10,8 +10,8 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kSignalOverviewPlacesPerReport = 250'000;  // some milliseconds
-// Of all series together: 49 of an SDH-2 with a bucket per second for 47 hours take 64 MB. What claims to be longer, or
-// to have more matrices, has longer buckets.
+// Of all series together: 49 of an SDH-2 with a bucket per second for 47 hours take 64 MB. What
+// claims to be longer, or to have more matrices, has longer buckets.
 constexpr double kMostBucketsOfAll = 8'388'608.0;
 
 }  // namespace

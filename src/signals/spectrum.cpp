@@ -95,7 +95,8 @@ void planSegments(SpectrumReport& report, const SpectrumOptions& options) {
   };
   std::size_t hop = window - static_cast<std::size_t>(options.overlap);
   if (options.mostSegments > 0 && total(hop) > options.mostSegments) {
-    // Every stretch keeps its first segment, however large the hop: more stretches than segments stay so.
+    // Every stretch keeps its first segment, however large the hop: more stretches than segments
+    // stay so.
     std::size_t below = hop, enough = hop;
     while (total(enough) > options.mostSegments && enough < report.samples) enough *= 2;
     while (enough - below > 1) {

@@ -8,8 +8,8 @@ struct Point {
   double y = 0.0;
 };
 
-// Alcazar: the centre of mass of the convolution of frames n-1 and n is c_(n-1) + c_n; the difference of two such spans two
-// frames, and half of it is a step.
+// Alcazar: the centre of mass of the convolution of frames n-1 and n is c_(n-1) + c_n; the
+// difference of two such spans two frames, and half of it is a step.
 class CentroidMethod final : public TranslationMethod {
  public:
   explicit CentroidMethod(bool alcazar) : alcazar_(alcazar) {}

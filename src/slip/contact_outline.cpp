@@ -62,8 +62,8 @@ int ContactOutline::findGroups(const ConstMatrixMap& matrix, float above) {
   return next - 1;
 }
 
-// Walks around the group, always turning as far to the right of where it came from as there are taxels (Moore's
-// neighbourhood), until it leaves the start as it did at first.
+// Walks around the group, always turning as far to the right of where it came from as there are
+// taxels (Moore's neighbourhood), until it leaves the start as it did at first.
 OutlineShape ContactOutline::borderOf(int start) const {
   // Clockwise on the screen, from the right.
   const std::array<int, 8> offsets{
@@ -77,7 +77,8 @@ OutlineShape ContactOutline::borderOf(int start) const {
   int place = start;
   int x = 0;
   int y = 0;
-  // The first in reading order has nothing to its left and above: the search begins behind its left.
+  // The first in reading order has nothing to its left and above: the search begins behind its
+  // left.
   int direction = 5;
   int first = -1;
   const int most = 8 * rows_ * columns_;

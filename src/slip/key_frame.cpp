@@ -18,7 +18,8 @@ constexpr float kPole = -0.26794919F;  // sqrt(3) - 2, of the cubic spline's inv
 
 using spline::Four;
 
-// In place: values -> coefficients of the spline through them, along one line; mirrored at its ends.
+// In place: values -> coefficients of the spline through them, along one line; mirrored at its
+// ends.
 void inverseFilter(float* line, int length, int step) noexcept {
   if (length == 1) return;  // a spline of one place is constant
   // Mirrored about the end places: the sum runs forth and back, its terms fall by 0.27 each.
@@ -38,7 +39,8 @@ void inverseFilter(float* line, int length, int step) noexcept {
   for (int i = 0; i < length; ++i) line[i * step] *= 6.0F;
 }
 
-// Two places more at either end of a line, by the parabola (or the line, or the value) through its last ones.
+// Two places more at either end of a line, by the parabola (or the line, or the value) through its
+// last ones.
 void goOn(float* line, int length, int step) noexcept {
   for (int side = 0; side < 2; ++side) {
     float* end = side == 0 ? line : line + (length - 1) * step;
@@ -167,8 +169,8 @@ void KeyFrame::fill() {
     }
 }
 
-// Around the matrix the surface goes on as a parabola, so that a contact that is cut by an edge keeps its slope there;
-// nothing outside is ever compared with a taxel, it only bounds the spline.
+// Around the matrix the surface goes on as a parabola, so that a contact that is cut by an edge
+// keeps its slope there; nothing outside is ever compared with a taxel, it only bounds the spline.
 void KeyFrame::interpolate() noexcept {
   const int rows = layout_.rows;
   const int columns = layout_.columns;

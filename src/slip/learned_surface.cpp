@@ -206,7 +206,8 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
       } else if (measured >= saturated && model >= measured) {
         continue;
       }
-      // An error of the motion moves the whole surface, which no single taxel can know: it counts more than once.
+      // An error of the motion moves the whole surface, which no single taxel can know: it counts
+      // more than once.
       const Four along = values * spline::slopes(halfX - floorX);
       Four across = Four::Zero();
       const Four slopesY = spline::slopes(halfY - floorY);

@@ -2,8 +2,8 @@
 //
 //   rho(s) = sum A(p) B(p + s) / sqrt(sum A(p)^2 sum B(p + s)^2),  p and p + s inside of the matrix
 //
-// Normalised over the whole frames the peak would be pulled towards 0. A shift at which less than half of either frame's squares
-// overlap counts as no match.
+// Normalised over the whole frames the peak would be pulled towards 0. A shift at which less than
+// half of either frame's squares overlap counts as no match.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -85,7 +85,8 @@ class NccMethod final : public TranslationMethod {
   void dropReference() override { hasReference_ = false; }
 
  private:
-  // From `from` to the newest frame. The search begins where the centroid says: far from a reference nothing near 0 fits.
+  // From `from` to the newest frame. The search begins where the centroid says: far from a
+  // reference nothing near 0 fits.
   std::optional<Shift> shiftOf(const std::vector<float>& from, double guessX, double guessY) {
     baseX_ = std::clamp(static_cast<int>(std::lround(guessX)), 1 - columns_, columns_ - 1);
     baseY_ = std::clamp(static_cast<int>(std::lround(guessY)), 1 - rows_, rows_ - 1);

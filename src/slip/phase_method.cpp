@@ -1,9 +1,11 @@
-// Phase correlation: the peak of the inverse transform of the cross-power spectrum, on a grid of 1/32 taxel.
+// Phase correlation: the peak of the inverse transform of the cross-power spectrum, on a grid of
+// 1/32 taxel.
 //
-// Frames are padded with zeros to twice their size, so that nothing comes back on the other side. The inverse is only evaluated where it
-// is wanted, as products with small matrices (matrix-multiply DFT, after Guizar-Sicairos et al. 2008): whole taxels around the centroids'
-// shift first, then 1/4, then 1/32 of a taxel. Not normalised it is the cross-correlation of both frames; normalised, every frequency
-// has the same say, the noise's too.
+// Frames are padded with zeros to twice their size, so that nothing comes back on the other side.
+// The inverse is only evaluated where it is wanted, as products with small matrices
+// (matrix-multiply DFT, after Guizar-Sicairos et al. 2008): whole taxels around the centroids'
+// shift first, then 1/4, then 1/32 of a taxel. Not normalised it is the cross-correlation of both
+// frames; normalised, every frequency has the same say, the noise's too.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

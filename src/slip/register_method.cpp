@@ -1,5 +1,5 @@
-// Rigid registration over a stream: a key frame that learns, renewed where it no longer fits, and the motion since a
-// reference carried on from key to key.
+// Rigid registration over a stream: a key frame that learns, renewed where it no longer fits, and
+// the motion since a reference carried on from key to key.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

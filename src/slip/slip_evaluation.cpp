@@ -18,7 +18,8 @@ constexpr std::size_t kSettledFrames = 15;
 constexpr double kQuietLog = 0.05;
 constexpr std::size_t kOneAlarm = 10;  // [frames]
 constexpr double kFoldFound = 0.92;
-// Below, no window of any rule here can raise an alarm, and no contest is made [taxels of the centroid].
+// Below, no window of any rule here can raise an alarm, and no contest is made [taxels of the
+// centroid].
 constexpr std::array<double, kSlipWindows> kGates = {0.2, 0.3, 0.7};
 
 struct Place {

@@ -154,7 +154,8 @@ const SlipMotion& SlipTracker::update(const ConstMatrixMap& frame, bool afterGap
   return motion_;
 }
 
-// The part of the load that is saturated, or at a side where the contact may go on outside of the matrix.
+// The part of the load that is saturated, or at a side where the contact may go on outside of the
+// matrix.
 double SlipTracker::unseenPart(const ConstMatrixMap& frame) {
   const auto saturation = static_cast<float>(options_.saturationCounts);
   const int right = layout_.columns - 1;

@@ -7,7 +7,8 @@ namespace palpate::spline {
 
 using Four = Eigen::Array<float, 4, 1>;
 
-// At the four knots around a place: one before, the last at or before it, two behind; t = 0..1 from the second.
+// At the four knots around a place: one before, the last at or before it, two behind; t = 0..1 from
+// the second.
 inline Four weights(float t) noexcept {
   const float s = 1.0F - t;
   const float t2 = t * t;

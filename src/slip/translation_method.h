@@ -31,8 +31,8 @@ struct TranslationReading {
 class TranslationMethod {
  public:
   virtual ~TranslationMethod() = default;
-  // A frame with contact. measurable: it has enough taxels for a motion. stepPossible: so had the frame before, and none is
-  // missing between.
+  // A frame with contact. measurable: it has enough taxels for a motion. stepPossible: so had the
+  // frame before, and none is missing between.
   virtual TranslationReading update(const ConstMatrixMap& frame,
                                     const ContactMoments& moments,
                                     bool measurable,

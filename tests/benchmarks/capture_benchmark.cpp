@@ -1,8 +1,8 @@
-// What capture and recording cost: frames at 31.7 and 300 frames/s with angles at 110 Hz and temperatures
-// at 1 Hz, through session, queue and recorder onto the disk, as share of one core (target: under 3 % at
-// 31.7 frames/s). The recorder is moved by a clock of the benchmark, in its own rounds of 15 ms; the
-// disk is the real one. Reference in the same run: the same frames and angles written plainly, and synced
-// as often as the recorder commits.
+// What capture and recording cost: frames at 31.7 and 300 frames/s with angles at 110 Hz and
+// temperatures at 1 Hz, through session, queue and recorder onto the disk, as share of one core
+// (target: under 3 % at 31.7 frames/s). The recorder is moved by a clock of the benchmark, in its
+// own rounds of 15 ms; the disk is the real one. Reference in the same run: the same frames and
+// angles written plainly, and synced as often as the recorder commits.
 #include <cstdio>
 #include <vector>
 

@@ -15,7 +15,8 @@ using namespace palpate;
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
-// As many taxels of both fingertips as asked for, in the pose of a pinch grip: what a grasp touches.
+// As many taxels of both fingertips as asked for, in the pose of a pinch grip: what a grasp
+// touches.
 std::vector<Points> taxelSets(std::size_t number) {
   const HandGeometry geometry;
   const HandPose pose = geometry.pose({90, -6, 5, -90, 0, -5, 5});

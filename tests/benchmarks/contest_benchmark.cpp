@@ -1,5 +1,6 @@
-// Telling a load that shifts from slip, per matrix: one contest of two frames (key, load field, registration), and all that a
-// detector does with a frame. Beside them what the contest adds to: the registration of the same pair.
+// Telling a load that shifts from slip, per matrix: one contest of two frames (key, load field,
+// registration), and all that a detector does with a frame. Beside them what the contest adds to:
+// the registration of the same pair.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -60,7 +61,8 @@ void contestOfAPair(benchmark::State& state) {
 }
 BENCHMARK(contestOfAPair)->Unit(benchmark::kMicrosecond);
 
-// Windows, rule and at most one contest; the vector is the centroid's. And with the motion weighed against the reference.
+// Windows, rule and at most one contest; the vector is the centroid's. And with the motion weighed
+// against the reference.
 void detectorOfAMatrix(benchmark::State& state, SlipMethod method) {
   const std::vector<MatrixValues> frames = wandering();
   SlipDetectorOptions options;

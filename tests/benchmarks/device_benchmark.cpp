@@ -1,5 +1,5 @@
-// What a frame packet costs on its way in: framing, checksum, decoding, clock; beside the checksum in its
-// textbook form (a table, byte by byte) over the same bytes. Target: under 3 us per packet.
+// What a frame packet costs on its way in: framing, checksum, decoding, clock; beside the checksum
+// in its textbook form (a table, byte by byte) over the same bytes. Target: under 3 us per packet.
 #include <array>
 #include <cstdint>
 #include <random>

@@ -1,5 +1,6 @@
-// Drawing a hand in space at 800 x 600, about 5,000 triangles and 1,000 lines: target 16.7 ms (60 Hz) on one core.
-// OpenGL where a display is (`xvfb-run -a`); what Mesa draws on the processor it draws on all cores.
+// Drawing a hand in space at 800 x 600, about 5,000 triangles and 1,000 lines: target 16.7 ms (60
+// Hz) on one core. OpenGL where a display is (`xvfb-run -a`); what Mesa draws on the processor it
+// draws on all cores.
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QOpenGLFramebufferObject>
@@ -33,7 +34,8 @@ void handRaster(benchmark::State& state, RasterQuality quality, double distanceM
   state.counters["lines"] = static_cast<double>(scene.lines.size());
 }
 
-// The whole way of the window without OpenGL, one frame of a grasp after the other: pose, contact geometry, scene, picture.
+// The whole way of the window without OpenGL, one frame of a grasp after the other: pose, contact
+// geometry, scene, picture.
 void handRepaint(benchmark::State& state) {
   HandDrawing drawing;
   drawing.setHand(palpate::sdh2());

@@ -1,5 +1,5 @@
-// All taxel positions and normals of a pose, beside the textbook form: the product of 4x4 matrices per
-// taxel, as the study's program does it.
+// All taxel positions and normals of a pose, beside the textbook form: the product of 4x4 matrices
+// per taxel, as the study's program does it.
 #include <cmath>
 #include <numbers>
 #include <vector>

@@ -1,6 +1,7 @@
-// The live window: how old a frame is when it has been painted (from the last byte that the emulated hand writes to
-// the end of the paint event), what that costs, whether anything holds the window up, whether anything grows. Run
-// it where a display is, e.g. under `xvfb-run -a`; without one it uses Qt's offscreen platform.
+// The live window: how old a frame is when it has been painted (from the last byte that the
+// emulated hand writes to the end of the paint event), what that costs, whether anything holds the
+// window up, whether anything grows. Run it where a display is, e.g. under `xvfb-run -a`; without
+// one it uses Qt's offscreen platform.
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QEventLoop>
@@ -52,8 +53,8 @@ double quantile(std::vector<double> values, double share) {
   return values[index];
 }
 
-// How long the window's thread was away, at most and usually: a timer that wants to come every 2 ms. Keeps counts,
-// not intervals: it must not be what grows.
+// How long the window's thread was away, at most and usually: a timer that wants to come every 2
+// ms. Keeps counts, not intervals: it must not be what grows.
 class Heartbeat : public QObject {
  public:
   Heartbeat() {
@@ -184,8 +185,8 @@ void countGrowth(benchmark::State& state,
   state.counters["threads_more"] = number(after.threads) - number(before.threads);
 }
 
-// One hand at 31.7 frames/s, byte by byte at 115200 baud. Targets: p99 below 50 ms, the whole program (here with the
-// emulated hand) below 20 % of a core, the window never away for 50 ms.
+// One hand at 31.7 frames/s, byte by byte at 115200 baud. Targets: p99 below 50 ms, the whole
+// program (here with the emulated hand) below 20 % of a core, the window never away for 50 ms.
 void wireToPixel(benchmark::State& state) {
   for (auto _ : state) {
     Bench bench(0.0);
@@ -208,7 +209,8 @@ void wireToPixel(benchmark::State& state) {
   }
 }
 
-// The reference: the same line without a window; a loop that asks the mailbox every half millisecond.
+// The reference: the same line without a window; a loop that asks the mailbox every half
+// millisecond.
 void wireToMailbox(benchmark::State& state) {
   for (auto _ : state) {
     const palpate::testing::TemporaryFolder folder;
@@ -237,9 +239,9 @@ void wireToMailbox(benchmark::State& state) {
   }
 }
 
-// Two hands at 300 frames/s, one of them in the window and both captured, while a fit runs beside (dense normal
-// equations again and again: it keeps a core busy). Targets: p99 of a turn of the window's loop below 33 ms, frames
-// painted below 50 ms old.
+// Two hands at 300 frames/s, one of them in the window and both captured, while a fit runs beside
+// (dense normal equations again and again: it keeps a core busy). Targets: p99 of a turn of the
+// window's loop below 33 ms, frames painted below 50 ms old.
 void windowUnderLoad(benchmark::State& state) {
   for (auto _ : state) {
     Bench bench(300.0);
@@ -273,8 +275,8 @@ void windowUnderLoad(benchmark::State& state) {
   }
 }
 
-// Plug out and in again, window open. Targets: noticed (the picture says so) within 500 ms, streaming within 1 s of
-// the return, the window never away for 50 ms, nothing leaked.
+// Plug out and in again, window open. Targets: noticed (the picture says so) within 500 ms,
+// streaming within 1 s of the return, the window never away for 50 ms, nothing leaked.
 void windowReplug(benchmark::State& state) {
   const int cycles = std::max(1, qEnvironmentVariableIntValue("PALPATE_BENCHMARK_CYCLES"));
   const int wanted = cycles > 1 ? cycles : 20;
@@ -313,8 +315,9 @@ void windowReplug(benchmark::State& state) {
   }
 }
 
-// Twelve minutes by PALPATE_BENCHMARK_MINUTES=12 (one where nothing is said): descriptors, threads and memory, this in
-// six parts of the time. The chart remembers five minutes: until then memory grows by what it keeps.
+// Twelve minutes by PALPATE_BENCHMARK_MINUTES=12 (one where nothing is said): descriptors, threads
+// and memory, this in six parts of the time. The chart remembers five minutes: until then memory
+// grows by what it keeps.
 void windowSoak(benchmark::State& state) {
   const int asked = qEnvironmentVariableIntValue("PALPATE_BENCHMARK_MINUTES");
   const double seconds = 60.0 * std::max(1, asked);

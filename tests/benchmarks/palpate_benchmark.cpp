@@ -1,7 +1,8 @@
 // Native recordings. Loading all frames, angles and temperatures of the shared recordings beside
 // loading the same from .dsa, in the same round (target: ten times faster); and, with
-// PALPATE_BENCHMARK_DAY=1, a recording of 24 hours, made once in the temporary folder (about 1.5 GB):
-// opening it under 2 s, any frame under 20 ms, its per-second summary under 100 ms, under 500 MB.
+// PALPATE_BENCHMARK_DAY=1, a recording of 24 hours, made once in the temporary folder (about 1.5
+// GB): opening it under 2 s, any frame under 20 ms, its per-second summary under 100 ms, under 500
+// MB.
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// The physical hand: one scan, and one frame period of the simulation, with a ball grasped; beside them the
-// least a scan can be: a normal draw and its rounding for every taxel.
+// The physical hand: one scan, and one frame period of the simulation, with a ball grasped; beside
+// them the least a scan can be: a normal draw and its rounding for every taxel.
 #include <cmath>
 #include <cstdint>
 #include <memory>

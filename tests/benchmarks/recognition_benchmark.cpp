@@ -1,5 +1,6 @@
-// Finding grasps beside reading the same frames with nothing done to them (the least it can cost) and from
-// a table of signals that is there already. An hour of an SDH-2 with a grasp every ten seconds, in memory.
+// Finding grasps beside reading the same frames with nothing done to them (the least it can cost)
+// and from a table of signals that is there already. An hour of an SDH-2 with a grasp every ten
+// seconds, in memory.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -59,8 +60,8 @@ void findInTable(benchmark::State& state) {
   countFrames(state);
 }
 
-// Features of one real grasp that is loaded (46 frames), beside reading its frames with nothing done to them. The prior
-// program took 20 to 24 ms.
+// Features of one real grasp that is loaded (46 frames), beside reading its frames with nothing
+// done to them. The prior program took 20 to 24 ms.
 const Profile& realGrasp() {
   static const Profile profile = [] {
     const auto folder = palpate::testing::recordingsFolder();
@@ -89,7 +90,8 @@ void featuresOfGrasp(benchmark::State& state, FeatureSet set) {
   }
 }
 
-// 25 invariants of a picture of 14 x 14 with some 20 pixels; the prior program's six-fold sums took 11 ms.
+// 25 invariants of a picture of 14 x 14 with some 20 pixels; the prior program's six-fold sums took
+// 11 ms.
 void momentInvariants(benchmark::State& state) {
   const ChebyshevPolynomials polynomials(14, 4);
   Eigen::MatrixXd picture = Eigen::MatrixXd::Zero(14, 14);

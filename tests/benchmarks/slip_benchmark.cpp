@@ -1,5 +1,5 @@
-// Slip of six loaded matrices, translation and rotation together, per frame. Beside each other: every method, and what
-// the study's program did for `alcazar`: two full convolutions.
+// Slip of six loaded matrices, translation and rotation together, per frame. Beside each other:
+// every method, and what the study's program did for `alcazar`: two full convolutions.
 #include <cmath>
 #include <vector>
 

@@ -1,5 +1,5 @@
-// Spectra beside OpenCV's transform and the naive one, on as many samples as the shared recording of a rough surface
-// has (3236); filters of one signal, per sample.
+// Spectra beside OpenCV's transform and the naive one, on as many samples as the shared recording
+// of a rough surface has (3236); filters of one signal, per sample.
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -50,7 +50,8 @@ std::vector<double> hann(std::size_t n) {
   return window;
 }
 
-// Resampling, mean, PSD and magnitude included. "items_per_second" are samples (and segments: each begins one).
+// Resampling, mean, PSD and magnitude included. "items_per_second" are samples (and segments: each
+// begins one).
 void spectra(benchmark::State& state) {
   const Signal made = signal(true);
   const auto window = static_cast<int>(state.range(0));

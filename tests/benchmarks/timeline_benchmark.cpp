@@ -1,6 +1,7 @@
-// The timeline of a recording of 24 hours (PALPATE_BENCHMARK_DAY=1, PALPATE_BENCHMARK_DAY_FILE or one made by the
-// benchmarks called day..): from the file to its curves on screen (target 3 s), any zoom (target 100 ms), and how long it takes
-// until everything is read. The reference in the same run: drawing the same number of samples without thinning them.
+// The timeline of a recording of 24 hours (PALPATE_BENCHMARK_DAY=1, PALPATE_BENCHMARK_DAY_FILE or
+// one made by the benchmarks called day..): from the file to its curves on screen (target 3 s), any
+// zoom (target 100 ms), and how long it takes until everything is read. The reference in the same
+// run: drawing the same number of samples without thinning them.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -1,4 +1,5 @@
-// What benchmarks of the window need: an application where a display is, else drawing to memory; processor time.
+// What benchmarks of the window need: an application where a display is, else drawing to memory;
+// processor time.
 #pragma once
 
 #include <QApplication>
@@ -22,7 +23,8 @@ inline QApplication& windowApplication() {
   static int count = 1;
   static char name[] = "palpate";
   static char* arguments[] = {name, nullptr};
-  // Never destroyed: at the end of the process Qt's own statics are gone before ours, and its destructor needs them.
+  // Never destroyed: at the end of the process Qt's own statics are gone before ours, and its
+  // destructor needs them.
   static QApplication* const application = gui::makeApplication(count, arguments).release();
   return *application;
 }

@@ -1,5 +1,5 @@
-// The window: how soon it is painted, and what playback costs. Run it where a display is, e.g. under
-// `xvfb-run -a`; without one it uses Qt's offscreen platform.
+// The window: how soon it is painted, and what playback costs. Run it where a display is, e.g.
+// under `xvfb-run -a`; without one it uses Qt's offscreen platform.
 #include <QElapsedTimer>
 #include <QEventLoop>
 #include <QTimer>

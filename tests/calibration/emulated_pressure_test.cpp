@@ -1,5 +1,6 @@
-// The whole way on the emulated sensor, whose truth is known: weights on a stamp at three temperatures, steps found and
-// fitted, the pressure model made, other weights at other temperatures read back within the stated band.
+// The whole way on the emulated sensor, whose truth is known: weights on a stamp at three
+// temperatures, steps found and fitted, the pressure model made, other weights at other
+// temperatures read back within the stated band.
 #include <cmath>
 
 #include "palpate/calibration/pressure_map.h"

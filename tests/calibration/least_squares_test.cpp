@@ -14,7 +14,8 @@
 namespace palpate::least_squares_test {
 namespace {
 
-// One problem of NIST/ITL StRD (nonlinear regression; public domain), in tests/calibration/nist as Ceres ships it.
+// One problem of NIST/ITL StRD (nonlinear regression; public domain), in tests/calibration/nist as
+// Ceres ships it.
 struct NistProblem {
   std::vector<double> starts[2], certified, certifiedSd;
   double certifiedSum = 0.0;

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kRateHz = 40.0;
 
-// A load on one matrix from 1 s on: a(t) = K (1 - (1 + t/T) e^(-t/T)) + m t, the same on 3 x 3 taxels.
+// A load on one matrix from 1 s on: a(t) = K (1 - (1 + t/T) e^(-t/T)) + m t, the same on 3 x 3
+// taxels.
 Profile loaded(std::size_t matrix, double gain) {
   const HandDescription& hand = sdh2();
   ProfileBuilder builder(hand.layout);

@@ -9,7 +9,8 @@
 namespace palpate::sensitivity_search_test {
 namespace {
 
-// A sensor that reads gain * s - threshold, up to 3560; lets the search settle, returns how often it set.
+// A sensor that reads gain * s - threshold, up to 3560; lets the search settle, returns how often
+// it set.
 int settle(
     SensitivitySearch& search, double gain, double threshold, double& timeS, int frames = 2000) {
   int settings = 0;

@@ -1,5 +1,5 @@
-// A stamp of known pressure on the emulated sensor: whole recordings of it, a hand that is pressed so, and the
-// calibration that such recordings give.
+// A stamp of known pressure on the emulated sensor: whole recordings of it, a hand that is pressed
+// so, and the calibration that such recordings give.
 #pragma once
 
 #include <algorithm>

@@ -8,7 +8,8 @@
 namespace palpate::step_model_test {
 namespace {
 
-// phi(t) by integrating T^2 y'' + 2 d T y' + y = 1 from rest (study, eq. 3.1): classical Runge-Kutta.
+// phi(t) by integrating T^2 y'' + 2 d T y' + y = 1 from rest (study, eq. 3.1): classical
+// Runge-Kutta.
 double integrated(double timeConstantS, double damping, double untilS) {
   const int steps = 20'000;
   const double h = untilS / steps;

@@ -25,7 +25,8 @@ std::vector<std::vector<std::string>> csvRows(const std::filesystem::path& path)
   return rows;
 }
 
-// K to 0.1 %, m to 0.5 %, time constants and temperatures besides: 24 real loading steps against another program.
+// K to 0.1 %, m to 0.5 %, time constants and temperatures besides: 24 real loading steps against
+// another program.
 TEST(StepReport, AgreesWithTheIndependentFitsOfRealSteps) {
   const auto golden = testing::goldenFolder(), recordings = testing::recordingsFolder();
   PALPATE_NEED(golden && recordings);

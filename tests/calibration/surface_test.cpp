@@ -72,7 +72,8 @@ TEST(Surface, AgreesWithNumPyOnTheRealSteps) {
                      5.918544);
 }
 
-// As the study found: the term K T brings nothing. Its plane over 54 steps: 31.90, -.625, .0978, -.0000386.
+// As the study found: the term K T brings nothing. Its plane over 54 steps: 31.90, -.625, .0978,
+// -.0000386.
 TEST(Surface, LeavesOutTheTermThatBringsNothing) {
   const auto golden = testing::goldenFolder();
   PALPATE_NEED(golden);

@@ -282,7 +282,8 @@ TEST(CaptureSession, marksAreInTheTimeOfTheStamps) {
   EXPECT_EQ(scripted.session->takeEvents().at(0).tUs, longAgo);
 }
 
-// a process that is killed now leaves a file that says what the link lost, and not only what came.
+// a process that is killed now leaves a file that says what the link lost, and not only what
+// came.
 TEST(CaptureSession, whatTheLinkLostIsOnDiskWithTheFrameBehindIt) {
   const TemporaryFolder folder;
   ScriptedSession scripted;

@@ -1,6 +1,6 @@
-// Long runs and many of them, in their short form: R11 (recorded = sent, nothing grows) and R14 (starts and
-// stops with everything pulling at once; the race detector watches in the tsan build). The long forms run
-// the same tests with more frames and cycles: capture/stress_long.
+// Long runs and many of them, in their short form: R11 (recorded = sent, nothing grows) and R14
+// (starts and stops with everything pulling at once; the race detector watches in the tsan build).
+// The long forms run the same tests with more frames and cycles: capture/stress_long.
 #include <atomic>
 #include <cstdlib>
 #include <fstream>
@@ -58,7 +58,8 @@ class EagerDevice : public ScriptedDevice {
     done = true;
   }
   void deliverAngles(const std::stop_token& stop) {
-    // A recording begins with its first frame: of angles before it, it keeps those of the last minute only.
+    // A recording begins with its first frame: of angles before it, it keeps those of the last
+    // minute only.
     while (sentFrames == 0 && !stop.stop_requested()) std::this_thread::yield();
     for (std::size_t n = 0; n < 3 * frames_ && !stop.stop_requested(); ++n) {
       const std::int64_t atUs = kWallStartUs + static_cast<std::int64_t>(n) * 9'000;

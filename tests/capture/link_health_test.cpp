@@ -120,7 +120,8 @@ TEST(LinkMeter, fewFramesOfALineThatHasRoomAreAnotherTrouble) {
   EXPECT_EQ(meter.read(monoUs).lowRateS, 0.0);
 }
 
-// reference of the protocol, 1.6.1 (real hand): 31.7 frames/s with all, 55 to 58 with one matrix of 78, 76 with two.
+// reference of the protocol, 1.6.1 (real hand): 31.7 frames/s with all, 55 to 58 with one matrix of
+// 78, 76 with two.
 TEST(LinkMeter, knowsWhatAHandGivesBySettings) {
   EXPECT_NEAR(scanRateHz(456), 31.7, 0.05);
   EXPECT_GT(scanRateHz(68), 55.0);

@@ -35,8 +35,8 @@ TEST(MovieTiming, ASlowRecordingRepeatsItsFrames) {
   EXPECT_DOUBLE_EQ(movie.seconds, 0.4);
 }
 
-// A picture is 100 ms of the recording: its middles are at 50 (but the first frame is seen), 150, 250, 350 ms; and the
-// last frame, at 380 ms, is seen.
+// A picture is 100 ms of the recording: its middles are at 50 (but the first frame is seen), 150,
+// 250, 350 ms; and the last frame, at 380 ms, is seen.
 TEST(MovieTiming, AFastMovieLeavesFramesOut) {
   const MovieTiming movie = movieTiming(everyMs(20, 20), {.picturesPerS = 20.0, .speed = 2.0});
   EXPECT_EQ(framesOf(movie), (std::vector<std::size_t>{0, 7, 12, 17, 19}));
@@ -64,7 +64,8 @@ TEST(MovieTiming, SpeedsStretchAndShrink) {
   }
 }
 
-// Against the rule itself, picture by picture: the last frame at or before the middle of the picture.
+// Against the rule itself, picture by picture: the last frame at or before the middle of the
+// picture.
 TEST(MovieTiming, IrregularFramesAreShownAtTheirTime) {
   std::mt19937 random(7);
   std::uniform_int_distribution<std::int64_t> intervalUs(1'000, 400'000);

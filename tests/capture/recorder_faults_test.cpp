@@ -1,4 +1,5 @@
-// The recorder's bad days: a disk that is full, fails, or keeps it waiting (R3, R10); queues that overflow.
+// The recorder's bad days: a disk that is full, fails, or keeps it waiting (R3, R10); queues that
+// overflow.
 #include <condition_variable>
 #include <thread>
 
@@ -234,7 +235,8 @@ TEST(RecorderFaults, aGapThatIsStillOpenAtTheStopIsToldToo) {
   EXPECT_EQ(events[0].t1Us, kWallStartUs + 500'000);
 }
 
-// The real thread, blocked in a write of the real file: the device's thread never waits, the alarm comes.
+// The real thread, blocked in a write of the real file: the device's thread never waits, the alarm
+// comes.
 TEST(RecorderFaults, aDiskThatBlocksAWriteIsAnAlarmAndCostsNothing) {
   const TemporaryFolder folder;
   FaultyVfs vfs;
@@ -330,7 +332,8 @@ TEST(RecorderFaults, aPartThatCanNotBeBegunLeavesNothing) {
   ASSERT_GT(scripted.session->recorderStatus().lost, 0);
   vfs.heal();
   scripted.run(0.15, true);
-  // In one round: room, so that the gap is owed to the file; then none any more; then time for a new part.
+  // In one round: room, so that the gap is owed to the file; then none any more; then time for a
+  // new part.
   vfs.failAt(Fault::kFull, vfs.operations() + 1);
   fill(400);
   scripted.session->step();

@@ -140,7 +140,8 @@ TEST(Recorder, stopsByItselfAfterTimeFramesOrBytes) {
   scripted.session->startRecording(options);
   scripted.run(3.0);
   EXPECT_FALSE(scripted.session->recording());
-  // What came at the start's own moment counts as the first frame: 150 frames from there, 99 before.
+  // What came at the start's own moment counts as the first frame: 150 frames from there, 99
+  // before.
   EXPECT_EQ(scripted.session->stopRecording().frames, 249);
   const Profile profile = openRecording(folder / "s.palpate");
   EXPECT_EQ(profile.numAngles(), 499u);  // none after the end

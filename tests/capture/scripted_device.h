@@ -97,8 +97,8 @@ struct ScriptedSession {
     session->start();
   }
 
-  // Lets time pass: a frame every 10 ms, angles every 5 ms, temperatures every second, a round of the
-  // recorder every 20 ms.
+  // Lets time pass: a frame every 10 ms, angles every 5 ms, temperatures every second, a round of
+  // the recorder every 20 ms.
   void run(double seconds, bool rounds = true) {
     const auto steps = static_cast<std::int64_t>(seconds * 200.0 + 0.5);
     for (std::int64_t i = 0; i < steps; ++i) {

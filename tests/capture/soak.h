@@ -1,5 +1,5 @@
-// A day of one hand in little time: emulated hand at full speed, both ports, driver, session, recorder,
-// disk; and replayed (reliability R11, R17).
+// A day of one hand in little time: emulated hand at full speed, both ports, driver, session,
+// recorder, disk; and replayed (reliability R11, R17).
 #pragma once
 
 #include <chrono>
@@ -87,7 +87,8 @@ inline void soak(std::size_t frames) {
   // Fewer are possible: the recording may have ended while we looked.
   EXPECT_LE(end.descriptors, warm.descriptors);
   EXPECT_LE(end.threads, warm.threads);
-  // The queues fill while the disk syncs; they hold 64 MB at most. Nothing grows with the recording.
+  // The queues fill while the disk syncs; they hold 64 MB at most. Nothing grows with the
+  // recording.
   if (kMemoryIsOurs) {
     EXPECT_LT(end.residentBytes, warm.residentBytes + (80u << 20));
   }

@@ -20,8 +20,8 @@ std::vector<std::string> lines(const std::string& text) {
   return all;
 }
 
-// `count` frames 100 ms apart; from `touched` on four taxels of matrix 1 have that many counts, one more of them
-// per frame.
+// `count` frames 100 ms apart; from `touched` on four taxels of matrix 1 have that many counts, one
+// more of them per frame.
 class CompareCommandTest : public ::testing::Test {
  protected:
   std::string recording(const char* name, int count, int touched, float counts) {

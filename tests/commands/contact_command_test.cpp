@@ -37,7 +37,8 @@ std::vector<std::vector<std::string>> csvRows(const std::string& text) {
   return rows;
 }
 
-// Three frames: nothing, one taxel of finger 0, one each of fingers 0 and 2. Angles are added where given.
+// Three frames: nothing, one taxel of finger 0, one each of fingers 0 and 2. Angles are added where
+// given.
 void saveTouches(const std::filesystem::path& path,
                  const std::vector<std::vector<double>>& anglesDeg = {}) {
   ProfileBuilder builder(sdh2().layout);

@@ -52,8 +52,8 @@ std::vector<Row> rowsOf(const std::string& csv) {
   return rows;
 }
 
-// When and how far the pen slips, reckoned alike from the emulator's mechanics without ports and from what the tour wrote
-// down of its own. Times from the first contact of both pads on.
+// When and how far the pen slips, reckoned alike from the emulator's mechanics without ports and
+// from what the tour wrote down of its own. Times from the first contact of both pads on.
 struct PenWay {
   double heldS = 0.0;   // the first contact itself
   double beganS = 0.0;  // it has moved by 0.1 taxel
@@ -95,7 +95,8 @@ PenWay simulatedWay() {
   return wayOf(moments).value();
 }
 
-// One tour for all tests that look at what it leaves. The name of its folder is made to be mistaken for something else.
+// One tour for all tests that look at what it leaves. The name of its folder is made to be mistaken
+// for something else.
 class DemoTourTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -247,7 +248,8 @@ TEST_F(DemoTourTest, TheSlipWasSeenSoonAfterItBegan) {
   const Json alarm = slip.at("alarm");
   EXPECT_EQ(alarm.at("lamp").asString(), "slipping");
   EXPECT_EQ(alarm.at("state").asString(), "slip");
-  // The same in the table: the first frame of that matrix that slips, between the begin and the end of the motion.
+  // The same in the table: the first frame of that matrix that slips, between the begin and the end
+  // of the motion.
   const std::string matrix = std::to_string(alarm.at("matrix").asInteger());
   const std::int64_t frame = alarm.at("frame").asInteger();
   double imprint = 0.0;

@@ -25,8 +25,8 @@ TEST(PullTimes, AreThoseOfTheScript) {
   EXPECT_THROW(pullTimesOf(sceneNamed("empty")), Error);
 }
 
-// Friction of 0.35 holds the pen until the pull, less its weight, is more than what both pads press; then it slips upwards,
-// and stays in the fingers when the pull ends.
+// Friction of 0.35 holds the pen until the pull, less its weight, is more than what both pads
+// press; then it slips upwards, and stays in the fingers when the pull ends.
 TEST(SlippingPen, SlipsWhenFrictionHoldsItNoLongerAndIsCaught) {
   const Scene scene = sceneNamed("slipping_pen");
   const PullTimes times = pullTimesOf(scene);

@@ -57,7 +57,8 @@ TEST_F(DemoRecognitionTest, NamesWhatItWasTaughtAndCallsOtherThingsUnknown) {
 }
 
 TEST_F(DemoRecognitionTest, SaysWhatIsWrong) {
-  // The ball was exchanged, the pen called a bottle by whoever recorded it, and of the box nothing was grasped.
+  // The ball was exchanged, the pen called a bottle by whoever recorded it, and of the box nothing
+  // was grasped.
   const DemoRecognition asked = askModel(model_,
                                          {recorded("ball", "ball", 45.0),
                                           recorded("pen", "bottle"),

@@ -16,8 +16,8 @@ std::int64_t timeUs(std::size_t frame) {
   return kStartUs + static_cast<std::int64_t>(frame) * kFrameUs;
 }
 
-// Held by matrices 1 and 5 from frame 20 on; between frames 100 and 140 it moves 0.1 taxel a frame over matrix 1, half of
-// that over matrix 5; let go in frame 200.
+// Held by matrices 1 and 5 from frame 20 on; between frames 100 and 140 it moves 0.1 taxel a frame
+// over matrix 1, half of that over matrix 5; let go in frame 200.
 std::vector<DemoTruthFrame> pulledTruth(double stepTaxels = 0.1) {
   std::vector<DemoTruthFrame> truth;
   for (std::size_t i = 0; i < 220; ++i) {

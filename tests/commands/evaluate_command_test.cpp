@@ -123,7 +123,8 @@ TEST(EvaluateCommand, InterruptedItSaysNothingHalf) {
   EXPECT_EQ(program.out(), "");
 }
 
-// Four things 8 mm apart, each a stranger to the other three in turn; 70 days later all read 3 mm too wide.
+// Four things 8 mm apart, each a stranger to the other three in turn; 70 days later all read 3 mm
+// too wide.
 TEST(EvaluateCommand, TellsHowWellUnknownObjectsAreTold) {
   const TemporaryFolder folder;
   saveThings(folder / "all", 12, 1);

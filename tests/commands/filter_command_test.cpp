@@ -209,7 +209,8 @@ std::vector<std::string> firstColumns(const std::string& table, int columns) {
   return lines;
 }
 
-// O-A1: grasps, numbers of active taxels and spheres of a filtered copy are those of the recording, by every way to them.
+// O-A1: grasps, numbers of active taxels and spheres of a filtered copy are those of the recording,
+// by every way to them.
 TEST(FilterCommand, WhatIsTouchedStaysAsRecorded) {
   const testing::TemporaryFolder folder;
   const std::string in = writeGrasps(folder);

@@ -161,7 +161,8 @@ TEST(GhostsCommand, EmulatedHandsHaveContactsToLose) {
   EXPECT_TRUE(contacts.at(std::size_t{0}).at("size").isString());
 }
 
-// Matrix 0 at 30 deg C: 33.628 + 0.3317 * 30 + 3 * 2.425417 = 50.9, a threshold of 51; two less: 49.
+// Matrix 0 at 30 deg C: 33.628 + 0.3317 * 30 + 3 * 2.425417 = 50.9, a threshold of 51; two
+// less: 49.
 TEST(GhostsCommand, LooksAtRecordingsOfTheNoiseOverThresholds) {
   const testing::TemporaryFolder folder;
   ProfileBuilder builder(sdh2().layout);

@@ -1,4 +1,5 @@
-// The real program on an emulated hand that runs in the test: what it says, and what arrives at the hand.
+// The real program on an emulated hand that runs in the test: what it says, and what arrives at the
+// hand.
 #include <csignal>
 
 #include "palpate/core/number_text.h"

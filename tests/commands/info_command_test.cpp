@@ -106,7 +106,8 @@ TEST(InfoCommand, AgreesWithAnIndependentLookAtEverySharedRecording) {
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(*folder)) {
     if (entry.path().extension() != ".dsa") continue;
-    // Every grasp by class is alike; a tenth of them is enough here (the reader's own tests take all).
+    // Every grasp by class is alike; a tenth of them is enough here (the reader's own tests take
+    // all).
     if (entry.path().string().find("grasps_by_class") != std::string::npos && files++ % 10 != 0)
       continue;
     const Json info = infoOf(entry.path());

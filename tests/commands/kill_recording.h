@@ -1,5 +1,5 @@
-// `palpate record` killed at random moments, and what its file then holds against a counter outside the
-// process: the emulated hand's own list of frames that have left (reliability R1).
+// `palpate record` killed at random moments, and what its file then holds against a counter outside
+// the process: the emulated hand's own list of frames that have left (reliability R1).
 #pragma once
 
 #include <algorithm>
@@ -45,7 +45,8 @@ class KilledRecordings {
     BackgroundProgram recorder(
         program_,
         {"record", "--dsa", hand_.dsaPort(), "--sdh", hand_.sdhPort(), "-o", file, "--quiet"});
-    // Streams left over by the one killed before are stopped first: a file tells that this one records.
+    // Streams left over by the one killed before are stopped first: a file tells that this one
+    // records.
     ASSERT_TRUE(awaited([&] { return std::filesystem::exists(file); })) << recorder.err();
     const std::int64_t madeUs = systemClock().wallUs();
     std::this_thread::sleep_for(std::chrono::microseconds(random_() % 700'000));
@@ -85,8 +86,8 @@ class KilledRecordings {
       }
       lastNumber = static_cast<std::int64_t>(*number);
     }
-    // The first frame that had left the hand before the kill and isn't in the file. The file is made when
-    // the first frame comes, so in an empty one all are missing that were sent since.
+    // The first frame that had left the hand before the kill and isn't in the file. The file is
+    // made when the first frame comes, so in an empty one all are missing that were sent since.
     for (const SentFrame& sent : hand_.sentFrames()) {
       if (static_cast<std::int64_t>(sent.number) <= lastNumber || sent.hostUs > killUs) continue;
       if (lastNumber < 0 && sent.hostUs < madeUs) continue;

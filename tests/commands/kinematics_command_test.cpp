@@ -67,8 +67,8 @@ TEST(KinematicsCommand, TheEffectiveFingertipBendsMore) {
   EXPECT_EQ(linesOf(study.out)[78], linesOf(effective.out)[78]);
 }
 
-// Every point of the golden file through the real program, whose joints stand where recordings have them: a hair beyond their
-// range.
+// Every point of the golden file through the real program, whose joints stand where recordings have
+// them: a hair beyond their range.
 TEST(KinematicsCommand, AgreesWithTheGoldenNumbers) {
   const auto golden = goldenFolder();
   PALPATE_NEED(golden);

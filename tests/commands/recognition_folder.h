@@ -1,4 +1,5 @@
-// Folders of recordings as train, evaluate, adapt and classify take them: made-up grasps of things that differ in size.
+// Folders of recordings as train, evaluate, adapt and classify take them: made-up grasps of things
+// that differ in size.
 #pragma once
 
 #include <csignal>
@@ -71,7 +72,8 @@ inline void saveThings(const std::filesystem::path& folder,
     saveGrasps(folder / thing.folder / "a.dsa", thing.gapMm + offsetMm, grasps, ++seed, startUs);
 }
 
-// Ctrl-C as soon as the program listens for it (a caught signal of its status), at whatever it is. Its exit code.
+// Ctrl-C as soon as the program listens for it (a caught signal of its status), at whatever it is.
+// Its exit code.
 inline int interruptAtWork(BackgroundProgram& program) {
   const auto listens = [&] {
     std::ifstream status("/proc/" + std::to_string(program.pid()) + "/status");
@@ -93,7 +95,8 @@ inline void saveTouches(const std::filesystem::path& path,
   saveGrasps(path, gapMm, touches, 7, startUs);
 }
 
-// A model of the four things, of the day on which all of these recordings begin if nothing else is said.
+// A model of the four things, of the day on which all of these recordings begin if nothing else is
+// said.
 class ModelFolder : public ::testing::Test {
  protected:
   static constexpr std::int64_t kLaterUs = kPinchStartUs + 70 * kOneDayUs;

@@ -1,4 +1,5 @@
-// The real program on an emulated hand that runs in the test: what the hand sends is what is recorded.
+// The real program on an emulated hand that runs in the test: what the hand sends is what is
+// recorded.
 #include <csignal>
 
 #include "palpate/core/error.h"

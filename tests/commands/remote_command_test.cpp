@@ -1,4 +1,5 @@
-// The real program at both ends: `palpate record --remote` (and the window) there, `palpate remote` here.
+// The real program at both ends: `palpate record --remote` (and the window) there, `palpate remote`
+// here.
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -142,7 +143,8 @@ TEST_F(RemoteCommandTest, WithoutAHandTheStartIsRefused) {
   EXPECT_TRUE(fs::is_empty(folder_ / "runs"));
 }
 
-// A stranger finds no door in a run that wasn't asked to have one, and no other door in one that was.
+// A stranger finds no door in a run that wasn't asked to have one, and no other door in one that
+// was.
 TEST_F(RemoteCommandTest, NothingListensUnlessItIsAskedFor) {
   {
     const BackgroundProgram plain(

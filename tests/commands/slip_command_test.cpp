@@ -23,7 +23,8 @@ constexpr const char* kHeader =
     "ref_rotation_deg,orientation_deg,eccentricity,roundness,residual,confidence,p_moved,state,"
     "slipping";
 
-// Matrix 1: nothing until frame 5, then a contact that rests and slips down by 2 taxels between frames 50 and 60. Matrix 3: one taxel.
+// Matrix 1: nothing until frame 5, then a contact that rests and slips down by 2 taxels between
+// frames 50 and 60. Matrix 3: one taxel.
 std::string recordingIn(const testing::TemporaryFolder& folder) {
   ProfileBuilder builder(sdh2().layout);
   SyntheticSensor sensor;

@@ -37,8 +37,8 @@ std::vector<Row> rowsOf(const std::string& csv) {
   return rows;
 }
 
-// 4 s at 50 frames/s: taxel (2, 7) of matrix 1 swings by 400 counts at 6.25 Hz (bin 4 of 32) around 1000, from frame 100
-// on; taxel (3, 7) rests at 500.
+// 4 s at 50 frames/s: taxel (2, 7) of matrix 1 swings by 400 counts at 6.25 Hz (bin 4 of 32) around
+// 1000, from frame 100 on; taxel (3, 7) rests at 500.
 void writeTone(const std::filesystem::path& path, std::size_t frames = 200) {
   ProfileBuilder builder(sdh2().layout);
   for (std::size_t i = 0; i < frames; ++i) {
@@ -161,8 +161,8 @@ TEST(SpectrumCommand, RefusesWrongUsageAndTooLittle) {
       palpate({"spectrum", folder / "one.dsa", "--signal", "sum"}), 1, {"1 samples"});
 }
 
-// Two taxels at about 74 frames/s. Numbers from the stamps in the XML, by a few lines of Python: 3235 intervals in
-// 43.289 s, population sd 2.4713 ms at a mean of 13.3815 ms.
+// Two taxels at about 74 frames/s. Numbers from the stamps in the XML, by a few lines of Python:
+// 3235 intervals in 43.289 s, population sd 2.4713 ms at a mean of 13.3815 ms.
 TEST(SpectrumCommand, SaysWhatRealRecordingsCannotShow) {
   const auto folder = testing::recordingsFolder();
   PALPATE_NEED(folder);

@@ -184,7 +184,8 @@ TEST(StreamCommand, ADamagedRecordingIsReadAsFarAsVerifyReadsIt) {
       << verified.out;
 }
 
-// It is played at once: nobody waits until all of it was read, and what is missing is told where it is missed.
+// It is played at once: nobody waits until all of it was read, and what is missing is told where it
+// is missed.
 TEST(StreamCommand, ADamagedRecordingIsPlayedWithoutWhatIsMissing) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder / "damaged.palpate";

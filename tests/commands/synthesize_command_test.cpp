@@ -74,7 +74,8 @@ TEST(SynthesizeCommand, TheEmptyHandOfAnotherDayTouchesAtOtherAngles) {
   const EmptyHandZero a = emptyHandZero(first), b = emptyHandZero(later);
   ASSERT_EQ(a.trouble, "");
   ASSERT_EQ(b.trouble, "");
-  // Both proximal joints at about 150 mm from the pads: 2 x 150 mm x 1 deg, less what their lean takes.
+  // Both proximal joints at about 150 mm from the pads: 2 x 150 mm x 1 deg, less what their lean
+  // takes.
   EXPECT_LT(b.mm - a.mm, -3.0);
   EXPECT_GT(b.mm - a.mm, -2.0 * 150.0 * std::numbers::pi / 180.0);
   expectOneLineError(

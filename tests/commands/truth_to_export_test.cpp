@@ -1,5 +1,5 @@
-// End to end with the real programs: what the emulated hand's truth says is what arrives over the ports,
-// is recorded, and is exported.
+// End to end with the real programs: what the emulated hand's truth says is what arrives over the
+// ports, is recorded, and is exported.
 #include <csignal>
 #include <map>
 #include <sstream>
@@ -22,8 +22,8 @@ struct TruthRow {
   Eigen::Vector3d centreMm = Eigen::Vector3d::Zero();
 };
 
-// Scans by host time [ms], a row per matrix. Of scans in one millisecond (a busy machine's hand catches
-// up) the last counts.
+// Scans by host time [ms], a row per matrix. Of scans in one millisecond (a busy machine's hand
+// catches up) the last counts.
 std::map<std::int64_t, std::vector<TruthRow>> readTruth(const std::string& path) {
   std::map<std::int64_t, std::vector<TruthRow>> truth;
   std::istringstream in(testing::readFile(path));

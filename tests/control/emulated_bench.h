@@ -1,5 +1,5 @@
-// An emulated hand, the session on its two ports and the control of it, with a log of what arrives on the motion
-// port. Everything is as in the program: threads, ptys, the machine's clock.
+// An emulated hand, the session on its two ports and the control of it, with a log of what arrives
+// on the motion port. Everything is as in the program: threads, ptys, the machine's clock.
 #pragma once
 
 #include <chrono>

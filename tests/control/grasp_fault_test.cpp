@@ -1,4 +1,5 @@
-// C-A2: what is thrown while fingers move. The process lives, a stop is on the wire, and it is said.
+// C-A2: what is thrown while fingers move. The process lives, a stop is on the wire, and it is
+// said.
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -173,7 +174,8 @@ TEST(GraspFault, AnotherLayoutBetweenGraspsIsLearned) {
   EXPECT_EQ(bench.control->status().phase, GraspPhase::kClosing);
 }
 
-// C-A14: a consumer that hangs, while the control tells it something, keeps nobody from stopping the hand.
+// C-A14: a consumer that hangs, while the control tells it something, keeps nobody from stopping
+// the hand.
 TEST(GraspFault, AConsumerThatHangsKeepsNobodyFromStopping) {
   GraspBench bench;
   FeedOptions patient;

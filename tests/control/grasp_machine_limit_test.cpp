@@ -1,5 +1,5 @@
-// The limit of a grasp under tactile control: whether it can be felt, what is reached after the stop, and what becomes
-// of a grasp in which the program fails.
+// The limit of a grasp under tactile control: whether it can be felt, what is reached after the
+// stop, and what becomes of a grasp in which the program fails.
 #include <stdexcept>
 #include <string_view>
 

@@ -1,5 +1,5 @@
-// L-M14: what a grasp reaches after its stop is measured and said. The emulated ball is hard, and the rubber answers
-// with a lag of 0.16 s: how far a reading rises is a matter of the velocity.
+// L-M14: what a grasp reaches after its stop is measured and said. The emulated ball is hard, and
+// the rubber answers with a lag of 0.16 s: how far a reading rises is a matter of the velocity.
 #include <algorithm>
 #include <cstdio>
 
@@ -62,7 +62,8 @@ TEST(GraspReach, WhatDoesNotRiseIsNotTalkedAbout) {
   EXPECT_EQ(reach.report.text.find("close more slowly"), std::string::npos) << reach.report.text;
 }
 
-// docs/safety.md has these figures: `measured {..}` is what scripts/measure reads. The slower, the less.
+// docs/safety.md has these figures: `measured {..}` is what scripts/measure reads. The slower, the
+// less.
 TEST(GraspReach, TheSlowerTheLess) {
   constexpr int kTouches = 7;  // frames elsewhere against the touch
   const auto reached = [](double velocity, int limit) {

@@ -1,5 +1,5 @@
-// An emulated hand in its body alone (no port, no thread), driven by a grasp machine: time passes as fast as it can be
-// computed, and every run is the same.
+// An emulated hand in its body alone (no port, no thread), driven by a grasp machine: time passes
+// as fast as it can be computed, and every run is the same.
 #pragma once
 
 #include <cmath>

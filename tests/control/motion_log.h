@@ -1,5 +1,5 @@
-// What arrived at the motion port of an emulated hand, byte by byte, understood by the protocol document alone:
-// text lines, and binary records cmd u8 | n u8 | k u8 | k floats | checksum.
+// What arrived at the motion port of an emulated hand, byte by byte, understood by the protocol
+// document alone: text lines, and binary records cmd u8 | n u8 | k u8 | k floats | checksum.
 #pragma once
 
 #include <cstring>

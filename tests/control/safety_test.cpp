@@ -1,4 +1,5 @@
-// The safety of the hand (R18, docs/safety.md), as the hand itself sees it: on the emulated hand's motion port.
+// The safety of the hand (R18, docs/safety.md), as the hand itself sees it: on the emulated hand's
+// motion port.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -108,8 +109,8 @@ TEST(Safety, RelaxIsTheOnlyThingThatTakesThePower) {
   EXPECT_FALSE(bench.handMoves());
 }
 
-// A grasp of the ball: from the frame over the limit, whose last byte has left the hand, to the stop that arrives
-// there.
+// A grasp of the ball: from the frame over the limit, whose last byte has left the hand, to the
+// stop that arrives there.
 void graspUntilTheLimit(Punctuality& reactions, const std::filesystem::path& recorded) {
   constexpr int kLimit = 200;
   std::mutex mutex;

@@ -1,5 +1,5 @@
-// A hand that does what a test says and notes what it was told, its session and its control, by a clock of the
-// test and without a thread.
+// A hand that does what a test says and notes what it was told, its session and its control, by a
+// clock of the test and without a thread.
 #pragma once
 
 #include <functional>

@@ -12,7 +12,8 @@ namespace palpate::sensitivity_control_test {
 namespace {
 using namespace testing;
 
-// A hand that does at once what it is told, and control of its sensitivity, by the clock of the test.
+// A hand that does at once what it is told, and control of its sensitivity, by the clock of the
+// test.
 struct SensitivityBench {
   GraspBench bench;
   SensitivityControl control{*bench.session, *bench.control, bench.clock};

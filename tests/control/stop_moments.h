@@ -1,5 +1,5 @@
-// Stop pressed at random moments (R18): whatever the two ports are doing, it is on the wire within 20 ms. Each stop is
-// measured once.
+// Stop pressed at random moments (R18): whatever the two ports are doing, it is on the wire within
+// 20 ms. Each stop is measured once.
 #pragma once
 
 #include <random>

@@ -53,7 +53,8 @@ TEST(StreamWatch, OnePauseDoesNotMakeItPatient) {
   EXPECT_FALSE(watch.frame(1'000'000'000 + last + 31'000, last + 31'000).has_value());
 }
 
-// Frames that come in one heap, because this program stood still: what counts is when they were read.
+// Frames that come in one heap, because this program stood still: what counts is when they were
+// read.
 TEST(StreamWatch, FindsSilenceByTheStampsOfFrames) {
   StreamWatch watch;
   const std::int64_t last = feed(watch, 20, 31'000);

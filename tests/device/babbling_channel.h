@@ -1,5 +1,5 @@
-// A port whose other end opens like a tactile controller (each time a new one, with factory settings) and
-// then misbehaves: babbles, falls silent, sends a byte now and then, is unplugged.
+// A port whose other end opens like a tactile controller (each time a new one, with factory
+// settings) and then misbehaves: babbles, falls silent, sends a byte now and then, is unplugged.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// DSACON32-M packets made in the tests from the protocol document, not by the driver: a checksum bit by
-// bit, frames run by run.
+// DSACON32-M packets made in the tests from the protocol document, not by the driver: a checksum
+// bit by bit, frames run by run.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// An SDH-2 motion controller written from the protocol document (sections 2 and 4.2), not from our driver:
-// its own checksum, its own decoder. Bytes in, bytes out; no thread, no line. Misbehaves on demand.
+// An SDH-2 motion controller written from the protocol document (sections 2 and 4.2), not from our
+// driver: its own checksum, its own decoder. Bytes in, bytes out; no thread, no line. Misbehaves on
+// demand.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// As much of a tactile controller as a probe sees: the literal bytes of the protocol document, 4.1 and 1.6.
+// As much of a tactile controller as a probe sees: the literal bytes of the protocol document, 4.1
+// and 1.6.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What is thrown from inside a port's thread, and is no trouble of the port: the process lives, the hand is
-// stopped, the port is tried anew (docs/safety.md).
+// What is thrown from inside a port's thread, and is no trouble of the port: the process lives, the
+// hand is stopped, the port is tried anew (docs/safety.md).
 #include <atomic>
 #include <mutex>
 #include <new>

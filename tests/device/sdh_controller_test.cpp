@@ -43,7 +43,8 @@ TEST_F(SdhControllerTest, ReadsAndMovesTheAxes) {
   EXPECT_EQ(hand.stops, 1);
 }
 
-// --- what is refused before a byte leaves (R18) -----------------------------------------------------
+// --- what is refused before a byte leaves (R18)
+// -----------------------------------------------------
 
 TEST_F(SdhControllerTest, RefusesValuesOutOfRangeAndSendsNoByte) {
   controller.open();
@@ -107,7 +108,8 @@ TEST_F(SdhControllerTest, NegativeVelocitiesNeedAVelocityController) {
   expectRefused([&] { controller.setVelocities(slow); }, {"axis 0", "0..83"});
 }
 
-// --- no axis becomes 0 by omission -------------------------------------------------------------------
+// --- no axis becomes 0 by omission
+// -------------------------------------------------------------------
 
 TEST_F(SdhControllerTest, SettingOneAxisWritesAllSevenAsTheyWere) {
   controller.open();
@@ -136,7 +138,8 @@ TEST_F(SdhControllerTest, NoticesTargetsThatTheHandUnderstoodOtherwise) {
   EXPECT_EQ(error.fault(), DeviceFault::kProtocol);
 }
 
-// --- all the rest of the language --------------------------------------------------------------------
+// --- all the rest of the language
+// --------------------------------------------------------------------
 
 TEST_F(SdhControllerTest, SettingsGoForthAndBack) {
   controller.open();
@@ -216,7 +219,8 @@ TEST_F(SdhControllerTest, ANetworkHasNoChecksums) {
   EXPECT_EQ(hand.values["p"], Values(7, 5.0));
 }
 
-// --- opening -------------------------------------------------------------------------------------------
+// --- opening
+// -------------------------------------------------------------------------------------------
 
 TEST_F(SdhControllerTest, OpensThroughLeftOversOfAnotherProgram) {
   line.arrive(bytesOf("83 20 07 00 00 00"), 20'000);

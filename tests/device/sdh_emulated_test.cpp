@@ -1,5 +1,5 @@
-// The driver of the SDH-2 and the probe against the emulated hand, which was written from the protocol document
-// without the driver's code: what one of them misreads, the other one shows.
+// The driver of the SDH-2 and the probe against the emulated hand, which was written from the
+// protocol document without the driver's code: what one of them misreads, the other one shows.
 #include <algorithm>
 #include <chrono>
 

@@ -1,4 +1,5 @@
-// The driver of the SDH-2 on a line that loses, garbles and delays, and under a stop that can't wait.
+// The driver of the SDH-2 on a line that loses, garbles and delays, and under a stop that can't
+// wait.
 #include "device/sdh_on_a_wire.h"
 
 namespace palpate::sdh_link_test {
@@ -11,7 +12,8 @@ using SdhLinkTest = testing::SdhOnAWire;
 
 const testing::Bytes kStop = bytesOf("20 0D 0A 73 74 6F 70 0D 0A");  // " \r\nstop\r\n"
 
-// --- a line that misbehaves ---------------------------------------------------------------------------
+// --- a line that misbehaves
+// ---------------------------------------------------------------------------
 
 TEST_F(SdhLinkTest, OneMissingByteAnywhereCostsOneRetryAndNothingElse) {
   controller.open();
@@ -144,9 +146,11 @@ TEST_F(SdhLinkTest, APulledPlugIsSaidAtOnce) {
   EXPECT_EQ(errorOf([&] { controller.stop(); }).fault(), DeviceFault::kGone);
 }
 
-// --- motion and stop -----------------------------------------------------------------------------------
+// --- motion and stop
+// -----------------------------------------------------------------------------------
 
-// The answer to a motion that is on its way says nothing of the stop behind it: the hand begins to move, still.
+// The answer to a motion that is on its way says nothing of the stop behind it: the hand begins to
+// move, still.
 TEST_F(SdhLinkTest, AStopIsNotTakenForDoneByTheAnswerToWhatWasAskedBefore) {
   controller.open();
   line.arrive(bytesOf("4D 3D 34 2E 35 31 0D 0A"), 500);  // "M=4.51"

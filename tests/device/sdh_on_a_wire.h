@@ -1,4 +1,5 @@
-// Driver and independent fake hand of the SDH-2 on a line whose time passes only while somebody waits.
+// Driver and independent fake hand of the SDH-2 on a line whose time passes only while somebody
+// waits.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The driver of the SDH-2 end to end: a real line (pty or TCP), a hand in a thread of its own that was
-// written from the protocol document, real time.
+// The driver of the SDH-2 end to end: a real line (pty or TCP), a hand in a thread of its own that
+// was written from the protocol document, real time.
 #include <algorithm>
 #include <atomic>
 #include <optional>

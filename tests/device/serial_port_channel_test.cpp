@@ -1,5 +1,6 @@
-// The real path of libserialport, without a serial port: a pty under a name that passes its check of sysfs
-// (a link reached by "/dev/../"), and an ioctl() of our own that gives it the modem lines a pty lacks.
+// The real path of libserialport, without a serial port: a pty under a name that passes its check
+// of sysfs (a link reached by "/dev/../"), and an ioctl() of our own that gives it the modem lines
+// a pty lacks.
 #include "device/serial_port_channel.h"
 
 #include <algorithm>

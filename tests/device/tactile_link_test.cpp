@@ -1,5 +1,5 @@
-// The tactile port's rounds, by a clock of the test and without a thread: gaps and their counts, settings with
-// their masks, a second start.
+// The tactile port's rounds, by a clock of the test and without a thread: gaps and their counts,
+// settings with their masks, a second start.
 #include "device/tactile_link.h"
 
 #include <cmath>
@@ -120,7 +120,8 @@ TEST(TactileLink, AGapOnAnOpenPortIsCountedByTheControllersClock) {
   EXPECT_EQ(static_cast<std::int64_t>(bench.link.status().lost), json.at("lost").asInteger());
 }
 
-// Switched off and on, it may show a later time than before: its clock doesn't tell how long it was away.
+// Switched off and on, it may show a later time than before: its clock doesn't tell how long it was
+// away.
 TEST(TactileLink, AGapThatNeededAWakeIsEstimatedByOurClock) {
   Bench bench;
   bench.dsa.clockAheadMs = 0;

@@ -1,5 +1,5 @@
-// A stream of frames through a noisy line into parser, decoder and clock: what arrives is counted against
-// what was sent (reliability R6, R7).
+// A stream of frames through a noisy line into parser, decoder and clock: what arrives is counted
+// against what was sent (reliability R6, R7).
 #pragma once
 
 #include <cstdint>

@@ -52,7 +52,8 @@ class DsaServerTest : public ::testing::Test {
   static std::string bare(std::uint8_t id, std::uint8_t code) {
     return hexText(tactilePacket(id, {code, 0}));
   }
-  // Runs a stream of `count` frames; the line is free as soon as all bytes have left it at 115200 baud.
+  // Runs a stream of `count` frames; the line is free as soon as all bytes have left it at 115200
+  // baud.
   std::vector<DecodedFrame> stream(std::size_t count, bool paced = true) {
     std::vector<DecodedFrame> frames;
     double freeUs = 0.0;

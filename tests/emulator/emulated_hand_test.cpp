@@ -111,7 +111,8 @@ TEST(EmulatedHand, StreamsAtTheRatesOfTheRealLine) {
   EXPECT_NEAR(measure(kPush, 9), 11.7, 0.2);
 }
 
-// Seven raw frames of 985 bytes can't come sooner than 115200 baud carry them, and an idle machine not much later.
+// Seven raw frames of 985 bytes can't come sooner than 115200 baud carry them, and an idle machine
+// not much later.
 TEST(EmulatedHand, PacesBytesInRealTime) {
   EmulatedHand hand(std::make_unique<StillHand>());
   LineClient client(hand.dsaPort());
@@ -151,7 +152,8 @@ TEST(EmulatedHand, PullsOneFrameAtATime) {
   EXPECT_TRUE(client.receive(100ms).empty());
 }
 
-// Section 3.4: the probe of DSA-Konqueror sends text and line end apart, and reads with 10 ms between two bytes.
+// Section 3.4: the probe of DSA-Konqueror sends text and line end apart, and reads with 10 ms
+// between two bytes.
 TEST(EmulatedHand, AnswersTheProbeOfOtherPrograms) {
   EmulatedHand hand(std::make_unique<StillHand>());
   LineClient motion(hand.sdhPort()), tactile(hand.dsaPort());
@@ -170,7 +172,8 @@ TEST(EmulatedHand, AnswersTheProbeOfOtherPrograms) {
   answers.judge();
 }
 
-// RobWork: stop with flags 00, 01, 02, then 0B, 05, 04 of each matrix, rate 5 with internal trigger.
+// RobWork: stop with flags 00, 01, 02, then 0B, 05, 04 of each matrix, rate 5 with internal
+// trigger.
 TEST(EmulatedHand, ServesRobWork) {
   EmulatedHand hand(std::make_unique<StillHand>(), fastHand());
   LineClient client(hand.dsaPort());
@@ -190,8 +193,8 @@ TEST(EmulatedHand, ServesRobWork) {
     EXPECT_NE(frames[i].deviceMs, frames[i - 1].deviceMs);
 }
 
-// DSA-Konqueror: both masks of all matrices, sensitivity and threshold of each; stops and waits 200 ms before masks are
-// touched; starts with rate 1.
+// DSA-Konqueror: both masks of all matrices, sensitivity and threshold of each; stops and waits 200
+// ms before masks are touched; starts with rate 1.
 TEST(EmulatedHand, ServesKonqueror) {
   EmulatedHand hand(std::make_unique<StillHand>(), fastHand());
   LineClient client(hand.dsaPort());

@@ -1,5 +1,5 @@
-// A client of the two ports, written from the protocol document alone: plain descriptors, its own checksum (bit by bit), its own
-// decoding. Shares no code with the driver or the emulator.
+// A client of the two ports, written from the protocol document alone: plain descriptors, its own
+// checksum (bit by bit), its own decoding. Shares no code with the driver or the emulator.
 #pragma once
 
 #include <chrono>

@@ -20,7 +20,8 @@ double shareActive(const NoisyContacts& made) {
   return static_cast<double>(active) / static_cast<double>(made.profile.numFrames());
 }
 
-// 33.628 + 0.3317 * 30 + 3 * 2.425417 = 50.855; 45.296 + 0.1741 * 45 + 3 * 0.850922 = 55.683 (methods, section 4).
+// 33.628 + 0.3317 * 30 + 3 * 2.425417 = 50.855; 45.296 + 0.1741 * 45 + 3 * 0.850922 = 55.683
+// (methods, section 4).
 TEST(NoisyContacts, ThresholdsAreThoseOfTheMethods) {
   EXPECT_EQ(noiseThresholdCounts(sdh2Sensor().matrices[0], 30.0), 51);
   EXPECT_EQ(noiseThresholdCounts(sdh2Sensor().matrices[5], 45.0), 56);
@@ -43,7 +44,8 @@ TEST(NoisyContacts, SameSeedSameFrames) {
   EXPECT_EQ(one.truth, same.truth);
 }
 
-// A threshold far above the noise: what is active is touched, and nearly all that is touched is active.
+// A threshold far above the noise: what is active is touched, and nearly all that is touched is
+// active.
 TEST(NoisyContacts, TruthIsWhatTheSensorReportsWithoutNoise) {
   const NoisyContacts made = makeNoisyContacts({.frames = 3000, .belowCounts = -40.0});
   std::size_t ghosts = 0, touched = 0, seen = 0;

@@ -70,7 +70,8 @@ TEST(PhysicalHand, ClosingOnEachObjectTouchesItWithAtLeastTwoFingers) {
     double force = 0.0;
     for (const MatrixTruth& truth : hand.truth()) force += truth.forceN;
     EXPECT_GT(force, 10.0) << name;
-    // 1400 N mm 15 mm from the distal joint, 2100 N mm 20 mm from the proximal one, of three fingers.
+    // 1400 N mm 15 mm from the distal joint, 2100 N mm 20 mm from the proximal one, of three
+    // fingers.
     EXPECT_LT(force, 3.0 * (1400.0 / 15.0 + 2100.0 / 20.0)) << name << ": motors give up before";
   }
 }
@@ -139,8 +140,8 @@ TEST(PhysicalHand, ThreeFingersBalanceOnABall) {
   EXPECT_NEAR(hand.truth()[1].forceN, hand.truth()[5].forceN, 0.05);
 }
 
-// Along the normals friction holds nothing: an object beside the middle is pushed there, however rough, and
-// the two fingers press it alike.
+// Along the normals friction holds nothing: an object beside the middle is pushed there, however
+// rough, and the two fingers press it alike.
 TEST(PhysicalHand, AnObjectBesideTheMiddleIsPushedThere) {
   for (const double friction : {0.3, 0.9, 3.0}) {
     Scene scene = quietScene("pen");
@@ -156,9 +157,9 @@ TEST(PhysicalHand, AnObjectBesideTheMiddleIsPushedThere) {
   }
 }
 
-// A pinched sphere under a torque about y, the direction of the grasp. Each contact of force F holds it by its
-// print, up to friction * F * radius of gyration, and by its distance from that axis (the pads are tilted:
-// they touch below the middle), up to friction * F * distance.
+// A pinched sphere under a torque about y, the direction of the grasp. Each contact of force F
+// holds it by its print, up to friction * F * radius of gyration, and by its distance from that
+// axis (the pads are tilted: they touch below the middle), up to friction * F * distance.
 TEST(PhysicalHand, ATorqueAboveWhatThePrintsHoldTurnsTheObject) {
   for (const double share : {0.85, 1.25}) {
     constexpr double kRadiusMm = 20.0, kFriction = 0.6;
@@ -175,8 +176,8 @@ TEST(PhysicalHand, ATorqueAboveWhatThePrintsHoldTurnsTheObject) {
     };
     const MatrixTruth contact = pinched()->truth()[1];
     ASSERT_GT(contact.forceN, 5.0);
-    // Elastic foundation: F = pi k R d^2, print of radius a with a^2 = 2 R d and paraboloid pressure, whose
-    // mean square distance from its middle is a^2 / 3.
+    // Elastic foundation: F = pi k R d^2, print of radius a with a^2 = 2 R d and paraboloid
+    // pressure, whose mean square distance from its middle is a^2 / 3.
     const double k = 0.15 * 20.0 / (0.15 + 20.0);
     const double depth = std::sqrt(contact.forceN / (std::numbers::pi * k * kRadiusMm));
     const double printMm = std::sqrt(2.0 * kRadiusMm * depth / 3.0);
@@ -195,8 +196,8 @@ TEST(PhysicalHand, ATorqueAboveWhatThePrintsHoldTurnsTheObject) {
   }
 }
 
-// A box between two fingers and the thumb: the thumb takes what both fingers give, but for the friction of
-// pads that are tilted by some ten degrees (0.5 * 60 N * sin 10).
+// A box between two fingers and the thumb: the thumb takes what both fingers give, but for the
+// friction of pads that are tilted by some ten degrees (0.5 * 60 N * sin 10).
 TEST(PhysicalHand, TheThumbHoldsAgainstBothFingers) {
   PhysicalHand hand(quietScene("box"));
   close(hand, "parallel", 30.0);
@@ -232,8 +233,9 @@ TEST(PhysicalHand, ASofterObjectTouchesMoreTaxelsWithLess) {
             *std::max_element(hardCounts.begin(), hardCounts.end()) / 2);
 }
 
-// The real hand on the objects after which the scenes are named (two recordings of the study, loaded frames):
-// hockey ball 18 active taxels on a fingertip, peak 2640..3258 counts; foam ball 26, peak 1165..1860.
+// The real hand on the objects after which the scenes are named (two recordings of the study,
+// loaded frames): hockey ball 18 active taxels on a fingertip, peak 2640..3258 counts; foam ball
+// 26, peak 1165..1860.
 TEST(PhysicalHand, GraspsReadLikeRecordedOnes) {
   const auto fingertip = [](const char* scene) {
     PhysicalHand hand(quietScene(scene));
@@ -288,7 +290,8 @@ TEST(PhysicalHand, AHandleThatIsPulledSlipsAndStopsWhenThePullEnds) {
   EXPECT_NEAR(hand.truth()[1].turnDeg, -hand.truth()[5].turnDeg, 1.5) << "seen from both sides";
 }
 
-// What the truth calls slip is what the pressure does on the matrix: its centroid moves with a small object.
+// What the truth calls slip is what the pressure does on the matrix: its centroid moves with a
+// small object.
 TEST(PhysicalHand, SlipInTaxelsIsTheMotionOfThePrint) {
   const HandGeometry geometry;
   const HandPose pose = geometry.pose(sdh2Preshape("centrical").anglesDeg(0.0));

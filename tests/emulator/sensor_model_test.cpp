@@ -51,8 +51,8 @@ TEST_F(SensorModelTest, UnloadedAtDefaultThresholdsItReadsZero) {
   EXPECT_EQ(runLengthUnits(), 33u) << "486 = 32 x 15 + 6";
 }
 
-// The 65-minute recording at threshold 0: 29..72 counts over all frames, 292..375 units per frame, 330 on
-// average (nine tenths of the frames: 306..349).
+// The 65-minute recording at threshold 0: 29..72 counts over all frames, 292..375 units per frame,
+// 330 on average (nine tenths of the frames: 306..349).
 TEST_F(SensorModelTest, AtThresholdZeroItReadsTheNoiseOfTheRealHand) {
   setThresholds(0);
   double units = 0.0;
@@ -78,8 +78,8 @@ TEST_F(SensorModelTest, AtThresholdZeroItReadsTheNoiseOfTheRealHand) {
   EXPECT_NEAR(most, 72, 5);
 }
 
-// Measured on that recording, taxel by taxel: edges of the proximal pads lie higher and flicker, the rest
-// lies within a tenth of a count.
+// Measured on that recording, taxel by taxel: edges of the proximal pads lie higher and flicker,
+// the rest lies within a tenth of a count.
 TEST_F(SensorModelTest, TheEdgesOfTheProximalPadsRestHigherAndLessQuietly) {
   setThresholds(0);
   constexpr int kFrames = 2000;
@@ -95,7 +95,8 @@ TEST_F(SensorModelTest, TheEdgesOfTheProximalPadsRestHigherAndLessQuietly) {
   const auto sdOf = [&](std::size_t p) {
     return std::sqrt(squares[p] / kFrames - meanOf(p) * meanOf(p));
   };
-  // Column 0, row 7 (place 42), and its right neighbour; means of the recording at 45 deg C by its lines.
+  // Column 0, row 7 (place 42), and its right neighbour; means of the recording at 45 deg C by its
+  // lines.
   const double measured[3][4] = {
       {47.2, 3.1, 41.5, 0.77}, {54.1, 4.0, 36.9, 0.93}, {46.4, 3.27, 39.4, 0.92}};
   for (std::size_t pad = 0; pad < 3; ++pad) {
@@ -108,8 +109,8 @@ TEST_F(SensorModelTest, TheEdgesOfTheProximalPadsRestHigherAndLessQuietly) {
   }
 }
 
-// The noise lines of the study: the mean over many frames of the matrix' maximum, at temperatures where the
-// recording has many (a fifth of it lies below 32).
+// The noise lines of the study: the mean over many frames of the matrix' maximum, at temperatures
+// where the recording has many (a fifth of it lies below 32).
 TEST_F(SensorModelTest, TheMaximumOfAMatrixLiesOnItsNoiseLine) {
   setThresholds(0);
   for (const double degC : {30.0, 42.0, 55.0}) {
@@ -154,8 +155,9 @@ TEST_F(SensorModelTest, AStepIsAnsweredAsSecondOrderLagWithCreep) {
   EXPECT_EQ(sensor.responseKpa(20), 0.0);
 }
 
-// What the study measured: a stamp of 10.5 mm x 10.5 mm on the flat part of matrix 1 at threshold 100; its
-// signal is the mean of the Gaussian-filtered active taxels (eq. 3.2), without the later drift.
+// What the study measured: a stamp of 10.5 mm x 10.5 mm on the flat part of matrix 1 at threshold
+// 100; its signal is the mean of the Gaussian-filtered active taxels (eq. 3.2), without the later
+// drift.
 class Stamp {
  public:
   Stamp() { without_.creepShare = 0.0; }
@@ -197,7 +199,8 @@ class Stamp {
   SensorCharacteristics without_ = sdh2Sensor();
 };
 
-// K of 24 measured loading steps at three temperatures; the study's own plane misses them by 28 counts rms.
+// K of 24 measured loading steps at three temperatures; the study's own plane misses them by 28
+// counts rms.
 TEST_F(SensorModelTest, LoadingStepsReadWhatWasMeasured) {
   const auto golden = testing::goldenFolder();
   PALPATE_NEED(golden);
@@ -229,7 +232,8 @@ TEST_F(SensorModelTest, LoadingStepsReadWhatWasMeasured) {
   EXPECT_LT(std::sqrt(squares / steps), 45.0);
 }
 
-// 700 g on it (62.286 kPa), sensitivity 0.1 to 1.0: measured 589.3 s - 11.4 counts, at 37.1 deg C (mean of its sensors).
+// 700 g on it (62.286 kPa), sensitivity 0.1 to 1.0: measured 589.3 s - 11.4 counts, at 37.1 deg C
+// (mean of its sensors).
 TEST_F(SensorModelTest, SignalsAreProportionalToSensitivityAsMeasured) {
   Stamp stamp;
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;

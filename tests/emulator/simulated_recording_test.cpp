@@ -51,8 +51,9 @@ TEST(SimulatedRecording, IsTheSameForTheSameSeed) {
   EXPECT_NE(lastOf(3), lastOf(4));
 }
 
-// Flat fingertips of the empty hand meet at proximal joints of asin(36.4 / 173) = 12.15 degrees: before, nothing is felt; then
-// both pads feel the same, and the fingers are stopped before their goal (15 degrees).
+// Flat fingertips of the empty hand meet at proximal joints of asin(36.4 / 173) = 12.15 degrees:
+// before, nothing is felt; then both pads feel the same, and the fingers are stopped before their
+// goal (15 degrees).
 TEST(SimulatedRecording, PadsOfAnEmptyHandTouchEachOther) {
   SimulatedRecordingOptions options;
   options.durationS = 10.0;

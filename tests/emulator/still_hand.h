@@ -1,4 +1,5 @@
-// A small hand for tests of the servers: every taxel holds what the test says, joints move, nothing touches.
+// A small hand for tests of the servers: every taxel holds what the test says, joints move, nothing
+// touches.
 #pragma once
 
 #include <algorithm>

@@ -42,8 +42,8 @@ TEST(SyntheticProfile, ContactsPeakWhereAndHowHighTheyShould) {
   Eigen::Index x = 0;
   const float largest = frame.matrix(1).maxCoeff(&y, &x);
   EXPECT_EQ(x, 3);  // centre at 2.7
-  // Centre at 8.1, creeping by 0.5 over the contact; the largest sum comes before the release (at 0.88
-  // of the contact): 8.54.
+  // Centre at 8.1, creeping by 0.5 over the contact; the largest sum comes before the release (at
+  // 0.88 of the contact): 8.54.
   EXPECT_NEAR(static_cast<double>(y), 8.54, 0.51);
   // The sensor bends (tanh towards 3560), so the peak stays a little below what was asked.
   EXPECT_GT(largest, 1200.0F);

@@ -74,7 +74,8 @@ const char* const kCausal[] = {"box",
                                "savitzky-golay",
                                "median | kalman | savitzky-golay:derivative=1"};
 
-// The frame in which a filter fails has gone in and never comes out; those behind it keep the contact that is theirs.
+// The frame in which a filter fails has gone in and never comes out; those behind it keep the
+// contact that is theirs.
 TEST(FilterChain, AfterAFilterHasFailedEveryFrameHasItsOwnContact) {
   for (const char* text : {"box", "running-mean:window=5,centred=1"}) {
     Collector out;

@@ -1,5 +1,5 @@
-// What counts as touched in filtered values: what was active as recorded. Expected numbers are computed here from the
-// frames as they came and from what the filters gave, taxel by taxel.
+// What counts as touched in filtered values: what was active as recorded. Expected numbers are
+// computed here from the frames as they came and from what the filters gave, taxel by taxel.
 #include <algorithm>
 #include <cmath>
 
@@ -77,7 +77,8 @@ TEST(FilteredContact, IsWhatWasActiveAsRecorded) {
   }
 }
 
-// The bytes of one array of an .npz that is stored, not packed (PKWARE APPNOTE 4.3.7; numpy.lib.format, version 1.0).
+// The bytes of one array of an .npz that is stored, not packed (PKWARE APPNOTE 4.3.7;
+// numpy.lib.format, version 1.0).
 std::string arrayOf(const std::string& npz, const std::string& name) {
   const std::size_t at = npz.find(name);
   if (at == std::string::npos) return {};

@@ -216,7 +216,8 @@ TEST_F(GhostingTest, OfNothingThereIsNothingToSay) {
   EXPECT_EQ(report.costUs, 0.0);
 }
 
-// Counted by a Python script that shares nothing with this program (bz2, xml, struct), the minimum of two frames too.
+// Counted by a Python script that shares nothing with this program (bz2, xml, struct), the minimum
+// of two frames too.
 TEST_F(GhostingTest, CountsTheRealRecordingAsAnIndependentScriptDoes) {
   const auto folder = testing::recordingsFolder();
   PALPATE_NEED(folder);
@@ -238,7 +239,8 @@ TEST_F(GhostingTest, CountsTheRealRecordingAsAnIndependentScriptDoes) {
   }
 }
 
-// The chain for high sensitivity: a taxel that flickers is gone, a touch of one taxel comes a frame later, as it was.
+// The chain for high sensitivity: a taxel that flickers is gone, a touch of one taxel comes a frame
+// later, as it was.
 TEST_F(GhostingTest, HighSensitivityKeepsATouchOfOneTaxel) {
   auto truth = untouched(10);
   touch(truth, 7, 3, 6);

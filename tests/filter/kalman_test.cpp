@@ -27,7 +27,8 @@ std::vector<double> walk(std::size_t n) {
   return values;
 }
 
-// The mean of all states given all values, by one dense solve: sum (z - x)^2 / r + sum (x_(k+1) - x_k)^2 / q is least.
+// The mean of all states given all values, by one dense solve: sum (z - x)^2 / r + sum (x_(k+1) -
+// x_k)^2 / q is least.
 Eigen::VectorXd batch(const std::vector<double>& z, double q, double r) {
   const auto n = static_cast<Eigen::Index>(z.size());
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);

@@ -60,8 +60,8 @@ constexpr KelvinVoigtModel kLight{.mass = 2.0,
                                   .forceNoise = 4e7,
                                   .measurementNoise = 90.0};
 
-// All states at once. Unknown: y of every sample, v of all but the first (which is at rest). Least is
-// sum (z - y)^2 / r + sum (x' - F x)^T Q^-1 (x' - F x).
+// All states at once. Unknown: y of every sample, v of all but the first (which is at rest). Least
+// is sum (z - y)^2 / r + sum (x' - F x)^T Q^-1 (x' - F x).
 struct Batch {
   Eigen::VectorXd mean;
   Eigen::MatrixXd covariance;
@@ -108,7 +108,8 @@ Eigen::Index positionOf(std::size_t sample) {
 }
 
 TEST(KelvinVoigt, IsDiscretisedExactlyForEveryDamping) {
-  // d = 0, 0.02, 0.999, 1, 1.001, 3, 60, without a spring, without both; intervals from 0.1 ms to a second.
+  // d = 0, 0.02, 0.999, 1, 1.001, 3, 60, without a spring, without both; intervals from 0.1 ms to a
+  // second.
   for (const double damping : {0.0, 0.02, 0.9, 0.999, 1.0, 1.001, 1.2, 3.0, 60.0})
     for (const double hz : {0.05, 1.0, 8.0, 40.0})
       for (const double t : {1e-4, 0.007, 0.0134, 0.2, 1.0}) {
@@ -146,7 +147,8 @@ TEST(KelvinVoigt, FreeMassesAndLongIntervalsHaveTheirLimits) {
   EXPECT_NEAR(free.qYy, 3.0 * 0.125 / 3.0, 1e-15);
   EXPECT_NEAR(free.qYv, 3.0 * 0.25 / 2.0, 1e-15);
   EXPECT_NEAR(free.qVv, 3.0 * 0.5, 1e-15);
-  // After a long time only the noise: S / (2 E eta), 0, S / (2 m eta). Damped lightly, heavily, and stiff.
+  // After a long time only the noise: S / (2 E eta), 0, S / (2 m eta). Damped lightly, heavily, and
+  // stiff.
   for (const auto& [e, eta] : {std::pair{50.0, 3.0}, std::pair{50.0, 700.0}, std::pair{4e9, 8e5}}) {
     const auto far =
         kelvinVoigtStep({.mass = 1.5, .stiffness = e, .viscosity = eta, .forceNoise = 6.0}, 1000.0);

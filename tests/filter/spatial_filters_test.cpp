@@ -1,4 +1,5 @@
-// The spatial filters against OpenCV, against independent numbers, and against textbook loops that honour masks.
+// The spatial filters against OpenCV, against independent numbers, and against textbook loops that
+// honour masks.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -176,7 +177,8 @@ TEST(SpatialFilters, EqualTheIndependentNumbers) {
   EXPECT_EQ(compared, 13);
 }
 
-// What a filter should make of one taxel, from the values around it: written down once more, slowly.
+// What a filter should make of one taxel, from the values around it: written down once more,
+// slowly.
 using Around = std::function<float(int dy, int dx, bool& on)>;
 using Textbook = std::function<double(const Around&)>;
 

@@ -1,5 +1,5 @@
-// Fuzzes calibrations, noise floors, and the tables that calibrations are made from: what is taken reads back as it was
-// written.
+// Fuzzes calibrations, noise floors, and the tables that calibrations are made from: what is taken
+// reads back as it was written.
 #include <cstdint>
 #include <cstdlib>
 #include <stdexcept>

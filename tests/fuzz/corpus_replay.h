@@ -1,5 +1,5 @@
-// Replays a fuzzer's corpus as an ordinary test, so that what it once found stays found. The test is linked
-// with the fuzzer's source and told the folder by PALPATE_FUZZ_CORPUS.
+// Replays a fuzzer's corpus as an ordinary test, so that what it once found stays found. The test
+// is linked with the fuzzer's source and told the folder by PALPATE_FUZZ_CORPUS.
 #pragma once
 
 #include <cstdint>

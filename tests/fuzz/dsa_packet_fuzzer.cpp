@@ -1,6 +1,6 @@
-// Fuzzes what comes from the tactile port: packets in pieces, frames, the controller's answers. Beyond
-// not crashing: every byte is accounted for, splitting makes no difference, a frame that is accepted is
-// within 12 bits, and the driver always comes back.
+// Fuzzes what comes from the tactile port: packets in pieces, frames, the controller's answers.
+// Beyond not crashing: every byte is accounted for, splitting makes no difference, a frame that is
+// accepted is within 12 bits, and the driver always comes back.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

@@ -1,6 +1,7 @@
-// Fuzzes the emulated tactile controller with what a client might send, in pieces and over time. Beyond not crashing: all that
-// it says is whole packets (or the queries of booting), frames have all their values, it never waits for more than a
-// request, and after silence it answers a correct question.
+// Fuzzes the emulated tactile controller with what a client might send, in pieces and over time.
+// Beyond not crashing: all that it says is whole packets (or the queries of booting), frames have
+// all their values, it never waits for more than a request, and after silence it answers a correct
+// question.
 #include <cstdint>
 #include <cstdlib>
 #include <span>
@@ -42,7 +43,8 @@ int requireWhole(const std::vector<LineMessage>& messages, int id) {
 
 }  // namespace
 
-// The first byte says how large the pieces are and how fast time goes; the rest is what the client sends.
+// The first byte says how large the pieces are and how fast time goes; the rest is what the client
+// sends.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 1) return 0;
   const std::size_t piece = 1 + (data[0] & 0x1F);

@@ -1,4 +1,5 @@
-// Fuzzes recognition models: what is taken agrees with itself, reads back as it was written, and judges a grasp.
+// Fuzzes recognition models: what is taken agrees with itself, reads back as it was written, and
+// judges a grasp.
 #include <cstdint>
 #include <cstdlib>
 #include <string>

@@ -1,5 +1,6 @@
-// Fuzzes the reader of native recordings and the salvage with files of any kind. Beyond not crashing:
-// what is read is finite and strictly ordered, and salvage gives at least what the reader gives.
+// Fuzzes the reader of native recordings and the salvage with files of any kind. Beyond not
+// crashing: what is read is finite and strictly ordered, and salvage gives at least what the reader
+// gives.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// Fuzzes recipes, as JSON and as text: what is taken is sound, reads back as it was written, and runs over a few
-// frames without a value that isn't finite.
+// Fuzzes recipes, as JSON and as text: what is taken is sound, reads back as it was written, and
+// runs over a few frames without a value that isn't finite.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

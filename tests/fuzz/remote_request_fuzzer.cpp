@@ -1,5 +1,6 @@
-// Fuzzes what clients of remote control send: lines are cut the same whatever pieces they come in, little is held in
-// memory, and each line is a request or one line of JSON that says why it is none.
+// Fuzzes what clients of remote control send: lines are cut the same whatever pieces they come in,
+// little is held in memory, and each line is a request or one line of JSON that says why it is
+// none.
 #include <cstdint>
 #include <cstdlib>
 #include <string>

@@ -1,6 +1,6 @@
-// Fuzzes what comes from the motion port: lines and records in pieces, and the driver's way through a whole
-// conversation. Beyond not crashing: every byte is accounted for, splitting makes no difference, and the
-// driver always comes back in bounded time, with values that a hand can have.
+// Fuzzes what comes from the motion port: lines and records in pieces, and the driver's way through
+// a whole conversation. Beyond not crashing: every byte is accounted for, splitting makes no
+// difference, and the driver always comes back in bounded time, with values that a hand can have.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -32,7 +32,8 @@ class Time : public Clock {
   std::int64_t nowUs = 0;
 };
 
-// The input is a list of answers, each behind its length (one byte): one per question, then silence.
+// The input is a list of answers, each behind its length (one byte): one per question, then
+// silence.
 class Line : public ByteChannel {
  public:
   Line(Bytes answers, bool network, Time& time)

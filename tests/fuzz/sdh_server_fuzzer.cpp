@@ -1,6 +1,6 @@
-// Fuzzes the emulated motion controller with text, records and anything between. Beyond not crashing: every answer is a line or
-// a record of full length with its checksum, joints stay within their range, and after silence and a line end it
-// answers a correct question.
+// Fuzzes the emulated motion controller with text, records and anything between. Beyond not
+// crashing: every answer is a line or a record of full length with its checksum, joints stay within
+// their range, and after silence and a line end it answers a correct question.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -47,7 +47,8 @@ std::string taken(SdhServer& server) {
 
 }  // namespace
 
-// The first byte says how large the pieces are and how fast time goes; the rest is what the client sends.
+// The first byte says how large the pieces are and how fast time goes; the rest is what the client
+// sends.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 1) return 0;
   const std::size_t piece = 1 + (data[0] & 0x1F);

@@ -1,5 +1,5 @@
-// The scripts in a checkout of their own, with apt, CMake, ninja and palpate played by stand-ins that write down how
-// they were called.
+// The scripts in a checkout of their own, with apt, CMake, ninja and palpate played by stand-ins
+// that write down how they were called.
 #pragma once
 
 #include <filesystem>

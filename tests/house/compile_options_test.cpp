@@ -1,5 +1,6 @@
 // A source is as optimised as its target asks for. GCC forgets the level of the command line behind
-// `#pragma GCC optimize` (Eigen/Core has one) of a precompiled header, and goes on with the header's own.
+// `#pragma GCC optimize` (Eigen/Core has one) of a precompiled header, and goes on with the
+// header's own.
 #include <map>
 #include <regex>
 #include <string>

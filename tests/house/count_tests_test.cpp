@@ -1,4 +1,5 @@
-// The count at the end of scripts/test: from ctest's report of processes and the processes' own reports.
+// The count at the end of scripts/test: from ctest's report of processes and the processes' own
+// reports.
 #include <cstdlib>
 #include <filesystem>
 

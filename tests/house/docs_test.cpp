@@ -1,4 +1,5 @@
-// The manual agrees with itself and with the program: links, pictures, commands, options, docks; and what it shows runs.
+// The manual agrees with itself and with the program: links, pictures, commands, options, docks;
+// and what it shows runs.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -65,7 +66,8 @@ std::vector<std::string> codesOf(const std::string& page) {
   return codes;
 }
 
-// A call of the program as a page writes it: the words behind `palpate` or `scripts/run`; nothing where it is none.
+// A call of the program as a page writes it: the words behind `palpate` or `scripts/run`; nothing
+// where it is none.
 std::optional<std::vector<std::string>> callIn(const std::string& code) {
   std::smatch match;
   if (!std::regex_match(

@@ -1,5 +1,5 @@
-// What was measured and what the pages say are one: README.md and docs/*.md against docs/figures.json, by
-// `scripts/measure --check`.
+// What was measured and what the pages say are one: README.md and docs/*.md against
+// docs/figures.json, by `scripts/measure --check`.
 #include <set>
 
 #include <gtest/gtest.h>
@@ -183,8 +183,9 @@ TEST(Tests, MeasureOnce) {
   }
 }
 
-// C-D4: a test waits for a condition (testing/awaited.h). These have time itself for their subject (moments by chance,
-// the pace of a fake, what a long run needs), or look for their condition in a loop of their own.
+// C-D4: a test waits for a condition (testing/awaited.h). These have time itself for their subject
+// (moments by chance, the pace of a fake, what a long run needs), or look for their condition in a
+// loop of their own.
 TEST(Tests, WaitForConditionsNotForTimes) {
   const std::set<std::string> onPurpose = {"tests/benchmarks/live_window_benchmark.cpp",
                                            "tests/capture/capture_stress_test.cpp",

@@ -20,8 +20,9 @@ std::set<std::string> wordsOf(std::string list) {
   return {std::istream_iterator<std::string>(in), {}};
 }
 
-// "gui/FOLDER/x.h" and "commands/x.h" stand for folders of apps/palpate, "python/x.h" for apps/python, any
-// other for private headers. "gui/x.h", a header of no folder, stands for apps/palpate/gui.
+// "gui/FOLDER/x.h" and "commands/x.h" stand for folders of apps/palpate, "python/x.h" for
+// apps/python, any other for private headers. "gui/x.h", a header of no folder, stands for
+// apps/palpate/gui.
 std::string roomOfInclude(const std::string& name) {
   const std::string first = name.substr(0, name.find('/'));
   if (first == "palpate") {
@@ -38,7 +39,8 @@ const std::string kWindow = "apps/palpate/gui";
 
 bool isPublic(std::string_view path) { return path.starts_with("include/"); }
 
-// "dsa" of src/recording/dsa/x.cpp and of the private header recording/dsa/x.h; empty: directly in its room.
+// "dsa" of src/recording/dsa/x.cpp and of the private header recording/dsa/x.h; empty: directly in
+// its room.
 std::string privateFolderOf(std::string path) {
   if (path.starts_with("src/")) path = path.substr(4);
   const std::size_t room = path.find('/');
@@ -88,7 +90,8 @@ class Judge {
     return room_ + " may not include " + name;
   }
 
-  // Private headers of a folder of a room serve this folder, and what lies directly in the room and joins them.
+  // Private headers of a folder of a room serve this folder, and what lies directly in the room and
+  // joins them.
   std::string faultWithinRoom(const std::string& name, bool targetIsPublic) const {
     if (targetIsPublic) return {};
     if (isPublic(path_)) return "a public header includes the private " + name;

@@ -21,7 +21,8 @@ struct IncludeRules {
   static IncludeRules fromPage(std::string_view page);
 };
 
-// "core" for include/palpate/core/x.h and src/core/x.cpp, "apps/palpate/gui/slip" for a file in there.
+// "core" for include/palpate/core/x.h and src/core/x.cpp, "apps/palpate/gui/slip" for a file in
+// there.
 std::string roomOf(std::string_view path);
 
 // One line for each #include that breaks a rule: "PATH:LINE: what is wrong".

@@ -1,5 +1,6 @@
-// The package lists bring all that the build, the scripts, the tests and the program take from outside the checkout:
-// cmake/package_lists, which says how that is known, on the folder that these tests were built in.
+// The package lists bring all that the build, the scripts, the tests and the program take from
+// outside the checkout: cmake/package_lists, which says how that is known, on the folder that these
+// tests were built in.
 #include <algorithm>
 #include <memory>
 
@@ -61,7 +62,8 @@ TEST_F(PackageLists, BringEveryFileThatIsTakenFromOutside) {
   EXPECT_EQ(result.exitCode, 0) << result.out << result.err;
 }
 
-// libqt6opengl6-dev was missing once: qt6-base-dev only recommends it, so that machines had it by chance.
+// libqt6opengl6-dev was missing once: qt6-base-dev only recommends it, so that machines had it by
+// chance.
 TEST_F(PackageLists, WhatIsMissingIsNamedWithTheListItBelongsTo) {
   writeFile(*folder_ / "header.h", "");
   const std::string path = fs::canonical(*folder_ / "header.h").string();

@@ -1,4 +1,5 @@
-// The scripts where all goes well or something is done twice; what they say where something is missing: set_up_test.cpp.
+// The scripts where all goes well or something is done twice; what they say where something is
+// missing: set_up_test.cpp.
 #include <gtest/gtest.h>
 
 #include "house/checkout_of_scripts.h"

@@ -1,4 +1,5 @@
-// What the scripts say where a machine lacks something, in one line each, and that the next call goes on.
+// What the scripts say where a machine lacks something, in one line each, and that the next call
+// goes on.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
@@ -95,7 +96,8 @@ TEST_F(ScriptsSetUp, TooLittleSpaceForPackagesIsToldBeforeAnyIsInstalled) {
   expectFailure(call("run"),
                 "not enough space: the packages take 1223 MB in /usr, 1200 MB are free there.");
   EXPECT_EQ(logged(), "");
-  // Where what is fetched lies on another file system, 1211 MB and 12 MB are asked for by themselves.
+  // Where what is fetched lies on another file system, 1211 MB and 12 MB are asked for by
+  // themselves.
   standIn("stat",
           "case \"$1 $4\" in '-f /var'*) echo 13 1000000;; '-f '*) echo 1211 1000000;; "
           "*) echo \"$3\";; esac");

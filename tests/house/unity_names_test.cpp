@@ -1,5 +1,6 @@
-// Names in anonymous namespaces differ within a folder, the window with its folders being one: its sources are compiled
-// several at a time, and which of them meet changes with every file that is added.
+// Names in anonymous namespaces differ within a folder, the window with its folders being one: its
+// sources are compiled several at a time, and which of them meet changes with every file that is
+// added.
 #include <map>
 #include <regex>
 #include <set>
@@ -11,7 +12,8 @@
 namespace palpate::testing::unity_names_test {
 namespace {
 
-// What is declared at the outermost level of the anonymous namespaces of a source: types, constants, functions.
+// What is declared at the outermost level of the anonymous namespaces of a source: types,
+// constants, functions.
 std::set<std::string> anonymousNames(const std::string& text) {
   static const std::regex type("^(?:struct|class|enum class|enum|union)\\s+(\\w+)");
   static const std::regex alias("^using (\\w+) =");

@@ -183,7 +183,8 @@ TEST_F(RemoteRecorderTest, TheFolderMayGo) {
   EXPECT_TRUE(ask("status").at("next_file").isNull());
 }
 
-// A client that hangs, one that dies with its start asked for, noise: the recording has every frame.
+// A client that hangs, one that dies with its start asked for, noise: the recording has every
+// frame.
 TEST_F(RemoteRecorderTest, WhatClientsDoCostsNoFrame) {
   beginWithFrames();
   {

@@ -136,8 +136,9 @@ TEST_F(BoundingSphereOfRandomPoints, IsTheSmallestOfAllSubsets) {
   });
 }
 
-// Taxels of a matrix lie on a regular grid: many on one sphere. CGAL alone, in the order they come in, is far off for some of
-// these sets. A sphere can't be smaller than half the largest distance, nor larger than that times sqrt(3/2) (Jung).
+// Taxels of a matrix lie on a regular grid: many on one sphere. CGAL alone, in the order they come
+// in, is far off for some of these sets. A sphere can't be smaller than half the largest distance,
+// nor larger than that times sqrt(3/2) (Jung).
 TEST_F(BoundingSphereOfRandomPoints, HoldsForEveryPartOfAMatrix) {
   const HandGeometry geometry;
   const HandPose pose = geometry.pose({60, -20, 40, -20, 40, -20, 40});

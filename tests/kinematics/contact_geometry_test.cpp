@@ -20,8 +20,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// All rows of the golden file: one frame of every shared grasp. Its joint angles have five decimals, which the recording has
-// too.
+// All rows of the golden file: one frame of every shared grasp. Its joint angles have five
+// decimals, which the recording has too.
 TEST(ContactGeometry, SpheresAgreeWithTheGoldenNumbers) {
   const auto golden = testing::goldenFolder();
   const auto recordings = testing::recordingsFolder();
@@ -58,7 +58,8 @@ TEST(ContactGeometry, SpheresAgreeWithTheGoldenNumbers) {
   EXPECT_LT(worst, 2e-12);
 }
 
-// What the study's window sketch shows: a ball of about 66 mm between two fingertips, 36 and 24 active taxels.
+// What the study's window sketch shows: a ball of about 66 mm between two fingertips, 36 and 24
+// active taxels.
 TEST(ContactGeometry, OfAHandThatHoldsABall) {
   const auto folder = testing::recordingsFolder();
   PALPATE_NEED(folder);
@@ -112,8 +113,8 @@ TEST_F(ContactOfAFrame, OfOneTaxelIsThatTaxel) {
   EXPECT_LT((*contact.centroidMm - pose_.positionMm(3, 2, 4)).norm(), 1e-12);
 }
 
-// By hand: values 1 and 3 at rows 10 and 12 of column 2: centroid at row 11.5, variance (1 * 1.5^2 + 3 * .5^2) / 4 = .75
-// rows^2, all along the finger.
+// By hand: values 1 and 3 at rows 10 and 12 of column 2: centroid at row 11.5, variance (1 * 1.5^2
+// + 3 * .5^2) / 4 = .75 rows^2, all along the finger.
 TEST_F(ContactOfAFrame, AxesAreThoseOfTheWeightedValues) {
   frame_.matrix(1)(10, 2) = 1.0F;
   frame_.matrix(1)(12, 2) = 3.0F;
@@ -127,7 +128,8 @@ TEST_F(ContactOfAFrame, AxesAreThoseOfTheWeightedValues) {
   EXPECT_NEAR(matrix.sum, 4.0, 1e-12);
 }
 
-// A diagonal of the flat part: the major axis in space is the line through its taxels, whatever the pose.
+// A diagonal of the flat part: the major axis in space is the line through its taxels, whatever the
+// pose.
 TEST_F(ContactOfAFrame, AxesPointAlongTheContactInSpace) {
   for (const std::size_t m : {0u, 2u, 4u})
     for (int i = 0; i < 5; ++i) frame_.matrix(m)(3 + i, m == 2 ? 5 - i : i) = 10.0F;
@@ -145,7 +147,8 @@ TEST_F(ContactOfAFrame, AxesPointAlongTheContactInSpace) {
   }
 }
 
-// On the bend the centroid lies on the surface, not on the chord, and the mean normal between the taxels' normals.
+// On the bend the centroid lies on the surface, not on the chord, and the mean normal between the
+// taxels' normals.
 TEST_F(ContactOfAFrame, OnTheBendTheCentroidStaysOnTheSurface) {
   frame_.matrix(5)(1, 3) = frame_.matrix(5)(7, 3) = 5.0F;
   const MatrixContact matrix = contactOf(frame_, pose_).matrices[5];

@@ -27,7 +27,8 @@ TEST(GeometryDescription, TheSdh2HasTheLengthsOfTheStudy) {
   EXPECT_NO_THROW(hand.validate());
 }
 
-// The bend is a circle that goes on from the flat part: same place, same direction, arc length kept.
+// The bend is a circle that goes on from the flat part: same place, same direction, arc length
+// kept.
 TEST(GeometryDescription, ASurfaceRowLiesOnThePlaneOrTheCircle) {
   for (const double radiusMm : {kStudyFingertipRadiusMm, kEffectiveFingertipRadiusMm}) {
     const SensorSurface surface = sdh2Geometry(radiusMm).surfaces[1];

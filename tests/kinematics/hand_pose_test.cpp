@@ -28,8 +28,9 @@ void expectRigid(const Isometry3d& transform) {
   EXPECT_EQ(transform.matrix().row(3), Eigen::RowVector4d(0, 0, 0, 1));
 }
 
-// Joint centres by trigonometry in the plane of a finger: from the base 16.7 mm up to the proximal joint, 86.5 mm
-// along the proximal link (tilted by its angle from upright), 68.5 mm along the distal one.
+// Joint centres by trigonometry in the plane of a finger: from the base 16.7 mm up to the proximal
+// joint, 86.5 mm along the proximal link (tilted by its angle from upright), 68.5 mm along the
+// distal one.
 TEST(HandPose, LinksEndWhereTrigonometrySays) {
   const HandGeometry geometry;
   const double rad = std::numbers::pi / 180.0;
@@ -57,8 +58,9 @@ TEST(HandPose, LinksEndWhereTrigonometrySays) {
   }
 }
 
-// At phi0 = 90 degrees fingers 0 and 2 face each other along y, in the plane x = 19.05: bent inwards by the same
-// angle b at their roots, their tips are 66 - 2 (86.5 + 68.5) sin b apart; straight, 66 mm.
+// At phi0 = 90 degrees fingers 0 and 2 face each other along y, in the plane x = 19.05: bent
+// inwards by the same angle b at their roots, their tips are 66 - 2 (86.5 + 68.5) sin b apart;
+// straight, 66 mm.
 TEST(HandPose, FingertipsMeetAtTheAngleThatTrigonometrySays) {
   const HandGeometry geometry;
   const auto tips = [&](double bendDeg, double phi0 = 90.0) {
@@ -95,8 +97,9 @@ TEST(HandPose, TheFrameOfASurfacePointTouchesIt) {
   }
 }
 
-// Neighbours share corners, a taxel lies in the middle of its own, and the patches are as large as the taxel is along the
-// curve: the quadrilateral of its chords is smaller by the ratio of chord to arc.
+// Neighbours share corners, a taxel lies in the middle of its own, and the patches are as large as
+// the taxel is along the curve: the quadrilateral of its chords is smaller by the ratio of chord to
+// arc.
 TEST(HandPose, CornersBelongToTheCurvedSurface) {
   for (const double radiusMm : {kStudyFingertipRadiusMm, kEffectiveFingertipRadiusMm}) {
     const HandGeometry geometry(sdh2Geometry(radiusMm));
@@ -141,7 +144,8 @@ TEST(HandPose, AnotherHandIsAnotherTable) {
   hand.fingers = {finger};
   hand.surfaces = {{0, 0, -20.0, 8.0, -2.5, std::nullopt, 0.0}};
   const HandGeometry geometry(hand);
-  // The joint turns about z: at 90 degrees the link lies along y and its sensor (Y of the link) looks along -x.
+  // The joint turns about z: at 90 degrees the link lies along y and its sensor (Y of the link)
+  // looks along -x.
   const HandPose pose = geometry.pose({90.0});
   ASSERT_EQ(pose.positionsMm().size(), 6u);
   EXPECT_LT((pose.baseFromLink(0, 0).translation() - Vector3d(10, 120, 30)).norm(), 1e-12);

@@ -22,8 +22,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Fingers 0 and 2 face each other at phi0 = 90 degrees. With the proximal joint at b and the distal one at -b the fingertips
-// stay upright, and by trigonometry their flat parts are
+// Fingers 0 and 2 face each other at phi0 = 90 degrees. With the proximal joint at b and the distal
+// one at -b the fingertips stay upright, and by trigonometry their flat parts are
 //   66 - 2 * 86.5 sin b - 2 * 14.8 mm apart.
 std::vector<double> anglesForGap(double gapMm) {
   const double b = std::asin((66.0 - 29.6 - gapMm) / 173.0) * 180.0 / std::numbers::pi;
@@ -49,7 +49,8 @@ Profile profileOf(const std::vector<Step>& steps, bool withAngles = true) {
   return builder.finish({});
 }
 
-// 10 frames of approach, 10 of closing, 30 at rest. `give`: what the object gives way, in mm at full load.
+// 10 frames of approach, 10 of closing, 30 at rest. `give`: what the object gives way, in mm at
+// full load.
 std::vector<Step> grasp(double sizeMm, double giveMm, double foamMm) {
   std::vector<Step> steps;
   for (int i = 0; i < 10; ++i) steps.push_back({sizeMm + 10.0 - i});
@@ -75,7 +76,8 @@ TEST(ObjectSize, OfARigidObjectAllShrinkingIsTheFoams) {
   // Full load from frame 19 on; the five-frame mean reaches 0.9 of it two frames earlier at most.
   EXPECT_GE(report.plateauFrame, 17u);
   EXPECT_LE(report.plateauFrame, 19u);
-  // By hand: 0.8 (sqrt 1.6 + sqrt 0.9) = 1.7709 at rest, 0.8 (sqrt .16 + sqrt .09) = 0.56 at the start.
+  // By hand: 0.8 (sqrt 1.6 + sqrt 0.9) = 1.7709 at rest, 0.8 (sqrt .16 + sqrt .09) = 0.56 at the
+  // start.
   EXPECT_NEAR(report.foamMm, 1.7709 - 0.56, 1e-3);
   EXPECT_NEAR(report.shrinkMm, 1.7709 - 0.56, 1e-3);
   EXPECT_NEAR(report.plateauMm, 50.0 - 1.7709, 1e-3);
@@ -232,8 +234,9 @@ double medianOf(const std::vector<ObjectSizeReport>& reports, double ObjectSizeR
   return values[values.size() / 2];
 }
 
-// The study, figure 6.3: the hockey ball seems to shrink by about 2 mm, all of it the sensors' foam; the foam
-// ball much more. Sizes agree with the rules of the games: golf at least 42.67 mm, table tennis 40 mm.
+// The study, figure 6.3: the hockey ball seems to shrink by about 2 mm, all of it the sensors'
+// foam; the foam ball much more. Sizes agree with the rules of the games: golf at least 42.67 mm,
+// table tennis 40 mm.
 TEST(ObjectSize, TellsFoamFromRigidBallsInRealGrasps) {
   const auto folder = testing::recordingsFolder();
   PALPATE_NEED(folder);

@@ -1,5 +1,5 @@
-// A known pressure on the emulated hand, over its ports and through live processing: what is shown lies within the stated
-// band.
+// A known pressure on the emulated hand, over its ports and through live processing: what is shown
+// lies within the stated band.
 #include <cmath>
 
 #include "palpate/live/pressure_stage.h"

@@ -12,7 +12,8 @@ namespace {
 
 using Angles = std::vector<double>;
 
-// Flat fingertips meet at proximal joints of asin(36.4 / 173) = 12.1 deg: there the gap is 66 - 2 * 86.5 sin b - 2 * 14.8 mm.
+// Flat fingertips meet at proximal joints of asin(36.4 / 173) = 12.1 deg: there the gap is 66 - 2
+// * 86.5 sin b - 2 * 14.8 mm.
 TEST(Preshape, ThePinchOfTheEmptyHandClosesUntilThePadsTouch) {
   const Angles angles = sdh2Preshape("pinch-empty").anglesDeg(1.0);
   EXPECT_EQ(angles, (Angles{90, 15, -15, -90, 0, 15, -15}));

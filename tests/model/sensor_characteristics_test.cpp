@@ -20,7 +20,8 @@ TEST(SensorCharacteristics, OneOfEachMatrixWithItsPowerUpSettings) {
   }
 }
 
-// The study's plane, evaluated for two K: their distance is the slope; the pressure at K = 0 the dead zone.
+// The study's plane, evaluated for two K: their distance is the slope; the pressure at K = 0 the
+// dead zone.
 TEST(SensorCharacteristics, GainAndDeadZoneAreThoseOfTheMeasuredPlane) {
   const SensorCharacteristics& sensor = sdh2Sensor();
   for (const double degC : {30.0, 40.0, 48.0}) {

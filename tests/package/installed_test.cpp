@@ -1,5 +1,5 @@
-// What `cmake --install` makes: a folder that is complete, works wherever it lies, and says of itself
-// what is true.
+// What `cmake --install` makes: a folder that is complete, works wherever it lies, and says of
+// itself what is true.
 #include <cstdint>
 #include <iterator>
 #include <optional>

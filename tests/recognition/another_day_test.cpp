@@ -1,5 +1,6 @@
-// The claims of recognition on another day, on the real recordings: 571 grasps of 36 classes of September 2014, and 42 of
-// three of these objects 11 weeks later (protocol X). Neither is a clean test: docs/recognition.md says what was chosen on what.
+// The claims of recognition on another day, on the real recordings: 571 grasps of 36 classes of
+// September 2014, and 42 of three of these objects 11 weeks later (protocol X). Neither is a clean
+// test: docs/recognition.md says what was chosen on what.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -239,8 +240,8 @@ TEST_F(AnotherDay, ElevenWeeksLater) {
   EXPECT_GE(one.top1(), 0.95);
 }
 
-// Sessions made of the last thirds of September: an offset N(0, 3 mm) of the day, 1 mm per object, half a standard
-// deviation of each object's shape.
+// Sessions made of the last thirds of September: an offset N(0, 3 mm) of the day, 1 mm per object,
+// half a standard deviation of each object's shape.
 class SimulatedDays {
  public:
   SimulatedDays(const Samples& late, const DayModel& model, int seed)
@@ -344,9 +345,10 @@ TEST_F(AnotherDay, OnSimulatedDaysTheUnknownIsTold) {
   EXPECT_GE(found, 0.90);
 }
 
-// The three objects of 11 weeks later, each taken out of the model in turn. Where the day's offset is known (here from the
-// same grasps with the whole model: what a touch of the empty hand would tell), strangers stand out; where it has to come
-// from the strangers themselves, it makes a neighbour of them: one object of the two, or the only one, of that day.
+// The three objects of 11 weeks later, each taken out of the model in turn. Where the day's offset
+// is known (here from the same grasps with the whole model: what a touch of the empty hand would
+// tell), strangers stand out; where it has to come from the strangers themselves, it makes a
+// neighbour of them: one object of the two, or the only one, of that day.
 TEST_F(AnotherDay, ElevenWeeksLaterTheUnknownIsToldWhereTheOffsetIsKnown) {
   const DayModel model = learn(september_);
   std::vector<double> known, unknown, unknownInBatch;

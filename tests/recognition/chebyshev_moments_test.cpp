@@ -147,7 +147,8 @@ TEST(ChebyshevMoments, InvariantsDoNotSeeTurnsAndTheHalfTurnIsResolved) {
             0.05 * straight.moments.norm());
 }
 
-// With the linear and mixed second moments gone, three of them are multiples of the first (reference/grasp_features.md).
+// With the linear and mixed second moments gone, three of them are multiples of the first
+// (reference/grasp_features.md).
 TEST(ChebyshevMoments, SixOfTheStudysAreRedundant) {
   const auto found = chebyshevInvariants(
       blob(14, 6.4, 5.8, 2.0, 1.0, 0.6), ChebyshevPolynomials(14, 4), PictureAngle::kStudy);

@@ -8,8 +8,8 @@
 namespace palpate::classification_report_test {
 namespace {
 
-// Values of Newcombe 1998, "Two-sided confidence intervals for the single proportion", Statistics in Medicine 17, table I,
-// method 3 (score).
+// Values of Newcombe 1998, "Two-sided confidence intervals for the single proportion", Statistics
+// in Medicine 17, table I, method 3 (score).
 TEST(ClassificationReport, WilsonIntervalsAreThePublishedOnes) {
   const struct {
     std::size_t r, n;

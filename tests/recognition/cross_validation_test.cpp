@@ -54,7 +54,8 @@ TEST(CrossValidation, ShrinkageAndTheQuadraticRuleHoldOnRealGrasps) {
   EXPECT_GT(meanOfSeeds(all, options), 0.97);
 }
 
-// Every object left out of the training in turn, against known ones that did not teach: strangers are farther away.
+// Every object left out of the training in turn, against known ones that did not teach: strangers
+// are farther away.
 TEST(CrossValidation, StrangersAreTold) {
   const auto folder = goldenFolder();
   PALPATE_NEED(folder);
@@ -85,8 +86,8 @@ TEST(CrossValidation, DoesNotDependOnTheNumberOfThreads) {
   }
 }
 
-// A feature that is the sample's number, and labels without any rule: whoever sees the samples that examine could be
-// right about each; who doesn't is right by chance.
+// A feature that is the sample's number, and labels without any rule: whoever sees the samples that
+// examine could be right about each; who doesn't is right by chance.
 TEST(CrossValidation, NothingOfTheSamplesThatExamineIsKnown) {
   SampleSet samples = clouds(2, 60, 30, 0.0, 5);  // 30 features of pure noise
   PipelineOptions options = ldaAndSvm(1);

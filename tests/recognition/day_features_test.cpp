@@ -28,8 +28,8 @@ std::map<std::string, double> named(const DayFeatures& features) {
   return values;
 }
 
-// 10 frames of growing load while the gap closes from 55 to 50 mm, 30 at rest; then, when `released`, 10 frames of
-// opening to 60 mm.
+// 10 frames of growing load while the gap closes from 55 to 50 mm, 30 at rest; then, when
+// `released`, 10 frames of opening to 60 mm.
 std::vector<PinchStep> steps(bool released) {
   std::vector<PinchStep> all;
   for (int i = 1; i <= 10; ++i)
@@ -70,8 +70,8 @@ TEST(DayFeatures, OfAGraspComputedByHand) {
   EXPECT_EQ(values["entropy"], 0.0);
   EXPECT_EQ(values["skew"], 0.0);
   EXPECT_NEAR(values["ln_active"], std::log(2.0), 1e-12);
-  // Load 235 i of 2350; five-frame mean at the edge (i = 1: frames 1 1 1 2 3) 376, then 517: a quarter is 587.5, reached
-  // at i = 3 with 705. There D is 53.5.
+  // Load 235 i of 2350; five-frame mean at the edge (i = 1: frames 1 1 1 2 3) 376, then 517: a
+  // quarter is 587.5, reached at i = 3 with 705. There D is 53.5.
   EXPECT_EQ(features.startFrame, 2u);
   EXPECT_NEAR(values["compression_mm"], 3.5, 1e-9);
   // Nine tenths of the load: i = 9 with (7 + 8 + 9 + 10 + 10) / 50 = .88, i = 10 with .94.
@@ -160,7 +160,8 @@ TEST(DayFeatures, WhatIsMissingIsSaid) {
   EXPECT_THROW(options.validate(), std::invalid_argument);
 }
 
-// Fingers 0 and 2 side by side against finger 1, which comes five frames later: its pad and finger 0's face each other.
+// Fingers 0 and 2 side by side against finger 1, which comes five frames later: its pad and finger
+// 0's face each other.
 TEST(DayFeatures, AnotherPairOfPadsIsTakenWhereTheFirstDoesNotFaceEachOther) {
   ProfileBuilder builder(sdh2().layout);
   for (int i = 0; i < 40; ++i) {
@@ -182,9 +183,10 @@ TEST(DayFeatures, AnotherPairOfPadsIsTakenWhereTheFirstDoesNotFaceEachOther) {
               1e-3);
 }
 
-// reference/another_day.md, section 1: the thick pen of 28 November reads 4.34 mm less than in September, the hockey ball of the
-// day before 1.34 less (of the soft foam ball, whose pads tilt, the two programs disagree); and section 2: a rigid object reads
-// the same within .23 mm rms of its class.
+// reference/another_day.md, section 1: the thick pen of 28 November reads 4.34 mm less than in
+// September, the hockey ball of the day before 1.34 less (of the soft foam ball, whose pads tilt,
+// the two programs disagree); and section 2: a rigid object reads the same within .23 mm rms of its
+// class.
 TEST(DayFeatures, ReadWhatAnIndependentProgramFoundElevenWeeksLater) {
   const auto folder = testing::recordingsFolder();
   PALPATE_NEED(folder);

@@ -16,7 +16,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Two classes of four samples each in a plane: means (0, 0) and (10, 0), own covariance diag(4/3, 4/3) both.
+// Two classes of four samples each in a plane: means (0, 0) and (10, 0), own covariance diag(4/3,
+// 4/3) both.
 struct Square {
   MatrixXd x{{1, 1}, {1, -1}, {-1, 1}, {-1, -1}, {11, 1}, {11, -1}, {9, 1}, {9, -1}};
   std::vector<int> y{0, 0, 0, 0, 1, 1, 1, 1};

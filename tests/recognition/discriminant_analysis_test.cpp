@@ -28,8 +28,8 @@ struct Cross {
   }
 };
 
-// Two classes: w is along S_w^-1 (m_1 - m_0) (Fisher). S_w = diag(4 a^2, 4 b^2) / 6, the means lie 2 d apart,
-// S_b = 8 d d' (1 degree of freedom), lambda = 8 d' S_w^-1 d.
+// Two classes: w is along S_w^-1 (m_1 - m_0) (Fisher). S_w = diag(4 a^2, 4 b^2) / 6, the means lie
+// 2 d apart, S_b = 8 d d' (1 degree of freedom), lambda = 8 d' S_w^-1 d.
 TEST(DiscriminantAnalysis, FindsFishersDirectionOfTwoClasses) {
   const double a = 0.5, b = 2.0;
   const Eigen::Vector2d d(3.0, 1.0);

@@ -1,5 +1,6 @@
-// Another day of the emulated hand, whose joints were referenced anew: seven cylinders that differ by 4 mm and in nothing else. One
-// touch of the empty hand makes it as good as on the day of training; a hand that reads 4 mm wrong calls each by its neighbour's name.
+// Another day of the emulated hand, whose joints were referenced anew: seven cylinders that differ
+// by 4 mm and in nothing else. One touch of the empty hand makes it as good as on the day of
+// training; a hand that reads 4 mm wrong calls each by its neighbour's name.
 #include <cmath>
 #include <cstdio>
 #include <string>

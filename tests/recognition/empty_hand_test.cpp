@@ -19,7 +19,8 @@ namespace {
 using testing::pinchProfile;
 using testing::PinchStep;
 
-// The pads of an empty hand touch `touches` times for 30 frames, each with 1000 counts; the joints say `gapMm`.
+// The pads of an empty hand touch `touches` times for 30 frames, each with 1000 counts; the joints
+// say `gapMm`.
 Profile touches(int count, double gapMm, double stepMm = 0.0) {
   std::vector<PinchStep> steps(10, {gapMm + 10.0});
   for (int i = 0; i < count; ++i) {
@@ -100,7 +101,8 @@ TEST(EmptyHand, TravelsThroughAFile) {
   EXPECT_THROW(emptyHandZeroFrom(emptyHandZeroJson(zero).set("sd_mm", 0.0)), Error);
 }
 
-// The emulated hand, whose joints are referenced wrongly today: one touch of the empty hand tells by how much its sizes are off.
+// The emulated hand, whose joints are referenced wrongly today: one touch of the empty hand tells
+// by how much its sizes are off.
 TEST(EmptyHand, OneTouchOfTheEmulatedHandTellsTheOffsetOfTheDay) {
   Scene empty, pinch;
   empty.preshape = "pinch-empty";

@@ -1,4 +1,5 @@
-// The study's features of the shared grasps (golden/grasp_features.csv) as samples to learn from; and small made ones.
+// The study's features of the shared grasps (golden/grasp_features.csv) as samples to learn from;
+// and small made ones.
 #pragma once
 
 #include <cstdint>
@@ -60,8 +61,8 @@ inline SampleSet studySubset(const SampleSet& study, const std::string& name) {
   return study.columns(columns);
 }
 
-// `perClass` samples of each of `classes` round clouds of sd 1 whose centres lie `apart` from each other or more, in
-// `features` dimensions.
+// `perClass` samples of each of `classes` round clouds of sd 1 whose centres lie `apart` from each
+// other or more, in `features` dimensions.
 inline SampleSet clouds(int classes, int perClass, int features, double apart, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal;

@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::int64_t kStepUs = 40'000;
 
-// One letter per frame: '.' nothing, 'a' finger 0 alone, 'b' fingers 0 and 2, 'p' proximal of 0 and distal of 1,
-// 's' as b, saturated, 'm' matrices 1 and 5 with finger 1. '|': a gap of ten seconds.
+// One letter per frame: '.' nothing, 'a' finger 0 alone, 'b' fingers 0 and 2, 'p' proximal of 0 and
+// distal of 1, 's' as b, saturated, 'm' matrices 1 and 5 with finger 1. '|': a gap of ten seconds.
 Profile profileOf(const std::string& letters, double sum = 100.0) {
   ProfileBuilder builder(sdh2().layout);
   std::int64_t nowUs = 1'400'000'000'000'000;
@@ -266,8 +266,9 @@ TEST(GraspSegments, OfTheStudyAgreeWithTheGoldenOnes) {
   EXPECT_GE(compared, 571);
 }
 
-// Grasps of several recordings, counted by a program that shares nothing with this one (bz2, ElementTree, the rules as
-// they are written); over all 609 shared recordings it and this one agree in every frame and finger.
+// Grasps of several recordings, counted by a program that shares nothing with this one (bz2,
+// ElementTree, the rules as they are written); over all 609 shared recordings it and this one agree
+// in every frame and finger.
 TEST(GraspSegments, OfRealRecordingsAreThoseOfAnIndependentCount) {
   const auto folder = testing::recordingsFolder();
   PALPATE_NEED(folder);

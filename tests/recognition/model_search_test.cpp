@@ -56,7 +56,8 @@ TEST(ModelSearch, SaysWhenThereIsTooLittle) {
   EXPECT_THROW(searchModel(clouds(3, 15, 3, 30.0, 4), {}, [](double) { return false; }), Cancelled);
 }
 
-// Of six features two tell the classes apart: they are the last to go, and the others aren't missed.
+// Of six features two tell the classes apart: they are the last to go, and the others aren't
+// missed.
 TEST(ModelSearch, EliminationKeepsWhatTellsClassesApart) {
   SampleSet samples = clouds(4, 25, 6, 0.0, 6);
   for (std::size_t i = 0; i < samples.y.size(); ++i) {

@@ -13,8 +13,8 @@
 
 namespace palpate::testing {
 
-// Fingers 0 and 2 face each other at phi0 = 90 degrees. With the proximal joint at b and the distal one at -b the fingertips
-// stay upright, and by trigonometry their flat parts are
+// Fingers 0 and 2 face each other at phi0 = 90 degrees. With the proximal joint at b and the distal
+// one at -b the fingertips stay upright, and by trigonometry their flat parts are
 //   66 - 2 * 86.5 sin b - 2 * 14.8 mm apart.
 inline std::vector<double> anglesForGap(double gapMm) {
   const double b = std::asin((66.0 - 29.6 - gapMm) / 173.0) * 180.0 / std::numbers::pi;
@@ -25,7 +25,7 @@ struct PinchStep {
   double gapMm = 50.0;
   float first = 0.0F,
         // counts of taxel (2, 10) of matrix 1, (3, 10) of matrix 5: opposite each other
-        second = 0.0F;
+      second = 0.0F;
   // More of the first pad: column, row, counts; the second one's are opposite.
   std::vector<std::tuple<int, int, float>> more = {};
 };

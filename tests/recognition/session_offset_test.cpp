@@ -16,7 +16,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Objects that differ in size and, a little, in shape. Sizes [mm]; 20 grasps each; scatter .3 mm and .1.
+// Objects that differ in size and, a little, in shape. Sizes [mm]; 20 grasps each; scatter .3 mm
+// and .1.
 class SizesWorld {
  public:
   explicit SizesWorld(std::vector<double> sizesMm) : sizesMm_(std::move(sizesMm)) {}
@@ -151,7 +152,8 @@ TEST(SessionOffset, AGivenOneIsNotChanged) {
 }
 
 TEST(SessionOffset, AVerdictSumsOverWhatIsNotKnown) {
-  // One class at 30, one at 33 mm, read 30: with offset 0 the first, with -3 the second, with +-3 mm both are likely.
+  // One class at 30, one at 33 mm, read 30: with offset 0 the first, with -3 the second, with +-3
+  // mm both are likely.
   SizesWorld world({30, 90, 91, 33});
   const DayModel model = world.model();
   const VectorXd x{{sizeZ(30.0), 0.0}};

@@ -39,8 +39,8 @@ TEST(StudyFeatures, AreFiftyFour) {
   EXPECT_EQ(names[53], "m5_T44");
 }
 
-// 30 frames: the gap closes from 53 to 50 mm within 10 frames and stays; both pads touch at one taxel of 1777 counts (half
-// of 3554), and of the other 2493.
+// 30 frames: the gap closes from 53 to 50 mm within 10 frames and stays; both pads touch at one
+// taxel of 1777 counts (half of 3554), and of the other 2493.
 TEST(StudyFeatures, OfAGraspComputedByHand) {
   std::vector<PinchStep> steps;
   for (int i = 0; i < 30; ++i) steps.push_back({std::max(50.0, 53.0 - 0.3 * i), 1777.0F, 2493.0F});

@@ -18,7 +18,8 @@ using testing::TemporaryFolder;
 
 constexpr std::int64_t kHourUs = 3600LL * 1'000'000;
 
-// Grasps of things of 20, 30, .. mm, told by size (sd .5 mm) and one more feature, read with an offset.
+// Grasps of things of 20, 30, .. mm, told by size (sd .5 mm) and one more feature, read with an
+// offset.
 SampleSet things(int classes, int perClass, double offsetMm, std::uint64_t seed) {
   SampleSet samples = clouds(classes, perClass, 2, 0.0, seed);
   samples.features = {"size_z", "ln_sum"};

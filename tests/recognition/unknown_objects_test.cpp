@@ -47,8 +47,8 @@ TEST(UnknownObjects, TwoClassesAreTooFew) {
       Cancelled);
 }
 
-// They differ by 5 to 8 mm and in nothing else, all read 4 mm too wide on the other day: a stranger is as large as a known one that
-// is read wrong.
+// They differ by 5 to 8 mm and in nothing else, all read 4 mm too wide on the other day: a stranger
+// is as large as a known one that is read wrong.
 SampleSet things(double offsetMm, std::uint64_t seed) {
   constexpr double kSizesMm[] = {20.0, 25.0, 32.0, 38.0, 46.0, 53.0};
   SampleSet samples = clouds(6, 10, 2, 0.0, seed);

@@ -132,8 +132,8 @@ TEST(DsaWriter, roundTripsRealRecordings) {
   EXPECT_GE(files, testing::exhaustive() ? 600u : 60u);
 }
 
-// What the reader of the prior program's rules (tests/recording/prior_program_reader.py) counts: "frames
-// temperatures angles"; what it refuses is a failure.
+// What the reader of the prior program's rules (tests/recording/prior_program_reader.py) counts:
+// "frames temperatures angles"; what it refuses is a failure.
 std::string readByThePriorProgram(const std::filesystem::path& path) {
   const auto reader =
       std::filesystem::path(PALPATE_INDEPENDENT_READER).parent_path() / "prior_program_reader.py";

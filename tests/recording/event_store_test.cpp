@@ -1,4 +1,5 @@
-// Events saved into recordings that lie on disk: what is written, what is refused, and what readers see.
+// Events saved into recordings that lie on disk: what is written, what is refused, and what readers
+// see.
 #include "palpate/recording/event_store.h"
 
 #include <algorithm>

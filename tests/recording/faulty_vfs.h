@@ -1,5 +1,5 @@
-// An SQLite file system that fails on demand: the disk fills up, writes go wrong, the power goes. It
-// stands on the default one and knows for every file what has been synced and what has not.
+// An SQLite file system that fails on demand: the disk fills up, writes go wrong, the power goes.
+// It stands on the default one and knows for every file what has been synced and what has not.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +38,8 @@ class FaultyVfs {
   std::int64_t operations() const { return operations_; }
   bool struck() const { return struck_; }
 
-  // What the disk holds after the power cut: of each file what was synced, and any part of what came
-  // since, in any combination, torn at multiples of 512 bytes. Written to `folder`.
+  // What the disk holds after the power cut: of each file what was synced, and any part of what
+  // came since, in any combination, torn at multiples of 512 bytes. Written to `folder`.
   void writeRemains(const std::filesystem::path& folder, std::mt19937& random) const;
 
   // Of one open file, called by the file system. What was in it before counts as synced.

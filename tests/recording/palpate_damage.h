@@ -86,8 +86,8 @@ inline std::set<std::size_t> framesOf(const Profile& profile) {
   return found;
 }
 
-// R5. Cuts the file or changes bytes anywhere; every frame of every block that was not hit comes back,
-// none is wrong, and opening gives right frames or an error.
+// R5. Cuts the file or changes bytes anywhere; every frame of every block that was not hit comes
+// back, none is wrong, and opening gives right frames or an error.
 class DamageRun {
  public:
   explicit DamageRun(std::size_t numFrames) : numFrames_(numFrames) {
@@ -156,7 +156,8 @@ class DamageRun {
   std::size_t rounds_ = 0;
 };
 
-// R4. Recovery in a process of its own, killed after `spin` turns of a loop; then again, undisturbed.
+// R4. Recovery in a process of its own, killed after `spin` turns of a loop; then again,
+// undisturbed.
 class KilledRecovery {
  public:
   KilledRecovery() {

@@ -152,8 +152,9 @@ inline void failOnceAt(FaultyVfs::Fault fault, std::int64_t n) {
   expectFrames(folder / "r.palpate", kRunFrames, kRunFrames);
 }
 
-// R1, without the port. A process of its own records as fast as it can, tells through a pipe how many
-// frames are committed, and is killed when it has told of `commits`; `spin` varies the moment within.
+// R1, without the port. A process of its own records as fast as it can, tells through a pipe how
+// many frames are committed, and is killed when it has told of `commits`; `spin` varies the moment
+// within.
 inline void killAfter(unsigned commits, unsigned spin) {
   SCOPED_TRACE("after " + std::to_string(commits) + " commits");
   const TemporaryFolder folder;

@@ -1,5 +1,5 @@
-// The long forms of the reliability table for native recordings: 1000 kills, 1000 power cuts, 10,000
-// damaged files, 200 killed recoveries.
+// The long forms of the reliability table for native recordings: 1000 kills, 1000 power cuts,
+// 10,000 damaged files, 200 killed recoveries.
 #include "recording/palpate_damage.h"
 #include "recording/palpate_faults.h"
 

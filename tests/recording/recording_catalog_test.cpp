@@ -1,4 +1,5 @@
-// A folder of recordings, gone through again and again: what is read anew, what comes from the cache.
+// A folder of recordings, gone through again and again: what is read anew, what comes from the
+// cache.
 #include "palpate/recording/recording_catalog.h"
 
 #include <algorithm>

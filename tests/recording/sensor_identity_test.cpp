@@ -1,4 +1,5 @@
-// C-E4: which sensor a matrix was is kept, so that a worn-out one can be told apart in old recordings.
+// C-E4: which sensor a matrix was is kept, so that a worn-out one can be told apart in old
+// recordings.
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"

@@ -39,7 +39,8 @@ std::map<std::string, std::string> contentOf(const fs::path& folder) {
   return content;
 }
 
-// A recorder in a process of its own that has committed 60 frames, and goes on living until it is killed.
+// A recorder in a process of its own that has committed 60 frames, and goes on living until it is
+// killed.
 class OtherRecorder {
  public:
   explicit OtherRecorder(const fs::path& path) {

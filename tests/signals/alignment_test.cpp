@@ -32,7 +32,8 @@ std::vector<std::int64_t> every(std::int64_t stepMs, std::size_t count, std::int
   return stamps;
 }
 
-// A: 40 frames, 50 ms apart, touched from 0.50 s on. B: began 7.25 s later, 20 ms apart, from 0.30 s on.
+// A: 40 frames, 50 ms apart, touched from 0.50 s on. B: began 7.25 s later, 20 ms apart, from 0.30
+// s on.
 class AlignmentTest : public ::testing::Test {
  protected:
   TimedProfile a_ = timedProfile(recorded(every(50, 40), 10));

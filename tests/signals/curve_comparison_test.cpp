@@ -141,7 +141,8 @@ TEST(CurveComparison, GapsBeginWhereTimingSaysThem) {
   EXPECT_DOUBLE_EQ(gapFromS({}), 1.0);
 }
 
-// Two grasps of the same object are more alike from their contacts on than from where recording happened to begin.
+// Two grasps of the same object are more alike from their contacts on than from where recording
+// happened to begin.
 TEST(CurveComparisonOfRealGrasps, ContactsAlignBetterThanStarts) {
   const auto folder = testing::recordingsFolder();
   PALPATE_NEED(folder);

@@ -16,8 +16,9 @@ namespace {
 using Kind = SeriesChoice::Kind;
 constexpr std::int64_t kStartUs = 1'400'000'000'000'000;
 
-// Ten frames 100 ms apart; frame i: 10 * (i + 1) counts at (7, 2), 4 * i at (8, 3) of matrix 1. Angles every 40 ms
-// from 20 ms before the first frame; axis 3 goes up by a degree each. Temperatures: sensor 2 says nothing.
+// Ten frames 100 ms apart; frame i: 10 * (i + 1) counts at (7, 2), 4 * i at (8, 3) of matrix 1.
+// Angles every 40 ms from 20 ms before the first frame; axis 3 goes up by a degree each.
+// Temperatures: sensor 2 says nothing.
 Profile small() {
   ProfileBuilder builder(sdh2().layout);
   for (int i = 0; i < 10; ++i) {

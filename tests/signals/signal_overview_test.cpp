@@ -80,7 +80,8 @@ TEST(SignalOverview, RefusesWhatMakesNoSense) {
 }
 
 TEST(SignalOverview, HasABoundWhateverTimeIsClaimed) {
-  // Two frames, a hundred years apart: a bucket per second would be 3.2 billion of them in each series.
+  // Two frames, a hundred years apart: a bucket per second would be 3.2 billion of them in each
+  // series.
   ProfileBuilder builder(sdh2().layout);
   std::vector<float> values(sdh2().layout->numPlaces(), 0.0F);
   values[5] = 70.0F;

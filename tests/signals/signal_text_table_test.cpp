@@ -1,4 +1,5 @@
-// The signals of a frame as a table: a row per matrix, all together last; numbers worked out by hand.
+// The signals of a frame as a table: a row per matrix, all together last; numbers worked out by
+// hand.
 #include "palpate/signals/signal_text_table.h"
 
 #include <string>

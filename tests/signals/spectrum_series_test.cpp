@@ -1,4 +1,5 @@
-// Spectra of what recordings are like: gaps, values that are none, series that are too short or too long.
+// Spectra of what recordings are like: gaps, values that are none, series that are too short or too
+// long.
 #include <stdexcept>
 
 #include "palpate/signals/spectrum.h"

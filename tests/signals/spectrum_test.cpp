@@ -86,8 +86,8 @@ TEST(Spectrum, OfAToneAtABinReadsItsAmplitudeThere) {
   }
 }
 
-// Between bins: the transform of the periodic Hann window, W(d) = D(d)/2 + (D(d-1) + D(d+1))/4 with the Dirichlet
-// kernel D(d) = sum e^(2 pi i d n / N), a geometric series.
+// Between bins: the transform of the periodic Hann window, W(d) = D(d)/2 + (D(d-1) + D(d+1))/4 with
+// the Dirichlet kernel D(d) = sum e^(2 pi i d n / N), a geometric series.
 TEST(Spectrum, OfAToneBetweenBinsLosesTheScallopingOfTheHannWindow) {
   const int n = 256;
   const auto dirichlet = [](double d) {
@@ -163,8 +163,9 @@ TEST(Spectrum, OfAJitteredToneIsWithinOneBinAndOnePercent) {
   }
 }
 
-// What linear interpolation leaves of e^(i w t) at a place u of an interval L, (1-u) e^(-i w u L) + u e^(i w (1-u) L), is
-// on average over u sinc^2(f L); an interval holds points in proportion to its length.
+// What linear interpolation leaves of e^(i w t) at a place u of an interval L, (1-u) e^(-i w u L) +
+// u e^(i w (1-u) L), is on average over u sinc^2(f L); an interval holds points in proportion to
+// its length.
 TEST(Spectrum, OfAJitteredToneNearNyquistIsDampedAsTheFormulaSays) {
   const auto timeS = jitteredTimes(20'000, 74.0);
   const SpectrumOptions options{.window = 128, .overlap = 64};

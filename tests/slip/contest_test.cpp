@@ -80,7 +80,8 @@ TEST(LoadField, OfNothingIsNothing) {
   EXPECT_FALSE(contest(pair.key, pair.then(), kFromRest, {}).computed);
 }
 
-// By hand: ((0 + 1) / (3 + 1))^3 = 1/64 where the better one fits perfectly; ((39 + 1) / (9 + 1))^(3 / 1.9).
+// By hand: ((0 + 1) / (3 + 1))^3 = 1/64 where the better one fits perfectly; ((39 + 1) / (9 +
+// 1))^(3 / 1.9).
 TEST(Contest, WeighsResiduals) {
   const ContestOptions options{.sharpness = 3.0, .misfit = 10.0};
   EXPECT_DOUBLE_EQ(probabilityMoved(0.0, 0.0, options), 0.5);

@@ -25,7 +25,8 @@ TEST(KeyFrame, GoesThroughItsTaxels) {
     }
 }
 
-// A parabola is what a cubic spline holds exactly. Two places beyond the edges it is mirrored, which leaves half a count.
+// A parabola is what a cubic spline holds exactly. Two places beyond the edges it is mirrored,
+// which leaves half a count.
 TEST(KeyFrame, IsExactForAParabola) {
   const MatrixLayout layout = MatrixLayout::full(14, 6, 3.4);
   const auto surface = [](double x, double y) {

@@ -23,7 +23,8 @@ TEST(LearnedSurface, BeginsAsTheKeyFrameItIsGiven) {
     for (float x = 0.0F; x <= 5.0F; x += 0.29F) {
       const KeyFrame::Sample expected = key.at(x, y);
       const LearnedSurface::Sample sample = surface.at(x, y);
-      // The finer spline is the same function, but close to the rim, where what is outside was bounded.
+      // The finer spline is the same function, but close to the rim, where what is outside was
+      // bounded.
       if (x < 1.0F || x > 4.0F || y < 1.0F || y > 12.0F) continue;
       EXPECT_NEAR(sample.value, expected.value, 0.1F) << x << " " << y;
       EXPECT_NEAR(sample.alongX, expected.alongX, 0.5F) << x << " " << y;
@@ -31,7 +32,8 @@ TEST(LearnedSurface, BeginsAsTheKeyFrameItIsGiven) {
     }
 }
 
-// What lies between the taxels comes to light when the contact moves: compared with frames that it never saw.
+// What lies between the taxels comes to light when the contact moves: compared with frames that it
+// never saw.
 TEST(LearnedSurface, GetsBetterBetweenTheTaxels) {
   SyntheticSensor sensor;
   SyntheticSlip slip(sensor, 3);

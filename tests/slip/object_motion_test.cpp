@@ -14,7 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// What contacts at these places feel of an object that moves by t, and turns by w about the base frame's origin.
+// What contacts at these places feel of an object that moves by t, and turns by w about the base
+// frame's origin.
 SlipArrow felt(const Vector3d& at, const Vector3d& normal, const Vector3d& t, const Vector3d& w) {
   SlipArrow arrow;
   arrow.originMm = at;
@@ -40,7 +41,8 @@ TEST(ObjectMotion, ThreeContactsTellAll) {
   EXPECT_NEAR((motion.translationMm - (t + w.cross(motion.centerMm))).norm(), 0.0, 1e-7);
 }
 
-// Two fingers face each other along x, both surfaces upright. What they can't feel: the way along x, and turning about it.
+// Two fingers face each other along x, both surfaces upright. What they can't feel: the way along
+// x, and turning about it.
 TEST(ObjectMotion, TwoContactsLeaveTheTurnBetweenThemFree) {
   const Vector3d t(0.0, 1.0, -2.0), w(0.0, 0.02, 0.05);
   const std::vector<SlipArrow> arrows = {felt({30, 0, 0}, {-1, 0, 0}, t, w),
@@ -86,7 +88,8 @@ TEST(ObjectMotion, ContradictionsRemainAsResidual) {
   EXPECT_THROW(objectMotion(arrows), std::invalid_argument);
 }
 
-// A taxel's tangents from kinematics: the arrow of one column to the right leads to the neighbour's place.
+// A taxel's tangents from kinematics: the arrow of one column to the right leads to the neighbour's
+// place.
 TEST(SlipArrow, LiesOnTheSurface) {
   const HandGeometry geometry;
   const HandPose pose = geometry.pose({0, -30, 30, -20, 25, -30, 30});

@@ -66,7 +66,8 @@ TEST(SlipAccuracy, JudgesByTheTruth) {
   options.trials = 4;
   const auto results = measureSlipAccuracy({fixed, silent}, options);
   const SlipAccuracy& wrong = results.at(0).all;
-  // The steps themselves: 0.6 * 0.13 / sqrt 2 along x and 1.2 * 0.09 / sqrt 2 along y (rms), uncorrelated with 0.05.
+  // The steps themselves: 0.6 * 0.13 / sqrt 2 along x and 1.2 * 0.09 / sqrt 2 along y (rms),
+  // uncorrelated with 0.05.
   const double x2 = std::pow(0.6 * 0.13, 2) / 2.0 + 0.05 * 0.05;
   const double y2 = std::pow(1.2 * 0.09, 2) / 2.0;
   EXPECT_NEAR(wrong.rmse, std::sqrt((x2 + y2) / 2.0), 0.01);

@@ -8,8 +8,9 @@ namespace palpate::slip_bound_test {
 namespace {
 
 TEST(SlipBound, OfAGaussianIsTheClosedForm) {
-  // Sum over taxels of (dF/dx)^2 = peak^2 pi / 2 for a sampled Gaussian wide enough; the mean over a taxel widens it to
-  // s^2 + 1/12 and lowers the peak by s^2/(s^2 + 1/12), which leaves (s^2/(s^2+1/12))^2 of it. Two frames: factor sqrt 2.
+  // Sum over taxels of (dF/dx)^2 = peak^2 pi / 2 for a sampled Gaussian wide enough; the mean over
+  // a taxel widens it to s^2 + 1/12 and lowers the peak by s^2/(s^2 + 1/12), which leaves
+  // (s^2/(s^2+1/12))^2 of it. Two frames: factor sqrt 2.
   SyntheticSensor sensor;
   sensor.layout = MatrixLayout::full(30, 30, 3.4);
   sensor.thresholdCounts = 0.0;

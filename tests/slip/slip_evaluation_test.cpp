@@ -30,7 +30,8 @@ Profile moving(double step) {
   return builder.finish({});
 }
 
-// 0.2 per frame: more than 1 taxel within 10 frames from frame 56 to 64; 0.2 away from the place of frame 46 at 52.
+// 0.2 per frame: more than 1 taxel within 10 frames from frame 56 to 64; 0.2 away from the place of
+// frame 46 at 52.
 TEST(LabelSlips, GoesByTheRule) {
   const auto labels = labelSlips(moving(0.2));
   ASSERT_EQ(labels.size(), 1U);

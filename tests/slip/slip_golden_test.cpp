@@ -1,4 +1,5 @@
-// Against the numbers of an independent program on two real recordings (its conventions and flaws: docs/slip.md).
+// Against the numbers of an independent program on two real recordings (its conventions and flaws:
+// docs/slip.md).
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -106,8 +107,8 @@ TEST(SlipGolden, AgreesOnEveryRow) {
           EXPECT_NEAR(motion.refDx, row->at("slip_ref_x"), 5e-6);
           EXPECT_NEAR(motion.refDy, row->at("slip_ref_y"), 5e-6);
         }
-        // Its consecutive vector spans two frames: twice ours. Where contact was interrupted it goes on from the old one, we
-        // don't.
+        // Its consecutive vector spans two frames: twice ours. Where contact was interrupted it
+        // goes on from the old one, we don't.
         if (measurableInARow[m] > 2) {
           ++stepsSeen;
           EXPECT_TRUE(halves[m].valid);
@@ -132,7 +133,8 @@ TEST(SlipGolden, AgreesOnEveryRow) {
               std::abs(std::abs(row->at("slip_angle")) - 90.0) > 1e-6) {
             EXPECT_NEAR(rotation.rotationDeg, row->at("slip_angle"), 1e-5);
           }
-          // A change by 90 degrees exactly goes either way, and leaves half a turn between both for good.
+          // A change by 90 degrees exactly goes either way, and leaves half a turn between both for
+          // good.
           if (since.refValid) {
             EXPECT_NEAR(
                 std::remainder(since.refRotationDeg - row->at("slip_angle_ref"), 180.0), 0.0, 1e-5);

@@ -7,7 +7,8 @@
 namespace palpate::slip_rule_test {
 namespace {
 
-// A contact of age 100 in which one window sees the centroid and the registration shifted by the same amount.
+// A contact of age 100 in which one window sees the centroid and the registration shifted by the
+// same amount.
 SlipEvidence shifted(SlipWindow window, double taxels, double pMoved = 1.0, double logRise = 0.0) {
   SlipEvidence evidence{.computable = true, .contactAge = 100, .windows = {}};
   WindowEvidence& seen = evidence.windows[window];

@@ -1,4 +1,5 @@
-// What slip detection is to reach (docs/slip.md): on synthetic truth, and on the real recordings where they are.
+// What slip detection is to reach (docs/slip.md): on synthetic truth, and on the real recordings
+// where they are.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -120,7 +121,8 @@ TEST(SlipTargets, CreepIsFlaggedWithinFortyFrames) {
   EXPECT_GE(found, 0.98 * trials) << found << " of " << trials;
 }
 
-// At most 15 alarms per matrix-hour of settled contact, 90 % of slips found, and better than the plain centroid.
+// At most 15 alarms per matrix-hour of settled contact, 90 % of slips found, and better than the
+// plain centroid.
 TEST(SlipTargets, RealHoldsAreQuietAndRealSlipsFound) {
   const auto folder = testing::recordingsFolder();
   PALPATE_NEED(folder);

@@ -25,7 +25,8 @@ SlipTracker trackerOf(SlipMethod method,
   return SlipTracker(layout, options);
 }
 
-// How far a method may be off over a walk of about a taxel, and in a step: the correlations pull [taxels].
+// How far a method may be off over a walk of about a taxel, and in a step: the correlations pull
+// [taxels].
 double allowance(SlipMethod method) {
   switch (method) {
     case SlipMethod::kRegister:

@@ -6,7 +6,8 @@
 
 namespace palpate::testing {
 
-// Looks every millisecond. False: not within the limit, so long that nothing but a fault lasts longer.
+// Looks every millisecond. False: not within the limit, so long that nothing but a fault lasts
+// longer.
 template <typename Condition>
 bool awaited(Condition&& condition, std::chrono::milliseconds limit = std::chrono::seconds(20)) {
   const auto end = std::chrono::steady_clock::now() + limit;

@@ -21,8 +21,8 @@ class BackgroundProgram {
   BackgroundProgram(const BackgroundProgram&) = delete;
   BackgroundProgram& operator=(const BackgroundProgram&) = delete;
 
-  // Waits for a line of standard output that contains `text`; nothing when time is over or the program
-  // has ended without one.
+  // Waits for a line of standard output that contains `text`; nothing when time is over or the
+  // program has ended without one.
   std::optional<std::string> awaitLine(const std::string& text,
                                        std::chrono::milliseconds limit = std::chrono::seconds(20));
   void signal(int number);

@@ -12,14 +12,16 @@ namespace palpate::testing {
 // For what must happen at a certain moment [CLOCK_MONOTONIC, us].
 void sleepUntilUs(std::int64_t monotonicUs);
 
-// Times of wake-ups that were late, of threads on several cores. All times are those of CLOCK_MONOTONIC [us], as
-// systemClock().monotonicUs().
+// Times of wake-ups that were late, of threads on several cores. All times are those of
+// CLOCK_MONOTONIC [us], as systemClock().monotonicUs().
 class LateWakeUps {
  public:
-  // A thread wanted to wake at `dueUs` and woke at `wokeUs`; meanwhile its own process, all threads together, computed
-  // for `ownWorkUs`. What the process itself computed is not held against the machine.
+  // A thread wanted to wake at `dueUs` and woke at `wokeUs`; meanwhile its own process, all threads
+  // together, computed for `ownWorkUs`. What the process itself computed is not held against the
+  // machine.
   void note(std::int64_t dueUs, std::int64_t wokeUs, std::int64_t ownWorkUs);
-  // How much of this stretch of time a core stood still: what was so on several cores at once counts once.
+  // How much of this stretch of time a core stood still: what was so on several cores at once
+  // counts once.
   std::int64_t standstillUs(std::int64_t beginUs, std::int64_t endUs) const;
 
  private:
@@ -29,9 +31,9 @@ class LateWakeUps {
   std::vector<Standstill> standstills_;
 };
 
-// On each core a thread that wants to wake every millisecond, at the same priority as all others, and notes when it
-// could not. A thread that is free to go elsewhere would only notice when all cores stand still; what is tested is a
-// chain of threads that needs each of its links.
+// On each core a thread that wants to wake every millisecond, at the same priority as all others,
+// and notes when it could not. A thread that is free to go elsewhere would only notice when all
+// cores stand still; what is tested is a chain of threads that needs each of its links.
 class Heartbeat {
  public:
   // Returns when each core's thread has woken once.

@@ -1,4 +1,5 @@
-// What this process holds: memory, descriptors, threads. For tests that show that none of them grows.
+// What this process holds: memory, descriptors, threads. For tests that show that none of them
+// grows.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +13,8 @@ struct ProcessFacts {
 };
 
 ProcessFacts processFacts();
-// The least of each over 50 ms: without what is open for a moment only (a journal, a folder being synced).
+// The least of each over 50 ms: without what is open for a moment only (a journal, a folder being
+// synced).
 ProcessFacts leastProcessFacts();
 
 // Sanitizers keep memory of their own: then residentBytes says nothing about ours.

@@ -1,5 +1,6 @@
-// Answers that must come in time. Each is measured once: the first time is the figure. A late one is excused only where
-// a heartbeat proves that the machine stood still for as long as it was late, and is counted and published all the same.
+// Answers that must come in time. Each is measured once: the first time is the figure. A late one
+// is excused only where a heartbeat proves that the machine stood still for as long as it was late,
+// and is counted and published all the same.
 #pragma once
 
 #include <cstdint>
@@ -40,11 +41,11 @@ class Punctuality {
   explicit Punctuality(std::string name, PunctualityLimits limits = {});
   // From the call to the answer, both by CLOCK_MONOTONIC [us].
   void took(std::int64_t beginUs, std::int64_t endUs);
-  // A call that could not be made or whose answer something else forestalled, in this stretch of time. That is a
-  // failure, unless the machine stood still for `forUs` of it.
+  // A call that could not be made or whose answer something else forestalled, in this stretch of
+  // time. That is a failure, unless the machine stood still for `forUs` of it.
   void lost(std::int64_t beginUs, std::int64_t endUs, std::int64_t forUs, const std::string& why);
-  // Prints each late answer, then a line `measured {..}` in JSON, which scripts/measure reads; fails the test when the
-  // answers are not punctual.
+  // Prints each late answer, then a line `measured {..}` in JSON, which scripts/measure reads;
+  // fails the test when the answers are not punctual.
   PunctualityReport judge(const std::string& moreJson = "");
 
  private:

@@ -30,13 +30,15 @@ class TemporaryFolder {
 // missing. With PALPATE_REQUIRE_DATA=1 a missing folder throws.
 std::optional<std::filesystem::path> recordingsFolder();
 std::optional<std::filesystem::path> goldenFolder();
-// Whether a test may not be skipped for what this machine lacks, recordings or tools (PALPATE_REQUIRE_DATA=1).
+// Whether a test may not be skipped for what this machine lacks, recordings or tools
+// (PALPATE_REQUIRE_DATA=1).
 bool mustShow();
 // The project's own folder data/.
 std::filesystem::path dataFolder();
 
-// Whether every recording and every size is wanted (PALPATE_EXHAUSTIVE=1, the slow suite). Else tests over all
-// shared recordings take those that differ, and a twentieth of the grasps by class, which are alike.
+// Whether every recording and every size is wanted (PALPATE_EXHAUSTIVE=1, the slow suite). Else
+// tests over all shared recordings take those that differ, and a twentieth of the grasps by class,
+// which are alike.
 bool exhaustive();
 // The .dsa files below `folder` that such a test takes, in the order of their paths.
 std::vector<std::filesystem::path> recordingsToTry(const std::filesystem::path& folder);

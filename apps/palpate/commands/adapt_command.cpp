@@ -1,4 +1,5 @@
-// palpate adapt MODEL.json [PATH] -o MODEL2.json: the session offset of today, from the touch of the empty hand and labelled grasps.
+// palpate adapt MODEL.json [PATH] -o MODEL2.json: the session offset of today, from the touch of
+// the empty hand and labelled grasps.
 #include <filesystem>
 #include <iterator>
 #include <optional>

@@ -22,8 +22,8 @@ std::optional<Tare> tareIn(const std::filesystem::path& file, const SensorLayout
   return tare;
 }
 
-// With what the window noted of the recording's sensor, else what the controller itself reported, where the command line
-// says nothing.
+// With what the window noted of the recording's sensor, else what the controller itself reported,
+// where the command line says nothing.
 PressureMapOptions withNoted(PressureMapOptions options, const std::filesystem::path& file) {
   if (!options.settings.empty()) return options;
   std::optional<SensorSettings> noted;  // that was said last

@@ -1,4 +1,5 @@
-// The frames of a recording through a calibration: what `calibrate apply` and `contact --calibration` share.
+// The frames of a recording through a calibration: what `calibrate apply` and `contact
+// --calibration` share.
 #pragma once
 
 #include <filesystem>
@@ -29,7 +30,8 @@ std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given);
 
 class CalibratedFrames {
  public:
-  // Takes off the tare that the recording's events hold. Throws Error for a sensor that the calibration can't serve.
+  // Takes off the tare that the recording's events hold. Throws Error for a sensor that the
+  // calibration can't serve.
   CalibratedFrames(const CalibrationChoice& choice,
                    const std::filesystem::path& file,
                    const Profile& profile);

@@ -38,7 +38,8 @@ struct CommandSpec {
 // What the command was given.
 class CommandLine {
  public:
-  // Throws UsageError. With --help, prints the help; then helpShown() is true and nothing else counts.
+  // Throws UsageError. With --help, prints the help; then helpShown() is true and nothing else
+  // counts.
   CommandLine(const CommandSpec& spec, const std::vector<std::string>& words);
 
   bool helpShown() const noexcept { return helpShown_; }
@@ -63,8 +64,8 @@ class CommandLine {
   bool helpShown_ = false;
 };
 
-// Shows a percentage on stderr for work that takes over a second; silent when quiet or when stderr is
-// no terminal. Keep it alive while the callback is used.
+// Shows a percentage on stderr for work that takes over a second; silent when quiet or when stderr
+// is no terminal. Keep it alive while the callback is used.
 class ProgressLine {
  public:
   ProgressLine(std::string label, bool quiet);

@@ -96,7 +96,8 @@ int fail(int code, std::string_view message) {
 }
 
 // A closed standard stream would give its number to the next file that is opened, and what is meant
-// for the terminal would end up in it. Opened for the wrong direction: using it fails, as it should.
+// for the terminal would end up in it. Opened for the wrong direction: using it fails, as it
+// should.
 void fillClosedStreams() {
   for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0)

@@ -57,8 +57,8 @@ int workbenchCommand(const Words& words);
 const std::vector<Command>& allCommands();
 // Runs the whole program; returns its exit code.
 int run(int argc, char** argv);
-// Folder of the program's own data (example recordings): $PALPATE_DATA, else the one that belongs to
-// this program, wherever it lies: ../share/palpate, in a build folder share/palpate.
+// Folder of the program's own data (example recordings): $PALPATE_DATA, else the one that belongs
+// to this program, wherever it lies: ../share/palpate, in a build folder share/palpate.
 std::filesystem::path dataFolder();
 
 }  // namespace palpate::commands

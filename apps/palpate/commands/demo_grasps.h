@@ -1,4 +1,5 @@
-// The live half of `palpate demo`: several emulated hands at once. Each grasps another thing, one lets a pen slip.
+// The live half of `palpate demo`: several emulated hands at once. Each grasps another thing, one
+// lets a pen slip.
 #pragma once
 
 #include <cstddef>
@@ -24,13 +25,15 @@ struct PullTimes {
 // Throws Error: the script doesn't pull and release.
 PullTimes pullTimesOf(const Scene& scene);
 
-// Grasps of the five things that data/emulated_objects.json was taught, and of a handle that it wasn't, by the fingers of six hands
-// that are moved over their ports; a seventh plays the scene slipping_pen. The model was taught on grasps of the same things that
-// were simulated without ports, each time differently placed; here each is placed as in none of them. Steps throw as DemoHand's;
-// each returns its figure.
+// Grasps of the five things that data/emulated_objects.json was taught, and of a handle that it
+// wasn't, by the fingers of six hands that are moved over their ports; a seventh plays the scene
+// slipping_pen. The model was taught on grasps of the same things that were simulated without
+// ports, each time differently placed; here each is placed as in none of them. Steps throw as
+// DemoHand's; each returns its figure.
 class DemoGrasps {
  public:
-  // Throws FileError, FormatError: a scene that isn't there or is wrong. `folder`: where the recordings go.
+  // Throws FileError, FormatError: a scene that isn't there or is wrong. `folder`: where the
+  // recordings go.
   DemoGrasps(const std::filesystem::path& scenes,
              const std::filesystem::path& folder,
              DemoGoOn goOn);
@@ -42,7 +45,8 @@ class DemoGrasps {
   // What was held, and is to be named; and by how many fingers, as the emulator knows it.
   const std::vector<KnownGrasp>& held() const noexcept { return held_; }
   const std::vector<DemoGrip>& grips() const noexcept { return grips_; }
-  // Of the pen that slips: its recording, its script, and what the emulator knew until the recordings were finished.
+  // Of the pen that slips: its recording, its script, and what the emulator knew until the
+  // recordings were finished.
   const std::filesystem::path& slipFile() const noexcept { return slipFile_; }
   const PullTimes& pullTimes() const noexcept { return pullTimes_; }
   const std::vector<DemoTruthFrame>& truth() const noexcept { return truth_; }

@@ -1,5 +1,5 @@
-// One hand of `palpate demo`: emulated, on two ptys of its own, with a capture session on them as on a real hand, and a
-// recording of what it felt.
+// One hand of `palpate demo`: emulated, on two ptys of its own, with a capture session on them as
+// on a real hand, and a recording of what it felt.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,8 @@ class DemoHand {
   DeviceFacts connect();
   // Begins a recording; what came in the seconds before is in it.
   void startRecording(const std::filesystem::path& file);
-  // Over its motion port: closes on the object, holds it, opens again. The scene must have no script.
+  // Over its motion port: closes on the object, holds it, opens again. The scene must have no
+  // script.
   DemoGrip grasp(double closingDegPerS);
   // Returns when the script has come so far [s since the hand was switched on].
   void playScript(double untilS);

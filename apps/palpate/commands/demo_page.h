@@ -1,5 +1,5 @@
-// The page that `palpate demo` leaves: what was done, in plain words, with its figures and pictures; one HTML file that
-// needs no other.
+// The page that `palpate demo` leaves: what was done, in plain words, with its figures and
+// pictures; one HTML file that needs no other.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// The recognition of `palpate demo`: asks a model what was held in each of some recordings of which that is known, and compares.
+// The recognition of `palpate demo`: asks a model what was held in each of some recordings of which
+// that is known, and compares.
 #pragma once
 
 #include <cstddef>
@@ -44,8 +45,8 @@ struct DemoRecognition {
   std::size_t numRight(bool taught) const;  // among those that were taught, or that were not
 };
 
-// The grasps count as one session of a hand whose joints were never referenced anew: session offset 0. Throws Error: a recording
-// that isn't there, or is of another sensor.
+// The grasps count as one session of a hand whose joints were never referenced anew: session offset
+// 0. Throws Error: a recording that isn't there, or is of another sensor.
 DemoRecognition askModel(const TrainedModel& model,
                          const std::vector<KnownGrasp>& grasps,
                          const Progress& progress = {});

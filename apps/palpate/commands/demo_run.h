@@ -14,8 +14,8 @@
 
 namespace palpate::commands {
 
-// The parts in their order; each runs its steps, and skips those that have nothing to work on. They throw Cancelled when the tour
-// shall not go on, report() FileError as well.
+// The parts in their order; each runs its steps, and skips those that have nothing to work on. They
+// throw Cancelled when the tour shall not go on, report() FileError as well.
 class DemoRun {
  public:
   DemoRun(std::filesystem::path folder, DemoGoOn goOn);

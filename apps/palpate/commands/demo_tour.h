@@ -13,7 +13,8 @@
 
 namespace palpate::commands {
 
-// A folder that did not exist: `wanted`, else wanted-2, wanted-3, .. Throws FileError: it can't be made.
+// A folder that did not exist: `wanted`, else wanted-2, wanted-3, .. Throws FileError: it can't be
+// made.
 std::filesystem::path makeDemoFolder(std::filesystem::path wanted);
 
 // Prints "NAME: ok|skipped|failed, FIGURE" for each step.
@@ -21,7 +22,8 @@ class DemoTour {
  public:
   explicit DemoTour(DemoGoOn goOn) : goOn_(std::move(goOn)) {}
 
-  // `work` returns the figure; what it throws makes the step failed. Throws Cancelled when the tour shall not go on.
+  // `work` returns the figure; what it throws makes the step failed. Throws Cancelled when the tour
+  // shall not go on.
   void step(const std::string& name,
             const std::string& what,
             const std::function<std::string()>& work);

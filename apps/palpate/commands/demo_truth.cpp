@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kLeastWayTaxels = 1.0;
 constexpr std::size_t kHoldingMatrices = 2;
-// Stamps of frames that were received lie behind those of their scans: by the line's time, at most two frames.
+// Stamps of frames that were received lie behind those of their scans: by the line's time, at most
+// two frames.
 constexpr std::int64_t kLineUs = 70 * kUsPerMs;
 
 double wayTaxels(const MatrixTruth& from, const MatrixTruth& to) {

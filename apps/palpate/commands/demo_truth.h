@@ -1,5 +1,6 @@
-// What the emulator knows of the pen that `palpate demo` lets slip, beside what the slip detector says of the recording:
-// when it began to move, how far it went, and whether and when that was seen.
+// What the emulator knows of the pen that `palpate demo` lets slip, beside what the slip detector
+// says of the recording: when it began to move, how far it went, and whether and when that was
+// seen.
 #pragma once
 
 #include <cstddef>
@@ -24,15 +25,16 @@ struct DemoTruthFrame {
 // The way of an object over the matrix on which it moved furthest, by the emulator's own mechanics.
 struct DemoMotion {
   std::size_t matrix = 0;
-  // Host times [us since 1970] of the first scan in which it had moved by kDemoMovedTaxels, and of the first one in which it had
-  // made all of its way but so much.
+  // Host times [us since 1970] of the first scan in which it had moved by kDemoMovedTaxels, and of
+  // the first one in which it had made all of its way but so much.
   std::int64_t beganUs = 0;
   std::int64_t endedUs = 0;
   double movedTaxels = 0.0;  // at the end
 };
 inline constexpr double kDemoMovedTaxels = 0.1;
 
-// Between two times of the hand [s]. Nothing: it moved by less than a taxel, or was not held by two matrices at `fromS`.
+// Between two times of the hand [s]. Nothing: it moved by less than a taxel, or was not held by two
+// matrices at `fromS`.
 std::optional<DemoMotion> demoMotion(const std::vector<DemoTruthFrame>& truth,
                                      double fromS,
                                      double untilS);
@@ -59,8 +61,8 @@ struct DemoSlip {
   std::size_t early = 0;
 };
 
-// `truth` and `fromS` as the motion is of: from then on it was held and at rest. An alarm belongs to the motion when it stands
-// between its begin and its end.
+// `truth` and `fromS` as the motion is of: from then on it was held and at rest. An alarm belongs
+// to the motion when it stands between its begin and its end.
 DemoSlip demoSlip(const SlipSeries& series,
                   const std::vector<DemoTruthFrame>& truth,
                   double fromS,

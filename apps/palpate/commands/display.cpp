@@ -20,8 +20,8 @@ bool isSet(const char* variable) {
   return value && *value;
 }
 
-// Asks the X server named by DISPLAY. libxcb is what Qt itself connects with; without it there is no
-// X window either.
+// Asks the X server named by DISPLAY. libxcb is what Qt itself connects with; without it there is
+// no X window either.
 bool xServerAnswers() {
   if (!isSet("DISPLAY")) return false;
   void* library = dlopen("libxcb.so.1", RTLD_LAZY | RTLD_LOCAL);

@@ -5,14 +5,14 @@
 
 namespace palpate::commands {
 
-// True when an X server or a Wayland compositor answers, or QT_QPA_PLATFORM names a platform that is
-// installed and needs none of them.
+// True when an X server or a Wayland compositor answers, or QT_QPA_PLATFORM names a platform that
+// is installed and needs none of them.
 bool hasDisplay();
 // Makes Qt draw without a display (platform "offscreen"): pictures need none.
 void drawWithoutDisplay();
 
-// A folder for XDG_RUNTIME_DIR where nobody is logged in (a server, a container): without one Qt says
-// so on standard error. Removed at the end.
+// A folder for XDG_RUNTIME_DIR where nobody is logged in (a server, a container): without one Qt
+// says so on standard error. Removed at the end.
 class RuntimeFolder {
  public:
   RuntimeFolder();

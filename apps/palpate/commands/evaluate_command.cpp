@@ -1,4 +1,5 @@
-// palpate evaluate PATH: how well grasps are recognised, by cross-validation or by a model on other recordings.
+// palpate evaluate PATH: how well grasps are recognised, by cross-validation or by a model on other
+// recordings.
 #include <algorithm>
 #include <utility>
 

@@ -21,14 +21,15 @@ std::vector<OptionSpec> withFilterOptions(std::vector<OptionSpec> options);
 
 // Empty where none is asked for. Throws UsageError (what a text says), Error (what a file says).
 Recipe recipeOf(const CommandLine& given);
-// The recording as it is where the recipe is empty. Events "settings" restart the filters over time. Throws Error
-// (a matrix that the recording hasn't; a file that can't be read), Cancelled.
+// The recording as it is where the recipe is empty. Events "settings" restart the filters over
+// time. Throws Error (a matrix that the recording hasn't; a file that can't be read), Cancelled.
 Profile lookedAtThrough(const Recipe& recipe,
                         const Profile& profile,
                         const std::filesystem::path& file,
                         const Progress& progress = {});
 
-// --signal NAME, a characteristic signal; nothing where it isn't given. Throws UsageError naming all.
+// --signal NAME, a characteristic signal; nothing where it isn't given. Throws UsageError naming
+// all.
 std::optional<SignalKind> signalChosen(const CommandLine& given);
 
 // All filters with their options, as `palpate filter --list` prints them.

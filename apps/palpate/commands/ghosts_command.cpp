@@ -1,4 +1,5 @@
-// palpate ghosts [PATH...]: how many false taxels filters leave, and what they take of true contacts.
+// palpate ghosts [PATH...]: how many false taxels filters leave, and what they take of true
+// contacts.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -116,8 +117,8 @@ int emulated(const CommandLine& given,
   return kDone;
 }
 
-// What thresholds at the noise floor, or so far below, leave of a recording at threshold 0. The temperature of a
-// matrix is that of the motor beside it.
+// What thresholds at the noise floor, or so far below, leave of a recording at threshold 0. The
+// temperature of a matrix is that of the motor beside it.
 Profile lookedAtOver(double belowCounts,
                      const Profile& profile,
                      const std::filesystem::path& file) {

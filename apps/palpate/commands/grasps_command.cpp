@@ -16,7 +16,8 @@
 namespace palpate::commands {
 namespace {
 
-// The rule of the study names matrices; of a sensor without them "no grasp" would be the wrong answer.
+// The rule of the study names matrices; of a sensor without them "no grasp" would be the wrong
+// answer.
 void requireMatrices(const std::filesystem::path& file,
                      const Profile& profile,
                      const GraspSegmentOptions& options) {

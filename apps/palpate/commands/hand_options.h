@@ -1,4 +1,5 @@
-// What the commands that place taxels in space are told of the hand: joint angles, the fingertips' radius.
+// What the commands that place taxels in space are told of the hand: joint angles, the fingertips'
+// radius.
 #pragma once
 
 #include <filesystem>

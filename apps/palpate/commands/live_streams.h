@@ -1,4 +1,5 @@
-// --to STREAM of the commands that run a hand: what goes to other programs on this machine while they do.
+// --to STREAM of the commands that run a hand: what goes to other programs on this machine while
+// they do.
 #pragma once
 
 #include <cstdint>

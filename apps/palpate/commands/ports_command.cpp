@@ -103,7 +103,8 @@ std::string tableText(const std::vector<Row>& rows) {
   return text;
 }
 
-// The one port with that answer, under its lasting name; nothing when there is none or more than one.
+// The one port with that answer, under its lasting name; nothing when there is none or more than
+// one.
 std::optional<std::string> onlyPort(const std::vector<Row>& rows, PortAnswer answer) {
   std::optional<std::string> found;
   for (const Row& row : rows) {

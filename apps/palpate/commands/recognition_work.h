@@ -1,4 +1,5 @@
-// What train, evaluate, adapt and classify share: gathering features with progress and Ctrl-C, saying what went wrong.
+// What train, evaluate, adapt and classify share: gathering features with progress and Ctrl-C,
+// saying what went wrong.
 #pragma once
 
 #include <cstdint>
@@ -34,18 +35,21 @@ void runInterruptibly(const CommandLine& given,
 FeatureTable gatherTable(const CommandLine& given,
                          const std::vector<std::filesystem::path>& paths,
                          FeatureSet set);
-// --empty-hand-zero: the zero of a recording in which the empty hand closes until its pads touch; nothing: not asked for. Throws
-// Error: there is no touch in it.
+// --empty-hand-zero: the zero of a recording in which the empty hand closes until its pads touch;
+// nothing: not asked for. Throws Error: there is no touch in it.
 std::optional<EmptyHandZero> zeroGiven(const CommandLine& given);
 OptionSpec zeroOptionSpec();
-// Throws Error: it was taken more than half a day from all of these grasps, and says nothing of them.
+// Throws Error: it was taken more than half a day from all of these grasps, and says nothing of
+// them.
 void requireSameDay(const EmptyHandZero& zero, const FeatureTable& table);
-// What the offset is, {mm, sd_mm, origin, grasps, objects, trusted}; `today`: the zero it rests on, where it does.
+// What the offset is, {mm, sd_mm, origin, grasps, objects, trusted}; `today`: the zero it rests on,
+// where it does.
 Json offsetJson(const SessionOffset& offset, const std::optional<EmptyHandZero>& today = {});
 // Says sessionSetWarning() and what learningNotes() has.
 void sayNotes(const CommandLine& given, FeatureSet set, const SampleSet& samples);
 
-// --classifier, --lda, --c, --shrinkage; what isn't given is left as it is in `options`. Throws UsageError.
+// --classifier, --lda, --c, --shrinkage; what isn't given is left as it is in `options`. Throws
+// UsageError.
 void takePipelineOptions(const CommandLine& given, PipelineOptions& options);
 std::vector<OptionSpec> pipelineOptionSpecs();
 

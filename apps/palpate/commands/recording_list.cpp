@@ -70,7 +70,8 @@ class ListRun {
     if (profile.info().format != "palpate") return;
     for (const std::string& warning : profile.info().warnings) note(file.string() + ": " + warning);
   }
-  // Before rows go to a terminal: they would be written behind the progress, and are progress enough.
+  // Before rows go to a terminal: they would be written behind the progress, and are progress
+  // enough.
   void leaveTheTerminal() {
     if (::isatty(STDOUT_FILENO) != 1) return;
     line_.wipe();

@@ -15,8 +15,9 @@ OptionSpec socketOption();
 // The socket that is named, or the usual one. Throws Error where there is no usual one.
 std::filesystem::path remoteSocketOf(const CommandLine& given);
 
-// Runs the session until it is interrupted; -o is a folder, or a template of names in one. Prints "remote=SOCKET" when
-// it is ready, then a line per recording (--json: as the answer to stop). Returns the exit code.
+// Runs the session until it is interrupted; -o is a folder, or a template of names in one. Prints
+// "remote=SOCKET" when it is ready, then a line per recording (--json: as the answer to stop).
+// Returns the exit code.
 int recordRemotely(const CommandLine& given,
                    CaptureSession& session,
                    Interruption& interruption,

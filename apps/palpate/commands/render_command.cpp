@@ -1,5 +1,5 @@
-// palpate render FILE --frame N -o OUT.{png,svg,pdf}: a picture of one frame; --from N --to M -o FOLDER: of each;
-// -o OUT.mp4: a movie of them.
+// palpate render FILE --frame N -o OUT.{png,svg,pdf}: a picture of one frame; --from N --to M -o
+// FOLDER: of each; -o OUT.mp4: a movie of them.
 #include <QGuiApplication>
 #include <algorithm>
 #include <cmath>

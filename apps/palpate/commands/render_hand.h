@@ -28,7 +28,8 @@ struct HandRendering {
   };
   std::optional<Eye> eye = std::nullopt;
 };
-// Draws frames of the hand, from one place for all of `span`. Throws Error for a geometry that isn't there.
+// Draws frames of the hand, from one place for all of `span`. Throws Error for a geometry that
+// isn't there.
 gui::FramePictures::Paint handPainter(const HandRendering& view,
                                       const Profile& profile,
                                       const gui::FrameSpan& span,

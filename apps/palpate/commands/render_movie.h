@@ -12,7 +12,8 @@ namespace palpate::commands {
 
 // By the ending, in small or capital letters.
 bool isMovieName(const std::string& out);
-// What can be said without any file. Throws UsageError: --speed or --fps without a movie, --frame with one.
+// What can be said without any file. Throws UsageError: --speed or --fps without a movie, --frame
+// with one.
 void checkMovieUsage(const CommandLine& given);
 // Throws Error: no ffmpeg, OUT is there already or can't be a file.
 void requireMovie(const std::string& out, Overwrite overwrite);

@@ -7,7 +7,8 @@
 
 namespace palpate::commands {
 
-// FOLDER/slip-detection holds recordings of slip, FOLDER/grasps_by_class of grasps without. Throws Error when there are none.
+// FOLDER/slip-detection holds recordings of slip, FOLDER/grasps_by_class of grasps without. Throws
+// Error when there are none.
 Json slipAlarms(const std::filesystem::path& folder, bool quiet);
 
 }  // namespace palpate::commands

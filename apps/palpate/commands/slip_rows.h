@@ -1,4 +1,5 @@
-// Slip as CSV: what `palpate slip` prints, and `palpate demo` writes, a row per frame and matrix with an active taxel.
+// Slip as CSV: what `palpate slip` prints, and `palpate demo` writes, a row per frame and matrix
+// with an active taxel.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,8 @@ namespace palpate::commands {
 
 // Without line end.
 extern const char* const kSlipColumns;
-// Gives `sink` row after row, without line end; of one matrix, or of all. Throws as passSlip, and what the sink throws.
+// Gives `sink` row after row, without line end; of one matrix, or of all. Throws as passSlip, and
+// what the sink throws.
 void forEachSlipRow(const Profile& profile,
                     const SlipPassOptions& pass,
                     std::optional<std::int64_t> matrix,

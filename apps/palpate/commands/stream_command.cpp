@@ -1,4 +1,5 @@
-// palpate stream: what a hand feels, live to other programs: datagrams to this machine, or lines on standard output.
+// palpate stream: what a hand feels, live to other programs: datagrams to this machine, or lines on
+// standard output.
 #include <atomic>
 #include <cstdio>
 #include <memory>
@@ -24,7 +25,8 @@ namespace {
 
 constexpr int kStreamLookMs = 50;
 
-// Lines for whoever reads standard output. What can't be written ends the work, not the processing thread.
+// Lines for whoever reads standard output. What can't be written ends the work, not the processing
+// thread.
 class Lines {
  public:
   Lines(StreamKind kind, bool live) : kind_(kind), live_(live) {}
@@ -94,8 +96,8 @@ int endOf(const std::string& damage) {
   return kPartlyDone;
 }
 
-// To be played at once: of its samples only those that are sent are read. One that can't be opened is read as far as it
-// can be.
+// To be played at once: of its samples only those that are sent are read. One that can't be opened
+// is read as far as it can be.
 Profile playedRecording(const CommandLine& given, std::string& damage) {
   const std::string& file = given.words()[0];
   try {

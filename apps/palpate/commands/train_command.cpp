@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `best` is there for other days, and only gauss carries over to one: what is more accurate within the recordings
-// doesn't count against that. Everything else is chosen by cross-validation.
+// `best` is there for other days, and only gauss carries over to one: what is more accurate within
+// the recordings doesn't count against that. Everything else is chosen by cross-validation.
 ModelSearchOptions searchGiven(const CommandLine& given, FeatureSet set) {
   ModelSearchOptions search;
   PipelineOptions told;

@@ -64,7 +64,8 @@ int screenshot(const CommandLine& given) {
   return gui::takeScreenshot(count, arguments, options);
 }
 
-// What the window asks of another process of this program, because drivers crash: not for people, in no help.
+// What the window asks of another process of this program, because drivers crash: not for people,
+// in no help.
 int probeOpenGl() {
   const RuntimeFolder runtime;
   if (!hasDisplay()) {

@@ -1,5 +1,6 @@
-// A calibration of a hand: what turns its counts into kilopascals and newtons, with all that it was made from. A JSON
-// file with format version, program version, options and the SHA-256 of every input.
+// A calibration of a hand: what turns its counts into kilopascals and newtons, with all that it was
+// made from. A JSON file with format version, program version, options and the SHA-256 of every
+// input.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +15,8 @@
 
 namespace palpate {
 
-// Settings of the tactile controller. A .dsa tells neither: they are what somebody said, and the file says so.
+// Settings of the tactile controller. A .dsa tells neither: they are what somebody said, and the
+// file says so.
 struct SensorSettings {
   double sensitivity = 1.0;      // 0..1
   double thresholdCounts = 100;  // 0..4095

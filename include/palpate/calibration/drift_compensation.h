@@ -23,8 +23,8 @@ class DriftCompensation {
  public:
   explicit DriftCompensation(DriftCompensationOptions options = {}) : options_(options) {}
 
-  // K [counts] of a reading at a time [s]; 0 ends the contact. driftOfGain: m(K, T) [counts/s]; where it isn't known the
-  // reading itself.
+  // K [counts] of a reading at a time [s]; 0 ends the contact. driftOfGain: m(K, T) [counts/s];
+  // where it isn't known the reading itself.
   double gainOf(const Surface& driftOfGain, double timeS, double reading, double degC);
   bool compensating() const noexcept { return compensating_; }  // in the last call
   void reset() noexcept {

@@ -1,5 +1,6 @@
-// A whole recording through a calibration: pressure and force of every matrix in every frame. A tare that is kept with
-// the recording is taken off first, and creep of contacts that last taken out, as pressure_map.h does.
+// A whole recording through a calibration: pressure and force of every matrix in every frame. A
+// tare that is kept with the recording is taken off first, and creep of contacts that last taken
+// out, as pressure_map.h does.
 #pragma once
 
 #include <cstddef>
@@ -47,19 +48,19 @@ struct ForceSeries {
   std::size_t frameAt(double seconds) const;  // the last one at or before; 0 where there is none
 };
 
-// Throws Error (filtered values, not counts), std::invalid_argument (calibration without P(K, T), settings or tare of
-// another hand), Cancelled.
+// Throws Error (filtered values, not counts), std::invalid_argument (calibration without P(K, T),
+// settings or tare of another hand), Cancelled.
 ForceSeries forceSeries(const Profile& profile,
                         const Calibration& calibration,
                         const PressureMapOptions& options = {},
                         const std::optional<Tare>& tare = std::nullopt,
                         const Progress& progress = {});
 
-// What a person said that a recording was made with, as its event of kind "sensor_settings" keeps it; and back. Throws
-// Error: not such JSON.
+// What a person said that a recording was made with, as its event of kind "sensor_settings" keeps
+// it; and back. Throws Error: not such JSON.
 Json jsonOf(const SensorSettings& settings);
-// What the controller itself reported, as a recording's meta "settings" and its events of kind "settings" have it:
-// an array of the above, or one in "matrices". Throws Error.
+// What the controller itself reported, as a recording's meta "settings" and its events of kind
+// "settings" have it: an array of the above, or one in "matrices". Throws Error.
 std::vector<SensorSettings> reportedSettingsFrom(const Json& json);
 
 // JSON of an event "settings", and when it held from [us since 1970].
@@ -67,8 +68,9 @@ struct ReportedChange {
   std::int64_t fromUs = 0;
   std::string json;
 };
-// Fills in settings and changes of a recording that tells them: its meta "settings" (empty: doesn't tell), its events.
-// Changes without JSON (older recordings) are left out. Throws Error (what can't be used).
+// Fills in settings and changes of a recording that tells them: its meta "settings" (empty: doesn't
+// tell), its events. Changes without JSON (older recordings) are left out. Throws Error (what can't
+// be used).
 void useReportedSettings(PressureMapOptions& options,
                          const std::string& metaSettings,
                          std::vector<ReportedChange> changes);

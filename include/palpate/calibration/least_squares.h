@@ -1,5 +1,6 @@
-// General nonlinear least squares: minimises sum r_i(x)^2 by Levenberg-Marquardt (Ceres Solver), derivatives by
-// extrapolated central differences unless they are given. Proof: all 27 nonlinear problems of NIST StRD.
+// General nonlinear least squares: minimises sum r_i(x)^2 by Levenberg-Marquardt (Ceres Solver),
+// derivatives by extrapolated central differences unless they are given. Proof: all 27 nonlinear
+// problems of NIST StRD.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +22,8 @@ struct LeastSquaresProblem {
 
 struct LeastSquaresOptions {
   int mostIterations = 1000;  // >= 1
-  // Ends where a step promises less than this share of the sum, or moves x by less than this share; > 0.
+  // Ends where a step promises less than this share of the sum, or moves x by less than this share;
+  // > 0.
   double tolerance = 1e-16;
 };
 

@@ -20,8 +20,8 @@ struct LoadingStepOptions {
   double leastDurationS = 1.0;    // shorter contacts are no steps [s], >= 0
   std::size_t leastFrames = 20;   // nor such of fewer frames; >= 6
   std::size_t bridgedFrames = 3;  // an unloaded stretch of at most so many frames is flicker
-  // The load is being taken away where the signal stays below this share of its level (median of the second half)
-  // until it is 0; 0..1.
+  // The load is being taken away where the signal stays below this share of its level (median of
+  // the second half) until it is 0; 0..1.
   double releaseShare = 0.95;
 
   // Throws std::invalid_argument with the field's name.
@@ -54,8 +54,8 @@ StepSignal stepSignal(const Profile& profile,
                       SignalKind signal = SignalKind::kFilteredMean,
                       const Progress& progress = {});
 
-// Values that are no numbers count as unloaded. A gap (longer than max(1 s, 5 median intervals)) ends a step. Throws
-// std::invalid_argument (options; series of different lengths).
+// Values that are no numbers count as unloaded. A gap (longer than max(1 s, 5 median intervals))
+// ends a step. Throws std::invalid_argument (options; series of different lengths).
 std::vector<LoadingStep> findLoadingSteps(const StepSignal& signal,
                                           const LoadingStepOptions& options = {});
 

@@ -1,8 +1,10 @@
-// Noise floor (study, 3.4): the largest reading of each unloaded matrix at threshold 0, a line over the temperature of
-// the sensor nearest to it. The study's method, with its numbers: 20 equal bins over the temperature range, a line
-// through the bins' means with weights 1/sd^2 (population sd; bins with sd 0 left out), and
+// Noise floor (study, 3.4): the largest reading of each unloaded matrix at threshold 0, a line over
+// the temperature of the sensor nearest to it. The study's method, with its numbers: 20 equal bins
+// over the temperature range, a line through the bins' means with weights 1/sd^2 (population sd;
+// bins with sd 0 left out), and
 //   RMSE = sqrt((Syy - b Sxy) / (n - 2))    over all n frames, b the slope of that line
-// which is that of the ordinary line through all frames; the true one of this line is 1 to 10 % larger: both are told.
+// which is that of the ordinary line through all frames; the true one of this line is 1 to 10 %
+// larger: both are told.
 #pragma once
 
 #include <cstddef>
@@ -51,8 +53,8 @@ struct NoiseLine {
   double at(double degC) const { return intercept + slope * degC; }
   // theta = intercept + slope T + 3 RMSE [counts], the threshold above which no noise shows.
   double threshold(double degC, double sigmas = 3.0) const { return at(degC) + sigmas * rmse; }
-  // Half width of the 95 % interval that a single frame falls into (prediction interval of the study, with its
-  // misprint corrected) [counts]; NaN with fewer than three frames.
+  // Half width of the 95 % interval that a single frame falls into (prediction interval of the
+  // study, with its misprint corrected) [counts]; NaN with fewer than three frames.
   double predictionHalfWidth(double degC) const;
   bool covers(double degC) const noexcept { return degC >= leastDegC && degC <= mostDegC; }
 };
@@ -62,13 +64,14 @@ struct NoiseFloor {
   std::vector<std::string> notes;
 };
 
-// From the maximum of a matrix and the temperature that belongs to it, frame by frame. What is no number, or exactly
-// 0 deg C (not reported), is left out.
+// From the maximum of a matrix and the temperature that belongs to it, frame by frame. What is no
+// number, or exactly 0 deg C (not reported), is left out.
 NoiseLine fitNoiseLine(std::span<const double> degC,
                        std::span<const double> maximumCounts,
                        const NoiseFloorOptions& options = {});
 
-// Of an unloaded recording at threshold 0, all frames. Throws std::invalid_argument (options), Cancelled.
+// Of an unloaded recording at threshold 0, all frames. Throws std::invalid_argument (options),
+// Cancelled.
 NoiseFloor fitNoiseFloor(const Profile& profile,
                          const NoiseFloorOptions& options = {},
                          const Progress& progress = {});

@@ -48,8 +48,8 @@ struct NoiseThresholdOptions {
   void validate() const;
 };
 
-// Of one line at one temperature, rounded up. Outside the measured temperatures the line goes on: noise must not break
-// through only because it got warmer.
+// Of one line at one temperature, rounded up. Outside the measured temperatures the line goes on:
+// noise must not break through only because it got warmer.
 int noiseThreshold(const NoiseLine& line, double degC, const NoiseThresholdOptions& options = {});
 
 struct NoiseThresholdStatus {
@@ -65,16 +65,17 @@ struct NoiseThresholdStatus {
 // Follows temperatures and rate; not thread-safe. Times are the caller's and never go back.
 class NoiseThresholds {
  public:
-  // sensors: for each matrix the temperature sensor nearest to it. reset: what matrices without a line keep. usualRateHz:
-  // frames per second without noise. Throws std::invalid_argument (options, sizes, rate).
+  // sensors: for each matrix the temperature sensor nearest to it. reset: what matrices without a
+  // line keep. usualRateHz: frames per second without noise. Throws std::invalid_argument (options,
+  // sizes, rate).
   NoiseThresholds(NoiseFloor floor,
                   std::vector<std::optional<std::size_t>> sensors,
                   TactileThresholds reset,
                   double usualRateHz,
                   NoiseThresholdOptions options = {});
 
-  // Looks at the newest temperatures (deg C, 0 or NaN: not known) and rate (NaN: not known). What has to be set now;
-  // nothing: all is well. The first call proposes always.
+  // Looks at the newest temperatures (deg C, 0 or NaN: not known) and rate (NaN: not known). What
+  // has to be set now; nothing: all is well. The first call proposes always.
   std::optional<TactileThresholds> update(double timeS,
                                           std::span<const double> degC,
                                           double rateHz);

@@ -1,5 +1,6 @@
-// Gathers what a pressure calibration is made from: the loading steps of every recording of a table, measured on one
-// matrix. What is wrong with one recording leaves its row out, and says why; the others stay.
+// Gathers what a pressure calibration is made from: the loading steps of every recording of a
+// table, measured on one matrix. What is wrong with one recording leaves its row out, and says why;
+// the others stay.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,8 @@
 
 namespace palpate {
 
-// The matrix with the largest sum over the recording: the one that was loaded; the first of equals. Throws Cancelled.
+// The matrix with the largest sum over the recording: the one that was loaded; the first of equals.
+// Throws Cancelled.
 std::size_t loadedMatrix(const Profile& profile, const Progress& progress = {});
 
 struct GatheredSource {
@@ -49,8 +51,8 @@ GatheredSteps gatherSteps(std::span<const PressureTableRow> rows,
                           const GatherOptions& options = {},
                           const Progress& progress = {});
 
-// A calibration of them: model, hand, matrix, samples. Who made it when, options and settings are the caller's.
-// Throws std::invalid_argument (options).
+// A calibration of them: model, hand, matrix, samples. Who made it when, options and settings are
+// the caller's. Throws std::invalid_argument (options).
 Calibration calibrationOf(const GatheredSteps& gathered, const PressureModelOptions& options = {});
 
 }  // namespace palpate

@@ -1,7 +1,8 @@
-// Applies a calibration to frames, live and offline: kilopascals per taxel, newtons per matrix and of the whole hand,
-// each with its uncertainty. What touches one matrix is one contact: P(K, T) of its filtered mean, spread over its
-// taxels in proportion to counts, 0 where the count is 0. Force = sum over taxels of pressure times taxel area, times
-// the share of the active area that a load covers where the calibration knows it. About a microsecond per frame.
+// Applies a calibration to frames, live and offline: kilopascals per taxel, newtons per matrix and
+// of the whole hand, each with its uncertainty. What touches one matrix is one contact: P(K, T) of
+// its filtered mean, spread over its taxels in proportion to counts, 0 where the count is 0. Force
+// = sum over taxels of pressure times taxel area, times the share of the active area that a load
+// covers where the calibration knows it. About a microsecond per frame.
 #pragma once
 
 #include <cstddef>
@@ -57,14 +58,15 @@ double taxelForceN(const PressureFrame& frame,
                    int column);
 
 struct PressureMapOptions {
-  // What the frames were recorded with; nothing: as the calibration. One per matrix, or one for all.
+  // What the frames were recorded with; nothing: as the calibration. One per matrix, or one for
+  // all.
   std::vector<SensorSettings> settings = {};
   std::vector<SettingsChange> changes = {};  // after these, ascending
   bool compensateDrift = true;
 };
 
-// Keeps the state of the contacts (for the creep): give it frames in order; reset() in front of another recording. Not
-// thread-safe.
+// Keeps the state of the contacts (for the creep): give it frames in order; reset() in front of
+// another recording. Not thread-safe.
 class PressureMap {
  public:
   // Throws std::invalid_argument: a calibration without P(K, T), settings of another number.
@@ -72,15 +74,15 @@ class PressureMap {
               const HandDescription& hand,
               PressureMapOptions options = {});
 
-  // degC: one per temperature sensor of the hand; empty: not known. The frame must be of the hand's layout (throws
-  // std::invalid_argument). Values that are no numbers count as 0.
+  // degC: one per temperature sensor of the hand; empty: not known. The frame must be of the hand's
+  // layout (throws std::invalid_argument). Values that are no numbers count as 0.
   void apply(const TactileFrame& frame, std::span<const double> degC, PressureFrame& out);
   void reset();
   // Others than before from the next frame on: contacts begin anew. Throws std::invalid_argument.
   void setSettings(const std::vector<SensorSettings>& settings);
 
-  // Assumptions that a reader must know of, a sentence each: what was measured on another matrix, settings nobody
-  // recorded, sensitivity converted.
+  // Assumptions that a reader must know of, a sentence each: what was measured on another matrix,
+  // settings nobody recorded, sensitivity converted.
   std::vector<std::string> assumptions() const;
   const Calibration& calibration() const noexcept { return calibration_; }
 

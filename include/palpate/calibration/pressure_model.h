@@ -1,8 +1,9 @@
 // Pressure from gain and temperature, or from drift and temperature (study, 3.3):
 //   P(K, T) = c0 + c1 T + c2 K + c3 K T     P(m, T) = sum c_(3i+j) m^i T^j, i, j = 0..2     [kPa]
-// K is the mean of the Gaussian-filtered active taxels of a contact (eq. 3.2), at the sensitivity and threshold of the
-// calibration: never a single taxel. The study keeps all terms and takes the mean of nine sensors for T; we take the
-// sensor nearest to the matrix, and keep a term only where leave-one-out says so.
+// K is the mean of the Gaussian-filtered active taxels of a contact (eq. 3.2), at the sensitivity
+// and threshold of the calibration: never a single taxel. The study keeps all terms and takes the
+// mean of nine sensors for T; we take the sensor nearest to the matrix, and keep a term only where
+// leave-one-out says so.
 #pragma once
 
 #include <optional>
@@ -35,7 +36,8 @@ struct PressureModelOptions {
   // where a sample has no temperature, and later where a contact has none
   double assumedDegC = 35.0;
   double assumedSdDegC = 8.0;  // how far off that may be; > 0
-  // Of the stamp [mm^2]; 0: not known. Rubber spreads a load: more taxels are active than it covers.
+  // Of the stamp [mm^2]; 0: not known. Rubber spreads a load: more taxels are active than it
+  // covers.
   double stampAreaMm2 = 0.0;
 
   // Throws std::invalid_argument with the field's name.
@@ -57,14 +59,14 @@ struct PressureModel {
   PressureModelOptions options;
   // Ratio of the loaded area to the area of the active taxels, if the area of the stamp is
   // known; the rubber spreads a load over more taxels than it covers.
-  double areaShare =
-      1.0;
+  double areaShare = 1.0;
   double areaShareSd = 0.0;  // from step to step
   double steadyS = 0.0;      // after so long the lag is over [s]: median of the steps; 0: not known
   std::vector<std::string> notes;
 
   bool valid() const noexcept { return gain.valid; }
-  // Of a contact's K [counts]; without a temperature that of the options, and a wider band. NaN where not valid.
+  // Of a contact's K [counts]; without a temperature that of the options, and a wider band. NaN
+  // where not valid.
   PressureEstimate pressureAt(double gainCounts, std::optional<double> degC) const;
 };
 
@@ -72,7 +74,8 @@ struct PressureModel {
 PressureModel fitPressureModel(std::span<const PressureSample> samples,
                                const PressureModelOptions& options = {});
 
-// JSON of `calibrate pressure`: K{c,rmse_kpa,loo_rmse_kpa,..}, m{..}, and back. Throws Error naming what is missing.
+// JSON of `calibrate pressure`: K{c,rmse_kpa,loo_rmse_kpa,..}, m{..}, and back. Throws Error naming
+// what is missing.
 Json jsonOf(const PressureModel& model);
 PressureModel pressureModelFrom(const Json& json);
 

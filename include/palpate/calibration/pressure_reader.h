@@ -1,6 +1,7 @@
-// Pressures and forces of any frame of a recording, without a pass over all of it: what a force series
-// (force_series.h) has for this frame. Frame after frame takes microseconds; elsewhere the half minute in front of the
-// frame is gone through first, because creep depends on how long a contact has lasted.
+// Pressures and forces of any frame of a recording, without a pass over all of it: what a force
+// series (force_series.h) has for this frame. Frame after frame takes microseconds; elsewhere the
+// half minute in front of the frame is gone through first, because creep depends on how long a
+// contact has lasted.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +17,8 @@ namespace palpate {
 
 class PressureReader {
  public:
-  // Throws Error (filtered values, not counts), std::invalid_argument (calibration without P(K, T); settings or tare of
-  // another hand).
+  // Throws Error (filtered values, not counts), std::invalid_argument (calibration without P(K, T);
+  // settings or tare of another hand).
   PressureReader(Profile profile,
                  const Calibration& calibration,
                  PressureMapOptions options = {},

@@ -1,4 +1,5 @@
-// The table of a pressure calibration: which recording was made under which pressure. CSV with a header:
+// The table of a pressure calibration: which recording was made under which pressure. CSV with a
+// header:
 //   file,pressure_kpa[,temperature_c]
 // in any order of columns; others are ignored. Files are relative to the table's folder.
 #pragma once
@@ -30,7 +31,8 @@ std::vector<PressureTableRow> parsePressureTable(std::string_view csv,
 // Of a file. Throws FileError, FormatError.
 std::vector<PressureTableRow> readPressureTable(const std::filesystem::path& path);
 
-// A sample per step of the row's recording (one at least: without a step it isn't used, and says why).
+// A sample per step of the row's recording (one at least: without a step it isn't used, and says
+// why).
 std::vector<PressureSample> samplesOf(const PressureTableRow& row,
                                       const StepReport& report,
                                       const std::string& sha256);

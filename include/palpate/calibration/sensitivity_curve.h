@@ -1,6 +1,7 @@
-// Gain against sensitivity: K = slope s + offset for one load at several sensitivities (study, 3.4, fig. 3.10). The
-// amplifier's gain is proportional to s; the offset is the threshold's: it is taken off every active taxel after the
-// amplifier, less what the taxel reads at rest, and the mean over the active taxels of the filtered matrix dilutes it.
+// Gain against sensitivity: K = slope s + offset for one load at several sensitivities (study, 3.4,
+// fig. 3.10). The amplifier's gain is proportional to s; the offset is the threshold's: it is taken
+// off every active taxel after the amplifier, less what the taxel reads at rest, and the mean over
+// the active taxels of the filtered matrix dilutes it.
 #pragma once
 
 #include <span>

@@ -18,11 +18,10 @@ struct SensitivitySearchOptions {
   double resolution = 0.03;  // ends where less is to be won; > 0
   // a taxel at or above is saturated [counts]
   double saturationCounts = static_cast<double>(kSdh2SaturationCounts);
-  double headroom = 0.1;                           // aim so far below saturation; 0..0.9
-  std::size_t framesToLook = 10;                   // with contact, at one sensitivity; >= 1
+  double headroom = 0.1;          // aim so far below saturation; 0..0.9
+  std::size_t framesToLook = 10;  // with contact, at one sensitivity; >= 1
   // After this time with a low maximum [s], >= 0, the upper bound is dropped and tested again.
-  double loosenAfterS =
-      5.0;
+  double loosenAfterS = 5.0;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -35,8 +34,8 @@ class SensitivitySearch {
                     double thresholdCounts,
                     const SensitivitySearchOptions& options = {});
 
-  // One frame, taken at the sensitivity that was proposed last: its largest reading (0: no contact). The next
-  // sensitivity to set; nothing: stay. Frames that aren't numbers are ignored.
+  // One frame, taken at the sensitivity that was proposed last: its largest reading (0: no
+  // contact). The next sensitivity to set; nothing: stay. Frames that aren't numbers are ignored.
   std::optional<double> observe(double timeS, double maximumCounts);
 
   double sensitivity() const noexcept { return sensitivity_; }  // present

@@ -1,6 +1,7 @@
-// Fits the step response of step_model.h by least squares: K and m are linear and follow from the shape, so only
-// log T2 and log(T1/T2 - 1) are searched (variable projection, Levenberg-Marquardt), from four starts: at or below
-// the residual of a four-parameter search in all measured steps, where that search fails from poor starts.
+// Fits the step response of step_model.h by least squares: K and m are linear and follow from the
+// shape, so only log T2 and log(T1/T2 - 1) are searched (variable projection, Levenberg-Marquardt),
+// from four starts: at or below the residual of a four-parameter search in all measured steps,
+// where that search fails from poor starts.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +24,9 @@ enum class StepDamping {
 
 struct StepFitOptions {
   StepLoss loss = StepLoss::kSquares;
-  // Robust losses: residuals beyond this many standard deviations (robust, by the median) count less; > 0. The
-  // customary 1.345 (Huber) and 2.385 (Cauchy) cost 5 % of the precision where all is normal; 0 takes these.
+  // Robust losses: residuals beyond this many standard deviations (robust, by the median) count
+  // less; > 0. The customary 1.345 (Huber) and 2.385 (Cauchy) cost 5 % of the precision where all
+  // is normal; 0 takes these.
   double lossScale = 0.0;
   StepDamping damping = StepDamping::kOverdamped;
   int mostIterations = 60;  // of one search, >= 1
@@ -45,14 +47,14 @@ struct StepFit {
   double rmse = kNotFitted;    // sqrt(mean square of all residuals) [counts]
   // sqrt(sum of (weighted) squares / (n - 4)): what the covariance rests on
   double residualSd = kNotFitted;
-  // Of K, m, T1, T2 (of an oscillating one: K, m, T, d), linearised at the solution; NaN where it can't be had.
+  // Of K, m, T1, T2 (of an oscillating one: K, m, T, d), linearised at the solution; NaN where it
+  // can't be had.
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Constant(kNotFitted);
   bool converged = false;     // a minimum was found
   bool identifiable = false;  // all four parameters are determined by the data
   // The lag has ended (phi >= 95 %) before the data end, so that K and m can be estimated
   // separately.
-  bool gainReached =
-      false;
+  bool gainReached = false;
   std::size_t numDownweighted = 0;  // robust losses: samples that count less than half
   int evaluations = 0;              // of the model, over all starts
   std::vector<std::string> notes;   // what is missing or doubtful, a sentence each
@@ -66,8 +68,8 @@ struct StepFit {
   double interval95(int parameter) const;
 };
 
-// timeS [s] from the step's begin, in any order; values [counts]. Never throws for data: what can't be fitted says
-// so in notes. Throws std::invalid_argument (options; spans of different sizes).
+// timeS [s] from the step's begin, in any order; values [counts]. Never throws for data: what can't
+// be fitted says so in notes. Throws std::invalid_argument (options; spans of different sizes).
 StepFit fitStep(std::span<const double> timeS,
                 std::span<const double> values,
                 const StepFitOptions& options = {});

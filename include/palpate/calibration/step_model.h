@@ -1,10 +1,12 @@
-// Step response of the sensor: a second order lag (PT2 element) with linear drift, as the study models a taxel under
-// a load that appears at t = 0 and stays (3.1; misprints corrected):
+// Step response of the sensor: a second order lag (PT2 element) with linear drift, as the study
+// models a taxel under a load that appears at t = 0 and stays (3.1; misprints corrected):
 //   a(t) = K phi(t) + m t
-//   d > 1:  phi = 1 - (T1 e^(-t/T1) - T2 e^(-t/T2)) / (T1 - T2),   T1,2 = T / (d -+ sqrt(d^2 - 1)),  T1 >= T2
+//   d > 1:  phi = 1 - (T1 e^(-t/T1) - T2 e^(-t/T2)) / (T1 - T2),   T1,2 = T / (d -+ sqrt(d^2 - 1)),
+//           T1 >= T2
 //   d = 1:  phi = 1 - (1 + t/T) e^(-t/T)
 //   d < 1:  phi = 1 - e^(-d t/T) (cos wt + d/(w T) sin wt),         w = sqrt(1 - d^2) / T
-// T and d alone are badly determined when T2 is far below the frame period: compare fits by K, m, T1, T2.
+// T and d alone are badly determined when T2 is far below the frame period: compare fits by K, m,
+// T1, T2.
 #pragma once
 
 namespace palpate {
@@ -47,7 +49,8 @@ struct StepCharacteristics {
   double deadTimeS = 0.0;              // where that tangent meets 0: t_i - a(t_i) / a'(t_i)
   double tangentAtGainS = 0.0;         // t_k, where it meets K: t_i + (K - a(t_i)) / a'(t_i)
   double equivalentTangentPerS = 0.0;  // a(t_k) / t_k, slope of the study's equivalent time tangent
-  // From here on the drift rules: a(t) = K for the first time; where the drift never brings it there, 1 - phi = 1 %.
+  // From here on the drift rules: a(t) = K for the first time; where the drift never brings it
+  // there, 1 - phi = 1 %.
   double steadyS = 0.0;
 };
 // NaN where the tangent is flat or a parameter makes no sense.

@@ -1,5 +1,5 @@
-// The loading steps of a matrix of one recording, each with its fit and with what speaks against it: saturated or
-// flickering taxels, a begin that wasn't seen, a load that changed.
+// The loading steps of a matrix of one recording, each with its fit and with what speaks against
+// it: saturated or flickering taxels, a begin that wasn't seen, a load that changed.
 #pragma once
 
 #include <cstddef>
@@ -24,10 +24,12 @@ struct FittedStep {
   LoadingStep step;
   StepFit fit;
   StepCharacteristics characteristics;  // only where the fit converged
-  // Mean over the step [deg C]: of the sensor nearest to the matrix, and of all; nothing: not recorded.
+  // Mean over the step [deg C]: of the sensor nearest to the matrix, and of all; nothing: not
+  // recorded.
   std::optional<double> nearestDegC;
   std::optional<double> allSensorsDegC;
-  // What the study took: all sensors of the one sample of the recording whose number is the matrix's.
+  // What the study took: all sensors of the one sample of the recording whose number is the
+  // matrix's.
   std::optional<double> studyDegC;
   std::size_t saturatedFrames = 0;  // frames with a saturated taxel
   double activeAreaMm2 = 0.0;       // of the active taxels, mean of the second half [mm^2]
@@ -56,11 +58,12 @@ StepReport reportSteps(const Profile& profile,
                        const StepSignal& signal,
                        const StepReportOptions& options = {});
 
-// Time [s] from the step's begin, and the signal: what was fitted, and what residuals are drawn against.
+// Time [s] from the step's begin, and the signal: what was fitted, and what residuals are drawn
+// against.
 StepSignal samplesOf(const StepSignal& signal, const LoadingStep& step);
 
-// The promise of `calibrate step`: begin, end, K, m, T1, T2, T, d, rmse, converged, identifiable, covariance (4x4,
-// in the order K, m, T1, T2), and more.
+// The promise of `calibrate step`: begin, end, K, m, T1, T2, T, d, rmse, converged, identifiable,
+// covariance (4x4, in the order K, m, T1, T2), and more.
 Json jsonOf(const StepReport& report);
 
 }  // namespace palpate

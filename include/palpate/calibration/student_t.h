@@ -3,8 +3,8 @@
 
 namespace palpate {
 
-// 97.5 % quantile: mean +- this many standard deviations hold 95 %. `dof` degrees of freedom, whole or
-// not; below 1: NaN.
+// 97.5 % quantile: mean +- this many standard deviations hold 95 %. `dof` degrees of freedom, whole
+// or not; below 1: NaN.
 double studentQuantile975(double dof);
 
 }  // namespace palpate

@@ -24,7 +24,8 @@ struct SurfaceTerm {
   int byT = 0;
   bool operator==(const SurfaceTerm&) const = default;
 };
-// All terms up to this degree in each variable, in the study's order: 1, T, .., x, x T, ..: c_((degree + 1) i + j) x^i T^j.
+// All terms up to this degree in each variable, in the study's order: 1, T, .., x, x T, ..:
+// c_((degree + 1) i + j) x^i T^j.
 std::vector<SurfaceTerm> surfaceTerms(int degree);
 
 struct SurfaceEstimate {
@@ -58,8 +59,9 @@ enum class SurfaceSelection {
   kLeaveOneOut
 };
 
-// Points with something that is no number are left out (and noted). Collinear data: subsets that it doesn't determine are
-// skipped; with kAllTerms the surface is not valid then. Throws std::invalid_argument for no terms or more than 12.
+// Points with something that is no number are left out (and noted). Collinear data: subsets that it
+// doesn't determine are skipped; with kAllTerms the surface is not valid then. Throws
+// std::invalid_argument for no terms or more than 12.
 Surface fitSurface(std::span<const SurfacePoint> points,
                    const std::vector<SurfaceTerm>& terms,
                    SurfaceSelection selection);

@@ -55,8 +55,8 @@ Tare findTare(const Profile& profile,
 // values - zero, not below 0; a value of 0 stays. Throws std::invalid_argument (sizes).
 void applyTare(const Tare& tare, std::span<float> values);
 
-// The event's JSON (kind "tare"): matrices[{index,zero[..],windows[[begin,end]..],valid}], and back. Throws Error: not
-// such JSON, or of another layout.
+// The event's JSON (kind "tare"): matrices[{index,zero[..],windows[[begin,end]..],valid}], and
+// back. Throws Error: not such JSON, or of another layout.
 Json jsonOf(const Tare& tare, const SensorLayout& layout);
 Tare tareFrom(const Json& json, const SensorLayout& layout);
 

@@ -1,8 +1,8 @@
-// What a capture session hands to one consumer (the recorder, live processing): bounded queues, one per
-// port and one for events, that never make the device wait and never drop silently.
+// What a capture session hands to one consumer (the recorder, live processing): bounded queues, one
+// per port and one for events, that never make the device wait and never drop silently.
 //
-// What doesn't fit is lost, and comes out later as an event of kind "gap" over exactly the lost span:
-// stamps of the first and the last lost item, and how many.
+// What doesn't fit is lost, and comes out later as an event of kind "gap" over exactly the lost
+// span: stamps of the first and the last lost item, and how many.
 #pragma once
 
 #include <array>
@@ -83,9 +83,10 @@ class CaptureFeed {
 
   // False: lost (and counted), or the feed is closed.
   bool put(CaptureItem item);
-  // Appends what waits to `out`, in order of time (at one instant: events, temperatures, angles, then
-  // the frame they belong to), ended gaps among them. Never waits. Returns how many. `ownGaps`: takes
-  // copies of the gaps that this queue itself made; those of a device stand in `out` alone.
+  // Appends what waits to `out`, in order of time (at one instant: events, temperatures, angles,
+  // then the frame they belong to), ended gaps among them. Never waits. Returns how many.
+  // `ownGaps`: takes copies of the gaps that this queue itself made; those of a device stand in
+  // `out` alone.
   std::size_t take(std::vector<CaptureItem>& out, std::vector<RecordingEvent>* ownGaps = nullptr);
   // Ends gaps that no later item has ended yet, and appends them.
   void takeOpenGaps(std::vector<CaptureItem>& out, std::vector<RecordingEvent>* ownGaps = nullptr);

@@ -1,5 +1,6 @@
-// A capture session (a "frame manager"): owns a device, live or replayed, and hands what it delivers to
-// the recorder, to live processing and to the screen, without ever making the device wait.
+// A capture session (a "frame manager"): owns a device, live or replayed, and hands what it
+// delivers to the recorder, to live processing and to the screen, without ever making the device
+// wait.
 //
 //   device's threads --> CaptureFeed --> recorder's thread --> disk
 //                   `--> CaptureFeed of each subscriber (live processing)
@@ -46,32 +47,33 @@ class CaptureSession : private DeviceSink {
   Device& device() noexcept { return *device_; }
   const Device& device() const noexcept { return *device_; }
 
-  // Starts device and recorder; does nothing when started. What was kept, counted and shown before is
-  // forgotten.
+  // Starts device and recorder; does nothing when started. What was kept, counted and shown before
+  // is forgotten.
   void start();
   // Stops the device, finishes a running recording (its report: stopRecording()).
   void stop() noexcept;
   bool started() const noexcept { return started_.load(); }
 
-  // As Recorder::start; what the device says about itself (serial number, firmware, settings) and the
-  // program's version are noted in the recording, the link's counters too. The device need not be
-  // started: the recording begins with its first frame.
+  // As Recorder::start; what the device says about itself (serial number, firmware, settings) and
+  // the program's version are noted in the recording, the link's counters too. The device need not
+  // be started: the recording begins with its first frame.
   void startRecording(RecordingOptions options);
   RecordingReport stopRecording();
   bool recording() const { return recorder_.recording(); }
   RecorderStatus recorderStatus() const { return recorder_.status(); }
-  // Marks the moment: an event "label" with this text (not empty; of a digit key: its label), or, when
-  // empty, an event "mark". Recorded when something is, shown in any case.
+  // Marks the moment: an event "label" with this text (not empty; of a digit key: its label), or,
+  // when empty, an event "mark". Recorded when something is, shown in any case.
   void mark(const std::string& text = {}, std::optional<int> digit = {});
 
-  // An event of whoever works on this session (a grasp that began, a person's note): shown, recorded when
-  // something is. Stamps as nowUs() has them. Safe from any thread.
+  // An event of whoever works on this session (a grasp that began, a person's note): shown,
+  // recorded when something is. Stamps as nowUs() has them. Safe from any thread.
   void note(const RecordingEvent& event);
 
   LinkHealth health() const;
   BeforeRun checkBeforeRun(const std::filesystem::path& folder) const;
 
-  // A consumer of its own from now on; ends when the pointer is let go. `consumer` is named in gaps.
+  // A consumer of its own from now on; ends when the pointer is let go. `consumer` is named in
+  // gaps.
   std::shared_ptr<CaptureFeed> subscribe(std::string consumer, const FeedOptions& options = {});
 
   // For the screen: what is newer than at the last call, null or nothing when there is nothing new.

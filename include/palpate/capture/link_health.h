@@ -1,5 +1,6 @@
-// Link health: what an operator must know about the way from the hand to the disk. True rate, age of the
-// newest frame, what was lost, saturation, queues, disk in hours; alarms; and one line before a run.
+// Link health: what an operator must know about the way from the hand to the disk. True rate, age
+// of the newest frame, what was lost, saturation, queues, disk in hours; alarms; and one line
+// before a run.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,8 @@
 namespace palpate {
 
 struct HealthOptions {
-  // Frames per second that are expected; nothing: what LinkMeter::expect() says, else the mean since the start.
+  // Frames per second that are expected; nothing: what LinkMeter::expect() says, else the mean
+  // since the start.
   std::optional<double> expectedRateHz;
   double lowRateShare = 0.8;           // of the expected rate: below is low ..
   double lowRateS = 2.0;               // .. when it lasts longer [s]
@@ -30,11 +32,12 @@ struct HealthOptions {
   double hottestDegC = 65.0;           // recorded hands reached 61 [deg C]
 };
 
-// Frames per second that a DSACON32-M scans, by the number of its taxels that are enabled. Measured on a real hand
-// (recordings of 2014): 2 taxels 13.2 ms, a matrix of 78 places 17.7 ms, all of an SDH-2 31.55 ms; between them linear.
+// Frames per second that a DSACON32-M scans, by the number of its taxels that are enabled. Measured
+// on a real hand (recordings of 2014): 2 taxels 13.2 ms, a matrix of 78 places 17.7 ms, all of an
+// SDH-2 31.55 ms; between them linear.
 double scanRateHz(std::size_t enabledTaxels);
-// Frames per second that 115200 baud carry, of frames with so many runs of equal counts (a run is 15 long at most):
-// 13 bytes of packet and 2 per run, 10 bits per byte.
+// Frames per second that 115200 baud carry, of frames with so many runs of equal counts (a run is
+// 15 long at most): 13 bytes of packet and 2 per run, 10 bits per byte.
 double lineRateHz(double runs);
 // Runs of the values of a frame, as the controller sends them.
 std::size_t runsOf(const TactileFrame& frame);
@@ -133,7 +136,8 @@ struct BeforeRun {
   std::optional<std::uint64_t> freeBytes;  // in the folder that was asked about
   std::optional<double> diskHours;         // at this rate
 };
-// `freeBytes` on the disk of `folder`, nothing when unknown; `writable`: whether files can be made there.
+// `freeBytes` on the disk of `folder`, nothing when unknown; `writable`: whether files can be made
+// there.
 struct FolderState {
   std::filesystem::path path;
   bool writable = false;

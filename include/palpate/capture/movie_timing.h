@@ -35,10 +35,10 @@ struct MovieTiming {
   double leftOutS = 0.0;    // by how much, in the recording's time [s]
 };
 
-// The last frame is shown as long as the usual (median) interval. Gaps, longer than max(1 s, 5 median intervals)
-// (model/timing.h), are shown as that long: nobody watches a still picture for minutes.
-// stampsUs: of the frames to be shown [us], ascending; none: no picture. Throws std::invalid_argument for options out
-// of range.
+// The last frame is shown as long as the usual (median) interval. Gaps, longer than max(1 s, 5
+// median intervals) (model/timing.h), are shown as that long: nobody watches a still picture for
+// minutes. stampsUs: of the frames to be shown [us], ascending; none: no picture. Throws
+// std::invalid_argument for options out of range.
 MovieTiming movieTiming(std::span<const std::int64_t> stampsUs, const MovieOptions& options = {});
 
 }  // namespace palpate

@@ -1,9 +1,11 @@
-// The recorder: takes what a capture session delivers and writes it as native recordings, on a thread of
-// its own. It keeps the last two seconds, so that a recording holds what came just before its start.
+// The recorder: takes what a capture session delivers and writes it as native recordings, on a
+// thread of its own. It keeps the last two seconds, so that a recording holds what came just before
+// its start.
 //
-// What came is committed within 100 ms (a round every 15 ms, a commit every 45). When the disk is full
-// or fails, capture goes on, up to 64 MB wait in memory, and writing is tried again every 100 ms; when
-// that was not enough, an event "gap" says exactly what is missing, and status() says it at once.
+// What came is committed within 100 ms (a round every 15 ms, a commit every 45). When the disk is
+// full or fails, capture goes on, up to 64 MB wait in memory, and writing is tried again every 100
+// ms; when that was not enough, an event "gap" says exactly what is missing, and status() says it
+// at once.
 #pragma once
 
 #include <cstdint>
@@ -40,8 +42,8 @@ struct RecordingOptions {
   std::map<std::string, std::string> meta;  // operator, object, run, notes, program, ..
   // More of it, asked for when the file is made (serial number, settings); may be empty.
   std::function<std::map<std::string, std::string>()> describe;
-  // Counters of the recording (bad checksums, ..), asked for with every commit, at least once a second,
-  // and at the end; may be empty.
+  // Counters of the recording (bad checksums, ..), asked for with every commit, at least once a
+  // second, and at the end; may be empty.
   std::function<std::map<std::string, std::int64_t>()> counters;
   double preTriggerS = 2.0;                     // [s], at most what the recorder keeps
   std::optional<double> splitS;                 // a new part after so long [s], >= 1
@@ -65,12 +67,10 @@ struct RecordingReport {
   std::int64_t events = 0;
   // Number of received items that are missing in the recording because a queue overflowed or
   // the disk failed; gap events say which.
-  std::int64_t lost =
-      0;
+  std::int64_t lost = 0;
   // Number of items that could not be recorded, because their time is not later than the
   // previous one or a value is not a number.
-  std::int64_t refused =
-      0;
+  std::int64_t refused = 0;
   std::int64_t gaps = 0;           // intervals longer than max(1 s, 5 median intervals)
   std::int64_t writeFailures = 0;  // commits that failed, and were tried again
   double durationS = 0.0;          // first to last frame [s]
@@ -117,7 +117,8 @@ class Recorder {
   // Runs step() on a thread until halt(); both do nothing when that is so already.
   void run();
   void halt() noexcept;
-  // One round: takes what waits, writes, commits what is due. Throws std::logic_error while run() does it.
+  // One round: takes what waits, writes, commits what is due. Throws std::logic_error while run()
+  // does it.
   void step();
 
   // Where items go in; never waits (unless feed.waitForRoom). False: lost, and counted.
@@ -126,18 +127,18 @@ class Recorder {
   // the thread runs or a recording is made.
   void forget();
 
-  // Asks for a recording. Throws FileError (exists, no such folder, not writable), std::invalid_argument
-  // (not a .palpate, options), std::logic_error (records already).
+  // Asks for a recording. Throws FileError (exists, no such folder, not writable),
+  // std::invalid_argument (not a .palpate, options), std::logic_error (records already).
   void start(RecordingOptions options);
-  // Everything offered before is written, the file is finished. Returns the last report when nothing is
-  // being recorded (it may have stopped by itself); an empty one when nothing ever was.
+  // Everything offered before is written, the file is finished. Returns the last report when
+  // nothing is being recorded (it may have stopped by itself); an empty one when nothing ever was.
   RecordingReport stop();
   bool recording() const;  // from start() until stopped, by itself or by stop()
   RecorderStatus status() const;
   FeedStats feedStats() const;
 
-  // Host time as stamps have it [us since 1970]: the clock's or, when stamps come from another time (a
-  // replay), the newest stamp.
+  // Host time as stamps have it [us since 1970]: the clock's or, when stamps come from another time
+  // (a replay), the newest stamp.
   std::int64_t nowUs() const;
 
  private:
@@ -145,8 +146,9 @@ class Recorder {
   std::unique_ptr<Impl> impl_;
 };
 
-// Bytes that may still be written in a folder, or in the one it is going to be made in; asked of the file
-// system itself (statvfs), so that it is known without a mount table, too. Nothing when it can't be asked.
+// Bytes that may still be written in a folder, or in the one it is going to be made in; asked of
+// the file system itself (statvfs), so that it is known without a mount table, too. Nothing when it
+// can't be asked.
 std::optional<std::uint64_t> freeBytesOf(const std::filesystem::path& folder);
 
 }  // namespace palpate

@@ -1,8 +1,8 @@
-// A recording as a device: its frames, angles, temperatures and events come again, in order of time, with
-// their own stamps and values, bit by bit.
+// A recording as a device: its frames, angles, temperatures and events come again, in order of
+// time, with their own stamps and values, bit by bit.
 //
-// At one instant events come first, then temperatures, angles and the frame: what belongs to a frame (the
-// last sample at or before it) is there before it. Gaps are replayed, too.
+// At one instant events come first, then temperatures, angles and the frame: what belongs to a
+// frame (the last sample at or before it) is there before it. Gaps are replayed, too.
 #pragma once
 
 #include <cstdint>
@@ -40,10 +40,10 @@ class Replay : public Device {
 
   HandDescription hand() const override;
   DeviceFacts facts() const override;
-  // From the beginning. A sample that can't be read (the file is damaged) is counted as lost and passed
-  // over; the first one is told by an event "alarm". At the end comes an event "link". What else goes
-  // wrong in the delivering thread, in the sink too, ends the replay with an event "alarm" and the state
-  // kFault: it never leaves the thread.
+  // From the beginning. A sample that can't be read (the file is damaged) is counted as lost and
+  // passed over; the first one is told by an event "alarm". At the end comes an event "link". What
+  // else goes wrong in the delivering thread, in the sink too, ends the replay with an event
+  // "alarm" and the state kFault: it never leaves the thread.
   void start(DeviceSink& sink) override;
   void stop() noexcept override;
   DeviceStatus status() const override;
@@ -52,8 +52,8 @@ class Replay : public Device {
 
   // Throws std::invalid_argument outside 0.1..16. Safe at any time.
   void setSpeed(double factor);
-  // kByHand: delivers what comes in the next `recordedUs` of the recording's time [us, >= 0]. The first
-  // item comes at 0. Throws std::logic_error: not started, another pace.
+  // kByHand: delivers what comes in the next `recordedUs` of the recording's time [us, >= 0]. The
+  // first item comes at 0. Throws std::logic_error: not started, another pace.
   void advance(std::int64_t recordedUs);
   // Everything was delivered.
   bool finished() const;

@@ -1,5 +1,6 @@
-// Closes the empty hand until its own pads touch, holds, and opens again: what is felt meanwhile tells how far apart
-// the pads are where the joints say that they touch (docs/recognition.md, the zero of the empty hand).
+// Closes the empty hand until its own pads touch, holds, and opens again: what is felt meanwhile
+// tells how far apart the pads are where the joints say that they touch (docs/recognition.md, the
+// zero of the empty hand).
 #pragma once
 
 #include <cstdint>
@@ -29,15 +30,16 @@ class EmptyHandRun {
   explicit EmptyHandRun(GraspControl& control) : EmptyHandRun(control, Options()) {}
   EmptyHandRun(GraspControl& control, Options options);
 
-  // `hostUs` [us since 1970], here and below: now, by the clock of the session. Throws as GraspControl::grasp(), and
-  // nothing runs then. A run that goes on begins anew.
+  // `hostUs` [us since 1970], here and below: now, by the clock of the session. Throws as
+  // GraspControl::grasp(), and nothing runs then. A run that goes on begins anew.
   void begin(std::int64_t hostUs);
   // Goes on as far as the hand is. Why the run has ended without a result, once; else nothing.
   std::optional<std::string> step(std::int64_t hostUs);
-  // The pads no longer touch each other. Ends the run; why without a result, or nothing: everything was as it should
-  // be, and what was felt counts.
+  // The pads no longer touch each other. Ends the run; why without a result, or nothing: everything
+  // was as it should be, and what was felt counts.
   std::optional<std::string> padsLetGo();
-  // Nothing of the run moves the hand any more; what moves already goes on, unless somebody stops it.
+  // Nothing of the run moves the hand any more; what moves already goes on, unless somebody stops
+  // it.
   void giveUp() noexcept { state_ = State::kIdle; }
 
   State state() const noexcept { return state_; }

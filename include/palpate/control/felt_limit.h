@@ -26,8 +26,8 @@ struct UnfeltLimit {
   std::string why;
 };
 
-// Those that can't tell; in the order of the matrices. `settings`: as the controller told them, one per matrix; of
-// another number: not known, then only saturation and masks count.
+// Those that can't tell; in the order of the matrices. `settings`: as the controller told them, one
+// per matrix; of another number: not known, then only saturation and masks count.
 std::vector<UnfeltLimit> unfeltLimits(const HandDescription& hand,
                                       const std::vector<MatrixSettings>& settings,
                                       int limitCounts);

@@ -1,9 +1,11 @@
-// Moves the hand of a capture session: preshape, plain and reactive grasps, relax, and a stop at any moment.
+// Moves the hand of a capture session: preshape, plain and reactive grasps, relax, and a stop at
+// any moment.
 //
-// Driven by the frames as they arrive, on a thread of its own: a frame over the limit puts the stop on the wire
-// within milliseconds. Values are checked before a byte is sent. Connecting moves nothing. What happened is
-// noted in the session as events "grasp" (and by the device as "motion"), so that a recording holds it.
-// docs/safety.md says what is promised, and what the hand does when nobody is there any more.
+// Driven by the frames as they arrive, on a thread of its own: a frame over the limit puts the stop
+// on the wire within milliseconds. Values are checked before a byte is sent. Connecting moves
+// nothing. What happened is noted in the session as events "grasp" (and by the device as "motion"),
+// so that a recording holds it. docs/safety.md says what is promised, and what the hand does when
+// nobody is there any more.
 #pragma once
 
 #include <condition_variable>
@@ -30,14 +32,15 @@ struct GraspStatus {
   std::optional<GraspRequest> request;  // of the grasp that runs
   std::optional<GraspReport> last;      // of the one that ended last, a refused one too
   std::string cannotMove;               // why no motion can begin, one line; empty: it can
-  // The grasp whose motion port went away, as long as it has not come back, whatever was refused since.
+  // The grasp whose motion port went away, as long as it has not come back, whatever was refused
+  // since.
   std::optional<GraspReport> portGone;
   // Number of calls of stop() and relax() so far, whether or not something was moving.
   std::uint64_t stopsAsked = 0;
-  std::string cannotReact;       // why no reactive grasp can begin; empty: it can
+  std::string cannotReact;  // why no reactive grasp can begin; empty: it can
   // why sensitivity, threshold and masks can't be changed; empty: they can
   std::string cannotChange;
-  double periodMs = 0.0;  // median period of the frames [ms]; 0: not known
+  double periodMs = 0.0;        // median period of the frames [ms]; 0: not known
   double silenceLimitMs = 0.0;  // after so long without a frame the stream is dead [ms]
 };
 
@@ -68,8 +71,8 @@ class GraspControl {
   // grasp ends as failed, an
   // event "alarm" says why, and the rounds go on.
 
-  // Begins a grasp. Throws std::invalid_argument (a value out of range or not a number) and DeviceError,
-  // kRefused (why, in a line); nothing was sent then, and the refusal is noted.
+  // Begins a grasp. Throws std::invalid_argument (a value out of range or not a number) and
+  // DeviceError, kRefused (why, in a line); nothing was sent then, and the refusal is noted.
   void grasp(const GraspRequest& request);
   // To the open hand of a preshape: a plain grasp with close ratio 0.
   void preshape(const std::string& name, double velocityDegPerS);
@@ -77,8 +80,8 @@ class GraspControl {
   void stop() noexcept;
   // Stops, then motors off: fingers can be moved by hand, and what is held may fall.
   void relax() noexcept;
-  // Sensitivity, threshold, mask. Throws DeviceError, kRefused, while fingers move under tactile control;
-  // std::invalid_argument for a command that is no setting.
+  // Sensitivity, threshold, mask. Throws DeviceError, kRefused, while fingers move under tactile
+  // control; std::invalid_argument for a command that is no setting.
   std::shared_future<CommandAnswer> change(const DeviceCommand& setting);
 
   GraspStatus status() const;
@@ -106,7 +109,8 @@ class GraspControl {
   static std::string motionProblem(const DeviceStatus& status);
   bool settingsPending() const;
 
-  // Hands over to the session what is owed to it; without mutex_: a consumer of the session may be in no hurry.
+  // Hands over to the session what is owed to it; without mutex_: a consumer of the session may be
+  // in no hurry.
   void deliver();
   void deliverLoop(const std::stop_token& stop);
   void deliverHere();

@@ -38,9 +38,10 @@ class GraspMachine {
   // What the controller says of its matrices, as last read back; empty: not known.
   void setSettings(std::vector<MatrixSettings> settings) { settings_ = std::move(settings); }
 
-  // Begins a grasp; then takeCommand() has the first motion. Throws std::invalid_argument (request) and
-  // DeviceError, kRefused (a grasp runs; one under tactile control without a living tactile stream, with a
-  // taxel over the limit already, or with a matrix on a moving finger that can't tell its limit): nothing is to be sent then. hostUs: for the report.
+  // Begins a grasp; then takeCommand() has the first motion. Throws std::invalid_argument (request)
+  // and DeviceError, kRefused (a grasp runs; one under tactile control without a living tactile
+  // stream, with a taxel over the limit already, or with a matrix on a moving finger that can't
+  // tell its limit): nothing is to be sent then. hostUs: for the report.
   void begin(const GraspRequest& request, std::int64_t monoUs, std::int64_t hostUs);
 
   // Frames are watched all the time, so that a grasp knows its stream when it begins.
@@ -57,7 +58,8 @@ class GraspMachine {
   void onAngles(const std::vector<double>& deg) { anglesDeg_ = deg; }
   void onMotionPortGone(const std::string& why, std::int64_t monoUs);
   void onTactilePortGone(const std::string& why, std::int64_t monoUs);
-  // The user: stops what runs, does nothing when idle (but a stop is to be sent whatever this says).
+  // The user: stops what runs, does nothing when idle (but a stop is to be sent whatever this
+  // says).
   void stop(std::int64_t monoUs);
   void relax();
   // The program failed in the middle of this: what moves is stopped, and the grasp ends as failed.

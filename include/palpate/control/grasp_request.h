@@ -32,18 +32,20 @@ constexpr int kMostSlipLimitCounts = 2200;
 
 // How a slip-aware grasp holds on.
 struct HoldingOptions {
-  double holdS =
-      0.0;  // ends by itself after so long, the hand goes on holding [s], 0: when told; at most a day
+  double holdS = 0.0;  // ends by itself after so long, the hand goes on holding [s], 0: when told;
+                       // at most a day
   double settleS = 0.5;                        // rest before the first references [s], 0..60
   double restS = 0.05;                         // and after closing again [s], 0..60
   int raiseCounts = 300;                       // the limit rises by so much at a slip, 1..3300 ..
   int mostLimitCounts = kMostSlipLimitCounts;  // .. up to this, limitCounts..3300
-  // After so long without slip the limit falls again by as much as it rose, down to where it began [s], > 0.
+  // After so long without slip the limit falls again by as much as it rose, down to where it began
+  // [s], > 0.
   double calmS = 5.0;
-  // The hand may then open, slowly and watched, until no taxel is over the lower limit. Not unless told: it is loaded.
+  // The hand may then open, slowly and watched, until no taxel is over the lower limit. Not unless
+  // told: it is loaded.
   bool loosen = false;
-  // Of the object; with it the hand is told to open slowly once, until the object slips, and to catch it: what it
-  // felt then tells friction [N], 0: not known.
+  // Of the object; with it the hand is told to open slowly once, until the object slips, and to
+  // catch it: what it felt then tells friction [N], 0: not known.
   double weightN = 0.0;
   // normal force per count of all taxels, of a calibration; 0: not known, no friction
   double newtonsPerCount = 0.0;
@@ -55,8 +57,8 @@ struct HoldingOptions {
 struct GraspRequest {
   GraspMode mode = GraspMode::kPlain;
   std::string preshape = "centrical";  // of sdh2Preshapes()
-  // The hand goes there first, in a motion of its own, 0 (open) .. 1; nothing: from where it stands. In a
-  // reactive grasp this motion is watched, too.
+  // The hand goes there first, in a motion of its own, 0 (open) .. 1; nothing: from where it
+  // stands. In a reactive grasp this motion is watched, too.
   std::optional<double> startRatio = {};
   double closeRatio = 0.5;        // 0 (open) .. 1 (closed); a reactive grasp goes to 1 at most
   double velocityDegPerS = 10.0;  // 1..100; axes that are slower go as fast as they can [deg/s]
@@ -67,13 +69,14 @@ struct GraspRequest {
   // Throws std::invalid_argument naming field, value and range: no byte may be sent.
   void validate() const;
 };
-// What goes to the hand for one motion of a grasp. Throws as validate(), and when a target is beyond the range of
-// an axis (a hand with less range than the SDH-2).
+// What goes to the hand for one motion of a grasp. Throws as validate(), and when a target is
+// beyond the range of an axis (a hand with less range than the SDH-2).
 MoveJoints motionTo(const GraspRequest& request, double closeRatio, const HandDescription& hand);
 // The highest limit that a grasp may go to; of a plain one its limit means nothing.
 int highestLimitOf(const GraspRequest& request);
-// Matrices on fingers that it moves, which can't tell that limit: with one of them it is refused. None for a plain grasp.
-// Settings as in felt_limit.h. Throws std::invalid_argument for a preshape that there isn't.
+// Matrices on fingers that it moves, which can't tell that limit: with one of them it is refused.
+// None for a plain grasp. Settings as in felt_limit.h. Throws std::invalid_argument for a preshape
+// that there isn't.
 std::vector<UnfeltLimit> unfeltLimits(const HandDescription& hand,
                                       const std::vector<MatrixSettings>& settings,
                                       const GraspRequest& request);
@@ -81,7 +84,8 @@ std::vector<UnfeltLimit> unfeltLimits(const HandDescription& hand,
 bool isOpening(const GraspRequest& request);
 // What is done, without how: "reactive grasp", "opening".
 std::string kindOf(const GraspRequest& request);
-// "reactive grasp: centrical, from 0 to 1, 30 deg/s, limit 200 counts", "opening: centrical, 10 deg/s"
+// "reactive grasp: centrical, from 0 to 1, 30 deg/s, limit 200 counts", "opening: centrical, 10
+// deg/s"
 std::string describe(const GraspRequest& request);
 
 enum class GraspOutcome {
@@ -95,7 +99,8 @@ enum class GraspOutcome {
   kFailed,        // the hand refused, didn't answer, or didn't end: stopped
   kRefused,       // it never began: nothing was sent
 };
-// "finished", "limit_reached", "stopped", "relaxed", "stream_dead", "port_gone", "failed", "refused"
+// "finished", "limit_reached", "stopped", "relaxed", "stream_dead", "port_gone", "failed",
+// "refused"
 std::string_view nameOf(GraspOutcome outcome);
 
 struct GraspReport {
@@ -116,7 +121,8 @@ struct GraspReport {
   bool held = false;    // it came to hold
   int limitCounts = 0;  // the last limit
   int slips = 0;        // that were answered, or couldn't be any more
-  // Of the opening until it slipped: all taxels together in that moment [counts], and friction = weight / normal force.
+  // Of the opening until it slipped: all taxels together in that moment [counts], and friction =
+  // weight / normal force.
   std::optional<double> countsAtSlip = {};
   std::optional<double> friction = {};
 };

@@ -29,7 +29,7 @@ struct SensitivityStatus {
   SensitivityMode mode = SensitivityMode::kManual;
   // Measures the frame rate first, for about 1 s.
   bool measuring = false;
-  bool setting = false;        // commands are on their way
+  bool setting = false;  // commands are on their way
   // Reason why the wanted settings can't be applied now, one line; empty: they can.
   std::string waiting;
   std::string failure;         // what the hand said to the last command; empty: it did it
@@ -39,19 +39,22 @@ struct SensitivityStatus {
   bool saturated = false;      // nothing lower is left to try
 };
 
-// Of one controlling thread, which calls step() several times a second. Session and control must outlive it.
+// Of one controlling thread, which calls step() several times a second. Session and control must
+// outlive it.
 class SensitivityControl {
  public:
   SensitivityControl(CaptureSession& session,
                      GraspControl& control,
                      const Clock& clock = systemClock());
 
-  // Instead of what runs. Throw std::invalid_argument (options; noise lines of a hand with more matrices).
+  // Instead of what runs. Throw std::invalid_argument (options; noise lines of a hand with more
+  // matrices).
   void holdHigh(const NoiseFloor& floor, const NoiseThresholdOptions& options = {});
   void seek(const SensitivitySearchOptions& options = {});
   // Ends a mode; what is set stays.
   void letGo();
-  // Ends a mode and brings the hand to what it has at power-up (0.5; SDH-2: 150 proximal, 300 distal).
+  // Ends a mode and brings the hand to what it has at power-up (0.5; SDH-2: 150 proximal, 300
+  // distal).
   void reset();
 
   void step();

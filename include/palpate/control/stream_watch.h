@@ -1,7 +1,7 @@
 // Watchdog of the tactile stream: a grasp under tactile control requires a live stream.
 //
-// Dead means: no frame for 100 ms, or for three median periods where that is longer (a raw stream brings a frame
-// every 85 ms).
+// Dead means: no frame for 100 ms, or for three median periods where that is longer (a raw stream
+// brings a frame every 85 ms).
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ class StreamWatch {
   static constexpr std::int64_t kLeastSilenceUs = 100'000;
   static constexpr int kPeriods = 3;
 
-  // A frame with this host stamp was seen at this monotonic time [us]. Returns the silence before it, when that
-  // was long enough to count as dead [us].
+  // A frame with this host stamp was seen at this monotonic time [us]. Returns the silence before
+  // it, when that was long enough to count as dead [us].
   std::optional<std::int64_t> frame(std::int64_t stampUs, std::int64_t monoUs);
   void reset() { *this = {}; }
 

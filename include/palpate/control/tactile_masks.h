@@ -1,5 +1,5 @@
-// Which taxels the tactile controller scans (its dynamic masks), as a choice of a person: only some, all but some,
-// all.
+// Which taxels the tactile controller scans (its dynamic masks), as a choice of a person: only
+// some, all but some, all.
 #pragma once
 
 #include <vector>
@@ -17,9 +17,9 @@ enum class MaskChoice {
   kAll,      // scan every taxel
 };
 
-// What leads from the masks of `layout` to the choice: one command for each matrix whose mask changes. Throws
-// std::invalid_argument when the selection is one of another sensor, or when nothing at all would
-// be scanned any more.
+// What leads from the masks of `layout` to the choice: one command for each matrix whose mask
+// changes. Throws std::invalid_argument when the selection is one of another sensor, or when
+// nothing at all would be scanned any more.
 std::vector<DeviceCommand> maskCommands(const SensorLayout& layout,
                                         const TaxelSelection& selection,
                                         MaskChoice choice);

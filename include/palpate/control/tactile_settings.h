@@ -16,9 +16,9 @@ using TactileSettings = std::vector<MatrixSettings>;  // one per matrix
 // What a reset gives: sensitivity 0.5, threshold 150 counts proximal, 300 distal.
 TactileSettings defaultTactileSettings(const HandDescription& hand);
 
-// What leads from one to the other: nothing where they agree; one command for all matrices where the new value is
-// the same for all. Throws std::invalid_argument: different numbers of matrices, sensitivity outside 0..1 or
-// no number, threshold outside 0..4095.
+// What leads from one to the other: nothing where they agree; one command for all matrices where
+// the new value is the same for all. Throws std::invalid_argument: different numbers of matrices,
+// sensitivity outside 0..1 or no number, threshold outside 0..4095.
 std::vector<DeviceCommand> commandsBetween(const TactileSettings& from, const TactileSettings& to);
 
 // {"matrices": [{"sensitivity": 0.5, "threshold_counts": 150}, ..]}

@@ -58,7 +58,8 @@ enum class DeviceFault {
   kUnsupported,   // this device takes no such command
 };
 
-// A device can't be opened, doesn't answer, or is gone. what(): "PORT: message", which says what to do.
+// A device can't be opened, doesn't answer, or is gone. what(): "PORT: message", which says what to
+// do.
 class DeviceError : public Error {
  public:
   DeviceError(DeviceFault fault, const std::string& port, const std::string& message);

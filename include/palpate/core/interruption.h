@@ -1,4 +1,5 @@
-// Ctrl-C and its kin (SIGINT, SIGTERM, SIGHUP) as something to wait for, instead of the end of the program.
+// Ctrl-C and its kin (SIGINT, SIGTERM, SIGHUP) as something to wait for, instead of the end of the
+// program.
 #pragma once
 
 #include <array>

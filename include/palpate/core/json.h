@@ -41,7 +41,8 @@ class Json {
   bool isString() const;
   bool isBool() const;
 
-  // Typed reading; throws palpate::Error when the value is of another kind, with the key it stands under.
+  // Typed reading; throws palpate::Error when the value is of another kind, with the key it stands
+  // under.
   bool asBool() const;
   double asDouble() const;
   std::int64_t asInteger() const;
@@ -50,8 +51,8 @@ class Json {
   std::size_t size() const;               // items of an array or object, else 0
   std::vector<std::string> keys() const;  // of an object, in order
   bool contains(std::string_view key) const;
-  // The value under `key` (null when absent or no object), or at `index` of an array. Nothing below it is
-  // copied, and it stays valid whatever becomes of this one.
+  // The value under `key` (null when absent or no object), or at `index` of an array. Nothing below
+  // it is copied, and it stays valid whatever becomes of this one.
   Json at(std::string_view key) const;
   Json at(std::size_t index) const;  // throws std::out_of_range
 

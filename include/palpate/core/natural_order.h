@@ -6,8 +6,8 @@
 
 namespace palpate {
 
-// Byte by byte, but digits in a row count as one number, of any length; leading zeros matter only where nothing
-// else differs. Case counts: give small letters.
+// Byte by byte, but digits in a row count as one number, of any length; leading zeros matter only
+// where nothing else differs. Case counts: give small letters.
 std::strong_ordering naturalOrder(std::string_view left, std::string_view right) noexcept;
 
 }  // namespace palpate

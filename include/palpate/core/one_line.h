@@ -7,9 +7,9 @@
 
 namespace palpate {
 
-// `text` without anything that could break or bend the line: control characters (line ends, escapes,
-// C1, those that turn the direction of writing) become \n, \t, \xNN or \u{NNNN}; bytes that are no
-// UTF-8 become \xNN.
+// `text` without anything that could break or bend the line: control characters (line ends,
+// escapes, C1, those that turn the direction of writing) become \n, \t, \xNN or \u{NNNN}; bytes
+// that are no UTF-8 become \xNN.
 std::string oneLine(std::string_view text);
 
 // The first `most` bytes of `text`, fewer where that would cut a UTF-8 character in two.

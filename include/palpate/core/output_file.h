@@ -20,11 +20,11 @@ void publishFile(const std::filesystem::path& written,
 
 class OutputFile {
  public:
-  // Opens the file to be. A symbolic link that may be replaced is followed. Throws FileError: exists
-  // already (kRefuse), no such folder, no permission, is a folder, a device, ..
+  // Opens the file to be. A symbolic link that may be replaced is followed. Throws FileError:
+  // exists already (kRefuse), no such folder, no permission, is a folder, a device, ..
   explicit OutputFile(std::filesystem::path path, Overwrite overwrite = Overwrite::kRefuse);
-  // Nothing is left unless commit() succeeded; nor when the process is killed, where the file system
-  // has files without a name.
+  // Nothing is left unless commit() succeeded; nor when the process is killed, where the file
+  // system has files without a name.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -36,7 +36,8 @@ class OutputFile {
   void commit();
   const std::filesystem::path& path() const noexcept { return path_; }
   Overwrite overwrite() const noexcept { return overwrite_; }
-  // For another program that writes it: /proc/self/fd/N there, opened anew; see write() for our own bytes.
+  // For another program that writes it: /proc/self/fd/N there, opened anew; see write() for our own
+  // bytes.
   int descriptor() const noexcept { return descriptor_; }
 
  private:
@@ -48,8 +49,8 @@ class OutputFile {
   int descriptor_ = -1;
 };
 
-// Files that belong together: every one is on disk before the first has its name. Throws FileError; then
-// none of them was left, but for those that had replaced another by then.
+// Files that belong together: every one is on disk before the first has its name. Throws FileError;
+// then none of them was left, but for those that had replaced another by then.
 void commitTogether(std::span<OutputFile* const> files);
 
 }  // namespace palpate

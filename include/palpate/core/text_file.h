@@ -1,4 +1,5 @@
-// Small files that a person names and the program reads whole: models, calibrations, recipes, tables.
+// Small files that a person names and the program reads whole: models, calibrations, recipes,
+// tables.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +8,9 @@
 
 namespace palpate {
 
-// All bytes of a file. Never holds more than `mostBytes` + 1 of them in memory: a file that is larger is
-// not what it should be. Throws FileError (can't be opened, says why; is a folder; can't be read),
-// FormatError (larger than `mostBytes`).
+// All bytes of a file. Never holds more than `mostBytes` + 1 of them in memory: a file that is
+// larger is not what it should be. Throws FileError (can't be opened, says why; is a folder; can't
+// be read), FormatError (larger than `mostBytes`).
 std::string readTextFile(const std::filesystem::path& path, std::uint64_t mostBytes);
 
 }  // namespace palpate

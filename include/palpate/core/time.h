@@ -20,8 +20,8 @@ constexpr std::int64_t floorMs(std::int64_t us) {
 class Clock {
  public:
   virtual ~Clock() = default;
-  // Monotonic time [us] since an arbitrary start; never goes back. The machine's own goes on while the
-  // machine sleeps (CLOCK_BOOTTIME), so that stamps don't lag after it.
+  // Monotonic time [us] since an arbitrary start; never goes back. The machine's own goes on while
+  // the machine sleeps (CLOCK_BOOTTIME), so that stamps don't lag after it.
   virtual std::int64_t monotonicUs() const = 0;
   // Wall clock [us since 1970, UTC]; may jump.
   virtual std::int64_t wallUs() const = 0;

@@ -14,9 +14,9 @@ namespace palpate {
 class ByteChannel {
  public:
   virtual ~ByteChannel() = default;
-  // Waits until at least one byte is there, at most `timeout` (0: doesn't wait), and takes what is there
-  // as far as it fits. Returns the number of bytes; 0: nothing came, or interrupt() was called.
-  // Throws DeviceError (kGone) when the other end is gone.
+  // Waits until at least one byte is there, at most `timeout` (0: doesn't wait), and takes what is
+  // there as far as it fits. Returns the number of bytes; 0: nothing came, or interrupt() was
+  // called. Throws DeviceError (kGone) when the other end is gone.
   virtual std::size_t read(std::span<std::byte> into, std::chrono::milliseconds timeout) = 0;
   // Hands all bytes to the system, in one piece where it takes them so. Throws DeviceError (kGone;
   // kSilent: the line took no byte for a second).
@@ -30,16 +30,18 @@ class ByteChannel {
 };
 
 struct ChannelOptions {
-  // Serial ports, 50..10,000,000: 8 data bits, no parity, 1 stop bit, no flow control. Ptys have none.
+  // Serial ports, 50..10,000,000: 8 data bits, no parity, 1 stop bit, no flow control. Ptys have
+  // none.
   int baud = 115'200;
   std::chrono::milliseconds connectTimeout{2000};  // TCP, resolving the name included
 };
 
-// Opens a port by name: a serial device, a /dev/serial/by-id name, a pty path (links are followed), or
-// tcp:HOST:PORT (an IPv6 address may stand in brackets; default ports: none). Exclusive: a second program
-// is refused (flock; serial ports TIOCEXCL, too). What lies in the input is discarded. Throws
-// DeviceError: kNotFound (also: no connection), kNoPermission (hint: group dialout), kBusy, kUnsupported
-// (the port knows no such speed); std::invalid_argument: options out of range.
+// Opens a port by name: a serial device, a /dev/serial/by-id name, a pty path (links are followed),
+// or tcp:HOST:PORT (an IPv6 address may stand in brackets; default ports: none). Exclusive: a
+// second program is refused (flock; serial ports TIOCEXCL, too). What lies in the input is
+// discarded. Throws DeviceError: kNotFound (also: no connection), kNoPermission (hint: group
+// dialout), kBusy, kUnsupported (the port knows no such speed); std::invalid_argument: options out
+// of range.
 std::unique_ptr<ByteChannel> openChannel(const std::string& port,
                                          const ChannelOptions& options = {});
 

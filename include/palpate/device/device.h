@@ -1,4 +1,5 @@
-// What delivers frames and takes commands: a live hand over its ports, or the replay of a recording.
+// What delivers frames and takes commands: a live hand over its ports, or the replay of a
+// recording.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +16,15 @@
 
 namespace palpate {
 
-// Something that happened on the line, at a host time or over a span. Kinds: "gap" (no frames came in
-// between), "link" (connected, lost, restored), "settings" (stream paused to change them), "clock" (the
-// wall clock jumped), "motion" (a command to the joints), "alarm".
-// JSON of "gap": {"seconds": 3.2, "lost": 101, "estimated": true}; lost is counted by the controller's clock
-// where that went on, else estimated (true) by the usual rate; absent where no rate was known.
-// JSON of "settings", all that holds from then on: {"matrices": [{"sensitivity": 0.5, "threshold_counts": 150,
-// "dynamic_mask": "FFFF..0F"}, ..]}; the mask in capital hexadecimal digits, two per byte, the bit i % 8 of byte i / 8
-// (least first) is place i = y * columns + x: 1 where the taxel is scanned (as on the wire).
+// Something that happened on the line, at a host time or over a span. Kinds: "gap" (no frames came
+// in between), "link" (connected, lost, restored), "settings" (stream paused to change them),
+// "clock" (the wall clock jumped), "motion" (a command to the joints), "alarm". JSON of "gap":
+// {"seconds": 3.2, "lost": 101, "estimated": true}; lost is counted by the controller's clock where
+// that went on, else estimated (true) by the usual rate; absent where no rate was known. JSON of
+// "settings", all that holds from then on: {"matrices": [{"sensitivity": 0.5, "threshold_counts":
+// 150, "dynamic_mask": "FFFF..0F"}, ..]}; the mask in capital hexadecimal digits, two per byte, the
+// bit i % 8 of byte i / 8 (least first) is place i = y * columns + x: 1 where the taxel is scanned
+// (as on the wire).
 struct DeviceEvent {
   std::int64_t tUs = 0;   // [us since 1970]
   std::int64_t t1Us = 0;  // end; equals tUs for a moment
@@ -32,8 +34,8 @@ struct DeviceEvent {
   std::string json;  // more of it, one JSON object; may be empty
 };
 
-// Who takes what a device delivers. Called from the device's threads, one per port (so frames and angles
-// may come at the same time); must return soon: a slow sink makes the port's buffer grow.
+// Who takes what a device delivers. Called from the device's threads, one per port (so frames and
+// angles may come at the same time); must return soon: a slow sink makes the port's buffer grow.
 class DeviceSink {
  public:
   virtual ~DeviceSink() = default;
@@ -63,8 +65,8 @@ struct PortStatus {
   std::string port;  // as named by the caller
   PortState state = PortState::kClosed;
   std::string message;  // what is wrong and what to do, one line; empty: nothing
-  // What was found there instead, where it is known: the hand's other controller. Nothing: what belongs there, or nobody
-  // knows yet.
+  // What was found there instead, where it is known: the hand's other controller. Nothing: what
+  // belongs there, or nobody knows yet.
   std::optional<PortAnswer> found = {};
   std::uint64_t items = 0;         // frames or angle samples delivered
   std::uint64_t bytes = 0;         // read from the port
@@ -141,20 +143,22 @@ class Device {
   // The hand it delivers. Changes only by a mask command or a reconnection.
   virtual HandDescription hand() const = 0;
   virtual DeviceFacts facts() const = 0;
-  // Starts delivering to `sink`, which must outlive stop(). Throws std::logic_error when started. A port
-  // that can't be opened doesn't throw here: it is looked for until stop(), status() says so.
+  // Starts delivering to `sink`, which must outlive stop(). Throws std::logic_error when started. A
+  // port that can't be opened doesn't throw here: it is looked for until stop(), status() says so.
   virtual void start(DeviceSink& sink) = 0;
   // Ends delivery; when it returns no thread of the device is left. Bounded: under 2 s.
   virtual void stop() noexcept = 0;
   virtual DeviceStatus status() const = 0;
-  // Hands a command to the thread that owns the port; safe from any thread, never waits. The future holds
-  // the answer or a DeviceError / std::invalid_argument (value out of range: nothing was sent).
+  // Hands a command to the thread that owns the port; safe from any thread, never waits. The future
+  // holds the answer or a DeviceError / std::invalid_argument (value out of range: nothing was
+  // sent).
   virtual std::future<CommandAnswer> submit(DeviceCommand command) = 0;
-  // A controller scans by itself, at a rate that its layout tells; the replay of a recording comes as that came.
+  // A controller scans by itself, at a rate that its layout tells; the replay of a recording comes
+  // as that came.
   virtual bool scansItself() const { return false; }
-  // Latest axis states (SDH-2: 0 idle, 1 positioning, 2 speed mode, 3 not initialised, 4, 5 blocked, 6
-  // disabled, 7 limit reached); empty where unknown. Polled while a motion runs; "positioning" from its
-  // command on until the hand was asked.
+  // Latest axis states (SDH-2: 0 idle, 1 positioning, 2 speed mode, 3 not initialised, 4, 5
+  // blocked, 6 disabled, 7 limit reached); empty where unknown. Polled while a motion runs;
+  // "positioning" from its command on until the hand was asked.
   virtual std::vector<int> axisStates() const { return {}; }
 };
 

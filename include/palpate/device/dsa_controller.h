@@ -1,5 +1,6 @@
-// Driver of the tactile controller DSACON32-M: asks, sets, streams. Synchronous; the one thread that owns
-// the port uses it. Frames that arrive while an answer is awaited are not lost: they go to the sink.
+// Driver of the tactile controller DSACON32-M: asks, sets, streams. Synchronous; the one thread
+// that owns the port uses it. Frames that arrive while an answer is awaited are not lost: they go
+// to the sink.
 #pragma once
 
 #include <chrono>
@@ -81,9 +82,9 @@ class DsaController {
                 const Clock& clock = systemClock(),
                 DsaControllerOptions options = {});
 
-  // Stops a stream left over, waits for silence, asks for everything. All throw DeviceError: kSilent (no
-  // answer), kWrongDevice (a motion controller answers: ports swapped), kRefused (error code, with its
-  // meaning), kProtocol, kUnsupported (firmware too old), kGone.
+  // Stops a stream left over, waits for silence, asks for everything. All throw DeviceError:
+  // kSilent (no answer), kWrongDevice (a motion controller answers: ports swapped), kRefused (error
+  // code, with its meaning), kProtocol, kUnsupported (firmware too old), kGone.
   const DsaFacts& open();
   const DsaFacts& facts() const noexcept { return facts_; }
 
@@ -91,8 +92,8 @@ class DsaController {
   void startStream();
   // Returns when the controller has said so; frames under way still reach the sink.
   void stopStream();
-  // One stop, once, waiting so long at most; whether the controller answered. For leaving, and for trying
-  // whether it still is there.
+  // One stop, once, waiting so long at most; whether the controller answered. For leaving, and for
+  // trying whether it still is there.
   bool stopStreamOnce(std::chrono::milliseconds limit);
   bool streaming() const noexcept { return streaming_; }
   // Pull mode: asks for one frame and waits for it (it goes to the sink).
@@ -102,9 +103,9 @@ class DsaController {
   // Tells the parser that the line has been silent (see DsaPacketParser::flush).
   void flush();
 
-  // Setters pause the stream (stop, settle, set, start again) and read back what was set. `persistent`
-  // writes the controller's memory, which lasts about 100,000 writes. std::invalid_argument: value or
-  // matrix out of range, nothing was sent.
+  // Setters pause the stream (stop, settle, set, start again) and read back what was set.
+  // `persistent` writes the controller's memory, which lasts about 100,000 writes.
+  // std::invalid_argument: value or matrix out of range, nothing was sent.
   void setSensitivity(std::size_t matrix, double sensitivity, bool persistent = false);
   void resetSensitivity(std::size_t matrix);  // to the factory's
   void setThreshold(std::size_t matrix, int counts, bool persistent = false);

@@ -1,7 +1,7 @@
 // DSACON32-M packet framing: finds and checks packets in a raw byte stream, and makes requests.
 //
-// Wire layout, little-endian (behaviour of SCHUNK's SDHLibrary; names after the Weiss Robotics DSACON32
-// command set):
+// Wire layout, little-endian (behaviour of SCHUNK's SDHLibrary; names after the Weiss Robotics
+// DSACON32 command set):
 //   AA AA AA | id u8 | size u16 [bytes] | payload[size] | checksum u16, only when size > 0
 // The checksum (weiss_checksum.h) covers id, size and payload.
 #pragma once
@@ -48,28 +48,29 @@ struct DsaPacketStats {
 };
 
 struct DsaPacketOptions {
-  // Places in a frame (SDH-2: 486): a frame's payload is 5 + 2 n bytes, n = 1..places. No candidate that
-  // claims more is waited for, so a corrupt size costs at most that much waiting.
+  // Places in a frame (SDH-2: 486): a frame's payload is 5 + 2 n bytes, n = 1..places. No candidate
+  // that claims more is waited for, so a corrupt size costs at most that much waiting.
   std::size_t numPlaces = 486;
 };
 
-// Push parser; not thread-safe (one per port thread). Never throws on bad input: bad bytes are counted
-// and the search restarts one byte later, so that a rejected candidate hides no packet.
+// Push parser; not thread-safe (one per port thread). Never throws on bad input: bad bytes are
+// counted and the search restarts one byte later, so that a rejected candidate hides no packet.
 class DsaPacketParser {
  public:
   using Sink = std::function<void(const DsaPacket&)>;
-  // Throws std::invalid_argument when a frame of that many places has no u16 size (0, or over 32,765).
+  // Throws std::invalid_argument when a frame of that many places has no u16 size (0, or over
+  // 32,765).
   explicit DsaPacketParser(DsaPacketOptions options = {});
-  // Consumes all of `bytes`; calls `sink` once per valid packet, in order, before returning. The sink
-  // must not call push().
+  // Consumes all of `bytes`; calls `sink` once per valid packet, in order, before returning. The
+  // sink must not call push().
   void push(std::span<const std::byte> bytes, const Sink& sink);
   // The sensor turned out to have another number of places. Throws as the constructor does.
   void setNumPlaces(std::size_t numPlaces);
   const DsaPacketStats& stats() const noexcept { return stats_; }
   std::size_t pendingBytes() const noexcept { return pending_.size(); }
-  // The line has been silent: the rest of what waits will not come. The search restarts one byte behind
-  // the start of the candidate that waited, so that a packet behind a corrupt size is found; nothing is
-  // pending afterwards.
+  // The line has been silent: the rest of what waits will not come. The search restarts one byte
+  // behind the start of the candidate that waited, so that a packet behind a corrupt size is found;
+  // nothing is pending afterwards.
   void flush(const Sink& sink);
 
  private:

@@ -1,5 +1,5 @@
-// A hand on its ports: a thread per port looks for the controller, opens it, streams, executes commands
-// between two frames, notices silence and unplugging, and finds the hand again.
+// A hand on its ports: a thread per port looks for the controller, opens it, streams, executes
+// commands between two frames, notices silence and unplugging, and finds the hand again.
 #pragma once
 
 #include <functional>

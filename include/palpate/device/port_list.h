@@ -20,12 +20,12 @@ struct PortInfo {
 // Where udev keeps links named after the plug, not after the order of plugging in.
 constexpr char kByIdFolder[] = "/dev/serial/by-id";
 
-// Ports whose hardware is there: USB first, the machine's own (ttyS) last, else by name with numbers in
-// their order. No port is opened for use. An unreadable list is an empty one.
+// Ports whose hardware is there: USB first, the machine's own (ttyS) last, else by name with
+// numbers in their order. No port is opened for use. An unreadable list is an empty one.
 std::vector<PortInfo> listPorts(const std::filesystem::path& byIdFolder = kByIdFolder);
 
-// The link in `byIdFolder` that leads to the same device as `port`; `port` itself where there is none
-// (also for tcp: names and ports that don't exist).
+// The link in `byIdFolder` that leads to the same device as `port`; `port` itself where there is
+// none (also for tcp: names and ports that don't exist).
 std::string stableNameOf(const std::string& port,
                          const std::filesystem::path& byIdFolder = kByIdFolder);
 

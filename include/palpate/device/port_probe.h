@@ -1,5 +1,6 @@
-// Finds out what is behind a port: the hand's motion controller, its tactile controller, or neither. The two
-// look alike from outside, and swapped ports are the usual reason why nothing works.
+// Finds out what is behind a port: the hand's motion controller, its tactile controller, or
+// neither. The two look alike from outside, and swapped ports are the usual reason why nothing
+// works.
 #pragma once
 
 #include <chrono>
@@ -41,15 +42,17 @@ struct PortProbeOptions {
   std::function<bool()> giveUp;  // asked every 20 ms; true: ends early with what is known
 };
 
-// Opens the port and asks, at most 2.5 s (and the time to connect). First ` ver`, which a tactile controller
-// ignores; only where no motion controller answers within a second, the tactile controller's stop and
-// query, which a motion controller would take for the start of a long record. Ends a tactile stream that
-// somebody left running. Throws nothing but std::bad_alloc: an error is an answer.
+// Opens the port and asks, at most 2.5 s (and the time to connect). First ` ver`, which a tactile
+// controller ignores; only where no motion controller answers within a second, the tactile
+// controller's stop and query, which a motion controller would take for the start of a long record.
+// Ends a tactile stream that somebody left running. Throws nothing but std::bad_alloc: an error is
+// an answer.
 PortProbe probePort(const std::string& port,
                     const PortProbeOptions& options = {},
                     const Clock& clock = systemClock());
 
-// What is wrong with a pair of ports, and what to do: swapped, or one of them the other's. Empty: nothing.
+// What is wrong with a pair of ports, and what to do: swapped, or one of them the other's. Empty:
+// nothing.
 std::string describeSwap(const PortProbe& tactilePort, const PortProbe& motionPort);
 
 }  // namespace palpate

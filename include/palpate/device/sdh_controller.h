@@ -1,12 +1,12 @@
-// Driver of the SDH-2's motion controller: asks and sets its seven axes. Synchronous; the one thread that
-// owns the port uses it.
+// Driver of the SDH-2's motion controller: asks and sets its seven axes. Synchronous; the one
+// thread that owns the port uses it.
 //
-// Every value that is sent is checked before the first byte leaves (std::invalid_argument names axis,
-// value and range; nothing was sent), and every set names all seven axes: none becomes 0 by omission.
-// `grip` and `selgrip` aren't here: the hand is deaf to a stop until they end.
-// All calls are bounded in time (5 s, a reference run 20 s) and throw DeviceError: kSilent (no answer),
-// kRefused (error code, with its meaning), kProtocol (answers arrive damaged), kUnsupported (firmware too
-// old), kGone; SdhInterrupted (see SdhControllerOptions::urgent).
+// Every value that is sent is checked before the first byte leaves (std::invalid_argument names
+// axis, value and range; nothing was sent), and every set names all seven axes: none becomes 0 by
+// omission. `grip` and `selgrip` aren't here: the hand is deaf to a stop until they end. All calls
+// are bounded in time (5 s, a reference run 20 s) and throw DeviceError: kSilent (no answer),
+// kRefused (error code, with its meaning), kProtocol (answers arrive damaged), kUnsupported
+// (firmware too old), kGone; SdhInterrupted (see SdhControllerOptions::urgent).
 #pragma once
 
 #include <array>
@@ -33,10 +33,11 @@ class SdhInterrupted : public DeviceError {
 };
 
 struct SdhControllerOptions {
-  // True as long as a stop waits for this thread. Asked before an exchange, between its tries, and while
-  // it waits longer than 10 ms (every 4 ms; ByteChannel::interrupt() shortens that): then `stop` goes out
-  // and the call ends with SdhInterrupted. Every call but stop() does so until it is false again, so
-  // whoever answers it must call stop(). A reference run is not given up: the hand is deaf until it ends.
+  // True as long as a stop waits for this thread. Asked before an exchange, between its tries, and
+  // while it waits longer than 10 ms (every 4 ms; ByteChannel::interrupt() shortens that): then
+  // `stop` goes out and the call ends with SdhInterrupted. Every call but stop() does so until it
+  // is false again, so whoever answers it must call stop(). A reference run is not given up: the
+  // hand is deaf until it ends.
   std::function<bool()> urgent;
 };
 
@@ -86,7 +87,8 @@ class SdhController {
   SdhController& operator=(const SdhController&) = delete;
 
   // Finds the controller and asks what it is. Besides the above: kWrongDevice (a tactile controller
-  // sends here: ports swapped; or the hand has not seven axes). An idle tactile controller is kSilent.
+  // sends here: ports swapped; or the hand has not seven axes). An idle tactile controller is
+  // kSilent.
   const SdhFacts& open();
   const SdhFacts& facts() const noexcept { return facts_; }
   SdhStats stats() const noexcept;
@@ -141,8 +143,8 @@ class SdhController {
   void setVelocityGain(std::size_t axis, double gain);
   std::array<double, 3> pid(std::size_t axis);
   void setPid(std::size_t axis, const std::array<double, 3>& gains);
-  // Moves axes without absolute encoder to a stop: 0 not, 1 to the positive one, 2 to the negative one.
-  // Blocks up to 15 s, and the hand is deaf to stop() until it ends: warn the user before.
+  // Moves axes without absolute encoder to a stop: 0 not, 1 to the positive one, 2 to the negative
+  // one. Blocks up to 15 s, and the hand is deaf to stop() until it ends: warn the user before.
   void referenceRun(const std::vector<int>& direction);
   // Stores the actual angle in the hand's flash where the value is 1.
   void savePositions(const std::vector<int>& axes);

@@ -1,5 +1,6 @@
-// The language of the SDH-2's motion controller: ASCII lines and binary records on one line, little-endian.
-// Encoding of requests and the meaning of replies; finding replies in a stream is sdh_reply_parser.h's work.
+// The language of the SDH-2's motion controller: ASCII lines and binary records on one line,
+// little-endian. Encoding of requests and the meaning of replies; finding replies in a stream is
+// sdh_reply_parser.h's work.
 //
 //   line:     text CR LF                            reply: NAME=values CR LF, or E<code> CR LF
 //   request:  command u8 | n u8 | 0 u8 | crc u16                       n = bytes after n
@@ -21,8 +22,8 @@ namespace palpate {
 constexpr std::size_t kSdhAxes = 7;
 constexpr std::size_t kSdhTemperatures = 9;  // motors 0..6, FPGA, circuit board
 
-// Command numbers of binary records. Only those in the first group are sent so: the layout of the others
-// isn't known, they go as lines.
+// Command numbers of binary records. Only those in the first group are sent so: the layout of the
+// others isn't known, they go as lines.
 enum class SdhCommand : std::uint8_t {
   kVelocityTarget = 0x80,     // v
   kVelocity = 0x81,           // vel
@@ -77,13 +78,14 @@ std::string_view sdhName(SdhCommand command) noexcept;
 // True for the first group above.
 bool sdhIsBinary(SdhCommand command) noexcept;
 
-// A record without values ("get"), 5 bytes (3 without checksum), or with seven ("set"), 33 (31). Throws
-// std::invalid_argument for another number of values.
+// A record without values ("get"), 5 bytes (3 without checksum), or with seven ("set"), 33 (31).
+// Throws std::invalid_argument for another number of values.
 std::vector<std::byte> sdhRecordRequest(SdhCommand command,
                                         std::span<const double> values,
                                         bool checksum);
 
-// A line without its end: "pos", "kv(2)", "p=0.000000,..": six decimals, as the vendor's library writes.
+// A line without its end: "pos", "kv(2)", "p=0.000000,..": six decimals, as the vendor's library
+// writes.
 std::string sdhLineRequest(std::string_view name,
                            std::optional<int> axis = std::nullopt,
                            std::span<const double> values = {});
@@ -98,7 +100,8 @@ struct SdhRecord {
 constexpr std::size_t sdhRecordBytes(bool checksum) noexcept { return checksum ? 34 : 32; }
 // The first three bytes of a reply; more of them may follow later.
 bool sdhIsRecordStart(std::span<const std::byte> bytes, bool checksum) noexcept;
-// A whole reply, bytes.size() == sdhRecordBytes(); nothing when it is none or its checksum is wrong.
+// A whole reply, bytes.size() == sdhRecordBytes(); nothing when it is none or its checksum is
+// wrong.
 std::optional<SdhRecord> decodeSdhRecord(std::span<const std::byte> bytes, bool checksum);
 
 // A reply line.
@@ -120,8 +123,8 @@ SdhLine parseSdhLine(std::string_view line);
 // Numbers between commas, blanks allowed; nothing when one of them isn't a finite number.
 std::optional<std::vector<double>> parseSdhNumbers(std::string_view text);
 
-// What an error code of the motion controller means ("range error"), and what to do about it (may be
-// empty). They are not the tactile controller's codes.
+// What an error code of the motion controller means ("range error"), and what to do about it (may
+// be empty). They are not the tactile controller's codes.
 std::string sdhErrorText(int code);
 std::string sdhErrorAdvice(int code);
 

@@ -1,5 +1,5 @@
-// Finds the replies of the SDH-2's motion controller in its stream of bytes: lines and binary records,
-// mixed. A byte with the top bit set begins a record, everything else is text.
+// Finds the replies of the SDH-2's motion controller in its stream of bytes: lines and binary
+// records, mixed. A byte with the top bit set begins a record, everything else is text.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,8 @@ namespace palpate {
 
 using SdhReply = std::variant<SdhLine, SdhRecord>;
 
-// Counts since construction. Every byte pushed is in a line, in a record, skipped, or still pending.
+// Counts since construction. Every byte pushed is in a line, in a record, skipped, or still
+// pending.
 struct SdhReplyStats {
   std::uint64_t lines = 0;
   std::uint64_t records = 0;
@@ -25,8 +26,8 @@ struct SdhReplyStats {
   std::uint64_t badChecksums = 0;  // records with a wrong checksum
 };
 
-// Push parser; one per port thread. Never throws on bad input: after a record that is none the search
-// goes on one byte later.
+// Push parser; one per port thread. Never throws on bad input: after a record that is none the
+// search goes on one byte later.
 class SdhReplyParser {
  public:
   using Sink = std::function<void(SdhReply&&)>;

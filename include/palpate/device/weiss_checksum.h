@@ -1,6 +1,6 @@
-// Checksum of the DSACON32-M's packets and of the SDH-2's binary records. It is NOT CRC-16/CCITT nor
-// any other named one: the table is that of the left-shifting polynomial 0x1021, the update shifts
-// right. Seed 0xFFFF, no final xor, sent low byte first.
+// Checksum of the DSACON32-M's packets and of the SDH-2's binary records. It is NOT CRC-16/CCITT
+// nor any other named one: the table is that of the left-shifting polynomial 0x1021, the update
+// shifts right. Seed 0xFFFF, no final xor, sent low byte first.
 #pragma once
 
 #include <cstddef>

@@ -21,8 +21,8 @@ namespace palpate {
 enum class EmulationRate {
   kReal,  // bytes at 115200 baud, frames by scan time, commands with 2..3 ms of thinking
   kHz,    // frames at a given rate, lines and commands without delay
-  // Frames as fast as the client takes them; the hand's time runs with the frames, each at its nominal
-  // interval, and with the wall clock while nothing streams.
+  // Frames as fast as the client takes them; the hand's time runs with the frames, each at its
+  // nominal interval, and with the wall clock while nothing streams.
   kMax,
 };
 

@@ -63,7 +63,7 @@ class ByteFaults {
 
   double crcRate_, dropRate_, insertRate_;
   std::mt19937_64 random_;
-  std::uint64_t untilDrop_ = 0;    // bytes that pass before the next one vanishes
+  std::uint64_t untilDrop_ = 0;  // bytes that pass before the next one vanishes
   // Number of bytes until the next one is followed by a random byte.
   std::uint64_t untilInsert_ = 0;
 };

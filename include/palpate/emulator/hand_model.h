@@ -1,6 +1,6 @@
-// What an emulated hand does behind its two ports: joints that move, matrices that feel. The servers of
-// the two protocols know only this. Implemented by the physical hand (joints, objects, contact, rubber)
-// and by a recording that is played.
+// What an emulated hand does behind its two ports: joints that move, matrices that feel. The
+// servers of the two protocols know only this. Implemented by the physical hand (joints, objects,
+// contact, rubber) and by a recording that is played.
 #pragma once
 
 #include <cstdint>
@@ -43,15 +43,16 @@ class HandModel {
   virtual double timeS() const = 0;
   virtual JointMotion& joints() = 0;
   virtual std::vector<MatrixSetting>& settings() = 0;  // one per matrix
-  // What the tactile controller delivers now: threshold, masks and 12 bit applied. Size: numPlaces().
+  // What the tactile controller delivers now: threshold, masks and 12 bit applied. Size:
+  // numPlaces().
   virtual void scan(std::span<std::uint16_t> counts) = 0;
   virtual std::vector<double> temperatures() = 0;  // one per sensor [deg C]
   // Of the last scan, one per matrix; empty when nothing is known (a replay).
   virtual std::vector<MatrixTruth> truth() const = 0;
   // A finished replay has nothing more to scan.
   virtual bool finished() const { return false; }
-  // Replay: time from the frame of the last scan() to the next one [s], 0 ahead of the first. Nothing: the
-  // controller's own scan time.
+  // Replay: time from the frame of the last scan() to the next one [s], 0 ahead of the first.
+  // Nothing: the controller's own scan time.
   virtual std::optional<double> nextIntervalS() const { return std::nullopt; }
 };
 

@@ -1,7 +1,8 @@
 // The SDH-2's motion controller as a machine of joints: seven axes with targets, velocities,
 // accelerations, power and states, that move in simulated time. Knows no byte of the protocol.
 //
-// Velocity profiles of a motion over a distance d within a time T, velocity limit v, acceleration limit a:
+// Velocity profiles of a motion over a distance d within a time T, velocity limit v, acceleration
+// limit a:
 //   sin-square: v(t) = 2 d/T sin^2(pi t/T); its peak acceleration is 2 pi d/T^2, so
 //               T = max(2 d/v, sqrt(2 pi d/a))
 //   ramp:       trapezoid; T = d/v + v/a, or 2 sqrt(d/a) where v isn't reached
@@ -29,16 +30,16 @@ enum class AxisState : std::uint8_t {
 enum class ControllerType : std::uint8_t { kPose = 0, kVelocity = 1, kVelocityAcceleration = 2 };
 enum class VelocityProfile : std::uint8_t { kSinSquare = 0, kRamp = 1 };
 
-// Vectors have one entry per axis. Setters throw std::out_of_range (value outside the axis' range) or
-// std::invalid_argument (wrong size, not finite) and change nothing then.
+// Vectors have one entry per axis. Setters throw std::out_of_range (value outside the axis' range)
+// or std::invalid_argument (wrong size, not finite) and change nothing then.
 class JointMotion {
  public:
   // Axes stand at `startDeg`, disabled; pose controller, 40 deg/s, 100 deg/s^2, sin-square.
   JointMotion(const HandDescription& hand, std::vector<double> startDeg);
 
   void setTargets(const std::vector<double>& deg);
-  // Pose controller: 0..limit, used by the next startMotion(). Velocity controllers: -limit..limit, moves
-  // at once (kVelocityAcceleration ramps with the accelerations).
+  // Pose controller: 0..limit, used by the next startMotion(). Velocity controllers: -limit..limit,
+  // moves at once (kVelocityAcceleration ramps with the accelerations).
   void setVelocities(const std::vector<double>& degPerS);
   void setAccelerations(const std::vector<double>& degPerS2);
   void setPower(const std::vector<bool>& on);  // off: the axis stops where it is, state kDisabled
@@ -46,8 +47,8 @@ class JointMotion {
       ControllerType type);  // velocities become 40 (pose) or 0 (velocity controllers)
   void setProfile(VelocityProfile profile);
 
-  // `m`: enables all axes; all start and arrive together. Returns the duration [s]; 0 when all stand at
-  // their targets.
+  // `m`: enables all axes; all start and arrive together. Returns the duration [s]; 0 when all
+  // stand at their targets.
   double startMotion();
   double durationOfPending()
       const;    // `get_duration`: of the motion that startMotion() would begin [s]

@@ -1,5 +1,6 @@
-// Frames of a hand at high sensitivity, with known truth: contacts of several sizes come, hold and go, one after
-// the other, on a sensor whose noise is that of the real one. To measure what filters do to ghosts and to contacts.
+// Frames of a hand at high sensitivity, with known truth: contacts of several sizes come, hold and
+// go, one after the other, on a sensor whose noise is that of the real one. To measure what filters
+// do to ghosts and to contacts.
 #pragma once
 
 #include <array>
@@ -70,8 +71,8 @@ struct NoisyContacts {
 // The same options give the same frames. Throws std::invalid_argument.
 NoisyContacts makeNoisyContacts(const NoisyContactsOptions& options = {});
 
-// theta_m(T) of the methods (section 4): line of the maximum, a multiple of its RMSE, less `belowCounts`; whole
-// counts, not below 0.
+// theta_m(T) of the methods (section 4): line of the maximum, a multiple of its RMSE, less
+// `belowCounts`; whole counts, not below 0.
 int noiseThresholdCounts(const MatrixCharacteristics& matrix,
                          double degC,
                          double noiseMultiple = 3.0,

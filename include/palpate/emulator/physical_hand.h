@@ -13,8 +13,8 @@ namespace palpate {
 
 struct PhysicalHandOptions {
   std::uint64_t seed = 1;  // of the sensors' noise
-  // Elastic foundation of the sensor's rubber: 1 mm of indentation are 150 kPa, which read about the 3554
-  // counts that the study takes for 1 mm.
+  // Elastic foundation of the sensor's rubber: 1 mm of indentation are 150 kPa, which read about
+  // the 3554 counts that the study takes for 1 mm.
   double rubberNPerMm3 = 0.15;
   // Torque at which each motor stalls (current limit) [N mm].
   std::vector<double> motorNmm = {3000, 2100, 1400, 2100, 1400, 2100, 1400};

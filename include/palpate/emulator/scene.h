@@ -4,9 +4,9 @@
 //    "hand": {"preshape": "centrical", "close": 0.0},
 //    "script": [{"at_s": 1, "grasp": {"close": 1, "velocity_deg_per_s": 30}}, ..],
 //    "description": "A soft ball in the middle"}
-// Every key but "shape", "size_mm" and "at_s" may be absent. Positions in the hand's base frame; rotations about
-// its fixed axes x, y, z, in that order. An object keeps its pose until fingers touch it; then it
-// moves under the contact forces, its weight and the applied load.
+// Every key but "shape", "size_mm" and "at_s" may be absent. Positions in the hand's base frame;
+// rotations about its fixed axes x, y, z, in that order. An object keeps its pose until fingers
+// touch it; then it moves under the contact forces, its weight and the applied load.
 #pragma once
 
 #include <filesystem>

@@ -16,7 +16,8 @@ namespace palpate {
 
 class SensorModel {
  public:
-  // Settings at power-up. Throws std::invalid_argument when the two don't describe the same matrices.
+  // Settings at power-up. Throws std::invalid_argument when the two don't describe the same
+  // matrices.
   SensorModel(const HandDescription& hand,
               const SensorCharacteristics& characteristics,
               std::uint64_t seed = 1);
@@ -26,13 +27,14 @@ class SensorModel {
 
   std::vector<MatrixSetting>& settings() noexcept { return settings_; }
   const std::vector<MatrixSetting>& settings() const noexcept { return settings_; }
-  // Lets the pressure [kPa] on each place act for a time. A place that is loaded answers a constant pressure by
-  // the closed form, whatever the steps; one that is relieved follows within releaseS, its creep too.
+  // Lets the pressure [kPa] on each place act for a time. A place that is loaded answers a constant
+  // pressure by the closed form, whatever the steps; one that is relieved follows within releaseS,
+  // its creep too.
   void advance(std::span<const double> pressureKpa, double dtS);
   // What the rubber passes on now, lag and creep included [kPa], of one place.
   double responseKpa(std::size_t place) const { return lagged_[place] + creep_[place]; }
-  // One scan. degC: temperature of the motor at each matrix, for the noise; handDegC: of the whole hand, for
-  // the gain. Throws std::invalid_argument (sizes, a setting's mask too).
+  // One scan. degC: temperature of the motor at each matrix, for the noise; handDegC: of the whole
+  // hand, for the gain. Throws std::invalid_argument (sizes, a setting's mask too).
   void scan(std::span<const double> degC, double handDegC, std::span<std::uint16_t> counts);
 
  private:
@@ -46,11 +48,12 @@ class SensorModel {
   std::normal_distribution<double> normal_;
 };
 
-// Spreads pressure over neighbours: each taxel passes `share` of its pressure on to each of its four
-// neighbours that exist. The sum over a matrix stays. Size: numPlaces().
+// Spreads pressure over neighbours: each taxel passes `share` of its pressure on to each of its
+// four neighbours that exist. The sum over a matrix stays. Size: numPlaces().
 void spreadPressure(const SensorLayout& layout, double share, std::span<double> pressureKpa);
 
-// Bends a reading towards the saturation: linear up to 85 % of it, then approaching it exponentially.
+// Bends a reading towards the saturation: linear up to 85 % of it, then approaching it
+// exponentially.
 double saturated(double counts, double saturationCounts);
 
 }  // namespace palpate

@@ -22,8 +22,8 @@ struct Shape {
   ShapeKind kind = ShapeKind::kSphere;
   Eigen::Vector3d sizeMm = Eigen::Vector3d(60.0, 60.0, 60.0);
 
-  // Distance of a point in the shape's own frame [mm]. Exact for sphere, cylinder, box and cone; for
-  // the ellipsoid first order near its surface.
+  // Distance of a point in the shape's own frame [mm]. Exact for sphere, cylinder, box and cone;
+  // for the ellipsoid first order near its surface.
   double distanceMm(const Eigen::Vector3d& pointMm) const;
   // Unit vector away from the shape: the gradient of the distance (central differences).
   Eigen::Vector3d gradient(const Eigen::Vector3d& pointMm) const;

@@ -1,5 +1,5 @@
-// A recording of the emulated hand without ports and without waiting: scene in, profile out, the same for the same seed. For
-// data to learn from, and tests.
+// A recording of the emulated hand without ports and without waiting: scene in, profile out, the
+// same for the same seed. For data to learn from, and tests.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,8 @@ struct GraspVariation {
 // The scene as it might be the next time; the same for the same seed.
 Scene variedScene(const Scene& scene, const GraspVariation& variation, std::uint64_t seed);
 
-// A recording of `count` runs of a scene, each varied anew, one after the other. Runs last options.durationS.
+// A recording of `count` runs of a scene, each varied anew, one after the other. Runs last
+// options.durationS.
 Profile simulateGrasps(const Scene& scene,
                        int count,
                        const GraspVariation& variation = {},

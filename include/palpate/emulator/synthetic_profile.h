@@ -36,7 +36,8 @@ struct SyntheticTruth {
   std::vector<SyntheticGrasp> grasps;
 };
 
-// The same options give the same profile, byte for byte (on machines whose exp and tanh agree). Counts are whole numbers, 0..3560.
+// The same options give the same profile, byte for byte (on machines whose exp and tanh agree).
+// Counts are whole numbers, 0..3560.
 Profile synthesize(const SyntheticOptions& options = {}, SyntheticTruth* truth = nullptr);
 
 }  // namespace palpate

@@ -1,5 +1,6 @@
-// The filters there are, as data: name, options with ranges and defaults, what they do at borders, where they
-// come from. The parser of filter texts, --help, the Filter dock and the docs all read this table.
+// The filters there are, as data: name, options with ranges and defaults, what they do at borders,
+// where they come from. The parser of filter texts, --help, the Filter dock and the docs all read
+// this table.
 #pragma once
 
 #include <span>

@@ -1,14 +1,15 @@
-// A recipe at work: frames go in as they come, filtered ones come out. The same class runs live, on recordings and
-// on the command line; it looks at stamps and values alone, so all three give the same results bit by bit.
+// A recipe at work: frames go in as they come, filtered ones come out. The same class runs live, on
+// recordings and on the command line; it looks at stamps and values alone, so all three give the
+// same results bit by bit.
 //
 // Active taxels are defined by the input frames: a taxel that is 0 in the input is 0 in `values` of
 // the output, and its filtered value is in `filtered` (model/tactile_frame.h). A filter can
 // therefore shorten a contact, but never create, lengthen or enlarge one. A frame that was filtered
 // before is filtered as a whole.
 //
-// Filters over time restart after a gap (gap_detector.h), where the layout changes (other masks), and where the
-// caller says so. What no filter knows: saturation. A filtered value may lie below it while the taxel was saturated;
-// saturation is always looked for in the frames as they came.
+// Filters over time restart after a gap (gap_detector.h), where the layout changes (other masks),
+// and where the caller says so. What no filter knows: saturation. A filtered value may lie below it
+// while the taxel was saturated; saturation is always looked for in the frames as they came.
 #pragma once
 
 #include <memory>
@@ -30,18 +31,19 @@ class FilterChain {
   FilterChain(const FilterChain&) = delete;
   FilterChain& operator=(const FilterChain&) = delete;
 
-  // The next frame; its values may be moved away. Causal recipes hand it on at once. What a filter or `out` throws comes
-  // through, here and in the next two; what was held back is lost then, and the next frame begins a new stretch.
+  // The next frame; its values may be moved away. Causal recipes hand it on at once. What a filter
+  // or `out` throws comes through, here and in the next two; what was held back is lost then, and
+  // the next frame begins a new stretch.
   void push(TactileFrame& frame);
-  // The next frame begins a new stretch: what was held back comes out now. For settings that change what counts
-  // mean.
+  // The next frame begins a new stretch: what was held back comes out now. For settings that change
+  // what counts mean.
   void restart();
   // No more frames: what was held back comes out. Then a new source may begin.
   void finish();
 
   const Recipe& recipe() const noexcept { return recipe_; }
-  // Time that each step took for a frame, on average [us]; 0 for steps that are off, or before the first frame.
-  // Measured only when asked for: it costs some tens of ns per step.
+  // Time that each step took for a frame, on average [us]; 0 for steps that are off, or before the
+  // first frame. Measured only when asked for: it costs some tens of ns per step.
   void measureCosts(bool on) noexcept { measuring_ = on; }
   std::vector<double> costsUs() const;
 

@@ -1,5 +1,6 @@
-// One filter with its options, as text: "median:size=3,masked=1" (names and keys: filter_catalog.h). Order of the
-// keys is free; what isn't given has its default. `matrices=1+3` restricts a filter to some matrices.
+// One filter with its options, as text: "median:size=3,masked=1" (names and keys:
+// filter_catalog.h). Order of the keys is free; what isn't given has its default. `matrices=1+3`
+// restricts a filter to some matrices.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +19,8 @@ struct FilterStep {
   std::vector<std::size_t> matrices{};                 // wire order, ascending; empty: all
   bool enabled = true;  // off: it stands in the chain and does nothing
 
-  // Throws std::invalid_argument: unknown name or key (listing the known ones), a value out of range, an
-  // even window, and what only fits together (order below window, search and patch).
+  // Throws std::invalid_argument: unknown name or key (listing the known ones), a value out of
+  // range, an even window, and what only fits together (order below window, search and patch).
   void validate() const;
   const FilterKind& kind() const { return filterKind(name); }
   // Given or default; NaN: automatic. Throws std::invalid_argument for a key it hasn't.

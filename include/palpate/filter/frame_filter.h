@@ -1,5 +1,6 @@
-// A filter that runs over frames: they go in one after the other and come out filtered, in the same order, every
-// one of them. A causal filter gives each frame at once; one that needs later frames holds some back.
+// A filter that runs over frames: they go in one after the other and come out filtered, in the same
+// order, every one of them. A causal filter gives each frame at once; one that needs later frames
+// holds some back.
 #pragma once
 
 #include <memory>
@@ -19,8 +20,8 @@ class FrameSink {
 class FrameFilter {
  public:
   virtual ~FrameFilter() = default;
-  // The next frame; changes it. All frames between two finish() are one stretch: they have the layout the
-  // filter was made for and no gap among them.
+  // The next frame; changes it. All frames between two finish() are one stretch: they have the
+  // layout the filter was made for and no gap among them.
   virtual void push(TactileFrame& frame, FrameSink& out) = 0;
   // The stretch has ended: gives what was held back and forgets what came before.
   virtual void finish(FrameSink& out) = 0;

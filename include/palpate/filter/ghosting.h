@@ -26,13 +26,15 @@ using TouchMask = std::vector<Touch>;  // one per place of the layout
 struct GhostingOptions {
   // A contact begins when so many touched taxels of a matrix are active in one frame. > 0
   int leastTaxels = 1;
-  // A value above it is active [counts]; what is filtered without mask keeps small remainders for long. >= 0
+  // A value above it is active [counts]; what is filtered without mask keeps small remainders for
+  // long. >= 0
   double activeAboveCounts = 0.0;
   // Fraction of a matrix' taxels, 0..1, above which false activations are counted separately: the
   // whole matrix is then above its threshold, and no spatial filter can separate them from a
   // contact.
   double wholeMatrixShare = 0.25;
-  // Moments at which counts begin to mean something else [us since 1970], ascending: filters over time restart.
+  // Moments at which counts begin to mean something else [us since 1970], ascending: filters over
+  // time restart.
   std::vector<std::int64_t> restartsUs = {};
 };
 
@@ -52,7 +54,8 @@ struct MatrixGhosting {
   BeforeAfter framesWhole;      // more than wholeMatrixShare of the taxels are false
 };
 
-// One contact with one matrix: consecutive frames with touched taxels, of which at least one shows `leastTaxels`.
+// One contact with one matrix: consecutive frames with touched taxels, of which at least one shows
+// `leastTaxels`.
 struct ContactGhosting {
   std::size_t matrix = 0;
   std::size_t begin = 0, end = 0;  // first frame with a touched taxel, and the one behind the last
@@ -80,8 +83,9 @@ struct GhostingReport {
   double largestDelayFrames() const;
 };
 
-// truth: one mask per frame, or none at all: then nothing touches anything. Throws std::invalid_argument (recipe, options,
-// truth of another size than the profile), Cancelled, Error (a frame that can't be read).
+// truth: one mask per frame, or none at all: then nothing touches anything. Throws
+// std::invalid_argument (recipe, options, truth of another size than the profile), Cancelled, Error
+// (a frame that can't be read).
 GhostingReport measureGhosting(const Profile& profile,
                                const Recipe& recipe,
                                std::span<const TouchMask> truth = {},

@@ -1,12 +1,12 @@
-// The zero-order Kalman filter of one signal (study 2.1.2; Kalman 1960): the state is the value itself, which stays
-// what it is but for process noise.
+// The zero-order Kalman filter of one signal (study 2.1.2; Kalman 1960): the state is the value
+// itself, which stays what it is but for process noise.
 //   predict: P += q;   update: K = P / (P + r), x += K (z - x), P = (1 - K) P = K r
-// The first value z starts it: x = z, P = r (nothing known before). K goes to the steady gain P/(P + r) with
-// P = (q + sqrt(q^2 + 4 q r)) / 2: 0.270156 for q = 0.05, r = 0.5. Only q / r matters for x. Causal; q counts per sample,
-// whatever the interval.
+// The first value z starts it: x = z, P = r (nothing known before). K goes to the steady gain P/(P
+// + r) with P = (q + sqrt(q^2 + 4 q r)) / 2: 0.270156 for q = 0.05, r = 0.5. Only q / r matters for
+// x. Causal; q counts per sample, whatever the interval.
 //
-// Offline, the Rauch-Tung-Striebel smoother (Rauch et al. 1965) goes back over it: x_k += P_k / (P_k + q) (x_(k+1) - x_k),
-// the mean given all values, before and after; no lag.
+// Offline, the Rauch-Tung-Striebel smoother (Rauch et al. 1965) goes back over it: x_k += P_k /
+// (P_k + q) (x_(k+1) - x_k), the mean given all values, before and after; no lag.
 //
 // A value that isn't finite is none: the state stays, P grows by q.
 #pragma once
@@ -48,10 +48,11 @@ class KalmanFilter {
   bool started_ = false;
 };
 
-// A whole series, as many values as given. `gapSamples`: last sample before each gap, ascending; the filter restarts
-// behind it, the smoother doesn't look across. Values that aren't finite before the first finite one of a stretch stay
-// as they are in kalmanFiltered; the smoother gives them its first state (and stays silent, NaN, where all are).
-// Throws std::invalid_argument for bad options or gaps.
+// A whole series, as many values as given. `gapSamples`: last sample before each gap, ascending;
+// the filter restarts behind it, the smoother doesn't look across. Values that aren't finite before
+// the first finite one of a stretch stay as they are in kalmanFiltered; the smoother gives them its
+// first state (and stays silent, NaN, where all are). Throws std::invalid_argument for bad options
+// or gaps.
 std::vector<double> kalmanFiltered(std::span<const double> values,
                                    const KalmanOptions& options = {},
                                    std::span<const std::size_t> gapSamples = {});

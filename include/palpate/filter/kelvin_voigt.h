@@ -1,17 +1,20 @@
-// The Kelvin-Voigt model of a tactile signal and its Kalman filter (study 2.1.2, eq. 2.1): a mass m on a spring E and a
-// damper eta, pushed by a force nobody knows.
-//   m y'' = F - eta y' - E y,   state x = (y, y'): x' = A x + (0, F/m),  A = [0 1; -E/m -eta/m],   z = y + v
-// y is the signal [counts], y' its speed [counts/s]. F is white noise of spectral density S, v has variance r. Only E/m,
-// eta/m and S/m^2 can be seen in a signal: a force has no unit here.
+// The Kelvin-Voigt model of a tactile signal and its Kalman filter (study 2.1.2, eq. 2.1): a mass m
+// on a spring E and a damper eta, pushed by a force nobody knows.
+//   m y'' = F - eta y' - E y,   state x = (y, y'): x' = A x + (0, F/m),  A = [0 1; -E/m -eta/m],
+//                               z = y + v
+// y is the signal [counts], y' its speed [counts/s]. F is white noise of spectral density S, v has
+// variance r. Only E/m, eta/m and S/m^2 can be seen in a signal: a force has no unit here.
 //
 // Discretised exactly for every interval T, which may differ from sample to sample:
 //   x_(k+1) = e^(A T) x_k + w,  e^(A T) = [h' + b h, h; -a h, h'],  a = E/m, b = eta/m
-// h the impulse response: with D = b^2/4 - a, h = e^(-b T/2) times sinh(sqrt(D) T)/sqrt(D) (damping d > 1), T (d = 1) or
-// sin(sqrt(-D) T)/sqrt(-D) (d < 1). Cov(w) = S/m^2 integral_0^T (h, h')(h, h')^T.
+// h the impulse response: with D = b^2/4 - a, h = e^(-b T/2) times sinh(sqrt(D) T)/sqrt(D) (damping
+// d > 1), T (d = 1) or sin(sqrt(-D) T)/sqrt(-D) (d < 1). Cov(w) = S/m^2 integral_0^T (h, h')(h,
+// h')^T.
 //
-// The first value z of a stretch starts it: y = z with variance r (nothing known before), y' = 0: at rest, as in the
-// study. A value that isn't finite is none: the state is predicted only. The model's rest is y = 0, which the filter
-// therefore leans to; the zero-order filter (filter/kalman.h) does not, and is what the study prefers.
+// The first value z of a stretch starts it: y = z with variance r (nothing known before), y' = 0:
+// at rest, as in the study. A value that isn't finite is none: the state is predicted only. The
+// model's rest is y = 0, which the filter therefore leans to; the zero-order filter
+// (filter/kalman.h) does not, and is what the study prefers.
 #pragma once
 
 #include <cstddef>
@@ -54,10 +57,12 @@ class KelvinVoigtFilter {
   // Throws std::invalid_argument for a bad model.
   explicit KelvinVoigtFilter(const KelvinVoigtModel& model);
 
-  // Takes a value that came `intervalS` > 0 after the one before (the first one's is ignored); returns the position. Before
-  // the first finite value: the value itself. Throws std::invalid_argument for a bad interval.
+  // Takes a value that came `intervalS` > 0 after the one before (the first one's is ignored);
+  // returns the position. Before the first finite value: the value itself. Throws
+  // std::invalid_argument for a bad interval.
   double step(double value, double intervalS);
-  // The same with an interval that was discretised before: many filters of one model, or even sampling.
+  // The same with an interval that was discretised before: many filters of one model, or even
+  // sampling.
   double step(double value, const KelvinVoigtStep& interval) noexcept;
   // The next value starts anew: after a gap.
   void restart() noexcept { started_ = false; }
@@ -73,9 +78,10 @@ class KelvinVoigtFilter {
   bool started_ = false;
 };
 
-// A whole series. Times [s] ascend strictly, one per value. `gapSamples`: last sample before each gap, ascending; the
-// filter restarts behind it, the smoother doesn't look across. Before the first finite value of a stretch filtered
-// positions are the values as they are, smoothed ones the first smoothed position. All throw std::invalid_argument.
+// A whole series. Times [s] ascend strictly, one per value. `gapSamples`: last sample before each
+// gap, ascending; the filter restarts behind it, the smoother doesn't look across. Before the first
+// finite value of a stretch filtered positions are the values as they are, smoothed ones the first
+// smoothed position. All throw std::invalid_argument.
 std::vector<double> kelvinVoigtFiltered(std::span<const double> timeS,
                                         std::span<const double> values,
                                         const KelvinVoigtModel& model,

@@ -1,7 +1,8 @@
-// A recipe: a chain of filters that runs the same live, on recordings and on the command line. As text its steps
-// are joined by " | "; as a file it is JSON:
+// A recipe: a chain of filters that runs the same live, on recordings and on the command line. As
+// text its steps are joined by " | "; as a file it is JSON:
 //   {"format": "palpate-recipe", "version": 1, "name": "..", "made_by": "palpate 0.1",
-//    "steps": [{"filter": "median", "size": 3, "masked": true, "matrices": [1, 3], "enabled": true}, ..]}
+//    "steps": [{"filter": "median", "size": 3, "masked": true, "matrices": [1, 3], "enabled":
+//    true}, ..]}
 #pragma once
 
 #include <filesystem>
@@ -33,14 +34,16 @@ struct Recipe {
 
 // "median:size=3 | kalman"; steps that are off in round brackets: "median | (kalman)".
 std::string recipeText(const Recipe& recipe);
-// Of "median:size=3|kalman" or of several such texts one after the other. Throws std::invalid_argument.
+// Of "median:size=3|kalman" or of several such texts one after the other. Throws
+// std::invalid_argument.
 Recipe parseRecipe(std::span<const std::string> texts);
 
 Json recipeJson(const Recipe& recipe);
 // Throws Error saying which step and key is wrong: unknown keys and names list the known ones.
 Recipe recipeFromJson(const Json& json);
 
-// Throws FileError (gone, unreadable), FormatError (larger than a megabyte, no recipe) or Error, with the path.
+// Throws FileError (gone, unreadable), FormatError (larger than a megabyte, no recipe) or Error,
+// with the path.
 Recipe readRecipe(const std::filesystem::path& path);
 // The file appears whole or not at all. Throws FileError.
 void writeRecipe(const std::filesystem::path& path, const Recipe& recipe, bool overwrite);

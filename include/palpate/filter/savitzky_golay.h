@@ -1,11 +1,12 @@
-// Savitzky-Golay filters (Savitzky and Golay 1964; study 2.2): the polynomial of a given order that fits a window of
-// evenly spaced samples best (least squares), or a derivative of it, at any position in the window. It is a weighted
-// sum of the samples; here are the weights.
+// Savitzky-Golay filters (Savitzky and Golay 1964; study 2.2): the polynomial of a given order that
+// fits a window of evenly spaced samples best (least squares), or a derivative of it, at any
+// position in the window. It is a weighted sum of the samples; here are the weights.
 //
-// Position 0 is the window's oldest sample, window - 1 the newest. In the middle, (window - 1) / 2, it is the centred
-// filter (window 5: smoothing [-3 12 17 12 -3]/35, cubic first derivative [1 -8 0 8 -1]/12, quadratic one [-2 -1 0 1 2]/10,
-// second derivative [2 -1 -2 -1 2]/7); at the newest sample it is causal; the edges of a recording take the fitted
-// polynomial of the first or last whole window at their own position.
+// Position 0 is the window's oldest sample, window - 1 the newest. In the middle, (window - 1) / 2,
+// it is the centred filter (window 5: smoothing [-3 12 17 12 -3]/35, cubic first derivative [1 -8 0
+// 8 -1]/12, quadratic one [-2 -1 0 1 2]/10, second derivative [2 -1 -2 -1 2]/7); at the newest
+// sample it is causal; the edges of a recording take the fitted polynomial of the first or last
+// whole window at their own position.
 #pragma once
 
 #include <vector>
@@ -14,14 +15,17 @@ namespace palpate {
 
 inline constexpr int kLongestSavitzkyGolayWindow = 101;
 
-// Weights, oldest sample first: value = sum weights[i] * sample[i] reproduces every polynomial up to `order` (with
-// derivative 0), or its derivative [per sample^derivative; times rate^derivative it is per second].
-//   window      samples, 1..101; an even one has no sample in the middle, but serves at other positions
+// Weights, oldest sample first: value = sum weights[i] * sample[i] reproduces every polynomial up
+// to `order` (with derivative 0), or its derivative [per sample^derivative; times rate^derivative
+// it is per second].
+//   window      samples, 1..101; an even one has no sample in the middle, but serves at other
+//               positions
 //   order       of the polynomial, 0..window-1
 //   derivative  0..order
 //   position    0..window-1, fractions allowed
-// Throws std::invalid_argument naming what is out of range. Exact to about 1e-12 of the largest weight for the orders that
-// smooth (up to 10), and to 1e-9 for any (orthogonal polynomials, no normal equations).
+// Throws std::invalid_argument naming what is out of range. Exact to about 1e-12 of the largest
+// weight for the orders that smooth (up to 10), and to 1e-9 for any (orthogonal polynomials, no
+// normal equations).
 std::vector<double> savitzkyGolayWeights(int window, int order, int derivative, double position);
 
 }  // namespace palpate

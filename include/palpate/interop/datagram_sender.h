@@ -1,5 +1,5 @@
-// Sends datagrams to a UDP port of this machine: 127.0.0.1 and nowhere else. Never waits: what can't be sent at once is
-// dropped and counted.
+// Sends datagrams to a UDP port of this machine: 127.0.0.1 and nowhere else. Never waits: what
+// can't be sent at once is dropped and counted.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,12 @@ namespace palpate {
 struct DatagramStats {
   // Number of datagrams that the operating system accepted. Whether a program received them is
   // unknown, unless the system reports a closed port.
-  std::uint64_t sent =
-      0;
+  std::uint64_t sent = 0;
   // Number of datagrams without a receiver, without buffer space, or too long.
   std::uint64_t dropped = 0;
   // Whether the last two datagrams were accepted: the system reports a missing receiver only
   // with the next datagram.
-  bool heard =
-      false;
+  bool heard = false;
 };
 
 // Not thread-safe.
@@ -31,8 +29,8 @@ class DatagramSender {
   DatagramSender(const DatagramSender&) = delete;
   DatagramSender& operator=(const DatagramSender&) = delete;
 
-  // Whether the system took it. A datagram behind one that nobody heard is tried all the same: a listener may come at
-  // any time.
+  // Whether the system took it. A datagram behind one that nobody heard is tried all the same: a
+  // listener may come at any time.
   bool send(std::string_view bytes) noexcept;
   std::uint16_t port() const noexcept { return port_; }
   const DatagramStats& stats() const noexcept { return stats_; }

@@ -1,7 +1,8 @@
-// Streams of what live processing finds, for other programs on this machine: off until switched on, to 127.0.0.1 alone,
-// one datagram per frame and stream. Nothing ever waits for a receiver.
+// Streams of what live processing finds, for other programs on this machine: off until switched on,
+// to 127.0.0.1 alone, one datagram per frame and stream. Nothing ever waits for a receiver.
 //
-//   ProcessingChain --results--> LiveStream --UDP--> PlotJuggler (signals), whoever reads TactileSensor (taxels)
+//   ProcessingChain --results--> LiveStream --UDP--> PlotJuggler (signals), whoever reads
+//   TactileSensor (taxels)
 #pragma once
 
 #include <array>

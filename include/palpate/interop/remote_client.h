@@ -18,8 +18,9 @@ class RemoteClient {
   RemoteClient(const RemoteClient&) = delete;
   RemoteClient& operator=(const RemoteClient&) = delete;
 
-  // Sends a request (no line end in it: std::invalid_argument) and returns its answer, a line of JSON without its end.
-  // Throws FileError: no answer in time, or the other end has gone; the connection is of no use after that.
+  // Sends a request (no line end in it: std::invalid_argument) and returns its answer, a line of
+  // JSON without its end. Throws FileError: no answer in time, or the other end has gone; the
+  // connection is of no use after that.
   std::string ask(std::string_view request, std::chrono::milliseconds timeout);
 
  private:

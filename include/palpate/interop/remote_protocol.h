@@ -1,10 +1,12 @@
 // The language of remote control: a line of text asks, a line of JSON answers. No sockets here.
 //
-//   start run 7.palpate            {"ok":true,"command":"start","file":"/home/ada/runs/run 7.palpate","frames_on_disk":2}
-//   label contact                  {"ok":false,"command":"label","error":"not_recording","message":"nothing is being .."}
+//   start run 7.palpate            {"ok":true,"command":"start","file":"/home/ada/runs/run
+//                                  7.palpate","frames_on_disk":2}
+//   label contact {"ok":false,"command":"label","error":"not_recording","message":"nothing
+//                                  is being .."}
 //
-// A request is a verb and, behind blanks, its text up to the end of the line (LF, CR LF too): UTF-8, at most
-// kMostRequestBytes. docs/interop.md is the manual.
+// A request is a verb and, behind blanks, its text up to the end of the line (LF, CR LF too):
+// UTF-8, at most kMostRequestBytes. docs/interop.md is the manual.
 #pragma once
 
 #include <cstddef>
@@ -37,9 +39,9 @@ struct RemoteRequest {
 std::string_view nameOf(RemoteRequest::Verb verb) noexcept;
 const std::vector<RemoteRequest::Verb>& allRemoteVerbs();
 
-// What a request came to. Error codes, for programs: "malformed", "unknown", "too_long", "busy" (for others to finish),
-// "no_hand", "no_frames", "no_space", "file_name", "file_exists", "folder", "disk", "already_recording",
-// "not_recording", "stopped", "shutting_down", "failed".
+// What a request came to. Error codes, for programs: "malformed", "unknown", "too_long", "busy"
+// (for others to finish), "no_hand", "no_frames", "no_space", "file_name", "file_exists", "folder",
+// "disk", "already_recording", "not_recording", "stopped", "shutting_down", "failed".
 struct RemoteAnswer {
   std::string error;    // a code; empty: done
   std::string message;  // one line for a person, where there is something to say
@@ -48,8 +50,8 @@ struct RemoteAnswer {
   bool ok() const noexcept { return error.empty(); }
   static RemoteAnswer refused(std::string code, std::string why);
 };
-// One line without its end: {"ok":..,"command":..,"error":..,"message":..,FIELDS}. `command` is empty where no verb
-// could be read: its key is left out then.
+// One line without its end: {"ok":..,"command":..,"error":..,"message":..,FIELDS}. `command` is
+// empty where no verb could be read: its key is left out then.
 std::string answerLine(const RemoteAnswer& answer, std::string_view command);
 
 // Either a request, or why it is none. Never throws for bad text.
@@ -59,8 +61,8 @@ struct ReadRequest {
 };
 ReadRequest readRequest(std::string_view line);
 
-// Cuts what comes from a client into lines. Holds kMostRequestBytes at most: of a longer line only its end is waited
-// for.
+// Cuts what comes from a client into lines. Holds kMostRequestBytes at most: of a longer line only
+// its end is waited for.
 class RequestLines {
  public:
   struct Line {
@@ -77,7 +79,8 @@ class RequestLines {
   bool skipping_ = false;  // within a line that is too long
 };
 
-// KEY VALUE of `set`; nothing when KEY is none of operator, object, run, notes. An empty value forgets it.
+// KEY VALUE of `set`; nothing when KEY is none of operator, object, run, notes. An empty value
+// forgets it.
 struct RemoteSetting {
   std::string key;
   std::string value;
@@ -89,8 +92,9 @@ class RemoteTarget {
  public:
   using Done = std::function<void(RemoteAnswer)>;
   virtual ~RemoteTarget() = default;
-  // Called on the server's thread, one request at a time; returns at once. `done` must be called exactly once, from any
-  // thread, now or later; it never waits, and does nothing once the server is gone.
+  // Called on the server's thread, one request at a time; returns at once. `done` must be called
+  // exactly once, from any thread, now or later; it never waits, and does nothing once the server
+  // is gone.
   virtual void carryOut(const RemoteRequest& request, Done done) = 0;
 };
 

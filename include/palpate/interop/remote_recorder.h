@@ -1,6 +1,6 @@
-// Carries out remote control on a capture session without a window: recordings begin and end as others ask. It waits
-// idle until then, and answers when what was asked has happened: a start when frames are on disk, a stop when the file
-// is closed.
+// Carries out remote control on a capture session without a window: recordings begin and end as
+// others ask. It waits idle until then, and answers when what was asked has happened: a start when
+// frames are on disk, a stop when the file is closed.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,8 @@ namespace palpate {
 struct RemoteRecorderOptions {
   std::filesystem::path folder;                      // where recordings go, and nowhere else
   std::string nameTemplate = "{date}_{time}_{run}";  // of a start without a name
-  // What every recording begins with: `path` is not used; of `meta`, operator, object, run and notes can be set.
+  // What every recording begins with: `path` is not used; of `meta`, operator, object, run and
+  // notes can be set.
   RecordingOptions recording;
   StartLimits limits;
   // Told of every recording that ended; on the recorder's own thread. May be empty.
@@ -27,8 +28,8 @@ struct RemoteRecorderOptions {
 
 class RemoteRecorder final : public RemoteTarget {
  public:
-  // While it lives nobody else starts or stops recordings of the session, which must outlive it. Throws
-  // std::invalid_argument (a template that can't be one), FileError (no such folder).
+  // While it lives nobody else starts or stops recordings of the session, which must outlive it.
+  // Throws std::invalid_argument (a template that can't be one), FileError (no such folder).
   RemoteRecorder(CaptureSession& session, RemoteRecorderOptions options);
   // A recording that runs is finished.
   ~RemoteRecorder() override;

@@ -15,8 +15,8 @@
 
 namespace palpate {
 
-// Where remote control stands unless another place is named: palpate-remote in $XDG_RUNTIME_DIR. Throws Error where that
-// isn't set.
+// Where remote control stands unless another place is named: palpate-remote in $XDG_RUNTIME_DIR.
+// Throws Error where that isn't set.
 std::filesystem::path usualRemoteSocket();
 
 struct RemoteServerOptions {
@@ -37,9 +37,9 @@ struct RemoteServerStats {
 
 class RemoteServer {
  public:
-  // Listens from now on. What a program that was killed left at `socket` is taken away. Throws FileError: another
-  // program listens there, something else has that name, no such folder, a name longer than 107 bytes;
-  // std::invalid_argument. The target must outlive the server.
+  // Listens from now on. What a program that was killed left at `socket` is taken away. Throws
+  // FileError: another program listens there, something else has that name, no such folder, a name
+  // longer than 107 bytes; std::invalid_argument. The target must outlive the server.
   RemoteServer(std::filesystem::path socket,
                RemoteTarget& target,
                RemoteServerOptions options = {});

@@ -1,11 +1,10 @@
-// A hand's geometry as data: chains of joints (standard, distal Denavit-Hartenberg) and sensor surfaces on
-// their links. Another hand is another table.
+// A hand's geometry as data: chains of joints (standard, distal Denavit-Hartenberg) and sensor
+// surfaces on their links. Another hand is another table.
 //
-// Frames: the hand's base frame (the palm's) has z up from the palm. A link's frame has X along the link towards the
-// tip, Y out of the sensor surface, Z across. All interfaces use lengths in mm and angles in
-// degrees.
-// Source of the SDH-2's: the study, chapter 4 (tables 4.1 to 4.3), with the constants of its program where the printed
-// ones are slips (d2 = 14.8, t_y = 12 w).
+// Frames: the hand's base frame (the palm's) has z up from the palm. A link's frame has X along the
+// link towards the tip, Y out of the sensor surface, Z across. All interfaces use lengths in mm and
+// angles in degrees. Source of the SDH-2's: the study, chapter 4 (tables 4.1 to 4.3), with the
+// constants of its program where the printed ones are slips (d2 = 14.8, t_y = 12 w).
 #pragma once
 
 #include <cstddef>
@@ -34,8 +33,8 @@ struct Finger {
   std::vector<DhLink> links;
 };
 
-// The surface of one matrix in the frame behind link `link` of a finger. Column x, row y (cell centres at
-// whole numbers) lie at
+// The surface of one matrix in the frame behind link `link` of a finger. Column x, row y (cell
+// centres at whole numbers) lie at
 //   X = row0Mm - pitch y, Y = heightMm, Z = column0Mm + pitch x,
 // and, towards the tip from row `bendRow` on, on a cylinder about Z that continues it:
 //   a = (bendRow - y) pitch / radius,  X = row0Mm - pitch bendRow + radius sin a,
@@ -56,11 +55,13 @@ struct GeometryDescription {
   std::vector<SensorSurface> surfaces;  // one per matrix
   SensorLayout layout;
 
-  // Throws std::invalid_argument naming what doesn't fit (an axis or link that isn't there, not finite, ..).
+  // Throws std::invalid_argument naming what doesn't fit (an axis or link that isn't there, not
+  // finite, ..).
   void validate() const;
 };
 
-// A row of a sensor surface in its link's frame: where its line of taxels crosses Z = 0, and the normal there.
+// A row of a sensor surface in its link's frame: where its line of taxels crosses Z = 0, and the
+// normal there.
 struct SurfaceRow {
   double xMm = 0.0, yMm = 0.0;
   double normalX = 0.0, normalY = 1.0;

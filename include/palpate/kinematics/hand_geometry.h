@@ -1,5 +1,5 @@
-// Forward kinematics: the pose that joint angles give a hand. Three small chains and one affine map per taxel; the
-// position and normal of all 486 taxels of an SDH-2 take about a microsecond.
+// Forward kinematics: the pose that joint angles give a hand. Three small chains and one affine map
+// per taxel; the position and normal of all 486 taxels of an SDH-2 take about a microsecond.
 #pragma once
 
 #include <cstddef>

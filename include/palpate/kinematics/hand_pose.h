@@ -1,10 +1,11 @@
-// A hand at one set of joint angles: where its taxels, their corners, its links and joints are. A value, made by
-// HandGeometry::pose(); it refers to the geometry that made it, which must outlive it.
+// A hand at one set of joint angles: where its taxels, their corners, its links and joints are. A
+// value, made by HandGeometry::pose(); it refers to the geometry that made it, which must outlive
+// it.
 //
-// Everything is in the hand's base frame (the palm's: z up from the palm), in mm. A transform `bFromA` takes
-// coordinates in frame A to coordinates in frame B. Points of a sensor surface are given in mm from the
-// centre of taxel (0, 0): x across (rising column), y towards the palm (rising row), along the surface; beyond
-// its edge the surface goes on.
+// Everything is in the hand's base frame (the palm's: z up from the palm), in mm. A transform
+// `bFromA` takes coordinates in frame A to coordinates in frame B. Points of a sensor surface are
+// given in mm from the centre of taxel (0, 0): x across (rising column), y towards the palm (rising
+// row), along the surface; beyond its edge the surface goes on.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +17,8 @@
 
 namespace palpate {
 
-// A joint as a line in space: turning the axis by +1 degree turns all links of the finger from `link` on
-// by +1 degree about `direction`.
+// A joint as a line in space: turning the axis by +1 degree turns all links of the finger from
+// `link` on by +1 degree about `direction`.
 struct JointLine {
   std::size_t axis = 0;
   std::size_t finger = 0;
@@ -44,17 +45,19 @@ class HandPose {
   // Of any point of a sensor surface. std::out_of_range: matrix; std::invalid_argument: not finite.
   Eigen::Vector3d pointMm(std::size_t matrix, double xMm, double yMm) const;
   Eigen::Vector3d normalAt(std::size_t matrix, double xMm, double yMm) const;
-  // The frame that touches the surface there: X across (rising column), Y towards the fingertip (falling row), Z = normal.
+  // The frame that touches the surface there: X across (rising column), Y towards the fingertip
+  // (falling row), Z = normal.
   Eigen::Isometry3d baseFromSurface(std::size_t matrix, double xMm, double yMm) const;
 
-  // Corner (y, x) of a matrix, y 0..rows, x 0..columns: where taxels (y-1, x-1), (y-1, x), (y, x-1) and (y, x) meet; the corners
-  // of taxel (y, x) are (y, x), (y, x+1), (y+1, x+1), (y+1, x). On the curved surface, as the taxels. std::out_of_range.
+  // Corner (y, x) of a matrix, y 0..rows, x 0..columns: where taxels (y-1, x-1), (y-1, x), (y, x-1)
+  // and (y, x) meet; the corners of taxel (y, x) are (y, x), (y, x+1), (y+1, x+1), (y+1, x). On the
+  // curved surface, as the taxels. std::out_of_range.
   Eigen::Vector3d cornerMm(std::size_t matrix, int y, int x) const;
   // All of a matrix, (rows + 1) x (columns + 1) row by row, into `out` (memory is reused).
   void cornersMm(std::size_t matrix, std::vector<Eigen::Vector3d>& out) const;
 
-  // The link's own frame: X along it towards the tip, Y out of its sensor surface, Z across; its origin is its far
-  // end (the next joint, or the tip of the finger). std::out_of_range.
+  // The link's own frame: X along it towards the tip, Y out of its sensor surface, Z across; its
+  // origin is its far end (the next joint, or the tip of the finger). std::out_of_range.
   const Eigen::Isometry3d& baseFromLink(std::size_t finger, std::size_t link) const;
   // Where a finger stands on the palm, whatever the angles. std::out_of_range.
   Eigen::Isometry3d baseFromFinger(std::size_t finger) const;

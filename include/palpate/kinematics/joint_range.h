@@ -1,4 +1,5 @@
-// Whether joint angles can be those of a hand: as many as it has axes, finite, within its range of motion.
+// Whether joint angles can be those of a hand: as many as it has axes, finite, within its range of
+// motion.
 #pragma once
 
 #include <string>
@@ -8,7 +9,8 @@
 
 namespace palpate {
 
-// A real joint stands up to a few hundredths of a degree beyond its range, and was calibrated by hand.
+// A real joint stands up to a few hundredths of a degree beyond its range, and was calibrated by
+// hand.
 constexpr double kJointRangeToleranceDeg = 1.0;
 
 enum class AnglesState {

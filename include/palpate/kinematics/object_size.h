@@ -3,16 +3,17 @@
 //
 // Two pads tilted by an angle a touch a sphere or a cylinder on a chord, not on its diameter:
 //   D = (P2 - P1) . n / cos a,   n = unit(N1 - N2),   cos a = sqrt((1 - N1 . N2) / 2)
-// P: contact centroids, N: normals of the surface there. With the effective fingertip radius of 48.4 mm the same rigid
-// object then measures the same within .23 mm rms (.51 with the plain distance and 58 mm): use
-// sdh2Geometry(kEffectiveFingertipRadiusMm) for sizes.
+// P: contact centroids, N: normals of the surface there. With the effective fingertip radius
+// of 48.4 mm the same rigid object then measures the same within .23 mm rms (.51 with the plain
+// distance and 58 mm): use sdh2Geometry(kEffectiveFingertipRadiusMm) for sizes.
 //
-// Foam. The pads are rubber foam and give way, too: a rigid ball seems to shrink by 2 mm while it is gripped. Modelled is
+// Foam. The pads are rubber foam and give way, too: a rigid ball seems to shrink by 2 mm while it
+// is gripped. Modelled is
 //   indentation of a pad = foamMm sqrt(peak taxel / 1000 counts)
-// with foamMm = 0.80, fitted to 28 classes of rigid objects (455 grasps of 12 to 15 September 2014): +- 24 % from object
-// to object, 0.4 on flat blocks, 1.1 on the hockey ball (pointed contacts sink in deeper). docs/contact.md has the table.
-// The model does not include hysteresis and temperature of the foam, nor other sensitivities: it
-// uses counts, not forces.
+// with foamMm = 0.80, fitted to 28 classes of rigid objects (455 grasps of 12 to 15 September
+// 2014): +- 24 % from object to object, 0.4 on flat blocks, 1.1 on the hockey ball (pointed
+// contacts sink in deeper). docs/contact.md has the table. The model does not include hysteresis
+// and temperature of the foam, nor other sensitivities: it uses counts, not forces.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +32,8 @@ namespace palpate {
 struct ObjectSizeOptions {
   // Two matrices; nothing: of two different fingers those with the largest sums over the grasp.
   std::optional<std::pair<std::size_t, std::size_t>> pads = std::nullopt;
-  // The plateau: frames whose load (five-frame mean; each pad counts alike) is at least this part of the largest; 0.5..1.
+  // The plateau: frames whose load (five-frame mean; each pad counts alike) is at least this part
+  // of the largest; 0.5..1.
   double plateauPart = 0.9;
   double foamMm = 0.80;          // [mm] at a peak of 1000 counts, per pad, >= 0
   double foamRelativeSd = 0.24;  // from object to object, >= 0
@@ -72,16 +74,18 @@ struct ObjectSizeReport {
   double shrinkMm = 0.0;
   double foamMm = 0.0;  // modelled growth of both pads' indentation from start to plateau
   double compressionMm = 0.0;
-  // Of the compression: scatter of the foam from object to object, noise, and the way of one frame at first contact
-  // (contact begins between two frames).
+  // Of the compression: scatter of the foam from object to object, noise, and the way of one frame
+  // at first contact (contact begins between two frames).
   double compressionSdMm = 0.0;
-  // Of the object as it is held: plateau + indentation of both pads. The same day's offset is in its sd only.
+  // Of the object as it is held: plateau + indentation of both pads. The same day's offset is in
+  // its sd only.
   double diameterMm = 0.0;
   double diameterSdMm = 0.0;
 };
 
-// Over frames begin..end (both inclusive), best those of one grasp. What the recording lacks is said by the report; throws
-// std::invalid_argument (options, pads, geometry of another sensor), std::out_of_range (frames), Cancelled.
+// Over frames begin..end (both inclusive), best those of one grasp. What the recording lacks is
+// said by the report; throws std::invalid_argument (options, pads, geometry of another sensor),
+// std::out_of_range (frames), Cancelled.
 ObjectSizeReport objectSize(const Profile& profile,
                             const HandGeometry& geometry,
                             std::size_t begin,
@@ -89,7 +93,8 @@ ObjectSizeReport objectSize(const Profile& profile,
                             const ObjectSizeOptions& options = {},
                             const Progress& progress = {});
 
-// D of two surface points with their normals (see above): nothing where the pads don't face each other (N1 . N2 > -0.1).
+// D of two surface points with their normals (see above): nothing where the pads don't face each
+// other (N1 . N2 > -0.1).
 std::optional<double> chordDistanceMm(const Eigen::Vector3d& point1Mm,
                                       const Eigen::Vector3d& normal1,
                                       const Eigen::Vector3d& point2Mm,

@@ -11,9 +11,9 @@
 
 namespace palpate {
 
-// Replaces LiveResults::frame by the filtered one and keeps the other as LiveResults::unfiltered. The recording
-// isn't touched: it always holds what came. Steps that need later frames are left out: they can't run live.
-// setRecipe() and costsUs() may be called from any thread.
+// Replaces LiveResults::frame by the filtered one and keeps the other as LiveResults::unfiltered.
+// The recording isn't touched: it always holds what came. Steps that need later frames are left
+// out: they can't run live. setRecipe() and costsUs() may be called from any thread.
 class FilterStage final : public Stage {
  public:
   FilterStage();
@@ -21,7 +21,8 @@ class FilterStage final : public Stage {
 
   // From the next frame on; filters over time begin anew. Throws std::invalid_argument.
   void setRecipe(const Recipe& recipe);
-  // Time that each step of the recipe takes for a frame, on average [us]; 0: off, left out, or no frame yet.
+  // Time that each step of the recipe takes for a frame, on average [us]; 0: off, left out, or no
+  // frame yet.
   std::vector<double> costsUs() const;
 
   void reset() override;
@@ -39,7 +40,8 @@ class FilterStage final : public Stage {
   std::vector<double> costsUs_;
 };
 
-// The steps that run live: those that need later frames, or a matrix that the layout hasn't, are switched off.
+// The steps that run live: those that need later frames, or a matrix that the layout hasn't, are
+// switched off.
 Recipe livePart(const Recipe& recipe, const SensorLayout& layout);
 
 }  // namespace palpate

@@ -1,5 +1,5 @@
-// What the stages of live processing found in one frame. A stage adds its own part and may read those of the
-// stages before it; nothing is taken away.
+// What the stages of live processing found in one frame. A stage adds its own part and may read
+// those of the stages before it; nothing is taken away.
 #pragma once
 
 #include <cstddef>

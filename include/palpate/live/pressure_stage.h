@@ -1,5 +1,5 @@
-// The stage that tells pressures and forces where a calibration is chosen: none is default, and without one the results
-// have none.
+// The stage that tells pressures and forces where a calibration is chosen: none is default, and
+// without one the results have none.
 #pragma once
 
 #include <functional>
@@ -15,12 +15,13 @@
 
 namespace palpate {
 
-// Fills LiveResults::pressure, of the frame as it came and never of a filtered one: that is what was calibrated.
-// setCalibration(), assumptions() and trouble() may be called from any thread.
+// Fills LiveResults::pressure, of the frame as it came and never of a filtered one: that is what
+// was calibrated. setCalibration(), assumptions() and trouble() may be called from any thread.
 class PressureStage final : public Stage {
  public:
-  // What the matrices are set to now, one each; empty: not known, so that the settings of the calibration are assumed.
-  // Asked on the processing thread, at the beginning and after an event "settings" that doesn't say it. May throw Error.
+  // What the matrices are set to now, one each; empty: not known, so that the settings of the
+  // calibration are assumed. Asked on the processing thread, at the beginning and after an event
+  // "settings" that doesn't say it. May throw Error.
   using AskSettings = std::function<std::vector<SensorSettings>()>;
 
   PressureStage(HandDescription hand, AskSettings askSettings);

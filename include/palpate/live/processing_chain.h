@@ -1,10 +1,11 @@
-// Live processing: what a capture session delivers goes through the stages, in order of time, on a thread of
-// its own. The newest results wait in a mailbox for the screen; what happened goes to a sink of events.
+// Live processing: what a capture session delivers goes through the stages, in order of time, on a
+// thread of its own. The newest results wait in a mailbox for the screen; what happened goes to a
+// sink of events.
 //
 //   CaptureSession --> CaptureFeed (bounded, counts) --> stages --> newest results, events
 //
-// Results depend on what came alone, not on when: the same items give the same results bit by bit, live,
-// replayed or offline (runOver()).
+// Results depend on what came alone, not on when: the same items give the same results bit by bit,
+// live, replayed or offline (runOver()).
 #pragma once
 
 #include <atomic>
@@ -27,8 +28,8 @@
 namespace palpate {
 
 struct ChainOptions {
-  // Frames that may wait: half a second at 31.7/s. More is late rather than right; what doesn't fit is
-  // skipped, counted, and told to the stages by an event "gap".
+  // Frames that may wait: half a second at 31.7/s. More is late rather than right; what doesn't fit
+  // is skipped, counted, and told to the stages by an event "gap".
   std::size_t waitingFrames = 16;
   // Nothing is skipped, the source waits instead: for a replay that can.
   bool lossless = false;
@@ -63,8 +64,9 @@ class ProcessingChain {
   void run(const std::stop_token& stop);
   // Processes what waits now; returns how many frames. For those who have their own thread.
   std::size_t step();
-  // All of a profile and its events through the stages, from a fresh start, in the caller's thread: as a
-  // replay of it would be. Throws Cancelled, Error (a frame that can't be read), std::logic_error (started).
+  // All of a profile and its events through the stages, from a fresh start, in the caller's thread:
+  // as a replay of it would be. Throws Cancelled, Error (a frame that can't be read),
+  // std::logic_error (started).
   void runOver(const Profile& profile,
                std::vector<RecordingEvent> events = {},
                const Progress& progress = {});

@@ -1,5 +1,5 @@
-// The last minutes of the characteristic signals, for a chart that rolls: filled by live processing, read by
-// the screen.
+// The last minutes of the characteristic signals, for a chart that rolls: filled by live
+// processing, read by the screen.
 #pragma once
 
 #include <cstddef>

@@ -12,12 +12,14 @@
 
 namespace palpate {
 
-// Live the vector is that of `centroid`, the alarm that of the contest, the reference taken when a contact rests.
+// Live the vector is that of `centroid`, the alarm that of the contest, the reference taken when a
+// contact rests.
 SlipDetectorOptions liveSlipOptions();
 
-// Fills LiveResults::slip. When the alarm of a matrix is raised, and when it ends, an event "slip" goes out: a mark when it begins, a
-// span (with path and turn as JSON) when it ends. Other settings of the sensor, and missing frames, begin anew.
-// Everything but the calls of a Stage may be called from any thread; it holds from the next frame on.
+// Fills LiveResults::slip. When the alarm of a matrix is raised, and when it ends, an event "slip"
+// goes out: a mark when it begins, a span (with path and turn as JSON) when it ends. Other settings
+// of the sensor, and missing frames, begin anew. Everything but the calls of a Stage may be called
+// from any thread; it holds from the next frame on.
 class SlipStage final : public Stage {
  public:
   // Throws std::invalid_argument.

@@ -13,8 +13,8 @@
 
 namespace palpate {
 
-// Readings of an SDH-2's tactile sensor [counts]. The converter has 12 bits, but the amplifier ends before: the
-// largest reading in 1052 recordings is 3567.
+// Readings of an SDH-2's tactile sensor [counts]. The converter has 12 bits, but the amplifier ends
+// before: the largest reading in 1052 recordings is 3567.
 constexpr float kSdh2FullScaleCounts = 4095.0F;
 // Value that readings approach at high pressure [counts].
 constexpr float kSdh2LargestCounts = 3560.0F;
@@ -30,7 +30,8 @@ struct MatrixDescription {
   // Where a picture of the whole sensor draws it: column and row of a grid, fingertips on top.
   int pictureColumn = 0;
   int pictureRow = 0;
-  // The temperature sensor nearest to it (index into temperatureSensors); nothing: none is known to be near.
+  // The temperature sensor nearest to it (index into temperatureSensors); nothing: none is known to
+  // be near.
   std::optional<std::size_t> temperatureSensor = std::nullopt;
 };
 

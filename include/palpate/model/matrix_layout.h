@@ -36,7 +36,8 @@ struct MatrixLayout {
   double taxelAreaMm2() const noexcept { return pitchMm * pitchMm; }
   // Throws std::invalid_argument naming the field that is out of range.
   void validate() const;
-  // Where taxels are, and which are scanned: the same for two sensors of a kind, whatever their ids.
+  // Where taxels are, and which are scanned: the same for two sensors of a kind, whatever their
+  // ids.
   bool operator==(const MatrixLayout& other) const {
     return rows == other.rows && columns == other.columns && pitchMm == other.pitchMm &&
            staticMask == other.staticMask && dynamicMask == other.dynamicMask;

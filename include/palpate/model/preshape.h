@@ -22,7 +22,8 @@ struct Preshape {
   std::vector<double> anglesDeg(double closeRatio) const;
 };
 
-// The SDH-2's: parallel, cylindrical, centrical, spherical, pinch-parallel, pinch-tilted, pinch-empty, calibration.
+// The SDH-2's: parallel, cylindrical, centrical, spherical, pinch-parallel, pinch-tilted,
+// pinch-empty, calibration.
 const std::vector<Preshape>& sdh2Preshapes();
 // By name; throws std::invalid_argument naming them all.
 const Preshape& sdh2Preshape(std::string_view name);

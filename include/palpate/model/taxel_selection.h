@@ -32,8 +32,8 @@ class TaxelSelection {
 
   // Whether it is of matrices of the same sizes.
   bool sameSensor(const TaxelSelection& other) const noexcept { return sizes_ == other.sizes_; }
-  // "1:14,15;5:3": of each matrix the places (y * columns + x) that are chosen; and back. Nothing: the text
-  // is no such list, or names a place that `layout` hasn't.
+  // "1:14,15;5:3": of each matrix the places (y * columns + x) that are chosen; and back. Nothing:
+  // the text is no such list, or names a place that `layout` hasn't.
   std::string text() const;
   static std::optional<TaxelSelection> fromText(std::string_view text, const SensorLayout& layout);
 

@@ -1,4 +1,5 @@
-// How well a classifier did: confusion, precision, recall and F per class, intervals, confidence against truth.
+// How well a classifier did: confusion, precision, recall and F per class, intervals, confidence
+// against truth.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +11,8 @@
 
 namespace palpate {
 
-// Wilson's score interval of a share, by default at 95 % (Wilson 1927, J. American Statistical Association 22):
-// it stays inside 0..1 and holds for small numbers. 0..1 where there is no trial.
+// Wilson's score interval of a share, by default at 95 % (Wilson 1927, J. American Statistical
+// Association 22): it stays inside 0..1 and holds for small numbers. 0..1 where there is no trial.
 struct ShareInterval {
   double low = 0.0;
   double high = 1.0;
@@ -29,7 +30,8 @@ struct ClassFigures {
   std::size_t support = 0;
 };
 
-// Counts of (truth, called). A sample may be called nothing of the classes ("unknown"): the last column.
+// Counts of (truth, called). A sample may be called nothing of the classes ("unknown"): the last
+// column.
 class ConfusionMatrix {
  public:
   explicit ConfusionMatrix(std::vector<std::string> classes);
@@ -43,8 +45,8 @@ class ConfusionMatrix {
   double accuracy() const noexcept;  // 0 where nothing was counted
   const std::vector<std::string>& classes() const noexcept { return classes_; }
   std::vector<ClassFigures> figures() const;
-  // `classes` of figures (those with support or called), and `confusion` {labels, counts[truth][called]} with the
-  // column "unknown" last where anything was called so.
+  // `classes` of figures (those with support or called), and `confusion` {labels,
+  // counts[truth][called]} with the column "unknown" last where anything was called so.
   Json classesJson() const;
   Json confusionJson() const;
 
@@ -60,7 +62,8 @@ struct ConfidentAnswer {
   double confidence = 0.0;  // 0..1
   bool right = false;
 };
-// Coverage: of all answers the share with at least this confidence, and how many of those are right.
+// Coverage: of all answers the share with at least this confidence, and how many of those are
+// right.
 struct CoveragePoint {
   double confidence = 0.0;
   double coverage = 0.0;
@@ -69,14 +72,15 @@ struct CoveragePoint {
 };
 // At every distinct confidence, falling: the last point covers all.
 std::vector<CoveragePoint> coverageCurve(std::vector<ConfidentAnswer> answers);
-// The lowest confidence from which on Wilson's lower bound at 90 % (one-sided 95 %) of the share that is right reaches
-// `target`, if any; more than 1 when none does: never sure.
+// The lowest confidence from which on Wilson's lower bound at 90 % (one-sided 95 %) of the share
+// that is right reaches `target`, if any; more than 1 when none does: never sure.
 double sureThreshold(const std::vector<ConfidentAnswer>& answers, double target = 0.95);
-// Expected calibration error: confidences in ten equal bins, |mean confidence - share right| weighed by number.
+// Expected calibration error: confidences in ten equal bins, |mean confidence - share right|
+// weighed by number.
 double calibrationError(std::span<const ConfidentAnswer> answers);
 
-// Area under the receiver operating characteristic: how often a value of `positive` exceeds one of `negative` (ties half).
-// NaN where either is empty.
+// Area under the receiver operating characteristic: how often a value of `positive` exceeds one of
+// `negative` (ties half). NaN where either is empty.
 double auroc(std::span<const double> positive, std::span<const double> negative);
 
 }  // namespace palpate

@@ -1,5 +1,6 @@
-// From features to classes: standardise -> discriminant analysis (where asked for) -> classifier. Everything is fitted to
-// the samples it is given, so fitting inside the training fold is fitting to the fold.
+// From features to classes: standardise -> discriminant analysis (where asked for) -> classifier.
+// Everything is fitted to the samples it is given, so fitting inside the training fold is fitting
+// to the fold.
 #pragma once
 
 #include <cstddef>
@@ -54,16 +55,18 @@ struct ClassifierPipeline {
   double exponent = 1.0;       // on the coupled probabilities of svm, the densities of the others
   GaussianClassifier novelty;  // what the classifier sees, covariances half of all classes
 
-  // Throws Error (requireLearnable; gauss: a class without samples), std::invalid_argument (options).
+  // Throws Error (requireLearnable; gauss: a class without samples), std::invalid_argument
+  // (options).
   static ClassifierPipeline of(const SampleSet& samples, const PipelineOptions& options = {});
 
-  // Samples x classes, the larger the better: votes of svm, logarithms of densities else. Throws std::invalid_argument
-  // (another number of features).
+  // Samples x classes, the larger the better: votes of svm, logarithms of densities else. Throws
+  // std::invalid_argument (another number of features).
   Eigen::MatrixXd scores(const Eigen::MatrixXd& x) const;
-  // Samples x classes, rows of sum 1; needs calibration (std::invalid_argument). gauss: on the day of training, offset 0.
+  // Samples x classes, rows of sum 1; needs calibration (std::invalid_argument). gauss: on the day
+  // of training, offset 0.
   Eigen::MatrixXd probabilities(const Eigen::MatrixXd& x) const;
-  // How far from everything that was learnt, per sample: squared Mahalanobis distance to the nearest class; gauss:
-  // -knownness (session_offset.h).
+  // How far from everything that was learnt, per sample: squared Mahalanobis distance to the
+  // nearest class; gauss: -knownness (session_offset.h).
   Eigen::VectorXd noveltyOf(const Eigen::MatrixXd& x) const;
   // Of each feature, summing to 1: how much the fitted planes or directions rest on it.
   Eigen::VectorXd featureWeights() const;

@@ -34,14 +34,16 @@ struct ValidationReport {
   std::vector<ExaminedSample> examined;  // split after split
 };
 
-// Throws Error (requireLearnable, also of a split), std::invalid_argument (options, a split without samples), Cancelled.
+// Throws Error (requireLearnable, also of a split), std::invalid_argument (options, a split without
+// samples), Cancelled.
 ValidationReport crossValidate(const SampleSet& samples,
                                const PipelineOptions& options,
                                const std::vector<SampleSplit>& splits,
                                std::size_t threads = 0,
                                const Progress& progress = {});
 
-// Several pipelines on the same splits. One that can't be fitted has no report: accuracyMean 0, no accuracies.
+// Several pipelines on the same splits. One that can't be fitted has no report: accuracyMean 0, no
+// accuracies.
 std::vector<ValidationReport> crossValidateAll(const SampleSet& samples,
                                                const std::vector<PipelineOptions>& options,
                                                const std::vector<SampleSplit>& splits,
@@ -55,8 +57,8 @@ struct LearningPoint {
   double accuracyMean = 0.0;
   double accuracySd = 0.0;
 };
-// For every number of `perClass` (>= 2) so many of each class's training samples, evenly over the recording, of the seed's
-// stratified splits; classes with fewer teach with all.
+// For every number of `perClass` (>= 2) so many of each class's training samples, evenly over the
+// recording, of the seed's stratified splits; classes with fewer teach with all.
 std::vector<LearningPoint> learningCurve(const SampleSet& samples,
                                          const PipelineOptions& options,
                                          const std::vector<std::size_t>& perClass,

@@ -2,8 +2,9 @@
 // load plateau of two opposite finger pads. The phases of contact and release are left out, because
 // they are not repeatable.
 //
-//   size_z           40 ln(1 + D / 40): D is the distance of the pads with the chord corrected (kinematics/object_size.h), at the
-//                    effective fingertip radius, of the mean plateau frame's centroids and the plateau's median angles
+//   size_z           40 ln(1 + D / 40): D is the distance of the pads with the chord corrected
+//                    (kinematics/object_size.h), at the effective fingertip radius, of the mean
+//                    plateau frame's centroids and the plateau's median angles
 //   ln_major         ln(l1 + .15), l1 >= l2: principal second moments of the pressure [taxel^2]
 //   ln_minor         ln(l2 + .15)
 //   share_1, _4, _9  part of the pressure on the strongest 1, 4 and 9 taxels
@@ -42,8 +43,8 @@ struct DayFeatureOptions {
   void validate() const;
 };
 
-// D [mm] and size_z [mm]: nearly linear for small things, logarithmic for large ones. sizeOf throws nothing; a D of -40 or
-// less (no hand has it) counts as -39.9.
+// D [mm] and size_z [mm]: nearly linear for small things, logarithmic for large ones. sizeOf throws
+// nothing; a D of -40 or less (no hand has it) counts as -39.9.
 double sizeZ(double distanceMm) noexcept;
 double distanceOfSizeZ(double sizeZ) noexcept;
 
@@ -73,7 +74,8 @@ struct DayFeatures {
   std::vector<double> values;  // as dayFeatureNames(); empty with trouble
 };
 
-// Of one grasp. Throws std::out_of_range: frames that aren't there. What the recording lacks is said by `trouble`.
+// Of one grasp. Throws std::out_of_range: frames that aren't there. What the recording lacks is
+// said by `trouble`.
 DayFeatures dayFeatures(const Profile& profile,
                         const GraspSegment& grasp,
                         const PinchHand& hand = sdh2PinchHand(),

@@ -40,8 +40,7 @@ struct DayModelOptions {
       {"size_z", 0.225}, {"ln_sum", 0.175}, {"compression_mm", 0.6}};
   // Name of the feature that the size offset shifts. If no feature has this name, the offset
   // has no effect.
-  std::string sizeFeature =
-      "size_z";
+  std::string sizeFeature = "size_z";
   // Few-shot components (addToday()): their scatter matrix is newScatter (1 + 1/K) S_w for K
   // labelled grasps. seenToday is the prior log odds [ln] of a class that was grasped in this
   // session over one that was not.
@@ -84,15 +83,16 @@ struct DayModelData {
 
 class DayModel {
  public:
-  // From samples x (rows) of classes y (0..classes-1). Throws std::invalid_argument (sizes don't agree, options), Error in
-  // one line when nothing can be learnt: values that are no numbers, fewer than two classes, no class with two samples, a class
-  // without any.
+  // From samples x (rows) of classes y (0..classes-1). Throws std::invalid_argument (sizes don't
+  // agree, options), Error in one line when nothing can be learnt: values that are no numbers,
+  // fewer than two classes, no class with two samples, a class without any.
   static DayModel learn(const Eigen::MatrixXd& x,
                         const std::vector<int>& y,
                         std::vector<std::string> classes,
                         std::vector<std::string> features,
                         const DayModelOptions& options = {});
-  // Throws Error naming what doesn't fit together (sizes, a scatter that isn't positive definite, not finite).
+  // Throws Error naming what doesn't fit together (sizes, a scatter that isn't positive definite,
+  // not finite).
   explicit DayModel(DayModelData data);
 
   const DayModelData& data() const noexcept { return data_; }

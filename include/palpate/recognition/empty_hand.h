@@ -24,7 +24,7 @@
 namespace palpate {
 
 struct EmptyHandOptions {
-  double foamMm = 0.80;         // [mm] at a peak of 1000 counts, per pad, >= 0
+  double foamMm = 0.80;  // [mm] at a peak of 1000 counts, per pad, >= 0
   // Relative standard deviation of the foam indentation when two flat pads press on each other, >=
   // 0.
   double foamRelativeSd = 0.5;
@@ -36,8 +36,7 @@ struct EmptyHandOptions {
   double transferPart = 0.15;
   // Largest plausible zero [mm], > 0. A larger value means that an object lies between the
   // pads.
-  double mostMm =
-      12.0;
+  double mostMm = 12.0;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -46,10 +45,10 @@ struct EmptyHandOptions {
 struct EmptyHandZero {
   // why there is none: no touch, no joint angles, something between the pads; else empty
   std::string trouble;
-  double mm = 0.0;          // zero, mean of the touches
+  double mm = 0.0;  // zero, mean of the touches
   // Standard error of the mean zero [mm], without the error of the foam model.
   double sdMm = 0.0;
-  double foamMm = 0.0;      // mean of what was added for the foam
+  double foamMm = 0.0;  // mean of what was added for the foam
   // Number of contacts that `mm` is the mean of.
   std::size_t touches = 0;
   std::size_t leftOut = 0;  // touches without usable data

@@ -1,8 +1,10 @@
-// The features of many recordings as one table: what training, evaluation and `palpate features` begin with.
+// The features of many recordings as one table: what training, evaluation and `palpate features`
+// begin with.
 //
-// A folder holds one folder per class; the class is that folder's name with '_' as blank ("golf_ball": "golf ball"), and
-// all recordings below it are the class's. A recording that lies in the folder itself belongs to the class of the folder's own
-// name; one that is named by itself has no class.
+// A folder holds one folder per class; the class is that folder's name with '_' as blank
+// ("golf_ball": "golf ball"), and all recordings below it are the class's. A recording that lies in
+// the folder itself belongs to the class of the folder's own name; one that is named by itself has
+// no class.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +36,8 @@ struct FeatureTable {
   FeatureSet set = FeatureSet::kBest;
   std::vector<std::string> names;  // of the features
   std::vector<FeatureRow> rows;    // by path as the words name them, sorted; within a file by time
-  // The sensor of all rows, as a text to compare: matrices with sizes and pitch. Empty without rows.
+  // The sensor of all rows, as a text to compare: matrices with sizes and pitch. Empty without
+  // rows.
   std::string sensor;
   // A line each: a file that can't be read, one without a grasp, a grasp without features, and why.
   std::vector<std::string> troubles;
@@ -70,8 +73,8 @@ struct FeatureGatherOptions {
   std::size_t threads = 0;
 };
 
-// Paths: folders (as above) and recordings. One bad file doesn't stop the others. Throws Cancelled; FileError when a path
-// isn't there.
+// Paths: folders (as above) and recordings. One bad file doesn't stop the others. Throws Cancelled;
+// FileError when a path isn't there.
 FeatureTable gatherFeatures(const std::vector<std::filesystem::path>& paths,
                             const FeatureGatherOptions& options = {},
                             const Progress& progress = {});

@@ -1,6 +1,8 @@
-// A Gaussian per class (regularised quadratic discriminant analysis; Friedman 1989, "Regularized discriminant analysis",
-// J. American Statistical Association 84). Classes are equally likely beforehand.
-//   C_c = (1 - pooledShare) S_c + pooledShare S_w;  off-diagonals times offDiagonal;  + extraVariance diag(S_w);  + ridge
+// A Gaussian per class (regularised quadratic discriminant analysis; Friedman 1989, "Regularized
+// discriminant analysis", J. American Statistical Association 84). Classes are equally likely
+// beforehand.
+//   C_c = (1 - pooledShare) S_c + pooledShare S_w;  off-diagonals times offDiagonal;  +
+//   extraVariance diag(S_w);  + ridge
 // With pooledShare 1 it is the linear discriminant rule: the nearest mean in Mahalanobis distance.
 #pragma once
 
@@ -31,12 +33,14 @@ struct GaussianClassifier {
   };
   std::vector<Class> classes;
 
-  // Samples x features, classes 0..numClasses-1. Throws std::invalid_argument (sizes, labels, no class with two samples).
+  // Samples x features, classes 0..numClasses-1. Throws std::invalid_argument (sizes, labels, no
+  // class with two samples).
   static GaussianClassifier of(const Eigen::MatrixXd& x,
                                const std::vector<int>& y,
                                std::size_t numClasses,
                                const ClassGaussianOptions& options = {});
-  // ln p(x | c) per sample and class, without the constant -d/2 ln 2 pi; -infinity for a class without samples.
+  // ln p(x | c) per sample and class, without the constant -d/2 ln 2 pi; -infinity for a class
+  // without samples.
   Eigen::MatrixXd logDensity(const Eigen::MatrixXd& x) const;
   // Squared Mahalanobis distance to the nearest class, per sample.
   Eigen::VectorXd nearestSquaredDistance(const Eigen::MatrixXd& x) const;

@@ -1,8 +1,9 @@
 // Detects grasps in the frames of a running hand and returns each one, with some frames before and
 // after it, as a separate profile, as if that grasp alone had been recorded.
 //
-// A contact: at least `fewestFingers` different fingers with an active taxel (value > 0), up to `bridgedFrames` frames without
-// bridged, as the rule `general` of grasp_segments.h has it; a gap of the stream ends it. Only what came counts, no clock.
+// A contact: at least `fewestFingers` different fingers with an active taxel (value > 0), up to
+// `bridgedFrames` frames without bridged, as the rule `general` of grasp_segments.h has it; a gap
+// of the stream ends it. Only what came counts, no clock.
 #pragma once
 
 #include <cstddef>
@@ -79,8 +80,9 @@ struct ChosenGrasp {
   double quality = 0.0;     // GraspSegment::quality
 };
 
-// Of frames first..last (both inclusive) of a profile the grasp (findPinches()) that lies in them longest, cut to them where
-// they begin later or end earlier. Throws std::out_of_range (frames), Cancelled.
+// Of frames first..last (both inclusive) of a profile the grasp (findPinches()) that lies in them
+// longest, cut to them where they begin later or end earlier. Throws std::out_of_range (frames),
+// Cancelled.
 ChosenGrasp graspWithin(const Profile& profile,
                         std::size_t first,
                         std::size_t last,

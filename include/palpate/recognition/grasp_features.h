@@ -1,7 +1,8 @@
 // Features of grasps: what recognition knows of one grasp, as a row of numbers with names.
 //
 //   study    the study's 54 (study_features.h): to compare with it
-//   best     what holds on another day (day_features.h): contact geometry and force on the load plateau
+//   best     what holds on another day (day_features.h): contact geometry and force on the load
+//            plateau
 // session: the features of `best`, the joint angles at rest and simple statistics of both pads. It
 // is the most accurate set within one session and must not be used in another one, because it
 // contains the pose in which an object was presented (sessionSetWarning()).
@@ -32,27 +33,29 @@ std::string_view sessionSetWarning() noexcept;
 // Of one grasp.
 struct GraspFeatures {
   std::size_t begin = 0, end = 0;  // frames, both inclusive
-  // Where it begins and ends for the features: `study` its own two; `best`, `session`: the first frame with a quarter of
-  // the load, and the last one of the plateau.
+  // Where it begins and ends for the features: `study` its own two; `best`, `session`: the first
+  // frame with a quarter of the load, and the last one of the plateau.
   std::size_t initialFrame = 0, endFrame = 0;
   std::vector<double> values;  // finite, as featureNames(); empty with trouble
   std::string trouble;         // why there are none, one line; else empty
   bool operator==(const GraspFeatures&) const = default;
 };
 
-// Throws std::out_of_range: frames that aren't there. What the recording lacks is said by `trouble`.
+// Throws std::out_of_range: frames that aren't there. What the recording lacks is said by
+// `trouble`.
 GraspFeatures graspFeatures(const Profile& profile,
                             const GraspSegment& grasp,
                             FeatureSet set,
                             const PinchHand& hand = sdh2PinchHand());
 
-// Grasps of a recording as recognition counts them: both pads touch for more than 20 frames (rule `study` with the hand's
-// pads). Throws Cancelled.
+// Grasps of a recording as recognition counts them: both pads touch for more than 20 frames (rule
+// `study` with the hand's pads). Throws Cancelled.
 std::vector<GraspSegment> findPinches(const Profile& profile,
                                       const PinchHand& hand = sdh2PinchHand(),
                                       const Progress& progress = {});
 
-// All of a recording, in order of time; a recording of another hand gives none and says so in `trouble`.
+// All of a recording, in order of time; a recording of another hand gives none and says so in
+// `trouble`.
 struct RecordingFeatures {
   std::vector<GraspFeatures> grasps;
   std::string trouble;  // another hand; no grasp; else empty

@@ -1,9 +1,11 @@
-// Finds the grasps in a recording: spans of frames in which fingers touch something from more than one side.
+// Finds the grasps in a recording: spans of frames in which fingers touch something from more than
+// one side.
 //
-// Rule `general`: at least two different fingers with an active taxel (value > 0, of any of their matrices), for more than
-// 20 frames and more than 0.6 s; up to 3 frames without are bridged. Rule `study` (its classifier's training script):
-// matrices 1 and 5 both active, more than 20 frames, nothing bridged. In both a gap of the recording (longer than max(1 s, 5
-// median intervals)) ends a grasp: nobody knows what happened in it.
+// Rule `general`: at least two different fingers with an active taxel (value > 0, of any of their
+// matrices), for more than 20 frames and more than 0.6 s; up to 3 frames without are bridged. Rule
+// `study` (its classifier's training script): matrices 1 and 5 both active, more than 20 frames,
+// nothing bridged. In both a gap of the recording (longer than max(1 s, 5 median intervals)) ends a
+// grasp: nobody knows what happened in it.
 #pragma once
 
 #include <cstddef>
@@ -35,14 +37,16 @@ struct GraspSegmentOptions {
 struct GraspSegment {
   std::size_t begin = 0;
   std::size_t end = 0;
-  // Those that touch in at least half of the frames, ascending; of `general` at least as many as the rule asks for.
-  // A matrix without a finger (a pad) counts as a finger of its number.
+  // Those that touch in at least half of the frames, ascending; of `general` at least as many as
+  // the rule asks for. A matrix without a finger (a pad) counts as a finger of its number.
   std::vector<int> fingers;
   // 0..1, the product of
   //   the part of its frames in contact (1: nothing was bridged),
   //   the part of its frames without a saturated taxel,
-  //   1 - min(1, sd / mean) of the sum of all taxels over the middle half of its frames (1: held steadily),
-  //   1, 1/2 or 1/4 for both, one or none of its ends lying inside the recording (not at its first or last frame,
+  //   1 - min(1, sd / mean) of the sum of all taxels over the middle half of its frames (1: held
+  //   steadily),
+  //   1, 1/2 or 1/4 for both, one or none of its ends lying inside the recording (not at its first
+  //   or last frame,
   //   nor beside a gap).
   double quality = 0.0;
   bool operator==(const GraspSegment&) const = default;

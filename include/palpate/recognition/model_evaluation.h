@@ -1,5 +1,5 @@
-// A trained model at work on other recordings: which session offset applies, and how well it does (protocol X). Nothing is
-// counted that adapted it.
+// A trained model at work on other recordings: which session offset applies, and how well it does
+// (protocol X). Nothing is counted that adapted it.
 #pragma once
 
 #include <cstddef>
@@ -36,8 +36,8 @@ struct SessionUse {
   std::vector<std::string> warnings;  // a line each: why nothing will be sure
 };
 
-// x: the session's grasps, all of them; timesUs: host times of each. A classifier that doesn't carry over has no offset: anything but
-// model and none throws Error.
+// x: the session's grasps, all of them; timesUs: host times of each. A classifier that doesn't
+// carry over has no offset: anything but model and none throws Error.
 SessionUse sessionFor(const TrainedModel& model,
                       const Eigen::MatrixXd& x,
                       const std::vector<std::int64_t>& timesUs,
@@ -53,7 +53,8 @@ Classification classifyTable(const TrainedModel& model,
                              const FeatureTable& table,
                              const OffsetChoice& choice);
 
-// Grasps that belong to one session, in order of time: a pause of more than `pauseS` [s] begins another.
+// Grasps that belong to one session, in order of time: a pause of more than `pauseS` [s] begins
+// another.
 std::vector<std::vector<std::size_t>> sessionsOf(const std::vector<std::int64_t>& timesUs,
                                                  double pauseS = 8.0 * 3600.0);
 
@@ -79,19 +80,21 @@ struct ModelEvaluation {
   std::size_t sure = 0, sureRight = 0;
 };
 
-// `samples` with the model's classes (samplesOf(table, model.classes)). Throws Error (a model that can't adapt; nothing is left
-// to examine).
+// `samples` with the model's classes (samplesOf(table, model.classes)). Throws Error (a model that
+// can't adapt; nothing is left to examine).
 ModelEvaluation evaluateModel(const TrainedModel& model,
                               const SampleSet& samples,
                               const std::vector<std::int64_t>& timesUs,
                               const EvaluationOptions& options = {});
 
-// accuracy, interval, top3, coverage, accuracy_when_sure, classes, confusion, .. (interfaces of `palpate evaluate --model`).
+// accuracy, interval, top3, coverage, accuracy_when_sure, classes, confusion, .. (interfaces of
+// `palpate evaluate --model`).
 Json jsonOf(const ModelEvaluation& evaluation);
 
 // The model's class, or "unknown".
 std::string labelOf(const TrainedModel& model, int label);
-// file, begin, end, label, confidence, sure, novelty, top: [{label, p}], the best five (interfaces of `palpate classify`).
+// file, begin, end, label, confidence, sure, novelty, top: [{label, p}], the best five (interfaces
+// of `palpate classify`).
 Json verdictJson(const TrainedModel& model, const FeatureRow& row, const Verdict& verdict);
 
 }  // namespace palpate

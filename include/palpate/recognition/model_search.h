@@ -1,5 +1,6 @@
-// Chooses what a person left open (classifier, components, C, mixing of covariances) by cross-validation inside the training
-// samples: a grid, every candidate on the same contiguous blocks (protocol B: what lies close in time stays together).
+// Chooses what a person left open (classifier, components, C, mixing of covariances) by
+// cross-validation inside the training samples: a grid, every candidate on the same contiguous
+// blocks (protocol B: what lies close in time stays together).
 #pragma once
 
 #include <cstddef>
@@ -36,12 +37,13 @@ struct ModelSearchReport {
   std::size_t chosen = 0;
 };
 
-// The candidates of a grid: each classifier with and without discriminant analysis (gauss without), components no more
-// than features and classes - 1 allow.
+// The candidates of a grid: each classifier with and without discriminant analysis (gauss without),
+// components no more than features and classes - 1 allow.
 std::vector<PipelineOptions> modelGrid(const SampleSet& samples, const ModelSearchOptions& options);
 
-// The most accurate one; of those no worse than it by half a standard error the first of the grid, which goes from simple to
-// elaborate. Throws Error (requireLearnable; none can be fitted), std::invalid_argument (options), Cancelled.
+// The most accurate one; of those no worse than it by half a standard error the first of the grid,
+// which goes from simple to elaborate. Throws Error (requireLearnable; none can be fitted),
+// std::invalid_argument (options), Cancelled.
 ModelSearchReport searchModel(const SampleSet& samples,
                               const ModelSearchOptions& options = {},
                               const Progress& progress = {});
@@ -49,7 +51,8 @@ ModelSearchReport searchModel(const SampleSet& samples,
 Json jsonOf(const PipelineOptions& options);
 Json jsonOf(const ModelSearchReport& report);
 
-// Recursive feature elimination (Guyon et al. 2002, Machine Learning 46): fit, drop the feature of least weight, again.
+// Recursive feature elimination (Guyon et al. 2002, Machine Learning 46): fit, drop the feature of
+// least weight, again.
 struct EliminationStep {
   std::size_t features = 0;  // how many were left
   std::size_t dropped = 0;   // then this one was dropped (column; by all samples)
@@ -57,7 +60,8 @@ struct EliminationStep {
   double accuracyMean = 0.0;
   double accuracySd = 0.0;
 };
-// From all features down to one. A discriminant analysis keeps at most as many components as features are left.
+// From all features down to one. A discriminant analysis keeps at most as many components as
+// features are left.
 std::vector<EliminationStep> eliminateFeatures(const SampleSet& samples,
                                                const PipelineOptions& options,
                                                const std::vector<SampleSplit>& splits,

@@ -1,5 +1,5 @@
-// Samples to learn from: one row of features per grasp, with its class. Rows of one class stand in the order in which
-// they were recorded (protocol B goes by it).
+// Samples to learn from: one row of features per grasp, with its class. Rows of one class stand in
+// the order in which they were recorded (protocol B goes by it).
 #pragma once
 
 #include <cstddef>
@@ -33,8 +33,8 @@ struct SampleSet {
   void validate() const;
 };
 
-// The rows of a table that have a class; classes sorted by name. With `classes` given: those, and a row of none of them is
-// refused. Throws Error (a row without class, or of an unknown one).
+// The rows of a table that have a class; classes sorted by name. With `classes` given: those, and a
+// row of none of them is refused. Throws Error (a row without class, or of an unknown one).
 SampleSet samplesOf(const FeatureTable& table);
 SampleSet samplesOf(const FeatureTable& table, const std::vector<std::string>& classes);
 
@@ -45,13 +45,16 @@ enum class StudyPart {
   kMoments,   // the other 50
   kAll
 };
-// Columns of a sample set of the study's features. Throws std::invalid_argument when it has other features.
+// Columns of a sample set of the study's features. Throws std::invalid_argument when it has other
+// features.
 SampleSet studyPart(const SampleSet& study, StudyPart part);
 
-// Throws Error (one line: what, which sample or class) when nothing can be learnt from it: no sample, fewer than two classes
-// with samples, no class with two samples, a value that is no number, no feature that varies.
+// Throws Error (one line: what, which sample or class) when nothing can be learnt from it: no
+// sample, fewer than two classes with samples, no class with two samples, a value that is no
+// number, no feature that varies.
 void requireLearnable(const SampleSet& samples);
-// What can be learnt from, but should be said, a line each: features that never vary, classes with one sample.
+// What can be learnt from, but should be said, a line each: features that never vary, classes with
+// one sample.
 std::vector<std::string> learningNotes(const SampleSet& samples);
 
 }  // namespace palpate

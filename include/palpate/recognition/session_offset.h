@@ -43,24 +43,19 @@ struct SessionOffsetOptions {
   double stepMm = 0.25;    // > 0
   // Weight of the log likelihood of an unlabelled grasp, 0..1: grasps of one object are not
   // independent observations.
-  double batchWeight =
-      0.3;
+  double batchWeight = 0.3;
   // Lower bound of an unlabelled grasp's relative log likelihood [nat], > 0, so that one
   // outlier cannot exclude an offset.
-  double floorNats =
-      12.0;
+  double floorNats = 12.0;
   // Labelled grasps of one object count as at most this many independent observations, > 0.
-  double mostReferences =
-      2.0;
+  double mostReferences = 2.0;
   // An offset is trusted only if it was estimated from at least this many different objects.
   std::size_t fewestObjects = 2;
   // Two objects are different if their sizes differ by more than this [mm], >= 0,
-  double objectGapMm =
-      3.0;
+  double objectGapMm = 3.0;
   // or if the Mahalanobis distance of their other features, with the within-class covariance
   // matrix, exceeds this, > 0.
-  double objectDistance =
-      5.0;
+  double objectDistance = 5.0;
   // Each object must have been classified with at least this probability, 0..1,
   double objectProbability = 0.8;
   // and the standard deviation of the offset must not exceed this [mm], > 0.
@@ -71,7 +66,7 @@ struct SessionOffsetOptions {
 };
 
 struct SessionOffset {
-  double mm = 0.0;    // mean: measured D - true D
+  double mm = 0.0;  // mean: measured D - true D
   // Standard deviation [mm]; 0: the value is assumed, or was entered as exact.
   double sdMm = 0.0;
   OffsetOrigin origin = OffsetOrigin::kNone;

@@ -13,7 +13,8 @@ struct Standardisation {
 
   // Of samples x features. Throws std::invalid_argument when there is no sample.
   static Standardisation of(const Eigen::MatrixXd& x);
-  // Samples x features in, the same shape out. Throws std::invalid_argument (another number of features).
+  // Samples x features in, the same shape out. Throws std::invalid_argument (another number of
+  // features).
   Eigen::MatrixXd apply(const Eigen::MatrixXd& x) const;
   Eigen::VectorXd applyRow(const Eigen::VectorXd& row) const;
 };

@@ -1,8 +1,9 @@
-// Linear support vector machine, one against one (study, 6.8.2): a hyperplane w.x + b between every pair of classes that
-// minimises |w|^2 / 2 + C sum of max(0, 1 - y (w.x + b)), b not penalised. OpenCV's `ml` solves the pairs (single precision
-// kernel); it has neither decision values of several classes nor probabilities: the votes are ours. A class gets
-// a vote of each of its pairs; the most votes win, and of several with as many that which lies farther on its own side of
-// its planes, summed over all of them.
+// Linear support vector machine, one against one (study, 6.8.2): a hyperplane w.x + b between every
+// pair of classes that minimises |w|^2 / 2 + C sum of max(0, 1 - y (w.x + b)), b not penalised.
+// OpenCV's `ml` solves the pairs (single precision kernel); it has neither decision values of
+// several classes nor probabilities: the votes are ours. A class gets a vote of each of its pairs;
+// the most votes win, and of several with as many that which lies farther on its own side of its
+// planes, summed over all of them.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +31,9 @@ struct SupportVectorMachine {
   Eigen::MatrixXd weights;  // pairs x features
   Eigen::VectorXd offsets;  // per pair
 
-  // Samples x features (standardised), classes 0..numClasses-1; one without samples takes part in no pair. Throws
-  // std::invalid_argument (sizes, labels, fewer than two classes with samples, options).
+  // Samples x features (standardised), classes 0..numClasses-1; one without samples takes part in
+  // no pair. Throws std::invalid_argument (sizes, labels, fewer than two classes with samples,
+  // options).
   static SupportVectorMachine of(const Eigen::MatrixXd& x,
                                  const std::vector<int>& y,
                                  std::size_t numClasses,
@@ -41,7 +43,8 @@ struct SupportVectorMachine {
   // Votes of each class for one sample, plus a value below 1/2 that orders classes with equal votes
   // by their distance from the hyperplanes.
   Eigen::VectorXd votes(const Eigen::VectorXd& decisions) const;
-  // Of each feature: root mean square of its weight over the pairs' unit normals, scaled to a sum of 1.
+  // Of each feature: root mean square of its weight over the pairs' unit normals, scaled to a sum
+  // of 1.
   Eigen::VectorXd featureWeights() const;
 };
 

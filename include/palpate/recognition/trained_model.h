@@ -1,5 +1,5 @@
-// A trained model: the classifier with all that it was made from, and what is known of today. A JSON file with format
-// version, program version, options, and the SHA-256 of every input.
+// A trained model: the classifier with all that it was made from, and what is known of today. A
+// JSON file with format version, program version, options, and the SHA-256 of every input.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ struct Verdict {
   static constexpr int kUnknown = -1;
   // Class index, or kUnknown if the grasp belongs to no known class.
   int label = kUnknown;
-  double confidence = 0.0;   // probability of the best class, were it one of the known ones
+  double confidence = 0.0;  // probability of the best class, were it one of the known ones
   // True if the result is expected to be correct in 95 % of the cases; never true without a trusted
   // session offset.
   bool sure = false;
@@ -67,8 +67,8 @@ struct TrainedModel {
 
   // Whether the classifier models a session offset and can be adapted; true for gauss only.
   bool carriesOver() const noexcept { return pipeline.day.has_value(); }
-  // Whether a time lies within half a day of the day its offset is of: that of what it learnt from, or, once it is adapted,
-  // of what adapted it. The same session, as far as one can tell.
+  // Whether a time lies within half a day of the day its offset is of: that of what it learnt from,
+  // or, once it is adapted, of what adapted it. The same session, as far as one can tell.
   bool sameSession(std::int64_t timeUs) const noexcept;
 };
 
@@ -83,29 +83,31 @@ TrainedModel trainModel(const SampleSet& samples,
                         PipelineOptions options,
                         const Progress& progress = {});
 
-// Verdicts on rows of features. `offset` is of no use to a classifier that doesn't carry over. Sure with: an offset that
-// can be trusted, or `sameSession` and no offset. Throws std::invalid_argument (another number of features).
+// Verdicts on rows of features. `offset` is of no use to a classifier that doesn't carry over. Sure
+// with: an offset that can be trusted, or `sameSession` and no offset. Throws std::invalid_argument
+// (another number of features).
 std::vector<Verdict> classifyRows(const TrainedModel& model,
                                   const Eigen::MatrixXd& x,
                                   const SessionOffset& offset,
                                   bool sameSession);
 
-// Throws Error naming what doesn't agree between a model and the features it is to judge: another sensor, another set of
-// features (of another version).
+// Throws Error naming what doesn't agree between a model and the features it is to judge: another
+// sensor, another set of features (of another version).
 void requireFits(const TrainedModel& model, const FeatureTable& table);
 
-// Labelled grasps of today: the offset from them on top of what is known of it already, and their components. Throws Error when
-// the model doesn't carry over.
+// Labelled grasps of today: the offset from them on top of what is known of it already, and their
+// components. Throws Error when the model doesn't carry over.
 void adaptModel(TrainedModel& model,
                 const SampleSet& today,
                 const SessionOffset& before = unknownOffset());
-// The offset by a touch of the empty hand today against that of training. Throws Error: trouble in it, the model doesn't carry
-// over or keeps no zero of its own to compare with.
+// The offset by a touch of the empty hand today against that of training. Throws Error: trouble in
+// it, the model doesn't carry over or keeps no zero of its own to compare with.
 SessionOffset offsetOfEmptyHand(const TrainedModel& model, const EmptyHandZero& today);
 // Stores both, besides what else is known of today. Throws as offsetOfEmptyHand().
 void adaptToEmptyHand(TrainedModel& model, const EmptyHandZero& today);
 
-// What it knew of another day than that of its training: offset, zero, components, where they came from.
+// What it knew of another day than that of its training: offset, zero, components, where they came
+// from.
 void forgetToday(TrainedModel& model);
 
 Json jsonOf(const TrainedModel& model);

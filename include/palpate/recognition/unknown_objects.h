@@ -48,8 +48,9 @@ enum class StrangerOffset {
   // Not estimated: the probabilities are marginalised over the prior distribution of the offset.
   kUnknown
 };
-// `later` with the classes of `training`; sessions: places in `later`, each with an offset of its own. Known ones: the session's
-// grasps with the whole model. Only gauss knows offsets. Throws Error (other classes, nothing to examine), Cancelled.
+// `later` with the classes of `training`; sessions: places in `later`, each with an offset of its
+// own. Known ones: the session's grasps with the whole model. Only gauss knows offsets. Throws
+// Error (other classes, nothing to examine), Cancelled.
 UnknownReport unknownOnAnotherDay(const SampleSet& training,
                                   const SampleSet& later,
                                   const std::vector<std::vector<std::size_t>>& sessions,

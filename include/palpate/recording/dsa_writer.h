@@ -16,10 +16,10 @@ struct DsaWriteReport {
 };
 
 // Writes a temporary file, syncs it, renames it: PATH is whole or untouched. Stamps are stored in
-// whole milliseconds, rounded down; of samples of one stream within a millisecond each gets the next
-// one, since the stamps of the form strictly grow. `generated_by` and `hw_revision` are whole numbers,
-// as the prior program reads them: what the profile doesn't say as one is written as that program
-// writes it (105, 1). Throws FileError, Cancelled.
+// whole milliseconds, rounded down; of samples of one stream within a millisecond each gets the
+// next one, since the stamps of the form strictly grow. `generated_by` and `hw_revision` are whole
+// numbers, as the prior program reads them: what the profile doesn't say as one is written as that
+// program writes it (105, 1). Throws FileError, Cancelled.
 DsaWriteReport writeDsa(const Profile& profile,
                         const std::filesystem::path& path,
                         Overwrite overwrite = Overwrite::kRefuse,

@@ -8,8 +8,8 @@
 
 namespace palpate {
 
-// `frame,time_ms,matrix,y,x,value`: a row per taxel that is scanned, at rest or not, matrix after matrix, row by row. `index`: what
-// stands in the column frame; empty of a live one.
+// `frame,time_ms,matrix,y,x,value`: a row per taxel that is scanned, at rest or not, matrix after
+// matrix, row by row. `index`: what stands in the column frame; empty of a live one.
 TextTable taxelTable(const TactileFrame& frame, const std::string& index);
 
 }  // namespace palpate

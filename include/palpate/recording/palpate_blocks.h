@@ -11,8 +11,8 @@
 
 namespace palpate {
 
-// Packs items until a block is full (kMaxBlockBytes; an item that is longer alone gets a longer one),
-// its coding changes, or flush() is called. Not thread-safe.
+// Packs items until a block is full (kMaxBlockBytes; an item that is longer alone gets a longer
+// one), its coding changes, or flush() is called. Not thread-safe.
 class BlockPacker {
  public:
   using Sink = std::function<void(const Block&)>;
@@ -47,9 +47,9 @@ bool plausible(const Block& block) noexcept;
 // Values per sample of a block of angles or temperatures; 0 where its size makes no sense.
 std::size_t sampleWidth(const Block& block) noexcept;
 
-// The stamps of a block's items [us since 1970], and where each item begins in its data. `numValues`:
-// values per item (places of the layout, axes, temperature sensors). False: the data is not what the
-// fields say. Never throws on damaged data.
+// The stamps of a block's items [us since 1970], and where each item begins in its data.
+// `numValues`: values per item (places of the layout, axes, temperature sensors). False: the data
+// is not what the fields say. Never throws on damaged data.
 struct BlockIndex {
   std::vector<std::int64_t> hostUs;
   std::vector<std::optional<std::int64_t>> deviceMs;

@@ -2,8 +2,8 @@
 // lies in memory, blocks are read and checked on demand.
 //
 // A finished recording is opened read-only where it lies. An unfinished one (its writer died) is
-// copied with its rollback journal to a temporary folder and opened there; one that is being written
-// is read in place, as far as it has been committed when it was opened.
+// copied with its rollback journal to a temporary folder and opened there; one that is being
+// written is read in place, as far as it has been committed when it was opened.
 #pragma once
 
 #include <filesystem>
@@ -14,9 +14,9 @@
 
 namespace palpate {
 
-// Throws FileError, FormatError (no native recording, or so damaged that its index or layout is gone;
-// 'palpate recover' may help), Cancelled. A block whose checksum is wrong is found when it is read:
-// Profile::readFrame then throws FormatError; it is never shown as data.
+// Throws FileError, FormatError (no native recording, or so damaged that its index or layout is
+// gone; 'palpate recover' may help), Cancelled. A block whose checksum is wrong is found when it is
+// read: Profile::readFrame then throws FormatError; it is never shown as data.
 Profile readPalpate(const std::filesystem::path& path, const Progress& progress = {});
 
 // The event table of a recording. Throws FileError, FormatError.

@@ -1,5 +1,5 @@
-// What can be saved of a native recording, damaged or unfinished: every block whose checksum is right,
-// also where SQLite can't reach it any more (its own integrity check misses flipped values).
+// What can be saved of a native recording, damaged or unfinished: every block whose checksum is
+// right, also where SQLite can't reach it any more (its own integrity check misses flipped values).
 #pragma once
 
 #include <cstddef>
@@ -42,9 +42,9 @@ struct PalpateSalvage {
   }
 };
 
-// Works on a copy in a temporary folder where a rollback journal has to be played back; the file itself
-// is never touched. Throws FileError (can't be read), FormatError (not a native recording at all),
-// Cancelled.
+// Works on a copy in a temporary folder where a rollback journal has to be played back; the file
+// itself is never touched. Throws FileError (can't be read), FormatError (not a native recording at
+// all), Cancelled.
 PalpateSalvage salvagePalpate(const std::filesystem::path& path, const Progress& progress = {});
 
 }  // namespace palpate

@@ -1,10 +1,11 @@
-// The native recording `*.palpate`: one SQLite 3 file (docs/palpate_format.md). What writer, reader and
-// recovery agree on: names, codings, checksums, the bytes of a block.
+// The native recording `*.palpate`: one SQLite 3 file (docs/palpate_format.md). What writer, reader
+// and recovery agree on: names, codings, checksums, the bytes of a block.
 //
 // A block holds consecutive items of one stream. Its data, per item, little-endian:
-//   u32 host time offset from the block's t0_us [us] | i64 device time [ms] (INT64_MIN: none) | values
-// Values of a frame: run-length coded (model/frame_coding.h); of angles and temperatures: one number
-// each, f32 where that is exact, else f64.
+//   u32 host time offset from the block's t0_us [us] | i64 device time [ms] (INT64_MIN: none) |
+//   values
+// Values of a frame: run-length coded (model/frame_coding.h); of angles and temperatures: one
+// number each, f32 where that is exact, else f64.
 #pragma once
 
 #include <cstddef>
@@ -50,8 +51,8 @@ struct Block {
 
 // zlib's CRC-32 over stream, first, n, t0_us, t1_us, coding as little-endian i64, then data.
 std::uint32_t blockCrc(const Block& block);
-// Of other rows: their columns in order; integers as little-endian i64, reals as f64, texts and blobs
-// as their bytes behind their length as i64, NULL as nothing.
+// Of other rows: their columns in order; integers as little-endian i64, reals as f64, texts and
+// blobs as their bytes behind their length as i64, NULL as nothing.
 class RowCrc {
  public:
   RowCrc& integer(std::int64_t value);

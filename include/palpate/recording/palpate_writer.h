@@ -1,5 +1,6 @@
-// Writes a native recording `*.palpate` (docs/palpate_format.md) so that what was committed survives a
-// killed process and a full disk: rollback journal, synchronous=FULL, a commit every 100 ms at most.
+// Writes a native recording `*.palpate` (docs/palpate_format.md) so that what was committed
+// survives a killed process and a full disk: rollback journal, synchronous=FULL, a commit every 100
+// ms at most.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +26,8 @@ constexpr std::size_t kMaxPendingBytes = 64u << 20;
 struct PalpateWriterOptions {
   std::int64_t commitIntervalUs = 100'000;  // host time between commits at most [us]
   std::string vfs;                          // SQLite file system to use; empty: the default one
-  // synchronous=FULL; off only for conversions, which sync at the end. Then samples are only gathered
-  // into blocks at each interval, and committed in large pieces.
+  // synchronous=FULL; off only for conversions, which sync at the end. Then samples are only
+  // gathered into blocks at each interval, and committed in large pieces.
   bool synced = true;
 };
 
@@ -46,9 +47,9 @@ class PalpateWriter {
 
   // Each appends in order of time and commits when the interval has passed since the last commit.
   // Throw std::invalid_argument (wrong size, not finite, time not later than before): nothing was
-  // added. Throw FileError (the disk is full, ..): what was committed before is safe; what came since,
-  // this call's sample too, is kept in memory, and the next commit that is due tries again. Only when
-  // kMaxPendingBytes wait there does a call refuse its sample: pendingFull() tells.
+  // added. Throw FileError (the disk is full, ..): what was committed before is safe; what came
+  // since, this call's sample too, is kept in memory, and the next commit that is due tries again.
+  // Only when kMaxPendingBytes wait there does a call refuse its sample: pendingFull() tells.
   void addFrame(const TactileFrame& frame);
   void addAngles(const JointAngles& angles);
   void addTemperatures(const Temperatures& temperatures);

@@ -26,8 +26,8 @@ struct ReadableRecording {
   std::size_t damagedEvents = 0;                 // that can't be read
   std::map<std::string, std::string> meta = {};  // as readRecordingMeta(), as far as it can be read
 };
-// Opens a recording and reads it through: what verifyRecording() counts as readable, damaged or not.
-// Throws FileError, FormatError (nothing can be read), Cancelled.
+// Opens a recording and reads it through: what verifyRecording() counts as readable, damaged or
+// not. Throws FileError, FormatError (nothing can be read), Cancelled.
 ReadableRecording readableRecording(const std::filesystem::path& path,
                                     const Progress& progress = {});
 
@@ -41,24 +41,25 @@ VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& 
 
 // The forms a recording can be saved in.
 enum class RecordingForm { kDsa, kPalpate, kCsv, kNpz, kJsonLines };
-// By the ending of a name: .dsa, .palpate, .csv, .npz, .jsonl, in small or capital letters. Throws FileError
-// naming them all.
+// By the ending of a name: .dsa, .palpate, .csv, .npz, .jsonl, in small or capital letters. Throws
+// FileError naming them all.
 RecordingForm formOf(const std::filesystem::path& path);
 
 // What was noted or happened in a recording: the events of a .palpate, the sidecar
 // NAME.dsa.notes.json of a .dsa (none: no events). Throws FileError, FormatError.
 EventsReport readEvents(const std::filesystem::path& path);
 
-// Throws FileError when both name the same file (by a link, too): nothing is written onto its source.
+// Throws FileError when both name the same file (by a link, too): nothing is written onto its
+// source.
 void requireOther(const std::filesystem::path& in, const std::filesystem::path& out);
 
 // What the form could not hold as it was.
 struct SaveReport {
   std::size_t movedStamps = 0;  // of a .dsa: see DsaWriteReport
 };
-// Saves a profile in the form of PATH's ending: whole or not at all. Events go into a .palpate, into
-// the sidecar of a .dsa, into `meta` of an .npz; a .csv or .jsonl has no place for them. Throws FileError,
-// Cancelled.
+// Saves a profile in the form of PATH's ending: whole or not at all. Events go into a .palpate,
+// into the sidecar of a .dsa, into `meta` of an .npz; a .csv or .jsonl has no place for them.
+// Throws FileError, Cancelled.
 SaveReport saveRecording(const Profile& profile,
                          std::span<const RecordingEvent> events,
                          const std::filesystem::path& path,
@@ -70,8 +71,9 @@ struct RecoverReport {
   State state = State::kNothing;
   std::string message;  // one line: what was saved, what is lost
 };
-// Saves what can be saved of a damaged or unfinished recording; IN is never touched, OUT is not made
-// when there is nothing to save. Throws FileError, FormatError (no recording at all), Cancelled.
+// Saves what can be saved of a damaged or unfinished recording; IN is never touched, OUT is not
+// made when there is nothing to save. Throws FileError, FormatError (no recording at all),
+// Cancelled.
 RecoverReport recoverRecording(const std::filesystem::path& in,
                                const std::filesystem::path& out,
                                Overwrite overwrite = Overwrite::kRefuse,

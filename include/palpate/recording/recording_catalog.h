@@ -1,5 +1,6 @@
-// Goes through all recordings of a folder and tells of each what readDetails() tells. What was read once is kept
-// in a cache file, and read again only when the recording (or the sidecar with its notes) has changed.
+// Goes through all recordings of a folder and tells of each what readDetails() tells. What was read
+// once is kept in a cache file, and read again only when the recording (or the sidecar with its
+// notes) has changed.
 #pragma once
 
 #include <cstddef>
@@ -29,9 +30,10 @@ struct CatalogReport {
   std::string cacheTrouble;  // why nothing could be kept; empty: all is well
 };
 
-// Recordings as recordingsBelow() (recording/recording_folder.h) lists them. `cacheFolder` is made where it isn't
-// there; empty: nothing is kept. A cache that is damaged, or of another version, is made anew. Never throws for
-// what it meets on the disk; throws Cancelled: what was read until then is kept.
+// Recordings as recordingsBelow() (recording/recording_folder.h) lists them. `cacheFolder` is made
+// where it isn't there; empty: nothing is kept. A cache that is damaged, or of another version, is
+// made anew. Never throws for what it meets on the disk; throws Cancelled: what was read until then
+// is kept.
 CatalogReport catalogRecordings(const std::filesystem::path& folder,
                                 const std::filesystem::path& cacheFolder,
                                 const CatalogSink& sink,

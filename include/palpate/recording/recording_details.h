@@ -1,5 +1,6 @@
-// What a list of recordings says of each: when, how long, of what, by whom. Of a native recording that is
-// read without its frames, whatever its length; a .dsa says nothing before it has been read through.
+// What a list of recordings says of each: when, how long, of what, by whom. Of a native recording
+// that is read without its frames, whatever its length; a .dsa says nothing before it has been read
+// through.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,8 @@
-// Search in a list of recordings: "foam object:ball date:2014-11". Words, all of which must be found somewhere
-// in what the list says of a recording, whatever the case of their letters; "several words" in quotes are one;
-// KEY:WORD looks in one place only. Keys: name, path, operator, object, run, notes, label, date, form, state.
-// A word with any other key is searched for as it stands.
+// Search in a list of recordings: "foam object:ball date:2014-11". Words, all of which must be
+// found somewhere in what the list says of a recording, whatever the case of their letters;
+// "several words" in quotes are one; KEY:WORD looks in one place only. Keys: name, path, operator,
+// object, run, notes, label, date, form, state. A word with any other key is searched for as it
+// stands.
 #pragma once
 
 #include <array>
@@ -35,7 +36,8 @@ enum class SearchKey : std::size_t {
 
 // What is searched in, one text in small letters per key, made once per recording.
 using SearchableText = std::array<std::string, kSearchKeys.size()>;
-// `path` counts from `folder` on; `date` is "2014-11-27 10:31" of the start, in the time of this place.
+// `path` counts from `folder` on; `date` is "2014-11-27 10:31" of the start, in the time of this
+// place.
 SearchableText searchableText(const RecordingDetails& details, const std::filesystem::path& folder);
 
 class RecordingSearch {

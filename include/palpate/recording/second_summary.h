@@ -37,13 +37,14 @@ class SecondSummarizer {
   std::vector<SecondSummary> rows_;
 };
 
-// The summary of a profile, every frame of it read, in the order of readSeconds(): for whoever has a .dsa open
-// already. Throws Cancelled, and what reading a frame throws.
+// The summary of a profile, every frame of it read, in the order of readSeconds(): for whoever has
+// a .dsa open already. Throws Cancelled, and what reading a frame throws.
 std::vector<SecondSummary> secondsOf(const Profile& profile, const Progress& progress = {});
 
-// The summary of a recording, ordered by time, then matrix; seconds without a frame are not there. A
-// native recording holds it: its frames are not read, of an unfinished one the last second is missing,
-// and rows with a wrong checksum are left out. A .dsa is read for it. Throws FileError, FormatError.
+// The summary of a recording, ordered by time, then matrix; seconds without a frame are not there.
+// A native recording holds it: its frames are not read, of an unfinished one the last second is
+// missing, and rows with a wrong checksum are left out. A .dsa is read for it. Throws FileError,
+// FormatError.
 std::vector<SecondSummary> readSeconds(const std::filesystem::path& path);
 
 }  // namespace palpate

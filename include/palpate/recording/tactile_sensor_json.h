@@ -1,11 +1,12 @@
-// Tactile frames in the shape of the ROS message schunk_sdh/TactileSensor, as JSON, one line per frame:
+// Tactile frames in the shape of the ROS message schunk_sdh/TactileSensor, as JSON, one line per
+// frame:
 //
 //   {"header":{"seq":0,"stamp":{"secs":1416996123,"nsecs":250000000},"frame_id":"sdh"},
 //    "tactile_matrix":[{"matrix_id":0,"cells_x":6,"cells_y":14,"tactile_array":[0,0,..]},..]}
 //
-// Source: schunk_modular_robotics, schunk_sdh/msg/TactileSensor.msg (Header header; TactileMatrix[] tactile_matrix)
-// and TactileMatrix.msg (uint32 matrix_id; int16 cells_x; int16 cells_y; int16[] tactile_array). Keys of header and
-// stamp are those of ROS 1, as rosbridge has them.
+// Source: schunk_modular_robotics, schunk_sdh/msg/TactileSensor.msg (Header header; TactileMatrix[]
+// tactile_matrix) and TactileMatrix.msg (uint32 matrix_id; int16 cells_x; int16 cells_y; int16[]
+// tactile_array). Keys of header and stamp are those of ROS 1, as rosbridge has them.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +20,14 @@
 
 namespace palpate {
 
-// Appends one message without a line end. `stamp` is the frame's host time [s, ns since 1970]; matrix_id the number of
-// the matrix in wire order; tactile_array row by row, row 0 at the fingertip, cells_x values each [counts]: 0 where
-// there is no taxel. Values are rounded to whole counts and kept in 0..32767, which changes none that a sensor sent.
+// Appends one message without a line end. `stamp` is the frame's host time [s, ns since 1970];
+// matrix_id the number of the matrix in wire order; tactile_array row by row, row 0 at the
+// fingertip, cells_x values each [counts]: 0 where there is no taxel. Values are rounded to whole
+// counts and kept in 0..32767, which changes none that a sensor sent.
 void appendTactileSensorJson(std::string& out, const TactileFrame& frame, std::uint64_t sequence);
 
-// PATH.jsonl: a message per frame, seq from 0; angles, temperatures and events have no place in it. Whole or not there.
-// Throws FileError, Cancelled.
+// PATH.jsonl: a message per frame, seq from 0; angles, temperatures and events have no place in it.
+// Whole or not there. Throws FileError, Cancelled.
 void writeTactileSensorLines(const Profile& profile,
                              const std::filesystem::path& path,
                              Overwrite overwrite = Overwrite::kRefuse,

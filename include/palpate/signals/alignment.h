@@ -1,5 +1,5 @@
-// Two recordings, A and B, on one axis of time: seconds from A's first frame. B's first frame lies `offsetS` after
-// A's, so what is at t in A is at t - offsetS in B.
+// Two recordings, A and B, on one axis of time: seconds from A's first frame. B's first frame lies
+// `offsetS` after A's, so what is at t in A is at t - offsetS in B.
 #pragma once
 
 #include <array>

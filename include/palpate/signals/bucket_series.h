@@ -1,5 +1,5 @@
-// The smallest and the largest value of a long series in each of equal spans of time: what a chart of hours is
-// drawn from. One thread adds, others may look at what is ready at any time.
+// The smallest and the largest value of a long series in each of equal spans of time: what a chart
+// of hours is drawn from. One thread adds, others may look at what is ready at any time.
 #pragma once
 
 #include <atomic>
@@ -12,8 +12,8 @@ namespace palpate {
 
 class BucketSeries {
  public:
-  // Values from 0 to `durationS`, in buckets of `bucketS`. Throws std::invalid_argument: a duration below 0,
-  // a bucket not above 0, more than 100,000,000 buckets.
+  // Values from 0 to `durationS`, in buckets of `bucketS`. Throws std::invalid_argument: a duration
+  // below 0, a bucket not above 0, more than 100,000,000 buckets.
   BucketSeries(double durationS, double bucketS);
 
   // Time ascending [s]; what lies outside of 0..durationS, or is NaN, is passed over.
@@ -31,8 +31,8 @@ class BucketSeries {
   float minimum(std::size_t bucket) const;
   float maximum(std::size_t bucket) const;
 
-  // Of what is ready: at most two points per column, smallest and largest, NaN where nothing is. Each bucket
-  // stands at its middle.
+  // Of what is ready: at most two points per column, smallest and largest, NaN where nothing is.
+  // Each bucket stands at its middle.
   std::vector<SeriesPoint> points(const DecimationOptions& options) const;
 
  private:

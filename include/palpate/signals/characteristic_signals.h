@@ -35,7 +35,8 @@ inline constexpr std::array kAllSignalKinds = {SignalKind::kMean,
                                                SignalKind::kActive,
                                                SignalKind::kArea};
 double valueOf(const CharacteristicSignals& values, SignalKind which);
-// The name in tables, files and options: "mean", "filtered_mean", "max", "min", "sum", "active", "area_mm2".
+// The name in tables, files and options: "mean", "filtered_mean", "max", "min", "sum", "active",
+// "area_mm2".
 std::string_view signalName(SignalKind kind);
 std::optional<SignalKind> signalKindNamed(std::string_view name);
 
@@ -53,8 +54,8 @@ void allSignals(const TactileFrame& frame, std::vector<CharacteristicSignals>& r
 class SignalTable {
  public:
   SignalTable() = default;
-  // From rows computed before, frame after frame, matrix after matrix. Throws std::invalid_argument where
-  // they are no whole frames.
+  // From rows computed before, frame after frame, matrix after matrix. Throws std::invalid_argument
+  // where they are no whole frames.
   SignalTable(std::size_t numMatrices, std::vector<CharacteristicSignals> rows);
   static SignalTable of(const Profile& profile, const Progress& progress = {});
   std::size_t numFrames() const noexcept { return numFrames_; }

@@ -1,9 +1,10 @@
 // How alike two curves are over the span of time that they share.
 //
-// Both are resampled on one time base: from the begin of the common span in steps of the longer of the two median
-// intervals (the slower recording sets the pace; nothing is invented between its samples), each curve by the straight
-// line between its neighbouring samples. Moments that lie in a gap of either curve are left out. Correlation is
-// Pearson's, over that base; like the other figures it is symmetric but for the sign of A - B.
+// Both are resampled on one time base: from the begin of the common span in steps of the longer of
+// the two median intervals (the slower recording sets the pace; nothing is invented between its
+// samples), each curve by the straight line between its neighbouring samples. Moments that lie in a
+// gap of either curve are left out. Correlation is Pearson's, over that base; like the other
+// figures it is symmetric but for the sign of A - B.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +28,9 @@ struct CurveComparison {
   std::optional<double> correlation = {};
 };
 
-// Times ascend [s]; b's are shifted by `offsetS` onto a's axis. Intervals longer than `gapS` (a's, b's) are gaps; 0:
-// there are none. NaN counts as a gap. Throws std::invalid_argument where times and values differ in number.
+// Times ascend [s]; b's are shifted by `offsetS` onto a's axis. Intervals longer than `gapS` (a's,
+// b's) are gaps; 0: there are none. NaN counts as a gap. Throws std::invalid_argument where times
+// and values differ in number.
 struct CurveGaps {
   double aS = 0.0;
   double bS = 0.0;

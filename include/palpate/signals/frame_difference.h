@@ -1,7 +1,8 @@
 // The difference of two frames, taxel by taxel: A minus B.
 //
-// Matrices of the same number have to have the same rows and columns to be compared, whatever their pitch; of those,
-// taxels that are scanned in both. The others are left out: nothing is made up for them.
+// Matrices of the same number have to have the same rows and columns to be compared, whatever their
+// pitch; of those, taxels that are scanned in both. The others are left out: nothing is made up for
+// them.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +17,14 @@
 
 namespace palpate {
 
-// Of one matrix, or of the whole frame. Taxels at rest in both frames don't count: they would water it down.
+// Of one matrix, or of the whole frame. Taxels at rest in both frames don't count: they would water
+// it down.
 struct DifferenceStatistics {
   int touched = 0;    // compared taxels that are active in A or in B
   double mean = 0.0;  // of A - B over them [counts]; 0 without any
   double rms = 0.0;   // root of the mean square [counts]
-  // The difference of largest magnitude, with its sign [counts]; the first of equals. Where: wire order.
+  // The difference of largest magnitude, with its sign [counts]; the first of equals. Where: wire
+  // order.
   double largest = 0.0;
   std::size_t matrix = 0;
   int y = 0;
@@ -39,7 +42,8 @@ class FrameComparison {
   bool compared(std::size_t matrix) const { return compared_.at(matrix); }
   bool allCompared() const;  // and B has no matrix more
 
-  // A - B in that layout; 0 where nothing is compared. Throws std::invalid_argument for frames of other layouts.
+  // A - B in that layout; 0 where nothing is compared. Throws std::invalid_argument for frames of
+  // other layouts.
   TactileFrame difference(const TactileFrame& a, const TactileFrame& b) const;
   void difference(const TactileFrame& a, const TactileFrame& b, TactileFrame& out) const;
   // One per matrix of A, the whole last.
@@ -62,7 +66,8 @@ struct FramePair {
   std::size_t frameA = 0;
   std::size_t frameB = 0;
 };
-// For every `stride`-th frame of A that has a frame of B beside it (TimedProfile::frameAt), in order. Throws Cancelled.
+// For every `stride`-th frame of A that has a frame of B beside it (TimedProfile::frameAt), in
+// order. Throws Cancelled.
 void visitFramePairs(
     const TimedProfile& a,
     const TimedProfile& b,

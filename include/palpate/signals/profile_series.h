@@ -1,5 +1,5 @@
-// What can be plotted of a profile over time: a characteristic signal of a matrix, chosen taxels, a joint angle,
-// a temperature. Times are seconds from the first frame.
+// What can be plotted of a profile over time: a characteristic signal of a matrix, chosen taxels, a
+// joint angle, a temperature. Times are seconds from the first frame.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,8 @@ struct Series {
   std::vector<double> values;
 };
 
-// Whether the profile has it. (Angles and temperatures may be missing; another hand has other matrices.)
+// Whether the profile has it. (Angles and temperatures may be missing; another hand has other
+// matrices.)
 bool hasSeries(const Profile& profile, const SeriesChoice& choice);
 
 // How many samples lie within fromS..toS.
@@ -42,8 +43,8 @@ std::size_t numSamples(const Profile& profile,
                        double fromS,
                        double toS);
 
-// All samples within fromS..toS, and the nearest on either side of it. Throws std::invalid_argument where the
-// profile hasn't it, Cancelled.
+// All samples within fromS..toS, and the nearest on either side of it. Throws std::invalid_argument
+// where the profile hasn't it, Cancelled.
 Series readSeries(const Profile& profile,
                   const SeriesChoice& choice,
                   double fromS,
@@ -55,8 +56,8 @@ void visitSeries(const Profile& profile,
                  const std::function<void(double timeS, double value)>& sink,
                  const Progress& progress = {});
 
-// About numSteps + 1 samples spread evenly over the time of the frames, none twice: a first look at a long
-// recording. Throws as above.
+// About numSteps + 1 samples spread evenly over the time of the frames, none twice: a first look at
+// a long recording. Throws as above.
 Series readSpread(const Profile& profile,
                   const SeriesChoice& choice,
                   std::size_t numSteps,

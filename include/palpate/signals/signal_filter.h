@@ -1,6 +1,6 @@
-// Filters over time on the characteristic signals of matrices, instead of on taxels: one series per signal and matrix
-// (study, figure 2.1, smooths the mean of a matrix). The same recipes, the same chain, the same gaps; filters that
-// look at neighbours have no place here.
+// Filters over time on the characteristic signals of matrices, instead of on taxels: one series per
+// signal and matrix (study, figure 2.1, smooths the mean of a matrix). The same recipes, the same
+// chain, the same gaps; filters that look at neighbours have no place here.
 #pragma once
 
 #include <array>
@@ -29,7 +29,8 @@ class SignalFilter {
   SignalFilter(const SignalFilter&) = delete;
   SignalFilter& operator=(const SignalFilter&) = delete;
 
-  // One row per matrix. Values go through as floats (7 digits). Throws std::invalid_argument for another number.
+  // One row per matrix. Values go through as floats (7 digits). Throws std::invalid_argument for
+  // another number.
   void push(std::int64_t hostUs, std::span<const CharacteristicSignals> rows);
   void restart();
   // No more frames: what was held back comes out.

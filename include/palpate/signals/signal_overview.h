@@ -1,5 +1,6 @@
-// All characteristic signals of a long recording in one pass over its frames: smallest and largest value per second
-// (longer than two days, or of many matrices: per as many seconds as 64 MB allow), and what only such a pass can tell. One thread computes, others look at what is ready.
+// All characteristic signals of a long recording in one pass over its frames: smallest and largest
+// value per second (longer than two days, or of many matrices: per as many seconds as 64 MB allow),
+// and what only such a pass can tell. One thread computes, others look at what is ready.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,8 @@ class SignalOverview {
   // Throws std::invalid_argument for an empty profile or a bucket that is not above 0.
   explicit SignalOverview(const Profile& profile, double bucketS = 1.0);
 
-  // Reads every frame, once. Throws Cancelled: what is ready stays; FormatError where a block is damaged.
+  // Reads every frame, once. Throws Cancelled: what is ready stays; FormatError where a block is
+  // damaged.
   void compute(const Progress& progress = {});
 
   // Of a matrix, or (row = number of matrices) the whole hand. Throws std::out_of_range.

@@ -7,7 +7,8 @@
 
 namespace palpate {
 
-// A row per matrix, named as the hand names it, and one of all together, last; counts but where the header says a unit.
+// A row per matrix, named as the hand names it, and one of all together, last; counts but where the
+// header says a unit.
 TextTable signalTextTable(const TactileFrame& frame, const HandDescription& hand);
 
 }  // namespace palpate

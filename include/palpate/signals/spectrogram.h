@@ -1,5 +1,5 @@
-// The spectra of a series over time as one picture: what filter/spectrum.h visits, kept, in as many segments as a
-// picture takes.
+// The spectra of a series over time as one picture: what filter/spectrum.h visits, kept, in as many
+// segments as a picture takes.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Spectra of one signal over time: the short-time Fourier transform of a series whose samples come when they come
-// (study 5.1; Welch 1967 for the scaling; the window's values as in Harris 1978).
+// Spectra of one signal over time: the short-time Fourier transform of a series whose samples come
+// when they come (study 5.1; Welch 1967 for the scaling; the window's values as in Harris 1978).
 //
 // Time stamps are irregular (25 % jitter at 74 Hz), but a Fourier transform needs a regular grid.
 // Each gap-free span is therefore interpolated linearly onto a regular grid at its own rate.
@@ -7,13 +7,14 @@
 // aliased. Interpolation attenuates high frequencies if the stamps are irregular:
 // interpolationGain(). Regular stamps lose nothing.
 //
-// Segment of N samples x_n, every `hop` = N - overlap samples; its trend is taken away (detrend), then the periodic
-// Hann window w_n = (1 - cos(2 pi n / N)) / 2 is laid on (periodic: zero at n = 0, not at n = N - 1; its bins are
-// free of leakage from tones at other bins two or more away). With X_k = sum x_n w_n e^(-2 pi i k n / N), k = 0..N/2:
+// Segment of N samples x_n, every `hop` = N - overlap samples; its trend is taken away (detrend),
+// then the periodic Hann window w_n = (1 - cos(2 pi n / N)) / 2 is laid on (periodic: zero at n =
+// 0, not at n = N - 1; its bins are free of leakage from tones at other bins two or more away).
+// With X_k = sum x_n w_n e^(-2 pi i k n / N), k = 0..N/2:
 //   psd_k       = c |X_k|^2 / (rate sum w_n^2)   [units^2/Hz], one-sided
 //   magnitude_k = c' |X_k| / sum w_n             [units]: a tone of amplitude A at a bin reads A
-// with c = c' = 2, but 1 at k = 0 and (N even) k = N/2. Parseval: sum psd_k rate/N = sum (x_n w_n)^2 / sum w_n^2. A tone
-// half way between two bins reads down to 0.849 A (scalloping).
+// with c = c' = 2, but 1 at k = 0 and (N even) k = N/2. Parseval: sum psd_k rate/N = sum (x_n
+// w_n)^2 / sum w_n^2. A tone half way between two bins reads down to 0.849 A (scalloping).
 #pragma once
 
 #include <cstddef>
@@ -44,8 +45,8 @@ struct SpectrumOptions {
   int overlap = 31;  // [samples] that a segment shares with the next, 0..window-1
   Detrend detrend = Detrend::kMean;
   GridRate gridRate = GridRate::kMean;
-  // At most so many segments: the hop grows until they fit (beyond `window` samples between two are in none). 0: no
-  // limit.
+  // At most so many segments: the hop grows until they fit (beyond `window` samples between two are
+  // in none). 0: no limit.
   std::size_t mostSegments = 0;
 
   // Throws std::invalid_argument with the field's name.
@@ -89,14 +90,15 @@ struct SpectrumSegment {
 };
 using SpectrumSink = std::function<void(const SpectrumSegment&)>;
 
-// What there is to see, without a transform: rates, stretches, number of segments. Times [s] must ascend strictly
-// and be finite, one per value: std::invalid_argument otherwise, and for bad options. A gap: an interval longer than
-// max(1 s, 5 median intervals); no segment spans one.
+// What there is to see, without a transform: rates, stretches, number of segments. Times [s] must
+// ascend strictly and be finite, one per value: std::invalid_argument otherwise, and for bad
+// options. A gap: an interval longer than max(1 s, 5 median intervals); no segment spans one.
 SpectrumReport planSpectra(std::span<const double> timeS,
                            std::span<const double> values,
                            const SpectrumOptions& options = {});
-// The same, and every segment in order. A series shorter than a window has none; a constant one is zero in every
-// bin (unless nothing is taken away: then at 0 Hz and the bin beside it). Throws Cancelled as well.
+// The same, and every segment in order. A series shorter than a window has none; a constant one is
+// zero in every bin (unless nothing is taken away: then at 0 Hz and the bin beside it). Throws
+// Cancelled as well.
 SpectrumReport visitSpectra(std::span<const double> timeS,
                             std::span<const double> values,
                             const SpectrumOptions& options,
@@ -113,7 +115,8 @@ struct MeanSpectrum {
   std::size_t strongestBin() const noexcept;
   double strongestHz() const noexcept { return binHz * static_cast<double>(strongestBin()); }
 };
-// Collects segments of the stretch with the most of them; others have bins elsewhere. Use as a sink.
+// Collects segments of the stretch with the most of them; others have bins elsewhere. Use as a
+// sink.
 class MeanSpectrumCollector {
  public:
   // Of the report's stretch with the most segments.
@@ -126,8 +129,9 @@ class MeanSpectrumCollector {
   MeanSpectrum sum_;
 };
 
-// What linear interpolation onto the grid leaves of a tone on average when stamps are spread evenly between the
-// grid's points, 0..1: sinc^2(f / rate). 0.97 at a fifth of Nyquist, 0.81 at a half, 0.41 at Nyquist.
+// What linear interpolation onto the grid leaves of a tone on average when stamps are spread evenly
+// between the grid's points, 0..1: sinc^2(f / rate). 0.97 at a fifth of Nyquist, 0.81 at a half,
+// 0.41 at Nyquist.
 double interpolationGain(double frequencyHz, double rateHz);
 
 }  // namespace palpate

@@ -1,7 +1,8 @@
 // Moments of what one matrix feels: where the contact is, how it lies, how far it stretches.
 //
-// x = column (right), y = row (down), in taxels; the taxel in column 0 and row 0 lies at (0, 0). Only values > 0
-// count: an active taxel. m_pq = sum x^p y^q f, mu_pq the same around the centroid, divided by m_00.
+// x = column (right), y = row (down), in taxels; the taxel in column 0 and row 0 lies at (0, 0).
+// Only values > 0 count: an active taxel. m_pq = sum x^p y^q f, mu_pq the same around the centroid,
+// divided by m_00.
 #pragma once
 
 #include <palpate/model/tactile_frame.h>

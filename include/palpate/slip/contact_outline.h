@@ -1,7 +1,9 @@
-// The outline of a contact: the outer border of its largest group of active taxels, and how round it is.
+// The outline of a contact: the outer border of its largest group of active taxels, and how round
+// it is.
 //
-// Taxels that touch by an edge or a corner are one group. The border runs through the centres of its outermost taxels, so that
-// its area is smaller than theirs: a 2 x 2 block has area 1 and length 4.
+// Taxels that touch by an edge or a corner are one group. The border runs through the centres of
+// its outermost taxels, so that its area is smaller than theirs: a 2 x 2 block has area 1 and
+// length 4.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +30,8 @@ class ContactOutline {
 
   // Of the size above; active is what is above `above`.
   OutlineShape describe(const ConstMatrixMap& matrix, float above = 0.0F);
-  // As the study's program did: only taxels of 0.2 % of the maximum or more (its 8 bits), and of the group that begins last
-  // in reading order, whatever its size.
+  // As the study's program did: only taxels of 0.2 % of the maximum or more (its 8 bits), and of
+  // the group that begins last in reading order, whatever its size.
   OutlineShape describeLikeStudy(const ConstMatrixMap& matrix);
 
  private:

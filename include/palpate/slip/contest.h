@@ -2,7 +2,8 @@
 // stayed and its load was redistributed. Comparison of non-nested hypotheses by their residuals
 // (Cox 1961).
 //
-//   still:  F(p) ~ (gain + alongX (x - cx) + alongY (y - cy)) K(p)   a field of load over what doesn't move
+//   still:  F(p) ~ (gain + alongX (x - cx) + alongY (y - cy)) K(p)   a field of load over what
+//           doesn't move
 //   moved:  F(p) ~ gain K(R(-angle)(p - c - d) + c)                  rigid_registration.h
 //
 // Both hypotheses use the same weights and the same rule for a taxel that reads 0: its value is
@@ -11,7 +12,8 @@
 // for a perfect fit, about 1 if the hypothesis is true. The load field is linear, because an
 // exponential field could imitate a motion.
 //
-//   P(moved) = 1 / (1 + ((moved + 1) / (still + 1))^p),   p = sharpness / (1 + min(still, moved) / misfit)
+//   P(moved) = 1 / (1 + ((moved + 1) / (still + 1))^p),   p = sharpness / (1 + min(still, moved) /
+//   misfit)
 //
 // If neither hypothesis fits, the exponent p decreases and the score approaches 0.5. P is a score,
 // not a calibrated probability.
@@ -46,7 +48,8 @@ struct LoadFieldResult {
   int taxels = 0;         // active in the key or in the frame; 0: nothing was fitted
 };
 
-// Two passes of linear least squares. Throws std::invalid_argument when the frame hasn't the key's size.
+// Two passes of linear least squares. Throws std::invalid_argument when the frame hasn't the key's
+// size.
 LoadFieldResult fitLoadField(const KeyFrame& key,
                              const ConstMatrixMap& frame,
                              const RegistrationOptions& options);

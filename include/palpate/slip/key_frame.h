@@ -25,8 +25,8 @@ struct KeyFrameOptions {
   void validate() const;  // throws std::invalid_argument naming the field
 };
 
-// Gaussian over 3 x 3 of enabled taxels, borders left out and renormalised; sd 0: a copy. `out` must have rows x columns
-// values and be another place than `in`. Masked places become 0.
+// Gaussian over 3 x 3 of enabled taxels, borders left out and renormalised; sd 0: a copy. `out`
+// must have rows x columns values and be another place than `in`. Masked places become 0.
 void smoothMatrix(const MatrixLayout& layout,
                   double blurTaxels,
                   const float* in,
@@ -45,8 +45,8 @@ class KeyFrame {
   // Throws std::invalid_argument.
   explicit KeyFrame(const MatrixLayout& layout, const KeyFrameOptions& options = {});
 
-  // Takes a frame of this matrix; allocates nothing. False: fewer than `fewestTaxels` are active, there is no key then.
-  // Throws std::invalid_argument when the size is another one.
+  // Takes a frame of this matrix; allocates nothing. False: fewer than `fewestTaxels` are active,
+  // there is no key then. Throws std::invalid_argument when the size is another one.
   bool set(const ConstMatrixMap& frame);
   void clear() noexcept { active_ = 0; }
   bool empty() const noexcept { return active_ == 0; }

@@ -22,14 +22,12 @@ struct LearnedSurfaceOptions {
   double unsureOfBend = 0.03;
   // Initial standard deviation of a taxel below the threshold that is next to an active one, as
   // a fraction of the threshold, >= 0.
-  double unsureOfSilence =
-      0.5;
+  double unsureOfSilence = 0.5;
   // Initial standard deviation outside of the matrix, as a fraction of the largest count, > 0.
   double unsureOutside = 0.3;
   // Process noise: variance added per frame as a fraction of the measurement noise variance, >=
   // 0. It lets the surface follow a contact whose shape changes.
-  double forgetting =
-      0.001;
+  double forgetting = 0.001;
   KeyFrameOptions key = {};
 
   void validate() const;  // throws std::invalid_argument naming the field

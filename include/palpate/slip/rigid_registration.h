@@ -29,8 +29,7 @@ struct RegistrationOptions {
   double relativeError = 0.01;  // of the model, >= 0
   double saturationCounts = static_cast<double>(kSdh2SaturationCounts);  // at or above: saturated
   // Prior standard deviation of the rotation from the start value [deg], > 0.
-  double anglePriorDeg =
-      6.0;
+  double anglePriorDeg = 6.0;
   double leastTurning = 0.06;  // KeyFrame::turning() below which the angle is held, 0..0.5
   // Largest standard deviation [taxels], > 0, up to which a direction of motion counts as
   // observable. Along a less observable direction (a bar along its own axis) the motion is held at
@@ -65,9 +64,10 @@ struct RegistrationResult {
   Untold untold;  // held at the start along these
 };
 
-// `frame`: of the key's matrix, as it came: it is smoothed as the key was, into `scratch` (rows x columns; allocated
-// by the caller, may be null when the key's blur is 0). Allocates nothing. Where it doesn't converge the motion is the last one tried, or
-// the start when nothing could be tried. Throws std::invalid_argument when the size is another one.
+// `frame`: of the key's matrix, as it came: it is smoothed as the key was, into `scratch` (rows x
+// columns; allocated by the caller, may be null when the key's blur is 0). Allocates nothing. Where
+// it doesn't converge the motion is the last one tried, or the start when nothing could be tried.
+// Throws std::invalid_argument when the size is another one.
 RegistrationResult registerFrame(const KeyFrame& key,
                                  const ConstMatrixMap& frame,
                                  const RigidMotion& start,

@@ -1,4 +1,5 @@
-// Follows the principal axis of a contact over the frames: how far it turned since the last one, and since a reference.
+// Follows the principal axis of a contact over the frames: how far it turned since the last one,
+// and since a reference.
 //
 // A principal axis is ambiguous by 180 deg: the direction closer to the previous one is taken, and
 // whole turns are counted. The axis is not tracked if the contact is too round: eccentricity (the
@@ -39,7 +40,8 @@ class RotationTracker {
   const SlipRotation& update(const ContactMoments& moments, double roundness) noexcept;
   // There is no step into the next frame: frames are missing before it.
   void skip() noexcept { hasLast_ = false; }
-  // The newest frame that has a direction becomes the reference; false: there was none yet, the next one will be.
+  // The newest frame that has a direction becomes the reference; false: there was none yet, the
+  // next one will be.
   bool setReference() noexcept;
   void clearReference() noexcept {
     hasReference_ = false;

@@ -15,8 +15,8 @@ class SensorSlipDetector {
   // Throws std::invalid_argument.
   explicit SensorSlipDetector(const SensorLayout& layout, const SlipDetectorOptions& options = {});
 
-  // The next frame, and the joint angles that belong to it (or none); one verdict per matrix, valid until the next call. Throws
-  // std::invalid_argument (another layout).
+  // The next frame, and the joint angles that belong to it (or none); one verdict per matrix, valid
+  // until the next call. Throws std::invalid_argument (another layout).
   const std::vector<SlipVerdict>& update(const TactileFrame& frame,
                                          std::span<const double> jointsDeg = {});
   // Of all matrices, as SlipDetector.

@@ -1,4 +1,5 @@
-// How well methods measure slip, against contacts whose motion is known, and beside the Cramer-Rao bound.
+// How well methods measure slip, against contacts whose motion is known, and beside the Cramer-Rao
+// bound.
 //
 // For each shape and trial a contact moves on a random path of 100 frames within (+-0.6, +-1.2)
 // taxels and +-15 deg (shapes with a direction), by at most about 0.13 taxel and 1 deg per frame.

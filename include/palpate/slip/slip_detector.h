@@ -4,8 +4,9 @@
 // motion of `register`, multiplied by the score P(moved) of the reference frame and the present
 // frame (contest.h), until slip is confirmed (P > 0.9 over 0.35 taxel in two frames, or an alarm).
 // From then on the unscaled motion is reported, until the next reference.
-// The alarm comes from the contest of three windows (slip_rule.h), whatever gives the vector; or, plain, from thresholds on the
-// vector: |step| > 0.20 or |since reference| > 1.0 taxel along an axis, as the prior program had it.
+// The alarm comes from the contest of three windows (slip_rule.h), whatever gives the vector; or,
+// plain, from thresholds on the vector: |step| > 0.20 or |since reference| > 1.0 taxel along an
+// axis, as the prior program had it.
 #pragma once
 
 #include <cstddef>
@@ -46,7 +47,7 @@ struct SlipVerdict {
   // True from the alarm until the contact is at rest again; translation or, with the contest,
   // rotation.
   bool slipping = false;
-  bool alarm = false;     // of this frame alone
+  bool alarm = false;  // of this frame alone
   bool turning = false;
   // Motion score of the window that decides in this frame; empty if no comparison was needed or
   // possible. `residual` is the smaller residual of both hypotheses.
@@ -61,8 +62,8 @@ class SlipDetector {
   // Throws std::invalid_argument.
   explicit SlipDetector(const MatrixLayout& layout, const SlipDetectorOptions& options = {});
 
-  // The next frame; stamps ascending [us]. `jointsDeg`: the joint angles that belong to it, or none. Throws
-  // std::invalid_argument for another size.
+  // The next frame; stamps ascending [us]. `jointsDeg`: the joint angles that belong to it, or
+  // none. Throws std::invalid_argument for another size.
   const SlipVerdict& update(const ConstMatrixMap& frame,
                             std::int64_t timeUs,
                             std::span<const double> jointsDeg = {});
@@ -74,7 +75,8 @@ class SlipDetector {
   void setOn(bool on) noexcept { on_ = on; }
 
   const SlipVerdict& last() const noexcept { return verdict_; }
-  // Whether the shape of the contact at the reference tells motion from a tilt of the load, per axis.
+  // Whether the shape of the contact at the reference tells motion from a tilt of the load, per
+  // axis.
   const ShapeCondition& condition() const noexcept { return condition_; }
   const SlipDetectorOptions& options() const noexcept { return options_; }
 

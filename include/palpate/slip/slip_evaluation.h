@@ -1,4 +1,5 @@
-// How good alarms of slip are on real recordings: false alarms per hour of contact that doesn't slip, slips found, delay.
+// How good alarms of slip are on real recordings: false alarms per hour of contact that doesn't
+// slip, slips found, delay.
 //
 // No slip: recordings of single grasps that are assumed to be free of slip (not verified; some
 // alarms may be real settling). Slip: recordings in which an object was pulled through the fingers,
@@ -6,8 +7,9 @@
 // uninterrupted contact (spans with at most 5 frames between them are joined). The onset is the
 // frame in which it was 0.2 taxel away from its position 10 frames before the first of these. The
 // rule favours the centroid method and misses slip below 0.1 taxel per frame.
-// Contact: at least 4 active taxels and a load over 400 counts. Settled: 15 frames of it. Quiet: settled, and the load within
-// 5 % over 10 frames. Alarms less than 10 frames apart are one. A slip is found by an alarm from its onset to its end.
+// Contact: at least 4 active taxels and a load over 400 counts. Settled: 15 frames of it. Quiet:
+// settled, and the load within 5 % over 10 frames. Alarms less than 10 frames apart are one. A slip
+// is found by an alarm from its onset to its end.
 #pragma once
 
 #include <array>
@@ -54,9 +56,10 @@ struct ScoredAlarm {
 struct SlipEvaluationReport {
   std::size_t holdRecordings = 0;
   std::size_t slipRecordings = 0;
-  // "centroid-step": the centroid moves over 0.20 per frame, over 3 frames. "centroid-windows": over 0.3 in 3 or 0.5 in 10 frames, twice.
-  // "register-windows": the registration instead. "contest": SlipRule as it stands; "contest-joints": told what joints do.
-  // "contest-held-out": the better of two folds' settings, scored on the other fold (see kSlipGrid).
+  // "centroid-step": the centroid moves over 0.20 per frame, over 3 frames. "centroid-windows":
+  // over 0.3 in 3 or 0.5 in 10 frames, twice. "register-windows": the registration instead.
+  // "contest": SlipRule as it stands; "contest-joints": told what joints do. "contest-held-out":
+  // the better of two folds' settings, scored on the other fold (see kSlipGrid).
   std::vector<ScoredAlarm> alarms;
   std::array<SlipRuleOptions, 2> chosen;  // on fold 0 and 1
 };
@@ -68,7 +71,8 @@ class SlipEvaluation {
   void addHold(const Profile& profile, const Progress& progress = {});
   void addSlip(const Profile& profile, const Progress& progress = {});
 
-  // fold: -1 all, 0 or 1 a half: every second recording of holds; of slips the earlier or later half of each recording's.
+  // fold: -1 all, 0 or 1 a half: every second recording of holds; of slips the earlier or later
+  // half of each recording's.
   SlipScore score(const SlipRuleOptions& rule, bool joints, int fold = -1) const;
   SlipEvaluationReport report() const;
 
@@ -96,8 +100,8 @@ class SlipEvaluation {
   std::size_t holds_ = 0, slips_ = 0;
 };
 
-// The settings that the two folds choose from: 72. The best of a fold finds at least 92 % of its slips, with the fewest false alarms
-// (settled ones, and a seventh of all).
+// The settings that the two folds choose from: 72. The best of a fold finds at least 92 % of its
+// slips, with the fewest false alarms (settled ones, and a seventh of all).
 std::vector<SlipRuleOptions> slipGrid();
 
 }  // namespace palpate

@@ -1,4 +1,5 @@
-// The ways to measure how a contact moves over a matrix, under the names that commands and settings use.
+// The ways to measure how a contact moves over a matrix, under the names that commands and settings
+// use.
 #pragma once
 
 #include <optional>
@@ -20,7 +21,8 @@ enum class SlipMethod {
 
 // All of them, in this order.
 std::span<const SlipMethod> slipMethods() noexcept;
-// "centroid", "alcazar", "ncc-paraboloid", "ncc-gauss3", "phase", "phase-normalized", "register", "contest"
+// "centroid", "alcazar", "ncc-paraboloid", "ncc-gauss3", "phase", "phase-normalized", "register",
+// "contest"
 std::string_view nameOf(SlipMethod method) noexcept;
 // Nothing: no method is called so.
 std::optional<SlipMethod> slipMethodNamed(std::string_view name) noexcept;

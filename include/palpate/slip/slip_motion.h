@@ -13,8 +13,8 @@ struct SlipMotion {
   double x = 0.0;     // centroid [taxels]; 0 without contact
   double y = 0.0;
 
-  // From the frame before to this one. Not valid: without contact (fewer than two active taxels) in one of them, frames
-  // are missing between, or the method found no match. 0 then.
+  // From the frame before to this one. Not valid: without contact (fewer than two active taxels) in
+  // one of them, frames are missing between, or the method found no match. 0 then.
   bool valid = false;
   double dx = 0.0;
   double dy = 0.0;
@@ -27,8 +27,9 @@ struct SlipMotion {
   // Weighted squared residual per taxel, 1 for the expected noise (register); 1 - correlation (ncc,
   // phase); 0 for centroids.
   double residual = 0.0;
-  // 0..1, a score: how much of the load speaks for the reading (centroid: what isn't saturated or at an edge of the
-  // matrix, where the contact may go on unseen; ncc, phase: the correlation; register: overlap over the misfit).
+  // 0..1, a score: how much of the load speaks for the reading (centroid: what isn't saturated or
+  // at an edge of the matrix, where the contact may go on unseen; ncc, phase: the correlation;
+  // register: overlap over the misfit).
   double confidence = 0.0;
   // register: directions in which the contact looks the same (a bar along its own axis). Motion
   // along them cannot be measured and is given as 0. 0: none, 1: along (untoldX, untoldY), 2: all.

@@ -1,8 +1,9 @@
 // Slip alarm of one matrix: thresholds on the motion over three windows of past frames, raised by
 // allowances for changing load and moving joints.
 //
-// Each window compares the frame with an earlier one of the same contact: 3, 10 and 30 frames before (at rates above 50 Hz
-// 60, 200 and 600 ms, slip_windows.h). Of each, m = min(1.3 |centroid shift|, |d of the registration|), and
+// Each window compares the frame with an earlier one of the same contact: 3, 10 and 30 frames
+// before (at rates above 50 Hz 60, 200 and 600 ms, slip_windows.h). Of each, m = min(1.3 |centroid
+// shift|, |d of the registration|), and
 //   P m > threshold + allowance         short window: at once; the others: in two frames in a row
 // m > accumulated + allowance: middle window, independent of P, because a load tilt saturates while
 // slip continues. |angle| - 2 sd > rotation + allowance: middle window, P > 0.5, an alarm of
@@ -57,8 +58,7 @@ struct SlipRuleOptions {
   // Age of the contact at a window's earlier frame, at least [frames].
   std::array<std::size_t, kSlipWindows> settled = {5, 10, 10};
   // A registered motion is rejected if it exceeds this many centroid shifts plus 0.3 taxel.
-  double furthest =
-      3.0;
+  double furthest = 3.0;
 
   void validate() const;  // throws std::invalid_argument naming the field
 };
@@ -80,13 +80,14 @@ class SlipRule {
   // Throws std::invalid_argument.
   explicit SlipRule(const SlipRuleOptions& options = {});
 
-  // The window whose contest would decide something in this frame; nothing: no window can raise an alarm.
+  // The window whose contest would decide something in this frame; nothing: no window can raise an
+  // alarm.
   std::optional<SlipWindow> asksFor(const SlipEvidence& evidence) const;
   // Whether a comparison over the middle window could detect a rotation; it is then evaluated every
   // few frames even if no window requires it.
   bool canTurn(const SlipEvidence& evidence) const;
-  // The next frame. Read are the contest of the window that asksFor() names, and for turning that of the middle window
-  // where it was made (two such looks in a row must agree).
+  // The next frame. Read are the contest of the window that asksFor() names, and for turning that
+  // of the middle window where it was made (two such looks in a row must agree).
   RuleOutcome decide(const SlipEvidence& evidence);
   void reset() noexcept { pending_ = turnPending_ = false; }
 

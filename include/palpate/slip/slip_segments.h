@@ -1,4 +1,5 @@
-// Where in a recording it slips: spans of frames per matrix, for a row of the timeline, a table, an export.
+// Where in a recording it slips: spans of frames per matrix, for a row of the timeline, a table, an
+// export.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,8 @@
-// Slip of a whole recording: what a detector says of every matrix that is touched, frame by frame, and the stretches in
-// which it slips. Made once, then looked up.
+// Slip of a whole recording: what a detector says of every matrix that is touched, frame by frame,
+// and the stretches in which it slips. Made once, then looked up.
 //
-// Taxels of the pitch, x right, y down; angles from x towards y [deg]. Frames in which a matrix isn't touched have no sample.
+// Taxels of the pitch, x right, y down; angles from x towards y [deg]. Frames in which a matrix
+// isn't touched have no sample.
 #pragma once
 
 #include <cstddef>
@@ -19,15 +20,16 @@ namespace palpate {
 struct SlipSeriesOptions {
   SlipMethod method = SlipMethod::kContest;
   SlipReference reference = SlipReference::kRest;
-  // The frame that becomes the reference of every matrix, whatever else is asked for; before it nothing is known of where
-  // contacts are since the reference.
+  // The frame that becomes the reference of every matrix, whatever else is asked for; before it
+  // nothing is known of where contacts are since the reference.
   std::optional<std::size_t> referenceFrame = std::nullopt;
   double stepTaxels = SlipRuleOptions{}.stepTaxels;            // thresholds, > 0
   double referenceTaxels = SlipRuleOptions{}.referenceTaxels;  // > 0
   double rotationDeg = SlipRuleOptions{}.rotationDeg;          // > 0
   bool operator==(const SlipSeriesOptions&) const = default;
 };
-// What a detector is to be told. The alarm of `contest` is its own, that of all other methods the plain thresholds.
+// What a detector is to be told. The alarm of `contest` is its own, that of all other methods the
+// plain thresholds.
 SlipDetectorOptions detectorOptions(const SlipSeriesOptions& options);
 
 // One matrix in one frame, in short.
@@ -92,14 +94,16 @@ struct SlipSeries {
   std::span<const SlipSample> between(std::size_t matrix,
                                       std::size_t first,
                                       std::size_t last) const;
-  // The way of a contact: from where it was when the reference was taken that holds in `frame`, to where it is in that
-  // frame. Empty: no reference, or no contact. At most `most` points; of longer ways each second, third, .. and the last.
+  // The way of a contact: from where it was when the reference was taken that holds in `frame`, to
+  // where it is in that frame. Empty: no reference, or no contact. At most `most` points; of longer
+  // ways each second, third, .. and the last.
   std::vector<PathPoint> pathUntil(std::size_t matrix,
                                    std::size_t frame,
                                    std::size_t most = 2000) const;
   // Of the last `spanS` seconds up to a frame. Throws std::out_of_range (matrix, frame).
   RecentSlip recent(std::size_t matrix, std::size_t frame, double spanS) const;
-  // Forgets the first frames; those that stay are counted anew from 0. Their times stay as they are.
+  // Forgets the first frames; those that stay are counted anew from 0. Their times stay as they
+  // are.
   void dropFirst(std::size_t frames);
   // The last frame at or before a time; 0 where there is none.
   std::size_t frameAt(double seconds) const noexcept;

@@ -1,7 +1,7 @@
 // Follows the contact on one matrix over a stream of frames, by any method but `contest`.
 //
-// The reference is the first frame with an active taxel until another is set; it outlives loss of contact (a flag
-// says when contact is new). Memory is taken at construction, none per frame.
+// The reference is the first frame with an active taxel until another is set; it outlives loss of
+// contact (a flag says when contact is new). Memory is taken at construction, none per frame.
 #pragma once
 
 #include <cstdint>
@@ -39,8 +39,8 @@ class SlipTracker {
   SlipTracker(SlipTracker&&) noexcept;
   SlipTracker& operator=(SlipTracker&&) noexcept;
 
-  // The next frame of the matrix. afterGap: frames are missing before it; then there is no step. Throws
-  // std::invalid_argument for another size.
+  // The next frame of the matrix. afterGap: frames are missing before it; then there is no step.
+  // Throws std::invalid_argument for another size.
   const SlipMotion& update(const ConstMatrixMap& frame, bool afterGap = false);
   // The newest frame becomes the reference; without contact in it, the next one that has contact.
   void setReference();
@@ -65,14 +65,15 @@ class SlipTracker {
   bool wantsReference_ = true;
 };
 
-// A tracker per matrix of a sensor; knows by the stamps when frames are missing (longer than max(1 s, 5 median
-// intervals)).
+// A tracker per matrix of a sensor; knows by the stamps when frames are missing (longer than max(1
+// s, 5 median intervals)).
 class SensorSlipTracker {
  public:
   // Throws std::invalid_argument.
   explicit SensorSlipTracker(const SensorLayout& layout, const SlipTrackerOptions& options = {});
 
-  // The next frame; one motion per matrix, valid until the next call. Throws std::invalid_argument (another layout).
+  // The next frame; one motion per matrix, valid until the next call. Throws std::invalid_argument
+  // (another layout).
   const std::vector<SlipMotion>& update(const TactileFrame& frame);
   void setReference();
   void clearReference();

@@ -1,4 +1,5 @@
-// The last second of one matrix, for windows that compare a frame with earlier ones of the same contact.
+// The last second of one matrix, for windows that compare a frame with earlier ones of the same
+// contact.
 //
 // A window of n frames compares with the n-th last stored frame; a frame is stored if the last
 // stored one is at least 20 ms old. Up to 50 frames/s a window is therefore a number of frames,
@@ -31,8 +32,9 @@ class SlipWindows {
   // Throws std::invalid_argument.
   explicit SlipWindows(const MatrixLayout& layout, const SlipWindowsOptions& options = {});
 
-  // The next frame of this matrix; stamps ascending [us]. `jointsDeg` may be empty; else as many as before. No contest is
-  // made yet. Throws std::invalid_argument when the size is another one. What isn't a finite number counts as 0.
+  // The next frame of this matrix; stamps ascending [us]. `jointsDeg` may be empty; else as many as
+  // before. No contest is made yet. Throws std::invalid_argument when the size is another one. What
+  // isn't a finite number counts as 0.
   const SlipEvidence& add(const ConstMatrixMap& frame,
                           std::int64_t timeUs,
                           std::span<const double> jointsDeg = {});

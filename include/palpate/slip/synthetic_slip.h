@@ -1,10 +1,11 @@
-// Contacts that move over one matrix in a known way, as a sensor would feel them: the truth that slip is measured against.
+// Contacts that move over one matrix in a known way, as a sensor would feel them: the truth that
+// slip is measured against.
 //
-// Six shapes (counts over the place, before the sensor). Those with an edge are plateaus whose edge is an error
-// function, as a soft cover of width `coverTaxels` makes it; blobs and Gaussians are smooth by themselves. A taxel feels the mean over its
-// square (3 x 3 Gauss-Legendre). Then noise, 12 bit, the threshold (below it: 0), saturation. What lies outside of the
-// matrix isn't felt.
-// x = column (right), y = row (down), in taxels; angles from +x towards +y [deg].
+// Six shapes (counts over the place, before the sensor). Those with an edge are plateaus whose edge
+// is an error function, as a soft cover of width `coverTaxels` makes it; blobs and Gaussians are
+// smooth by themselves. A taxel feels the mean over its square (3 x 3 Gauss-Legendre). Then noise,
+// 12 bit, the threshold (below it: 0), saturation. What lies outside of the matrix isn't felt. x =
+// column (right), y = row (down), in taxels; angles from +x towards +y [deg].
 #pragma once
 
 #include <cstdint>
@@ -42,7 +43,8 @@ struct SyntheticContact {
   double y = 6.5;
   double angleDeg = 0.0;
   double peakCounts = 1500.0;
-  // Weight shift without motion: load times 1 + tilt tanh(distance from the centre / 2) along an axis of the matrix.
+  // Weight shift without motion: load times 1 + tilt tanh(distance from the centre / 2) along an
+  // axis of the matrix.
   double tiltX = 0.0;  // -1..1
   double tiltY = 0.0;
 };
@@ -58,8 +60,8 @@ struct SyntheticSensor {
   void validate() const;
 };
 
-// What the sensor would read without noise, threshold, saturation and rounding. Places without an enabled taxel: 0.
-// `counts` must have the size of the layout; throws std::invalid_argument.
+// What the sensor would read without noise, threshold, saturation and rounding. Places without an
+// enabled taxel: 0. `counts` must have the size of the layout; throws std::invalid_argument.
 void idealCounts(const SyntheticContact& contact, const SyntheticSensor& sensor, MatrixMap counts);
 
 // Readings of one sensor, frame after frame: the same seed gives the same noise.

@@ -22,8 +22,8 @@ struct Mark {
   bool block = false;
 };
 
-// Which 16 bits can stand in the middle of a mark, whatever its place in a byte: 16 of 65536, so one
-// look-up a byte rejects nearly all places.
+// Which 16 bits can stand in the middle of a mark, whatever its place in a byte: 16 of 65536, so
+// one look-up a byte rejects nearly all places.
 std::vector<bool> middlesOfMarks() {
   std::vector<bool> middles(1u << 16);
   for (const std::uint64_t mark : {kBlockMark, kEndMark})

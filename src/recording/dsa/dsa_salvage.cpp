@@ -20,7 +20,8 @@ namespace {
 constexpr std::size_t kMaxElementBytes = 4u << 20;  // longer than any frame of a real sensor
 // A bzip2 block holds at most 900 kB, which its first run-length code can stretch 51 times.
 constexpr std::size_t kDsaSalvageMaxBlockBytes = 46u << 20;
-// Bits from a stream's end mark to the first block of a next stream: mark, checksum, padding, header.
+// Bits from a stream's end mark to the first block of a next stream: mark, checksum, padding,
+// header.
 constexpr std::uint64_t kMaxSeamBits = 48 + 32 + 7 + 32;
 
 struct Element {

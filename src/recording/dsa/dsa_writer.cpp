@@ -128,8 +128,8 @@ void addMatrix(std::string& out, const MatrixLayout& matrix, std::size_t index, 
   out += "    </matrix>\n";
 }
 
-// `generated_by`: the prior program reads a whole number there. A controller's firmware ("2.9.0.0") is
-// none.
+// `generated_by`: the prior program reads a whole number there. A controller's firmware ("2.9.0.0")
+// is none.
 std::string revisionText(const ProfileInfo& info) {
   constexpr std::int64_t kLargest = 65'535;  // the sensor's description holds 16 bits
   for (const std::string& text : {info.sensorRevision, info.firmware})

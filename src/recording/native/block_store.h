@@ -1,5 +1,5 @@
-// Intact blocks found while recovering: their index in memory, their data in memory up to a bound, then
-// in a nameless temporary file. Private to the room.
+// Intact blocks found while recovering: their index in memory, their data in memory up to a bound,
+// then in a nameless temporary file. Private to the room.
 #pragma once
 
 #include <array>

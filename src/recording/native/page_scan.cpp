@@ -8,9 +8,9 @@
 namespace palpate {
 namespace {
 
-// SQLite's record format (sqlite.org/fileformat2.html section 2.1): a header of varints (its own size,
-// then a serial type per column), then the columns. A block row has nine: id (NULL, the rowid), six
-// integers, crc32, data.
+// SQLite's record format (sqlite.org/fileformat2.html section 2.1): a header of varints (its own
+// size, then a serial type per column), then the columns. A block row has nine: id (NULL, the
+// rowid), six integers, crc32, data.
 constexpr std::size_t kColumns = 9;
 constexpr std::size_t kSmallestHeader = 1 + kColumns;
 constexpr std::size_t kLargestHeader = kSmallestHeader + 2;  // the blob's type takes up to 3 bytes

@@ -84,8 +84,8 @@ bool copyBytes(int from, int to) {
                   "can't be copied for opening: " + std::generic_category().message(errno));
 }
 
-// A copy in a folder of its own, for SQLite to play the journal back into. While it is being made it has
-// no name where the file system allows that: a process that is killed leaves nothing.
+// A copy in a folder of its own, for SQLite to play the journal back into. While it is being made
+// it has no name where the file system allows that: a process that is killed leaves nothing.
 fs::path copyWithJournal(const fs::path& recording) {
   const fs::path parent = fs::temp_directory_path();
   const FileDescriptor from(::open(recording.c_str(), O_RDONLY | O_CLOEXEC));

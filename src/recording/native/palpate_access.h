@@ -16,8 +16,8 @@ std::pair<std::uint64_t, std::uint64_t> identityOf(const std::filesystem::path& 
 
 class PalpateAccess {
  public:
-  // Throws FileError, FormatError. Until unlimited(), statements that take longer than any honest file
-  // of this size fail.
+  // Throws FileError, FormatError. Until unlimited(), statements that take longer than any honest
+  // file of this size fail.
   explicit PalpateAccess(const std::filesystem::path& path);
   ~PalpateAccess();  // removes the temporary copy, if there is one
   PalpateAccess(const PalpateAccess&) = delete;
@@ -29,8 +29,8 @@ class PalpateAccess {
   // Then every statement is a transaction of its own, so that the writer never waits long; rows are
   // only ever added. Otherwise all reading is one transaction: that saves the locking.
   bool beingWritten() const noexcept { return beingWritten_; }
-  // From here on only blocks are read: those of a finished recording never change, so that no lock is
-  // held that would keep others from saving its events. Statements must be prepared anew. Throws
+  // From here on only blocks are read: those of a finished recording never change, so that no lock
+  // is held that would keep others from saving its events. Statements must be prepared anew. Throws
   // FileError: the file was replaced meanwhile.
   void readBlocksOnly();
 

@@ -85,9 +85,10 @@ void writeAll(const Profile& profile,
   writer.finish();
 }
 
-// A journal that is still needed by the recording that is about to be replaced would be played back into
-// the new one. It is played back into the old one first, so that the old one is whole without it at
-// whatever moment the process dies. Throws FileError when that can't be done: nothing was changed then.
+// A journal that is still needed by the recording that is about to be replaced would be played back
+// into the new one. It is played back into the old one first, so that the old one is whole without
+// it at whatever moment the process dies. Throws FileError when that can't be done: nothing was
+// changed then.
 void settleJournal(const fs::path& path) {
   const fs::path journal = journalPathOf(path);
   std::error_code ignored;

@@ -8,8 +8,8 @@ namespace palpate {
 std::filesystem::path lockPathOf(const std::filesystem::path& recording);
 std::filesystem::path journalPathOf(const std::filesystem::path& recording);
 
-// Throws FileError when a rollback journal lies beside PATH, which isn't there itself (or is about to
-// be replaced): SQLite would play it back into whatever gets that name.
+// Throws FileError when a rollback journal lies beside PATH, which isn't there itself (or is about
+// to be replaced): SQLite would play it back into whatever gets that name.
 void refuseForeignJournal(const std::filesystem::path& recording);
 
 class RecordingLock {

@@ -23,8 +23,8 @@ void checkTables(SqliteDatabase& database);
 
 // Makes the empty tables.
 void createTables(SqliteDatabase& database);
-// The index over the blocks, and the table for charts; made when a recording is finished. Older ones,
-// of an attempt that failed, are dropped.
+// The index over the blocks, and the table for charts; made when a recording is finished. Older
+// ones, of an attempt that failed, are dropped.
 void createBlockIndex(SqliteDatabase& database);
 void createOverview(SqliteDatabase& database);
 
@@ -42,7 +42,8 @@ void insertMatrices(SqliteDatabase& database, const SensorLayout& layout);
 // Reading back. Throws FormatError where the layout is damaged or makes no sense.
 SensorLayout readLayout(SqliteDatabase& database);
 
-// A block from a row whose stream, first, n, t0_us, t1_us, coding stand from `column` on; unchecked.
+// A block from a row whose stream, first, n, t0_us, t1_us, coding stand from `column` on;
+// unchecked.
 Block blockFrom(const SqliteStatement& row, int column, int dataColumn);
 
 // The key-value pairs; rows with a wrong checksum are left out and counted.
@@ -54,8 +55,8 @@ struct MetaRows {
   std::optional<std::int64_t> integer(const std::string& key) const;
 };
 MetaRows readMeta(SqliteDatabase& database);
-// Calls back with number and content of every row of `event` in order of its number; rows with a wrong
-// checksum are counted.
+// Calls back with number and content of every row of `event` in order of its number; rows with a
+// wrong checksum are counted.
 std::size_t forEachEventRow(
     SqliteDatabase& database,
     const std::function<void(std::int64_t id, RecordingEvent&& event)>& take);

@@ -35,8 +35,8 @@ class BlockStorage : public ProfileStorage {
 
   BlockStorage(std::filesystem::path path, Loader loader);
 
-  // Appends a place to a stream. False, and nothing is appended: it doesn't follow the ones before it
-  // (in its index and its time), or makes no sense.
+  // Appends a place to a stream. False, and nothing is appended: it doesn't follow the ones before
+  // it (in its index and its time), or makes no sense.
   bool add(Stream stream, const BlockPlace& place);
   // Values per item; must be set before items are read.
   void setWidth(Stream stream, std::size_t numValues);

@@ -48,7 +48,8 @@ class SqliteStatement {
 
 class SqliteDatabase {
  public:
-  // kUnlocked reads without locks and without looking for changes: only for pages that nobody changes.
+  // kUnlocked reads without locks and without looking for changes: only for pages that nobody
+  // changes.
   enum class Mode { kReadOnly, kReadWrite, kCreate, kUnlocked };
   // Throws FileError. `vfs`: a registered SQLite file system, empty for the default.
   SqliteDatabase(std::filesystem::path path, Mode mode, const std::string& vfs = {});
@@ -63,8 +64,8 @@ class SqliteDatabase {
   bool inTransaction() const;
   // Ends a transaction without result; never throws (after a failed commit there may be none left).
   void rollBack() noexcept;
-  // Ends statements that run for longer than any honest file of this size needs (pages that point to
-  // each other make b-trees of any length); they throw FormatError. Counts from here on.
+  // Ends statements that run for longer than any honest file of this size needs (pages that point
+  // to each other make b-trees of any length); they throw FormatError. Counts from here on.
   void limitWork(std::uint64_t fileBytes);
   void unlimitWork();
   // The whole database as the bytes of its file, what was committed. Throws FileError (no memory).

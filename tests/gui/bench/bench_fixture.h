@@ -1,5 +1,5 @@
-// The models of the window without the window, for tests of them and of single features: settings, clock, files and answers
-// in the test's hands.
+// The models of the window without the window, for tests of them and of single features: settings,
+// clock, files and answers in the test's hands.
 #pragma once
 
 #include <QComboBox>

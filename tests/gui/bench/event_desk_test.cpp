@@ -1,4 +1,5 @@
-// Events of open recordings: marks follow the editor, and nothing unsaved is lost without a question.
+// Events of open recordings: marks follow the editor, and nothing unsaved is lost without a
+// question.
 #include "gui/bench/event_desk.h"
 
 #include <QSignalSpy>

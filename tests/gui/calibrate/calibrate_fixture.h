@@ -29,8 +29,8 @@ inline double response(double gain, double t) {
   return gain * phi + kDrift * t;
 }
 
-// Loads on nine taxels of a matrix, one after the other: on from 1 s to 9 s of every ten. A motor's temperature where
-// it is told.
+// Loads on nine taxels of a matrix, one after the other: on from 1 s to 9 s of every ten. A motor's
+// temperature where it is told.
 inline Profile loads(std::size_t matrix, const std::vector<double>& gains, double degC = 0.0) {
   const HandDescription& hand = sdh2();
   ProfileBuilder builder(hand.layout);

@@ -1,4 +1,5 @@
-// Pressures and forces in the real window: beside the counts, of a recording and of a connected hand.
+// Pressures and forces in the real window: beside the counts, of a recording and of a connected
+// hand.
 #include <QLabel>
 #include <QPushButton>
 #include <QTest>

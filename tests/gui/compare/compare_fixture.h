@@ -1,4 +1,5 @@
-// A window with recordings that can be compared: "early" and "late" are grasps whose contacts are a second apart.
+// A window with recordings that can be compared: "early" and "late" are grasps whose contacts are a
+// second apart.
 #pragma once
 
 #include <QComboBox>
@@ -26,7 +27,8 @@
 
 namespace palpate::gui {
 
-// `count` frames 50 ms apart from `beginMs` on, at rest until `touched`, then `counts` on twelve taxels.
+// `count` frames 50 ms apart from `beginMs` on, at rest until `touched`, then `counts` on twelve
+// taxels.
 inline Profile grasped(std::size_t count,
                        std::size_t touched,
                        float counts,

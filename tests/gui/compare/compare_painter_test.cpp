@@ -50,7 +50,8 @@ TEST(DifferenceMap, GoesAwayFromTheMiddleEquallyOnBothSides) {
   }
 }
 
-// Blue against orange: what is left of the red-green channel to somebody who lacks it differs in blue.
+// Blue against orange: what is left of the red-green channel to somebody who lacks it differs in
+// blue.
 TEST(DifferenceMap, SidesAreToldApartWithoutRedAndGreen) {
   for (const Theme theme : {Theme::kDark, Theme::kLight}) {
     const ColorTable& table = differenceTable(theme);

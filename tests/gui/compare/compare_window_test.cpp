@@ -1,4 +1,5 @@
-// Comparing two recordings, in the window: which ones, how it comes and goes, what is said of odd ones.
+// Comparing two recordings, in the window: which ones, how it comes and goes, what is said of odd
+// ones.
 #include "gui/compare/compare_feature.h"
 #include "gui/compare/compare_fixture.h"
 #include "gui/matrices/matrices_feature.h"

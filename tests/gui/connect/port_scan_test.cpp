@@ -273,7 +273,8 @@ TEST(PortScan, LeavesAThreadBehindThatTheSystemHoldsUp) {
   EXPECT_TRUE(QTest::qWaitFor([&] { return fake.numOpen() == 0; }, kPatienceMs));
 }
 
-// The real functions, on the ptys of an emulated hand (not scan(): that would ask this machine's ports).
+// The real functions, on the ptys of an emulated hand (not scan(): that would ask this machine's
+// ports).
 TEST(PortScan, FindsTheControllersOfAHandAndMovesNothing) {
   testing::EmulatedBench bench(testing::stillHand());
   const QString tactile = QString::fromStdString(bench.hand->dsaPort());

@@ -325,7 +325,8 @@ TEST_F(HandDockTest, AGoneMotionPortIsSaidAndNothingIsOffered) {
   EXPECT_TRUE(isEnabled("stopHand"));  // always
 }
 
-// L-M2: a matrix that is set to feel nothing is marked, and a grasp that stands on it is refused by name.
+// L-M2: a matrix that is set to feel nothing is marked, and a grasp that stands on it is refused by
+// name.
 TEST_F(HandDockTest, AMatrixThatCannotTellTheLimitIsMarkedAndNamed) {
   connectTo(testing::handWith("ball"));
   ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
@@ -346,7 +347,8 @@ TEST_F(HandDockTest, AMatrixThatCannotTellTheLimitIsMarkedAndNamed) {
   EXPECT_TRUE(await([&] { return name->toolTip().isEmpty(); }));
 }
 
-// As the refusals: only fingers that the preshape moves, and of a slip-aware grasp the highest limit that it may go to.
+// As the refusals: only fingers that the preshape moves, and of a slip-aware grasp the highest
+// limit that it may go to.
 TEST_F(HandDockTest, TheMarkOfAMatrixAgreesWithTheRefusals) {
   connectTo(testing::handWith("ball"));
   ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));

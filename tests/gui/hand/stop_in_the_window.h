@@ -1,5 +1,5 @@
-// Escape pressed in the window at random moments of a grasp, while it paints and rolls: the stop is on the wire
-// within 20 ms (R18). Each stop is measured once.
+// Escape pressed in the window at random moments of a grasp, while it paints and rolls: the stop is
+// on the wire within 20 ms (R18). Each stop is measured once.
 #pragma once
 
 #include <QApplication>

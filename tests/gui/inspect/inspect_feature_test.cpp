@@ -1,4 +1,5 @@
-// The dock Inspect over the bench: what it shows belongs to the source, and ticks stay as they were left.
+// The dock Inspect over the bench: what it shows belongs to the source, and ticks stay as they were
+// left.
 #include "gui/inspect/inspect_feature.h"
 
 #include "gui/bench/bench_fixture.h"

@@ -133,7 +133,8 @@ TEST_F(InspectTest, IsEmptyAfterTheLastRecordingIsClosed) {
 }
 
 TEST_F(InspectTest, SaysWhoRecordedWhatAndWhatWasNoted) {
-  // The frames are those that the fixture gives for the name; what was said and noted is read from the file.
+  // The frames are those that the fixture gives for the name; what was said and noted is read from
+  // the file.
   const std::string path = (folder_ / "good_noted.palpate").string();
   const std::int64_t us = twentyFrames().frameTimeUs(0);
   {

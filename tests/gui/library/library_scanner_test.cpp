@@ -1,4 +1,5 @@
-// Folders are gone through beside the window: in portions, to be given up at any moment, whatever hangs.
+// Folders are gone through beside the window: in portions, to be given up at any moment, whatever
+// hangs.
 #include "gui/library/library_scanner.h"
 
 #include <QSignalSpy>

@@ -1,4 +1,5 @@
-// The window and other programs on this machine: nothing is open until it is asked for, and what is acknowledged is so.
+// The window and other programs on this machine: nothing is open until it is asked for, and what is
+// acknowledged is so.
 #include "gui/link/other_programs.h"
 
 #include <QLabel>

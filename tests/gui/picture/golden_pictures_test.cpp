@@ -1,5 +1,6 @@
-// Pictures of the window against pictures that people have looked at (tests/gui/golden): a tenth of their size, so that fonts
-// don't matter, and with a tolerance. PALPATE_RENEW_GOLDEN=1 writes them anew, to be looked at before they are committed.
+// Pictures of the window against pictures that people have looked at (tests/gui/golden): a tenth of
+// their size, so that fonts don't matter, and with a tolerance. PALPATE_RENEW_GOLDEN=1 writes them
+// anew, to be looked at before they are committed.
 #include <QImage>
 #include <cstdlib>
 

@@ -194,7 +194,8 @@ TEST_F(MovieWriterTest, PlansByTheStampsOfTheSpan) {
   EXPECT_THROW(plannedMovie({10, 13}, timeUs, {}, [](double) { return false; }), Cancelled);
 }
 
-// Where ffmpeg is installed, the movie has the colours that were painted; where it isn't, that is said.
+// Where ffmpeg is installed, the movie has the colours that were painted; where it isn't, that is
+// said.
 TEST_F(MovieWriterTest, TheColoursArriveAtTheEnd) {
   const auto ffmpeg = findFfmpeg();
   if (!ffmpeg) {

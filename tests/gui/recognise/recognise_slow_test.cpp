@@ -1,4 +1,5 @@
-// What the emulated hand grasps by itself, named while it is held: the model that comes with the program.
+// What the emulated hand grasps by itself, named while it is held: the model that comes with the
+// program.
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -57,12 +58,14 @@ TEST_F(RecogniseSlowTest, NothingMovesAfterAStopWhileTheZeroIsTaken) {
   EXPECT_EQ(status().last->endUs, endedUs) << "it moved after a stop";
 }
 
-// Close until the pads touch, hold, open: then the zero is there, and verdicts of the day rest on it.
+// Close until the pads touch, hold, open: then the zero is there, and verdicts of the day rest on
+// it.
 TEST_F(RecogniseSlowTest, TheZeroOfTheEmptyHandIsTakenAndUsed) {
   const auto await = [](const std::function<bool()>& condition) {
     return QTest::qWaitFor(condition, 60'000);
   };
-  // A model of the emulated hand that is nobody's default, with the zero of its day; as told here, 3 mm off today's.
+  // A model of the emulated hand that is nobody's default, with the zero of its day; as told here,
+  // 3 mm off today's.
   TrainedModel model = loadModel(testing::dataFolder() / "emulated_objects.json");
   ASSERT_TRUE(model.trainingZero);
   forgetToday(model);
@@ -104,7 +107,8 @@ TEST_F(RecogniseSlowTest, TheZeroOfTheEmptyHandIsTakenAndUsed) {
   EXPECT_EQ(panel().desk().day()->adapted().todayZero->origin, "the connected hand");
 }
 
-// A series of a thing that the hand grasps again and again: each grasp becomes a clip by itself, the last is taken back.
+// A series of a thing that the hand grasps again and again: each grasp becomes a clip by itself,
+// the last is taken back.
 TEST_F(RecogniseSlowTest, ASeriesIsCapturedWhileTheHandGrasps) {
   const auto await = [](const std::function<bool()>& condition) {
     return QTest::qWaitFor(condition, 60'000);

@@ -1,5 +1,6 @@
-// The window in everything that it can be, for tests that press whatever there is: each menu entry, key and button.
-// Connected is the emulated hand on ports of its own, so that it can be seen from outside what the hand does.
+// The window in everything that it can be, for tests that press whatever there is: each menu entry,
+// key and button. Connected is the emulated hand on ports of its own, so that it can be seen from
+// outside what the hand does.
 #pragma once
 
 #include <QAbstractButton>
@@ -46,8 +47,8 @@ class ModalCloser : public QObject {
     connect(&timer_, &QTimer::timeout, this, [this] { close(); });
     timer_.start();
   }
-  // When something first waited for an answer since begin() [monotonic us], and how long this thread had computed by
-  // then [us]; 0: nothing did.
+  // When something first waited for an answer since begin() [monotonic us], and how long this
+  // thread had computed by then [us]; 0: nothing did.
   std::int64_t seenUs() const noexcept { return seenUs_; }
   std::int64_t seenCpuUs() const noexcept { return seenCpuUs_; }
   void begin() { seenUs_ = 0; }
@@ -449,8 +450,8 @@ class PressedWindow {
   std::unique_ptr<MainWindow> window_;
 };
 
-// Presses everything that can be pressed in a state, each once. Returns how many there were that answered: what is gone by
-// its turn, or can't be pressed then, isn't counted.
+// Presses everything that can be pressed in a state, each once. Returns how many there were that
+// answered: what is gone by its turn, or can't be pressed then, isn't counted.
 inline std::size_t pressEverything(PressedWindow& pressed,
                                    PressedWindow::State state,
                                    const std::vector<Pressable>& everything,
@@ -483,9 +484,10 @@ inline std::size_t pressEverything(PressedWindow& pressed,
   return numAnswered;
 }
 
-// What took longer than 100 ms is printed. It is a failure when the window's thread computed so long, or when it stood
-// still for a second, as it would in a wait; a processor that others use meanwhile is not the window's. Under sanitizers
-// everything computes several times as long: nothing is judged then.
+// What took longer than 100 ms is printed. It is a failure when the window's thread computed so
+// long, or when it stood still for a second, as it would in a wait; a processor that others use
+// meanwhile is not the window's. Under sanitizers everything computes several times as long:
+// nothing is judged then.
 inline void judgeSlow(const std::vector<Answered>& slow) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   constexpr bool kIsSanitized = true;

@@ -1,5 +1,6 @@
-// Each entry of a menu, each key and each button, pressed in each state of the window: it lives, it answers, and Esc and
-// Stop work afterwards. Then a monkey that presses, turns and types by a seed, while plugs are pulled.
+// Each entry of a menu, each key and each button, pressed in each state of the window: it lives, it
+// answers, and Esc and Stop work afterwards. Then a monkey that presses, turns and types by a seed,
+// while plugs are pulled.
 #include <QDockWidget>
 #include <QWheelEvent>
 #include <cstdlib>

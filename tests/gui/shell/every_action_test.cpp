@@ -1,5 +1,5 @@
-// Whatever is pressed, whatever the window shows, it lives and answers, and the hand can be stopped: the states without
-// waiting. All of them: every_action_slow_test.
+// Whatever is pressed, whatever the window shows, it lives and answers, and the hand can be
+// stopped: the states without waiting. All of them: every_action_slow_test.
 #include "gui/shell/every_action.h"
 
 namespace palpate::gui::every_action_test {

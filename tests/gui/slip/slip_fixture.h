@@ -19,7 +19,8 @@ inline constexpr double kBeginsAt = 4.0;     // row
 inline constexpr double kEndsAt = kBeginsAt + kStepTaxels * kMoves;
 inline constexpr std::int64_t kSlipIntervalUs = 32'000;
 
-// A bar rests on one matrix, moves down by four taxels in half a second, and rests; another rests all the time.
+// A bar rests on one matrix, moves down by four taxels in half a second, and rests; another rests
+// all the time.
 inline Profile movingContact() {
   const HandDescription& hand = sdh2();
   ProfileBuilder builder(hand.layout);

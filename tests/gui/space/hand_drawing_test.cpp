@@ -50,7 +50,8 @@ TEST_F(HandDrawingTest, TaxelsHaveTheColoursOfTheHeatMaps) {
   EXPECT_EQ(numOf(colorsOf(Theme::kDark).taxel.rgb()), 6u * (456u - 3u));
 }
 
-// As in the heat maps: less than half a count, in a taxel that nothing presses on, is nothing to see.
+// As in the heat maps: less than half a count, in a taxel that nothing presses on, is nothing to
+// see.
 TEST_F(HandDrawingTest, WhatFiltersLeaveInTaxelsAtRestIsSeenFromHalfACount) {
   frame_.filtered = frame_.values;
   frame_.filtered[0] = 0.4F;

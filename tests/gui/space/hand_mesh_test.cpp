@@ -86,7 +86,8 @@ TEST(HandMesh, BodiesOfTheSdh2AreClosedAndCarryTheirSensors) {
     if (body.role == HandBodyRole::kLink && body.link != 0u) ++links;
   }
   EXPECT_EQ(links, 6u);
-  // No taxel lies inside the link that carries it, nor far above it: in front of its surface within a mm.
+  // No taxel lies inside the link that carries it, nor far above it: in front of its surface within
+  // a mm.
   const GeometryDescription& hand = geometry.description();
   for (std::size_t m = 0; m < hand.surfaces.size(); ++m) {
     const auto carrier = std::find_if(bodies.begin(), bodies.end(), [&](const HandBody& body) {

@@ -276,7 +276,8 @@ TEST(HandRaster, AFloorUnderTheEyeIsCutAtIt) {
             kUnlit,
             kRed);
   const QImage image = drawn(make.scene);
-  // 20 mm below the eye, at most 3300 mm ahead: from about 2 pixels below the horizon down to the edge.
+  // 20 mm below the eye, at most 3300 mm ahead: from about 2 pixels below the horizon down to the
+  // edge.
   for (int x = 0; x < 200; x += 7) {
     for (int y = 0; y < 74; ++y) ASSERT_EQ(image.pixel(x, y), kBlack) << x << ", " << y;
     for (int y = 80; y < 150; ++y) ASSERT_EQ(image.pixel(x, y), kRed) << x << ", " << y;

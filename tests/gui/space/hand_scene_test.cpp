@@ -69,14 +69,16 @@ TEST(HandScene, ClearAllLeavesNothingButMemory) {
 TEST(HandScene, LightIsAmbientAndDiffuse) {
   const Eigen::Matrix3f eye = fromX().eyeFromBase().cast<float>();
   const QRgb gray = qRgba(200, 100, 50, 77);
-  // A surface across the light: ambient only. One that faces it: 0.38 + 0.66 of the colour, no more than 255.
+  // A surface across the light: ambient only. One that faces it: 0.38 + 0.66 of the colour, no more
+  // than 255.
   const Eigen::Vector3f across = kTowardsLight.cross(Eigen::Vector3f::UnitX()).normalized();
   EXPECT_EQ(litColor(gray, eye.transpose() * across, eye), qRgba(76, 38, 19, 77));
   EXPECT_EQ(litColor(gray, eye.transpose() * kTowardsLight, eye), qRgba(208, 104, 52, 77));
   EXPECT_EQ(litColor(gray, -(eye.transpose() * kTowardsLight), eye), qRgba(208, 104, 52, 77));
   EXPECT_EQ(litColor(qRgb(255, 255, 255), eye.transpose() * kTowardsLight, eye),
             qRgb(255, 255, 255));
-  // Towards the eye (from +x): kTowardsLight.z is 0.7587 of its length, 0.38 + 0.66 * 0.7587 = 0.8807.
+  // Towards the eye (from +x): kTowardsLight.z is 0.7587 of its length, 0.38 + 0.66 * 0.7587 =
+  // 0.8807.
   EXPECT_EQ(litColor(gray, Eigen::Vector3f::UnitX(), eye), qRgba(176, 88, 44, 77));
   // Not lit at all.
   EXPECT_EQ(litColor(gray, Eigen::Vector3f::Zero(), eye), gray);

@@ -1,5 +1,6 @@
-// A scene like that of a hand, for tests and benchmarks of the ways to draw one: a palm, three fingers of rounded links, plates
-// of taxels, a sphere that is seen through with its wires, points, lines and words. About 5,000 triangles, 1,000 lines.
+// A scene like that of a hand, for tests and benchmarks of the ways to draw one: a palm, three
+// fingers of rounded links, plates of taxels, a sphere that is seen through with its wires, points,
+// lines and words. About 5,000 triangles, 1,000 lines.
 #pragma once
 
 #include <cmath>

@@ -23,8 +23,8 @@ namespace {
 
 constexpr double kRateHz = 50.0;
 
-// Taxel (2, 7) of matrix 1 swings by 400 counts at 6.25 Hz (bin 4 of 32) around 1000, its neighbour by 100 at 12.5 Hz
-// around 500. `gapAt`: the frame behind a gap of 3 s; 0: none.
+// Taxel (2, 7) of matrix 1 swings by 400 counts at 6.25 Hz (bin 4 of 32) around 1000, its neighbour
+// by 100 at 12.5 Hz around 500. `gapAt`: the frame behind a gap of 3 s; 0: none.
 OpenedRecordingPtr tones(std::size_t frames, std::size_t gapAt = 0) {
   ProfileBuilder builder(sdh2().layout);
   TactileFrame frame = emptyFrame();

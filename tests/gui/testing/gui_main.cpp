@@ -1,5 +1,5 @@
-// Runs the tests of the window: under the display that is there, else drawing to memory. Settings go
-// to a temporary folder.
+// Runs the tests of the window: under the display that is there, else drawing to memory. Settings
+// go to a temporary folder.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

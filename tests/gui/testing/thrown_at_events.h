@@ -1,4 +1,5 @@
-// A test during which something was thrown at an event has failed: the application catches it, and goes on.
+// A test during which something was thrown at an event has failed: the application catches it, and
+// goes on.
 #pragma once
 
 #include <cstddef>

@@ -19,9 +19,9 @@
 namespace palpate::gui {
 
 // Files called *.dsa in `folder` "hold": good*.dsa twenty frames, gap*.dsa a gap of 10 s between
-// frames 4 and 5, empty*.dsa no frame, rich*.dsa a synthetic recording with angles and temperatures,
-// slip*.dsa a contact that moves (slip_fixture.h),
-// slow*.dsa never ends until cancelled; others fail.
+// frames 4 and 5, empty*.dsa no frame, rich*.dsa a synthetic recording with angles and
+// temperatures, slip*.dsa a contact that moves (slip_fixture.h), slow*.dsa never ends until
+// cancelled; others fail.
 class WindowTest : public ::testing::Test {
  protected:
   WindowTest();

@@ -1,4 +1,5 @@
-// The analyst's way through a recording: grasps, labels, notes, undo, saving, cropping, curves of anything.
+// The analyst's way through a recording: grasps, labels, notes, undo, saving, cropping, curves of
+// anything.
 #include <QCloseEvent>
 #include <QLabel>
 

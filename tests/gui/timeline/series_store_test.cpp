@@ -22,7 +22,8 @@ DecimationOptions seen(double from, double to) { return {.from = from, .to = to,
 
 class SeriesStoreTest : public ::testing::Test {
  protected:
-  // Two minutes with four grasps; as a file, so that it has a summary. Opened as if it were one of hours.
+  // Two minutes with four grasps; as a file, so that it has a summary. Opened as if it were one of
+  // hours.
   OpenedRecordingPtr longOne() {
     const auto path = folder_ / "long.palpate";
     saveRecording(synthesize({.durationS = 120.0, .grasps = 4}), {}, path);

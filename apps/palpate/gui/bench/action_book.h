@@ -1,5 +1,5 @@
-// The actions of the window: features make theirs here, with keys, and menus, toolbar and the list of keys (F1) are made from all
-// of them.
+// The actions of the window: features make theirs here, with keys, and menus, toolbar and the list
+// of keys (F1) are made from all of them.
 #pragma once
 
 #include <QAction>
@@ -26,7 +26,8 @@ class ActionBook {
   // The actions belong to the window and work wherever the keyboard is in it.
   explicit ActionBook(QWidget* window) : window_(window) {}
 
-  // `id`: how others name it; `section`: of the list of keys. Throws std::logic_error for an id that is there already.
+  // `id`: how others name it; `section`: of the list of keys. Throws std::logic_error for an id
+  // that is there already.
   QAction* make(const QString& id,
                 const char* section,
                 const QString& text,

@@ -1,5 +1,5 @@
-// What the window said, in order: messages, what was opened and written, what happened on the link. The oldest lines
-// go when there are too many.
+// What the window said, in order: messages, what was opened and written, what happened on the link.
+// The oldest lines go when there are too many.
 #pragma once
 
 #include <QAbstractTableModel>

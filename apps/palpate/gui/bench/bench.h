@@ -1,4 +1,5 @@
-// What the parts of the window share: what is shown, chosen and said now. Features are given this, and never each other.
+// What the parts of the window share: what is shown, chosen and said now. Features are given this,
+// and never each other.
 #pragma once
 
 #include <QSettings>
@@ -86,7 +87,8 @@ struct Bench {
 
   // Frames that are selected in the timeline; nothing: none.
   std::optional<FrameSpan> selectedFrames() const;
-  // Of files that are made of what is shown, without folder and ending: "ball", "ball_frame_00042", "live_101502".
+  // Of files that are made of what is shown, without folder and ending: "ball", "ball_frame_00042",
+  // "live_101502".
   QString recordingStem() const;
   QString frameStem() const;
   // Of every frame of the recording that is looked at, without their painter; nothing: none is.

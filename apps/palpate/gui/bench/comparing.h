@@ -1,4 +1,5 @@
-// Whether two recordings are compared instead of one being looked at. A is the recording that is shown.
+// Whether two recordings are compared instead of one being looked at. A is the recording that is
+// shown.
 #pragma once
 
 #include <QObject>

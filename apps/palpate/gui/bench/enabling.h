@@ -1,4 +1,5 @@
-// Which actions can be chosen now: each has its condition, and all are asked again when what is shown changes.
+// Which actions can be chosen now: each has its condition, and all are asked again when what is
+// shown changes.
 #pragma once
 
 #include <QAction>

@@ -1,4 +1,5 @@
-// What the key Escape does: one thing at a time, the most urgent first. Who can be left or cancelled says so here.
+// What the key Escape does: one thing at a time, the most urgent first. Who can be left or
+// cancelled says so here.
 #pragma once
 
 #include <functional>

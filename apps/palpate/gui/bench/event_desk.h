@@ -1,5 +1,6 @@
-// The events of the recordings that are open: grasps, labels and notes as they are edited, and what was found, as the marks
-// that stand below the timeline. The user is asked before anything that is not saved would be lost.
+// The events of the recordings that are open: grasps, labels and notes as they are edited, and what
+// was found, as the marks that stand below the timeline. The user is asked before anything that is
+// not saved would be lost.
 #pragma once
 
 #include <QObject>
@@ -36,11 +37,13 @@ class EventDesk : public QObject {
 
   // Of the recording that is looked at; null: none is.
   EventEditor* editor();
-  // As the events say, or as found; of a long recording they are found beside the window, and changed() follows.
+  // As the events say, or as found; of a long recording they are found beside the window, and
+  // changed() follows.
   const std::vector<GraspSegment>& graspsOf(const OpenedRecordingPtr& recording);
   // Of the recording that is looked at.
   const std::vector<EventMark>& marks() const noexcept { return marks_; }
-  // What others found, among the marks: called whenever they are made anew. It must outlive this, or be forgotten.
+  // What others found, among the marks: called whenever they are made anew. It must outlive this,
+  // or be forgotten.
   using Found = std::function<void(const OpenedRecordingPtr&, std::vector<EventMark>&)>;
   void addFound(Found found) { found_.push_back(std::move(found)); }
   void forgetFound() { found_.clear(); }
@@ -62,8 +65,8 @@ class EventDesk : public QObject {
   bool hasUnsaved(const OpenedRecordingPtr& recording) const;
   // False: it couldn't be saved, and was said.
   bool save(const OpenedRecordingPtr& recording);
-  // Asks once about what isn't saved; false: the user would rather go on. What is discarded is still there: it
-  // goes with its recording, or by discardAll().
+  // Asks once about what isn't saved; false: the user would rather go on. What is discarded is
+  // still there: it goes with its recording, or by discardAll().
   bool settle(const std::vector<OpenedRecordingPtr>& recordings);
   void discardAll() { editors_.clear(); }
 

@@ -1,5 +1,5 @@
-// What the rows below the timeline show: the grasps, gaps, labels, notes and other events of a recording as spans of
-// time with a name.
+// What the rows below the timeline show: the grasps, gaps, labels, notes and other events of a
+// recording as spans of time with a name.
 #pragma once
 
 #include <QString>

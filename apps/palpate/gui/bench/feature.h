@@ -1,5 +1,5 @@
-// A part of the window that plugs in: it makes its widgets, connects them to the bench, and says what it adds to the window.
-// Features are listed in shell/features.cpp and know each other not.
+// A part of the window that plugs in: it makes its widgets, connects them to the bench, and says
+// what it adds to the window. Features are listed in shell/features.cpp and know each other not.
 #pragma once
 
 #include <QKeySequence>

@@ -1,4 +1,5 @@
-// The filters that what is shown is seen through, a recording or a live hand. What is on disk stays as it is.
+// The filters that what is shown is seen through, a recording or a live hand. What is on disk stays
+// as it is.
 #pragma once
 
 #include <QObject>

@@ -15,7 +15,8 @@ class HandRequests : public QObject {
  public:
   explicit HandRequests(QObject* parent = nullptr) : QObject(parent) {}
 
-  // The noise lines that the high sensitivity of a hand of this name goes by; nothing, or empty: none are applied.
+  // The noise lines that the high sensitivity of a hand of this name goes by; nothing, or empty:
+  // none are applied.
   std::function<std::optional<NoiseFloor>(const std::string& hand)> noiseLines;
 
  signals:

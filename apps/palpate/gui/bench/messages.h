@@ -1,5 +1,5 @@
-// What the window says: in passing, in the status line; in the banner, until it is closed; of the link, in its dock. All of
-// it is kept in the log.
+// What the window says: in passing, in the status line; in the banner, until it is closed; of the
+// link, in its dock. All of it is kept in the log.
 #pragma once
 
 #include <QObject>

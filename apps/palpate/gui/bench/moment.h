@@ -28,7 +28,8 @@ class Moment : public QObject {
   // No values: none yet.
   const TactileFrame& frame() const noexcept { return frame_; }
   bool hasFrame() const { return !frame_.values.empty(); }
-  // Of a recording, the last ones at or before the frame; nothing: it has none, or they are damaged.
+  // Of a recording, the last ones at or before the frame; nothing: it has none, or they are
+  // damaged.
   const std::optional<JointAngles>& angles() const noexcept { return angles_; }
   const std::optional<Temperatures>& temperatures() const noexcept { return temperatures_; }
   // They can't be read: what is known of them is of another frame.

@@ -1,5 +1,5 @@
-// What some parts of the window work out and others show with the frame: pressures, how contacts slip, matrices that can't
-// feel the limit of a grasp.
+// What some parts of the window work out and others show with the frame: pressures, how contacts
+// slip, matrices that can't feel the limit of a grasp.
 #pragma once
 
 #include <QObject>
@@ -36,7 +36,8 @@ class Overlays : public QObject {
     slips_ = std::move(slips);
     emit slipsChanged();
   }
-  // Why matrices of the connected hand can't tell the limit that is chosen: one text per matrix, empty: it can; none: all.
+  // Why matrices of the connected hand can't tell the limit that is chosen: one text per matrix,
+  // empty: it can; none: all.
   const std::vector<QString>& blind() const noexcept { return blind_; }
   void setBlind(const std::vector<QString>& why) {
     blind_ = why;

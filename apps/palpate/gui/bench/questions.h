@@ -1,4 +1,5 @@
-// What the window asks the user, each in a dialogue of the feature that wants to know. Tests answer themselves.
+// What the window asks the user, each in a dialogue of the feature that wants to know. Tests answer
+// themselves.
 #pragma once
 
 #include <QString>
@@ -21,7 +22,8 @@ struct Questions {
       recording;
   // Whether a recording that runs may be ended now.
   std::function<bool()> endRecording;
-  // The text of a label or a note; nothing: cancelled. `title` says which, `text` is what it is now.
+  // The text of a label or a note; nothing: cancelled. `title` says which, `text` is what it is
+  // now.
   std::function<std::optional<QString>(const QString& title, const QString& text)> text;
   // Where a part of a recording shall be saved; an empty answer means cancelled.
   std::function<QString(const QString& suggestion)> cropped;

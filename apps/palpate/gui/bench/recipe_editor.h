@@ -25,8 +25,9 @@ class RecipeEditor : public QObject {
   // The step stands at `to` afterwards.
   void move(std::size_t from, std::size_t to);
   void setEnabled(std::size_t index, bool enabled);
-  // One value after the other of the same option (a slider on its way) is one change. NaN: automatic. Takes
-  // what doesn't fit together (a window below its order) by moving the other options into range.
+  // One value after the other of the same option (a slider on its way) is one change. NaN:
+  // automatic. Takes what doesn't fit together (a window below its order) by moving the other
+  // options into range.
   void setOption(std::size_t index, const std::string& key, double value);
   void setMatrices(std::size_t index, const std::vector<std::size_t>& matrices);
 

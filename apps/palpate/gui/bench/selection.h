@@ -1,5 +1,6 @@
-// What is chosen of what is shown: taxels, a span of time, the part of the recording that is in sight, the rows that are
-// plotted. Views show it and change it here; each hears of the others' changes.
+// What is chosen of what is shown: taxels, a span of time, the part of the recording that is in
+// sight, the rows that are plotted. Views show it and change it here; each hears of the others'
+// changes.
 #pragma once
 
 #include <QObject>
@@ -26,7 +27,8 @@ class Selection : public QObject {
   // In any order; clamped to the recording.
   void setSpan(std::optional<TimeSpan> span);
 
-  // As the timeline shows it. What is asked for may be changed by it: a little air, the ends of the recording.
+  // As the timeline shows it. What is asked for may be changed by it: a little air, the ends of the
+  // recording.
   const TimeSpan& inSight() const noexcept { return inSight_; }
   void setInSight(const TimeSpan& span);  // by the timeline: so it is
   void show(const TimeSpan& span) { emit sightAsked(span); }
@@ -40,7 +42,8 @@ class Selection : public QObject {
 
   // A span that is shown is no shorter [s], not even of a single frame.
   static constexpr double kShortestS = 0.05;
-  // Another recording of so many seconds: no span of it is chosen, all of it is in sight. 0: there is none.
+  // Another recording of so many seconds: no span of it is chosen, all of it is in sight. 0: there
+  // is none.
   void begin(double durationS);
   double durationS() const noexcept { return durationS_; }
 

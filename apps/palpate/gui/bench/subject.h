@@ -1,5 +1,5 @@
-// What is looked at: a recording, as recorded and as seen through the filters, or what is connected. All that is known of it
-// is new before anybody hears of it.
+// What is looked at: a recording, as recorded and as seen through the filters, or what is
+// connected. All that is known of it is new before anybody hears of it.
 #pragma once
 
 #include <QObject>
@@ -30,7 +30,8 @@ class Subject : public QObject {
           Selection& selection,
           QObject* parent = nullptr);
 
-  // From now on what is connected is looked at when it comes: once all others that must know of it first listen.
+  // From now on what is connected is looked at when it comes: once all others that must know of it
+  // first listen.
   void follow();
 
   Kind kind() const noexcept { return kind_; }

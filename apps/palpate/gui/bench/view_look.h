@@ -1,4 +1,5 @@
-// How the window looks: theme, colours, range, the signal that is plotted. Remembered from one day to the next.
+// How the window looks: theme, colours, range, the signal that is plotted. Remembered from one day
+// to the next.
 #pragma once
 
 #include <QObject>

@@ -1,5 +1,5 @@
-// What is applied to a hand: the calibration that tells its pressures and forces, and the noise lines that its high
-// sensitivity goes by. Remembered by the hand's name; none is default.
+// What is applied to a hand: the calibration that tells its pressures and forces, and the noise
+// lines that its high sensitivity goes by. Remembered by the hand's name; none is default.
 #pragma once
 
 #include <QSettings>
@@ -26,8 +26,8 @@ void applyNoise(QSettings& settings, const std::string& hand, const NoiseFloor& 
 // Noise lines of a file as the page Noise saves it, or the prior program (.xml). Throws Error.
 NoiseFloor noiseFromFile(const QString& path);
 
-// What a recording says of its sensor: what a person noted in it (of the event that was noted last), and what the
-// controller reported.
+// What a recording says of its sensor: what a person noted in it (of the event that was noted
+// last), and what the controller reported.
 struct KeptWithRecording {
   std::optional<SensorSettings> settings = {};
   std::optional<Tare> tare = {};
@@ -38,7 +38,8 @@ struct KeptWithRecording {
 };
 KeptWithRecording keptWith(const OpenedRecording& recording,
                            const std::vector<RecordingEvent>& events);
-// Settings for its pressures: what was typed, else noted, else reported. Throws Error (a report that can't be used).
+// Settings for its pressures: what was typed, else noted, else reported. Throws Error (a report
+// that can't be used).
 PressureMapOptions pressureOptions(const KeptWithRecording& kept,
                                    const std::optional<SensorSettings>& typed);
 

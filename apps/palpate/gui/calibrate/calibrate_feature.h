@@ -1,4 +1,5 @@
-// The dock Calibrate: what it is given of the recording that is looked at, what it keeps with it and applies to the hand.
+// The dock Calibrate: what it is given of the recording that is looked at, what it keeps with it
+// and applies to the hand.
 #pragma once
 
 #include <QPointer>

@@ -1,4 +1,5 @@
-// The content of the dock Calibrate: one page at a time of what leads from counts to kilopascals and newtons.
+// The content of the dock Calibrate: one page at a time of what leads from counts to kilopascals
+// and newtons.
 #pragma once
 
 #include <optional>

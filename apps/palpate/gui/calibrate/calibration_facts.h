@@ -11,7 +11,8 @@
 
 namespace palpate::gui {
 
-// "P = 31.90 − 0.625 T + 0.0978 K", terms that were left out left out; x stands for the first variable.
+// "P = 31.90 − 0.625 T + 0.0978 K", terms that were left out left out; x stands for the first
+// variable.
 QString formulaOf(const Surface& surface, const QString& x);
 std::vector<Fact> calibrationFacts(const Calibration& calibration);
 // To be taken away: its samples with what it tells of each, and any facts.

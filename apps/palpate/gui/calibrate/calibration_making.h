@@ -24,8 +24,8 @@ struct ShownCalibration {
 };
 using ShownCalibrationPtr = std::shared_ptr<const ShownCalibration>;
 
-// Reads the table's recordings, unless `known` has their steps already. Throws Error (one line: what is missing),
-// Cancelled.
+// Reads the table's recordings, unless `known` has their steps already. Throws Error (one line:
+// what is missing), Cancelled.
 ShownCalibrationPtr calibrationFromTable(const std::filesystem::path& table,
                                          const CalibrationChoices& choices,
                                          const ShownCalibrationPtr& known,

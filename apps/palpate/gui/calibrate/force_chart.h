@@ -1,5 +1,5 @@
-// Force over time of one matrix or of the whole hand, with the band of its standard deviation; a cursor like the
-// timeline's. Greyed where the calibration is beyond what was measured.
+// Force over time of one matrix or of the whole hand, with the band of its standard deviation; a
+// cursor like the timeline's. Greyed where the calibration is beyond what was measured.
 #pragma once
 
 #include <QString>

@@ -1,5 +1,6 @@
-// The page Force of the dock Calibrate: pressures and forces of the recording by the calibration that is applied to this
-// hand; of the frame that is shown in figures, over time as a chart. Without a calibration there are none.
+// The page Force of the dock Calibrate: pressures and forces of the recording by the calibration
+// that is applied to this hand; of the frame that is shown in figures, over time as a chart.
+// Without a calibration there are none.
 #pragma once
 
 #include <QSettings>

@@ -1,5 +1,5 @@
-// Noise of unloaded matrices over their temperature: every line, and of the chosen matrix its bins and the band of
-// three RMSE above and below.
+// Noise of unloaded matrices over their temperature: every line, and of the chosen matrix its bins
+// and the band of three RMSE above and below.
 #pragma once
 
 #include <QString>

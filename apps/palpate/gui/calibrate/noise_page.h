@@ -1,5 +1,5 @@
-// The page Noise of the dock Calibrate: per matrix the line of the largest reading over temperature, its RMSE and range;
-// kept as JSON, or as XML for the prior program.
+// The page Noise of the dock Calibrate: per matrix the line of the largest reading over
+// temperature, its RMSE and range; kept as JSON, or as XML for the prior program.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,6 @@
-// The pressure surface P(K, T) in slices: pressure over gain at three temperatures, with the 95 % band of one new
-// measurement about the middle one, and the samples it was made from. Dashed where it is beyond what was measured.
+// The pressure surface P(K, T) in slices: pressure over gain at three temperatures, with the 95 %
+// band of one new measurement about the middle one, and the samples it was made from. Dashed where
+// it is beyond what was measured.
 #pragma once
 
 #include <QString>

@@ -1,5 +1,5 @@
-// The page Pressure of the dock Calibrate: a calibration, made from a table of recordings or read from a file; its
-// surface in slices, its samples, what it is worth and what it was made from.
+// The page Pressure of the dock Calibrate: a calibration, made from a table of recordings or read
+// from a file; its surface in slices, its samples, what it is worth and what it was made from.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// What the applied calibration makes of the counts that are shown, of a recording or live: pressures and forces for the other
-// views.
+// What the applied calibration makes of the counts that are shown, of a recording or live:
+// pressures and forces for the other views.
 #pragma once
 
 #include <QObject>

@@ -1,5 +1,5 @@
-// One loading step: its signal with the fitted response, the tangent at its inflection, gain and dead time; below it the
-// residuals, on the same axis of time.
+// One loading step: its signal with the fitted response, the tangent at its inflection, gain and
+// dead time; below it the residuals, on the same axis of time.
 #pragma once
 
 #include <QString>

@@ -1,5 +1,5 @@
-// The page Steps of the dock Calibrate: the loading steps found in a matrix of the recording, each with its fit, the
-// 95 % intervals and what speaks against it; the chosen one as a chart.
+// The page Steps of the dock Calibrate: the loading steps found in a matrix of the recording, each
+// with its fit, the 95 % intervals and what speaks against it; the chosen one as a chart.
 #pragma once
 
 #include <memory>

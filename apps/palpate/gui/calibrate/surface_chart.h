@@ -1,5 +1,6 @@
-// The pressure surface P(K, T) seen from above: gain to the right, temperature upwards, pressure as colour; the samples
-// it was made from, and the outline of what was measured, beyond which it fades.
+// The pressure surface P(K, T) seen from above: gain to the right, temperature upwards, pressure as
+// colour; the samples it was made from, and the outline of what was measured, beyond which it
+// fades.
 #pragma once
 
 #include <optional>
@@ -21,7 +22,8 @@ class SurfaceChart : public QCustomPlot {
   void setModel(const PressureModel& model, const std::vector<PressureSample>& samples);
   void choose(std::optional<std::size_t> sample);  // drawn larger
   void setTheme(Theme theme);
-  // What the mouse is told at a place: "K 512 counts, 31.2 °C: 48.3 ± 4.1 kPa"; empty beside the axes.
+  // What the mouse is told at a place: "K 512 counts, 31.2 °C: 48.3 ± 4.1 kPa"; empty beside the
+  // axes.
   QString valueAt(const QPointF& at) const;
   // As a picture of its own.
   void paint(QPainter& painter, const PictureLook& look, const QString& title);

@@ -1,5 +1,6 @@
-// The page Tare of the dock Calibrate: what the taxels of each matrix read when nothing touches them, and the windows it
-// was found in. Kept as an event of the recording; the values stay as they are.
+// The page Tare of the dock Calibrate: what the taxels of each matrix read when nothing touches
+// them, and the windows it was found in. Kept as an event of the recording; the values stay as they
+// are.
 #pragma once
 
 #include <memory>

@@ -25,7 +25,8 @@ struct ChartPictureOptions {
   std::vector<ChartLegendEntry> legend = {};
 };
 
-// What a colour of either theme becomes on paper: the light theme's, or darkened until it can be seen on white.
+// What a colour of either theme becomes on paper: the light theme's, or darkened until it can be
+// seen on white.
 QColor inkOf(const QColor& color);
 
 // The chart itself is as before afterwards. In the window's thread.

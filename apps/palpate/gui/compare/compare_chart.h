@@ -1,5 +1,6 @@
-// The curves of a comparison on one axis of time: A solid, B dashed. A click or drag seeks, the wheel zooms, the
-// middle button (or Shift) pans, a double click shows everything; with Ctrl a drag shifts B.
+// The curves of a comparison on one axis of time: A solid, B dashed. A click or drag seeks, the
+// wheel zooms, the middle button (or Shift) pans, a double click shows everything; with Ctrl a drag
+// shifts B.
 #pragma once
 
 #include <memory>
@@ -29,7 +30,8 @@ class CompareChart : public QCustomPlot {
 
   void setCurves(const CompareCurves& curves);
   const CompareCurves& curves() const noexcept { return curves_; }
-  // What is seen stays, while B is being dragged; settle() shows everything again, where everything was seen.
+  // What is seen stays, while B is being dragged; settle() shows everything again, where everything
+  // was seen.
   void setOffset(double offsetS);
   void settle();
   void setTheme(Theme theme);

@@ -1,5 +1,6 @@
-// Two frames and their difference as a picture: three groups of heat maps side by side at the same scale, A and B
-// in one colour range, A - B about 0. Pure painting, for the window and for exported files.
+// Two frames and their difference as a picture: three groups of heat maps side by side at the same
+// scale, A and B in one colour range, A - B about 0. Pure painting, for the window and for exported
+// files.
 #pragma once
 
 #include <QRectF>

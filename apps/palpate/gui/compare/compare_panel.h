@@ -1,5 +1,5 @@
-// Two open recordings side by side on one axis of time: heat maps of A, of B and of A - B at the same moment, their
-// curves on top of each other, one cursor.
+// Two open recordings side by side on one axis of time: heat maps of A, of B and of A - B at the
+// same moment, their curves on top of each other, one cursor.
 #pragma once
 
 #include <QWidget>
@@ -35,8 +35,8 @@ class ComparePanel : public QWidget {
   ComparePanel(QAction* leave, QAction* interpolated, QAction* values, QWidget* parent = nullptr);
   ~ComparePanel() override;
 
-  // What is open, and which of it is A; null: none. B stays while it is open; else it is the first other one, or what
-  // was opened because the panel asked for it.
+  // What is open, and which of it is A; null: none. B stays while it is open; else it is the first
+  // other one, or what was opened because the panel asked for it.
   void setRecordings(const std::vector<OpenedRecordingPtr>& recordings,
                      const OpenedRecordingPtr& a);
   void setB(const OpenedRecordingPtr& b);  // may be A, too

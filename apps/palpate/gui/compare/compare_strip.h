@@ -1,5 +1,5 @@
-// Two bars over the chart of a comparison: when A and when B were recorded on the common axis, their gaps and first
-// contacts. B's bar is there to be dragged: that shifts B.
+// Two bars over the chart of a comparison: when A and when B were recorded on the common axis,
+// their gaps and first contacts. B's bar is there to be dragged: that shifts B.
 #pragma once
 
 #include <QWidget>

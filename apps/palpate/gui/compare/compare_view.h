@@ -1,5 +1,5 @@
-// The heat maps of a comparison as a widget: keeps what doesn't change as a pixmap; tells what lies under the mouse,
-// in A, in B and between them.
+// The heat maps of a comparison as a widget: keeps what doesn't change as a pixmap; tells what lies
+// under the mouse, in A, in B and between them.
 #pragma once
 
 #include <QPixmap>

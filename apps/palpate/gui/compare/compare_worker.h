@@ -1,5 +1,5 @@
-// What a comparison needs and takes longer than a blink: first contacts, curves, figures. Computed beside the window,
-// kept, and given up as soon as something else is asked for.
+// What a comparison needs and takes longer than a blink: first contacts, curves, figures. Computed
+// beside the window, kept, and given up as soon as something else is asked for.
 #pragma once
 
 #include <QObject>
@@ -30,7 +30,7 @@ struct CompareAnswer {
   std::shared_ptr<const TimedProfile> a, b;
   // kStart where contact was asked for and there is none
   Alignment alignment = Alignment::kContact;
-  double offsetS = 0.0;     // once a and b are there
+  double offsetS = 0.0;  // once a and b are there
   // null although complete: that recording hasn't the chosen matrix.
   std::shared_ptr<const Series> curveA, curveB;
   std::optional<CurveComparison> figures;
@@ -41,7 +41,8 @@ struct CompareAnswer {
   QString failure;  // one line; a block of a file that can't be read
 };
 
-// The offset of that alignment, and by what: by start, where contacts are asked for and there are none.
+// The offset of that alignment, and by what: by start, where contacts are asked for and there are
+// none.
 struct ChosenOffset {
   Alignment alignment = Alignment::kStart;
   double offsetS = 0.0;

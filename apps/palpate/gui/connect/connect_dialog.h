@@ -32,8 +32,8 @@ struct ConnectChoices {
 class ConnectDialog : public QDialog {
   Q_OBJECT
  public:
-  // `scan` must outlive this. Ports are asked as soon as the page of the ports is shown, not before;
-  // when the dialog closes they are free again.
+  // `scan` must outlive this. Ports are asked as soon as the page of the ports is shown, not
+  // before; when the dialog closes they are free again.
   ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWidget* parent);
   ~ConnectDialog() override;
 

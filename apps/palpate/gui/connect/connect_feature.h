@@ -1,4 +1,5 @@
-// What the window is connected to: the dialogue, the menu of the button Connect, showing live, holding the picture.
+// What the window is connected to: the dialogue, the menu of the button Connect, showing live,
+// holding the picture.
 #pragma once
 
 #include "gui/bench/feature.h"

@@ -56,7 +56,8 @@ PortField::PortField(const QString& title,
   connect(box_->lineEdit(), &QLineEdit::editingFinished, this, &PortField::entered);
 }
 
-// Dying with the keyboard in it, the box says that typing has ended: nobody is there any more to hear it.
+// Dying with the keyboard in it, the box says that typing has ended: nobody is there any more to
+// hear it.
 PortField::~PortField() {
   box_->lineEdit()->disconnect(this);
   box_->disconnect(this);

@@ -1,4 +1,5 @@
-// Where one controller of the hand is: a port to choose or to type, and below it what answered there.
+// Where one controller of the hand is: a port to choose or to type, and below it what answered
+// there.
 #pragma once
 
 #include <QComboBox>

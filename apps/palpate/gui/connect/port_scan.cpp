@@ -35,8 +35,8 @@ QString whyNotAsked(const PortInfo& port) {
 
 }  // namespace
 
-// The threads of a scan. A thread touches this only, never the PortScan itself: so one that hangs in the
-// system can outlive it.
+// The threads of a scan. A thread touches this only, never the PortScan itself: so one that hangs
+// in the system can outlive it.
 struct PortScan::Round {
   struct Worker {
     std::thread thread;

@@ -1,5 +1,5 @@
-// Lists the serial ports and asks each what is behind it, in threads of its own. Signals come in the
-// thread of this object.
+// Lists the serial ports and asks each what is behind it, in threads of its own. Signals come in
+// the thread of this object.
 #pragma once
 
 #include <QHash>
@@ -25,7 +25,8 @@ struct ScannedPort {
   QString notAsked = {};  // why this port isn't asked, one line; empty: it is
 };
 
-// What our own connection has found behind its ports, each judged by itself; of one that doesn't answer yet nothing.
+// What our own connection has found behind its ports, each judged by itself; of one that doesn't
+// answer yet nothing.
 QHash<QString, PortProbe> knownAnswers(const Connection& connection, const DeviceStatus& status);
 
 // The device that a name of a port leads to; the name itself where that is no file.
@@ -44,10 +45,12 @@ class PortScan : public QObject {
   explicit PortScan(QObject* parent = nullptr);
   PortScan(Functions functions, QObject* parent = nullptr);
   static constexpr std::chrono::milliseconds kPatience{150};
-  // As cancel(). A thread that the system holds up longer ends by itself later, and is heard no more.
+  // As cancel(). A thread that the system holds up longer ends by itself later, and is heard no
+  // more.
   ~PortScan() override;
 
-  // Ports (by any of their names) that aren't asked: those of our own connection; and what is known to answer there.
+  // Ports (by any of their names) that aren't asked: those of our own connection; and what is known
+  // to answer there.
   void setBusy(const QStringList& ports, const QHash<QString, PortProbe>& known = {}) {
     busyPorts_ = ports;
     known_ = known;
@@ -55,7 +58,8 @@ class PortScan : public QObject {
   bool isBusy(const QString& port) const;
   // Lists the ports, then asks them, several at a time. Does nothing while it is running.
   void scan();
-  // Asks one port more that isn't listed: a pty, "tcp:HOST:PORT". One of setBusy() is answered for at once.
+  // Asks one port more that isn't listed: a pty, "tcp:HOST:PORT". One of setBusy() is answered for
+  // at once.
   void ask(const QString& port);
   // Ends what is running, without finished(). Returns when the ports are free again (usually
   // after 20 ms), at the latest after `patience`; false: one isn't yet.
@@ -64,7 +68,8 @@ class PortScan : public QObject {
   bool running() const noexcept { return pending_ > 0; }
 
  signals:
-  // In the order of listPorts(); one probed() follows for each that is asked, or of which setBusy() knows.
+  // In the order of listPorts(); one probed() follows for each that is asked, or of which setBusy()
+  // knows.
   void listed(const QList<palpate::gui::ScannedPort>& ports);
   // `port` as listed (PortInfo::name) or as handed to ask().
   void probed(const QString& port, const palpate::PortProbe& probe);

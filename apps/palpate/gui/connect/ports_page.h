@@ -1,5 +1,5 @@
-// The page "Hand on ports" of the Connect dialog: two ports, what answers at each, and what to do when it
-// isn't what was expected.
+// The page "Hand on ports" of the Connect dialog: two ports, what answers at each, and what to do
+// when it isn't what was expected.
 #pragma once
 
 #include <QHash>
@@ -32,8 +32,8 @@ class PortsPage : public QWidget {
   QString motionPort() const { return motion_->port(); }
   // What problemOf() can't know: two names of one port. One line; empty: nothing.
   QString problem() const;
-  // Lists and asks the ports, unless that is going on. Fields that the user hasn't touched are filled
-  // with what answers as their controller, when it is one only.
+  // Lists and asks the ports, unless that is going on. Fields that the user hasn't touched are
+  // filled with what answers as their controller, when it is one only.
   void look();
 
  signals:

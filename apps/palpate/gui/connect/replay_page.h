@@ -1,5 +1,5 @@
-// The page "Replay of a recording" of the Connect dialog: a recording that is played as if it came from a
-// hand.
+// The page "Replay of a recording" of the Connect dialog: a recording that is played as if it came
+// from a hand.
 #pragma once
 
 #include <QString>

@@ -1,4 +1,5 @@
-// The page "Emulated hand" of the Connect dialog: which scene is around it, and whether the scene acts.
+// The page "Emulated hand" of the Connect dialog: which scene is around it, and whether the scene
+// acts.
 #pragma once
 
 #include <QString>

@@ -10,8 +10,8 @@
 
 namespace palpate::gui {
 
-// What is thrown while the window answers an event (no memory, a bug) costs that event, not the process: a hand
-// may be moving, and its stop must be heard.
+// What is thrown while the window answers an event (no memory, a bug) costs that event, not the
+// process: a hand may be moving, and its stop must be heard.
 class GuardedApplication : public QApplication {
   Q_OBJECT
  public:

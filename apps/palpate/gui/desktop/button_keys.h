@@ -1,5 +1,5 @@
-// Return and Enter press the button that has the focus, as in a dialogue, everywhere else in the window, too. Space
-// marks the moment or plays: it never presses a button that moves the hand.
+// Return and Enter press the button that has the focus, as in a dialogue, everywhere else in the
+// window, too. Space marks the moment or plays: it never presses a button that moves the hand.
 #pragma once
 
 #include <QObject>

@@ -1,5 +1,5 @@
-// Ctrl-C, a closed terminal, a machine that is shut down: the window hears of it and ends as if it was closed, so
-// that a hand that moves is stopped and a recording finished.
+// Ctrl-C, a closed terminal, a machine that is shut down: the window hears of it and ends as if it
+// was closed, so that a hand that moves is stopped and a recording finished.
 #pragma once
 
 #include <QObject>

@@ -1,5 +1,5 @@
-// The wheel scrolls; it changes a number, a slider or a choice only where the keyboard already is. Of the whole
-// application: whoever scrolls over the settings of a hand sets nothing.
+// The wheel scrolls; it changes a number, a slider or a choice only where the keyboard already is.
+// Of the whole application: whoever scrolls over the settings of a hand sets nothing.
 #pragma once
 
 #include <QObject>

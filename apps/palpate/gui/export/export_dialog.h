@@ -1,4 +1,5 @@
-// Asks what shall be taken away, in which form and size, and where to; shows what it will look like.
+// Asks what shall be taken away, in which form and size, and where to; shows what it will look
+// like.
 #pragma once
 
 #include <QDialog>

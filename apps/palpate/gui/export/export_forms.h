@@ -1,4 +1,5 @@
-// Which kind of file: a row of buttons; those that the view can't be made into are grey and say why.
+// Which kind of file: a row of buttons; those that the view can't be made into are grey and say
+// why.
 #pragma once
 
 #include <QWidget>

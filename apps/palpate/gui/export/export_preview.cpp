@@ -172,7 +172,8 @@ QRectF ExportPreview::paperRect() const {
   return {room.center() - QPointF(size.width() / 2, size.height() / 2), size};
 }
 
-// Larger than it is shown, then made smaller: what is finer than a pixel of the screen is seen as it will look.
+// Larger than it is shown, then made smaller: what is finer than a pixel of the screen is seen as
+// it will look.
 void ExportPreview::drawPreview() {
   constexpr double kFiner = 3.0;
   const QSizeF place = paperRect().size() * devicePixelRatioF();

@@ -1,5 +1,5 @@
-// What will be written, as it will look: the picture on its paper, or the first rows of a table; with its size in
-// pixels, millimetres and bytes.
+// What will be written, as it will look: the picture on its paper, or the first rows of a table;
+// with its size in pixels, millimetres and bytes.
 #pragma once
 
 #include <QImage>
@@ -23,8 +23,8 @@ class ExportPreview : public QWidget {
 
   // `view` must outlive this or be replaced before.
   void show(const ExportedView& view, const ExportRequest& request);
-  // "1004 × 803 px · 85.0 × 68.0 mm · about 142 kB", "1350 × 1080 px · 12.4 s · 372 pictures"; bytes and seconds come a
-  // moment later.
+  // "1004 × 803 px · 85.0 × 68.0 mm · about 142 kB", "1350 × 1080 px · 12.4 s · 372 pictures";
+  // bytes and seconds come a moment later.
   QString summary() const;
   // Bytes of one file; 0 while they aren't known.
   double bytes() const noexcept { return bytes_; }

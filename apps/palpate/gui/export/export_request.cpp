@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kExportRequestMmPerInch = 25.4;
 constexpr double kScreenPerInch = 96.0;
-// Half a point each: sizes of text, in whole units, are exact in halves of a point, and lines that are one
-// pixel on screen are half a point on paper.
+// Half a point each: sizes of text, in whole units, are exact in halves of a point, and lines that
+// are one pixel on screen are half a point on paper.
 constexpr double kPaperPerInch = 144.0;
 constexpr double kUnitsPerPt = 2.0;
 constexpr double kExportRequestLeastMm = 20.0, kMostMm = 1200.0;

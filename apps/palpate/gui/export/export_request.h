@@ -1,4 +1,5 @@
-// What shall be written: which view, in which form and size, under which name. As it is asked for and remembered.
+// What shall be written: which view, in which form and size, under which name. As it is asked for
+// and remembered.
 #pragma once
 
 #include <QSettings>
@@ -80,11 +81,12 @@ void saveExportRequest(const ExportRequest& request, QSettings& settings);
 PicturePaper paperOf(const ExportRequest& request, const QSizeF& sizeOnScreen);
 PictureLook lookOf(const ExportRequest& request, const QSizeF& sizeOnScreen);
 
-// Where one file goes; for a series its folder, which lies in request.folder and has the request's name.
+// Where one file goes; for a series its folder, which lies in request.folder and has the request's
+// name.
 std::filesystem::path pathOf(const ExportRequest& request);
 FileSeries seriesOf(const ExportRequest& request, const FrameSpan& span);
-// Which frames are asked for; nothing when they aren't there (no selection, no frame). A movie of the one that is
-// shown would be none: it is of the selected ones, else of all.
+// Which frames are asked for; nothing when they aren't there (no selection, no frame). A movie of
+// the one that is shown would be none: it is of the selected ones, else of all.
 std::optional<FrameSpan> spanOf(const ExportRequest& request, const FramePictures& pictures);
 
 // How the movie's pictures lie in time.

@@ -1,4 +1,5 @@
-// Makes files of views: what has to be read in the window's thread is read at once, the rest is work for another.
+// Makes files of views: what has to be read in the window's thread is read at once, the rest is
+// work for another.
 #pragma once
 
 #include <QPicture>

@@ -1,5 +1,5 @@
-// Takes what is seen away: asks how, writes it beside the window, repeats it, puts it on the clipboard. Views are
-// registered by whoever shows them.
+// Takes what is seen away: asks how, writes it beside the window, repeats it, puts it on the
+// clipboard. Views are registered by whoever shows them.
 #pragma once
 
 #include <QObject>
@@ -33,7 +33,8 @@ class TakeAway : public QObject {
   // Those that have something to show now.
   std::vector<const ExportedView*> present() const;
   bool anything() const { return !present().empty(); }
-  // The view that was clicked into last, or has the keyboard; the first that is there; null: none is.
+  // The view that was clicked into last, or has the keyboard; the first that is there; null: none
+  // is.
   const ExportedView* active() const;
 
   void exportNow();  // asks what and where

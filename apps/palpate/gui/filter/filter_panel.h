@@ -1,4 +1,5 @@
-// The content of the dock Filter: the chain of filters with its options, what it costs and delays, presets and files.
+// The content of the dock Filter: the chain of filters with its options, what it costs and delays,
+// presets and files.
 #pragma once
 
 #include <QWidget>

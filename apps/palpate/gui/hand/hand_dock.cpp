@@ -153,7 +153,8 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   return area;
 }
 
-// Nothing is cut off at the side, where it can't be scrolled: only what is shown knows how wide it is.
+// Nothing is cut off at the side, where it can't be scrolled: only what is shown knows how wide it
+// is.
 void HandDock::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
   body_->setMinimumWidth(body_->widget()->minimumSizeHint().width() +
@@ -222,8 +223,8 @@ void HandDock::bind(const HandActions& actions) {
   showBound();
 }
 
-// As the grasps would judge them that are offered now: the reactive one, and where that one feels everything the
-// slip-aware one.
+// As the grasps would judge them that are offered now: the reactive one, and where that one feels
+// everything the slip-aware one.
 void HandDock::showBlind(const std::vector<MatrixSettings>& settings) {
   const GraspRequest reactive = grasp_->request(GraspMode::kReactive);
   Judged now{settings, layout_, reactive.preshape, reactive.limitCounts};

@@ -1,5 +1,6 @@
-// The content of the dock Hand: moving it, what its matrices are set to, its joints and temperatures. A Stop that
-// is always there, whatever is scrolled or folded away, and by Escape from everywhere.
+// The content of the dock Hand: moving it, what its matrices are set to, its joints and
+// temperatures. A Stop that is always there, whatever is scrolled or folded away, and by Escape
+// from everywhere.
 #pragma once
 
 #include <QSettings>
@@ -36,7 +37,8 @@ class HandDock : public QWidget {
   // Remembers choices and named settings in `settings`, which must outlive it.
   explicit HandDock(QSettings& settings, QWidget* parent = nullptr);
   ~HandDock() override;
-  // The hand that is connected, null: none. Both must outlive this, or be taken away by null before they end.
+  // The hand that is connected, null: none. Both must outlive this, or be taken away by null before
+  // they end.
   void setHand(CaptureSession* session, GraspControl* control);
   // Menu entries and keys do what the buttons do, and can be chosen when those can. Once.
   void bind(const HandActions& actions);
@@ -51,7 +53,8 @@ class HandDock : public QWidget {
  signals:
   void stopPressed();
   void asked();  // a motion was begun by it, or refused
-  // Why matrices can't tell the limit that is chosen: one text per matrix, empty: it can; none: all can.
+  // Why matrices can't tell the limit that is chosen: one text per matrix, empty: it can; none: all
+  // can.
   void blindChanged(const std::vector<QString>& why);
 
  protected:

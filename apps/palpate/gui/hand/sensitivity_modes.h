@@ -1,5 +1,5 @@
-// How sensitivity and thresholds of a connected hand are held: by hand, high (just above the noise, following the
-// temperatures), adaptive (the highest without saturation).
+// How sensitivity and thresholds of a connected hand are held: by hand, high (just above the noise,
+// following the temperatures), adaptive (the highest without saturation).
 #pragma once
 
 #include <QWidget>

@@ -1,4 +1,5 @@
-// Sensitivity and threshold of every matrix, set on the hand as they are chosen; reset; sets kept by name.
+// Sensitivity and threshold of every matrix, set on the hand as they are chosen; reset; sets kept
+// by name.
 #pragma once
 
 #include <QWidget>
@@ -30,7 +31,8 @@ class TactileSettingsPanel : public QWidget {
   // Shows what the hand says, and whether it may be changed now. Now and then.
   void refresh(const GraspStatus& status, const DeviceFacts& facts);
   void setTheme(Theme theme);
-  // Marks the matrices that can't tell a limit [counts], as they are set: why, one text per matrix; empty: it can.
+  // Marks the matrices that can't tell a limit [counts], as they are set: why, one text per matrix;
+  // empty: it can.
   void showBlind(const std::vector<QString>& why, int limitCounts);
   // How a name is asked for; an empty answer means cancelled. Tests answer themselves.
   std::function<QString(const QString& suggestion)> askForName;

@@ -1,4 +1,5 @@
-// The dock Inspect: the moment and the recording (or the link) in numbers, and which rows are plotted.
+// The dock Inspect: the moment and the recording (or the link) in numbers, and which rows are
+// plotted.
 #pragma once
 
 #include "gui/bench/feature.h"

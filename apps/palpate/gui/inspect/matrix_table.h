@@ -1,5 +1,5 @@
-// The table of the Inspect dock: a row per matrix and one for the whole hand; signals of the current
-// frame, of a recording or live; a tick plots the row in the timeline.
+// The table of the Inspect dock: a row per matrix and one for the whole hand; signals of the
+// current frame, of a recording or live; a tick plots the row in the timeline.
 #pragma once
 
 #include <QAbstractTableModel>
@@ -36,7 +36,8 @@ class MatrixTableModel : public QAbstractTableModel {
     bool inRange = true;
     bool operator==(const Force&) const = default;
   };
-  // One per matrix, the whole last; empty: no calibration is applied. `why`: says so, for the tool tip.
+  // One per matrix, the whole last; empty: no calibration is applied. `why`: says so, for the tool
+  // tip.
   void showForces(const std::vector<Force>& forces, const QString& why);
   // What is shown is of before: greyed.
   void setOld(bool old);

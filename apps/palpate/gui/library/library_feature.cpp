@@ -9,7 +9,8 @@
 namespace palpate::gui {
 namespace {
 
-// Beside settings that aren't the user's own ones (a test's, a screenshot's) nothing is kept among the user's files.
+// Beside settings that aren't the user's own ones (a test's, a screenshot's) nothing is kept among
+// the user's files.
 QString cacheFolderFor(const QSettings& settings) {
   if (QFileInfo(settings.fileName()) == QFileInfo(settingsPath()))
     return QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + "/palpate";

@@ -1,4 +1,5 @@
-// The recordings of a folder as a table, a row each, and the part of it that a search leaves, in an order.
+// The recordings of a folder as a table, a row each, and the part of it that a search leaves, in an
+// order.
 #pragma once
 
 #include <QAbstractTableModel>
@@ -32,7 +33,8 @@ class LibraryModel : public QAbstractTableModel {
 
   // Empties the table; names of folders count from `folder` on.
   void setFolder(const QString& folder);
-  // What comes until endScan() replaces what was known of the same file; what doesn't come again goes.
+  // What comes until endScan() replaces what was known of the same file; what doesn't come again
+  // goes.
   void beginScan();
   void take(const std::vector<LibraryEntry>& entries);
   void endScan();

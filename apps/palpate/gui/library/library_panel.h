@@ -1,4 +1,5 @@
-// The dock Library: the recordings of a folder and of all below it, to be searched, sorted and opened.
+// The dock Library: the recordings of a folder and of all below it, to be searched, sorted and
+// opened.
 #pragma once
 
 #include <QFileSystemWatcher>

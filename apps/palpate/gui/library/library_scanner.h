@@ -1,6 +1,6 @@
-// Goes through a folder of recordings beside the window and hands over what it finds, in portions that the window
-// takes without a stop. A folder that hangs holds up nobody: its thread is given up. Signals come in the thread
-// of this object.
+// Goes through a folder of recordings beside the window and hands over what it finds, in portions
+// that the window takes without a stop. A folder that hangs holds up nobody: its thread is given
+// up. Signals come in the thread of this object.
 #pragma once
 
 #include <QObject>

@@ -1,4 +1,5 @@
-// The dock Log: what the window said, newest last; by severity and by words, to be copied and saved.
+// The dock Log: what the window said, newest last; by severity and by words, to be copied and
+// saved.
 #pragma once
 
 #include <QSortFilterProxyModel>

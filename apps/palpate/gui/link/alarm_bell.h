@@ -1,4 +1,5 @@
-// Makes alarms of the link heard: once when one comes up, and every ten seconds as long as it lasts.
+// Makes alarms of the link heard: once when one comes up, and every ten seconds as long as it
+// lasts.
 #pragma once
 
 #include <QObject>

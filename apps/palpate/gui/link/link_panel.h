@@ -1,4 +1,5 @@
-// The content of the dock Link: is everything ready for a run, how does the line do, what is wrong, what happened.
+// The content of the dock Link: is everything ready for a run, how does the line do, what is wrong,
+// what happened.
 #pragma once
 
 #include <QScrollArea>

@@ -1,5 +1,6 @@
-// The window's doors to other programs on this machine, all closed until the operator opens them: live signals and taxels
-// as datagrams, remote control. It is switched by actions, and says in the Link dock what is open.
+// The window's doors to other programs on this machine, all closed until the operator opens them:
+// live signals and taxels as datagrams, remote control. It is switched by actions, and says in the
+// Link dock what is open.
 #pragma once
 
 #include <QObject>
@@ -25,8 +26,9 @@ struct OtherProgramsOptions {
   std::function<RecordingSettings()> recordingSettings;
 };
 
-// Streams are as they were left; remote control is off in every window until it is switched on. data() of its action is
-// the socket's path; none: the usual one. Ports: streams/signals_port, streams/tactile_port of the settings.
+// Streams are as they were left; remote control is off in every window until it is switched on.
+// data() of its action is the socket's path; none: the usual one. Ports: streams/signals_port,
+// streams/tactile_port of the settings.
 class OtherPrograms : public QObject {
   Q_OBJECT
  public:

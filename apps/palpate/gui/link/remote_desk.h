@@ -1,5 +1,6 @@
-// Carries out remote control in the window: a recording that others start is the window's own, seen, marked and stopped
-// like one by the button, under the names and in the folder that the operator chose.
+// Carries out remote control in the window: a recording that others start is the window's own,
+// seen, marked and stopped like one by the button, under the names and in the folder that the
+// operator chose.
 #pragma once
 
 #include <QObject>

@@ -127,7 +127,8 @@ QString styleOf(Theme theme) {
   return style;
 }
 
-// The style takes outlines from the background and darkens it: on a dark one nothing is seen of them.
+// The style takes outlines from the background and darkens it: on a dark one nothing is seen of
+// them.
 void outlineFields(Theme theme) {
   QPalette palette = paletteOf(theme);
   if (theme == Theme::kDark) palette.setColor(QPalette::Window, colorsOf(theme).muted);

@@ -35,8 +35,8 @@ struct ThemeColors {
 };
 
 const ThemeColors& colorsOf(Theme theme);
-// One colour per matrix, the same wherever it is named; told apart by colour-blind eyes (after Okabe
-// and Ito). Repeats after six.
+// One colour per matrix, the same wherever it is named; told apart by colour-blind eyes (after
+// Okabe and Ito). Repeats after six.
 QColor matrixColor(std::size_t matrix, Theme theme);
 // The hand as a whole.
 QColor wholeColor(Theme theme);

@@ -20,8 +20,9 @@ struct HeatImageOptions {
 };
 
 // Values are interpolated bilinearly between the centres of enabled taxels (not colours, and not
-// across places without a taxel), then coloured. Opacity is the interpolated share of active taxels,
-// so a contact fades into the colour of taxels at rest. Places that aren't enabled are transparent.
+// across places without a taxel), then coloured. Opacity is the interpolated share of active
+// taxels, so a contact fades into the colour of taxels at rest. Places that aren't enabled are
+// transparent.
 QImage smoothHeatImage(const ConstMatrixMap& values,
                        const MatrixLayout& layout,
                        const HeatImageOptions& options);

@@ -1,4 +1,5 @@
-// The heat maps in the middle of the window: what they show, which taxels are chosen in them, which ones the hand scans.
+// The heat maps in the middle of the window: what they show, which taxels are chosen in them, which
+// ones the hand scans.
 #pragma once
 
 #include "gui/bench/feature.h"

@@ -11,8 +11,8 @@ namespace palpate::gui {
 MatricesPictureOptions fitted(MatricesPictureOptions options, const PictureLook& look);
 // "frame 42 · 1.31 s"
 QString captionOf(const Profile& profile, std::size_t frame);
-// Holds its data itself and may be called in any thread, by one at a time. Where options.title isn't empty, each picture says
-// which frame it is.
+// Holds its data itself and may be called in any thread, by one at a time. Where options.title
+// isn't empty, each picture says which frame it is.
 FramePictures::Paint matricesFramePainter(const OpenedRecordingPtr& recording,
                                           const MatricesPictureOptions& options);
 

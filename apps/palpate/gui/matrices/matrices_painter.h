@@ -85,12 +85,13 @@ struct ValueRange {
 };
 ValueRange rangeOf(const MatricesPictureOptions& options, const TactileFrame& frame);
 
-// Whether there is something to see in a taxel: it was touched as recorded (`contact`), or filters left at least half
-// a count in it.
+// Whether there is something to see in a taxel: it was touched as recorded (`contact`), or filters
+// left at least half a count in it.
 bool isSeen(float contact, float value) noexcept;
 
 // The parts, for a widget that keeps the first as a pixmap. Background: everything that doesn't
-// depend on the values (names, colour bar, taxels at rest, masks). Values: one matrix' active taxels.
+// depend on the values (names, colour bar, taxels at rest, masks). Values: one matrix' active
+// taxels.
 void paintMatricesBackground(QPainter& painter,
                              const MatricesGeometry& geometry,
                              const HandDescription& hand,
@@ -104,7 +105,8 @@ void paintMatrixValues(QPainter& painter,
                        const ValueRange& range,
                        const MatricesPictureOptions& options);
 
-// The colours with their values and unit, which stands above the bar; title and caption in one line.
+// The colours with their values and unit, which stands above the bar; title and caption in one
+// line.
 void paintColorBar(QPainter& painter,
                    const QRectF& bar,
                    const ValueRange& range,

@@ -47,12 +47,13 @@ class MatricesView : public QWidget {
   // What lies under the mouse: "finger 0 distal · x 3, y 5 · 812 counts"; empty beside the taxels.
   QString hoverText() const;
 
-  // Click and drag choose taxels, Ctrl adds to what is chosen, a click beside them (or Escape) lets go.
+  // Click and drag choose taxels, Ctrl adds to what is chosen, a click beside them (or Escape) lets
+  // go.
   const TaxelSelection& selection() const noexcept { return selection_; }
   void select(const TaxelSelection& selection);
   void clearSelection();
-  // Why a matrix can't tell the limit of a grasp, as it is set: marked, and told beside its counts. One text per
-  // matrix, empty: it can; none at all: all can, or nothing is connected.
+  // Why a matrix can't tell the limit of a grasp, as it is set: marked, and told beside its counts.
+  // One text per matrix, empty: it can; none at all: all can, or nothing is connected.
   void setBlind(const std::vector<QString>& why);
   const std::vector<QString>& blind() const noexcept { return blind_; }
   // Over an old picture, one that is held, too.

@@ -132,7 +132,8 @@ void OpenFeature::take(const OpenedRecordingPtr& recording, const OpenArrival& a
   listRecordings();
   const bool compared = arrival.then == Then::kCompare;
   const bool first = arrival.place == 0 && arrival.then != Then::kList;
-  // A file that was open and looked at, and was read anew, is looked at again; not behind what is live.
+  // A file that was open and looked at, and was read anew, is looked at again; not behind what is
+  // live.
   const bool again = arrival.replaced && !subject.isLive() && !subject.behind();
   const bool shown = again || (first && (!compared || !subject.isRecording()));
   if (shown)

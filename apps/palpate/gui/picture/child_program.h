@@ -1,5 +1,5 @@
-// Another program that is fed bytes: without a shell, so that no name needs quoting; what it says is kept; it never
-// outlives us by neglect.
+// Another program that is fed bytes: without a shell, so that no name needs quoting; what it says
+// is kept; it never outlives us by neglect.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,9 @@ class ChildProgram {
 
   // Where the program finds `descriptor` of ours.
   static constexpr int kPassedAs = 3;
-  // Starts it in a process group of its own (Ctrl-C in a terminal is ours to answer). descriptor: open in the program as
-  // kPassedAs; -1: none. Throws Error: no such program, not to be executed, ..
+  // Starts it in a process group of its own (Ctrl-C in a terminal is ours to answer). descriptor:
+  // open in the program as kPassedAs; -1: none. Throws Error: no such program, not to be executed,
+  // ..
   ChildProgram(const std::filesystem::path& program,
                const std::vector<std::string>& arguments,
                int descriptor = -1);
@@ -30,9 +31,11 @@ class ChildProgram {
   ChildProgram(const ChildProgram&) = delete;
   ChildProgram& operator=(const ChildProgram&) = delete;
 
-  // Writes all of it to its standard input. False: it reads no more, see finish(). Throws Cancelled.
+  // Writes all of it to its standard input. False: it reads no more, see finish(). Throws
+  // Cancelled.
   bool write(std::span<const std::byte> bytes, const KeepGoing& keepGoing = {});
-  // Ends its standard input and waits for its end; what it started and left running is killed. Returns the exit code, 128 + signal when it was killed. Throws Cancelled.
+  // Ends its standard input and waits for its end; what it started and left running is killed.
+  // Returns the exit code, 128 + signal when it was killed. Throws Cancelled.
   int finish(const KeepGoing& keepGoing = {});
   // What it has said so far, on standard output and error; of very much the end.
   const std::string& said() const noexcept { return said_; }

@@ -1,5 +1,5 @@
-// A view that can be taken away: as a picture, as a table, as a picture of each frame. Whoever owns the view says
-// how; take_away.h does the rest.
+// A view that can be taken away: as a picture, as a table, as a picture of each frame. Whoever owns
+// the view says how; take_away.h does the rest.
 #pragma once
 
 #include <QPointer>
@@ -18,7 +18,8 @@ class QPainter;
 
 namespace palpate::gui {
 
-// How a picture shall look. The painter counts in units; how large one is on paper is not the view's business.
+// How a picture shall look. The painter counts in units; how large one is on paper is not the
+// view's business.
 struct PictureLook {
   QSizeF size{900, 720};    // [units]
   bool forPrint = false;    // white ground, dark ink, whatever the theme
@@ -37,7 +38,8 @@ struct FrameSpan {
 
 // A picture of each frame.
 struct FramePictures {
-  // Paints one frame. Called in any thread, by one at a time, long after it was made: holds its data itself.
+  // Paints one frame. Called in any thread, by one at a time, long after it was made: holds its
+  // data itself.
   using Paint = std::function<void(QPainter&, std::size_t frame)>;
 
   QString fileName;  // "ball": its files are ball_00042.png

@@ -19,18 +19,20 @@ struct Movie {
   MovieTiming timing;  // its frames count from frames.first
   double picturesPerS = 30.0;
 };
-// timeUs: stamp of a frame [us]; asked for all of the span. Throws std::invalid_argument (options), Cancelled.
+// timeUs: stamp of a frame [us]; asked for all of the span. Throws std::invalid_argument (options),
+// Cancelled.
 Movie plannedMovie(const FrameSpan& frames,
                    const FramePictures::TimeUs& timeUs,
                    const MovieOptions& options,
                    const Progress& progress = {});
 
-// A PNG's pixels made even, as the coding of colours needs it: up to a row and a column more, of background.
+// A PNG's pixels made even, as the coding of colours needs it: up to a row and a column more, of
+// background.
 QSize moviePixels(const PicturePaper& paper);
 
-// Paints each frame once, however many pictures show it. The file is whole or not there: until it is whole it has no
-// name. Needs a QGuiApplication; may run in any thread. Throws FileError: exists already, no ffmpeg, what ffmpeg
-// says; Cancelled.
+// Paints each frame once, however many pictures show it. The file is whole or not there: until it
+// is whole it has no name. Needs a QGuiApplication; may run in any thread. Throws FileError: exists
+// already, no ffmpeg, what ffmpeg says; Cancelled.
 void writeMovie(const std::filesystem::path& path,
                 const Movie& movie,
                 const FramePictures::Paint& paint,

@@ -1,4 +1,5 @@
-// How a view says that its picture isn't of now: a veil over it, and a line that tells why. The same in every view.
+// How a view says that its picture isn't of now: a veil over it, and a line that tells why. The
+// same in every view.
 #pragma once
 
 #include <QRectF>

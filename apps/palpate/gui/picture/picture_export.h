@@ -38,8 +38,8 @@ struct PicturePaper {
 // Paints a picture; the painter is scaled to units and stands at the top left.
 using PaintPicture = std::function<void(QPainter&)>;
 
-// Draws what was recorded in the painter's own units. QPicture::play() would scale it by the resolution of the
-// device.
+// Draws what was recorded in the painter's own units. QPicture::play() would scale it by the
+// resolution of the device.
 void replay(QPainter& painter, const QPicture& picture);
 
 // Needs a QGuiApplication (fonts); may run in any thread when `paint` may.
@@ -49,7 +49,8 @@ QByteArray pictureBytes(PictureForm form,
                         const PaintPicture& paint,
                         const PicturePaper& paper,
                         const std::filesystem::path& path);
-// Writes the whole file or nothing. Throws FileError: unknown ending, can't be written, exists already (kRefuse).
+// Writes the whole file or nothing. Throws FileError: unknown ending, can't be written, exists
+// already (kRefuse).
 void writePicture(const std::filesystem::path& path,
                   const PaintPicture& paint,
                   const PicturePaper& paper,

@@ -18,9 +18,9 @@ struct SeriesReport {
   std::string failure;  // why not all of them are there: disk full, ..; empty: none
 };
 
-// Makes the folder where it isn't there, and one file after the other, each whole or not there: what was written
-// before a cancel or a failure stays. Throws FileError before anything is written: the folder can't be made, or
-// holds some of these names and they may not be replaced.
+// Makes the folder where it isn't there, and one file after the other, each whole or not there:
+// what was written before a cancel or a failure stays. Throws FileError before anything is written:
+// the folder can't be made, or holds some of these names and they may not be replaced.
 SeriesReport writePictureSeries(const FileSeries& series,
                                 const FramePictures::Paint& paint,
                                 const PicturePaper& paper,

@@ -1,5 +1,5 @@
-// What a QPainter draws, as an SVG: lines stay lines, text stays text. Unlike QSvgGenerator it heeds clipping
-// (a chart's curves end at its axes) and knows real sizes (millimetres on paper).
+// What a QPainter draws, as an SVG: lines stay lines, text stays text. Unlike QSvgGenerator it
+// heeds clipping (a chart's curves end at its axes) and knows real sizes (millimetres on paper).
 #pragma once
 
 #include <QByteArray>
@@ -14,7 +14,8 @@ class SvgEngine;
 
 class SvgDevice : public QPaintDevice {
  public:
-  // `size` in units of the painter; so many units are an inch. Fonts are best given in pixels (units).
+  // `size` in units of the painter; so many units are an inch. Fonts are best given in pixels
+  // (units).
   SvgDevice(const QSizeF& size, double unitsPerInch);
   ~SvgDevice() override;
 

@@ -1,4 +1,5 @@
-// A table as a picture of its own: names on the left, figures on the right of their columns, hairlines between rows.
+// A table as a picture of its own: names on the left, figures on the right of their columns,
+// hairlines between rows.
 #pragma once
 
 #include <QString>

@@ -62,7 +62,8 @@ PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
   row->addWidget(time_);
   row->addWidget(ofTime_);
 
-  // In the playback's name: closing the window ends what is being typed, perhaps after the playback.
+  // In the playback's name: closing the window ends what is being typed, perhaps after the
+  // playback.
   connect(seekBar_, &SeekBar::sought, &playback_, [this](int frame) {
     playback_.seekFrame(static_cast<std::size_t>(frame));
   });

@@ -1,4 +1,5 @@
-// The page Ask of the dock Recognise: what is held, what was grasped; large, with how sure it is, and what it rests on.
+// The page Ask of the dock Recognise: what is held, what was grasped; large, with how sure it is,
+// and what it rests on.
 #pragma once
 
 #include <QWidget>

@@ -1,5 +1,5 @@
-// The page Check of the dock Recognise: how well what the folder teaches is recognised, by cross-validation: confusion matrix,
-// figures of the objects, and the grasps behind each cell.
+// The page Check of the dock Recognise: how well what the folder teaches is recognised, by
+// cross-validation: confusion matrix, figures of the objects, and the grasps behind each cell.
 #pragma once
 
 #include <QWidget>

@@ -1,4 +1,5 @@
-// A confusion matrix on paper: where its cells and names are, and how they look. Names are as small as their cells need.
+// A confusion matrix on paper: where its cells and names are, and how they look. Names are as small
+// as their cells need.
 #pragma once
 
 #include <QFont>

@@ -1,6 +1,7 @@
-// A confusion matrix: what it was (rows) against what it was called (columns). A cell can be chosen by mouse or arrow keys; the
-// row and the column under the pointer stand out. As large as its names need to be read: then it scrolls, names stay;
-// Ctrl and the wheel, + and - zoom, 0 shows all of it.
+// A confusion matrix: what it was (rows) against what it was called (columns). A cell can be chosen
+// by mouse or arrow keys; the row and the column under the pointer stand out. As large as its names
+// need to be read: then it scrolls, names stay; Ctrl and the wheel, + and - zoom, 0 shows all of
+// it.
 #pragma once
 
 #include <QAbstractScrollArea>
@@ -24,7 +25,8 @@ class ConfusionView : public QAbstractScrollArea {
   void setTheme(Theme theme);
   void choose(std::optional<Cell> cell);
   const std::optional<Cell>& chosen() const noexcept { return chosen_; }
-  // Side of a cell [px]: as set by zooming, else what is readable. Nothing: as large as that. Clamped.
+  // Side of a cell [px]: as set by zooming, else what is readable. Nothing: as large as that.
+  // Clamped.
   double side() const;
   void setSide(std::optional<double> side);
   void showAll();  // however small that is

@@ -1,4 +1,5 @@
-// Photos of things that are recognised: jpg or png files beside a model or in the folder that taught it, called as the class
+// Photos of things that are recognised: jpg or png files beside a model or in the folder that
+// taught it, called as the class
 // ("foam ball": foam_ball.jpg or "foam ball.png"), or any in the folder of that name.
 #pragma once
 

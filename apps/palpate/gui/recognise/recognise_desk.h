@@ -1,4 +1,5 @@
-// What stands behind the dock Recognise: the model in use, the day with it, and questions that are answered beside the window.
+// What stands behind the dock Recognise: the model in use, the day with it, and questions that are
+// answered beside the window.
 #pragma once
 
 #include <QObject>
@@ -31,7 +32,8 @@ class RecogniseDesk : public QObject {
   // `dataFolder` has the model of emulated objects.
   RecogniseDesk(QSettings& settings, std::filesystem::path dataFolder, QObject* parent = nullptr);
 
-  // The emulated hand is what is connected and shown: its model is taken, as long as nobody chose another for it.
+  // The emulated hand is what is connected and shown: its model is taken, as long as nobody chose
+  // another for it.
   void setEmulated(bool emulated);
   bool emulated() const noexcept { return emulated_; }
   // Of its own accord it takes the last one; in the background.

@@ -1,5 +1,5 @@
-// The dock Recognise: what it is asked about (the selection, what is held), the answer on the whole screen, and the zero of the
-// empty hand.
+// The dock Recognise: what it is asked about (the selection, what is held), the answer on the whole
+// screen, and the zero of the empty hand.
 #pragma once
 
 #include <QPointer>

@@ -1,4 +1,5 @@
-// The content of the dock Recognise: pages that ask what is in the hand, adapt to today, teach, and check how well it goes.
+// The content of the dock Recognise: pages that ask what is in the hand, adapt to today, teach, and
+// check how well it goes.
 #pragma once
 
 #include <filesystem>

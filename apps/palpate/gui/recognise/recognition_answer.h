@@ -1,4 +1,5 @@
-// What recognition says of one grasp, as the window tells it: on a page, on the wall of a lecture hall, on paper.
+// What recognition says of one grasp, as the window tells it: on a page, on the wall of a lecture
+// hall, on paper.
 #pragma once
 
 #include <QPixmap>
@@ -32,7 +33,7 @@ struct RecognitionAnswer {
   bool sure = false;  // right 95 times in 100
   // of kNamed, kUnknown: up to three, best first; the first one is what it is called
   std::vector<Place> best;
-  QString of;  // which grasp: "foam_ball.dsa, 12.40 – 14.10 s"
+  QString of;                        // which grasp: "foam_ball.dsa, 12.40 – 14.10 s"
   QString offset;                    // "today the hand reads ..."
   QString unsure;                    // why nothing is sure; may be empty
   std::optional<std::size_t> grasp;  // of the day's
@@ -50,7 +51,8 @@ RecognitionAnswer answerOf(const TrainedModel& model, const Verdict& verdict);
 // What a person reads of an offset; `emulated`: the hand has none.
 QString offsetText(const SessionOffset& offset, bool emulated);
 
-// Large name, word, bar, two runners-up, and the photo where there is one; `unit`: height of plain text.
+// Large name, word, bar, two runners-up, and the photo where there is one; `unit`: height of plain
+// text.
 void paintAnswer(QPainter& painter,
                  const QRectF& area,
                  const RecognitionAnswer& answer,

@@ -1,5 +1,5 @@
-// The show mode: the answer alone, as large as the screen, for an audience. Of a connected hand it names what is held
-// now, and nothing else. Any of Esc and its own key close it.
+// The show mode: the answer alone, as large as the screen, for an audience. Of a connected hand it
+// names what is held now, and nothing else. Any of Esc and its own key close it.
 #pragma once
 
 #include <QWidget>

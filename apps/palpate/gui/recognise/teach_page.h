@@ -1,4 +1,5 @@
-// The page Teach of the dock Recognise: the folder that teaches and what it holds, capture of a labelled series, training.
+// The page Teach of the dock Recognise: the folder that teaches and what it holds, capture of a
+// labelled series, training.
 #pragma once
 
 #include <QWidget>

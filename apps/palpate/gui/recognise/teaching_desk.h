@@ -1,5 +1,6 @@
-// Teaching by a folder with a folder of recordings per object: what it holds, clips that are captured into it, the model that
-// learns from it, and how well that goes. All beside the window, one after the other.
+// Teaching by a folder with a folder of recordings per object: what it holds, clips that are
+// captured into it, the model that learns from it, and how well that goes. All beside the window,
+// one after the other.
 #pragma once
 
 #include <QObject>

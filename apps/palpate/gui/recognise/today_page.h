@@ -1,4 +1,5 @@
-// The page Today of the dock Recognise: by how much the hand reads sizes wrong today, how that is known, and the day's grasps.
+// The page Today of the dock Recognise: by how much the hand reads sizes wrong today, how that is
+// known, and the day's grasps.
 #pragma once
 
 #include <QWidget>

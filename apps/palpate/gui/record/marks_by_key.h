@@ -1,5 +1,5 @@
-// What each digit key notes in a recording while it runs: ten labels in two columns, folded away under
-// a line that sums them up.
+// What each digit key notes in a recording while it runs: ten labels in two columns, folded away
+// under a line that sums them up.
 #pragma once
 
 #include <QString>

@@ -1,5 +1,5 @@
-// Recordings that are made of what is connected: start, stop, marks, what is offered afterwards, and what an earlier day left
-// unfinished.
+// Recordings that are made of what is connected: start, stop, marks, what is offered afterwards,
+// and what an earlier day left unfinished.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// Asks what the next recording is of: operator, object, notes, its name and folder, labels of the digit
-// keys. Says at once what the file will be called, and what stands in its way.
+// Asks what the next recording is of: operator, object, notes, its name and folder, labels of the
+// digit keys. Says at once what the file will be called, and what stands in its way.
 #pragma once
 
 #include <QDialog>
@@ -24,8 +24,8 @@ class MarksByKey;
 class RecordingDialog : public QDialog {
   Q_OBJECT
  public:
-  // `okText` is what is done with the answer: "Start recording", "Keep". The clock tells date and time
-  // in the name of the file; it must outlive the dialog.
+  // `okText` is what is done with the answer: "Start recording", "Keep". The clock tells date and
+  // time in the name of the file; it must outlive the dialog.
   RecordingDialog(const RecordingSettings& settings,
                   const QString& okText,
                   QWidget* parent = nullptr,

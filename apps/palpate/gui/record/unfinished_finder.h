@@ -40,8 +40,8 @@ class UnfinishedFinder : public QObject {
   void look(const QString& folder);
   // recovered() or failed() of each follow in this order, then one finished().
   void recover(const QStringList& paths);
-  // Gives up what is in work and all that waits; nothing half-done is left. Of a look that is given up
-  // nothing is heard, of a recovery finished().
+  // Gives up what is in work and all that waits; nothing half-done is left. Of a look that is given
+  // up nothing is heard, of a recovery finished().
   void cancel();
   bool busy() const noexcept { return busy_; }
 
@@ -54,7 +54,8 @@ class UnfinishedFinder : public QObject {
   void progressed(double fraction);  // of what recover() was given, 0..1
   // message: one line, what was saved and what is lost; `saved` is the new recording.
   void recovered(const QString& path, const QString& message, const QString& saved);
-  // message: one line that says what is wrong and what to do; of a folder that can't be looked into, too.
+  // message: one line that says what is wrong and what to do; of a folder that can't be looked
+  // into, too.
   void failed(const QString& path, const QString& message);
   void finished();
 

@@ -1,4 +1,5 @@
-// The middle of the window: lines with messages, the start page, or the views of what is looked at and what plays it.
+// The middle of the window: lines with messages, the start page, or the views of what is looked at
+// and what plays it.
 #pragma once
 
 #include <QSettings>

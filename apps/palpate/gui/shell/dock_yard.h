@@ -1,4 +1,5 @@
-// The docks of the window: where they stand at first, in each place of the window its own layout, and how they come back.
+// The docks of the window: where they stand at first, in each place of the window its own layout,
+// and how they come back.
 #pragma once
 
 #include <QByteArray>
@@ -26,7 +27,8 @@ class DockYard : public QObject {
   // Once all are there.
   void begin();
 
-  // With each place its own layout: nothing is looked at (only docks that stay everywhere), a recording, live.
+  // With each place its own layout: nothing is looked at (only docks that stay everywhere), a
+  // recording, live.
   void setPlace(Subject::Kind place);
   void reset();  // as they stand at first
   // Out of the way, and back as they were.

@@ -185,7 +185,8 @@ void MainWindow::remember() {
   bench_->settings.sync();
 }
 
-// What is connected is ended first, beside the window: a hand that moves is stopped, a recording finished. Then it closes.
+// What is connected is ended first, beside the window: a hand that moves is stopped, a recording
+// finished. Then it closes.
 void MainWindow::closeEvent(QCloseEvent* event) {
   LiveController& live = bench_->live;
   if (closing_) {

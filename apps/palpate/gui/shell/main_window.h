@@ -1,5 +1,5 @@
-// The one main window: a frame for the features, which plug into it. It holds what they share, places their docks, views and
-// lines, and asks before it closes.
+// The one main window: a frame for the features, which plug into it. It holds what they share,
+// places their docks, views and lines, and asks before it closes.
 #pragma once
 
 #include <QMainWindow>

@@ -102,7 +102,8 @@ void goToFrame(MainWindow& window, const ScreenshotOptions& options) {
     playback.seekFrame(window.bench().subject.behind()->table.frameOfLargestSum());
 }
 
-// Of a demo --after counts while it runs; of a recording it was played before: then time for what was pressed.
+// Of a demo --after counts while it runs; of a recording it was played before: then time for what
+// was pressed.
 QImage pressAll(MainWindow& window, const ScreenshotOptions& options) {
   constexpr double kGraceS = 1.0;
   double forS = options.demo ? options.afterS : 0.0;

@@ -91,7 +91,8 @@ QImage runAndPress(QWidget& window,
   std::optional<std::string> failure;
   QImage dialogue;
   QObject context;  // no timer outlives this call
-  // A dialogue runs a loop of its own inside a press: the next look is asked for before it, and the end closes it.
+  // A dialogue runs a loop of its own inside a press: the next look is asked for before it, and the
+  // end closes it.
   std::function<void()> look = [&] {
     QTimer::singleShot(kScreenshotPressesLookMs, &context, look);
     const double nowS = static_cast<double>(since.elapsed()) / kMsPerS;

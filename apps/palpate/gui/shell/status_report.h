@@ -1,4 +1,5 @@
-// The status line, and what stands beside the button Connect: what is shown, how it goes, in a few words.
+// The status line, and what stands beside the button Connect: what is shown, how it goes, in a few
+// words.
 #pragma once
 
 #include <QObject>

@@ -23,8 +23,8 @@ class WindowMenus {
  public:
   explicit WindowMenus(QMainWindow& window);
 
-  // Once all actions are made: in the order that is written down here; others at the end of the menu of their section.
-  // `dockToggles`: what shows and hides the docks, in the menu View.
+  // Once all actions are made: in the order that is written down here; others at the end of the
+  // menu of their section. `dockToggles`: what shows and hides the docks, in the menu View.
   void fill(const ActionBook& book, const QList<QAction*>& dockToggles);
   // What features fill, or open elsewhere, too.
   Menus shared() const;

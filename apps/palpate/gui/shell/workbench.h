@@ -14,7 +14,8 @@
 
 namespace palpate::gui {
 
-// kFast: where a graphics card has it; kAlways: where the processor draws it, too, without asking first.
+// kFast: where a graphics card has it; kAlways: where the processor draws it, too, without asking
+// first.
 enum class OpenGlChoice { kFast, kAlways, kNever };
 
 struct WorkbenchOptions {
@@ -28,8 +29,9 @@ struct WorkbenchOptions {
   std::optional<std::filesystem::path> remote = {};
 };
 
-// Shows the window and runs the event loop until it is closed. Returns the exit code. A QApplication
-// is made unless there is one. Needs a display (or a QT_QPA_PLATFORM that does without).
+// Shows the window and runs the event loop until it is closed. Returns the exit code. A
+// QApplication is made unless there is one. Needs a display (or a QT_QPA_PLATFORM that does
+// without).
 int runWorkbench(int& argc, char** argv, const WorkbenchOptions& options);
 
 struct ScreenshotOptions {
@@ -52,9 +54,10 @@ struct ScreenshotOptions {
   std::optional<Recipe> recipe = {};
 };
 
-// Shows the real window, saves its picture (of the dialogue, where one is open in the end) and closes it; the user's settings
-// are neither used nor changed. Returns the exit code 0. Throws Error (leaves included) for a recording that can't be
-// read, a frame or dock that isn't there, nothing to press, an unknown theme, or a file that can't be written.
+// Shows the real window, saves its picture (of the dialogue, where one is open in the end) and
+// closes it; the user's settings are neither used nor changed. Returns the exit code 0. Throws
+// Error (leaves included) for a recording that can't be read, a frame or dock that isn't there,
+// nothing to press, an unknown theme, or a file that can't be written.
 int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options);
 
 }  // namespace palpate::gui

@@ -1,5 +1,5 @@
-// One matrix over time: how far its contact is from the reference (above), and how far it turned (below), with the
-// thresholds as lines and slip shaded; a cursor like the timeline's.
+// One matrix over time: how far its contact is from the reference (above), and how far it turned
+// (below), with the thresholds as lines and slip shaded; a cursor like the timeline's.
 #pragma once
 
 #include <QString>

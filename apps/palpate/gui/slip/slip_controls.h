@@ -1,5 +1,5 @@
-// How slip is measured: method, where motion is measured from, thresholds. Remembered; a recording and what is live have a
-// method each.
+// How slip is measured: method, where motion is measured from, thresholds. Remembered; a recording
+// and what is live have a method each.
 #pragma once
 
 #include <QSettings>

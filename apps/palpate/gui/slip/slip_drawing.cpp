@@ -180,7 +180,8 @@ void SlipDrawing::paint(QPainter& painter, const QRectF& area, Theme theme) cons
   QColor rim = colors.window;
   rim.setAlphaF(0.8F);
   const QPointF centre = place.at(static_cast<double>(sample.x), static_cast<double>(sample.y));
-  // The ellipse, and its axis: drawn through where the shape has a direction, dotted where it has none.
+  // The ellipse, and its axis: drawn through where the shape has a direction, dotted where it has
+  // none.
   const double along = kEllipseSds * static_cast<double>(sample.majorSd) * place.side;
   const double across = kEllipseSds * static_cast<double>(sample.minorSd) * place.side;
   const double angle = radians(static_cast<double>(sample.orientationDeg));

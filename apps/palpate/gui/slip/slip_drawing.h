@@ -1,6 +1,6 @@
-// How the contact of one matrix lies and moves: its taxels faintly, an ellipse of two standard deviations with principal
-// axis and marks of its skewness, the way since the reference, and the motion of the last frame enlarged, with a ring that
-// is its threshold.
+// How the contact of one matrix lies and moves: its taxels faintly, an ellipse of two standard
+// deviations with principal axis and marks of its skewness, the way since the reference, and the
+// motion of the last frame enlarged, with a ring that is its threshold.
 #pragma once
 
 #include <QPointF>

@@ -1,4 +1,5 @@
-// The dock Slip: whose slip it shows, what of it stands below the timeline and on the hand in space.
+// The dock Slip: whose slip it shows, what of it stands below the timeline and on the hand in
+// space.
 #pragma once
 
 #include "gui/bench/feature.h"

@@ -1,5 +1,6 @@
-// The lamp of a matrix: whether it slips. Told apart by shape as well as by colour: a ring (off), a disc with a tick
-// (ready), a triangle (nothing can be said, or it is ambiguous), a square with an arrow (slips).
+// The lamp of a matrix: whether it slips. Told apart by shape as well as by colour: a ring (off), a
+// disc with a tick (ready), a triangle (nothing can be said, or it is ambiguous), a square with an
+// arrow (slips).
 #pragma once
 
 #include <QColor>

@@ -1,5 +1,5 @@
-// The dock Slip: a lamp for every matrix, how the contact of the chosen one lies and moves, and its motion over time; of
-// a recording, computed beside the window, or live.
+// The dock Slip: a lamp for every matrix, how the contact of the chosen one lies and moves, and its
+// motion over time; of a recording, computed beside the window, or live.
 #pragma once
 
 #include <QSettings>

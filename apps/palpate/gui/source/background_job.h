@@ -1,4 +1,5 @@
-// Long work beside the window, one piece at a time: with progress, cancel, and a word at its end in this object's thread.
+// Long work beside the window, one piece at a time: with progress, cancel, and a word at its end in
+// this object's thread.
 #pragma once
 
 #include <QObject>

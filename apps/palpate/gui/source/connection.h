@@ -1,4 +1,5 @@
-// What the window is connected to, or shall be: a hand on its ports, the emulated hand, a recording.
+// What the window is connected to, or shall be: a hand on its ports, the emulated hand, a
+// recording.
 #pragma once
 
 #include <QSettings>

@@ -1,4 +1,5 @@
-// The events of a recording while a person edits them: every change can be undone, until it is saved and after.
+// The events of a recording while a person edits them: every change can be undone, until it is
+// saved and after.
 #pragma once
 
 #include <QObject>

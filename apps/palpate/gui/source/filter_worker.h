@@ -1,5 +1,6 @@
-// Looks at a recording through a recipe, beside the window: the filtered recording, and what each step costs and
-// delays. Whoever changes the recipe again while it is at work gets the last one only.
+// Looks at a recording through a recipe, beside the window: the filtered recording, and what each
+// step costs and delays. Whoever changes the recipe again while it is at work gets the last one
+// only.
 #pragma once
 
 #include <QObject>
@@ -22,8 +23,8 @@ struct FilterFigures {
   std::optional<int> latency;  // of the chain
 };
 
-// The same recording, filtered: stamps, angles, events and what was saturated are the source's. Throws
-// std::invalid_argument (a matrix that it hasn't), Error, Cancelled.
+// The same recording, filtered: stamps, angles, events and what was saturated are the source's.
+// Throws std::invalid_argument (a matrix that it hasn't), Error, Cancelled.
 OpenedRecordingPtr filteredRecording(const OpenedRecordingPtr& source,
                                      const Recipe& recipe,
                                      const Progress& progress = {});

@@ -1,5 +1,6 @@
-// Connects, ends and watches the live source of the window: pulls what is new once per refresh of the screen, and
-// does what may take time (open, start and finish a recording, end) in a worker, one after the other.
+// Connects, ends and watches the live source of the window: pulls what is new once per refresh of
+// the screen, and does what may take time (open, start and finish a recording, end) in a worker,
+// one after the other.
 #pragma once
 
 #include <QObject>
@@ -48,7 +49,8 @@ class LiveController : public QObject {
 
   // Asked for, waiting for a frame, running, or being finished.
   bool recording() const noexcept { return recording_; }
-  // `make` is called in the worker: it may look for a free name. What it throws is told by recordingFailed().
+  // `make` is called in the worker: it may look for a free name. What it throws is told by
+  // recordingFailed().
   void startRecording(std::function<RecordingOptions()> make);
   void stopRecording();
   void mark(const QString& text, std::optional<int> digit);

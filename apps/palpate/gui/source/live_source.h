@@ -1,5 +1,5 @@
-// What is connected: a device with its capture session, live processing and control, and the emulated hand where
-// it is one.
+// What is connected: a device with its capture session, live processing and control, and the
+// emulated hand where it is one.
 #pragma once
 
 #include <filesystem>
@@ -42,9 +42,9 @@ struct LiveSource {
   std::unique_ptr<GraspControl> control;  // null: a replay, which nobody can move
 };
 
-// Makes and starts it; nothing moves. A port that doesn't answer is looked for from now on. In a worker: reading
-// a recording to be replayed may take seconds. `dataFolder` has the scenes. Throws Error, Cancelled,
-// std::invalid_argument.
+// Makes and starts it; nothing moves. A port that doesn't answer is looked for from now on. In a
+// worker: reading a recording to be replayed may take seconds. `dataFolder` has the scenes. Throws
+// Error, Cancelled, std::invalid_argument.
 std::unique_ptr<LiveSource> openSource(const Connection& connection,
                                        const std::filesystem::path& dataFolder,
                                        const Progress& progress = {});

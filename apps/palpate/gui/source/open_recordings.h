@@ -1,5 +1,5 @@
-// The recordings that are open, in the order in which they came. What files were asked for travels with them: several
-// requests may be under way at once, and each keeps what it is for. No widget.
+// The recordings that are open, in the order in which they came. What files were asked for travels
+// with them: several requests may be under way at once, and each keeps what it is for. No widget.
 #pragma once
 
 #include <QObject>
@@ -50,9 +50,9 @@ class OpenRecordings : public QObject {
   // `step` places further, around; null where `of` isn't open.
   OpenedRecordingPtr neighbour(const OpenedRecordingPtr& of, int step) const;
 
-  // A file that is open is read anew only where the first says so before, and its recording is replaced only where
-  // the second still says so when it was read: there may be something in it that isn't saved. Else it arrives as it
-  // is. Empty: always.
+  // A file that is open is read anew only where the first says so before, and its recording is
+  // replaced only where the second still says so when it was read: there may be something in it
+  // that isn't saved. Else it arrives as it is. Empty: always.
   std::function<bool(const OpenedRecordingPtr&)> mayReadAnew;
   std::function<bool(const OpenedRecordingPtr&)> mayReplace;
 

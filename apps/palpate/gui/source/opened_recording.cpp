@@ -16,7 +16,8 @@ constexpr std::int64_t kWholeS = 1'000'000;  // [us]
 constexpr std::size_t kFramesPerReport = 256;
 constexpr const char* kNativeFormat = "palpate";  // as ProfileInfo says it
 
-// What the per-second summary tells before any frame is read. Gaps shorter than two seconds don't show in it.
+// What the per-second summary tells before any frame is read. Gaps shorter than two seconds don't
+// show in it.
 void takeSummary(OpenedRecording& opened, const std::vector<SecondSummary>& seconds) {
   const Profile& profile = opened.profile;
   opened.timing.durationS = static_cast<double>(profile.durationUs()) / kUsPerS;
@@ -47,9 +48,9 @@ void takeSummary(OpenedRecording& opened, const std::vector<SecondSummary>& seco
   opened.timing.rateHz = static_cast<double>(*middle);
 }
 
-// Of a long one. A native recording holds its summary; of all others, which are read as a whole when they are opened,
-// it is made here. Without one (damaged) nothing is known but how long it is: all is taken for touched, until the
-// overview tells.
+// Of a long one. A native recording holds its summary; of all others, which are read as a whole
+// when they are opened, it is made here. Without one (damaged) nothing is known but how long it is:
+// all is taken for touched, until the overview tells.
 void openBySummary(OpenedRecording& opened, const Progress& progress) {
   std::vector<SecondSummary> seconds;
   try {

@@ -23,8 +23,9 @@
 namespace palpate::gui {
 
 struct OpenedRecording {
-  // Longer ones (an hour and three quarters of a hand) aren't read through before they are shown, nor are those whose
-  // matrices make as much of fewer frames: a file may claim 64 matrices or 65,536 places.
+  // Longer ones (an hour and three quarters of a hand) aren't read through before they are shown,
+  // nor are those whose matrices make as much of fewer frames: a file may claim 64 matrices or
+  // 65,536 places.
   static constexpr std::size_t kLongFrom = 200'000;           // frames
   static constexpr std::size_t kLongFromRows = 1'600'000;     // frames x (matrices + 1)
   static constexpr std::size_t kLongFromPlaces = 97'200'000;  // frames x places
@@ -47,7 +48,8 @@ struct OpenedRecording {
   std::shared_ptr<SignalOverview> overview;
 
   bool isLong() const noexcept { return overview != nullptr; }
-  // What only a pass over all frames tells; of a long one first an estimate. Nothing: not known yet.
+  // What only a pass over all frames tells; of a long one first an estimate. Nothing: not known
+  // yet.
   const TimingReport& timingNow() const;
   std::optional<double> maximumNow() const;
   std::optional<std::size_t> saturatedFramesNow() const;

@@ -36,7 +36,8 @@ RecordingNameFields fieldsOf(const RecordingSettings& recording, std::int64_t no
   return {nowUs, recording.operatorName.toStdString(), recording.object.toStdString()};
 }
 
-// Throws Error unless recordings can be put into `folder`, made where it isn't there. True: it isn't.
+// Throws Error unless recordings can be put into `folder`, made where it isn't there. True: it
+// isn't.
 bool checkFolder(const fs::path& folder) {
   if (folder.empty()) throw Error("choose a folder for recordings");
   if (!folder.is_absolute())

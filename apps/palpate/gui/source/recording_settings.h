@@ -26,16 +26,17 @@ struct RecordingSettings {
 // "Palpate recordings" in the user's folder of documents; isn't made before it is needed.
 QString defaultRecordingsFolder();
 
-// What was typed or chosen as a folder, as a whole path where it tells one: "~/runs/" is "/home/me/runs".
+// What was typed or chosen as a folder, as a whole path where it tells one: "~/runs/" is
+// "/home/me/runs".
 QString folderFromText(const QString& typed);
 
 // A settings file never stops the program: what makes no sense there is replaced by the defaults.
 RecordingSettings loadRecordingSettings(const QSettings& settings);
 void saveRecordingSettings(const RecordingSettings& recording, QSettings& settings);
 
-// The path of the next recording, which nothing has; makes the folder if it isn't there. `nowUs` is host
-// time [us since 1970]. Throws Error, whose message is fit for the operator: no such placeholder, the
-// folder can't be made or written.
+// The path of the next recording, which nothing has; makes the folder if it isn't there. `nowUs` is
+// host time [us since 1970]. Throws Error, whose message is fit for the operator: no such
+// placeholder, the folder can't be made or written.
 std::filesystem::path nextPath(const RecordingSettings& recording, std::int64_t nowUs);
 
 // The same without making anything, for a preview.

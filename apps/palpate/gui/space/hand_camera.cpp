@@ -139,8 +139,8 @@ void HandCamera::zoom(double factor, const QPointF& at, const QSizeF& size) {
   const double scale = hasArea(size) ? pxPerMm(size.height()) : 0.0;
   distanceMm = std::clamp(before / factor, kNearestMm, kFurthestMm);
   if (!(scale > 0.0) || !std::isfinite(at.x()) || !std::isfinite(at.y())) return;
-  // The point of the target's plane under the mouse keeps its place when its offset from the target shrinks as the
-  // distance does.
+  // The point of the target's plane under the mouse keeps its place when its offset from the target
+  // shrinks as the distance does.
   const Eigen::Matrix3d axes = axesOf(*this);
   const Eigen::Vector3d offsetMm =
       (axes.row(0) * (at.x() - 0.5 * size.width()) - axes.row(1) * (at.y() - 0.5 * size.height()))
@@ -150,10 +150,11 @@ void HandCamera::zoom(double factor, const QPointF& at, const QSizeF& size) {
   *this = inRange();
 }
 
-// In the eye's axes (x right, y up, z towards it) an eye at (cx, cy, ez) has a point (x, y, z) in its picture when
+// In the eye's axes (x right, y up, z towards it) an eye at (cx, cy, ez) has a point (x, y, z) in
+// its picture when
 //   |x - cx| <= t (ez - z), t = tangent of half the angle of view sideways;  the same for y.
-// So t ez + cx >= max(x + t z) and t ez - cx >= max(t z - x): the smallest ez, and cx in the middle, follow from the two
-// maxima, for x and for y by itself; the larger ez serves both.
+// So t ez + cx >= max(x + t z) and t ez - cx >= max(t z - x): the smallest ez, and cx in the
+// middle, follow from the two maxima, for x and for y by itself; the larger ez serves both.
 void HandCamera::fit(const std::vector<Eigen::Vector3d>& pointsMm, double aspect) {
   *this = inRange();
   const double sideways = std::isfinite(aspect) && aspect > 0.0 ? aspect : 1.0;

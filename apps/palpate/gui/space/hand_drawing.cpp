@@ -310,7 +310,8 @@ void HandDrawing::addTaxels(HandScene& scene, const HandLook& look) const {
                  scanned ? color : colors.maskedLine.rgb());
       if (!scanned || !active) return;
     }
-    // What is at rest is part of the hand and lit like it; a value has the colour of the colour bar.
+    // What is at rest is part of the hand and lit like it; a value has the colour of the colour
+    // bar.
     addQuad(scene.solid,
             shrunk(patch, kCellShare, kCellLiftMm),
             active ? Vector3f(Vector3f::Zero()) : patch.normal,

@@ -1,5 +1,5 @@
-// Fills the scene of a hand in space: bodies in their pose, taxels with their values, and what was computed of the
-// contact. Keeps what doesn't change.
+// Fills the scene of a hand in space: bodies in their pose, taxels with their values, and what was
+// computed of the contact. Keeps what doesn't change.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,5 @@
-// Where a view of the hand is drawn with OpenGL. Only draws: what, and what the mouse means, is its owner's affair.
+// Where a view of the hand is drawn with OpenGL. Only draws: what, and what the mouse means, is its
+// owner's affair.
 #pragma once
 
 #include <QOpenGLWidget>

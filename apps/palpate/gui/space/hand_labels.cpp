@@ -1,5 +1,5 @@
-// The words of a scene: beside the place they name, each where no other word is yet, with a rim in the colour of the
-// ground so that they are read on any surface.
+// The words of a scene: beside the place they name, each where no other word is yet, with a rim in
+// the colour of the ground so that they are read on any surface.
 #include <QFontMetricsF>
 #include <QPainter>
 #include <QPainterPath>

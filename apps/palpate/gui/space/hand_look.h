@@ -13,7 +13,8 @@
 
 namespace palpate::gui {
 
-// The taxels: on the hand or laid flat side by side, as their surface, as bars along the normal, as points.
+// The taxels: on the hand or laid flat side by side, as their surface, as bars along the normal, as
+// points.
 enum class TaxelShape { kCells, kBars, kPoints, kFlatCells, kFlatBars };
 inline constexpr std::array kAllTaxelShapes = {TaxelShape::kCells,
                                                TaxelShape::kBars,

@@ -102,7 +102,8 @@ SurfaceLine lineOf(const GeometryDescription& hand, const HandPose& pose, std::s
   return line;
 }
 
-// Seen from the side: joint at -lengthMm, the next joint or the tip at 0, the sensor's surface on top.
+// Seen from the side: joint at -lengthMm, the next joint or the tip at 0, the sensor's surface on
+// top.
 std::vector<Vector2d> linkOutline(const std::optional<SurfaceLine>& surface,
                                   double lengthMm,
                                   bool tip) {

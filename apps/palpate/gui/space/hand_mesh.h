@@ -1,5 +1,5 @@
-// The bodies of a hand as simple shapes made from its geometry: palm, knuckles, links that carry their sensor surface.
-// No third-party mesh: another hand is another GeometryDescription.
+// The bodies of a hand as simple shapes made from its geometry: palm, knuckles, links that carry
+// their sensor surface. No third-party mesh: another hand is another GeometryDescription.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,8 @@ struct HandBody {
 
 std::vector<HandBody> handBodies(const HandGeometry& geometry);
 
-// A convex outline (counter-clockwise, x right, y up), drawn out from zMin to zMax, its rims cut by `chamferMm`.
+// A convex outline (counter-clockwise, x right, y up), drawn out from zMin to zMax, its rims cut by
+// `chamferMm`.
 void appendExtrusion(HandBody& body,
                      const std::vector<Eigen::Vector2d>& outlineMm,
                      double zMinMm,

@@ -1,4 +1,5 @@
-// The hand in space with its controls: how taxels are drawn, which sphere, which matrix alone, what else is seen.
+// The hand in space with its controls: how taxels are drawn, which sphere, which matrix alone, what
+// else is seen.
 #pragma once
 
 #include <QWidget>

@@ -1,5 +1,5 @@
-// The hand in space as a picture: the scene, and over it title, colour bar, scale and what there is to say. Used by the
-// window, by exported files and by `palpate render --view hand`.
+// The hand in space as a picture: the scene, and over it title, colour bar, scale and what there is
+// to say. Used by the window, by exported files and by `palpate render --view hand`.
 #pragma once
 
 #include <QRectF>
@@ -37,7 +37,8 @@ void paintHandPicture(QPainter& painter,
 
 // "enclosing sphere 65.9 mm across"; empty: there is none.
 QString sphereText(const HandDrawing& drawing, SphereOf of);
-// What a user should know about the pose that is shown; empty: all is well. `assumed`: the angles aren't the recording's.
+// What a user should know about the pose that is shown; empty: all is well. `assumed`: the angles
+// aren't the recording's.
 QString poseNotice(const HandDrawing& drawing, bool assumed);
 
 }  // namespace palpate::gui

@@ -14,7 +14,8 @@ namespace palpate::gui {
 
 namespace {
 
-// Four in sixteenths of a pixel, no two in a row or column: where OpenGL drivers put them (y down here).
+// Four in sixteenths of a pixel, no two in a row or column: where OpenGL drivers put them (y down
+// here).
 constexpr std::array<std::array<int, 2>, 4> kFour = {{{-2, 6}, {6, 2}, {-6, -2}, {2, -6}}};
 
 std::vector<SamplePlaces> handRasterPlacesOf(RasterQuality quality) {

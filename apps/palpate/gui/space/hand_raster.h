@@ -1,5 +1,6 @@
-// Draws a hand in space without OpenGL: where there is none (--no-gl, no driver), for pictures of any size and for
-// pictures that are compared. The same scene gives the same pixels, whatever the machine.
+// Draws a hand in space without OpenGL: where there is none (--no-gl, no driver), for pictures of
+// any size and for pictures that are compared. The same scene gives the same pixels, whatever the
+// machine.
 #pragma once
 
 #include <QImage>
@@ -27,9 +28,10 @@ class HandRaster {
   HandRaster(const HandRaster&) = delete;
   HandRaster& operator=(const HandRaster&) = delete;
 
-  // The scene without its labels, opaque, Format_RGB32, of size * pixelRatio pixels (rounded, at least 1) and with that
-  // device pixel ratio. Triangles with a vertex that isn't a number are left out. A null image: no size, or no
-  // memory for it. Throws Cancelled when `progress` says so; else valid until the next draw.
+  // The scene without its labels, opaque, Format_RGB32, of size * pixelRatio pixels (rounded, at
+  // least 1) and with that device pixel ratio. Triangles with a vertex that isn't a number are left
+  // out. A null image: no size, or no memory for it. Throws Cancelled when `progress` says so; else
+  // valid until the next draw.
   const QImage& draw(const HandScene& scene,
                      const HandCamera& camera,
                      const QSizeF& size,

@@ -40,8 +40,8 @@ class Eye {
   }
   bool inFront(const Eigen::Vector3d& inEye) const { return -inEye.z() >= nearMm_; }
   double nearMm() const { return nearMm_; }
-  // Of something that reaches `px` to all sides: nearer to the eye by that much and one pixel more, so that it stands
-  // clear of a surface of up to 45 degrees that it lies on.
+  // Of something that reaches `px` to all sides: nearer to the eye by that much and one pixel more,
+  // so that it stands clear of a surface of up to 45 degrees that it lies on.
   Eigen::Vector3d nearer(const Eigen::Vector3d& inEye, double px) const {
     return inEye * (1.0 - std::min(kMostNearer, (px + 1.0) * mmPerPxAndMm_));
   }

@@ -1,5 +1,6 @@
-// What is to be seen of a hand in space, ready to draw: triangles, lines and points in the hand's base frame [mm], and
-// how they are lit. Both ways to draw it (hand_raster.h without OpenGL, hand_gl.h with it) give the same picture.
+// What is to be seen of a hand in space, ready to draw: triangles, lines and points in the hand's
+// base frame [mm], and how they are lit. Both ways to draw it (hand_raster.h without OpenGL,
+// hand_gl.h with it) give the same picture.
 #pragma once
 
 #include <QColor>
@@ -50,7 +51,7 @@ struct HandScene {
   std::vector<SceneVertex> solid;
   // the same, transparent: after what is solid, seen from both sides
   std::vector<SceneVertex> clear;
-  std::vector<SceneLine> lines;  // hidden by what is solid
+  std::vector<SceneLine> lines;    // hidden by what is solid
   std::vector<ScenePoint> points;  // the same
   std::vector<SceneLabel> labels;
   QRgb background = 0;
@@ -66,8 +67,8 @@ inline constexpr float kDiffuse = 0.66F;
 inline const Eigen::Vector3f kTowardsLight = Eigen::Vector3f(-0.35F, 0.55F, 0.76F).normalized();
 QRgb litColor(QRgb color, const Eigen::Vector3f& normal, const Eigen::Matrix3f& eyeFromBase);
 
-// Lines and points as triangles that face the eye, in clip space, three vertices each: how both ways draw them.
-// A little nearer than they are, so that what lies on a surface isn't hidden by it.
+// Lines and points as triangles that face the eye, in clip space, three vertices each: how both
+// ways draw them. A little nearer than they are, so that what lies on a surface isn't hidden by it.
 struct ClipVertex {
   std::array<float, 4> clip{};
   QRgb color = 0;

@@ -80,8 +80,8 @@ void HandTile::draw(const RasterTriangle& triangle,
   }
 }
 
-// Edge functions are computed from the tile's corner and the pixel's number in it, never stepwise: that keeps the two
-// triangles at an edge exactly opposite.
+// Edge functions are computed from the tile's corner and the pixel's number in it, never stepwise:
+// that keeps the two triangles at an edge exactly opposite.
 template <Paint paint, bool kShaded>
 void HandTile::fill(const RasterTriangle& triangle,
                     const RasterShade* shade,

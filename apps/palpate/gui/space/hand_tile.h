@@ -1,9 +1,9 @@
-// A square piece of a picture while triangles are drawn into it, four samples a pixel with their depth: small enough to
-// stay in the processor's nearest memory. Private to hand_raster.cpp.
+// A square piece of a picture while triangles are drawn into it, four samples a pixel with their
+// depth: small enough to stay in the processor's nearest memory. Private to hand_raster.cpp.
 //
-// A pixel's four samples are one vector. A triangle covers a sample when its three edge functions are positive there
-// (J. Pineda, A parallel algorithm for polygon rasterization, SIGGRAPH 1988). Nearer is the larger 1 / w, which is linear
-// in the picture.
+// A pixel's four samples are one vector. A triangle covers a sample when its three edge functions
+// are positive there (J. Pineda, A parallel algorithm for polygon rasterization, SIGGRAPH 1988).
+// Nearer is the larger 1 / w, which is linear in the picture.
 #pragma once
 
 #include <QRgb>
@@ -33,8 +33,9 @@ enum class Paint : std::uint8_t {
 
 // Of pixels: x right, y down, from the picture's top left corner.
 struct RasterTriangle {
-  // a x + b y + c: positive inside. Of an edge that two triangles share, both have exactly the same numbers with the
-  // opposite sign, and only one counts what lies on the line (least = below 0): no sample is drawn twice or left out.
+  // a x + b y + c: positive inside. Of an edge that two triangles share, both have exactly the same
+  // numbers with the opposite sign, and only one counts what lies on the line (least = below 0): no
+  // sample is drawn twice or left out.
   struct Edge {
     float a = 0.0F, b = 0.0F;
     float least = 0.0F;
@@ -55,8 +56,8 @@ struct RasterShade {
   Float4 least{},
       most{};  // of the three vertices: a pixel's middle may lie outside of the triangle
   float middleX = 0.0F, middleY = 0.0F;
-  // The colour is linear in space, so what is linear in the picture is colour / w: the three above are of that. False:
-  // they are of the colour itself, where w hardly changes.
+  // The colour is linear in space, so what is linear in the picture is colour / w: the three above
+  // are of that. False: they are of the colour itself, where w hardly changes.
   bool overDepth = false;
 };
 
@@ -75,8 +76,8 @@ class HandTile {
   void draw(const RasterTriangle& triangle,
             const std::vector<RasterShade>& shades,
             const SamplePlaces& samples);
-  // The mean of the four samples into each pixel; when there are several passes with other sample places, add() each
-  // of them and then take the mean of all.
+  // The mean of the four samples into each pixel; when there are several passes with other sample
+  // places, add() each of them and then take the mean of all.
   void writeMean(QRgb* pixels, std::ptrdiff_t stride, int width, int height) const;
   void clearSums();
   void add();

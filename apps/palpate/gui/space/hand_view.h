@@ -1,5 +1,5 @@
-// The hand in space as a widget: with OpenGL where it can be had, painted without else. Turned by dragging; taxels are
-// chosen with Ctrl. Draws only when something has changed.
+// The hand in space as a widget: with OpenGL where it can be had, painted without else. Turned by
+// dragging; taxels are chosen with Ctrl. Draws only when something has changed.
 #pragma once
 
 #include <QPoint>
@@ -26,7 +26,8 @@ class HandView : public QWidget {
  public:
   explicit HandView(QWidget* parent = nullptr);
 
-  // From now on with OpenGL; for those who know that it can be had (gl_probe.h). Back to painting if it fails.
+  // From now on with OpenGL; for those who know that it can be had (gl_probe.h). Back to painting
+  // if it fails.
   void useOpenGl();
 
   // Another hand; the camera goes back to where it shows all of it.

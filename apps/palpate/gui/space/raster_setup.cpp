@@ -8,10 +8,11 @@ namespace palpate::gui {
 
 namespace {
 
-// So many times as far from the middle as the edge of the picture, a triangle is cut: further out its edges would be
-// computed too coarsely.
+// So many times as far from the middle as the edge of the picture, a triangle is cut: further out
+// its edges would be computed too coarsely.
 constexpr float kGuard = 8.0F;
-// Up to this ratio of depths the colour is taken as linear in the picture: at most one level of 255 off.
+// Up to this ratio of depths the colour is taken as linear in the picture: at most one level of 255
+// off.
 constexpr double kSameDepth = 1.015;
 
 Float4 channels(QRgb color) {
@@ -161,8 +162,8 @@ void RasterSetup::addWhole(const std::array<Corner, 3>& corners,
     addOnScreen(corners[0], corners[1], corners[2], flat, side, paint);
 }
 
-// I. Sutherland and G. Hodgman, Reentrant polygon clipping, CACM 17 (1974). A new corner is always computed from the one
-// inside: the neighbour at the cut edge gets the same.
+// I. Sutherland and G. Hodgman, Reentrant polygon clipping, CACM 17 (1974). A new corner is always
+// computed from the one inside: the neighbour at the cut edge gets the same.
 void RasterSetup::cutAndAdd(const std::array<Corner, 3>& corners,
                             bool flat,
                             Side side,

@@ -1,5 +1,5 @@
-// From the triangles of a scene to triangles in pixels: projected, lit, cut at the edges of what is seen. Private to
-// hand_raster.cpp.
+// From the triangles of a scene to triangles in pixels: projected, lit, cut at the edges of what is
+// seen. Private to hand_raster.cpp.
 #pragma once
 
 #include <QSize>

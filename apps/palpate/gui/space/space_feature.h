@@ -1,5 +1,5 @@
-// The hand in space, beside the heat maps: what it shows of the moment, how it looks, one selection and one range of colours
-// with them.
+// The hand in space, beside the heat maps: what it shows of the moment, how it looks, one selection
+// and one range of colours with them.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,5 @@
-// Where each taxel lies in space: on the hand, or with all matrices laid flat side by side like the heat maps.
+// Where each taxel lies in space: on the hand, or with all matrices laid flat side by side like the
+// heat maps.
 #pragma once
 
 #include <array>
@@ -22,7 +23,8 @@ struct TaxelPatch {
 // One per place, matrix after matrix, row by row, as in a frame.
 using TaxelPatches = std::vector<TaxelPatch>;
 void patchesOnHand(const HandPose& pose, const SensorLayout& layout, TaxelPatches& out);
-// Matrices as HandDescription::pictureColumn and pictureRow say, x right, y up, around the origin, facing z.
+// Matrices as HandDescription::pictureColumn and pictureRow say, x right, y up, around the origin,
+// facing z.
 void patchesLaidFlat(const HandDescription& hand, TaxelPatches& out);
 
 }  // namespace palpate::gui

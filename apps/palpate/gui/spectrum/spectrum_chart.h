@@ -1,6 +1,6 @@
-// A signal over time, and below it its spectra: time to the right, frequency upwards to Nyquist's, which is named
-// with all that can't be seen. Same cursor as the timeline; a click or drag seeks, the wheel zooms, a double click
-// shows everything.
+// A signal over time, and below it its spectra: time to the right, frequency upwards to Nyquist's,
+// which is named with all that can't be seen. Same cursor as the timeline; a click or drag seeks,
+// the wheel zooms, a double click shows everything.
 #pragma once
 
 #include <QString>
@@ -19,7 +19,8 @@ inline constexpr std::array kAllSpectrumScales = {SpectrumScale::kDecibels,
                                                   SpectrumScale::kMagnitude};
 QString nameOf(SpectrumScale scale);  // "PSD in dB", "magnitude"
 
-// What can't be seen, and what was done to the samples; the first of several lengths is the longest.
+// What can't be seen, and what was done to the samples; the first of several lengths is the
+// longest.
 std::vector<QString> spectrumNotes(const SpectrumReport& report, const SpectrumOptions& options);
 
 class SpectrumChart : public QCustomPlot {

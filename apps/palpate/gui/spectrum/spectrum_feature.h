@@ -1,4 +1,5 @@
-// The dock Spectrum: of the chosen taxels of the recording that is looked at, on the timeline's axis of time.
+// The dock Spectrum: of the chosen taxels of the recording that is looked at, on the timeline's
+// axis of time.
 #pragma once
 
 #include "gui/bench/feature.h"

@@ -1,5 +1,5 @@
-// The Spectrum dock: the signal of the chosen taxels (their mean; of the strongest taxel while none is chosen) and
-// its spectra over time. It computes only while it is seen.
+// The Spectrum dock: the signal of the chosen taxels (their mean; of the strongest taxel while none
+// is chosen) and its spectra over time. It computes only while it is seen.
 #pragma once
 
 #include <QSettings>

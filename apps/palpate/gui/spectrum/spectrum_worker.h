@@ -1,4 +1,5 @@
-// Spectra of a recording, computed beside the window, and given up as soon as something else is asked for.
+// Spectra of a recording, computed beside the window, and given up as soon as something else is
+// asked for.
 #pragma once
 
 #include <QObject>
@@ -18,7 +19,8 @@ struct SpectrumQuestion {
   OpenedRecordingPtr recording = nullptr;  // never null
   TaxelSelection taxels = {};              // empty: the strongest one
   SpectrogramOptions options = {};
-  // What is seen [s from the first frame]. Where the whole recording fits the options, all of it is computed.
+  // What is seen [s from the first frame]. Where the whole recording fits the options, all of it is
+  // computed.
   double fromS = 0.0;
   double toS = 0.0;
 };

@@ -1,5 +1,5 @@
-// Rows below the timeline, one for each sort of event: bars over the span they lie in. A click chooses one, its ends
-// can be dragged, a double click names it; arrows go from one to the next.
+// Rows below the timeline, one for each sort of event: bars over the span they lie in. A click
+// chooses one, its ends can be dragged, a double click names it; arrows go from one to the next.
 #pragma once
 
 #include <QWidget>
@@ -27,7 +27,8 @@ class EventRows : public QWidget {
   void setTheme(Theme theme);
   std::optional<std::size_t> chosen() const noexcept { return chosen_; }
   void choose(std::optional<std::size_t> mark);
-  // The next (or the one before) in time of the row of the chosen one; of the first row where none is chosen.
+  // The next (or the one before) in time of the row of the chosen one; of the first row where none
+  // is chosen.
   void chooseNext(int step);
   // A field over the bar; textChanged() when it is left by Enter.
   void editText(std::size_t mark);

@@ -1,5 +1,5 @@
-// The chart of a live source: chosen signals of the last seconds, rolling; gaps shaded, marks and grasps as lines.
-// The wheel changes how many seconds are seen.
+// The chart of a live source: chosen signals of the last seconds, rolling; gaps shaded, marks and
+// grasps as lines. The wheel changes how many seconds are seen.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,8 @@ class LiveChart : public QCustomPlot {
 
   explicit LiveChart(QWidget* parent = nullptr);
 
-  // Another source, with so many matrices; null: nothing. Must outlive this, or be taken away before.
+  // Another source, with so many matrices; null: nothing. Must outlive this, or be taken away
+  // before.
   void setHistory(const SignalHistory* history, std::size_t numMatrices);
   void setSignal(PlottedSignal signal);
   // Per matrix and, last, the whole hand.

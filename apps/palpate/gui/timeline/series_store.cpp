@@ -78,7 +78,8 @@ void SeriesStore::setRecording(const OpenedRecordingPtr& recording) {
     try {
       overview->compute([&](double) { return !*stop; });
     } catch (const std::exception&) {
-      // Cancelled, or a damaged block: what is ready stays; the frame itself will say what is wrong.
+      // Cancelled, or a damaged block: what is ready stays; the frame itself will say what is
+      // wrong.
     }
     --numJobs_;
     QMetaObject::invokeMethod(this, &SeriesStore::changed, Qt::QueuedConnection);
@@ -282,7 +283,8 @@ const BucketSeries* SeriesStore::bucketsOf(const Entry& entry) const {
   return &recording_->overview->of(entry.choice.index, entry.choice.signal);
 }
 
-// A line isn't drawn over a gap: where the samples are further apart than a gap of the frames is long.
+// A line isn't drawn over a gap: where the samples are further apart than a gap of the frames is
+// long.
 std::vector<std::size_t> SeriesStore::breaksIn(const std::vector<double>& timeS) const {
   std::vector<std::size_t> breaks;
   for (const Gap& gap : recording_->timingNow().gaps) {

@@ -1,7 +1,7 @@
-// The curves of a recording as data: reads what a chart asks for beside the window, keeps it, and thins it for the
-// width that is there. Short recordings are kept sample by sample. Of long ones there are, in this order: some
-// samples spread evenly (at once), the extremes of every second (as they are read), and every sample of what is seen
-// as soon as that isn't too much.
+// The curves of a recording as data: reads what a chart asks for beside the window, keeps it, and
+// thins it for the width that is there. Short recordings are kept sample by sample. Of long ones
+// there are, in this order: some samples spread evenly (at once), the extremes of every second (as
+// they are read), and every sample of what is seen as soon as that isn't too much.
 #pragma once
 
 #include <QObject>
@@ -38,7 +38,8 @@ class SeriesStore : public QObject {
                                   const DecimationOptions& options) const;
   // The value at a time: the last sample at or before it; nothing where none is (or in a gap).
   std::optional<double> valueAt(const SeriesChoice& choice, double timeS) const;
-  // Every sample, where the recording is short; else what is seen, once it is read. Null: not there.
+  // Every sample, where the recording is short; else what is seen, once it is read. Null: not
+  // there.
   std::shared_ptr<const Series> samples(const SeriesChoice& choice) const;
   // Largest and smallest of what is there, of the whole recording.
   std::optional<std::pair<double, double>> extremes(const SeriesChoice& choice) const;
@@ -46,7 +47,8 @@ class SeriesStore : public QObject {
   // Part of the recording that has been read for what is plotted; 1: all of it.
   double progress() const;
   bool busy() const { return progress() < 1.0 || numJobs_ > 0; }
-  // For tests and pictures: waits for all that has been asked for, or only for the first look at it.
+  // For tests and pictures: waits for all that has been asked for, or only for the first look at
+  // it.
   void waitUntilRead();
   void waitForFirstLook();
 

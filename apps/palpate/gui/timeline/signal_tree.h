@@ -1,5 +1,5 @@
-// Which curves the timeline shows beside those of the matrices: the chosen taxels, named groups, joint angles,
-// temperatures. A list with ticks that stays open while several are ticked.
+// Which curves the timeline shows beside those of the matrices: the chosen taxels, named groups,
+// joint angles, temperatures. A list with ticks that stays open while several are ticked.
 #pragma once
 
 #include <QFrame>

@@ -25,7 +25,8 @@ class TaxelGroups : public QObject {
     TaxelSelection taxels;
   };
   std::vector<Group> of(const SensorLayout& layout) const;
-  // Under a name that is there already: replaces it. False: an empty name, no taxel, or too many groups.
+  // Under a name that is there already: replaces it. False: an empty name, no taxel, or too many
+  // groups.
   bool keep(const QString& name, const TaxelSelection& taxels);
   bool rename(const QString& from, const QString& to);
   void forget(const QString& name);

@@ -1,6 +1,7 @@
-// The chart of a recording: chosen curves over time, an axis for each unit, gaps shaded, a cursor that moves without
-// redrawing them, and a selection with handles. A click seeks, a drag selects, a drag along the axis scrubs; the wheel
-// zooms, the middle button (or Shift) pans, a double click shows everything.
+// The chart of a recording: chosen curves over time, an axis for each unit, gaps shaded, a cursor
+// that moves without redrawing them, and a selection with handles. A click seeks, a drag selects, a
+// drag along the axis scrubs; the wheel zooms, the middle button (or Shift) pans, a double click
+// shows everything.
 #pragma once
 
 #include <map>
@@ -26,7 +27,8 @@ class TimelineChart : public QCustomPlot {
   void setCurves(const std::vector<PlottedCurve>& curves);
   const std::vector<PlottedCurve>& curves() const noexcept { return curves_; }
   SeriesStore& store() noexcept { return store_; }
-  // The same recording as it was before filters: its curves stand faintly behind. Null, or a long one: none.
+  // The same recording as it was before filters: its curves stand faintly behind. Null, or a long
+  // one: none.
   void setBefore(const OpenedRecordingPtr& before);
   SeriesStore& storeBefore() noexcept { return before_; }
   void setTheme(Theme theme);

@@ -1,4 +1,5 @@
-// The dock Timeline: curves over time of a recording or of what is live, which part is selected and in sight, what is cut from it.
+// The dock Timeline: curves over time of a recording or of what is live, which part is selected and
+// in sight, what is cut from it.
 #pragma once
 
 #include <QStackedWidget>

@@ -1,5 +1,5 @@
-// The header of the timeline: which signal of the matrices is plotted, what else is, a legend in the colours and strokes
-// of the curves, and what can be done with the part that is selected.
+// The header of the timeline: which signal of the matrices is plotted, what else is, a legend in
+// the colours and strokes of the curves, and what can be done with the part that is selected.
 #pragma once
 
 #include <QPen>

@@ -1,5 +1,6 @@
-// A page of the dock Calibrate, or the dock Slip: something that is computed of a recording beside the window, only while the page is
-// seen, with progress and a way to give it up; and what stands there when there is nothing to show.
+// A page of the dock Calibrate, or the dock Slip: something that is computed of a recording beside
+// the window, only while the page is seen, with progress and a way to give it up; and what stands
+// there when there is nothing to show.
 #pragma once
 
 #include <QWidget>
@@ -58,9 +59,11 @@ class ComputedPage : public QWidget {
   void setContent(QWidget* content);
   QWidget* content() const noexcept { return content_; }
 
-  // What is computed is of the recording that is shown; else of something that the page asks for itself.
+  // What is computed is of the recording that is shown; else of something that the page asks for
+  // itself.
   virtual bool ofRecording() const { return true; }
-  // Why there is nothing to ask about now; empty: there is. By default a recording with frames is needed.
+  // Why there is nothing to ask about now; empty: there is. By default a recording with frames is
+  // needed.
   virtual QString whyNot() const;
   // Begins the work, by run().
   virtual void compute() = 0;

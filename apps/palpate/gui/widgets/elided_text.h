@@ -1,4 +1,5 @@
-// A text in a label that has less room than it needs: its middle gives way, and the tooltip has all of it.
+// A text in a label that has less room than it needs: its middle gives way, and the tooltip has all
+// of it.
 #pragma once
 
 #include <QString>

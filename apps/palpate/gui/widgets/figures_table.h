@@ -1,4 +1,5 @@
-// A small table of figures: right-aligned, below each one its interval or what else belongs to it, in a quieter colour.
+// A small table of figures: right-aligned, below each one its interval or what else belongs to it,
+// in a quieter colour.
 #pragma once
 
 #include <QIcon>

@@ -1,5 +1,6 @@
-// Fields to type a number into. What is typed is never mutilated: a comma is a point, a number out of
-// range is taken as the nearest in range, anything else as no change. Enter takes it, Escape doesn't.
+// Fields to type a number into. What is typed is never mutilated: a comma is a point, a number out
+// of range is taken as the nearest in range, anything else as no change. Enter takes it, Escape
+// doesn't.
 #pragma once
 
 #include <QDoubleSpinBox>

@@ -1,5 +1,5 @@
-// A calm line inside the window that offers something: "Recorded run_003.palpate: 412 frames [Open]". It blocks
-// nothing and can be closed.
+// A calm line inside the window that offers something: "Recorded run_003.palpate: 412 frames
+// [Open]". It blocks nothing and can be closed.
 #pragma once
 
 #include <QWidget>
@@ -17,8 +17,8 @@ class OfferStrip : public QWidget {
   Q_OBJECT
  public:
   explicit OfferStrip(QWidget* parent = nullptr);
-  // Replaces what was offered before. `accept` is called once; `decline` (may be empty) when the line is closed
-  // by its button without it.
+  // Replaces what was offered before. `accept` is called once; `decline` (may be empty) when the
+  // line is closed by its button without it.
   void offer(const QString& text,
              const QString& button,
              std::function<void()> accept,

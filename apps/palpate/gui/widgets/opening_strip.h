@@ -1,5 +1,5 @@
-// Progress of opening a recording (or writing one, or pictures), with a way to cancel it. It appears only when
-// that takes long enough to be noticed.
+// Progress of opening a recording (or writing one, or pictures), with a way to cancel it. It
+// appears only when that takes long enough to be noticed.
 #pragma once
 
 #include <QTimer>

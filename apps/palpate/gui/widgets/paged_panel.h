@@ -1,5 +1,5 @@
-// The content of a dock that shows one page at a time. The chooser of pages stands in the dock's title row; the page that was
-// seen last is shown again.
+// The content of a dock that shows one page at a time. The chooser of pages stands in the dock's
+// title row; the page that was seen last is shown again.
 #pragma once
 
 #include <QSettings>

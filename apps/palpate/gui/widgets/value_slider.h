@@ -1,5 +1,5 @@
-// A slider and a field that show the same number. It is chosen when the slider is let go or the field is left:
-// what is on the way isn't sent to a hand.
+// A slider and a field that show the same number. It is chosen when the slider is let go or the
+// field is left: what is on the way isn't sent to a hand.
 #pragma once
 
 #include <QWidget>
