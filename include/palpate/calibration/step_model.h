@@ -1,8 +1,8 @@
 // Step response of the sensor: a second order lag (PT2 element) with linear drift, as the study
 // models a taxel under a load that appears at t = 0 and stays (3.1; misprints corrected):
 //   a(t) = K phi(t) + m t
-//   d > 1:  phi = 1 - (T1 e^(-t/T1) - T2 e^(-t/T2)) / (T1 - T2),   T1,2 = T / (d -+ sqrt(d^2 - 1)),
-//           T1 >= T2
+//   d > 1:  phi = 1 - (T1 e^(-t/T1) - T2 e^(-t/T2)) / (T1 - T2),
+//           T1,2 = T / (d -+ sqrt(d^2 - 1)),   T1 >= T2
 //   d = 1:  phi = 1 - (1 + t/T) e^(-t/T)
 //   d < 1:  phi = 1 - e^(-d t/T) (cos wt + d/(w T) sin wt),         w = sqrt(1 - d^2) / T
 // T and d alone are badly determined when T2 is far below the frame period: compare fits by K, m,

@@ -1,9 +1,11 @@
 // Names of recordings from a template: "{date}_{object}_{run}" becomes
 // "2014-11-27_foam_ball_003.palpate".
 //
-//   {date} 2014-11-27 and {time} 10-31-05, local time of the machine; {operator}, {object} as
-//   typed;
-//   {run} the next free number in the folder, at least three digits
+//   {date}      2014-11-27, local time of the machine
+//   {time}      10-31-05, local time of the machine
+//   {operator}  as typed
+//   {object}    as typed
+//   {run}       the next free number in the folder, at least three digits
 //
 // Whatever people type, the name is one valid file name: a name can't leave its folder, be hidden,
 // be an option, or bend a terminal's line. Blanks become "_", as in class folders.

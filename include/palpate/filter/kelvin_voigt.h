@@ -1,7 +1,7 @@
 // The Kelvin-Voigt model of a tactile signal and its Kalman filter (study 2.1.2, eq. 2.1): a mass m
 // on a spring E and a damper eta, pushed by a force nobody knows.
-//   m y'' = F - eta y' - E y,   state x = (y, y'): x' = A x + (0, F/m),  A = [0 1; -E/m -eta/m],
-//                               z = y + v
+//   m y'' = F - eta y' - E y,   state x = (y, y'): x' = A x + (0, F/m),
+//   A = [0 1; -E/m -eta/m],   z = y + v
 // y is the signal [counts], y' its speed [counts/s]. F is white noise of spectral density S, v has
 // variance r. Only E/m, eta/m and S/m^2 can be seen in a signal: a force has no unit here.
 //

@@ -1,8 +1,8 @@
 // A recipe: a chain of filters that runs the same live, on recordings and on the command line. As
 // text its steps are joined by " | "; as a file it is JSON:
 //   {"format": "palpate-recipe", "version": 1, "name": "..", "made_by": "palpate 0.1",
-//    "steps": [{"filter": "median", "size": 3, "masked": true, "matrices": [1, 3], "enabled":
-//    true}, ..]}
+//    "steps": [{"filter": "median", "size": 3, "masked": true, "matrices": [1, 3],
+//               "enabled": true}, ..]}
 #pragma once
 
 #include <filesystem>

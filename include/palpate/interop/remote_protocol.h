@@ -1,9 +1,9 @@
 // The language of remote control: a line of text asks, a line of JSON answers. No sockets here.
 //
-//   start run 7.palpate            {"ok":true,"command":"start","file":"/home/ada/runs/run
-//                                  7.palpate","frames_on_disk":2}
-//   label contact {"ok":false,"command":"label","error":"not_recording","message":"nothing
-//                                  is being .."}
+//   request: start run 7.palpate
+//   answer:  {"ok":true,"command":"start","file":"/home/ada/runs/run 7.palpate","frames_on_disk":2}
+//   request: label contact
+//   answer:  {"ok":false,"command":"label","error":"not_recording","message":"nothing is being .."}
 //
 // A request is a verb and, behind blanks, its text up to the end of the line (LF, CR LF too):
 // UTF-8, at most kMostRequestBytes. docs/interop.md is the manual.

@@ -3,9 +3,8 @@
 //           DSACON32-M's wire)
 //   floats: pairs (u8 run 1..255, f32 value little-endian)
 //   filtered: a bit per value, the least significant first, 1: the value counts
-//   (TactileFrame::values), 0: it is only
-//           in TactileFrame::filtered, where nothing was active as recorded; unused bits 0; then
-//           all values as floats
+//             (TactileFrame::values), 0: it is only in TactileFrame::filtered, where nothing was
+//             active as recorded; unused bits 0; then all values as floats
 #pragma once
 
 #include <cstddef>

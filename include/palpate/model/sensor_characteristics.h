@@ -43,8 +43,8 @@ struct MatrixCharacteristics {
 // (the slope, times `countsPerMean`: a taxel under the stamp reads more than that mean, which
 // spreads over the edge), and below which pressure the rubber's surface hardly answers (the plane's
 // pressure at K = 0, less `thresholdKpa`, what the threshold of 100 alone explains of it).
-//   counts above rest = sensitivity * gain(T) * f(P),  f(P) = P - P0 (1 - e^(-P / P0)),  P0 =
-//   deadZoneKpa(T)
+//   counts above rest = sensitivity * gain(T) * f(P),  f(P) = P - P0 (1 - e^(-P / P0)),
+//   P0 = deadZoneKpa(T)
 // f begins as P^2 / (2 P0) and becomes P - P0.
 struct SensorCharacteristics {
   std::vector<MatrixCharacteristics> matrices;

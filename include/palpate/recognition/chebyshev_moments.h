@@ -2,16 +2,15 @@
 // turn, and the picture that moments describe (the study, section 6.6; Mukundan 2001).
 //
 // Orthonormal polynomials on x = 0..N-1 with positive leading coefficient:
-//   t_0 = 1/sqrt(N),  (n+1) t'_{n+1} = (2n+1)(2x-N+1) t'_n - n (N^2-n^2) t'_{n-1},  t_n = t'_n /
-//                     beta_n,
-//   beta_n^2 = (N+n)! / ((2n+1) (N-n-1)!)
+//   t_0 = 1/sqrt(N),  (n+1) t'_{n+1} = (2n+1)(2x-N+1) t'_n - n (N^2-n^2) t'_{n-1},
+//   t_n = t'_n / beta_n,   beta_n^2 = (N+n)! / ((2n+1) (N-n-1)!)
 // and moments of a picture f with N x N pixels, x to the right (column), y down (row):
 //   T_pq = sum f(x,y) t_p(x) t_q(y).
 // Invariants in the direct form: the same sums with polynomials evaluated at moved and turned
 // coordinates (the six-fold sums of the study's equations 6.16 and 6.18 give the same numbers, a
 // thousand times slower):
-//   T''_pq = sum f(x,y) t_p(X cos th + Y sin th) t_q(-X sin th + Y cos th),  X = x - cx, Y = y -
-//   cy.
+//   T''_pq = sum f(x,y) t_p(X cos th + Y sin th) t_q(-X sin th + Y cos th),
+//   X = x - cx, Y = y - cy.
 // All matrices of moments are (order + 1) x (order + 1), [p][q], p belongs to x.
 #pragma once
 

@@ -1,8 +1,8 @@
 // Linear discriminant analysis: the directions w in which classes lie apart most, measured by how
 // they scatter,
 //   S_b w = lambda S_w w,   largest lambda first,   w' S_w w = 1   (study, 6.8.4, corrected),
-//   S_w = 1/(n - C) sum_c sum_{i in c} (x_i - m_c)(x_i - m_c)',   S_b = 1/(C - 1) sum_c n_c (m_c -
-//   m)(m_c - m)'.
+//   S_w = 1/(n - C) sum_c sum_{i in c} (x_i - m_c)(x_i - m_c)',
+//   S_b = 1/(C - 1) sum_c n_c (m_c - m)(m_c - m)'.
 // S_w is always regularised, since features may be multiples of others (six of the study's 54 are):
 // shrunk towards a multiple of the identity (Ledoit, Wolf 2004, "A well-conditioned estimator for
 // large-dimensional covariance matrices", J. Multivariate Analysis 88), then a ridge.

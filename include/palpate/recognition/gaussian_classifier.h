@@ -1,8 +1,8 @@
 // A Gaussian per class (regularised quadratic discriminant analysis; Friedman 1989, "Regularized
 // discriminant analysis", J. American Statistical Association 84). Classes are equally likely
 // beforehand.
-//   C_c = (1 - pooledShare) S_c + pooledShare S_w;  off-diagonals times offDiagonal;  +
-//   extraVariance diag(S_w);  + ridge
+//   C_c = (1 - pooledShare) S_c + pooledShare S_w;  off-diagonal elements times offDiagonal;
+//         + extraVariance diag(S_w);  + ridge
 // With pooledShare 1 it is the linear discriminant rule: the nearest mean in Mahalanobis distance.
 #pragma once
 

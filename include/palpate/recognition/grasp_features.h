@@ -1,11 +1,11 @@
 // Features of grasps: what recognition knows of one grasp, as a row of numbers with names.
 //
-//   study    the study's 54 (study_features.h): to compare with it
-//   best     what holds on another day (day_features.h): contact geometry and force on the load
-//            plateau
-// session: the features of `best`, the joint angles at rest and simple statistics of both pads. It
-// is the most accurate set within one session and must not be used in another one, because it
-// contains the pose in which an object was presented (sessionSetWarning()).
+//   study    the 54 features of the study (study_features.h), for comparison with it
+//   best     the features that are stable between sessions (day_features.h): contact geometry and
+//            force on the load plateau
+//   session  the features of `best`, the joint angles at rest and simple statistics of both pads.
+//            The most accurate set within one session; not to be used in another one, because it
+//            contains the pose in which an object was presented (sessionSetWarning()).
 #pragma once
 
 #include <cstddef>

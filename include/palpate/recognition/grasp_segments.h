@@ -43,11 +43,10 @@ struct GraspSegment {
   // 0..1, the product of
   //   the part of its frames in contact (1: nothing was bridged),
   //   the part of its frames without a saturated taxel,
-  //   1 - min(1, sd / mean) of the sum of all taxels over the middle half of its frames (1: held
-  //   steadily),
-  //   1, 1/2 or 1/4 for both, one or none of its ends lying inside the recording (not at its first
-  //   or last frame,
-  //   nor beside a gap).
+  //   1 - min(1, sd / mean) of the sum of all taxels over the middle half of its frames
+  //     (1: held steadily),
+  //   1, 1/2 or 1/4 if both, one or none of its ends lie inside the recording (not at its first or
+  //     last frame, nor beside a gap).
   double quality = 0.0;
   bool operator==(const GraspSegment&) const = default;
 };

@@ -2,8 +2,8 @@
 // and recovery agree on: names, codings, checksums, the bytes of a block.
 //
 // A block holds consecutive items of one stream. Its data, per item, little-endian:
-//   u32 host time offset from the block's t0_us [us] | i64 device time [ms] (INT64_MIN: none) |
-//   values
+//   u32 host time offset from the block's t0_us [us] | i64 device time [ms] | values
+// Device time INT64_MIN: none.
 // Values of a frame: run-length coded (model/frame_coding.h); of angles and temperatures: one
 // number each, f32 where that is exact, else f64.
 #pragma once

@@ -12,8 +12,8 @@
 // for a perfect fit, about 1 if the hypothesis is true. The load field is linear, because an
 // exponential field could imitate a motion.
 //
-//   P(moved) = 1 / (1 + ((moved + 1) / (still + 1))^p),   p = sharpness / (1 + min(still, moved) /
-//   misfit)
+//   P(moved) = 1 / (1 + ((moved + 1) / (still + 1))^p)
+//   p = sharpness / (1 + min(still, moved) / misfit)
 //
 // If neither hypothesis fits, the exponent p decreases and the score approaches 0.5. P is a score,
 // not a calibrated probability.

@@ -4,8 +4,8 @@
 // A contact at r_i (base frame) on a surface with the tangents X_i (rising column) and Y_i (rising
 // row) slips by s_i taxels: the object's point there moves by X_i s_x + Y_i s_y along the surface;
 // across it nothing is felt. With v_i = t + w x (r_i - c):
-//   X_i . (t + w x (r_i - c)) = pitch s_x,    Y_i . (..) = pitch s_y,    w . N_i = turn_i where a
-//                                             turn is known
+//   X_i . (t + w x (r_i - c)) = pitch s_x,    Y_i . (..) = pitch s_y,
+//   w . N_i = turn_i where a turn is known
 // solved for t and w (singular values below 1e-3 of the largest are dropped: what isn't known is
 // 0). Two contacts leave the turn about the line between them free unless their own turns are
 // known; one contact leaves more. To first order: for motions small against the object.

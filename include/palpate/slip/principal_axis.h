@@ -1,7 +1,7 @@
 // How a contact lies: principal axis, eccentricity and skewness from its moments.
 //
-//   lambda1,2 = (mu20 + mu02)/2 +- sqrt((mu20 - mu02)^2 + 4 mu11^2)/2,   theta = 1/2 atan2(2 mu11,
-//   mu20 - mu02)
+//   lambda1,2 = (mu20 + mu02)/2 +- sqrt((mu20 - mu02)^2 + 4 mu11^2)/2,
+//   theta = 1/2 atan2(2 mu11, mu20 - mu02)
 // Angles from +x (right) towards +y (down): clockwise on the screen.
 #pragma once
 
