@@ -8,7 +8,7 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
 endif()
 
-# Release: -O2; the core library asks for more (palpate_thorough), tests for less (palpate_light).
+# Release: -O2; the core library asks for more (palpate_optimise_speed), tests for less (palpate_optimise_build_time).
 if(CMAKE_CXX_FLAGS_RELEASE STREQUAL "-O3 -DNDEBUG")
   set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 endif()
@@ -56,31 +56,31 @@ endif()
 # they use: the fuzzers' build and the tests of headers do without.
 function(palpate_precompiled target kind)
   if(PALPATE_PRECOMPILED)
-    palpate_like_precompiled(${target})
+    palpate_match_precompiled_flags(${target})
     target_precompile_headers(${target} REUSE_FROM palpate_precompiled_${kind})
   endif()
 endfunction()
 
-# palpate_precompile(KIND [THOROUGH | LIGHT] LIBS lib...) makes that form, as optimised as those who read it; LIBs are
+# palpate_build_precompiled(KIND [THOROUGH | LIGHT] LIBS lib...) makes that form, as optimised as those who read it; LIBs are
 # those whose headers are in it.
-function(palpate_precompile kind)
+function(palpate_build_precompiled kind)
   cmake_parse_arguments(form "THOROUGH;LIGHT" "" "LIBS" ${ARGN})
   if(PALPATE_PRECOMPILED)
     set(target palpate_precompiled_${kind})
     add_library(${target} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled/nothing.cpp)
     target_link_libraries(${target} PRIVATE palpate_warnings ${form_LIBS})
-    palpate_like_precompiled(${target})
+    palpate_match_precompiled_flags(${target})
     if(form_THOROUGH)
-      palpate_thorough(${target})
+      palpate_optimise_speed(${target})
     elseif(form_LIGHT)
-      palpate_light(${target})
+      palpate_optimise_build_time(${target})
     endif()
     target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled/${kind}.h)
   endif()
 endfunction()
 
 # Who makes the form and who reads it are compiled alike: CMake gives programs -fPIE.
-function(palpate_like_precompiled target)
+function(palpate_match_precompiled_flags target)
   target_compile_options(${target} PRIVATE -fPIC)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # ccache asks for the first. The warnings are false alarms in std::string (GCC bugs 105329, 105762):
@@ -91,7 +91,7 @@ function(palpate_like_precompiled target)
 endfunction()
 
 # palpate_unity(TARGET) compiles the sources of TARGET several at a time, so that headers are read once for
-# all of them. Names in anonymous namespaces of one folder have to differ (house/unity_names_test).
+# all of them. Names in anonymous namespaces of one folder have to differ (project_rules/unity_names_test).
 # PALPATE_UNITY=OFF compiles each source by itself: for clang-tidy, editors, and the proof that every
 # source names what it uses (preset `separate`).
 function(palpate_unity target)
@@ -104,21 +104,21 @@ endfunction()
 
 # palpate_optimise(TARGET LEVEL): in a release, -O1 or -O3 instead of -O2. A target that reads a precompiled header
 # has the level of that header: GCC goes back to the one that stands in it, behind Eigen's `#pragma GCC optimize`
-# (house/compile_options_test).
+# (project_rules/compile_options_test).
 function(palpate_optimise target level)
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
     target_compile_options(${target} PRIVATE ${level})
   endif()
 endfunction()
 
-# palpate_thorough(TARGET): the core library, in whose loops the program spends its time. GCC vectorises most of
+# palpate_optimise_speed(TARGET): the core library, in whose loops the program spends its time. GCC vectorises most of
 # them from -O3 on only.
-function(palpate_thorough target)
+function(palpate_optimise_speed target)
   palpate_optimise(${target} -O3)
 endfunction()
 
-# palpate_light(TARGET): no time is won by optimising what runs for milliseconds, much by compiling it fast.
-function(palpate_light target)
+# palpate_optimise_build_time(TARGET): no time is won by optimising what runs for milliseconds, much by compiling it fast.
+function(palpate_optimise_build_time target)
   palpate_optimise(${target} -O1)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # Needs the whole optimiser to be right.

@@ -77,9 +77,9 @@ Taxels taxelsOf(const py::object& frames, double pitchMm, std::size_t numFrames)
     taxels.layout = sdh2().layout;
     taxels.parts.push_back(taxelValuesOf(frames, "frames"));
     const Values& part = taxels.parts.back();
-    if (part.ndim() != 2 || static_cast<std::size_t>(part.shape(1)) != taxels.layout->numPlaces())
+    if (part.ndim() != 2 || static_cast<std::size_t>(part.shape(1)) != taxels.layout->numCells())
       throw py::value_error("frames has shape " + shapeText(part) + "; it takes (T, " +
-                            std::to_string(taxels.layout->numPlaces()) +
+                            std::to_string(taxels.layout->numCells()) +
                             "), or a list with an array (T, rows, columns) per matrix");
   }
   for (const Values& part : taxels.parts)

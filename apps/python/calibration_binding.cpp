@@ -6,9 +6,9 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "palpate/calibration/calibration_samples.h"
 #include "palpate/calibration/force_series.h"
 #include "palpate/calibration/noise_floor.h"
-#include "palpate/calibration/pressure_gathering.h"
 #include "palpate/calibration/sensitivity_curve.h"
 #include "palpate/core/hash.h"
 #include "palpate/core/output_file.h"
@@ -47,7 +47,7 @@ py::object calibrateSensitivity(const Numbers& sensitivities,
     throw py::value_error("sensitivities and K have different lengths");
   std::vector<SensitivityPoint> points;
   for (std::size_t i = 0; i < settings.size(); ++i)
-    points.push_back({.sensitivity = settings[i], .gainCounts = values[i]});
+    points.push_back({.sensitivity = settings[i], .staticResponseCounts = values[i]});
   return toPython(jsonOf(fitSensitivityCurve(points, threshold)));
 }
 
@@ -94,24 +94,24 @@ Calibration calibratePressure(const py::object& table,
   const std::vector<PressureTableRow> rows = calibrationRowsOf(table, folder);
   PressureModelOptions model;
   model.study = choice<bool>("choices", choices, {{"default", false}, {"study", true}});
-  model.stampAreaMm2 = area;
+  model.indenterAreaMm2 = area;
   model.validate();
   if (!(sensitivity > 0.0 && sensitivity <= 1.0))
     throw py::value_error("sensitivity is not above 0, at most 1");
   if (!(threshold >= 0.0 && threshold <= 4095.0))
     throw py::value_error("threshold is not in 0 .. 4095");
-  GatherOptions gather;
+  CalibrationSampleOptions gather;
   gather.matrix = matrix;
   return unlocked([&](const Progress& progress) {
     const auto open = [](const fs::path& file, const Progress& step) {
-      return GatheredSource{openRecording(file, step), sha256OfFile(file)};
+      return CalibrationSource{openRecording(file, step), sha256OfFile(file)};
     };
     Calibration calibration =
-        calibrationOf(gatherSteps(rows, folder, open, gather, progress), model);
+        calibrationOf(collectCalibrationSteps(rows, folder, open, gather, progress), model);
     calibration.settings = {sensitivity, threshold, true};
     calibration.programVersion = PALPATE_VERSION;
     calibration.options =
-        Json::object().set("choices", choices).set("area_mm2", model.stampAreaMm2);
+        Json::object().set("choices", choices).set("area_mm2", model.indenterAreaMm2);
     return calibration;
   });
 }
@@ -131,8 +131,8 @@ py::object fitPressure(const Numbers& gains,
     samples.push_back({.file = "",
                        .sha256 = "",
                        .pressureKpa = kpa[i],
-                       .gainCounts = k[i],
-                       .driftPerS = m[i],
+                       .staticResponseCounts = k[i],
+                       .driftCountsPerS = m[i],
                        .nearestDegC = degC[i],
                        .studyDegC = degC[i]});
   const PressureModelOptions options{.study = study};
@@ -173,7 +173,7 @@ py::dict applyTo(const Calibration& calibration,
   table["time_s"] = arrayOf(series.timeS);
   table["active"] = grid<std::int64_t>(
       frames, matrices, [&](std::size_t i, std::size_t m) { return series.at(i, m).active; });
-  number("K", &MatrixForce::gainCounts);
+  number("K", &MatrixForce::staticResponseCounts);
   number("pressure_kpa", &MatrixForce::kpa);
   number("pressure_sd_kpa", &MatrixForce::sdKpa);
   number("force_n", &MatrixForce::forceN);

@@ -56,7 +56,7 @@ std::vector<ContactRow> contactRowsOf(const Profile& profile,
     if (!assumed && sample != posedBy) {
       posedBy = sample;
       const std::vector<double> anglesDeg = profile.angles(*sample).deg;
-      usable = checkAngles(anglesDeg, sdh2().axes).state != AnglesState::kUnusable;
+      usable = checkAngles(anglesDeg, sdh2().axes).state != AngleValidity::kUnusable;
       if (usable) geometry.pose(anglesDeg, pose);
     }
     ContactRow& row = rows[i - first];
@@ -188,7 +188,7 @@ py::dict sizeOf(const Profile& profile,
   });
   py::dict result;
   result["valid"] = report.valid;
-  result["trouble"] = report.trouble;
+  result["trouble"] = report.problem;
   result["pads"] = py::make_tuple(report.pads.first, report.pads.second);
   result["start_frame"] = report.startFrame;
   result["plateau_frame"] = report.plateauFrame;

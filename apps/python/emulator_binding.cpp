@@ -125,11 +125,11 @@ py::dict noisyContacts(std::uint64_t seed,
   py::dict result;
   result["profile"] = made.profile;
   result["touched"] = grid<bool>(
-      made.truth.size(), made.profile.layout().numPlaces(), [&](std::size_t i, std::size_t place) {
+      made.truth.size(), made.profile.layout().numCells(), [&](std::size_t i, std::size_t place) {
         return made.truth[i][place] == PlaceTruth::kTouched;
       });
   result["nothing"] = grid<bool>(
-      made.truth.size(), made.profile.layout().numPlaces(), [&](std::size_t i, std::size_t place) {
+      made.truth.size(), made.profile.layout().numCells(), [&](std::size_t i, std::size_t place) {
         return made.truth[i][place] == PlaceTruth::kNothing;
       });
   result["contacts"] = list;

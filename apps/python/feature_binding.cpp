@@ -35,11 +35,11 @@ FeatureTable featureTableOf(const Profile& profile, FeatureSet set, const Progre
   table.numFiles = 1;
   table.sensor = sensorText(profile.layout());
   const RecordingFeatures found = recordingFeatures(profile, set, sdh2PinchHand(), progress);
-  if (!found.trouble.empty()) table.troubles.push_back(found.trouble);
+  if (!found.problem.empty()) table.problems.push_back(found.problem);
   for (const GraspFeatures& grasp : found.grasps) {
-    if (!grasp.trouble.empty()) {
-      table.troubles.push_back("frames " + std::to_string(grasp.begin) + " to " +
-                               std::to_string(grasp.end) + ": " + grasp.trouble);
+    if (!grasp.problem.empty()) {
+      table.problems.push_back("frames " + std::to_string(grasp.begin) + " to " +
+                               std::to_string(grasp.end) + ": " + grasp.problem);
       ++table.failedGrasps;
       continue;
     }
@@ -82,17 +82,17 @@ FeatureTable featuresOf(const py::object& source, FeatureSet set) {
         [&](const Progress& progress) { return featureTableOf(profile, set, progress); });
   }
   const std::vector<fs::path> paths = pathsOf(source);
-  FeatureGatherOptions options;
+  FeatureExtractionOptions options;
   options.set = set;
   return unlocked(
-      [&](const Progress& progress) { return gatherFeatures(paths, options, progress); });
+      [&](const Progress& progress) { return extractFeatures(paths, options, progress); });
 }
 
 void requireRows(const FeatureTable& table) {
   if (!table.rows.empty()) return;
   throw Error("no grasp with features in " + std::to_string(table.numFiles) +
               (table.numFiles == 1 ? " recording" : " recordings") +
-              (table.troubles.empty() ? "" : ": " + table.troubles.front()));
+              (table.problems.empty() ? "" : ": " + table.problems.front()));
 }
 
 namespace {
@@ -136,7 +136,7 @@ py::dict studyOf(const Profile& profile,
   const StudyFeatures found = unlocked(
       [&](const Progress&) { return studyFeatures(profile, grasp, sdh2PinchHand(), chosen); });
   py::dict result;
-  result["trouble"] = found.trouble;
+  result["trouble"] = found.problem;
   result["initial_frame"] = found.initialFrame;
   result["end_frame"] = found.endFrame;
   result["other_end_frame"] = found.otherEndFrame;
@@ -218,7 +218,7 @@ void bindTable(py::module_& module) {
           "Host time of frame `begin` [ms since 1970]: int64 (grasps,).")
       .def_property_readonly(
           "troubles",
-          [](const FeatureTable& table) { return table.troubles; },
+          [](const FeatureTable& table) { return table.problems; },
           "A line each: files that can't be read, grasps without features, and why.")
       .def_property_readonly(
           "sensor", [](const FeatureTable& table) { return table.sensor; }, "Sensor of all rows.");

@@ -61,8 +61,8 @@ py::dict describe(const FilterKind& kind) {
     one["default"] =
         option.automatic() ? py::object(py::none())
         : option.kind == FilterOption::Kind::kChoice
-            ? py::object(py::str(option.choices.at(static_cast<std::size_t>(option.fallback))))
-            : py::object(py::float_(option.fallback));
+            ? py::object(py::str(option.choices.at(static_cast<std::size_t>(option.defaultValue))))
+            : py::object(py::float_(option.defaultValue));
     one["choices"] = option.choices;
     one["purpose"] = option.purpose;
     options.append(one);
@@ -131,7 +131,7 @@ py::dict countsOf(const BeforeAfter& counts) {
   py::dict result;
   result["before"] = counts.before;
   result["after"] = counts.after;
-  result["share_removed"] = counts.shareRemoved();
+  result["share_removed"] = counts.fractionRemoved();
   return result;
 }
 

@@ -44,9 +44,9 @@ Poses posesOf(const Numbers& angles, std::size_t numAxes) {
   // As the command refuses it: no hand of this kind has such a pose.
   for (std::size_t i = 0; i < poses.anglesDeg.size(); ++i) {
     const AnglesCheck check = checkAngles(poses.anglesDeg[i], sdh2().axes);
-    if (check.state == AnglesState::kFine) continue;
+    if (check.state == AngleValidity::kValid) continue;
     throw py::value_error("angles_deg" + (poses.several ? "[" + std::to_string(i) + "]" : "") +
-                          ": " + check.trouble);
+                          ": " + check.problem);
   }
   return poses;
 }
@@ -67,7 +67,7 @@ py::dict kinematics(const Numbers& anglesDeg, const std::string& fingertip) {
   const HandGeometry geometry(geometryNamed(fingertip));
   const GeometryDescription& hand = geometry.description();
   const Poses poses = posesOf(anglesDeg, hand.numAxes);
-  const std::size_t places = hand.layout.numPlaces();
+  const std::size_t places = hand.layout.numCells();
   DoubleArray positions = vectors(poses, places), normals = vectors(poses, places);
   double *position = positions.mutable_data(), *normal = normals.mutable_data();
   {
@@ -129,7 +129,7 @@ py::dict surfacePoints(const Numbers& anglesDeg,
 }
 
 py::object sphereAround(const Numbers& points) {
-  const auto sphere = boundingSphere(pointsOf(points, "points_mm"));
+  const auto sphere = smallestEnclosingSphere(pointsOf(points, "points_mm"));
   if (!sphere) return py::none();
   return py::make_tuple(arrayOf(Eigen::VectorXd(sphere->centreMm)), sphere->radiusMm);
 }

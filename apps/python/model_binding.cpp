@@ -32,7 +32,7 @@ std::string utcNow() {
 
 }  // namespace
 
-void sign(TrainedModel& model) {
+void stampProvenance(TrainedModel& model) {
   model.programVersion = PALPATE_VERSION;
   model.madeAt = utcNow();
 }
@@ -54,7 +54,7 @@ Json offsetJson(const SessionOffset& offset) {
   return Json::object()
       .set("mm", offset.mm)
       .set("sd_mm", offset.sdMm)
-      .set("origin", offsetOriginName(offset.origin))
+      .set("origin", offsetSourceName(offset.origin))
       .set("grasps", offset.grasps)
       .set("objects", offset.objects)
       .set("trusted", offset.trusted)
@@ -64,12 +64,12 @@ Json offsetJson(const SessionOffset& offset) {
 py::object classify(const TrainedModel& model, const py::object& source, const py::object& offset) {
   const OffsetChoice chosen = offsetOf(offset);
   const FeatureTable table = featuresOf(source, model.set);
-  Json grasps = Json::array(), warnings = jsonList(table.troubles);
+  Json grasps = Json::array(), warnings = jsonList(table.problems);
   Classification said;
   if (!table.rows.empty()) said = classifyTable(model, table, chosen);
   for (const std::string& warning : said.use.warnings) warnings.push(warning);
   for (std::size_t i = 0; i < said.verdicts.size(); ++i)
-    grasps.push(verdictJson(model, table.rows[i], said.verdicts[i]));
+    grasps.push(predictionJson(model, table.rows[i], said.verdicts[i]));
   return toPython(Json::object()
                       .set("grasps", std::move(grasps))
                       .set("session_offset", offsetJson(said.use.offset))
@@ -110,7 +110,7 @@ TrainedModel adapted(const TrainedModel& model, const py::object& source) {
     TrainedModel result = model;
     adaptModel(result, today);
     result.adaptedFrom = inputsFor(table, progress);
-    sign(result);
+    stampProvenance(result);
     return result;
   });
 }
@@ -185,7 +185,7 @@ void bindModel(py::module_& module) {
           "'svm', 'qda', 'lda' or 'gauss'.")
       .def_property_readonly(
           "carries_over",
-          [](const TrainedModel& m) { return m.carriesOver(); },
+          [](const TrainedModel& m) { return m.adaptsToSession(); },
           "Whether it knows a session offset and can adapt: to be used on another day.")
       .def_property_readonly(
           "session_offset",

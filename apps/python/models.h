@@ -9,7 +9,7 @@
 namespace palpate::python {
 
 // Program version and time.
-void sign(TrainedModel& model);
+void stampProvenance(TrainedModel& model);
 // Recordings of a table as a model names them; of profiles there are none. Throws FileError,
 // Cancelled.
 std::vector<ModelInput> inputsFor(const FeatureTable& table, const Progress& progress);

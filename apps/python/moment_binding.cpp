@@ -29,11 +29,11 @@ py::dict invariants(const Numbers& picture, int order, const std::string& angle)
   const ChebyshevInvariants found =
       chebyshevInvariants(square,
                           ChebyshevPolynomials(static_cast<int>(square.rows()), order),
-                          choice<PictureAngle>("angle",
-                                               angle,
-                                               {{"none", PictureAngle::kNone},
-                                                {"study", PictureAngle::kStudy},
-                                                {"resolved", PictureAngle::kResolved}}));
+                          choice<ImageOrientation>("angle",
+                                                   angle,
+                                                   {{"none", ImageOrientation::kNone},
+                                                    {"study", ImageOrientation::kStudy},
+                                                    {"resolved", ImageOrientation::kResolved}}));
   py::dict result;
   result["empty"] = found.empty;
   result["angle_determined"] = found.angleDetermined;
@@ -52,7 +52,7 @@ DoubleArray picture(const Numbers& given, int size) {
     throw py::value_error("moments has shape " + shapeText(given) +
                           "; it takes (order + 1, order + 1)");
   return arrayOf(
-      pictureOf(square, ChebyshevPolynomials(size, static_cast<int>(square.rows()) - 1)));
+      reconstructImage(square, ChebyshevPolynomials(size, static_cast<int>(square.rows()) - 1)));
 }
 
 double error(const Numbers& original, const Numbers& approximation) {
@@ -60,7 +60,7 @@ double error(const Numbers& original, const Numbers& approximation) {
                         b = matrixOf(approximation, "approximation");
   if (a.rows() != b.rows() || a.cols() != b.cols())
     throw py::value_error("picture and approximation have different shapes");
-  return pictureError(a, b);
+  return reconstructionError(a, b);
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ void bindMoments(py::module_& module) {
   module.def(
       "in_square",
       [](const Numbers& values, int size, int above, int left) {
-        return arrayOf(inSquare(matrixOf(values, "values"), size, above, left));
+        return arrayOf(padToSquare(matrixOf(values, "values"), size, above, left));
       },
       py::arg("values"),
       py::arg("size") = 14,

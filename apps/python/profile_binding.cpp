@@ -23,7 +23,7 @@ using Stop = std::optional<std::int64_t>;
 
 FloatArray frames(const Profile& profile, std::int64_t start, Stop stop) {
   const auto [first, last] = sliceOf(start, stop, profile.numFrames());
-  FloatArray array({last - first, profile.layout().numPlaces()});
+  FloatArray array({last - first, profile.layout().numCells()});
   float* out = array.mutable_data();
   const py::gil_scoped_release unlocked;
   TactileFrame frame;
@@ -48,7 +48,7 @@ FloatArray matrix(const Profile& profile, std::int64_t index, std::int64_t start
   for (std::size_t i = first; i < last; ++i) {
     profile.readFrame(i, frame);
     const float* values = frame.allValues().data() + layout.offset(m);
-    out = std::copy(values, values + shape.numPlaces(), out);
+    out = std::copy(values, values + shape.numCells(), out);
   }
   return array;
 }

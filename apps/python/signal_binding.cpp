@@ -132,7 +132,7 @@ py::dict spectrum(const Numbers& timeS,
   const std::size_t bins = options.numBins(), count = found.timeS.size();
   if (count == 0) {
     std::size_t longest = 0;
-    for (const SpectrumStretch& stretch : found.report.stretches)
+    for (const GapFreeSpan& stretch : found.report.stretches)
       longest = std::max(longest, stretch.gridSamples);
     throw py::value_error("the longest stretch without a gap has " + std::to_string(longest) +
                           " samples, a window takes " + std::to_string(window) +

@@ -24,16 +24,16 @@ constexpr double kSlipUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // What slip() and slip_segments() are told.
 struct Request {
-  SlipPassOptions pass;
+  SlipRunOptions pass;
   std::optional<std::size_t> matrix;
 };
 
-void setReference(const Profile& profile, const py::object& reference, SlipPassOptions& pass) {
+void setReference(const Profile& profile, const py::object& reference, SlipRunOptions& pass) {
   if (py::isinstance<py::str>(reference)) {
-    pass.detector.reference =
-        choice<SlipReference>("reference",
-                              reference.cast<std::string>(),
-                              {{"first", SlipReference::kFirst}, {"rest", SlipReference::kRest}});
+    pass.detector.reference = choice<SlipReference>(
+        "reference",
+        reference.cast<std::string>(),
+        {{"first", SlipReference::kFirst}, {"rest", SlipReference::kWhenAtRest}});
     return;
   }
   pass.detector.reference = SlipReference::kGiven;
@@ -58,7 +58,7 @@ Request requestOf(const Profile& profile,
     throw py::value_error("method is '" + method + "'; it is one of " + known);
   }
   detector.method = *named;
-  detector.contestAlarm = detector.method == SlipMethod::kContest;
+  detector.hypothesisAlarm = detector.method == SlipMethod::kHypotheses;
   detector.rule.stepTaxels = step;
   detector.rule.referenceTaxels = limit;
   detector.rule.rotationDeg = rotation;
@@ -71,7 +71,7 @@ struct SlipRow {
   std::size_t frame = 0;
   std::int64_t timeUs = 0;
   std::size_t matrix = 0;
-  SlipVerdict verdict;
+  SlipDetection verdict;
 };
 
 py::dict slipTableOf(const std::vector<SlipRow>& rows) {
@@ -88,7 +88,7 @@ py::dict slipTableOf(const std::vector<SlipRow>& rows) {
     table[name] = column<bool>(n, [&](std::size_t i) { return of(rows[i].verdict); });
   };
   using Motion = const SlipMotion&;
-  using Verdict = const SlipVerdict&;
+  using Verdict = const SlipDetection&;
   whole("frame", [](const SlipRow& row) { return row.frame; });
   whole("time_ms", [](const SlipRow& row) { return row.timeUs / kUsPerMs; });
   whole("matrix", [](const SlipRow& row) { return row.matrix; });
@@ -136,12 +136,12 @@ py::dict slip(const Profile& profile,
   std::vector<SlipRow> rows;
   unlocked([&](const Progress& progress) {
     const auto take =
-        [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipVerdict>& verdicts) {
+        [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& verdicts) {
           for (std::size_t m = 0; m < verdicts.size(); ++m)
             if (verdicts[m].motion.active > 0 && (!request.matrix || *request.matrix == m))
               rows.push_back({frame, timeUs, m, verdicts[m]});
         };
-    passSlip(profile, request.pass, take, progress);
+    runSlipDetector(profile, request.pass, take, progress);
   });
   return slipTableOf(rows);
 }
@@ -235,7 +235,7 @@ py::dict slipBenchmark(double noise,
   options.seed = seed;
   options.trials = trials;
   const auto measured = unlocked([&](const Progress& progress) {
-    return measureSlipAccuracy(measuredMethods(), options, progress);
+    return measureSlipAccuracy(benchmarkedMethods(), options, progress);
   });
   py::dict methods;
   for (const MethodAccuracy& method : measured) {

@@ -30,8 +30,8 @@ StepFitOptions fitOptions(const std::string& loss, const std::string& damping) {
 py::dict stepToPython(const StepFit& fit) {
   const StepParameters& p = fit.parameters;
   py::dict result;
-  result["K"] = p.gainCounts;
-  result["m"] = p.driftPerS;
+  result["K"] = p.staticResponseCounts;
+  result["m"] = p.driftCountsPerS;
   result["T1"] = p.t1S();
   result["T2"] = p.t2S();
   result["T"] = p.timeConstantS;
@@ -40,7 +40,7 @@ py::dict stepToPython(const StepFit& fit) {
   result["residual_sd"] = fit.residualSd;
   result["converged"] = fit.converged;
   result["identifiable"] = fit.identifiable;
-  result["gain_reached"] = fit.gainReached;
+  result["gain_reached"] = fit.steadyStateReached;
   result["usable"] = fit.usable();
   result["covariance"] = arrayOf(Eigen::MatrixXd(fit.covariance));
   result["interval95"] =
@@ -84,8 +84,10 @@ StepParameters parametersOf(double gain,
     parameters = StepParameters::ofTimes(gain, drift, *t1S, *t2S);
   } else if (timeS && damping && !t1S && !t2S) {
     if (!(*timeS > 0.0) || !(*damping > 0.0)) throw py::value_error("T and d must be above 0");
-    parameters = {
-        .gainCounts = gain, .driftPerS = drift, .timeConstantS = *timeS, .damping = *damping};
+    parameters = {.staticResponseCounts = gain,
+                  .driftCountsPerS = drift,
+                  .timeConstantS = *timeS,
+                  .damping = *damping};
   } else {
     throw py::value_error("give T1 and T2, or T and d");
   }
@@ -124,7 +126,7 @@ py::object calibrateStep(const Profile& profile,
   StepReportOptions options;
   options.steps.signal = signalNamed(signal);
   options.steps.aboveCounts = above;
-  options.steps.leastDurationS = least;
+  options.steps.minDurationS = least;
   options.fit = fitOptions(loss, damping);
   StepSignal series;
   const StepReport report = unlocked([&](const Progress& progress) {
@@ -183,7 +185,7 @@ void bindSteps(py::module_& module) {
              py::arg("loss") = "squares",
              py::arg("damping") = "over",
              py::arg("above") = 0.0,
-             py::arg("least") = LoadingStepOptions{}.leastDurationS,
+             py::arg("least") = LoadingStepOptions{}.minDurationS,
              "Finds the loading steps of a matrix and fits each: dict matrix, signal, steps, "
              "notes, as `palpate calibrate step` prints it; of each step also t (n,) [s] and y "
              "(n,): what was fitted. above: loaded is above it; least: shorter contacts are no "

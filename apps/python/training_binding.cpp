@@ -94,7 +94,7 @@ TrainedModel train(const py::object& source,
     apply(wishes, chosen);
     TrainedModel model = trainModel(samples, set, table.sensor, chosen, progress);
     model.inputs = inputsFor(table, progress);
-    sign(model);
+    stampProvenance(model);
     model.options = jsonOf(chosen);
     if (!found.candidates.empty()) model.options.set("chosen_from", jsonOf(found));
     return model;

@@ -1,4 +1,4 @@
-// What most sources of the rooms and their tests read anyway (cmake/PalpateCompiler.cmake).
+// What most sources of the modules and their tests read anyway (cmake/PalpateCompiler.cmake).
 #include <algorithm>
 #include <array>
 #include <chrono>

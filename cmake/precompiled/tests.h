@@ -1,4 +1,4 @@
-// What the tests of the rooms read.
+// What the tests of the modules read.
 #include <random>
 
 #include <gtest/gtest.h>

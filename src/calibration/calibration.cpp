@@ -13,7 +13,7 @@ namespace palpate {
 namespace {
 
 constexpr const char* kKind = "palpate calibration";
-constexpr std::uint64_t kMostBytes = 16u << 20;
+constexpr std::uint64_t kMaxBytes = 16u << 20;
 
 std::optional<double> numberIn(const Json& json, const char* key) {
   const Json value = json.at(key);
@@ -31,8 +31,8 @@ Json jsonOf(const PressureSample& sample) {
       .set("file", sample.file)
       .set("sha256", sample.sha256)
       .set("pressure_kpa", sample.pressureKpa)
-      .set("K", sample.gainCounts)
-      .set("m", sample.driftPerS)
+      .set("K", sample.staticResponseCounts)
+      .set("m", sample.driftCountsPerS)
       .set("temperature_c", orNull(sample.nearestDegC))
       .set("study_temperature_c", orNull(sample.studyDegC))
       .set("active_area_mm2", sample.activeAreaMm2)
@@ -47,8 +47,8 @@ PressureSample sampleFrom(const Json& json) {
   const auto pressure = numberIn(json, "pressure_kpa");
   if (!pressure) throw Error("a sample lacks 'pressure_kpa'");
   sample.pressureKpa = *pressure;
-  sample.gainCounts = numberIn(json, "K").value_or(0.0);
-  sample.driftPerS = numberIn(json, "m").value_or(0.0);
+  sample.staticResponseCounts = numberIn(json, "K").value_or(0.0);
+  sample.driftCountsPerS = numberIn(json, "m").value_or(0.0);
   sample.nearestDegC = numberIn(json, "temperature_c");
   sample.studyDegC = numberIn(json, "study_temperature_c");
   sample.activeAreaMm2 = numberIn(json, "active_area_mm2").value_or(0.0);
@@ -119,7 +119,7 @@ Calibration calibrationFrom(const Json& json) {
 }
 
 Calibration loadCalibration(const std::filesystem::path& path) {
-  const std::string text = readTextFile(path, kMostBytes);
+  const std::string text = readTextFile(path, kMaxBytes);
   try {
     return calibrationFrom(Json::parse(text));
   } catch (const FormatError&) {

@@ -20,20 +20,20 @@ double DriftCompensation::gainOf(const Surface& driftOfGain,
   // Within the lag the reading rises by itself.
   const bool settled = timeS - *beganS_ >= options_.steadyS;
   const bool other =
-      !loaded || (settled && std::abs(reading - last_) > options_.sameLoadShare * last_);
+      !loaded || (settled && std::abs(reading - last_) > options_.sameLoadFraction * last_);
   if (!other) {
     otherSinceS_.reset();
     last_ = reading;
   } else {
     if (!otherSinceS_) otherSinceS_ = timeS;
-    if (timeS - *otherSinceS_ >= options_.flickerS) {
+    if (timeS - *otherSinceS_ >= options_.debounceS) {
       beganS_ = loaded ? otherSinceS_ : std::nullopt;
       otherSinceS_.reset();
       last_ = reading;
     }
   }
   if (!loaded || !beganS_) return 0.0;
-  const double t = std::min(timeS - *beganS_, options_.longestS);
+  const double t = std::min(timeS - *beganS_, options_.maxDurationS);
   if (!driftOfGain.valid || t < options_.steadyS) return reading;
   double gain = reading;
   // Newton's steps for K + m(K) t = a; m is nearly linear in K.

@@ -16,7 +16,7 @@ constexpr double kFullScaleCounts = 4095.0;
 
 MatrixForce matrixForce(const MatrixPressure& of) {
   constexpr int kMost = std::numeric_limits<std::uint16_t>::max();
-  return {.gainCounts = static_cast<float>(of.gainCounts),
+  return {.staticResponseCounts = static_cast<float>(of.staticResponseCounts),
           .kpa = static_cast<float>(of.kpa),
           .sdKpa = static_cast<float>(of.sdKpa),
           .forceN = static_cast<float>(of.forceN),

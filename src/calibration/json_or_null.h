@@ -1,4 +1,4 @@
-// A number that may be missing, in JSON. Private to the room.
+// A number that may be missing, in JSON. Private to this module.
 #pragma once
 
 #include <optional>

@@ -99,7 +99,7 @@ void requireLeastSquares(const LeastSquaresProblem& problem,
   if (problem.numResiduals < sizeOf(start))
     refuse(std::to_string(problem.numResiduals) + " residuals don't determine " +
            std::to_string(start.size()) + " parameters");
-  if (options.mostIterations < 1) refuse("mostIterations must be at least 1");
+  if (options.maxIterations < 1) refuse("maxIterations must be at least 1");
   if (!(options.tolerance > 0.0)) refuse("tolerance must be above 0");
 }
 
@@ -121,7 +121,7 @@ Eigen::MatrixXd unitCovariance(Eigen::MatrixXd jacobian) {
 
 ceres::Solver::Options solverOptions(const LeastSquaresOptions& options, double radius) {
   ceres::Solver::Options solver;
-  solver.max_num_iterations = options.mostIterations;
+  solver.max_num_iterations = options.maxIterations;
   solver.function_tolerance = options.tolerance;
   solver.parameter_tolerance = options.tolerance;
   solver.gradient_tolerance = std::numeric_limits<double>::min();

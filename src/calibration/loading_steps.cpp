@@ -13,7 +13,7 @@
 namespace palpate {
 namespace {
 
-// A release is seen first where it crosses releaseShare; it began a little earlier.
+// A release is seen first where it crosses releaseFraction; it began a little earlier.
 constexpr std::size_t kFramesOfRelease = 2;
 
 std::vector<bool> gapsBehind(const StepSignal& signal) {
@@ -34,11 +34,11 @@ double medianOf(std::span<const double> values) {
 // Last frame before the load is being taken away.
 std::size_t beforeRelease(std::span<const double> values,
                           const LoadingStep& step,
-                          double releaseShare) {
+                          double releaseFraction) {
   const std::size_t middle = step.begin + (step.end - step.begin) / 2;
   const double level = medianOf(values.subspan(middle, step.end - middle + 1));
   std::size_t end = step.end;
-  while (end > middle && !(values[end] >= releaseShare * level)) --end;
+  while (end > middle && !(values[end] >= releaseFraction * level)) --end;
   return end - std::min(end - middle, kFramesOfRelease);
 }
 
@@ -53,11 +53,13 @@ void LoadingStepOptions::validate() const {
   require(aboveCounts >= 0.0 && std::isfinite(aboveCounts),
           "aboveCounts must be 0 or more",
           aboveCounts);
-  require(leastDurationS >= 0.0 && std::isfinite(leastDurationS),
-          "leastDurationS must be 0 or more",
-          leastDurationS);
-  require(leastFrames >= 6, "leastFrames must be 6 or more", static_cast<double>(leastFrames));
-  require(releaseShare >= 0.0 && releaseShare <= 1.0, "releaseShare must be 0..1", releaseShare);
+  require(minDurationS >= 0.0 && std::isfinite(minDurationS),
+          "minDurationS must be 0 or more",
+          minDurationS);
+  require(minFrames >= 6, "minFrames must be 6 or more", static_cast<double>(minFrames));
+  require(releaseFraction >= 0.0 && releaseFraction <= 1.0,
+          "releaseFraction must be 0..1",
+          releaseFraction);
 }
 
 StepSignal stepSignal(const Profile& profile,
@@ -67,7 +69,7 @@ StepSignal stepSignal(const Profile& profile,
   constexpr std::size_t kFramesPerReport = 256;
   const MatrixLayout layout = profile.layout().matrix(matrix);
   const std::size_t first = profile.layout().offset(matrix);
-  std::vector<bool> wasOn(layout.numPlaces(), false);
+  std::vector<bool> wasOn(layout.numCells(), false);
   StepSignal out;
   out.timeS.reserve(profile.numFrames());
   out.values.reserve(profile.numFrames());
@@ -78,8 +80,7 @@ StepSignal stepSignal(const Profile& profile,
       throw Cancelled();
     profile.readFrame(i, frame);
     out.timeS.push_back(static_cast<double>(frame.hostUs - profile.frameTimeUs(0)) / kUsPerS);
-    const std::span<const float> values =
-        std::span(frame.values).subspan(first, layout.numPlaces());
+    const std::span<const float> values = std::span(frame.values).subspan(first, layout.numCells());
     int saturated = 0, switched = 0, active = 0;
     for (std::size_t place = 0; place < values.size(); ++place) {
       const bool on = values[place] > 0.0F;
@@ -93,7 +94,7 @@ StepSignal stepSignal(const Profile& profile,
                                     : 0.0);
     out.activeTaxels.push_back(active);
     out.saturatedTaxels.push_back(saturated);
-    out.switchedTaxels.push_back(i == 0 ? 0 : switched);
+    out.toggledTaxels.push_back(i == 0 ? 0 : switched);
   }
   return out;
 }
@@ -130,9 +131,9 @@ std::vector<LoadingStep> findLoadingSteps(const StepSignal& signal,
     }
     step.end = last;
     step.released = unloaded > options.bridgedFrames;
-    if (step.released) step.end = beforeRelease(signal.values, step, options.releaseShare);
-    const bool lasts = signal.timeS[step.end] - signal.timeS[step.begin] >= options.leastDurationS;
-    if (lasts && step.end - step.begin + 1 >= options.leastFrames) steps.push_back(step);
+    if (step.released) step.end = beforeRelease(signal.values, step, options.releaseFraction);
+    const bool lasts = signal.timeS[step.end] - signal.timeS[step.begin] >= options.minDurationS;
+    if (lasts && step.end - step.begin + 1 >= options.minFrames) steps.push_back(step);
     i = std::max(next, last + 1);
   }
   return steps;

@@ -97,8 +97,8 @@ Json jsonOf(const NoiseFloor& floor) {
                       .set("valid", line.valid)
                       .set("frames", line.numFrames)
                       .set("outliers", line.numOutliers)
-                      .set("least_temperature_c", line.leastDegC)
-                      .set("most_temperature_c", line.mostDegC)
+                      .set("least_temperature_c", line.minDegC)
+                      .set("most_temperature_c", line.maxDegC)
                       .set("mean_temperature_c", line.meanDegC)
                       .set("spread_c2", line.spreadDegC2)
                       .set("bins", std::move(bins))
@@ -127,8 +127,8 @@ NoiseFloor noiseFloorFrom(const Json& json) {
     line.rmseTrue = number("rmse_true", line.rmse);
     line.valid = !one.at("valid").isBool() || one.at("valid").asBool();
     line.numFrames = static_cast<std::size_t>(std::max(number("frames", 0.0), 0.0));
-    line.leastDegC = number("least_temperature_c", 0.0);
-    line.mostDegC = number("most_temperature_c", 0.0);
+    line.minDegC = number("least_temperature_c", 0.0);
+    line.maxDegC = number("most_temperature_c", 0.0);
     line.meanDegC = number("mean_temperature_c", 0.0);
     line.spreadDegC2 = number("spread_c2", 0.0);
     floor.lines.push_back(line);

@@ -132,8 +132,8 @@ NoiseLine fitNoiseLine(std::span<const double> degC,
   }
   const auto [least, most] =
       std::minmax_element(points.begin(), points.end(), [](auto& a, auto& b) { return a.t < b.t; });
-  line.leastDegC = least->t;
-  line.mostDegC = most->t;
+  line.minDegC = least->t;
+  line.maxDegC = most->t;
   const Sums sums = sumsOf(points, line);
   const bool silent =
       std::all_of(points.begin(), points.end(), [](const Point& p) { return p.y == 0.0; });
@@ -141,13 +141,13 @@ NoiseLine fitNoiseLine(std::span<const double> degC,
     line.notes.push_back(
         "reads 0 throughout: the threshold hid the noise, or the matrix is masked; record at "
         "threshold 0");
-  if (line.mostDegC > line.leastDegC)
-    line.bins = binsOf(points, line.leastDegC, line.mostDegC, options.bins);
+  if (line.maxDegC > line.minDegC)
+    line.bins = binsOf(points, line.minDegC, line.maxDegC, options.bins);
   line.valid = !silent && points.size() > 2 && lineThrough(line.bins, line);
   if (!line.valid) {
     settleForMean(sums, points.size(), line);
     if (line.bins.empty())
-      line.notes.push_back("one temperature only (" + fixedText(line.leastDegC, 2) +
+      line.notes.push_back("one temperature only (" + fixedText(line.minDegC, 2) +
                            " deg C): no slope; the mean holds there");
     else if (!silent)
       line.notes.push_back("fewer than two bins with a spread: no slope; the mean holds");

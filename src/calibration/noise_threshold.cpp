@@ -37,12 +37,13 @@ void NoiseThresholdOptions::validate() const {
                         "sigmas must be 0..20, is " + numberText(sigmas));
   requireNoiseThreshold(sensitivity >= 0.0 && sensitivity <= 1.0,
                         "sensitivity must be 0..1, is " + numberText(sensitivity));
-  requireNoiseThreshold(leastCounts >= 0 && leastCounts <= mostCounts && mostCounts <= 4095,
-                        "leastCounts and mostCounts must be 0..4095, in order");
+  requireNoiseThreshold(minCounts >= 0 && minCounts <= maxCounts && maxCounts <= 4095,
+                        "minCounts and maxCounts must be 0..4095, in order");
   requireNoiseThreshold(hysteresisCounts >= 1, "hysteresisCounts must be 1 or more");
-  requireNoiseThreshold(leastIntervalS >= 0.0, "leastIntervalS must be 0 or more");
-  requireNoiseThreshold(collapseShare >= 0.0 && collapseShare <= 1.0,
-                        "collapseShare must be 0..1, is " + numberText(collapseShare));
+  requireNoiseThreshold(minIntervalS >= 0.0, "minIntervalS must be 0 or more");
+  requireNoiseThreshold(
+      rateCollapseFraction >= 0.0 && rateCollapseFraction <= 1.0,
+      "rateCollapseFraction must be 0..1, is " + numberText(rateCollapseFraction));
   requireNoiseThreshold(guardWindowS > 0.0 && guardCalmS > 0.0,
                         "guardWindowS and guardCalmS must be above 0");
   requireNoiseThreshold(guardStepCounts >= 1, "guardStepCounts must be 1 or more");
@@ -51,7 +52,7 @@ void NoiseThresholdOptions::validate() const {
 int noiseThreshold(const NoiseLine& line, double degC, const NoiseThresholdOptions& options) {
   const double counts = std::ceil(line.threshold(degC, options.sigmas));
   return static_cast<int>(std::clamp(
-      counts, static_cast<double>(options.leastCounts), static_cast<double>(options.mostCounts)));
+      counts, static_cast<double>(options.minCounts), static_cast<double>(options.maxCounts)));
 }
 
 NoiseThresholds::NoiseThresholds(NoiseFloor floor,
@@ -77,13 +78,13 @@ NoiseThresholds::NoiseThresholds(NoiseFloor floor,
 // True when the guard moved.
 bool NoiseThresholds::watchRate(double timeS, double rateHz) {
   if (!std::isfinite(rateHz)) return false;
-  const bool slow = rateHz < options_.collapseShare * usualRateHz_;
+  const bool slow = rateHz < options_.rateCollapseFraction * usualRateHz_;
   auto& since = slow ? slowSinceS_ : calmSinceS_;
   (slow ? calmSinceS_ : slowSinceS_).reset();
   if (!since) since = timeS;
   if (slow && timeS - *since >= options_.guardWindowS) {
     since = timeS;  // the next step only after the rate had time to answer
-    if (status_.atLimit) return false;
+    if (status_.guardAtLimit) return false;
     status_.guardCounts += options_.guardStepCounts;
     return true;
   }
@@ -98,7 +99,7 @@ bool NoiseThresholds::watchRate(double timeS, double rateHz) {
 std::vector<int> NoiseThresholds::wanted(std::span<const double> degC) {
   status_.extrapolated.clear();
   status_.unknown.clear();
-  status_.atLimit = status_.guardCounts > 0;
+  status_.guardAtLimit = status_.guardCounts > 0;
   std::vector<int> counts = reset_.counts;
   for (std::size_t m = 0; m < counts.size(); ++m) {
     const std::size_t sensor = sensors_[m].value_or(SIZE_MAX);
@@ -107,13 +108,13 @@ std::vector<int> NoiseThresholds::wanted(std::span<const double> degC) {
         m < floor_.lines.size() && floor_.lines[m].valid && std::isfinite(t) && t != 0.0;
     if (known) {
       counts[m] = noiseThreshold(floor_.lines[m], t, options_);
-      if (floor_.lines[m].mostDegC > floor_.lines[m].leastDegC && !floor_.lines[m].covers(t))
+      if (floor_.lines[m].maxDegC > floor_.lines[m].minDegC && !floor_.lines[m].covers(t))
         status_.extrapolated.push_back(m);
     } else {
       status_.unknown.push_back(m);
     }
-    counts[m] = std::min(counts[m] + status_.guardCounts, std::max(options_.mostCounts, counts[m]));
-    status_.atLimit = status_.atLimit && counts[m] >= options_.mostCounts;
+    counts[m] = std::min(counts[m] + status_.guardCounts, std::max(options_.maxCounts, counts[m]));
+    status_.guardAtLimit = status_.guardAtLimit && counts[m] >= options_.maxCounts;
   }
   return counts;
 }
@@ -125,7 +126,7 @@ std::optional<TactileThresholds> NoiseThresholds::update(double timeS,
   std::vector<int> counts = wanted(degC);
   status_.guarding = status_.guardCounts > 0;
   if (lastSetS_ && !guardMoved) {
-    if (timeS - *lastSetS_ < options_.leastIntervalS) return std::nullopt;
+    if (timeS - *lastSetS_ < options_.minIntervalS) return std::nullopt;
     bool moves = false;
     for (std::size_t m = 0; m < counts.size(); ++m) {
       const int by = counts[m] - proposed_.counts[m];

@@ -103,9 +103,9 @@ Json jsonOf(const PressureModel& model) {
       .set("choices", model.options.study ? "study" : "default")
       .set("assumed_temperature_c", model.options.assumedDegC)
       .set("assumed_temperature_sd_c", model.options.assumedSdDegC)
-      .set("stamp_area_mm2", model.options.stampAreaMm2)
-      .set("area_share", model.areaShare)
-      .set("area_share_sd", model.areaShareSd)
+      .set("stamp_area_mm2", model.options.indenterAreaMm2)
+      .set("area_share", model.areaFraction)
+      .set("area_share_sd", model.areaFractionSd)
       .set("steady_s", model.steadyS)
       .set("notes", jsonList(model.notes));
 }
@@ -119,13 +119,13 @@ PressureModel pressureModelFrom(const Json& json) {
   model.options.study = json.at("choices").isString() && json.at("choices").asString() == "study";
   model.options.assumedDegC = numberAt(json, "assumed_temperature_c", "the model");
   model.options.assumedSdDegC = numberAt(json, "assumed_temperature_sd_c", "the model");
-  model.options.stampAreaMm2 = numberAt(json, "stamp_area_mm2", "the model");
-  model.areaShare = numberAt(json, "area_share", "the model");
-  model.areaShareSd = numberAt(json, "area_share_sd", "the model");
+  model.options.indenterAreaMm2 = numberAt(json, "stamp_area_mm2", "the model");
+  model.areaFraction = numberAt(json, "area_share", "the model");
+  model.areaFractionSd = numberAt(json, "area_share_sd", "the model");
   model.steadyS = numberAt(json, "steady_s", "the model");
   model.notes = pressureFilesTextsOf(json.at("notes"));
   model.options.validate();
-  if (!(model.areaShare > 0.0) || !(model.areaShareSd >= 0.0) || !(model.steadyS >= 0.0))
+  if (!(model.areaFraction > 0.0) || !(model.areaFractionSd >= 0.0) || !(model.steadyS >= 0.0))
     throw Error("pressure model: area_share must be above 0, its sd and steady_s not below");
   return model;
 }

@@ -37,7 +37,7 @@ double taxelForceN(const PressureFrame& frame,
                    std::size_t matrix,
                    int row,
                    int column) {
-  if (matrix >= frame.matrices.size() || frame.kpa.size() != layout.numPlaces()) return 0.0;
+  if (matrix >= frame.matrices.size() || frame.kpa.size() != layout.numCells()) return 0.0;
   const MatrixLayout& of = layout.matrix(matrix);
   const auto first = frame.kpa.begin() + static_cast<std::ptrdiff_t>(layout.offset(matrix));
   const double whole = std::accumulate(first, first + of.rows * of.columns, 0.0);
@@ -163,9 +163,9 @@ PressureMap::Contact PressureMap::contactIn(std::span<const float> values,
 void PressureMap::apply(const TactileFrame& frame,
                         std::span<const double> degC,
                         PressureFrame& out) {
-  if (frame.values.size() != layout_->numPlaces())
+  if (frame.values.size() != layout_->numCells())
     throw std::invalid_argument("PressureMap: a frame of " + std::to_string(frame.values.size()) +
-                                " values, the hand has " + std::to_string(layout_->numPlaces()));
+                                " values, the hand has " + std::to_string(layout_->numCells()));
   while (nextChange_ < options_.changes.size() &&
          frame.hostUs >= options_.changes[nextChange_].fromUs)
     useSettings(options_.changes[nextChange_++].settings);
@@ -196,13 +196,13 @@ void PressureMap::apply(const TactileFrame& frame,
     const double offset =
         matrix.sensitivityRatio == 1.0 ? 0.0 : calibration_.sensitivityOffset.value_or(0.0);
     const double reading = (contact.filteredMean - offset) * matrix.sensitivityRatio + offset;
-    result.gainCounts =
+    result.staticResponseCounts =
         options_.compensateDrift
             ? drift_[m].gainOf(
                   model.driftOfGain, timeS, reading, t.value_or(model.options.assumedDegC))
             : reading;
     result.compensated = options_.compensateDrift && drift_[m].compensating();
-    const PressureEstimate estimate = model.pressureAt(result.gainCounts, t);
+    const PressureEstimate estimate = model.pressureAt(result.staticResponseCounts, t);
     result.kpa = estimate.kpa;
     result.sdKpa = matrix.extraSdCounts > 0.0
                        ? std::hypot(estimate.sdKpa, matrix.extraSdCounts * estimate.kpaPerCount)
@@ -214,10 +214,10 @@ void PressureMap::apply(const TactileFrame& frame,
       if (values[place] > 0.0F && std::isfinite(values[place]))
         out.kpa[matrix.offset + place] =
             static_cast<float>(scale * static_cast<double>(values[place]));
-    const double areaMm2 = contact.active * matrix.taxelAreaMm2 * model.areaShare;
+    const double areaMm2 = contact.active * matrix.taxelAreaMm2 * model.areaFraction;
     result.forceN = result.kpa * areaMm2 * kNPerKpaMm2;
     result.sdForceN = std::hypot(result.sdKpa * areaMm2 * kNPerKpaMm2,
-                                 result.forceN * model.areaShareSd / model.areaShare);
+                                 result.forceN * model.areaFractionSd / model.areaFraction);
     out.forceN += result.forceN;
     out.sdForceN += result.sdForceN;
     out.inRange = out.inRange && result.inRange;

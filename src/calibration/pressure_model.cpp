@@ -19,16 +19,16 @@ std::optional<double> temperatureOf(const PressureSample& sample,
 }
 
 bool plausible(const PressureSample& sample) {
-  return sample.used && std::isfinite(sample.pressureKpa) && std::isfinite(sample.gainCounts) &&
-         std::isfinite(sample.driftPerS);
+  return sample.used && std::isfinite(sample.pressureKpa) &&
+         std::isfinite(sample.staticResponseCounts) && std::isfinite(sample.driftCountsPerS);
 }
 
 void addAreaShare(std::span<const PressureSample> samples, PressureModel& model) {
   std::vector<double> shares;
   for (const PressureSample& sample : samples)
     if (plausible(sample) && sample.activeAreaMm2 > 0.0)
-      shares.push_back(model.options.stampAreaMm2 / sample.activeAreaMm2);
-  if (!(model.options.stampAreaMm2 > 0.0)) {
+      shares.push_back(model.options.indenterAreaMm2 / sample.activeAreaMm2);
+  if (!(model.options.indenterAreaMm2 > 0.0)) {
     model.notes.push_back(
         "the stamp's area isn't known (--area): forces count every active taxel whole, though the "
         "rubber spreads a load");
@@ -38,8 +38,8 @@ void addAreaShare(std::span<const PressureSample> samples, PressureModel& model)
   double mean = 0.0, squares = 0.0;
   for (const double share : shares) mean += share / static_cast<double>(shares.size());
   for (const double share : shares) squares += (share - mean) * (share - mean);
-  model.areaShare = mean;
-  model.areaShareSd =
+  model.areaFraction = mean;
+  model.areaFractionSd =
       shares.size() > 1 ? std::sqrt(squares / static_cast<double>(shares.size() - 1)) : 0.0;
 }
 
@@ -79,16 +79,17 @@ void PressureModelOptions::validate() const {
   require(assumedSdDegC > 0.0 && std::isfinite(assumedSdDegC),
           "assumedSdDegC must be above 0",
           assumedSdDegC);
-  require(stampAreaMm2 >= 0.0 && std::isfinite(stampAreaMm2),
-          "stampAreaMm2 must be 0 (not known) or above",
-          stampAreaMm2);
+  require(indenterAreaMm2 >= 0.0 && std::isfinite(indenterAreaMm2),
+          "indenterAreaMm2 must be 0 (not known) or above",
+          indenterAreaMm2);
 }
 
-PressureEstimate PressureModel::pressureAt(double gainCounts, std::optional<double> degC) const {
+PressureEstimate PressureModel::pressureAt(double staticResponseCounts,
+                                           std::optional<double> degC) const {
   PressureEstimate estimate;
   estimate.temperatureKnown = degC && std::isfinite(*degC) && *degC != 0.0;
   const double t = estimate.temperatureKnown ? *degC : options.assumedDegC;
-  const SurfaceEstimate at = gain.at(gainCounts, t);
+  const SurfaceEstimate at = gain.at(staticResponseCounts, t);
   estimate.kpa = std::isnan(at.value) ? at.value : std::max(at.value, 0.0);
   estimate.sdKpa = at.sd;
   if (!estimate.temperatureKnown)
@@ -110,9 +111,9 @@ PressureModel fitPressureModel(std::span<const PressureSample> samples,
     const auto degC = temperatureOf(sample, options);
     if (!degC) ++withoutTemperature;
     const double t = degC.value_or(options.assumedDegC);
-    byGain.push_back({sample.gainCounts, t, sample.pressureKpa});
-    byDrift.push_back({sample.driftPerS, t, sample.pressureKpa});
-    driftByGain.push_back({sample.gainCounts, t, sample.driftPerS});
+    byGain.push_back({sample.staticResponseCounts, t, sample.pressureKpa});
+    byDrift.push_back({sample.driftCountsPerS, t, sample.pressureKpa});
+    driftByGain.push_back({sample.staticResponseCounts, t, sample.driftCountsPerS});
   }
   const auto selection =
       options.study ? SurfaceSelection::kAllTerms : SurfaceSelection::kLeaveOneOut;

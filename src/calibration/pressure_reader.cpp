@@ -13,7 +13,7 @@ namespace {
 
 // Creep is followed so long, and then some.
 constexpr std::int64_t kBeforeUs = 40'000'000;
-static_assert(DriftCompensationOptions{}.longestS * 1e6 < static_cast<double>(kBeforeUs));
+static_assert(DriftCompensationOptions{}.maxDurationS * 1e6 < static_cast<double>(kBeforeUs));
 
 }  // namespace
 
@@ -27,7 +27,7 @@ PressureReader::PressureReader(Profile profile,
   if (profile_.info().valueType != ValueType::kCounts)
     throw Error(
         "the recording holds filtered values, not counts: a calibration doesn't apply to them");
-  if (tare_ && tare_->zero.size() != profile_.layout().numPlaces())
+  if (tare_ && tare_->zero.size() != profile_.layout().numCells())
     throw std::invalid_argument("PressureReader: a tare of another hand");
 }
 

@@ -48,16 +48,16 @@ PressureTableRow rowOf(const std::vector<std::string>& cells, const Columns& col
   };
   PressureTableRow row;
   row.file = cell(columns.file);
-  if (row.file.empty()) row.trouble = "names no file";
+  if (row.file.empty()) row.problem = "names no file";
   const auto pressure = parseDouble(cell(columns.pressure));
   if (!pressure || *pressure < 0.0)
-    row.trouble = "pressure_kpa '" + cell(columns.pressure) + "' is no pressure";
+    row.problem = "pressure_kpa '" + cell(columns.pressure) + "' is no pressure";
   row.pressureKpa = pressure.value_or(std::nan(""));
   const std::string temperature = cell(columns.temperature);
   if (!temperature.empty()) {
     row.temperatureC = parseDouble(temperature);
     if (!row.temperatureC || std::abs(*row.temperatureC) > 200.0)
-      row.trouble = "temperature_c '" + temperature + "' is no temperature";
+      row.problem = "temperature_c '" + temperature + "' is no temperature";
   }
   return row;
 }
@@ -109,8 +109,8 @@ PressureSample unusedSample(const PressureTableRow& row, const std::string& why)
 }
 
 std::vector<PressureTableRow> readPressureTable(const std::filesystem::path& path) {
-  constexpr std::uint64_t kMostBytes = 16u << 20;
-  return parsePressureTable(readTextFile(path, kMostBytes), path);
+  constexpr std::uint64_t kMaxBytes = 16u << 20;
+  return parsePressureTable(readTextFile(path, kMaxBytes), path);
 }
 
 std::vector<PressureSample> samplesOf(const PressureTableRow& row,
@@ -122,8 +122,8 @@ std::vector<PressureSample> samplesOf(const PressureTableRow& row,
     sample.file = row.file.string();
     sample.sha256 = sha256;
     sample.pressureKpa = row.pressureKpa;
-    sample.gainCounts = step.fit.parameters.gainCounts;
-    sample.driftPerS = step.fit.parameters.driftPerS;
+    sample.staticResponseCounts = step.fit.parameters.staticResponseCounts;
+    sample.driftCountsPerS = step.fit.parameters.driftCountsPerS;
     sample.nearestDegC = row.temperatureC   ? row.temperatureC
                          : step.nearestDegC ? step.nearestDegC
                                             : step.allSensorsDegC;

@@ -15,11 +15,11 @@ SensitivityCurve fitSensitivityCurve(std::span<const SensitivityPoint> points,
   curve.points.assign(points.begin(), points.end());
   double n = 0.0, x = 0.0, y = 0.0;
   for (SensitivityPoint& p : curve.points) {
-    p.used = p.used && std::isfinite(p.sensitivity) && std::isfinite(p.gainCounts);
+    p.used = p.used && std::isfinite(p.sensitivity) && std::isfinite(p.staticResponseCounts);
     if (!p.used) continue;
     n += 1.0;
     x += p.sensitivity;
-    y += p.gainCounts;
+    y += p.staticResponseCounts;
   }
   const auto left = static_cast<double>(curve.points.size()) - n;
   if (left > 0.0) curve.notes.push_back(fixedText(left, 0) + " steps are left out");
@@ -31,8 +31,8 @@ SensitivityCurve fitSensitivityCurve(std::span<const SensitivityPoint> points,
   for (const SensitivityPoint& p : curve.points) {
     if (!p.used) continue;
     xx += (p.sensitivity - x) * (p.sensitivity - x);
-    yy += (p.gainCounts - y) * (p.gainCounts - y);
-    xy += (p.sensitivity - x) * (p.gainCounts - y);
+    yy += (p.staticResponseCounts - y) * (p.staticResponseCounts - y);
+    xy += (p.sensitivity - x) * (p.staticResponseCounts - y);
   }
   if (!(xx > 0.0)) {
     curve.notes.push_back(n < 2.0 ? "a line takes two steps at different sensitivities"
@@ -68,7 +68,7 @@ Json jsonOf(const SensitivityCurve& curve) {
   Json points = Json::array();
   for (const SensitivityPoint& p : curve.points) {
     Json point = Json::object();
-    point.set("sensitivity", p.sensitivity).set("K", p.gainCounts).set("used", p.used);
+    point.set("sensitivity", p.sensitivity).set("K", p.staticResponseCounts).set("used", p.used);
     if (!p.note.empty()) point.set("note", p.note);
     points.push(std::move(point));
   }

@@ -27,9 +27,10 @@ void SensitivitySearchOptions::validate() const {
                            "saturationCounts must be above 0, is " + numberText(saturationCounts));
   requireSensitivitySearch(headroom >= 0.0 && headroom <= 0.9,
                            "headroom must be 0..0.9, is " + numberText(headroom));
-  requireSensitivitySearch(framesToLook >= 1, "framesToLook must be 1 or more");
-  requireSensitivitySearch(loosenAfterS >= 0.0,
-                           "loosenAfterS must be 0 or more, is " + numberText(loosenAfterS));
+  requireSensitivitySearch(framesPerTrial >= 1, "framesPerTrial must be 1 or more");
+  requireSensitivitySearch(
+      resetUpperBoundAfterS >= 0.0,
+      "resetUpperBoundAfterS must be 0 or more, is " + numberText(resetUpperBoundAfterS));
 }
 
 SensitivitySearch::SensitivitySearch(double sensitivity,
@@ -38,7 +39,7 @@ SensitivitySearch::SensitivitySearch(double sensitivity,
     : options_(options),
       thresholdCounts_(thresholdCounts),
       sensitivity_(sensitivity),
-      unsafe_(kNoLimit) {
+      lowestSaturated_(kNoLimit) {
   options_.validate();
   requireSensitivitySearch(thresholdCounts >= 0.0 && std::isfinite(thresholdCounts),
                            "thresholdCounts must be 0 or more");
@@ -65,12 +66,13 @@ std::optional<double> SensitivitySearch::observe(double timeS, double maximumCou
   if (!std::isfinite(maximumCounts) || !(maximumCounts > 0.0)) return std::nullopt;
   if (maximumCounts >= options_.saturationCounts) {
     // At once: what is saturated is lost.
-    unsafe_ = std::min(unsafe_, sensitivity_);
-    if (safe_ >= unsafe_) safe_ = 0.0;  // the load grew since
+    lowestSaturated_ = std::min(lowestSaturated_, sensitivity_);
+    if (highestUnsaturated_ >= lowestSaturated_) highestUnsaturated_ = 0.0;  // the load grew since
     saturated_ = sensitivity_ <= options_.least;
     settled_ = saturated_;
-    return propose(safe_ > 0.0 ? 0.5 * (safe_ + unsafe_)
-                               : 0.5 * (options_.least + unsafe_) - 0.25 * options_.resolution);
+    return propose(highestUnsaturated_ > 0.0
+                       ? 0.5 * (highestUnsaturated_ + lowestSaturated_)
+                       : 0.5 * (options_.least + lowestSaturated_) - 0.25 * options_.resolution);
   }
   saturated_ = false;
   largest_ = std::max(largest_, maximumCounts);
@@ -83,15 +85,17 @@ std::optional<double> SensitivitySearch::observe(double timeS, double maximumCou
                      wanted > sensitivity_ + 2.0 * options_.resolution + options_.headroom;
     if (!low) lowSinceS_.reset();
     if (low && !lowSinceS_) lowSinceS_ = timeS;
-    if (!low || timeS - *lowSinceS_ < options_.loosenAfterS) return std::nullopt;
-    unsafe_ = kNoLimit;
+    if (!low || timeS - *lowSinceS_ < options_.resetUpperBoundAfterS) return std::nullopt;
+    lowestSaturated_ = kNoLimit;
     return propose(wanted);
   }
-  if (++frames_ < options_.framesToLook) return std::nullopt;
-  safe_ = std::max(safe_, sensitivity_);
+  if (++frames_ < options_.framesPerTrial) return std::nullopt;
+  highestUnsaturated_ = std::max(highestUnsaturated_, sensitivity_);
   const double expected = sensitivity_ * (aim + thresholdCounts_) / (largest_ + thresholdCounts_);
-  const double next =
-      std::min({expected, options_.most, unsafe_ < kNoLimit ? 0.5 * (safe_ + unsafe_) : kNoLimit});
+  const double next = std::min(
+      {expected,
+       options_.most,
+       lowestSaturated_ < kNoLimit ? 0.5 * (highestUnsaturated_ + lowestSaturated_) : kNoLimit});
   const auto proposal = next > sensitivity_ + options_.resolution ? propose(next) : std::nullopt;
   if (!proposal) settled_ = true;
   return proposal;

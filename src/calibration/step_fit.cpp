@@ -43,8 +43,8 @@ StepParameters parametersOf(const StepSearch& found) {
     p = {0.0, 0.0, first, at[1]};
   else
     p = StepParameters::ofTimes(0.0, 0.0, first * (1.0 + std::exp(at[1])), first);
-  p.gainCounts = found.gain;
-  p.driftPerS = found.drift;
+  p.staticResponseCounts = found.gain;
+  p.driftCountsPerS = found.drift;
   return p;
 }
 
@@ -123,7 +123,7 @@ class Fitter {
       const StepParameters was = parametersOf(from), is = parametersOf(next);
       const double moved = std::abs(std::log(is.timeConstantS / was.timeConstantS)) +
                            std::abs(std::log(is.damping / was.damping)) +
-                           std::abs(is.gainCounts / was.gainCounts - 1.0);
+                           std::abs(is.staticResponseCounts / was.staticResponseCounts - 1.0);
       from = next;
       if (moved < 1e-7) break;
     }
@@ -149,11 +149,14 @@ class Fitter {
                                           : overdampedShape(t, t1, t2);
       const double root = samples_.weights().empty() ? 1.0 : std::sqrt(samples_.weights()[i]);
       // By T and d; or by T1 and T2: v = log(T1/T2 - 1), u = log T2 keep the other time constant.
-      const double third = oscillating ? shape.byFirst / p.timeConstantS : byT1(shape, t, t1, t2);
-      const double fourth =
-          oscillating ? shape.bySecond : (shape.byFirst - t1 * byT1(shape, t, t1, t2)) / t2;
+      const double third =
+          oscillating ? shape.derivativeByFirst / p.timeConstantS : byT1(shape, t, t1, t2);
+      const double fourth = oscillating
+                                ? shape.derivativeBySecond
+                                : (shape.derivativeByFirst - t1 * byT1(shape, t, t1, t2)) / t2;
       jacobian.row(static_cast<Eigen::Index>(i)) =
-          root * Eigen::RowVector4d(shape.phi, t, p.gainCounts * third, p.gainCounts * fourth);
+          root * Eigen::RowVector4d(
+                     shape.phi, t, p.staticResponseCounts * third, p.staticResponseCounts * fourth);
     }
     const Eigen::RowVector4d size = jacobian.colwise().norm();
     if (!(size.minCoeff() > 0.0) || !size.allFinite())
@@ -173,9 +176,10 @@ class Fitter {
   double leastT2S() const { return std::exp(leastLog_); }
 
  private:
-  // d phi / d T1 at fixed T2. bySecond is (T1 - T2) times it; where they are equal, the limit.
+  // d phi / d T1 at fixed T2. derivativeBySecond is (T1 - T2) times it; where they are equal, the
+  // limit.
   static double byT1(const StepShape& shape, double t, double t1, double t2) {
-    if (t1 - t2 > 1e-6 * t1) return shape.bySecond / (t1 - t2);
+    if (t1 - t2 > 1e-6 * t1) return shape.derivativeBySecond / (t1 - t2);
     const double s = t / t1;
     return -0.5 * s * s * std::exp(-s) / t1;
   }
@@ -206,7 +210,7 @@ class Fitter {
     for (int turn = 0; turn < kMostTurns; ++turn) {
       const bool times = found.by == StepCoordinates::kTimes;
       found = searchStep(
-          samples, found.by, found.at, times ? byTimes : byDamping, options_.mostIterations, known);
+          samples, found.by, found.at, times ? byTimes : byDamping, options_.maxIterations, known);
       evaluations_ += found.evaluations;
       const bool leaves = !times && range.most > 1.0 && found.at[1] >= range.most;
       if (found.sameAsKnown || (found.converged && !leaves)) break;
@@ -234,17 +238,18 @@ void sayWhatIsMissing(const Fitter& fitter, double durationS, double frameS, Ste
   const StepParameters& p = fit.parameters;
   const bool oscillating = p.damping < 1.0;
   const double phiAtEnd =
-      p.gainCounts == 0.0 ? 0.0
-                          : (stepResponse(p, durationS) - p.driftPerS * durationS) / p.gainCounts;
-  fit.gainReached = phiAtEnd >= kGainReached;
+      p.staticResponseCounts == 0.0
+          ? 0.0
+          : (stepResponse(p, durationS) - p.driftCountsPerS * durationS) / p.staticResponseCounts;
+  fit.steadyStateReached = phiAtEnd >= kGainReached;
   if (!fit.converged)
     fit.notes.push_back("the fit did not converge: no parameter is to be trusted");
-  if (!fit.gainReached)
+  if (!fit.steadyStateReached)
     fit.notes.push_back("cut off before the gain is reached (" + fixedText(100.0 * phiAtEnd, 0) +
                         " % of it): K and m can't be told apart");
   const double third = oscillating ? p.timeConstantS : p.t1S();
   const double fourth = oscillating ? p.damping : p.t2S();
-  const bool k = fit.sd(0) < 0.5 * std::abs(p.gainCounts);
+  const bool k = fit.sd(0) < 0.5 * std::abs(p.staticResponseCounts);
   const bool slow = fit.sd(2) < 0.5 * third;
   const bool fast = fit.sd(3) < 0.5 * fourth && (oscillating || fourth > 2.0 * fitter.leastT2S());
   fit.identifiable = fit.converged && k && slow && fast;
@@ -267,9 +272,9 @@ void StepFitOptions::validate() const {
   if (!(lossScale >= 0.0) || !std::isfinite(lossScale))
     throw std::invalid_argument("StepFitOptions: lossScale must be 0 (automatic) or above, is " +
                                 numberText(lossScale));
-  if (mostIterations < 1)
-    throw std::invalid_argument("StepFitOptions: mostIterations must be at least 1, is " +
-                                std::to_string(mostIterations));
+  if (maxIterations < 1)
+    throw std::invalid_argument("StepFitOptions: maxIterations must be at least 1, is " +
+                                std::to_string(maxIterations));
 }
 
 double StepFit::sd(int parameter) const {

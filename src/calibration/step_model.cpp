@@ -57,10 +57,10 @@ double firstTime(const StepParameters& p, Reached reached) {
 }
 
 double steadyTime(const StepParameters& p) {
-  if (p.gainCounts * p.driftPerS > 0.0 || p.damping < 1.0) {
-    const double sign = p.gainCounts < 0.0 ? -1.0 : 1.0;
-    const double atGain =
-        firstTime(p, [&](double t) { return sign * (stepResponse(p, t) - p.gainCounts) >= 0.0; });
+  if (p.staticResponseCounts * p.driftCountsPerS > 0.0 || p.damping < 1.0) {
+    const double sign = p.staticResponseCounts < 0.0 ? -1.0 : 1.0;
+    const double atGain = firstTime(
+        p, [&](double t) { return sign * (stepResponse(p, t) - p.staticResponseCounts) >= 0.0; });
     if (!std::isnan(atGain)) return atGain;
   }
   return firstTime(p, [&](double t) { return 1.0 - shapeOf(p, t).phi < kStepModelSettled; });
@@ -68,12 +68,12 @@ double steadyTime(const StepParameters& p) {
 
 }  // namespace
 
-StepParameters StepParameters::ofTimes(double gainCounts,
-                                       double driftPerS,
+StepParameters StepParameters::ofTimes(double staticResponseCounts,
+                                       double driftCountsPerS,
                                        double t1S,
                                        double t2S) {
   const double t = std::sqrt(t1S) * std::sqrt(t2S);
-  return {gainCounts, driftPerS, t, std::max(0.5 * (t1S / t + t2S / t), 1.0)};
+  return {staticResponseCounts, driftCountsPerS, t, std::max(0.5 * (t1S / t + t2S / t), 1.0)};
 }
 
 double StepParameters::t1S() const {
@@ -99,24 +99,24 @@ StepShape oscillatingShape(double tS, double timeConstantS, double damping) {
   StepShape shape;
   shape.phi = 1.0 - rest;
   shape.rate = decay * s * z.sine / timeConstantS;
-  shape.byFirst = -tS * shape.rate;
-  shape.bySecond =
+  shape.derivativeByFirst = -tS * shape.rate;
+  shape.derivativeBySecond =
       s * rest -
       decay * s * (z.sine * (1.0 + damping * s) + damping * damping * s * s * z.difference);
   return shape;
 }
 
 double stepResponse(const StepParameters& p, double tS) {
-  return p.gainCounts * shapeOf(p, tS).phi + p.driftPerS * std::max(tS, 0.0);
+  return p.staticResponseCounts * shapeOf(p, tS).phi + p.driftCountsPerS * std::max(tS, 0.0);
 }
 
 double stepResponseRate(const StepParameters& p, double tS) {
-  return p.gainCounts * shapeOf(p, tS).rate + (tS >= 0.0 ? p.driftPerS : 0.0);
+  return p.staticResponseCounts * shapeOf(p, tS).rate + (tS >= 0.0 ? p.driftCountsPerS : 0.0);
 }
 
 StepCharacteristics characteristicsOf(const StepParameters& p) {
   StepCharacteristics c;
-  const double k = p.gainCounts;
+  const double k = p.staticResponseCounts;
   c.inflectionS = inflectionOf(p);
   c.inflectionCounts = stepResponse(p, c.inflectionS);
   c.tangentPerS = stepResponseRate(p, c.inflectionS);

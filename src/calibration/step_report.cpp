@@ -79,13 +79,13 @@ void judge(const StepSignal& signal, double taxelAreaMm2, FittedStep& fitted) {
     for (std::size_t i = middle; i <= step.end; ++i) active += signal.activeTaxels[i];
     fitted.activeAreaMm2 = active / static_cast<double>(step.end - middle + 1) * taxelAreaMm2;
   }
-  if (!signal.switchedTaxels.empty()) {
+  if (!signal.toggledTaxels.empty()) {
     const std::size_t middle = step.begin + frames / 2;
     double switched = 0.0;
-    for (std::size_t i = middle; i <= step.end; ++i) switched += signal.switchedTaxels[i];
-    fitted.switchedPerFrame = switched / static_cast<double>(step.end - middle + 1);
-    if (fitted.switchedPerFrame > kFlicker)
-      note("flickering: " + fixedText(fitted.switchedPerFrame, 1) +
+    for (std::size_t i = middle; i <= step.end; ++i) switched += signal.toggledTaxels[i];
+    fitted.toggledPerFrame = switched / static_cast<double>(step.end - middle + 1);
+    if (fitted.toggledPerFrame > kFlicker)
+      note("flickering: " + fixedText(fitted.toggledPerFrame, 1) +
            " taxels come or go in each frame, and the mean over active taxels with them; raise the "
            "sensitivity or "
            "lower the threshold");
@@ -93,9 +93,9 @@ void judge(const StepSignal& signal, double taxelAreaMm2, FittedStep& fitted) {
   if (step.flickerFrames > 0)
     note(std::to_string(step.flickerFrames) + " frames without any active taxel were bridged");
   const StepFit& fit = fitted.fit;
-  if (fit.converged && fit.rmse > kBadRmseShare * std::abs(fit.parameters.gainCounts))
+  if (fit.converged && fit.rmse > kBadRmseShare * std::abs(fit.parameters.staticResponseCounts))
     note("the residuals are " +
-         fixedText(100.0 * fit.rmse / std::abs(fit.parameters.gainCounts), 0) +
+         fixedText(100.0 * fit.rmse / std::abs(fit.parameters.staticResponseCounts), 0) +
          " % of K: no single load that stayed");
 }
 
@@ -115,7 +115,10 @@ Json jsonOf(const FittedStep& fitted) {
   Json json = Json::object();
   json.set("begin", fitted.step.begin).set("end", fitted.step.end);
   if (fit.converged) {
-    json.set("K", p.gainCounts).set("m", p.driftPerS).set("T1", p.t1S()).set("T2", p.t2S());
+    json.set("K", p.staticResponseCounts)
+        .set("m", p.driftCountsPerS)
+        .set("T1", p.t1S())
+        .set("T2", p.t2S());
     json.set("T", p.timeConstantS).set("d", p.damping).set("rmse", fit.rmse);
   } else {
     for (const char* key : {"K", "m", "T1", "T2", "T", "d", "rmse"}) json.set(key, Json());
@@ -130,7 +133,7 @@ Json jsonOf(const FittedStep& fitted) {
   Json intervals = Json::array();
   for (int i = 0; i < 4; ++i) intervals.push(fit.interval95(i));
   json.set("interval95", std::move(intervals));
-  json.set("gain_reached", fit.gainReached).set("usable", fitted.usable());
+  json.set("gain_reached", fit.steadyStateReached).set("usable", fitted.usable());
   json.set("samples", fit.numSamples).set("dropped", fit.numDropped);
   json.set("downweighted", fit.numDownweighted);
   if (fit.converged) {
@@ -145,7 +148,7 @@ Json jsonOf(const FittedStep& fitted) {
   json.set("study_temperature_c", orNull(fitted.studyDegC));
   json.set("active_area_mm2", fitted.activeAreaMm2);
   json.set("saturated_frames", fitted.saturatedFrames);
-  json.set("switched_taxels_per_frame", fitted.switchedPerFrame);
+  json.set("switched_taxels_per_frame", fitted.toggledPerFrame);
   json.set("released", fitted.step.released);
   std::vector<std::string> notes = fitted.notes;
   notes.insert(notes.end(), fit.notes.begin(), fit.notes.end());
@@ -156,7 +159,7 @@ Json jsonOf(const FittedStep& fitted) {
 
 bool FittedStep::usable() const noexcept {
   return fit.usable() && step.beginSeen && saturatedFrames == 0 &&
-         fit.rmse <= kBadRmseShare * std::abs(fit.parameters.gainCounts);
+         fit.rmse <= kBadRmseShare * std::abs(fit.parameters.staticResponseCounts);
 }
 
 StepSignal samplesOf(const StepSignal& signal, const LoadingStep& step) {
@@ -202,8 +205,8 @@ StepReport reportSteps(const Profile& profile,
     report.notes.push_back("no step: matrix " + std::to_string(matrix) + " is never loaded");
   else if (report.steps.empty())
     report.notes.push_back("no step: no contact of matrix " + std::to_string(matrix) + " lasts " +
-                           fixedText(options.steps.leastDurationS, 1) + " s and " +
-                           std::to_string(options.steps.leastFrames) + " frames");
+                           fixedText(options.steps.minDurationS, 1) + " s and " +
+                           std::to_string(options.steps.minFrames) + " frames");
   if (!report.steps.empty() && profile.numTemperatures() == 0)
     report.notes.push_back("no temperatures were recorded: K and m hold for an unknown one");
   return report;

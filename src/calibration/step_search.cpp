@@ -200,7 +200,8 @@ StepSamples::Moments StepSamples::moments(const Eigen::Vector2d& at, StepCoordin
       std::upper_bound(t_.begin(), t_.end(), kStepSearchSettled * slowest) - t_.begin());
   Moments s;
   const auto add = [&s](const StepShape& shape, double t, double y, double w) {
-    const double p = w * shape.phi, a = w * shape.byFirst, b = w * shape.bySecond;
+    const double p = w * shape.phi, a = w * shape.derivativeByFirst,
+                 b = w * shape.derivativeBySecond;
     s.pp += p * shape.phi;
     s.pt += p * t;
     s.py += p * y;
@@ -210,9 +211,9 @@ StepSamples::Moments StepSamples::moments(const Eigen::Vector2d& at, StepCoordin
     s.bp += b * shape.phi;
     s.bt += b * t;
     s.by += b * y;
-    s.aa += a * shape.byFirst;
-    s.ab += a * shape.bySecond;
-    s.bb += b * shape.bySecond;
+    s.aa += a * shape.derivativeByFirst;
+    s.ab += a * shape.derivativeBySecond;
+    s.bb += b * shape.derivativeBySecond;
   };
   const OverdampedShape overdamped(t1, first);
   for (std::size_t i = 0; i < settled; ++i)
@@ -234,7 +235,7 @@ StepSearch searchStep(const StepSamples& samples,
                       StepCoordinates by,
                       const Eigen::Vector2d& start,
                       const StepSearchBounds& bounds,
-                      int mostIterations,
+                      int maxIterations,
                       std::span<const StepSearch> known) {
   StepSearch search;
   search.by = by;
@@ -245,7 +246,7 @@ StepSearch searchStep(const StepSamples& samples,
   double lambda = 1e-3;
   Normal normal = normalEquations(moments, linear);
   SecantPart secant;
-  for (int i = 0; i < mostIterations && std::isfinite(linear.sumOfSquares); ++i) {
+  for (int i = 0; i < maxIterations && std::isfinite(linear.sumOfSquares); ++i) {
     const Eigen::Vector2d step = dampedStep(secant.completed(normal), lambda, search.at, bounds);
     const Eigen::Vector2d next = (search.at + step).cwiseMax(bounds.least).cwiseMin(bounds.most);
     const double moved = (next - search.at).cwiseAbs().maxCoeff();

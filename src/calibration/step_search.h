@@ -68,7 +68,7 @@ StepSearch searchStep(const StepSamples& samples,
                       StepCoordinates by,
                       const Eigen::Vector2d& start,
                       const StepSearchBounds& bounds,
-                      int mostIterations,
+                      int maxIterations,
                       std::span<const StepSearch> known = {});
 
 }  // namespace palpate

@@ -56,7 +56,7 @@ class WindowSums {
 std::vector<Window> windowsOf(const Profile& profile, double windowS, const Progress& progress) {
   constexpr std::size_t kFramesPerReport = 256;
   std::vector<Window> windows;
-  WindowSums sums(profile.layout().numPlaces());
+  WindowSums sums(profile.layout().numCells());
   TactileFrame frame;
   std::size_t begin = 0;
   const auto close = [&](std::size_t end) {
@@ -94,7 +94,7 @@ MatrixTare tareOf(const std::vector<Window>& windows,
   std::vector<const Window*> calm;
   double calmest = 0.0;
   for (const Window& window : windows) {
-    if (static_cast<double>(largest(window.sd, offset, count)) > options.mostSdCounts) continue;
+    if (static_cast<double>(largest(window.sd, offset, count)) > options.maxSdCounts) continue;
     const auto rest = static_cast<double>(largest(window.mean, offset, count));
     calmest = calm.empty() ? rest : std::min(calmest, rest);
     calm.push_back(&window);
@@ -104,7 +104,7 @@ MatrixTare tareOf(const std::vector<Window>& windows,
                                 : "never still: something moves in every window";
     return tare;
   }
-  if (calmest > options.mostRestCounts) {
+  if (calmest > options.maxRestCounts) {
     tare.note = "never unloaded: its calmest window reads " + fixedText(calmest, 0) + " counts";
     return tare;
   }
@@ -139,9 +139,9 @@ void TareOptions::validate() const {
       throw std::invalid_argument(std::string("TareOptions: ") + what + ", is " + numberText(is));
   };
   require(windowS > 0.0 && std::isfinite(windowS), "windowS must be above 0", windowS);
-  require(mostRestCounts >= 0.0, "mostRestCounts must be 0 or more", mostRestCounts);
+  require(maxRestCounts >= 0.0, "maxRestCounts must be 0 or more", maxRestCounts);
   require(sameRestCounts >= 0.0, "sameRestCounts must be 0 or more", sameRestCounts);
-  require(mostSdCounts >= 0.0, "mostSdCounts must be 0 or more", mostSdCounts);
+  require(maxSdCounts >= 0.0, "maxSdCounts must be 0 or more", maxSdCounts);
 }
 
 bool Tare::any() const {
@@ -152,11 +152,11 @@ Tare findTare(const Profile& profile, const TareOptions& options, const Progress
   options.validate();
   const SensorLayout& layout = profile.layout();
   Tare tare;
-  tare.zero.assign(layout.numPlaces(), 0.0F);
+  tare.zero.assign(layout.numCells(), 0.0F);
   const std::vector<Window> windows = windowsOf(profile, options.windowS, progress);
   for (std::size_t m = 0; m < layout.numMatrices(); ++m)
     tare.matrices.push_back(
-        tareOf(windows, layout.offset(m), layout.matrix(m).numPlaces(), options, tare.zero));
+        tareOf(windows, layout.offset(m), layout.matrix(m).numCells(), options, tare.zero));
   return tare;
 }
 
@@ -173,7 +173,7 @@ Json jsonOf(const Tare& tare, const SensorLayout& layout) {
   for (std::size_t m = 0; m < tare.matrices.size(); ++m) {
     const MatrixTare& one = tare.matrices[m];
     Json zero = Json::array(), windows = Json::array();
-    for (std::size_t p = 0; p < layout.matrix(m).numPlaces(); ++p)
+    for (std::size_t p = 0; p < layout.matrix(m).numCells(); ++p)
       zero.push(static_cast<double>(tare.zero[layout.offset(m) + p]));
     for (const UnloadedWindow& window : one.windows)
       windows.push(Json::array().push(window.begin).push(window.end));
@@ -195,9 +195,9 @@ Tare tareFrom(const Json& json, const SensorLayout& layout) {
   Tare tare;
   for (std::size_t m = 0; m < matrices.size(); ++m) {
     const Json one = matrices.at(m), zero = one.at("zero"), windows = one.at("windows");
-    if (zero.size() != layout.matrix(m).numPlaces())
+    if (zero.size() != layout.matrix(m).numCells())
       throw Error("tare: matrix " + std::to_string(m) + " has " + std::to_string(zero.size()) +
-                  " zeros, not " + std::to_string(layout.matrix(m).numPlaces()));
+                  " zeros, not " + std::to_string(layout.matrix(m).numCells()));
     MatrixTare back;
     back.valid = one.at("valid").isBool() && one.at("valid").asBool();
     for (std::size_t p = 0; p < zero.size(); ++p) {

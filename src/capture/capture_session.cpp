@@ -22,7 +22,7 @@ std::unique_ptr<Device> required(std::unique_ptr<Device> device) {
 std::map<std::string, std::string> describe(const Device& device) {
   std::map<std::string, std::string> meta{{"hand", device.hand().name},
                                           {"program", "palpate " PALPATE_VERSION}};
-  const DeviceFacts facts = device.facts();
+  const DeviceInfo facts = device.facts();
   meta["serial"] = facts.serial;
   meta["firmware"] = facts.firmware;
   if (facts.sensorRevision > 0) meta["sensor_revision"] = std::to_string(facts.sensorRevision);
@@ -72,7 +72,7 @@ CaptureSession::CaptureSession(std::unique_ptr<Device> device,
           }(),
           clock),
       meter_(options_.health),
-      scansItself_(device_->scansItself()),
+      scansItself_(device_->isFreeRunning()),
       saturationCounts_(device_->hand().saturationCounts) {}
 
 CaptureSession::~CaptureSession() {
@@ -84,7 +84,7 @@ CaptureSession::~CaptureSession() {
 
 void CaptureSession::start() {
   if (started_) return;
-  if (!recorder_.recording()) recorder_.forget();
+  if (!recorder_.recording()) recorder_.clearPreTrigger();
   meter_.reset();
   takeFrame();
   takeAngles();
@@ -186,7 +186,7 @@ void CaptureSession::onEvent(DeviceEvent&& event) {
 
 void CaptureSession::pass(const CaptureItem& item) {
   if (numFeeds_ > 0) {
-    std::vector<std::shared_ptr<CaptureFeed>> feeds;
+    std::vector<std::shared_ptr<CaptureQueue>> feeds;
     {
       const std::lock_guard lock(feedsMutex_);
       std::erase_if(feeds_, [](const auto& feed) { return feed->closed(); });
@@ -195,7 +195,7 @@ void CaptureSession::pass(const CaptureItem& item) {
     }
     for (const auto& feed : feeds) feed->put(item);  // one for a replay may wait here
   }
-  recorder_.offer(item);
+  recorder_.push(item);
 }
 
 void CaptureSession::show(const RecordingEvent& event) {
@@ -204,15 +204,15 @@ void CaptureSession::show(const RecordingEvent& event) {
   shown_.push_back(event);
 }
 
-std::shared_ptr<CaptureFeed> CaptureSession::subscribe(std::string consumer,
-                                                       const FeedOptions& options) {
-  auto feed = std::make_shared<CaptureFeed>(std::move(consumer), options);
+std::shared_ptr<CaptureQueue> CaptureSession::subscribe(std::string consumer,
+                                                        const CaptureQueueOptions& options) {
+  auto feed = std::make_shared<CaptureQueue>(std::move(consumer), options);
   const std::lock_guard lock(feedsMutex_);
   feeds_.push_back(feed);
   numFeeds_ = feeds_.size();
   // Let go, it is closed, so that nobody waits for room in it.
-  CaptureFeed* const bare = feed.get();
-  return {bare, [owner = std::move(feed)](CaptureFeed*) { owner->close(); }};
+  CaptureQueue* const bare = feed.get();
+  return {bare, [owner = std::move(feed)](CaptureQueue*) { owner->close(); }};
 }
 
 SharedFrame CaptureSession::takeFrame() { return screenFrame_.take().value_or(nullptr); }
@@ -235,7 +235,7 @@ LinkInputs CaptureSession::inputs() const {
   inputs.started = started_;
   inputs.device = device_->status();
   inputs.frames = meter_.read(clock_.monotonicUs());
-  inputs.queues = recorder_.feedStats();
+  inputs.queues = recorder_.queueStats();
   inputs.recorder = recorder_.status();
   const std::lock_guard lock(shownMutex_);
   inputs.temperatures = lastTemperatures_;
@@ -244,11 +244,11 @@ LinkInputs CaptureSession::inputs() const {
 
 LinkHealth CaptureSession::health() const { return assessHealth(inputs(), options_.health); }
 
-BeforeRun CaptureSession::checkBeforeRun(const fs::path& folder) const {
+PreflightCheck CaptureSession::checkPreflight(const fs::path& folder) const {
   const auto& ask = options_.recorder.freeBytes;
   const FolderState state{
       folder, ::access(folder.c_str(), W_OK | X_OK) == 0, ask ? ask(folder) : freeBytesOf(folder)};
-  return palpate::checkBeforeRun(inputs(), state, options_.health);
+  return palpate::checkPreflight(inputs(), state, options_.health);
 }
 
 }  // namespace palpate

@@ -12,7 +12,7 @@ void IntervalStatistics::add(std::int64_t stampUs) {
   const std::int64_t interval = stampUs - lastUs_;
   lastUs_ = stampUs;
   if (interval >= kPage * kPages) {
-    if (longOnes_.size() < kMostLong) longOnes_.push_back(interval);
+    if (longOnes_.size() < kMaxLongIntervals) longOnes_.push_back(interval);
     return;
   }
   auto& page = pages_.at(static_cast<std::size_t>(interval / kPage));

@@ -29,7 +29,7 @@ class IntervalStatistics {
   // Intervals under a second are counted each for itself, in pages made when needed.
   static constexpr std::int64_t kPage = 1000;
   static constexpr std::int64_t kPages = 1000;
-  static constexpr std::size_t kMostLong = 1'000'000;
+  static constexpr std::size_t kMaxLongIntervals = 1'000'000;
   using Page = std::array<std::uint32_t, kPage>;
   std::array<std::unique_ptr<Page>, kPages> pages_;
   std::vector<std::int64_t> longOnes_;  // a second and more, the first million [us]

@@ -87,11 +87,11 @@ void addRecorderAlarms(const RecorderStatus& recorder,
 }
 
 // What is wrong with the rate, and what to do about it where the operator sits.
-std::string lowRateText(const LinkMeter::Reading& frames, const HealthOptions& options) {
+std::string lowRateText(const LinkMonitor::Reading& frames, const HealthOptions& options) {
   const std::string text = "only " + fixedText(frames.rateHz, 1) + " frames/s instead of " +
                            fixedText(frames.expectedRateHz, 1);
   if (frames.lineRateHz <= 0.0) return text;
-  if (frames.lineRateHz < options.lowRateShare * frames.expectedRateHz)
+  if (frames.lineRateHz < options.lowRateFraction * frames.expectedRateHz)
     return text + ": noise fills the line; raise the threshold (dock Hand), or scan fewer taxels";
   return text +
          ": frames come late or not at all; see lost and bad checksums (dock Link), try "
@@ -139,23 +139,23 @@ std::size_t runsOf(const TactileFrame& frame) {
   return runs;
 }
 
-const LinkMeter::Arrival& LinkMeter::arrival(std::size_t age) const {
+const LinkMonitor::Arrival& LinkMonitor::arrival(std::size_t age) const {
   return ring_[(frames_ - 1 - age) % kRing];
 }
 
-void LinkMeter::reset() {
+void LinkMonitor::reset() {
   const std::lock_guard lock(mutex_);
   frames_ = saturated_ = 0;
   lowSinceUs_.reset();
 }
 
-void LinkMeter::expect(std::optional<double> rateHz) {
+void LinkMonitor::expect(std::optional<double> rateHz) {
   const std::lock_guard lock(mutex_);
   if (rateHz != expectedHz_) lowSinceUs_.reset();
   expectedHz_ = rateHz;
 }
 
-void LinkMeter::frame(std::int64_t monoUs, bool saturated, std::size_t runs) {
+void LinkMonitor::frame(std::int64_t monoUs, bool saturated, std::size_t runs) {
   const std::lock_guard lock(mutex_);
   if (frames_ == 0) firstUs_ = monoUs;
   ++frames_;
@@ -166,19 +166,19 @@ void LinkMeter::frame(std::int64_t monoUs, bool saturated, std::size_t runs) {
   if (frames_ % kEvery != 0) return;
   const Reading now = readLocked(monoUs);
   const bool low =
-      now.expectedRateHz > 0.0 && now.rateHz < options_.lowRateShare * now.expectedRateHz;
+      now.expectedRateHz > 0.0 && now.rateHz < options_.lowRateFraction * now.expectedRateHz;
   if (!low)
     lowSinceUs_.reset();
   else if (!lowSinceUs_)
     lowSinceUs_ = monoUs;
 }
 
-LinkMeter::Reading LinkMeter::read(std::int64_t monoUs) const {
+LinkMonitor::Reading LinkMonitor::read(std::int64_t monoUs) const {
   const std::lock_guard lock(mutex_);
   return readLocked(monoUs);
 }
 
-LinkMeter::Reading LinkMeter::readLocked(std::int64_t monoUs) const {
+LinkMonitor::Reading LinkMonitor::readLocked(std::int64_t monoUs) const {
   Reading reading;
   reading.frames = frames_;
   reading.saturatedFrames = saturated_;
@@ -214,7 +214,7 @@ LinkMeter::Reading LinkMeter::readLocked(std::int64_t monoUs) const {
     known = known && arrival(age).runs > 0;
   }
   if (known) reading.lineRateHz = lineRateHz(static_cast<double>(runs) / static_cast<double>(n));
-  if (n > 0) reading.saturatedShare = static_cast<double>(saturated) / static_cast<double>(n);
+  if (n > 0) reading.saturatedFraction = static_cast<double>(saturated) / static_cast<double>(n);
   if (options_.expectedRateHz)
     reading.expectedRateHz = *options_.expectedRateHz;
   else if (expectedHz_)
@@ -251,20 +251,20 @@ LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options) 
     health.alarms.push_back({AlarmKind::kLowDisk,
                              "the disk is full in " + fixedText(*health.diskHours * 60.0, 0) +
                                  " minutes: make room, or record elsewhere"});
-  if (const auto hottest = hottestOf(inputs); hottest && *hottest > options.hottestDegC)
+  if (const auto hottest = hottestOf(inputs); hottest && *hottest > options.maxTemperatureDegC)
     health.alarms.push_back({AlarmKind::kTooHot,
                              "the hand is " + fixedText(*hottest, 0) +
                                  " deg C hot: relax it and let it cool down below " +
-                                 fixedText(options.hottestDegC, 0)});
+                                 fixedText(options.maxTemperatureDegC, 0)});
   return health;
 }
 
-BeforeRun checkBeforeRun(const LinkInputs& inputs,
-                         const FolderState& folder,
-                         const HealthOptions& options) {
+PreflightCheck checkPreflight(const LinkInputs& inputs,
+                              const FolderState& folder,
+                              const HealthOptions& options) {
   const auto hours = hoursOf(folder.freeBytes, bytesPerSecond(inputs.recorder, options));
   const auto red = [&](std::string text) {
-    return BeforeRun{false, "not ready: " + std::move(text), folder.freeBytes, hours};
+    return PreflightCheck{false, "not ready: " + std::move(text), folder.freeBytes, hours};
   };
   if (!inputs.started) return red("no hand is connected");
   for (const std::string& fault :
@@ -272,8 +272,9 @@ BeforeRun checkBeforeRun(const LinkInputs& inputs,
         inputs.device.motion ? portFault(*inputs.device.motion, "the motion port") : std::string()})
     if (!fault.empty()) return red(fault);
   if (!inputs.frames.ageMs || noData(inputs, options)) return red(noDataText(inputs));
-  const LinkMeter::Reading& frames = inputs.frames;
-  if (frames.expectedRateHz > 0.0 && frames.rateHz < options.lowRateShare * frames.expectedRateHz)
+  const LinkMonitor::Reading& frames = inputs.frames;
+  if (frames.expectedRateHz > 0.0 &&
+      frames.rateHz < options.lowRateFraction * frames.expectedRateHz)
     return red(lowRateText(frames, options));
   const std::string where = folder.path.string();
   if (!folder.writable)
@@ -282,7 +283,7 @@ BeforeRun checkBeforeRun(const LinkInputs& inputs,
     return red("room for only " + fixedText(*hours * 60.0, 0) + " minutes in " + where);
   std::string text = "ready: " + fixedText(frames.rateHz, 1) + " frames/s";
   if (const auto hottest = hottestOf(inputs)) {
-    if (*hottest > options.hottestDegC)
+    if (*hottest > options.maxTemperatureDegC)
       return red("the hand is " + fixedText(*hottest, 0) + " deg C hot: let it cool down");
     text += ", up to " + fixedText(*hottest, 0) + " deg C";
   } else if (inputs.device.motion) {

@@ -14,8 +14,8 @@ namespace {
 
 void check(const MovieOptions& options) {
   // Written so that NaN fails, too.
-  if (!(options.picturesPerS >= MovieOptions::kLeastPicturesPerS &&
-        options.picturesPerS <= MovieOptions::kMostPicturesPerS))
+  if (!(options.picturesPerS >= MovieOptions::kMinPicturesPerS &&
+        options.picturesPerS <= MovieOptions::kMaxPicturesPerS))
     throw std::invalid_argument("pictures per second must be 1..120, not " +
                                 std::to_string(options.picturesPerS));
   if (!(options.speed >= Playback::kMinimumSpeed && options.speed <= Playback::kMaximumSpeed))
@@ -30,7 +30,7 @@ MovieTiming movieTiming(std::span<const std::int64_t> stampsUs, const MovieOptio
   if (stampsUs.empty()) return movie;
   const TimingReport timing = timingOf(stampsUs);
   const double usualS = timing.rateHz > 0.0 ? 1.0 / timing.rateHz : 0.0;
-  const double longestS = std::max(kShortestGapS, kGapIntervals * usualS);
+  const double maxDurationS = std::max(kShortestGapS, kGapIntervals * usualS);
   const double picturesPerRecordedS = options.picturesPerS / options.speed;
   // The first picture whose middle isn't before that moment.
   const auto pictureAt = [&](double seconds) {
@@ -43,12 +43,12 @@ MovieTiming movieTiming(std::span<const std::int64_t> stampsUs, const MovieOptio
   std::size_t shown = 0;  // pictures so far
   for (std::size_t i = 0; i <= last; ++i) {
     if (gap != timing.gaps.end() && gap->frame == i) {
-      movie.leftOutS += gap->seconds - longestS;
+      movie.shortenedS += gap->seconds - maxDurationS;
       ++movie.numGaps;
       ++gap;
     }
     const std::int64_t endUs = stampsUs[std::min(i + 1, last)] - stampsUs.front();
-    const double endS = static_cast<double>(endUs) / kUsPerS - movie.leftOutS;
+    const double endS = static_cast<double>(endUs) / kUsPerS - movie.shortenedS;
     std::size_t end = pictureAt(i == last ? endS + usualS : endS);
     if (i == 0 || i == last) end = std::max(end, shown + 1);
     if (end <= shown) continue;

@@ -31,7 +31,7 @@ void requireRecorder(bool right, const std::string& message) {
   if (!right) throw std::invalid_argument("Recorder: " + message);
 }
 
-FeedOptions feedFor(FeedOptions options) {
+CaptureQueueOptions feedFor(CaptureQueueOptions options) {
   if (options.wakeAtItems <= 1)
     options.wakeAtItems = std::max<std::size_t>(1, options.tactileItems / 2);
   return options;
@@ -194,7 +194,7 @@ struct Recorder::Impl {
   RecorderOptions options;
   const Clock& clock;
   std::optional<HostTime> host{clock};  // as stamps of a live hand
-  CaptureFeed feed;
+  CaptureQueue feed;
   std::atomic<bool> otherTime = false;          // stamps come from another time than the clock's
   std::atomic<std::int64_t> newestUs = 0;       // stamp of the newest sample offered
   std::atomic<std::int64_t> roundBeganUs = -1;  // monotonic; -1 between rounds
@@ -260,7 +260,7 @@ void Recorder::step() {
   impl_->round();
 }
 
-bool Recorder::offer(CaptureItem item) {
+bool Recorder::push(CaptureItem item) {
   if (const auto* frame = std::get_if<SharedFrame>(&item); frame && !*frame) return false;
   if (streamOf(item) != CaptureStream::kEvents) {
     const std::int64_t stampUs = stampOf(item);
@@ -270,7 +270,7 @@ bool Recorder::offer(CaptureItem item) {
   return impl_->feed.put(std::move(item));
 }
 
-void Recorder::forget() {
+void Recorder::clearPreTrigger() {
   Impl& impl = *impl_;
   if (impl.thread.joinable() || recording())
     throw std::logic_error("Recorder: can't forget while it runs");
@@ -338,7 +338,7 @@ RecorderStatus Recorder::status() const {
   return status;
 }
 
-FeedStats Recorder::feedStats() const { return impl_->feed.stats(); }
+CaptureQueueStats Recorder::queueStats() const { return impl_->feed.stats(); }
 
 std::int64_t Recorder::nowUs() const { return impl_->nowUs(); }
 

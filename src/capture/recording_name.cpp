@@ -10,8 +10,8 @@
 #include <time.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/one_line.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -33,8 +33,8 @@ std::string trimmed(std::string text) {
 }
 
 std::string harmless(std::string_view text) {
-  // oneLine makes it valid UTF-8 without controls; the backslashes of its escapes go below.
-  std::string name = oneLine(text);
+  // escapedLine makes it valid UTF-8 without controls; the backslashes of its escapes go below.
+  std::string name = escapedLine(text);
   for (char& c : name)
     if (std::string_view(" /\\:*?\"<>|{}$`'&;!~%#").find(c) != std::string_view::npos) c = '_';
   return name;
@@ -64,7 +64,7 @@ std::string valueOf(std::string_view placeholder, const RecordingNameFields& fie
   if (placeholder == "operator") return fileNamePart(fields.operatorName);
   if (placeholder == "object") return fileNamePart(fields.object);
   if (placeholder == "run") return {kRunMark};
-  throw std::invalid_argument("RecordingName: {" + oneLine(placeholder) +
+  throw std::invalid_argument("RecordingName: {" + escapedLine(placeholder) +
                               "} isn't known; use {date}, {time}, {operator}, {object}, {run}");
 }
 

@@ -87,7 +87,7 @@ void RecordingParts::take(const CaptureItem& item, RoundTime time) {
   if (const auto* frame = std::get_if<SharedFrame>(&item)) {
     if (splitDue(**frame)) split(**frame, time);
     // A part says which taxels were scanned: a frame of another layout would be read wrongly there.
-    if (isOfOtherLayout(**frame)) return lose(item);
+    if (isOfOtherLayout(**frame)) return recordLoss(item);
   }
   write(item, time);
 }
@@ -99,7 +99,7 @@ void RecordingParts::hold(const CaptureItem& item) {
   while (!frameHeld_ && stampOf(held_.front()) < stampOf(item) - kHeldWithoutFrameUs)
     held_.pop_front();
   if (held_.size() <= kMostHeld) return;
-  lose(held_.front());
+  recordLoss(held_.front());
   held_.pop_front();
 }
 
@@ -136,12 +136,12 @@ void RecordingParts::open(RoundTime time) {
   try {
     writer_ = makeWriter(layout);
   } catch (const std::exception& error) {  // the disk, or a sensor that no recording can hold
-    return failed(error.what(), time);
+    return onCommitFailed(error.what(), time);
   }
   layout_ = layout;
   lastCounters_.clear();
   for (const CaptureItem& item : std::exchange(held_, {})) take(item, time);
-  worked(time);
+  onCommitSucceeded(time);
   commit(time);  // from its first moment on the file holds what came
 }
 
@@ -159,7 +159,7 @@ bool RecordingParts::splitDue(const TactileFrame& frame) const {
 void RecordingParts::split(const TactileFrame& frame, RoundTime time) {
   if (time.monoUs < nextTryMonoUs_ || !closeOldPart(time)) return;
   try {
-    writeOwed();  // first: when that fails there must not be a part yet
+    writePendingEvents();  // first: when that fails there must not be a part yet
     std::unique_ptr<PalpateWriter> next = makeWriter(frame.layout);
     closing_ = std::exchange(writer_, std::move(next));
     layout_ = frame.layout;
@@ -168,7 +168,7 @@ void RecordingParts::split(const TactileFrame& frame, RoundTime time) {
     dirtyItems_ = 0;
     lastCounters_.clear();
   } catch (const std::exception& error) {
-    return failed(error.what(), time);  // goes on in the old part
+    return onCommitFailed(error.what(), time);  // goes on in the old part
   }
   closeOldPart(time);
 }
@@ -178,7 +178,7 @@ bool RecordingParts::closeOldPart(RoundTime time) {
   try {
     closing_->finish();
   } catch (const FileError& error) {
-    failed(error.what(), time);
+    onCommitFailed(error.what(), time);
     return false;
   }
   framesInOldParts_ += closing_->framesOnDisk();
@@ -191,13 +191,13 @@ void RecordingParts::write(const CaptureItem& item, RoundTime time) {
   try {
     writeTo(item);
   } catch (const FileError&) {  // commits have been failing for so long that the memory is full
-    return lose(item);
+    return recordLoss(item);
   } catch (const std::invalid_argument& error) {
     ++counts_.refused;
     refusedWhy_ = error.what();
     return;
   }
-  endLoss(item.index());
+  endLossInterval(item.index());
   ++dirtyItems_;
   if (!dirtySinceMonoUs_) dirtySinceMonoUs_ = time.sinceMonoUs;
 }
@@ -221,7 +221,7 @@ void RecordingParts::writeTo(const CaptureItem& item) {
   }
 }
 
-void RecordingParts::lose(const CaptureItem& item) {
+void RecordingParts::recordLoss(const CaptureItem& item) {
   ++counts_.lost;
   std::optional<CaptureLoss>& loss = losses_.at(item.index());
   const std::int64_t stampUs = stampOf(item);
@@ -230,28 +230,29 @@ void RecordingParts::lose(const CaptureItem& item) {
   ++loss->count;
 }
 
-void RecordingParts::endLoss(std::size_t stream) {
+void RecordingParts::endLossInterval(std::size_t stream) {
   std::optional<CaptureLoss>& loss = losses_.at(stream);
   if (!loss) return;
   addOwn(gapEvent(static_cast<CaptureStream>(stream), *loss, "the disk could not be written"));
   loss.reset();
 }
 
-void RecordingParts::endLosses() {
-  for (std::size_t stream = 0; stream < kCaptureStreams; ++stream) endLoss(stream);
+void RecordingParts::endLossIntervals() {
+  for (std::size_t stream = 0; stream < kCaptureStreams; ++stream) endLossInterval(stream);
 }
 
 void RecordingParts::addOwn(RecordingEvent event) {
   if (notice_) notice_(event);
-  owed_.push_back(std::move(event));
+  unwrittenEvents_.push_back(std::move(event));
 }
 
-void RecordingParts::writeOwed() {
-  while (!owed_.empty()) {
-    writer_->addEvent(owed_.front());  // throws while there is no room; then it stays owed
+void RecordingParts::writePendingEvents() {
+  while (!unwrittenEvents_.empty()) {
+    // throws while there is no room; then it stays owed
+    writer_->addEvent(unwrittenEvents_.front());
     ++counts_.events;
     ++dirtyItems_;
-    owed_.erase(owed_.begin());
+    unwrittenEvents_.erase(unwrittenEvents_.begin());
   }
 }
 
@@ -270,14 +271,14 @@ void RecordingParts::updateCounters(RoundTime time) {
 }
 
 void RecordingParts::round(RoundTime time) {
-  if (closing_ && time.monoUs >= nextTryMonoUs_ && closeOldPart(time)) worked(time);
+  if (closing_ && time.monoUs >= nextTryMonoUs_ && closeOldPart(time)) onCommitSucceeded(time);
   if (!writer_) {
     if (frameHeld_ && time.monoUs >= nextTryMonoUs_) open(time);
     return;
   }
   if (options_.stopAfterBytes && bytesOnDisk() >= *options_.stopAfterBytes) ended_ = true;
   const bool due = (dirtySinceMonoUs_ && time.monoUs - *dirtySinceMonoUs_ >= commitIntervalUs_) ||
-                   dirtyItems_ >= kMostDirty || !owed_.empty();
+                   dirtyItems_ >= kMostDirty || !unwrittenEvents_.empty();
   const bool commits = due && time.monoUs >= nextTryMonoUs_;
   // With every commit: what the link lost before a frame is on disk as soon as the frame is.
   if (commits || !countersMonoUs_ || time.monoUs - *countersMonoUs_ >= kCountersUs)
@@ -289,19 +290,19 @@ void RecordingParts::commit(RoundTime time) {
   try {
     writer_->commit();
     // Only now there is room again for what is owed.
-    if (!owed_.empty()) {
-      writeOwed();
+    if (!unwrittenEvents_.empty()) {
+      writePendingEvents();
       writer_->commit();
     }
   } catch (const FileError& error) {
-    return failed(error.what(), time);
+    return onCommitFailed(error.what(), time);
   }
   dirtySinceMonoUs_.reset();
   dirtyItems_ = 0;
-  if (!closing_) worked(time);
+  if (!closing_) onCommitSucceeded(time);
 }
 
-void RecordingParts::failed(const std::string& what, RoundTime time) {
+void RecordingParts::onCommitFailed(const std::string& what, RoundTime time) {
   ++counts_.writeFailures;
   nextTryMonoUs_ = time.monoUs + kRetryUs;
   error_ = what;
@@ -310,7 +311,7 @@ void RecordingParts::failed(const std::string& what, RoundTime time) {
   if (notice_) notice_({time.nowUs, time.nowUs, "alarm", {}, "writing failed: " + what, ""});
 }
 
-void RecordingParts::worked(RoundTime time) {
+void RecordingParts::onCommitSucceeded(RoundTime time) {
   if (!failingSince_) return;
   const double seconds = static_cast<double>(time.monoUs - failingSince_->monoUs) / 1e6;
   addOwn({failingSince_->nowUs,
@@ -336,13 +337,13 @@ bool RecordingParts::finish(RoundTime time) {
   try {
     if (!closeOldPart(time)) return !(unfinished_ = true);
     writer_->commit();
-    worked(time);
-    endLosses();
-    writeOwed();
+    onCommitSucceeded(time);
+    endLossIntervals();
+    writePendingEvents();
     updateCounters(time);
     writer_->finish();
   } catch (const FileError& error) {
-    failed(error.what(), time);
+    onCommitFailed(error.what(), time);
     return !(unfinished_ = true);
   }
   unfinished_ = false;

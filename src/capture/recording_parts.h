@@ -66,15 +66,15 @@ class RecordingParts {
   bool closeOldPart(RoundTime time);
   void write(const CaptureItem& item, RoundTime time);
   void writeTo(const CaptureItem& item);
-  void lose(const CaptureItem& item);
-  void endLosses();
-  void endLoss(std::size_t stream);
+  void recordLoss(const CaptureItem& item);
+  void endLossIntervals();
+  void endLossInterval(std::size_t stream);
   void addOwn(RecordingEvent event);
-  void writeOwed();
+  void writePendingEvents();
   void updateCounters(RoundTime time);
   void commit(RoundTime time);
-  void failed(const std::string& what, RoundTime time);
-  void worked(RoundTime time);
+  void onCommitFailed(const std::string& what, RoundTime time);
+  void onCommitSucceeded(RoundTime time);
   std::int64_t bytesOnDisk() const;
 
   const RecordingOptions options_;
@@ -100,7 +100,7 @@ class RecordingParts {
   // What waits for a commit.
   std::optional<std::int64_t> dirtySinceMonoUs_;
   std::size_t dirtyItems_ = 0;
-  std::vector<RecordingEvent> owed_;  // own events that aren't in a writer yet
+  std::vector<RecordingEvent> unwrittenEvents_;  // own events that aren't in a writer yet
   std::optional<std::int64_t> countersMonoUs_;
   std::map<std::string, std::int64_t> lastCounters_;
 

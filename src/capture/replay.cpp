@@ -174,7 +174,7 @@ struct Replay::Impl {
   }
 
   void run(const std::stop_token& stop) {
-    if (pace == ReplayPace::kAsFastAsTaken) {
+    if (pace == ReplayPace::kUnpaced) {
       deliverUntil(kNever, stop);
       return;
     }
@@ -220,7 +220,7 @@ struct Replay::Impl {
   std::size_t event = 0;
   std::int64_t lastUs = 0;  // delivered
   bool warned = false;
-  std::int64_t handUs = 0;  // kByHand: position in the recording
+  std::int64_t handUs = 0;  // kManual: position in the recording
   std::int64_t firstUs = 0;
 
   mutable std::mutex mutex;
@@ -245,8 +245,8 @@ Replay::~Replay() { stop(); }
 
 HandDescription Replay::hand() const { return impl_->profile.hand(); }
 
-DeviceFacts Replay::facts() const {
-  DeviceFacts facts;
+DeviceInfo Replay::facts() const {
+  DeviceInfo facts;
   facts.serial = impl_->profile.info().serial;
   facts.firmware = impl_->profile.info().firmware;
   facts.sensorRevision =
@@ -263,7 +263,7 @@ void Replay::start(DeviceSink& sink) {
   const std::int64_t firstUs = impl.nextUs();
   impl.lastUs = impl.firstUs = firstUs == kNever ? 0 : firstUs;
   impl.handUs = 0;
-  if (impl.pace == ReplayPace::kByHand) return;
+  if (impl.pace == ReplayPace::kManual) return;
   impl.thread = std::jthread([&impl](const std::stop_token& stop) { impl.runGuarded(stop); });
 }
 
@@ -298,7 +298,7 @@ void Replay::setSpeed(double factor) {
 
 void Replay::advance(std::int64_t recordedUs) {
   Impl& impl = *impl_;
-  if (!impl.sink || impl.pace != ReplayPace::kByHand)
+  if (!impl.sink || impl.pace != ReplayPace::kManual)
     throw std::logic_error("Replay::advance: it isn't moved by hand, or wasn't started");
   if (recordedUs < 0) throw std::invalid_argument("Replay::advance: time only goes forward");
   if (finished()) return;

@@ -1,4 +1,4 @@
-// Answers of a hand that are waited for without waiting. Private to the room.
+// Answers of a hand that are waited for without waiting. Private to this module.
 #pragma once
 
 #include <chrono>

@@ -23,8 +23,8 @@ constexpr std::chrono::milliseconds kGoodbye{300};
 constexpr std::size_t kMostChanges = 1000;
 constexpr std::size_t kWaitingFrames = 64;  // two seconds: then this thread didn't run at all
 
-FeedOptions smallFeed() {
-  FeedOptions options;
+CaptureQueueOptions smallFeed() {
+  CaptureQueueOptions options;
   options.tactileItems = kWaitingFrames;
   options.motionItems = 8 * kWaitingFrames;
   options.eventItems = kWaitingFrames;
@@ -55,13 +55,13 @@ GraspControl::~GraspControl() {
   thread_ = {};  // asks it to end, and waits
   {
     const std::lock_guard lock(mutex_);
-    if (asked_) {
-      asked_->answer.wait_for(kGoodbye);
-      guardedRound();
+    if (sentCommand_) {
+      sentCommand_->answer.wait_for(kGoodbye);
+      runGuardedCycle();
     }
   }
   delivery_ = {};
-  deliver();
+  deliverEvents();
 }
 
 void GraspControl::run() {
@@ -88,14 +88,14 @@ void GraspControl::loop(const std::stop_token& stop) {
 void GraspControl::step() {
   {
     const std::lock_guard lock(mutex_);
-    guardedRound();
+    runGuardedCycle();
   }
   deliverHere();
 }
 
-void GraspControl::guardedRound() noexcept {
+void GraspControl::runGuardedCycle() noexcept {
   try {
-    round();
+    runCycle();
   } catch (const std::exception& failure) {
     fault(failure.what());
   } catch (...) {
@@ -119,7 +119,7 @@ void GraspControl::fault(const char* what) noexcept {
   });
   // What is thrown in every round must not keep a stop from being sent again, nor its answer from
   // being heard.
-  whateverHappens([&] { heedAnswers(); });
+  whateverHappens([&] { pollReplies(); });
   whateverHappens([&] {
     machine_.onTime(nowUs);
     send();
@@ -136,7 +136,7 @@ void GraspControl::fault(const char* what) noexcept {
   whateverHappens([&] { report(); });
 }
 
-void GraspControl::hear() {
+void GraspControl::processFrames() {
   items_.clear();
   feed_->take(items_);
   const std::int64_t nowUs = clock_.monotonicUs();
@@ -151,23 +151,23 @@ void GraspControl::hear() {
 void GraspControl::send() {
   while (auto command = machine_.takeCommand()) {
     const bool isStop = std::holds_alternative<StopMotion>(*command);
-    asked_ = Asked{session_.device().submit(std::move(*command)), isStop};
+    sentCommand_ = SentCommand{session_.device().submit(std::move(*command)), isStop};
   }
 }
 
-void GraspControl::heedAnswers() {
-  std::erase_if(free_, [](const auto& answer) { return isReady(answer); });
+void GraspControl::pollReplies() {
+  std::erase_if(stopResults_, [](const auto& answer) { return isReady(answer); });
   std::erase_if(settings_, [](const auto& answer) { return isReady(answer); });
-  if (!asked_ || !isReady(asked_->answer)) return;
-  Asked asked = std::move(*asked_);
-  asked_.reset();
+  if (!sentCommand_ || !isReady(sentCommand_->answer)) return;
+  SentCommand asked = std::move(*sentCommand_);
+  sentCommand_.reset();
   const std::int64_t nowUs = clock_.monotonicUs();
   try {
     const CommandAnswer answer = asked.answer.get();
     if (asked.isStop)
-      machine_.onStopTaken(nowUs);
+      machine_.onStopAcknowledged(nowUs);
     else
-      machine_.onMoveTaken(answer.durationS, nowUs);
+      machine_.onMoveAcknowledged(answer.durationS, nowUs);
   } catch (const DeviceError& error) {
     machine_.onCommandFailed(error.what(), error.fault() != DeviceFault::kUnsupported, nowUs);
   } catch (const std::exception& error) {
@@ -175,7 +175,7 @@ void GraspControl::heedAnswers() {
   }
 }
 
-void GraspControl::heedPorts() {
+void GraspControl::checkLinks() {
   if (!machine_.active()) {
     if (portGone_ && motionProblem(session_.device().status()).empty()) portGone_.reset();
     return;
@@ -215,28 +215,29 @@ std::string GraspControl::motionProblem(const DeviceStatus& status) {
 }
 
 void GraspControl::report() {
-  for (const GraspNote& note : machine_.takeNotes()) {
+  for (const GraspStep& note : machine_.takeNotes()) {
     this->note(noteEvent(machine_.running(), note, session_.nowUs()));
-    tell(machine_.phase(), note.text);
+    reportPhase(machine_.phase(), note.text);
   }
   if (auto ended = machine_.takeReport()) {
     ended->endUs = session_.nowUs();
-    asked_.reset();
+    sentCommand_.reset();
     note(endEvent(*ended), /*ends=*/true);
-    tell(GraspPhase::kIdle, ended->text, ended);
+    reportPhase(GraspPhase::kIdle, ended->text, ended);
     if (ended->outcome == GraspOutcome::kPortGone) portGone_ = ended;
     last_ = std::move(ended);
   }
-  if (machine_.phase() == told_) return;
+  if (machine_.phase() == reportedPhase_) return;
   const bool stopping = machine_.phase() == GraspPhase::kStopping;
-  tell(machine_.phase(),
-       std::string(nameOf(machine_.phase())) + (stopping ? ": " + machine_.running().text : ""));
+  reportPhase(
+      machine_.phase(),
+      std::string(nameOf(machine_.phase())) + (stopping ? ": " + machine_.running().text : ""));
 }
 
-void GraspControl::tell(GraspPhase phase,
-                        const std::string& text,
-                        std::optional<GraspReport> report) {
-  told_ = phase;
+void GraspControl::reportPhase(GraspPhase phase,
+                               const std::string& text,
+                               std::optional<GraspReport> report) {
+  reportedPhase_ = phase;
   if (changes_.size() == kMostChanges) changes_.pop_front();
   changes_.push_back({session_.nowUs(), phase, text, std::move(report)});
 }
@@ -263,7 +264,7 @@ void GraspControl::grasp(const GraspRequest& request) {
   } delivery{*this};
   {
     const std::lock_guard lock(mutex_);
-    guardedRound();  // what has come by now counts
+    runGuardedCycle();  // what has come by now counts
     try {
       request.validate();
       if (const std::string why = motionProblem(session_.device().status()); !why.empty())
@@ -302,10 +303,11 @@ void GraspControl::stop() noexcept {
     ++stopsAsked_;
     try {
       machine_.stop(clock_.monotonicUs());
-      const bool sentBefore = asked_ && asked_->isStop;
+      const bool sentBefore = sentCommand_ && sentCommand_->isStop;
       send();
       // Nothing runs that we know of, or a stop is under way: it goes out all the same.
-      if (sentBefore || !machine_.active()) free_.push_back(session_.device().submit(StopMotion{}));
+      if (sentBefore || !machine_.active())
+        stopResults_.push_back(session_.device().submit(StopMotion{}));
       report();
     } catch (const std::exception& failure) {
       fault(failure.what());
@@ -322,8 +324,8 @@ void GraspControl::relax() noexcept {
     const std::lock_guard lock(mutex_);
     ++stopsAsked_;
     try {
-      free_.push_back(session_.device().submit(StopMotion{}));
-      free_.push_back(session_.device().submit(SetPower{}));
+      stopResults_.push_back(session_.device().submit(StopMotion{}));
+      stopResults_.push_back(session_.device().submit(SetPower{}));
       machine_.relax();
       report();
     } catch (const std::exception& failure) {
@@ -358,7 +360,7 @@ GraspStatus GraspControl::status() const {
   GraspStatus status;
   status.phase = machine_.phase();
   // Ended is a grasp when the session was told so, too.
-  if (!machine_.active() && endsOwed_ > 0) status.phase = GraspPhase::kStopping;
+  if (!machine_.active() && pendingEndEvents_ > 0) status.phase = GraspPhase::kStopping;
   if (machine_.active()) status.request = machine_.running().request;
   status.last = last_;
   status.cannotMove = motionProblem(session_.device().status());
@@ -383,19 +385,19 @@ std::vector<GraspChange> GraspControl::takeChanges() {
 }
 
 void GraspControl::note(RecordingEvent event, bool ends) {
-  owed_.push_back({std::move(event), ends});
-  if (ends) ++endsOwed_;
-  owes_.notify_one();
+  pendingEvents_.push_back({std::move(event), ends});
+  if (ends) ++pendingEndEvents_;
+  pendingEventsChanged_.notify_one();
 }
 
-void GraspControl::deliver() {
+void GraspControl::deliverEvents() {
   while (true) {
-    Owed owed;
+    PendingEvent owed;
     {
       const std::lock_guard lock(mutex_);
-      if (owed_.empty()) return;
-      owed = std::move(owed_.front());
-      owed_.pop_front();
+      if (pendingEvents_.empty()) return;
+      owed = std::move(pendingEvents_.front());
+      pendingEvents_.pop_front();
     }
     try {
       session_.note(owed.event);
@@ -404,7 +406,7 @@ void GraspControl::deliver() {
     }
     if (!owed.ends) continue;
     const std::lock_guard lock(mutex_);
-    --endsOwed_;
+    --pendingEndEvents_;
   }
 }
 
@@ -412,22 +414,23 @@ void GraspControl::deliverLoop(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     {
       std::unique_lock lock(mutex_);
-      if (!owes_.wait(lock, stop, [this] { return !owed_.empty(); })) return;
+      if (!pendingEventsChanged_.wait(lock, stop, [this] { return !pendingEvents_.empty(); }))
+        return;
     }
-    deliver();
+    deliverEvents();
   }
 }
 
 // Without a thread for it, in the call itself.
 void GraspControl::deliverHere() {
-  if (!delivery_.joinable()) deliver();
+  if (!delivery_.joinable()) deliverEvents();
 }
 
-void GraspControl::round() {
-  hear();
+void GraspControl::runCycle() {
+  processFrames();
   send();
-  heedAnswers();
-  heedPorts();
+  pollReplies();
+  checkLinks();
   machine_.onTime(clock_.monotonicUs());
   send();
   report();

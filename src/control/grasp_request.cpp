@@ -26,9 +26,9 @@ Json parameters(const GraspRequest& request) {
   if (request.mode == GraspMode::kSlip) {
     const HoldingOptions& holding = request.holding;
     json.set("raise_counts", holding.raiseCounts)
-        .set("most_limit_counts", holding.mostLimitCounts)
+        .set("most_limit_counts", holding.maxLimitCounts)
         .set("settle_s", holding.settleS)
-        .set("calm_s", holding.calmS);
+        .set("calm_s", holding.noSlipS);
     if (holding.holdS > 0.0) json.set("hold_s", holding.holdS);
     if (holding.loosen) json.set("loosen", true);
     if (holding.weightN > 0.0) json.set("weight_n", holding.weightN);
@@ -55,7 +55,7 @@ std::string_view nameOf(GraspOutcome outcome) {
       return "stopped";
     case GraspOutcome::kRelaxed:
       return "relaxed";
-    case GraspOutcome::kStreamDead:
+    case GraspOutcome::kStreamLost:
       return "stream_dead";
     case GraspOutcome::kPortGone:
       return "port_gone";
@@ -71,9 +71,9 @@ void GraspRequest::validate() const {
   sdh2Preshape(preshape);
   if (startRatio) requireRange("start ratio", *startRatio, 0.0, 1.0, "");
   requireRange("close ratio", closeRatio, 0.0, 1.0, "");
-  requireRange("velocity", velocityDegPerS, kSlowestGraspDegPerS, kFastestGraspDegPerS, " deg/s");
+  requireRange("velocity", velocityDegPerS, kMinGraspDegPerS, kMaxGraspDegPerS, " deg/s");
   if (mode != GraspMode::kPlain)
-    requireRange("limit", limitCounts, kLeastGraspLimitCounts, kMostGraspLimitCounts, " counts");
+    requireRange("limit", limitCounts, kMinGraspLimitCounts, kMaxGraspLimitCounts, " counts");
   if (mode == GraspMode::kSlip) holding.validate(limitCounts);
 }
 
@@ -81,9 +81,9 @@ void HoldingOptions::validate(int limitCounts) const {
   requireRange("hold time", holdS, 0.0, 86'400.0, " s");
   requireRange("settle time", settleS, 0.0, 60.0, " s");
   requireRange("rest time", restS, 0.0, 60.0, " s");
-  requireRange("rise of the limit", raiseCounts, 1, kMostGraspLimitCounts, " counts");
-  requireRange("highest limit", mostLimitCounts, limitCounts, kMostGraspLimitCounts, " counts");
-  requireRange("calm time", calmS, 0.01, 86'400.0, " s");
+  requireRange("rise of the limit", raiseCounts, 1, kMaxGraspLimitCounts, " counts");
+  requireRange("highest limit", maxLimitCounts, limitCounts, kMaxGraspLimitCounts, " counts");
+  requireRange("calm time", noSlipS, 0.01, 86'400.0, " s");
   requireRange("weight", weightN, 0.0, 1000.0, " N");
   requireRange("force per count", newtonsPerCount, 0.0, 1.0, " N");
 }
@@ -104,20 +104,20 @@ MoveJoints motionTo(const GraspRequest& request, double closeRatio, const HandDe
   return move;
 }
 
-int highestLimitOf(const GraspRequest& request) {
+int maxLimitOf(const GraspRequest& request) {
   return request.mode == GraspMode::kSlip
-             ? std::max(request.limitCounts, request.holding.mostLimitCounts)
+             ? std::max(request.limitCounts, request.holding.maxLimitCounts)
              : request.limitCounts;
 }
 
-std::vector<UnfeltLimit> unfeltLimits(const HandDescription& hand,
-                                      const std::vector<MatrixSettings>& settings,
-                                      const GraspRequest& request) {
+std::vector<UnmeasurableLimit> unmeasurableLimits(const HandDescription& hand,
+                                                  const std::vector<MatrixSettings>& settings,
+                                                  const GraspRequest& request) {
   if (request.mode == GraspMode::kPlain) return {};
-  std::vector<UnfeltLimit> unfelt = unfeltLimits(hand, settings, highestLimitOf(request));
+  std::vector<UnmeasurableLimit> unfelt = unmeasurableLimits(hand, settings, maxLimitOf(request));
   const Preshape& preshape = sdh2Preshape(request.preshape);
-  std::erase_if(unfelt, [&](const UnfeltLimit& each) {
-    return each.matrix < hand.matrices.size() && !movesIn(preshape, hand.matrices[each.matrix]);
+  std::erase_if(unfelt, [&](const UnmeasurableLimit& each) {
+    return each.matrix < hand.matrices.size() && !movesWith(preshape, hand.matrices[each.matrix]);
   });
   return unfelt;
 }
@@ -139,7 +139,7 @@ std::string describe(const GraspRequest& request) {
   if (request.mode != GraspMode::kPlain)
     text += ", limit " + std::to_string(request.limitCounts) + " counts";
   if (request.mode == GraspMode::kSlip)
-    text += ", up to " + std::to_string(request.holding.mostLimitCounts);
+    text += ", up to " + std::to_string(request.holding.maxLimitCounts);
   return text;
 }
 
@@ -163,9 +163,9 @@ RecordingEvent endEvent(const GraspReport& report) {
         .set("y", report.peak.row)
         .set("counts", static_cast<double>(report.peak.counts));
   }
-  if (report.reached)
-    json.set("reached_counts", static_cast<double>(report.reached->counts))
-        .set("reached_matrix", report.reached->matrix);
+  if (report.peakAfterStop)
+    json.set("reached_counts", static_cast<double>(report.peakAfterStop->counts))
+        .set("reached_matrix", report.peakAfterStop->matrix);
   if (report.request.mode == GraspMode::kSlip) {
     json.set("last_limit_counts", report.limitCounts).set("slips", report.slips);
     if (report.countsAtSlip) json.set("counts_at_slip", *report.countsAtSlip);
@@ -180,7 +180,7 @@ RecordingEvent endEvent(const GraspReport& report) {
   return event;
 }
 
-RecordingEvent noteEvent(const GraspReport& report, const GraspNote& note, std::int64_t hostUs) {
+RecordingEvent noteEvent(const GraspReport& report, const GraspStep& note, std::int64_t hostUs) {
   Json json = Json::object();
   json.set("mode", nameOf(report.request.mode))
       .set("action", note.action)

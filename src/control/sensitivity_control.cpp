@@ -21,7 +21,7 @@ constexpr double kTemperaturesWithinS = 3.0;  // else it goes without
 constexpr std::int64_t kStaleUs = 1'000'000;  // no frame for so long tells no rate
 
 // A second or two of frames: whoever calls step() so rarely misses some, and nothing else.
-constexpr FeedOptions kFeed{.tactileItems = 256, .motionItems = 256, .eventItems = 64};
+constexpr CaptureQueueOptions kFeed{.tactileItems = 256, .motionItems = 256, .eventItems = 64};
 
 TactileThresholds resetOf(const HandDescription& hand) {
   TactileThresholds reset;
@@ -66,7 +66,8 @@ void SensitivityControl::begin(SensitivityMode mode, const std::string& text) {
   session_.note({us, us, "sensitivity_mode", std::nullopt, text, ""});
 }
 
-void SensitivityControl::holdHigh(const NoiseFloor& floor, const NoiseThresholdOptions& options) {
+void SensitivityControl::beginHighSensitivity(const NoiseFloor& floor,
+                                              const NoiseThresholdOptions& options) {
   options.validate();
   const std::size_t matrices = session_.device().hand().layout->numMatrices();
   const bool usable = std::any_of(
@@ -82,21 +83,21 @@ void SensitivityControl::holdHigh(const NoiseFloor& floor, const NoiseThresholdO
   status_.measuring = true;
 }
 
-void SensitivityControl::seek(const SensitivitySearchOptions& options) {
+void SensitivityControl::beginAdaptiveSensitivity(const SensitivitySearchOptions& options) {
   options.validate();
   searchOptions_ = options;
   begin(SensitivityMode::kAdaptive, "adaptive sensitivity: the highest without saturation");
 }
 
-void SensitivityControl::letGo() { begin(SensitivityMode::kManual, "sensitivity set by hand"); }
+void SensitivityControl::endMode() { begin(SensitivityMode::kManual, "sensitivity set by hand"); }
 
 void SensitivityControl::reset() {
-  letGo();
+  endMode();
   wanted_ = defaultTactileSettings(session_.device().hand());
-  bring();
+  applyWantedSettings();
 }
 
-void SensitivityControl::heedAnswers() {
+void SensitivityControl::pollReplies() {
   for (const auto& answer : pending_) {
     if (!isReady(answer)) continue;
     try {
@@ -115,7 +116,7 @@ void SensitivityControl::heedAnswers() {
 }
 
 // Settings differ from what is wanted: sent where the hand may be told.
-void SensitivityControl::bring() {
+void SensitivityControl::applyWantedSettings() {
   if (!wanted_ || !pending_.empty()) return;
   status_.waiting.clear();
   const TactileSettings now = session_.device().facts().matrices;
@@ -149,7 +150,7 @@ double SensitivityControl::rateHz() const {
                      : std::numeric_limits<double>::quiet_NaN();
 }
 
-void SensitivityControl::heard(const TactileFrame& frame) {
+void SensitivityControl::onFrame(const TactileFrame& frame) {
   if (frame.hostUs <= settledFromUs_) return;
   stampsUs_.push_back(frame.hostUs);
   if (stampsUs_.size() > kMostStamps) stampsUs_.pop_front();
@@ -164,11 +165,11 @@ void SensitivityControl::heard(const TactileFrame& frame) {
   wanted_ = std::move(target);
 }
 
-void SensitivityControl::hear() {
+void SensitivityControl::processFrames() {
   items_.clear();
   feed_->take(items_);
   for (const CaptureItem& item : items_) {
-    if (const auto* frame = std::get_if<SharedFrame>(&item)) heard(**frame);
+    if (const auto* frame = std::get_if<SharedFrame>(&item)) onFrame(**frame);
     if (const auto* temperatures = std::get_if<Temperatures>(&item)) degC_ = temperatures->degC;
     // A pause is no slow stream.
     if (const auto* event = std::get_if<RecordingEvent>(&item))
@@ -177,7 +178,7 @@ void SensitivityControl::hear() {
 }
 
 // The rate before anything is changed is the usual one.
-void SensitivityControl::makeHigh() {
+void SensitivityControl::startHighSensitivity() {
   const double usual = rateHz();
   if (!(usual > 0.0) || (degC_.empty() && nowS() - begunS_ < kTemperaturesWithinS)) return;
   const HandDescription hand = session_.device().hand();
@@ -187,9 +188,9 @@ void SensitivityControl::makeHigh() {
 }
 
 void SensitivityControl::step() {
-  heedAnswers();
-  if (!feed_) return bring();
-  hear();
+  pollReplies();
+  if (!feed_) return applyWantedSettings();
+  processFrames();
   if (status_.mode == SensitivityMode::kAdaptive && !search_) {
     const TactileSettings now = session_.device().facts().matrices;
     if (!now.empty())
@@ -199,7 +200,7 @@ void SensitivityControl::step() {
     else
       status_.waiting = "no tactile controller is connected";
   }
-  if (status_.mode == SensitivityMode::kHigh && !high_) makeHigh();
+  if (status_.mode == SensitivityMode::kHigh && !high_) startHighSensitivity();
   if (high_ && pending_.empty() && !wanted_) {
     if (const auto next = high_->update(nowS(), degC_, rateHz())) wanted_ = settingsOf(*next);
     status_.noise = high_->status();
@@ -209,7 +210,7 @@ void SensitivityControl::step() {
     status_.settled = search_->settled();
     status_.saturated = search_->saturated();
   }
-  bring();
+  applyWantedSettings();
 }
 
 }  // namespace palpate

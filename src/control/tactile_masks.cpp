@@ -12,7 +12,7 @@ bool anyOf(const Mask& mask) {
 
 Mask wanted(const MatrixLayout& matrix, const Mask& chosen, MaskChoice choice) {
   if (choice == MaskChoice::kOnly && !anyOf(chosen)) return matrix.dynamicMask;
-  Mask mask(matrix.numPlaces());
+  Mask mask(matrix.numCells());
   for (std::size_t i = 0; i < mask.size(); ++i) {
     const bool isChosen = chosen[i] != 0;
     const bool isScanned = matrix.dynamicMask[i] != 0;
@@ -43,7 +43,7 @@ std::vector<DeviceCommand> maskCommands(const SensorLayout& layout,
   bool anythingLeft = false;
   for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
     const MatrixLayout& matrix = layout.matrix(m);
-    if (selection.mask(m).size() != matrix.numPlaces())
+    if (selection.mask(m).size() != matrix.numCells())
       throw std::invalid_argument("maskCommands: the selection is one of another sensor");
     const Mask mask = wanted(matrix, selection.mask(m), choice);
     anythingLeft = anythingLeft || anyOf(mask);

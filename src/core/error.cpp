@@ -1,10 +1,10 @@
 #include "palpate/core/error.h"
 
-#include "palpate/core/one_line.h"
+#include "palpate/core/escaped_line.h"
 
 namespace palpate {
 
-Error::Error(const std::string& message) : std::runtime_error(oneLine(message)) {}
+Error::Error(const std::string& message) : std::runtime_error(escapedLine(message)) {}
 
 FileError::FileError(const std::filesystem::path& path, const std::string& message)
     : Error(path.string() + ": " + message), path_(path) {}

@@ -36,7 +36,7 @@ Interruption::~Interruption() {
 
 int Interruption::descriptor() const noexcept { return wakeup; }
 
-bool Interruption::came(int withinMs) {
+bool Interruption::waitForSignal(int withinMs) {
   pollfd polled{wakeup, POLLIN, 0};
   if (::poll(&polled, 1, withinMs) <= 0) return false;
   std::uint64_t count = 0;

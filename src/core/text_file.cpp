@@ -18,7 +18,7 @@ std::string sizeText(std::uint64_t bytes) {
 
 }  // namespace
 
-std::string readTextFile(const std::filesystem::path& path, std::uint64_t mostBytes) {
+std::string readTextFile(const std::filesystem::path& path, std::uint64_t byteLimit) {
   constexpr std::uint64_t kPiece = 1u << 16;
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw FileError(path, "is a folder");
@@ -32,16 +32,16 @@ std::string readTextFile(const std::filesystem::path& path, std::uint64_t mostBy
   }
   // Piece by piece: what is no regular file doesn't tell its size.
   std::string text;
-  while (in && text.size() <= mostBytes) {
+  while (in && text.size() <= byteLimit) {
     const std::size_t before = text.size();
-    const std::uint64_t room = mostBytes + 1 - before;
+    const std::uint64_t room = byteLimit + 1 - before;
     text.resize(before + static_cast<std::size_t>(std::min(kPiece, room)));
     in.read(text.data() + before, static_cast<std::streamsize>(text.size() - before));
     text.resize(before + static_cast<std::size_t>(in.gcount()));
   }
   if (in.bad()) throw FileError(path, "can't be read");
-  if (text.size() > mostBytes)
-    throw FormatError(path, "is too large: more than " + sizeText(mostBytes));
+  if (text.size() > byteLimit)
+    throw FormatError(path, "is too large: more than " + sizeText(byteLimit));
   return text;
 }
 

@@ -47,11 +47,11 @@ std::vector<std::string> checkedRow(const TextTable& table, std::size_t row) {
 }
 
 std::string text(const TextTable& table,
-                 std::size_t mostRows,
+                 std::size_t maxRows,
                  void (*append)(const std::vector<std::string>&, std::string&)) {
   std::string out;
   append(table.header, out);
-  for (std::size_t row = 0; row < std::min(table.numRows, mostRows); ++row)
+  for (std::size_t row = 0; row < std::min(table.numRows, maxRows); ++row)
     append(checkedRow(table, row), out);
   return out;
 }
@@ -83,12 +83,12 @@ void writeTable(const TextTable& table,
   file.commit();
 }
 
-std::string csvText(const TextTable& table, std::size_t mostRows) {
-  return text(table, mostRows, &appendCsv);
+std::string csvText(const TextTable& table, std::size_t maxRows) {
+  return text(table, maxRows, &appendCsv);
 }
 
-std::string tabbedText(const TextTable& table, std::size_t mostRows) {
-  return text(table, mostRows, &appendTabbed);
+std::string tabbedText(const TextTable& table, std::size_t maxRows) {
+  return text(table, maxRows, &appendTabbed);
 }
 
 }  // namespace palpate

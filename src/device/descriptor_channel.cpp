@@ -45,7 +45,7 @@ DescriptorChannel::DescriptorChannel(std::string name, int fd, bool isSocket)
 void DescriptorChannel::gone(int error) const {
   const std::string reason =
       error == 0 || error == EIO ? "the other end hung up" : std::generic_category().message(error);
-  throw DeviceError(DeviceFault::kGone, name_, "connection lost (" + reason + ")");
+  throw DeviceError(DeviceFault::kDisconnected, name_, "connection lost (" + reason + ")");
 }
 
 std::size_t DescriptorChannel::take(std::span<std::byte> into, short events) {

@@ -12,7 +12,7 @@
 #include "palpate/core/time.h"
 
 #include "device/dsa_records.h"
-#include "device/other_controller.h"
+#include "device/wrong_controller_error.h"
 
 namespace palpate {
 namespace {
@@ -71,7 +71,7 @@ std::string dsaErrorText(int code) {
   return "unknown error " + std::to_string(code);
 }
 
-std::string DsaFacts::firmwareText() const {
+std::string DsaControllerInfo::firmwareText() const {
   if (firmwareVersion < 0x1000) return std::to_string(firmwareVersion);
   std::string text;
   for (int shift = 12; shift >= 0; shift -= 4)
@@ -79,9 +79,9 @@ std::string DsaFacts::firmwareText() const {
   return text;
 }
 
-SensorLayout DsaFacts::layout() const {
+SensorLayout DsaControllerInfo::layout() const {
   std::vector<MatrixLayout> layouts;
-  for (const DsaMatrixFacts& matrix : matrices) layouts.push_back(matrix.layout);
+  for (const DsaMatrixInfo& matrix : matrices) layouts.push_back(matrix.layout);
   return SensorLayout(std::move(layouts));
 }
 
@@ -133,7 +133,7 @@ std::optional<DsaController::Answer> DsaController::awaitAnswer(DsaId id, millis
       if (answer.id == id && answer.payload.size() >= 2) return answer;
       ++strayAnswers_;  // a late acknowledgement, or one of a request given up
     }
-    if (options_.giveUp && options_.giveUp())
+    if (options_.isCancelled && options_.isCancelled())
       throw DeviceError(DeviceFault::kSilent, channel_.name(), "given up");
     const std::int64_t leftUs = endUs - clock_.monotonicUs();
     if (leftUs <= 0) return std::nullopt;
@@ -149,7 +149,7 @@ void DsaController::awaitSilence(milliseconds silence, milliseconds limit) {
       throw DeviceError(DeviceFault::kProtocol,
                         channel_.name(),
                         "the tactile controller doesn't stop sending; switch it off and on");
-    if (options_.giveUp && options_.giveUp())
+    if (options_.isCancelled && options_.isCancelled())
       throw DeviceError(DeviceFault::kSilent, channel_.name(), "given up");
     const std::int64_t leftUs = usOf(silence) - (clock_.monotonicUs() - quietSinceUs);
     if (poll(milliseconds(leftUs / 1000 + 1)) > 0) quietSinceUs = clock_.monotonicUs();
@@ -236,15 +236,16 @@ bool DsaController::stopStreamOnce(milliseconds limit) {
   Bytes payload = {static_cast<std::byte>(options_.runLength ? kDsaControllerRunLength : 0u)};
   appendU16(payload, 0);
   send(DsaId::kAcquisition, payload);
-  const auto giveUp = std::exchange(options_.giveUp, nullptr);  // leaving: asked to give up already
+  // leaving: asked to give up already
+  const auto isCancelled = std::exchange(options_.isCancelled, nullptr);
   std::optional<Answer> answer;
   try {
     answer = awaitAnswer(DsaId::kAcquisition, limit);
   } catch (...) {
-    options_.giveUp = giveUp;
+    options_.isCancelled = isCancelled;
     throw;
   }
-  options_.giveUp = giveUp;
+  options_.isCancelled = isCancelled;
   return answer.has_value();
 }
 
@@ -284,7 +285,7 @@ bool DsaController::looksLikeMotionController() {
   return false;
 }
 
-const DsaFacts& DsaController::open() {
+const DsaControllerInfo& DsaController::open() {
   streaming_ = false;
   // Stop what an earlier client left running. A controller that boots is deaf: ask again.
   Bytes stop;
@@ -300,9 +301,9 @@ const DsaFacts& DsaController::open() {
     if (!probed && clock_.monotonicUs() - startUs > usOf(2 * options_.stopAnswer)) {
       probed = true;
       if (looksLikeMotionController())
-        throw OtherController(PortAnswer::kMotion,
-                              channel_.name(),
-                              "the motion controller answers here: the two ports are swapped");
+        throw WrongControllerError(PortAnswer::kMotion,
+                                   channel_.name(),
+                                   "the motion controller answers here: the two ports are swapped");
     }
     if (clock_.monotonicUs() - startUs > usOf(options_.openTimeout))
       failSilent(
@@ -313,7 +314,7 @@ const DsaFacts& DsaController::open() {
   framesTaken_ = 0;
   answers_.clear();
 
-  DsaFacts facts;
+  DsaControllerInfo facts;
   readControllerRecord(request(DsaId::kControllerConfiguration, {}, kControllerRecordBytes), facts);
   const std::size_t matrices =
       readSensorRecord(request(DsaId::kSensorConfiguration, {}, kSensorRecordBytes), facts);
@@ -333,7 +334,7 @@ const DsaFacts& DsaController::open() {
   }
   for (std::size_t m = 0; m < matrices; ++m) readSettings(m);
   if (options_.readMasks) readMasks();
-  parser_.setNumPlaces(facts_.layout().numPlaces());
+  parser_.setNumPlaces(facts_.layout().numCells());
   return facts_;
 }
 
@@ -349,7 +350,7 @@ void DsaController::readMatrix(std::size_t matrix) {
 }
 
 void DsaController::readSettings(std::size_t matrix) {
-  DsaMatrixFacts& facts = facts_.matrices[matrix];
+  DsaMatrixInfo& facts = facts_.matrices[matrix];
   const auto number = static_cast<std::byte>(matrix);
   const Bytes record = request(DsaId::kGetSensitivity, {number}, kSensitivityRecordBytes);
   facts.sensitivityAdjustable = (std::to_integer<unsigned>(record[2]) & 2u) != 0;
@@ -374,7 +375,7 @@ void DsaController::readSettings(std::size_t matrix) {
 }
 
 Mask DsaController::readMask(int type, std::size_t matrix) {
-  const std::size_t places = facts_.matrices[matrix].layout.numPlaces();
+  const std::size_t places = facts_.matrices[matrix].layout.numCells();
   const Bytes answer = request(DsaId::kReadMask,
                                {static_cast<std::byte>(type), static_cast<std::byte>(matrix)},
                                2 + maskBytes(places));
@@ -395,9 +396,9 @@ void DsaController::readMasks() {
       options_.tries = tries;
       throw;
     }
-    for (DsaMatrixFacts& matrix : facts_.matrices) {
-      matrix.layout.staticMask.assign(matrix.layout.numPlaces(), 1);
-      matrix.layout.dynamicMask.assign(matrix.layout.numPlaces(), 1);
+    for (DsaMatrixInfo& matrix : facts_.matrices) {
+      matrix.layout.staticMask.assign(matrix.layout.numCells(), 1);
+      matrix.layout.dynamicMask.assign(matrix.layout.numCells(), 1);
     }
   }
   options_.tries = tries;
@@ -482,9 +483,9 @@ void DsaController::setThreshold(std::size_t matrix, int counts, bool persistent
 void DsaController::setDynamicMask(std::size_t matrix, const Mask& mask) {
   checkMatrix(matrix);
   MatrixLayout& layout = facts_.matrices[matrix].layout;
-  if (mask.size() != layout.numPlaces())
+  if (mask.size() != layout.numCells())
     throw std::invalid_argument("a mask of " + std::to_string(mask.size()) + " places for " +
-                                std::to_string(layout.numPlaces()));
+                                std::to_string(layout.numCells()));
   if (!facts_.masksKnown)
     throw DeviceError(DeviceFault::kUnsupported,
                       channel_.name(),

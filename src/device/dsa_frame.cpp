@@ -57,9 +57,9 @@ std::optional<DsaFrame> decodeDsaFrame(std::span<const std::byte> payload,
                                        const SensorLayout& layout,
                                        bool checkMask,
                                        std::span<float> counts) {
-  if (counts.size() != layout.numPlaces())
+  if (counts.size() != layout.numCells())
     throw std::invalid_argument("decodeDsaFrame: room for " + std::to_string(counts.size()) +
-                                " values, the layout has " + std::to_string(layout.numPlaces()));
+                                " values, the layout has " + std::to_string(layout.numCells()));
   if (payload.size() < kDsaFrameHeaderBytes || payload.size() % 2 == 0) return std::nullopt;
   const unsigned flags = std::to_integer<unsigned>(payload[4]);
   if ((flags & ~kRunLengthFlag) != 0) return std::nullopt;
@@ -92,29 +92,29 @@ bool DsaClock::follows(std::uint32_t stampMs,
   return ahead > 0 && static_cast<double>(ahead) <= hostMs * 1.01 + kAheadMs;
 }
 
-DsaClock::Verdict DsaClock::judge(std::uint32_t stampMs, std::int64_t hostUs) {
+DsaClock::FrameAcceptance DsaClock::checkStamp(std::uint32_t stampMs, std::int64_t hostUs) {
   if (!last_) {
     last_ = Stamp{stampMs, hostUs};
     deviceMs_ = stampMs;
-    return Verdict::kAccept;
+    return FrameAcceptance::kAccept;
   }
   if (follows(stampMs, hostUs, last_->ms, last_->hostUs)) {
     deviceMs_ += static_cast<std::int32_t>(stampMs - last_->ms);
     last_ = Stamp{stampMs, hostUs};
     const bool wasHeld = held_.has_value();
     held_.reset();
-    return wasHeld ? Verdict::kDropHeld : Verdict::kAccept;
+    return wasHeld ? FrameAcceptance::kDropHeld : FrameAcceptance::kAccept;
   }
   if (held_ && follows(stampMs, hostUs, held_->ms, held_->hostUs)) {
     heldMs_ = deviceMs_ + 1;
     deviceMs_ = heldMs_ + static_cast<std::int32_t>(stampMs - held_->ms);
     last_ = Stamp{stampMs, hostUs};
     held_.reset();
-    return Verdict::kRestarted;
+    return FrameAcceptance::kRestarted;
   }
   const bool wasHeld = held_.has_value();
   held_ = Stamp{stampMs, hostUs};
-  return wasHeld ? Verdict::kReplaceHeld : Verdict::kHold;
+  return wasHeld ? FrameAcceptance::kReplaceHeld : FrameAcceptance::kHold;
 }
 
 // --- loss ----------------------------------------------------------------------------------------

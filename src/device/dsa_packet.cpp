@@ -24,12 +24,12 @@ std::size_t u16At(std::span<const std::byte> bytes, std::size_t at) {
 
 }  // namespace
 
-DsaPacketParser::DsaPacketParser(DsaPacketOptions options) { setNumPlaces(options.numPlaces); }
+DsaPacketParser::DsaPacketParser(DsaPacketOptions options) { setNumPlaces(options.numCells); }
 
-void DsaPacketParser::setNumPlaces(std::size_t numPlaces) {
-  const std::size_t bytes = kFrameHeaderBytes + 2 * numPlaces;
-  if (numPlaces == 0 || bytes > 0xFFFF)
-    throw std::invalid_argument("DsaPacketParser: " + std::to_string(numPlaces) +
+void DsaPacketParser::setNumPlaces(std::size_t numCells) {
+  const std::size_t bytes = kFrameHeaderBytes + 2 * numCells;
+  if (numCells == 0 || bytes > 0xFFFF)
+    throw std::invalid_argument("DsaPacketParser: " + std::to_string(numCells) +
                                 " places are not in 1..32765");
   largestFrame_ = bytes;
 }

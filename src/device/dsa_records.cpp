@@ -19,7 +19,7 @@ double finite(float value) { return std::isfinite(value) ? static_cast<double>(v
 
 }  // namespace
 
-void readControllerRecord(std::span<const std::byte> record, DsaFacts& facts) {
+void readControllerRecord(std::span<const std::byte> record, DsaControllerInfo& facts) {
   ByteReader in(record.subspan(2));
   facts.serial = in.u32();
   facts.hardwareVersion = in.u8();
@@ -28,7 +28,7 @@ void readControllerRecord(std::span<const std::byte> record, DsaFacts& facts) {
   facts.features = in.u8();
 }
 
-std::size_t readSensorRecord(std::span<const std::byte> record, DsaFacts& facts) {
+std::size_t readSensorRecord(std::span<const std::byte> record, DsaControllerInfo& facts) {
   ByteReader in(record.subspan(2));
   const std::size_t matrices = in.u16();
   facts.generatedBy = in.u16();
@@ -37,9 +37,9 @@ std::size_t readSensorRecord(std::span<const std::byte> record, DsaFacts& facts)
   return matrices;
 }
 
-DsaMatrixFacts readMatrixRecord(std::span<const std::byte> record) {
+DsaMatrixInfo readMatrixRecord(std::span<const std::byte> record) {
   ByteReader in(record.subspan(2));
-  DsaMatrixFacts facts;
+  DsaMatrixInfo facts;
   const double widthMm = finite(in.f32());
   const double heightMm = finite(in.f32());
   const int columns = in.u16();
@@ -72,9 +72,9 @@ DsaMatrixFacts readMatrixRecord(std::span<const std::byte> record) {
   return facts;
 }
 
-void checkPlaces(const std::vector<DsaMatrixFacts>& matrices) {
+void checkPlaces(const std::vector<DsaMatrixInfo>& matrices) {
   std::size_t places = 0;
-  for (const DsaMatrixFacts& matrix : matrices) places += matrix.layout.numPlaces();
+  for (const DsaMatrixInfo& matrix : matrices) places += matrix.layout.numCells();
   if (places > kMostPlaces)
     throw std::invalid_argument("the tactile controller says it has " + std::to_string(places) +
                                 " taxels; a frame carries " + std::to_string(kMostPlaces) +

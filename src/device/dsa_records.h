@@ -17,14 +17,14 @@ constexpr std::size_t kSensitivityRecordBytes = 11;
 constexpr std::size_t kThresholdRecordBytes = 4;
 
 // Each wants the record's size and fills what it tells; the error word was checked before.
-void readControllerRecord(std::span<const std::byte> record, DsaFacts& facts);
+void readControllerRecord(std::span<const std::byte> record, DsaControllerInfo& facts);
 // Returns the number of matrices.
-std::size_t readSensorRecord(std::span<const std::byte> record, DsaFacts& facts);
+std::size_t readSensorRecord(std::span<const std::byte> record, DsaControllerInfo& facts);
 // Throws std::invalid_argument naming what can't be (0 columns, a pitch that isn't positive, ..).
-DsaMatrixFacts readMatrixRecord(std::span<const std::byte> record);
+DsaMatrixInfo readMatrixRecord(std::span<const std::byte> record);
 
 // Throws std::invalid_argument when all matrices together have more places than a frame can carry.
-void checkPlaces(const std::vector<DsaMatrixFacts>& matrices);
+void checkPlaces(const std::vector<DsaMatrixInfo>& matrices);
 
 // Bit i, least first, belongs to place i = y * columns + x.
 std::size_t maskBytes(std::size_t places);

@@ -80,13 +80,13 @@ LiveHand::~LiveHand() { stop(); }
 
 HandDescription LiveHand::hand() const { return impl_->tactile ? impl_->tactile->hand() : sdh2(); }
 
-DeviceFacts LiveHand::facts() const {
-  DeviceFacts facts;
+DeviceInfo LiveHand::facts() const {
+  DeviceInfo facts;
   if (impl_->tactile) {
     if (const auto known = impl_->tactile->facts()) {
       facts.serial = serialText(known->serial);
       facts.firmware = known->firmwareText();
-      for (const DsaMatrixFacts& matrix : known->matrices)
+      for (const DsaMatrixInfo& matrix : known->matrices)
         facts.matrices.push_back({matrix.sensitivity, matrix.thresholdCounts.value_or(0)});
       facts.sensorSerial = serialText(known->sensorSerial);
       facts.sensorRevision = known->generatedBy;

@@ -67,47 +67,48 @@ std::vector<int> MotionLink::axisStates() const {
   return states_;
 }
 
-std::optional<SdhFacts> MotionLink::facts() const {
+std::optional<SdhControllerInfo> MotionLink::facts() const {
   std::lock_guard lock(mutex_);
   return known_;
 }
 
 bool MotionLink::stopWaits() const {
   std::lock_guard lock(mutex_);
-  return !orders_.empty() && std::holds_alternative<StopMotion>(orders_.front().command);
+  return !commandQueue_.empty() &&
+         std::holds_alternative<StopMotion>(commandQueue_.front().command);
 }
 
 // Under mutex_. Stop goes ahead of all; what would move the hand after it is dropped.
-void MotionLink::enqueue(Order order) {
+void MotionLink::enqueue(QueuedCommand order) {
   if (!std::holds_alternative<StopMotion>(order.command)) {
-    orders_.push_back(std::move(order));
+    commandQueue_.push_back(std::move(order));
     return;
   }
-  for (auto waiting = orders_.begin(); waiting != orders_.end();) {
+  for (auto waiting = commandQueue_.begin(); waiting != commandQueue_.end();) {
     if (!std::holds_alternative<MoveJoints>(waiting->command)) {
       ++waiting;
       continue;
     }
     waiting->answer.set_exception(std::make_exception_ptr(
         DeviceError(DeviceFault::kRefused, port_, "stopped before it began")));
-    waiting = orders_.erase(waiting);
+    waiting = commandQueue_.erase(waiting);
   }
-  orders_.push_front(std::move(order));
+  commandQueue_.push_front(std::move(order));
 }
 
 void MotionLink::connect(ByteChannel& channel) {
   SdhControllerOptions options;
   options.urgent = [this] { return stopping() || stopWaits(); };
   controller_ = std::make_unique<SdhController>(channel, clock_, options);
-  const bool leftMoving = stopAfterReturn_;
+  const bool leftMoving = stopAfterReconnect_;
   if (leftMoving) {
     // The port went away during a motion: nobody watched it. Stop, whatever it is doing, ahead of
     // all questions.
     controller_->stop();
-    stopAfterReturn_ = false;
+    stopAfterReconnect_ = false;
     eventNow("motion", "stopped: the motion port had been gone during a motion");
   }
-  const SdhFacts facts = controller_->open();
+  const SdhControllerInfo facts = controller_->open();
   if (const auto known = this->facts(); wasConnected() && known && known->serial != facts.serial)
     throw DeviceError(DeviceFault::kWrongDevice,
                       port_,
@@ -133,7 +134,7 @@ void MotionLink::disconnected() {
     session_.before.skippedBytes += stats.skippedBytes;
   }
   controller_.reset();
-  if (std::exchange(session_.moving, false)) stopAfterReturn_ = true;
+  if (std::exchange(session_.moving, false)) stopAfterReconnect_ = true;
   std::lock_guard lock(mutex_);
   states_.clear();
 }
@@ -172,7 +173,7 @@ void MotionLink::countBytes() {
 
 void MotionLink::work() {
   try {
-    executeOrders();
+    executeCommands();
   } catch (const SdhInterrupted&) {
     // A motion given up for a stop, which waits: the line is in order.
     return;
@@ -191,14 +192,14 @@ void MotionLink::work() {
       session_.nextAnglesUs = std::max(session_.nextAnglesUs + anglePeriodUs_, nowUs);
       pollAngles();
     } else {
-      waitForOrder(session_.moving ? std::min(session_.nextAnglesUs, session_.nextStatesUs)
-                                   : session_.nextAnglesUs);
+      waitForCommand(session_.moving ? std::min(session_.nextAnglesUs, session_.nextStatesUs)
+                                     : session_.nextAnglesUs);
     }
     session_.failures = 0;
   } catch (const DeviceError& error) {
     // An urgent order cuts an exchange short: no failure of the line.
     if (stopping() || stopWaits()) return;
-    if (error.fault() == DeviceFault::kGone || ++session_.failures >= 2) throw;
+    if (error.fault() == DeviceFault::kDisconnected || ++session_.failures >= 2) throw;
     setState(PortState::kSilent, error.what());
   }
   countBytes();

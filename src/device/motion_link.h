@@ -22,7 +22,7 @@ class MotionLink : public PortLink {
   ~MotionLink() override;
 
   std::vector<int> axisStates() const;  // any thread
-  std::optional<SdhFacts> facts() const;
+  std::optional<SdhControllerInfo> facts() const;
 
  protected:
   void connect(ByteChannel& channel) override;
@@ -32,7 +32,7 @@ class MotionLink : public PortLink {
   void forget() override;
   void closing() override;
   CommandAnswer execute(const DeviceCommand& command) override;
-  void enqueue(Order order) override;
+  void enqueue(QueuedCommand order) override;
 
  private:
   bool stopWaits() const;
@@ -47,10 +47,10 @@ class MotionLink : public PortLink {
   const std::int64_t temperaturePeriodUs_;
   std::unique_ptr<SdhController> controller_;
 
-  std::optional<SdhFacts> known_;  // under mutex_
-  std::vector<int> states_;        // under mutex_
+  std::optional<SdhControllerInfo> known_;  // under mutex_
+  std::vector<int> states_;                 // under mutex_
 
-  bool stopAfterReturn_ = false;  // the port went away during a motion
+  bool stopAfterReconnect_ = false;  // the port went away during a motion
   // Of one session, from begin() to finish().
   struct Session {
     bool moving = false;            // a motion that we began hasn't ended

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "device/other_controller.h"
+#include "device/wrong_controller_error.h"
 
 namespace palpate {
 namespace {
@@ -38,7 +38,7 @@ PortLink::PortLink(
 }
 
 std::future<CommandAnswer> PortLink::submit(DeviceCommand command) {
-  Order order{std::move(command), {}};
+  QueuedCommand order{std::move(command), {}};
   std::future<CommandAnswer> answer = order.answer.get_future();
   std::lock_guard lock(mutex_);
   if (sink_ == nullptr || stopping_) {
@@ -48,11 +48,11 @@ std::future<CommandAnswer> PortLink::submit(DeviceCommand command) {
   }
   enqueue(std::move(order));
   if (channel_) channel_->interrupt();
-  orderCame_.notify_all();
+  commandQueued_.notify_all();
   return answer;
 }
 
-void PortLink::enqueue(Order order) { orders_.push_back(std::move(order)); }
+void PortLink::enqueue(QueuedCommand order) { commandQueue_.push_back(std::move(order)); }
 
 PortStatus PortLink::status() const {
   std::lock_guard lock(mutex_);
@@ -63,7 +63,7 @@ void PortLink::requestStop() noexcept {
   stopping_ = true;
   std::lock_guard lock(mutex_);
   if (channel_) channel_->interrupt();
-  orderCame_.notify_all();
+  commandQueued_.notify_all();
 }
 
 void PortLink::begin(DeviceSink& sink) {
@@ -72,7 +72,7 @@ void PortLink::begin(DeviceSink& sink) {
   sink_ = &sink;
   stopping_ = false;
   wasConnected_ = false;
-  goneForGood_ = false;
+  permanentlyFailed_ = false;
   nextTryUs_ = 0;
   lastFailure_.clear();
   status_ = PortStatus{};
@@ -86,7 +86,7 @@ void PortLink::step() noexcept {
     try {
       round();
     } catch (const DeviceError& error) {
-      lose(error);
+      closeAfterError(error);
     }
   } catch (const std::exception& failure) {
     fail(failure.what());
@@ -100,10 +100,10 @@ void PortLink::round() {
     work();
     return;
   }
-  rejectOrders("the " + what_ + " is not connected");
-  if (goneForGood_) nextTryUs_ = clock_.monotonicUs() + kRetryUs;
+  rejectCommands("the " + what_ + " is not connected");
+  if (permanentlyFailed_) nextTryUs_ = clock_.monotonicUs() + kRetryUs;
   if (clock_.monotonicUs() < nextTryUs_) {
-    waitForOrder(nextTryUs_);
+    waitForCommand(nextTryUs_);
     return;
   }
   nextTryUs_ = clock_.monotonicUs() + kRetryUs;
@@ -147,7 +147,7 @@ void PortLink::fail(const char* what) noexcept {
   });
 }
 
-void PortLink::lose(const DeviceError& error) {
+void PortLink::closeAfterError(const DeviceError& error) {
   if (channel_) {
     disconnected();
     std::unique_ptr<ByteChannel> closed;
@@ -157,9 +157,9 @@ void PortLink::lose(const DeviceError& error) {
   if (stopping_) return;
   nextTryUs_ = clock_.monotonicUs() + kRetryUs;
   const bool isGone =
-      error.fault() == DeviceFault::kGone || error.fault() == DeviceFault::kNotFound;
+      error.fault() == DeviceFault::kDisconnected || error.fault() == DeviceFault::kNotFound;
   if (isGone && namesAPtyByNumber(port_)) {
-    goneForGood_ = true;
+    permanentlyFailed_ = true;
     const std::string message = port_ +
                                 ": there is no such pseudo-terminal (any more); connect anew (a "
                                 "link to it would be followed)";
@@ -168,7 +168,7 @@ void PortLink::lose(const DeviceError& error) {
     return;
   }
   setState(wasConnected_ ? PortState::kLost : PortState::kConnecting, error.what());
-  if (const auto* other = dynamic_cast<const OtherController*>(&error))
+  if (const auto* other = dynamic_cast<const WrongControllerError*>(&error))
     updateStatus([&](PortStatus& status) { status.found = other->found(); });
   // Said once, not ten times a second.
   if (std::exchange(lastFailure_, error.what()) != error.what())
@@ -182,7 +182,7 @@ void PortLink::finish() noexcept {
     // The port went away while we said goodbye: it is closed all the same.
   }
   whateverHappens([&] { ended(); });
-  whateverHappens([&] { rejectOrders("the hand was stopped"); });
+  whateverHappens([&] { rejectCommands("the hand was stopped"); });
   std::unique_ptr<ByteChannel> closed;
   std::lock_guard lock(mutex_);
   closed = std::exchange(channel_, nullptr);
@@ -191,14 +191,14 @@ void PortLink::finish() noexcept {
   sink_ = nullptr;
 }
 
-void PortLink::executeOrders() {
+void PortLink::executeCommands() {
   while (true) {
-    std::optional<Order> order;
+    std::optional<QueuedCommand> order;
     {
       std::lock_guard lock(mutex_);
-      if (orders_.empty()) return;
-      order = std::move(orders_.front());
-      orders_.pop_front();
+      if (commandQueue_.empty()) return;
+      order = std::move(commandQueue_.front());
+      commandQueue_.pop_front();
     }
     try {
       order->answer.set_value(execute(order->command));
@@ -216,28 +216,28 @@ void PortLink::executeOrders() {
   }
 }
 
-void PortLink::rejectOrders(const std::string& why) {
-  std::deque<Order> orders;
+void PortLink::rejectCommands(const std::string& why) {
+  std::deque<QueuedCommand> orders;
   {
     std::lock_guard lock(mutex_);
-    orders.swap(orders_);
+    orders.swap(commandQueue_);
   }
-  for (Order& order : orders)
+  for (QueuedCommand& order : orders)
     order.answer.set_exception(
         std::make_exception_ptr(DeviceError(DeviceFault::kSilent, port_, why)));
 }
 
-bool PortLink::ordersWait() const {
+bool PortLink::hasQueuedCommands() const {
   std::lock_guard lock(mutex_);
-  return !orders_.empty();
+  return !commandQueue_.empty();
 }
 
-void PortLink::waitForOrder(std::int64_t untilUs) {
+void PortLink::waitForCommand(std::int64_t untilUs) {
   std::unique_lock lock(mutex_);
   const std::int64_t leftUs = untilUs - clock_.monotonicUs();
   if (leftUs <= 0) return;
-  orderCame_.wait_for(
-      lock, std::chrono::microseconds(leftUs), [&] { return stopping_ || !orders_.empty(); });
+  commandQueued_.wait_for(
+      lock, std::chrono::microseconds(leftUs), [&] { return stopping_ || !commandQueue_.empty(); });
 }
 
 void PortLink::setState(PortState state, const std::string& message) {

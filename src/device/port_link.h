@@ -20,7 +20,7 @@
 
 namespace palpate {
 
-struct Order {
+struct QueuedCommand {
   DeviceCommand command;
   std::promise<CommandAnswer> answer;
 };
@@ -65,13 +65,13 @@ class PortLink {
 
   // Takes orders one by one; an order that fails carries its exception. DeviceErrors that mean the
   // port is gone are thrown on.
-  void executeOrders();
-  void rejectOrders(const std::string& why);
-  bool ordersWait() const;
+  void executeCommands();
+  void rejectCommands(const std::string& why);
+  bool hasQueuedCommands() const;
   // Waits for an order, at most until a monotonic time [us].
-  void waitForOrder(std::int64_t untilUs);
+  void waitForCommand(std::int64_t untilUs);
   // Stops: StopMotion goes ahead, and moves that wait are dropped.
-  virtual void enqueue(Order order);
+  virtual void enqueue(QueuedCommand order);
 
   void setState(PortState state, const std::string& message = {});
   template <typename Change>
@@ -97,20 +97,20 @@ class PortLink {
   const Clock& clock_;
   DeviceSink* sink_ = nullptr;
   mutable std::mutex mutex_;
-  std::deque<Order> orders_;
+  std::deque<QueuedCommand> commandQueue_;
   std::atomic<bool> stopping_ = false;
 
  private:
   void round();
-  void lose(const DeviceError& error);
+  void closeAfterError(const DeviceError& error);
   void fail(const char* what) noexcept;
 
   Open open_;
-  std::condition_variable orderCame_;
+  std::condition_variable commandQueued_;
   PortStatus status_;
   std::unique_ptr<ByteChannel> channel_;  // replaced by the port's thread only, under mutex_
   bool wasConnected_ = false;
-  bool goneForGood_ = false;
+  bool permanentlyFailed_ = false;
   std::int64_t nextTryUs_ = 0;
   std::string lastFailure_;
 };

@@ -43,7 +43,7 @@ class Prober {
   }
 
  private:
-  bool stopped() const { return options_.giveUp && options_.giveUp(); }
+  bool stopped() const { return options_.isCancelled && options_.isCancelled(); }
 
   void send(std::string_view text) {
     channel_.write(std::as_bytes(std::span<const char>(text.data(), text.size())));
@@ -82,7 +82,7 @@ class Prober {
         return;
       ByteReader reader(packet.payload);
       if (reader.u16() != 0) return;
-      DsaFacts facts;
+      DsaControllerInfo facts;
       facts.serial = reader.u32();
       reader.u8();
       facts.firmwareVersion = reader.u16();
@@ -133,7 +133,7 @@ class Prober {
       probe.answer = PortAnswer::kTactile;
       probe.message = "tactile controller that is starting; ask again in 10 s";
     } else if (bytes_ > 0) {
-      probe.answer = PortAnswer::kSomething;
+      probe.answer = PortAnswer::kUnknownDevice;
       probe.message = "something else: " + std::to_string(bytes_) +
                       " bytes that are no answer of a hand; check the speed of the line";
     } else {
@@ -152,7 +152,7 @@ class Prober {
   DsaPacketParser packets_;
   std::optional<std::string> version_;
   std::optional<std::string> serial_;
-  std::optional<DsaFacts> tactile_;
+  std::optional<DsaControllerInfo> tactile_;
   std::size_t tactilePackets_ = 0;
   std::size_t bytes_ = 0;
   std::string recent_;  // the last few bytes
@@ -166,8 +166,8 @@ PortAnswer answerOf(DeviceFault fault) {
       return PortAnswer::kBusy;
     case DeviceFault::kNoPermission:
       return PortAnswer::kNoPermission;
-    case DeviceFault::kGone:
-      return PortAnswer::kGone;
+    case DeviceFault::kDisconnected:
+      return PortAnswer::kDisconnected;
     case DeviceFault::kSilent:
       return PortAnswer::kNothing;
     default:
@@ -185,7 +185,7 @@ std::string PortProbe::answerName() const {
       return "motion";
     case PortAnswer::kTactile:
       return "tactile";
-    case PortAnswer::kSomething:
+    case PortAnswer::kUnknownDevice:
       return "something";
     case PortAnswer::kBusy:
       return "busy";
@@ -193,7 +193,7 @@ std::string PortProbe::answerName() const {
       return "no_permission";
     case PortAnswer::kNotFound:
       return "not_found";
-    case PortAnswer::kGone:
+    case PortAnswer::kDisconnected:
       return "gone";
   }
   return "";

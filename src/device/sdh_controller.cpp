@@ -9,9 +9,9 @@
 #include "palpate/device/dsa_packet.h"
 #include "palpate/model/hand_description.h"
 
-#include "device/other_controller.h"
 #include "device/sdh_link.h"
 #include "device/sdh_quantity.h"
+#include "device/wrong_controller_error.h"
 
 namespace palpate {
 namespace {
@@ -54,14 +54,14 @@ SdhQuantity current(SdhCurrent of) {
   const SdhCommand command = of == SdhCurrent::kMotion ? SdhCommand::kCurrentLimit
                              : of == SdhCurrent::kGrip ? SdhCommand::kGripCurrent
                                                        : SdhCommand::kHoldCurrent;
-  return {command, "current limit", " A", 0.0, sdh::kMostAmpere};
+  return {command, "current limit", " A", 0.0, sdh::kMaxAmpere};
 }
 
 SdhQuantity softLimit(SdhSoftLimit which) {
   const SdhCommand command = which == SdhSoftLimit::kMinimum   ? SdhCommand::kMinimum
                              : which == SdhSoftLimit::kMaximum ? SdhCommand::kMaximum
                                                                : SdhCommand::kOffset;
-  return {command, "soft limit", " deg", -sdh::kMostDeg, sdh::kMostDeg};
+  return {command, "soft limit", " deg", -sdh::kMaxDeg, sdh::kMaxDeg};
 }
 
 void checkGain(const char* what, std::size_t axis, double value) {
@@ -91,7 +91,7 @@ SdhStats SdhController::stats() const noexcept { return link_->stats(); }
 // --- opening
 // --------------------------------------------------------------------------------------
 
-const SdhFacts& SdhController::open() {
+const SdhControllerInfo& SdhController::open() {
   DsaPacketParser tactile;
   struct Watch {
     SdhLink& link;
@@ -108,10 +108,11 @@ const SdhFacts& SdhController::open() {
     throw;
   } catch (const DeviceError& error) {
     if (tactile.stats().packets > 0)
-      throw OtherController(PortAnswer::kTactile,
-                            error.port(),
-                            "a tactile controller sends here, not a motion controller: the ports "
-                            "are swapped; exchange the two names");
+      throw WrongControllerError(
+          PortAnswer::kTactile,
+          error.port(),
+          "a tactile controller sends here, not a motion controller: the ports "
+          "are swapped; exchange the two names");
     if (error.fault() != DeviceFault::kSilent) throw;
     const bool noise = link_->stats().bytesRead > readBefore;
     link_->fail(DeviceFault::kSilent,
@@ -121,12 +122,12 @@ const SdhFacts& SdhController::open() {
   }
   const SdhFirmware firmware = SdhFirmware::parse(facts_.firmware);
   binary_ = firmware.atLeast(0, 0, 2, 15);
-  readFacts();
+  readInfo();
   return facts_;
 }
 
-void SdhController::readFacts() {
-  const SdhPatience briefly{.timeout = milliseconds(500), .tries = 2};
+void SdhController::readInfo() {
+  const SdhRetryPolicy briefly{.timeout = milliseconds(500), .tries = 2};
   // Older firmware knows not all of these: it refuses, or keeps silent (then the others aren't
   // asked).
   bool answers = true;
@@ -137,7 +138,8 @@ void SdhController::readFacts() {
     } catch (const SdhInterrupted&) {
       throw;
     } catch (const DeviceError& error) {
-      if (error.fault() == DeviceFault::kGone || error.fault() == DeviceFault::kWrongDevice) throw;
+      if (error.fault() == DeviceFault::kDisconnected || error.fault() == DeviceFault::kWrongDevice)
+        throw;
       answers = error.fault() != DeviceFault::kSilent;
     }
   };
@@ -172,7 +174,7 @@ void SdhController::needFirmware(const std::string& what, int a, int b, int c, i
 // --- asking
 // ---------------------------------------------------------------------------------------
 
-std::string SdhController::word(const std::string& command, const SdhPatience& patience) {
+std::string SdhController::word(const std::string& command, const SdhRetryPolicy& retryPolicy) {
   std::string name = command;
   for (char& c : name)
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
@@ -182,7 +184,7 @@ std::string SdhController::word(const std::string& command, const SdhPatience& p
           name,
           std::nullopt,
           [](const SdhLine& line) { return !line.text.empty(); },
-          patience)
+          retryPolicy)
       .text;
 }
 
@@ -191,7 +193,7 @@ SdhControllerValues SdhController::numbers(const std::string& request,
                                            std::optional<int> axis,
                                            const SdhQuantity& quantity,
                                            std::size_t count,
-                                           const SdhPatience& patience) {
+                                           const SdhRetryPolicy& retryPolicy) {
   SdhControllerValues values;
   link_->ask(
       request,
@@ -201,7 +203,7 @@ SdhControllerValues SdhController::numbers(const std::string& request,
         values = parseSdhNumbers(line.text).value_or(SdhControllerValues{});
         return quantity.plausible(values, count);
       },
-      patience);
+      retryPolicy);
   return values;
 }
 
@@ -333,14 +335,14 @@ SdhControllerValues SdhController::setAxisPower(std::size_t axis, bool on) {
 // ---------------------------------------------------------------------------------------
 
 double SdhController::move() {
-  constexpr SdhPatience kOnce{.tries = 1};
+  constexpr SdhRetryPolicy kOnce{.tries = 1};
   const SdhQuantity duration{SdhCommand::kMove, "duration", " s", 0.0, 3600.0};
   const auto start = [&] { return numbers("m", "M", std::nullopt, duration, 1, kOnce)[0]; };
   try {
     return start();
   } catch (const DeviceError& error) {
-    if (error.fault() == DeviceFault::kGone || dynamic_cast<const SdhInterrupted*>(&error) ||
-        !link_->mayBeLost())
+    if (error.fault() == DeviceFault::kDisconnected ||
+        dynamic_cast<const SdhInterrupted*>(&error) || !link_->mayBeLost())
       throw;
   }
   // The question may be lost, or its answer only: a second `m` in mid-motion would be a jerk.
@@ -413,7 +415,7 @@ SdhSettingsValues SdhController::softLimits(SdhSoftLimit which) {
 }
 
 SdhSettingsValues SdhController::setSoftLimits(SdhSoftLimit which, const SdhSettingsValues& deg) {
-  checkSdhValues(softLimit(which), deg, -sdh::kMostDeg, sdh::kMostDeg);
+  checkSdhValues(softLimit(which), deg, -sdh::kMaxDeg, sdh::kMaxDeg);
   return exchange(softLimit(which), deg);
 }
 
@@ -450,20 +452,21 @@ void SdhController::referenceRun(const std::vector<int>& direction) {
   const SdhQuantity quantity{SdhCommand::kReference, "direction", "", 0.0, 2.0, true};
   const SdhSettingsValues values = asNumbers(direction);
   checkSdhValues(quantity, values, 0.0, 2.0);
-  const SdhPatience patience{.timeout = milliseconds(15'000), .tries = 1, .heedsUrgent = false};
+  const SdhRetryPolicy retryPolicy{
+      .timeout = milliseconds(15'000), .tries = 1, .abortsForStop = false};
   link_->ask(
       sdhLineRequest("ref", std::nullopt, values),
       "REF",
       std::nullopt,
       [](const SdhLine&) { return true; },
-      patience);
+      retryPolicy);
 }
 
 void SdhController::savePositions(const std::vector<int>& axes) {
   const SdhQuantity quantity{SdhCommand::kSavePosition, "choice", "", 0.0, 1.0, true};
   const SdhSettingsValues values = asNumbers(axes);
   checkSdhValues(quantity, values, 0.0, 1.0);
-  const SdhPatience once{.tries = 1};  // the flash wears
+  const SdhRetryPolicy once{.tries = 1};  // the flash wears
   link_->ask(
       sdhLineRequest("pos_save", std::nullopt, values),
       "POS_SAVE",

@@ -24,7 +24,7 @@ std::span<const std::byte> bytesOf(std::string_view text) {
 }
 
 // The hand understood something else than was sent: worth another try.
-bool comesFromALossyLine(int code) {
+bool isTransmissionError(int code) {
   constexpr int kCodes[] = {7, 10, 11, 12, 13, 14, 32, 33, 34};
   return std::find(std::begin(kCodes), std::end(kCodes), code) != std::end(kCodes);
 }
@@ -79,7 +79,7 @@ void SdhLink::drain(milliseconds silence, milliseconds limit) {
     if (readOnce(urgent_ ? std::min(wait, kSdhLinkSlice) : wait) > 0) lastUs = clock_.monotonicUs();
     stats_.strayReplies += replies_.size();
     replies_.clear();
-    giveUpIfUrgent();
+    abortIfUrgent();
   }
   parser_.reset();
 }
@@ -88,7 +88,7 @@ void SdhLink::resync(bool thorough) {
   ++stats_.resyncs;
   parser_.reset();
   replies_.clear();
-  outOfStep_ = true;
+  needsResync_ = true;
   drain(kSilence, kDrainLimit);
   // Blanks before a command mean nothing. As many as the longest record fill up one that the hand
   // got in part; it fails by its checksum, which a network has not: there the hand would take it
@@ -96,15 +96,15 @@ void SdhLink::resync(bool thorough) {
   if (thorough && !channel_.isNetwork()) sendText(std::string(40, ' '));
   sendText(" \r\n");
   drain(kSilence, kDrainLimit);
-  outOfStep_ = false;
+  needsResync_ = false;
 }
 
 // --- one question
 // ---------------------------------------------------------------------------------
 
-void SdhLink::giveUpIfUrgent() {
+void SdhLink::abortIfUrgent() {
   if (!urgent_ || !urgent_()) return;
-  outOfStep_ = true;
+  needsResync_ = true;
   ++stats_.stops;
   sendText(" \r\nstop\r\n");
   throw SdhInterrupted(channel_.name());
@@ -113,13 +113,13 @@ void SdhLink::giveUpIfUrgent() {
 // Returns where asking again may help; else throws.
 void SdhLink::takeError(int code, const std::string& what) {
   errorCode_ = code;
-  trouble_ = Trouble::kRefused;
-  if (comesFromALossyLine(code)) return;
-  outOfStep_ = false;
+  problem_ = FailureCause::kRefused;
+  if (isTransmissionError(code)) return;
+  needsResync_ = false;
   failExchange(what);
 }
 
-std::optional<SdhReply> SdhLink::judged(const std::string& what, const Judge& judge) {
+std::optional<SdhReply> SdhLink::matchReply(const std::string& what, const ReplyMatcher& judge) {
   std::vector<SdhReply> replies = std::move(replies_);
   replies_.clear();
   for (SdhReply& reply : replies) {
@@ -133,14 +133,14 @@ std::optional<SdhReply> SdhLink::judged(const std::string& what, const Judge& ju
       return std::nullopt;
     }
     switch (judge(reply)) {
-      case Verdict::kStray:
+      case ReplyMatch::kStray:
         ++stats_.strayReplies;
         break;
-      case Verdict::kImplausible:
+      case ReplyMatch::kImplausible:
         ++stats_.suspect;
-        trouble_ = Trouble::kImplausible;
+        problem_ = FailureCause::kImplausible;
         return std::nullopt;
-      case Verdict::kAnswer:
+      case ReplyMatch::kAnswer:
         if (const auto* record = std::get_if<SdhRecord>(&reply); record && record->status != 0) {
           takeError(record->status, what);
           return std::nullopt;
@@ -153,55 +153,55 @@ std::optional<SdhReply> SdhLink::judged(const std::string& what, const Judge& ju
 
 std::optional<SdhReply> SdhLink::attempt(Bytes request,
                                          const std::string& what,
-                                         const Judge& judge,
-                                         const SdhPatience& patience) {
+                                         const ReplyMatcher& judge,
+                                         const SdhRetryPolicy& retryPolicy) {
   replies_.clear();
-  trouble_ = Trouble::kSilence;
+  problem_ = FailureCause::kSilence;
   const SdhReplyStats before = parser_.stats();
   // What takes long may be announced by noise; it is waited for to the end.
-  const bool quick = patience.timeout <= SdhPatience{}.timeout;
-  outOfStep_ = true;
+  const bool quick = retryPolicy.timeout <= SdhRetryPolicy{}.timeout;
+  needsResync_ = true;
   write(request);
   const std::int64_t sentUs = clock_.monotonicUs();
   std::int64_t heardUs = sentUs;
   for (;;) {
     const std::int64_t nowUs = clock_.monotonicUs();
-    if (patience.heedsUrgent && nowUs - sentUs >= usOf(kUrgentAfter)) giveUpIfUrgent();
+    if (retryPolicy.abortsForStop && nowUs - sentUs >= usOf(kUrgentAfter)) abortIfUrgent();
     const bool begun = quick && (parser_.pendingBytes() > 0 ||
                                  parser_.stats().skippedBytes != before.skippedBytes);
-    const std::int64_t leftUs =
-        begun ? std::min(usOf(patience.timeout) - (nowUs - sentUs), usOf(kGap) - (nowUs - heardUs))
-              : usOf(patience.timeout) - (nowUs - sentUs);
+    const std::int64_t leftUs = begun ? std::min(usOf(retryPolicy.timeout) - (nowUs - sentUs),
+                                                 usOf(kGap) - (nowUs - heardUs))
+                                      : usOf(retryPolicy.timeout) - (nowUs - sentUs);
     if (leftUs <= 0) {
-      if (begun) trouble_ = Trouble::kBroken;
+      if (begun) problem_ = FailureCause::kBroken;
       return std::nullopt;
     }
     const milliseconds wait(leftUs / 1000 + 1);
     if (readOnce(urgent_ ? std::min(wait, kSdhLinkSlice) : wait) == 0) continue;
     heardUs = clock_.monotonicUs();
-    if (parser_.stats().badChecksums != before.badChecksums) trouble_ = Trouble::kBroken;
-    if (auto answer = judged(what, judge)) {
-      outOfStep_ = parser_.pendingBytes() > 0;
+    if (parser_.stats().badChecksums != before.badChecksums) problem_ = FailureCause::kBroken;
+    if (auto answer = matchReply(what, judge)) {
+      needsResync_ = parser_.pendingBytes() > 0;
       return answer;
     }
-    if (trouble_ != Trouble::kSilence) return std::nullopt;
+    if (problem_ != FailureCause::kSilence) return std::nullopt;
   }
 }
 
 void SdhLink::failExchange(const std::string& what) const {
-  switch (trouble_) {
-    case Trouble::kRefused: {
+  switch (problem_) {
+    case FailureCause::kRefused: {
       const std::string advice = sdhErrorAdvice(errorCode_);
       fail(DeviceFault::kRefused,
            "the hand refused '" + what + "': E" + std::to_string(errorCode_) + ", " +
                sdhErrorText(errorCode_) + (advice.empty() ? "" : "; " + advice));
     }
-    case Trouble::kBroken:
+    case FailureCause::kBroken:
       fail(DeviceFault::kProtocol,
            "the answers to '" + what + "' arrive damaged; check cable and adapter");
-    case Trouble::kImplausible:
+    case FailureCause::kImplausible:
       fail(DeviceFault::kProtocol, "the answers to '" + what + "' are not what a hand can say");
-    case Trouble::kSilence:
+    case FailureCause::kSilence:
       break;
   }
   fail(DeviceFault::kSilent,
@@ -209,20 +209,20 @@ void SdhLink::failExchange(const std::string& what) const {
 }
 
 bool SdhLink::mayBeLost() const noexcept {
-  return trouble_ != Trouble::kRefused || comesFromALossyLine(errorCode_);
+  return problem_ != FailureCause::kRefused || isTransmissionError(errorCode_);
 }
 
 SdhReply SdhLink::exchange(Bytes request,
                            const std::string& what,
-                           const Judge& judge,
-                           const SdhPatience& patience) {
-  if (patience.heedsUrgent) giveUpIfUrgent();
+                           const ReplyMatcher& judge,
+                           const SdhRetryPolicy& retryPolicy) {
+  if (retryPolicy.abortsForStop) abortIfUrgent();
   ++stats_.exchanges;
-  if (outOfStep_) resync(false);
+  if (needsResync_) resync(false);
   const std::int64_t startUs = clock_.monotonicUs();
   for (int tries = 1;; ++tries) {
-    if (auto answer = attempt(request, what, judge, patience)) return std::move(*answer);
-    if (tries >= patience.tries || clock_.monotonicUs() - startUs > usOf(kExchangeLimit)) break;
+    if (auto answer = attempt(request, what, judge, retryPolicy)) return std::move(*answer);
+    if (tries >= retryPolicy.tries || clock_.monotonicUs() - startUs > usOf(kExchangeLimit)) break;
     ++stats_.retries;
     resync(tries > 1);
   }
@@ -233,25 +233,25 @@ SdhLine SdhLink::ask(const std::string& request,
                      std::string_view name,
                      std::optional<int> axis,
                      const LineCheck& check,
-                     const SdhPatience& patience) {
-  const Judge judge = [&](SdhReply& reply) {
+                     const SdhRetryPolicy& retryPolicy) {
+  const ReplyMatcher judge = [&](SdhReply& reply) {
     const auto* line = std::get_if<SdhLine>(&reply);
     if (!line || line->kind != SdhLine::Kind::kValue || line->name != name || line->axis != axis)
-      return Verdict::kStray;
-    return check(*line) ? Verdict::kAnswer : Verdict::kImplausible;
+      return ReplyMatch::kStray;
+    return check(*line) ? ReplyMatch::kAnswer : ReplyMatch::kImplausible;
   };
   const std::string text = request + "\r\n";
-  return std::get<SdhLine>(exchange(bytesOf(text), request, judge, patience));
+  return std::get<SdhLine>(exchange(bytesOf(text), request, judge, retryPolicy));
 }
 
 std::vector<double> SdhLink::askRecord(SdhCommand command,
                                        std::span<const double> values,
                                        const RecordCheck& check) {
-  const Judge judge = [&](SdhReply& reply) {
+  const ReplyMatcher judge = [&](SdhReply& reply) {
     const auto* record = std::get_if<SdhRecord>(&reply);
-    if (!record || record->command != command) return Verdict::kStray;
-    if (record->status != 0) return Verdict::kAnswer;
-    return check(record->values) ? Verdict::kAnswer : Verdict::kImplausible;
+    if (!record || record->command != command) return ReplyMatch::kStray;
+    if (record->status != 0) return ReplyMatch::kAnswer;
+    return check(record->values) ? ReplyMatch::kAnswer : ReplyMatch::kImplausible;
   };
   const auto request = sdhRecordRequest(command, values, !channel_.isNetwork());
   return std::get<SdhRecord>(exchange(request, std::string(sdhName(command)), judge, {})).values;
@@ -270,7 +270,7 @@ void SdhLink::stop() {
     // One piece, before anything else; later ones also end a record that the hand got in part.
     sendText((first || channel_.isNetwork() ? "" : std::string(40, ' ')) + " \r\nstop\r\n");
     first = false;
-    outOfStep_ = true;
+    needsResync_ = true;
     const std::int64_t endUs = clock_.monotonicUs() + usOf(timeout);
     for (std::int64_t leftUs = usOf(timeout); leftUs > 0; leftUs = endUs - clock_.monotonicUs()) {
       readOnce(milliseconds(leftUs / 1000 + 1));
@@ -280,7 +280,7 @@ void SdhLink::stop() {
         if (!line || line->kind == SdhLine::Kind::kDebug || line->kind == SdhLine::Kind::kError)
           continue;
         if (line->text.starts_with("STOP") || line->name == "STOP") {
-          outOfStep_ = false;
+          needsResync_ = false;
           return;
         }
         heard = true;

@@ -18,10 +18,10 @@
 
 namespace palpate {
 
-struct SdhPatience {
+struct SdhRetryPolicy {
   std::chrono::milliseconds timeout{1000};  // of one try
   int tries = 3;
-  bool heedsUrgent = true;  // gives up for a stop
+  bool abortsForStop = true;  // gives up for a stop
 };
 
 class SdhLink {
@@ -39,7 +39,7 @@ class SdhLink {
               std::string_view name,
               std::optional<int> axis,
               const LineCheck& check,
-              const SdhPatience& patience = {});
+              const SdhRetryPolicy& retryPolicy = {});
   std::vector<double> askRecord(SdhCommand command,
                                 std::span<const double> values,
                                 const RecordCheck& check);
@@ -61,24 +61,24 @@ class SdhLink {
   [[noreturn]] void fail(DeviceFault fault, const std::string& message) const;
 
  private:
-  enum class Verdict { kStray, kAnswer, kImplausible };
-  using Judge = std::function<Verdict(SdhReply&)>;
+  enum class ReplyMatch { kStray, kAnswer, kImplausible };
+  using ReplyMatcher = std::function<ReplyMatch(SdhReply&)>;
 
   // The answer, after as many tries as `patience` has.
   SdhReply exchange(Bytes request,
                     const std::string& what,
-                    const Judge& judge,
-                    const SdhPatience& patience);
-  // One try; nothing: silence, or an answer that can't be used (trouble_ says which).
+                    const ReplyMatcher& judge,
+                    const SdhRetryPolicy& retryPolicy);
+  // One try; nothing: silence, or an answer that can't be used (problem_ says which).
   std::optional<SdhReply> attempt(Bytes request,
                                   const std::string& what,
-                                  const Judge& judge,
-                                  const SdhPatience& patience);
-  std::optional<SdhReply> judged(const std::string& what, const Judge& judge);
+                                  const ReplyMatcher& judge,
+                                  const SdhRetryPolicy& retryPolicy);
+  std::optional<SdhReply> matchReply(const std::string& what, const ReplyMatcher& judge);
   void takeError(int code, const std::string& what);
   std::size_t readOnce(std::chrono::milliseconds timeout);
   void write(Bytes bytes);
-  void giveUpIfUrgent();
+  void abortIfUrgent();
   [[noreturn]] void failExchange(const std::string& what) const;
 
   ByteChannel& channel_;
@@ -89,9 +89,14 @@ class SdhLink {
   std::vector<std::byte> buffer_;
   std::vector<SdhReply> replies_;  // of the last read
   SdhStats stats_;
-  bool outOfStep_ = false;  // an answer may still be on its way: resync first
+  bool needsResync_ = false;  // an answer may still be on its way: resync first
   // Why the last try failed.
-  enum class Trouble { kSilence, kBroken, kImplausible, kRefused } trouble_ = Trouble::kSilence;
+  enum class FailureCause {
+    kSilence,
+    kBroken,
+    kImplausible,
+    kRefused
+  } problem_ = FailureCause::kSilence;
   int errorCode_ = 0;
 };
 

@@ -23,34 +23,34 @@ struct SdhQuantity {
 
 namespace sdh {
 
-constexpr double kMostDeg = 180.0;
-constexpr double kMostDegPerS = 1000.0;
-constexpr double kMostDegPerS2 = 100'000.0;
-constexpr double kMostAmpere = 10.0;
+constexpr double kMaxDeg = 180.0;
+constexpr double kMaxDegPerS = 1000.0;
+constexpr double kMaxDegPerS2 = 100'000.0;
+constexpr double kMaxAmpere = 10.0;
 
-inline constexpr SdhQuantity kAngle{SdhCommand::kAngle, "angle", " deg", -kMostDeg, kMostDeg};
+inline constexpr SdhQuantity kAngle{SdhCommand::kAngle, "angle", " deg", -kMaxDeg, kMaxDeg};
 inline constexpr SdhQuantity kTarget{
-    SdhCommand::kAngleTarget, "target angle", " deg", -kMostDeg, kMostDeg};
+    SdhCommand::kAngleTarget, "target angle", " deg", -kMaxDeg, kMaxDeg};
 inline constexpr SdhQuantity kTargetGetAngle{
-    SdhCommand::kTargetGetAngle, "target angle", " deg", -kMostDeg, kMostDeg};
+    SdhCommand::kTargetGetAngle, "target angle", " deg", -kMaxDeg, kMaxDeg};
 inline constexpr SdhQuantity kVelocity{
-    SdhCommand::kVelocity, "velocity", " deg/s", -kMostDegPerS, kMostDegPerS};
+    SdhCommand::kVelocity, "velocity", " deg/s", -kMaxDegPerS, kMaxDegPerS};
 inline constexpr SdhQuantity kReferenceVelocity{
-    SdhCommand::kVelocityReference, "reference velocity", " deg/s", -kMostDegPerS, kMostDegPerS};
+    SdhCommand::kVelocityReference, "reference velocity", " deg/s", -kMaxDegPerS, kMaxDegPerS};
 inline constexpr SdhQuantity kTargetVelocity{
-    SdhCommand::kVelocityTarget, "target velocity", " deg/s", -kMostDegPerS, kMostDegPerS};
+    SdhCommand::kVelocityTarget, "target velocity", " deg/s", -kMaxDegPerS, kMaxDegPerS};
 inline constexpr SdhQuantity kTargetGetVelocity{
-    SdhCommand::kTargetGetVelocity, "target velocity", " deg/s", -kMostDegPerS, kMostDegPerS};
+    SdhCommand::kTargetGetVelocity, "target velocity", " deg/s", -kMaxDegPerS, kMaxDegPerS};
 inline constexpr SdhQuantity kAcceleration{
-    SdhCommand::kAcceleration, "acceleration", " deg/s^2", 0.0, kMostDegPerS2};
+    SdhCommand::kAcceleration, "acceleration", " deg/s^2", 0.0, kMaxDegPerS2};
 inline constexpr SdhQuantity kState{SdhCommand::kState, "state", "", 0.0, 7.0, true};
 inline constexpr SdhQuantity kPower{SdhCommand::kPower, "power", "", 0.0, 1.0, true};
 inline constexpr SdhQuantity kTemperature{
     SdhCommand::kTemperature, "temperature", " deg C", -55.0, 150.0};
 inline constexpr SdhQuantity kVelocityLimit{
-    SdhCommand::kVelocityLimit, "velocity limit", " deg/s", 1e-3, kMostDegPerS};
+    SdhCommand::kVelocityLimit, "velocity limit", " deg/s", 1e-3, kMaxDegPerS};
 inline constexpr SdhQuantity kAccelerationLimit{
-    SdhCommand::kAccelerationLimit, "acceleration limit", " deg/s^2", 1e-3, kMostDegPerS2};
+    SdhCommand::kAccelerationLimit, "acceleration limit", " deg/s^2", 1e-3, kMaxDegPerS2};
 
 }  // namespace sdh
 

@@ -43,7 +43,7 @@ HandDescription TactileLink::hand() const {
   return hand_;
 }
 
-std::optional<DsaFacts> TactileLink::facts() const {
+std::optional<DsaControllerInfo> TactileLink::facts() const {
   std::lock_guard lock(mutex_);
   return known_;
 }
@@ -54,15 +54,15 @@ std::optional<DsaFacts> TactileLink::facts() const {
 void TactileLink::connect(ByteChannel& channel) {
   DsaControllerOptions options;
   options.runLength = runLength_;
-  options.giveUp = [this] {
+  options.isCancelled = [this] {
     // Also asked while a setting is changed: the next ones wait for it.
-    if (!delivering_) rejectOrders("the tactile controller is not connected yet");
+    if (!delivering_) rejectCommands("the tactile controller is not connected yet");
     return stopping();
   };
   delivering_ = false;
   controller_ = std::make_unique<DsaController>(
       channel, [this](std::span<const std::byte> payload) { onPayload(payload); }, clock_, options);
-  const DsaFacts& facts = controller_->open();
+  const DsaControllerInfo& facts = controller_->open();
   if (const auto known = this->facts(); wasConnected() && known && known->serial != facts.serial)
     throw DeviceError(
         DeviceFault::kWrongDevice,
@@ -72,7 +72,7 @@ void TactileLink::connect(ByteChannel& channel) {
   learn();
   restoreSettings();
   session_.deviceClock.reset();
-  rateMayChange();
+  resetRateEstimate();
   session_.held.reset();
   delivering_ = true;
   controller_->startStream();
@@ -114,7 +114,7 @@ void TactileLink::disconnected() {
 void TactileLink::ended() {
   if (!session_.gapFromUs) return;
   const std::int64_t nowUs = time_.nowUs();
-  endGap(nowUs, missingSince(*session_.gapFromUs, nowUs, /*frameCame=*/false));
+  endGap(nowUs, missingSince(*session_.gapFromUs, nowUs, /*frameReceived=*/false));
 }
 
 void TactileLink::closing() {
@@ -125,8 +125,8 @@ void TactileLink::closing() {
 }
 
 void TactileLink::work() {
-  if (ordersWait()) {
-    executeOrders();
+  if (hasQueuedCommands()) {
+    executeCommands();
     session_.lastFrameUs = clock_.monotonicUs();
   }
   if (stopping()) return;
@@ -160,29 +160,29 @@ void TactileLink::onPayload(std::span<const std::byte> payload) {
     updateStatus([&](PortStatus& status) { status.suspect = session_.suspect; });
     return;
   }
-  judge(std::move(frame), *packet);
+  checkStamp(std::move(frame), *packet);
 }
 
-void TactileLink::judge(TactileFrame&& frame, const DsaFrame& packet) {
+void TactileLink::checkStamp(TactileFrame&& frame, const DsaFrame& packet) {
   frame.hostUs = stampAfter(session_.lastStampUs);
-  switch (session_.deviceClock.judge(packet.stampMs, clock_.monotonicUs())) {
-    case DsaClock::Verdict::kAccept:
+  switch (session_.deviceClock.checkStamp(packet.stampMs, clock_.monotonicUs())) {
+    case DsaClock::FrameAcceptance::kAccept:
       return deliver(std::move(frame), session_.deviceClock.deviceMs(), packet.packetBytes);
-    case DsaClock::Verdict::kReplaceHeld:
+    case DsaClock::FrameAcceptance::kReplaceHeld:
       ++session_.suspect;
       [[fallthrough]];
-    case DsaClock::Verdict::kHold:
+    case DsaClock::FrameAcceptance::kHold:
       session_.held = Held{std::move(frame), packet};
       break;
-    case DsaClock::Verdict::kDropHeld:
+    case DsaClock::FrameAcceptance::kDropHeld:
       ++session_.suspect;
       session_.held.reset();
       deliver(std::move(frame), session_.deviceClock.deviceMs(), packet.packetBytes);
       break;
-    case DsaClock::Verdict::kRestarted:
+    case DsaClock::FrameAcceptance::kRestarted:
       eventNow("link", "the tactile controller's clock started anew: it was switched off and on");
-      rateMayChange();
-      session_.leastOffsetUs = {};
+      resetRateEstimate();
+      session_.minOffsetUs = {};
       if (session_.held) {
         Held held = std::move(*session_.held);
         session_.held.reset();
@@ -201,7 +201,7 @@ void TactileLink::deliver(TactileFrame&& frame, std::int64_t deviceMs, std::size
   const std::uint64_t counted = session_.loss.next(deviceMs, packetBytes);
   Missing missing{counted, false};
   if (session_.gapFromUs) {
-    if (!counts) missing = missingSince(*session_.gapFromUs, hostUs, /*frameCame=*/true);
+    if (!counts) missing = missingSince(*session_.gapFromUs, hostUs, /*frameReceived=*/true);
     endGap(hostUs, missing);
   } else {
     updateStatus([&](PortStatus& status) { status.lost += counted; });
@@ -225,11 +225,11 @@ void TactileLink::measureAge(std::int64_t hostUs, std::int64_t deviceMs) {
   const std::int64_t offsetUs = hostUs - deviceMs * 1000;
   if (hostUs - session_.offsetWindowUs > kOffsetWindowUs) {
     session_.offsetWindowUs = hostUs;
-    session_.leastOffsetUs[1] = std::exchange(session_.leastOffsetUs[0], std::nullopt);
+    session_.minOffsetUs[1] = std::exchange(session_.minOffsetUs[0], std::nullopt);
   }
-  session_.leastOffsetUs[0] = std::min(session_.leastOffsetUs[0].value_or(offsetUs), offsetUs);
-  const std::int64_t least = std::min(
-      *session_.leastOffsetUs[0], session_.leastOffsetUs[1].value_or(*session_.leastOffsetUs[0]));
+  session_.minOffsetUs[0] = std::min(session_.minOffsetUs[0].value_or(offsetUs), offsetUs);
+  const std::int64_t least = std::min(*session_.minOffsetUs[0],
+                                      session_.minOffsetUs[1].value_or(*session_.minOffsetUs[0]));
   updateStatus(
       [&](PortStatus& status) { status.ageMs = static_cast<double>(offsetUs - least) / 1000.0; });
 }
@@ -262,22 +262,22 @@ void TactileLink::watchSilence() {
   if (controller_->stopStreamOnce(milliseconds(400))) {
     session_.deviceClock.reset();
     // Then its clock began anew, and it may show any time: what is missing is estimated by ours.
-    rateMayChange();
+    resetRateEstimate();
     controller_->startStream();
   }
 }
 
 // The controller's rate, and what its clock says, are to be learned anew: what isn't sent meanwhile
 // is no loss.
-void TactileLink::rateMayChange() { session_.loss.reset(); }
+void TactileLink::resetRateEstimate() { session_.loss.reset(); }
 
 // By the usual rate: nobody heard the controller's clock over all of the gap.
 TactileLink::Missing TactileLink::missingSince(std::int64_t fromUs,
                                                std::int64_t nowUs,
-                                               bool frameCame) const {
+                                               bool frameReceived) const {
   if (!(session_.periodMs > 0.0)) return {};
   const double periods = static_cast<double>(nowUs - fromUs) / 1000.0 / session_.periodMs;
-  const double frames = std::round(periods) - (frameCame ? 1.0 : 0.0);
+  const double frames = std::round(periods) - (frameReceived ? 1.0 : 0.0);
   return {static_cast<std::uint64_t>(std::max(frames, 0.0)), true};
 }
 
@@ -312,8 +312,9 @@ void TactileLink::watchChecksums() {
   if (newBad < kBadEnough ||
       static_cast<double>(newBad) < kBadShare * static_cast<double>(newBad + frames))
     return;
-  if (session_.lastCureUs != 0 && nowUs - session_.lastCureUs < kCureEveryUs) return;
-  session_.lastCureUs = nowUs;
+  if (session_.lastStreamRestartUs != 0 && nowUs - session_.lastStreamRestartUs < kCureEveryUs)
+    return;
+  session_.lastStreamRestartUs = nowUs;
   eventNow(
       "alarm",
       std::to_string(newBad) + " bad checksums in 3 s: cable, or a second program on the port");
@@ -332,7 +333,7 @@ void TactileLink::restoreSettings() {
   bool restored = false;
   for (const auto& [matrix, wanted] : wanted_) {
     if (matrix >= controller_->facts().matrices.size()) continue;
-    const DsaMatrixFacts& is = controller_->facts().matrices[matrix];
+    const DsaMatrixInfo& is = controller_->facts().matrices[matrix];
     const bool same = (!wanted.sensitivity || static_cast<float>(*wanted.sensitivity) ==
                                                   static_cast<float>(is.sensitivity)) &&
                       (!wanted.thresholdCounts || wanted.thresholdCounts == is.thresholdCounts) &&
@@ -355,7 +356,7 @@ void TactileLink::restoreSettings() {
 // What holds from now on: a recording can be read without knowing what went before.
 std::string TactileLink::settingsJson() const {
   Json matrices = Json::array();
-  for (const DsaMatrixFacts& matrix : controller_->facts().matrices)
+  for (const DsaMatrixInfo& matrix : controller_->facts().matrices)
     matrices.push(Json::object()
                       .set("sensitivity", matrix.sensitivity)
                       .set("threshold_counts", matrix.thresholdCounts.value_or(0))
@@ -379,7 +380,7 @@ void TactileLink::change(const Wanted& wanted, std::optional<int> matrix, const 
     }
   });
   learn();
-  rateMayChange();
+  resetRateEstimate();
   event("settings",
         text + (matrix ? " (" + hand_.matrixName(static_cast<std::size_t>(*matrix)) + ")"
                        : " (all matrices)"),

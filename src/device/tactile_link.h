@@ -26,7 +26,7 @@ class TactileLink : public PortLink {
   ~TactileLink() override;
 
   HandDescription hand() const;  // any thread
-  std::optional<DsaFacts> facts() const;
+  std::optional<DsaControllerInfo> facts() const;
 
  protected:
   void connect(ByteChannel& channel) override;
@@ -46,7 +46,7 @@ class TactileLink : public PortLink {
   };
 
   void onPayload(std::span<const std::byte> payload);
-  void judge(TactileFrame&& frame, const DsaFrame& packet);
+  void checkStamp(TactileFrame&& frame, const DsaFrame& packet);
   void deliver(TactileFrame&& frame, std::int64_t deviceMs, std::size_t packetBytes);
   void watchSilence();
   void watchChecksums();
@@ -55,9 +55,9 @@ class TactileLink : public PortLink {
     std::optional<std::uint64_t> frames;
     bool estimated = true;
   };
-  Missing missingSince(std::int64_t fromUs, std::int64_t nowUs, bool frameCame) const;
+  Missing missingSince(std::int64_t fromUs, std::int64_t nowUs, bool frameReceived) const;
   void endGap(std::int64_t nowUs, const Missing& missing);
-  void rateMayChange();
+  void resetRateEstimate();
   void restoreSettings();
   std::string settingsJson() const;
   void applySetting(std::size_t matrix, const Wanted& wanted);
@@ -72,7 +72,7 @@ class TactileLink : public PortLink {
 
   // Read from outside, under mutex_.
   HandDescription hand_;
-  std::optional<DsaFacts> known_;
+  std::optional<DsaControllerInfo> known_;
 
   std::shared_ptr<const SensorLayout> layout_;
   std::map<std::size_t, Wanted> wanted_;
@@ -102,12 +102,12 @@ class TactileLink : public PortLink {
     std::int64_t windowFromUs = 0;
     std::uint64_t windowFrames = 0;
     std::uint64_t windowBad = 0;
-    std::int64_t lastCureUs = 0;
+    std::int64_t lastStreamRestartUs = 0;
     bool restartedForChecksums = false;
 
     // Least (host - device) of this and the last half minute: what a frame takes when nothing
     // delays it.
-    std::array<std::optional<std::int64_t>, 2> leastOffsetUs;
+    std::array<std::optional<std::int64_t>, 2> minOffsetUs;
     std::int64_t offsetWindowUs = 0;
   };
   Session session_;

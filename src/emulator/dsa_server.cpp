@@ -37,7 +37,7 @@ unsigned u8At(std::span<const std::byte> bytes, std::size_t at) {
 std::size_t largestRequest(const SensorLayout& layout) {
   std::size_t largest = 16;
   for (const MatrixLayout& matrix : layout.matrices())
-    largest = std::max(largest, 2 + (matrix.numPlaces() + 7) / 8);
+    largest = std::max(largest, 2 + (matrix.numCells() + 7) / 8);
   return largest;
 }
 
@@ -81,7 +81,7 @@ DsaServer::DsaServer(HandModel& model, const DsaServerOptions& options)
   if (options_.frameHz && !(*options_.frameHz >= 0.01 && *options_.frameHz <= 1000.0))
     throw std::invalid_argument("frame rate " + numberText(*options_.frameHz) +
                                 " is outside of 0.01..1000 Hz");
-  counts_.resize(model_.hand().layout->numPlaces());
+  counts_.resize(model_.hand().layout->numCells());
   powerCycle(0, options_.bootS);
 }
 
@@ -103,7 +103,7 @@ void DsaServer::receive(std::span<const std::byte> bytes, std::int64_t nowUs) {
   parse();
 }
 
-void DsaServer::quiet() {
+void DsaServer::onReceiveTimeout() {
   while (!input_.empty()) {
     input_.erase(input_.begin());
     parse();
@@ -270,7 +270,7 @@ void DsaServer::execute(unsigned id, Payload payload) {
     case kDsaReadMask:
       return readMask(payload);
     case kDsaDescriptor:
-      return describeInWords(payload);
+      return sendDescriptorText(payload);
     case kDsaLoop:
       return answer(id, std::move(WireWriter().u16(0).bytes(payload).data()));
     case kDsaState:
@@ -367,7 +367,7 @@ void DsaServer::writeMask(Payload payload) {
   answerError(kDsaWriteMask, kDsaSuccess);
 }
 
-void DsaServer::describeInWords(Payload payload) {
+void DsaServer::sendDescriptorText(Payload payload) {
   const HandDescription& hand = model_.hand();
   if (payload.empty()) return answerError(kDsaDescriptor, kDsaTooFewParameters);
   if (payload.size() > 2) return answerError(kDsaDescriptor, kDsaFormatError);

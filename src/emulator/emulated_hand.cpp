@@ -60,10 +60,10 @@ void EmulatedHand::mute(bool on) {
   });
 }
 
-void EmulatedHand::babble(std::uint64_t bytes, bool dsa, bool sdh) {
+void EmulatedHand::sendRandomBytes(std::uint64_t bytes, bool dsa, bool sdh) {
   loop_->call([&] {
-    if (dsa) loop_->dsaLane().babble(bytes);
-    if (sdh) loop_->sdhLane().babble(bytes);
+    if (dsa) loop_->dsaLane().sendRandomBytes(bytes);
+    if (sdh) loop_->sdhLane().sendRandomBytes(bytes);
   });
 }
 

@@ -27,11 +27,11 @@ constexpr double kLeastThinkUs = 2000.0, kMostThinkUs = 3000.0;
 EmulatedHandOptions completed(EmulatedHandOptions options) {
   const bool real = options.rate == EmulationRate::kReal;
   options.dsa.frameHz.reset();
-  if (options.rate == EmulationRate::kHz) options.dsa.frameHz = options.hz;
+  if (options.rate == EmulationRate::kFixed) options.dsa.frameHz = options.hz;
   // The hand's time runs as on a real line, though no byte waits.
   options.dsa.lineByteUs = options.rate == EmulationRate::kMax ? kSerialByteUs : 0.0;
-  options.sdh.leastThinkUs = real ? kLeastThinkUs : 0.0;
-  options.sdh.mostThinkUs = real ? kMostThinkUs : 0.0;
+  options.sdh.minResponseDelayUs = real ? kLeastThinkUs : 0.0;
+  options.sdh.maxResponseDelayUs = real ? kMostThinkUs : 0.0;
   options.sdh.requestByteUs = real ? kSerialByteUs : 0.0;
   options.sdh.seed = options.seed;
   options.sdh.checksum = !options.sdhPort.starts_with("tcp:");
@@ -62,7 +62,7 @@ EmulatedHand::Loop::Loop(std::unique_ptr<HandModel> model,
   planIncidents(options_.faults, 0);
   wakeUp_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   if (wakeUp_ < 0)
-    throw DeviceError(DeviceFault::kGone,
+    throw DeviceError(DeviceFault::kDisconnected,
                       dsaLane_.port().name(),
                       std::string("no event descriptor to be had: ") + std::strerror(errno));
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
@@ -88,7 +88,7 @@ void EmulatedHand::Loop::call(std::function<void()> work) {
     const std::lock_guard lock(callsMutex_);
     if (ended_)
       throw DeviceError(
-          DeviceFault::kGone, dsaLane_.port().name(), "the emulated hand has stopped");
+          DeviceFault::kDisconnected, dsaLane_.port().name(), "the emulated hand has stopped");
     calls_.push_back(std::move(task));
   }
   wake();
@@ -153,11 +153,12 @@ void EmulatedHand::Loop::setFaults(const Faults& faults) {
 }
 
 void EmulatedHand::Loop::planIncidents(const Faults& faults, std::int64_t fromUs) {
-  incidents_.clear();
+  scheduledOutages_.clear();
   const auto add = [&](const Outage& outage, bool unplug) {
-    incidents_.push_back({fromUs + static_cast<std::int64_t>(outage.atS * 1e6),
-                          fromUs + static_cast<std::int64_t>((outage.atS + outage.durationS) * 1e6),
-                          unplug});
+    scheduledOutages_.push_back(
+        {fromUs + static_cast<std::int64_t>(outage.atS * 1e6),
+         fromUs + static_cast<std::int64_t>((outage.atS + outage.durationS) * 1e6),
+         unplug});
   };
   for (const Outage& stall : faults.stalls) add(stall, false);
   for (const Outage& unplug : faults.unplugs) add(unplug, true);
@@ -166,7 +167,7 @@ void EmulatedHand::Loop::planIncidents(const Faults& faults, std::int64_t fromUs
 // Returns whether the controllers are stalled now.
 bool EmulatedHand::Loop::incidents(std::int64_t nowUs) {
   bool stalled = false;
-  for (Incident& incident : incidents_) {
+  for (ScheduledOutage& incident : scheduledOutages_) {
     if (nowUs < incident.beginUs) continue;
     if (!incident.begun) {
       incident.begun = true;
@@ -183,7 +184,8 @@ bool EmulatedHand::Loop::incidents(std::int64_t nowUs) {
       sdhLane_.port().plug();
     }
   }
-  std::erase_if(incidents_, [&](const Incident& incident) { return nowUs >= incident.endUs; });
+  std::erase_if(scheduledOutages_,
+                [&](const ScheduledOutage& incident) { return nowUs >= incident.endUs; });
   return stalled;
 }
 
@@ -202,7 +204,7 @@ void EmulatedHand::Loop::step() {
 }
 
 // A hang-up takes from the client what it has not read yet: it comes a moment after the last byte.
-void EmulatedHand::Loop::endCut(EmulatedLane& lane, std::int64_t& sinceUs) {
+void EmulatedHand::Loop::endCut(EmulatedPortChannel& lane, std::int64_t& sinceUs) {
   const std::int64_t wallUs = systemClock().monotonicUs();
   if (!lane.cut()) {
     sinceUs = 0;
@@ -219,15 +221,15 @@ void EmulatedHand::Loop::receive(std::int64_t nowUs) {
     dsaInputUs_ = wallUs;
     if (options_.received) options_.received(EmulatedPort::kTactile, bytes, wallUs);
     dsa_.receive(bytes, nowUs);
-  } else if (dsa_.expectsMore() && wallUs - dsaInputUs_ > kQuietUs) {
-    dsa_.quiet();
+  } else if (dsa_.hasPartialRequest() && wallUs - dsaInputUs_ > kQuietUs) {
+    dsa_.onReceiveTimeout();
   }
   if (const auto bytes = sdhLane_.receive(nowUs, faultCounts_); !bytes.empty()) {
     sdhInputUs_ = wallUs;
     if (options_.received) options_.received(EmulatedPort::kMotion, bytes, wallUs);
     sdh_.receive(bytes, nowUs);
-  } else if (sdh_.expectsMore() && wallUs - sdhInputUs_ > kQuietUs) {
-    sdh_.quiet();
+  } else if (sdh_.hasPartialRequest() && wallUs - sdhInputUs_ > kQuietUs) {
+    sdh_.onReceiveTimeout();
   }
 }
 
@@ -254,8 +256,8 @@ void EmulatedHand::Loop::advance() {
   const std::int64_t wallUs = systemClock().monotonicUs();
   if (wallUs - tidiedUs_ < kTidyUs) return;
   tidiedUs_ = wallUs;
-  dsaLane_.port().tidy();
-  sdhLane_.port().tidy();
+  dsaLane_.port().releaseStaleLock();
+  sdhLane_.port().releaseStaleLock();
 }
 
 bool EmulatedHand::Loop::somethingIsDue(std::int64_t nowUs) const {
@@ -310,7 +312,7 @@ std::int64_t EmulatedHand::Loop::waitUs(std::int64_t nowUs) {
   const auto consider = [&](std::optional<std::int64_t> timeUs) {
     if (timeUs) until = std::min(until, *timeUs);
   };
-  for (const Incident& incident : incidents_)
+  for (const ScheduledOutage& incident : scheduledOutages_)
     consider(incident.begun ? incident.endUs : incident.beginUs);
   if (dsaLane_.cut() || sdhLane_.cut()) consider(nowUs + kCutUs);
   if (stalled_) return std::max<std::int64_t>(0, until - nowUs);

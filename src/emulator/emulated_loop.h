@@ -12,7 +12,7 @@
 #include "palpate/core/time.h"
 #include "palpate/emulator/emulated_hand.h"
 
-#include "emulator/emulated_lane.h"
+#include "emulator/emulated_port_channel.h"
 
 namespace palpate {
 
@@ -29,15 +29,15 @@ class EmulatedHand::Loop {
   std::vector<SentFrame> sentFrames() const;
 
   // Only within call().
-  EmulatedLane& dsaLane() noexcept { return dsaLane_; }
-  EmulatedLane& sdhLane() noexcept { return sdhLane_; }
+  EmulatedPortChannel& dsaLane() noexcept { return dsaLane_; }
+  EmulatedPortChannel& sdhLane() noexcept { return sdhLane_; }
   HandModel& model() noexcept { return *model_; }
   void powerCycle(double bootS);
   void setFaults(const Faults& faults);
 
  private:
   // An end of an outage is remembered by what it was.
-  struct Incident {
+  struct ScheduledOutage {
     std::int64_t beginUs = 0, endUs = 0;
     bool unplug = false;
     bool begun = false;
@@ -54,7 +54,7 @@ class EmulatedHand::Loop {
   void forwardMotion(std::int64_t nowUs);
   bool somethingIsDue(std::int64_t nowUs) const;
   bool jumpToNextFrame();
-  void endCut(EmulatedLane& lane, std::int64_t& sinceUs);
+  void endCut(EmulatedPortChannel& lane, std::int64_t& sinceUs);
   void collect();
   void wait();
   std::int64_t waitUs(std::int64_t nowUs);
@@ -66,10 +66,10 @@ class EmulatedHand::Loop {
   std::int64_t startUs_;       // monotonic
   std::int64_t jumpedUs_ = 0;  // by how much the hand's time is ahead of the clock
   HostTime hostTime_;
-  EmulatedLane dsaLane_, sdhLane_;
+  EmulatedPortChannel dsaLane_, sdhLane_;
   DsaServer dsa_;
   SdhServer sdh_;
-  std::vector<Incident> incidents_;
+  std::vector<ScheduledOutage> scheduledOutages_;
   FaultCounts faultCounts_;
   bool stalled_ = false;
   std::int64_t dsaInputUs_ = 0, sdhInputUs_ = 0;  // monotonic: when the client spoke last

@@ -128,7 +128,7 @@ void JointMotion::setResistance(std::size_t axis, double clockwise, double count
 // --- motion
 // ---------------------------------------------------------------------------------------
 
-double JointMotion::soloDuration(std::size_t axis) const {
+double JointMotion::axisDuration(std::size_t axis) const {
   const double distance = std::abs(targetDeg_[axis] - angleDeg_[axis]);
   const double v = std::abs(targetVelocityDegPerS_[axis]);
   const double a = accelerationDegPerS2_[axis];
@@ -140,18 +140,18 @@ double JointMotion::soloDuration(std::size_t axis) const {
 
 double JointMotion::durationOfPending() const {
   double longest = 0.0;
-  for (std::size_t i = 0; i < axes_.size(); ++i) longest = std::max(longest, soloDuration(i));
+  for (std::size_t i = 0; i < axes_.size(); ++i) longest = std::max(longest, axisDuration(i));
   return longest;
 }
 
 double JointMotion::startMotion() {
   if (controller_ != ControllerType::kPose) return 0.0;
-  ++orders_;
+  ++motionCount_;
   setPower(std::vector<bool>(axes_.size(), true));
   durationS_ = durationOfPending();
   motionProfile_ = profile_;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const bool moves = soloDuration(i) > 0.0;
+    const bool moves = axisDuration(i) > 0.0;
     paths_[i] = {angleDeg_[i], targetDeg_[i] - angleDeg_[i], accelerationDegPerS2_[i], 0.0, moves};
     states_[i] = moves ? AxisState::kPositioning : AxisState::kIdle;
     velocityDegPerS_[i] = 0.0;
@@ -160,7 +160,7 @@ double JointMotion::startMotion() {
 }
 
 void JointMotion::stop() {
-  if (moving()) ++orders_;
+  if (moving()) ++motionCount_;
   durationS_ = 0.0;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     paths_[i].active = false;
@@ -197,7 +197,7 @@ double JointMotion::speedAt(std::size_t axis, double timeS) const {
   return std::min({cruise(distance, durationS_, a), a * timeS, a * (durationS_ - timeS)});
 }
 
-double JointMotion::freedom(std::size_t axis, double direction) const {
+double JointMotion::speedFactor(std::size_t axis, double direction) const {
   const double share =
       1.0 - (direction > 0.0 ? resistsClockwise_[axis] : resistsCounterClockwise_[axis]);
   return share < kHeld ? 0.0 : share;
@@ -218,7 +218,7 @@ void JointMotion::advancePose(double dtS) {
     Path& path = paths_[i];
     if (!path.active) continue;
     const double direction = path.distanceDeg > 0.0 ? 1.0 : -1.0;
-    const double free = freedom(i, direction);
+    const double free = speedFactor(i, direction);
     path.timeS += dtS * free;
     if (path.timeS >= durationS_) {
       angleDeg_[i] = path.startDeg + path.distanceDeg;
@@ -255,7 +255,7 @@ void JointMotion::advanceVelocity(double dtS) {
     }
     // A braking axis still moves the old way.
     const double direction = moved != 0.0 ? moved : wanted;
-    const double free = freedom(i, direction);
+    const double free = speedFactor(i, direction);
     if (direction != 0.0 && free == 0.0) {
       velocityDegPerS_[i] = reference = 0.0;
       states_[i] = wanted == 0.0     ? AxisState::kIdle

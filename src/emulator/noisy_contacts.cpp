@@ -65,10 +65,10 @@ class NoisyContactsGenerator {
         noisy_(sdh2(), sdh2Sensor(), options.seed),
         quiet_(sdh2(), withoutNoise()),
         random_(options.seed),
-        full_(layout_.numPlaces()),
-        pressure_(layout_.numPlaces()),
+        full_(layout_.numCells()),
+        pressure_(layout_.numCells()),
         degC_(layout_.numMatrices(), options.degC),
-        counts_(layout_.numPlaces()) {
+        counts_(layout_.numCells()) {
     for (std::size_t m = 0; m < layout_.numMatrices(); ++m) {
       const int threshold = noiseThresholdCounts(
           sdh2Sensor().matrices[m], options.degC, options.noiseMultiple, options.belowCounts);
@@ -78,14 +78,14 @@ class NoisyContactsGenerator {
         sensor->settings()[m].thresholdCounts = threshold;
       }
     }
-    restCounts_.resize(layout_.numPlaces());
+    restCounts_.resize(layout_.numCells());
     quiet_.scan(degC_, options.degC, restCounts_);
   }
 
   NoisyContacts run() {
     ProfileBuilder builder(sdh2().layout);
     std::vector<std::vector<PlaceTruth>> truth;
-    std::vector<float> values(layout_.numPlaces());
+    std::vector<float> values(layout_.numCells());
     for (std::size_t i = 0; i < options_.frames; ++i) {
       load(i);
       noisy_.advance(pressure_, 1.0 / options_.rateHz);
@@ -108,7 +108,7 @@ class NoisyContactsGenerator {
     SensorCharacteristics sensor = sdh2Sensor();
     for (MatrixCharacteristics& matrix : sensor.matrices) {
       matrix.taxelSd = matrix.sharedSd = 0.0;
-      for (RaisedTaxel& taxel : matrix.raised) taxel.sd = 0.0;
+      for (OffsetTaxel& taxel : matrix.raised) taxel.sd = 0.0;
     }
     return sensor;
   }
@@ -138,11 +138,10 @@ class NoisyContactsGenerator {
     contact.matrix =
         (index / kAllContactSizes.size() + index % kAllContactSizes.size()) % layout_.numMatrices();
     contact.begin = frame;
-    contact.peakKpa =
-        std::exp(draw(std::log(options_.lightestKpa), std::log(options_.heaviestKpa)));
+    contact.peakKpa = std::exp(draw(std::log(options_.minKpa), std::log(options_.maxKpa)));
     contacts_.push_back(contact);
     place(contact);
-    spreadPressure(layout_, sdh2Sensor().spreadShare, full_);
+    spreadPressure(layout_, sdh2Sensor().neighbourFraction, full_);
   }
 
   // Somewhere on the matrix, turned as it comes.
@@ -189,7 +188,7 @@ class NoisyContactsGenerator {
   }
 
   std::vector<PlaceTruth> truthNow() {
-    std::vector<PlaceTruth> truth(layout_.numPlaces(), PlaceTruth::kNothing);
+    std::vector<PlaceTruth> truth(layout_.numCells(), PlaceTruth::kNothing);
     quiet_.scan(degC_, options_.degC, counts_);
     for (std::size_t i = 0; i < truth.size(); ++i) {
       const double kpa = quiet_.responseKpa(i);
@@ -239,8 +238,8 @@ void NoisyContactsOptions::validate() const {
   noisyContactsCheckRange("sensitivity", sensitivity, 0.0, 1.0);
   noisyContactsCheckRange("noiseMultiple", noiseMultiple, -20.0, 20.0);
   noisyContactsCheckRange("belowCounts", belowCounts, -100.0, 100.0);
-  noisyContactsCheckRange("lightestKpa", lightestKpa, 1e-3, 1e3);
-  noisyContactsCheckRange("heaviestKpa", heaviestKpa, lightestKpa, 1e3);
+  noisyContactsCheckRange("minKpa", minKpa, 1e-3, 1e3);
+  noisyContactsCheckRange("maxKpa", maxKpa, minKpa, 1e3);
 }
 
 NoisyContacts makeNoisyContacts(const NoisyContactsOptions& options) {

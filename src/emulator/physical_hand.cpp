@@ -55,7 +55,7 @@ struct PhysicalHand::Impl {
     geometry.pose(trueAngles(), pose);
     before = pose;
     objects.press(pose, pressure);
-    spreadPressure(*sdh2().layout, sdh2Sensor().spreadShare, pressure);
+    spreadPressure(*sdh2().layout, sdh2Sensor().neighbourFraction, pressure);
   }
 
   void step(double dtS) {
@@ -71,7 +71,7 @@ struct PhysicalHand::Impl {
       objects.advance(dtS);
       hold();
       follow(dtS, moved);
-      spreadPressure(*sdh2().layout, sdh2Sensor().spreadShare, pressure);
+      spreadPressure(*sdh2().layout, sdh2Sensor().neighbourFraction, pressure);
     }
     still = !moved && objects.quiet();
     sensor.advance(pressure, dtS);
@@ -89,7 +89,7 @@ struct PhysicalHand::Impl {
   // An axis that would push harder than its motor can is stopped.
   void hold() {
     std::fill(torqueNmm.begin(), torqueNmm.end(), 0.0);
-    for (const JointLine& line : pose.jointLines())
+    for (const JointAxis& line : pose.jointAxes())
       for (std::size_t m = 0; m < objects.contacts().size(); ++m) {
         const SensorSurface& surface = geometry.description().surfaces[m];
         const SimulatedMatrixContact& contact = objects.contacts()[m];
@@ -160,7 +160,7 @@ struct PhysicalHand::Impl {
     if (const auto* turn = std::get_if<TurnObject>(&action)) objects.turn(*turn);
     if (const auto* load = std::get_if<LoadObject>(&action)) objects.load(*load);
     // Once a client moves the hand, the script leaves it to him.
-    const bool mayMove = joints.orders() == ordersOfScript;
+    const bool mayMove = joints.motionCount() == ordersOfScript;
     if (const auto* grasp = std::get_if<GraspAction>(&action); grasp && mayMove) {
       if (grasp->preshape) preshape = *grasp->preshape;
       go(grasp->close, grasp->velocityDegPerS);
@@ -185,7 +185,7 @@ struct PhysicalHand::Impl {
     joints.setVelocities(std::vector<double>(sdh2().axes.size(), velocityDegPerS));
     joints.setTargets(sdh2Preshape(preshape).anglesDeg(close));
     joints.startMotion();
-    ordersOfScript = joints.orders();
+    ordersOfScript = joints.motionCount();
   }
 
   PhysicalHandOptions options;

@@ -52,7 +52,7 @@ PhysicalObjects::PhysicalObjects(const std::vector<SceneObject>& objects,
 }
 
 void PhysicalObjects::press(const HandPose& pose, std::vector<double>& pressureKpa) {
-  pressureKpa.assign(geometry_.description().layout.numPlaces(), 0.0);
+  pressureKpa.assign(geometry_.description().layout.numCells(), 0.0);
   std::fill(contacts_.begin(), contacts_.end(), SimulatedMatrixContact{});
   std::fill(strongestN_.begin(), strongestN_.end(), 0.0);
   for (std::size_t b = 0; b < bodies_.size(); ++b) pressBody(b, pose, pressureKpa);
@@ -139,7 +139,8 @@ void PhysicalObjects::pressBody(std::size_t index,
     body.grip += touch.forceN;
     touch.normal.normalize();
     touch.armMm /= touch.forceN;
-    touch.printMm = std::sqrt(std::max(armSquares / touch.forceN - touch.armMm.squaredNorm(), 0.0));
+    touch.contactRadiusMm =
+        std::sqrt(std::max(armSquares / touch.forceN - touch.armMm.squaredNorm(), 0.0));
     body.touches.push_back(touch);
     if (touch.forceN > strongestN_[m]) {
       strongestN_[m] = touch.forceN;
@@ -148,14 +149,14 @@ void PhysicalObjects::pressBody(std::size_t index,
   }
 }
 
-double PhysicalObjects::holdsN(const Body& body, const Vector3d& direction) {
+double PhysicalObjects::frictionLimitN(const Body& body, const Vector3d& direction) {
   double sum = 0.0;
   for (const Touch& touch : body.touches)
     sum += touch.forceN * touch.normal.cross(direction).norm();
   return body.object.friction * sum;
 }
 
-Vector3d PhysicalObjects::unheldN(const Body& body, const Vector3d& forceN) {
+Vector3d PhysicalObjects::netForceN(const Body& body, const Vector3d& forceN) {
   if (body.touches.empty()) return forceN;
   Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
   for (const Touch& touch : body.touches)
@@ -165,18 +166,18 @@ Vector3d PhysicalObjects::unheldN(const Body& body, const Vector3d& forceN) {
   double used = 0.0;  // share of the limit, squared
   for (int i = 0; i < 3; ++i) {
     const Vector3d axis = principal.eigenvectors().col(i);
-    const double share = forceN.dot(axis) / std::max(holdsN(body, axis), kLeastHoldN);
+    const double share = forceN.dot(axis) / std::max(frictionLimitN(body, axis), kLeastHoldN);
     used += share * share;
   }
   return used <= 1.0 ? Vector3d(Vector3d::Zero())
                      : Vector3d(forceN * (1.0 - 1.0 / std::sqrt(used)));
 }
 
-double PhysicalObjects::holdsNmm(const Body& body, const Vector3d& axis) {
+double PhysicalObjects::frictionLimitNmm(const Body& body, const Vector3d& axis) {
   double sum = 0.0;
   for (const Touch& touch : body.touches)
     sum += touch.forceN * (touch.normal.cross(axis.cross(touch.armMm)).norm() +
-                           touch.printMm * std::abs(touch.normal.dot(axis)));
+                           touch.contactRadiusMm * std::abs(touch.normal.dot(axis)));
   return body.object.friction * sum;
 }
 
@@ -194,7 +195,8 @@ void PhysicalObjects::advanceBody(Body& body, double dtS) {
   const Vector3d pull = body.loadN - Vector3d::UnitZ() * (body.object.massKg * kGravity);
   body.untouchedS = body.grip < kTouchN ? body.untouchedS + dtS : 0.0;
   if (body.untouchedS > kPutDownS) body.held = false;
-  if (body.grip >= kTouchN && holdsN(body, pull.normalized()) >= pull.norm()) body.held = true;
+  if (body.grip >= kTouchN && frictionLimitN(body, pull.normalized()) >= pull.norm())
+    body.held = true;
 
   // What friction doesn't hold moves it: as fast as thick oil lets it, and never past the place
   // where the contacts' springs balance it (the denominator).
@@ -208,9 +210,9 @@ void PhysicalObjects::advanceBody(Body& body, double dtS) {
       force += pull;
       torque += body.loadNmm;
     }
-    velocity =
-        limited(unheldN(body, force) * speed(kMobilityMmPerNs, body.stiffnessNPerMm), kMostMmPerS);
-    const double excess = torque.norm() - holdsNmm(body, torque.normalized());
+    velocity = limited(netForceN(body, force) * speed(kMobilityMmPerNs, body.stiffnessNPerMm),
+                       kMostMmPerS);
+    const double excess = torque.norm() - frictionLimitNmm(body, torque.normalized());
     if (excess > 0.0)
       angular = limited(torque.normalized() * excess *
                             speed(kMobilityMmPerNs / (kArmMm * kArmMm), body.turnStiffnessNmm),

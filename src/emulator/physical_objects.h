@@ -59,7 +59,7 @@ class PhysicalObjects {
   std::size_t size() const noexcept { return bodies_.size(); }
 
  private:
-  struct Guided {  // a hand that moves it
+  struct ScriptedMotion {  // a hand that moves it
     Eigen::Vector3d perS = Eigen::Vector3d::Zero();
     double leftS = 0.0;
   };
@@ -67,7 +67,7 @@ class PhysicalObjects {
     double forceN = 0.0;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // mean, towards the object
     Eigen::Vector3d armMm = Eigen::Vector3d::Zero();   // from the object's middle
-    double printMm = 0.0;                              // radius of gyration of its pressure
+    double contactRadiusMm = 0.0;                      // radius of gyration of its pressure
   };
   struct Body {
     SceneObject object;
@@ -83,7 +83,7 @@ class PhysicalObjects {
     Eigen::Vector3d loadN = Eigen::Vector3d::Zero(), loadNmm = Eigen::Vector3d::Zero();
     Eigen::Vector3d wantedN = Eigen::Vector3d::Zero(), wantedNmm = Eigen::Vector3d::Zero();
     double loadLeftS = 0.0;
-    Guided moved, turned;
+    ScriptedMotion moved, turned;
     Motion motion;
   };
 
@@ -91,11 +91,11 @@ class PhysicalObjects {
   void pressBody(std::size_t index, const HandPose& pose, std::vector<double>& pressureKpa);
   static void advanceBody(Body& body, double dtS);
   // What is left of a force [N] that friction opposes; zero where it holds.
-  static Eigen::Vector3d unheldN(const Body& body, const Eigen::Vector3d& forceN);
+  static Eigen::Vector3d netForceN(const Body& body, const Eigen::Vector3d& forceN);
   // What friction holds against a force in a direction [N], a torque about an axis [N mm] (unit
   // vectors).
-  static double holdsN(const Body& body, const Eigen::Vector3d& direction);
-  static double holdsNmm(const Body& body, const Eigen::Vector3d& axis);
+  static double frictionLimitN(const Body& body, const Eigen::Vector3d& direction);
+  static double frictionLimitNmm(const Body& body, const Eigen::Vector3d& axis);
 
   const HandGeometry& geometry_;
   double rubberNPerMm3_;

@@ -99,7 +99,7 @@ class PtyPort final : public PortServer {
 
   // TIOCEXCL outlives the client that set it, because we hold the terminal open. A living client
   // holds the lock as well (as ours does), or does without both.
-  void tidy() noexcept override {
+  void releaseStaleLock() noexcept override {
     int exclusive = 0;
     if (slave_ < 0 || ::ioctl(slave_, TIOCGEXCL, &exclusive) != 0 || exclusive == 0) return;
     if (::flock(slave_, LOCK_EX | LOCK_NB) != 0) return;
@@ -109,7 +109,7 @@ class PtyPort final : public PortServer {
 
  private:
   [[noreturn]] void fail(const char* what) const {
-    throw DeviceError(DeviceFault::kGone,
+    throw DeviceError(DeviceFault::kDisconnected,
                       link_.empty() ? "pseudo-terminal" : link_.string(),
                       std::string(what) + ": " + std::strerror(errno));
   }

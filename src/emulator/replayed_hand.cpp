@@ -34,7 +34,7 @@ ReplayedHand::ReplayedHand(Profile profile)
     MatrixSetting setting;
     setting.thresholdCounts = setting.factoryThresholdCounts =
         description.matrices.at(m).segment == "distal" ? kDistalThreshold : kProximalThreshold;
-    setting.dynamicMask.assign(description.layout->matrix(m).numPlaces(), 1);
+    setting.dynamicMask.assign(description.layout->matrix(m).numCells(), 1);
     settings_.push_back(std::move(setting));
   }
 }
@@ -79,7 +79,7 @@ void ReplayedHand::scan(std::span<std::uint16_t> counts) {
   for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
     const std::size_t first = layout.offset(m);
     const Mask& mask = settings_[m].dynamicMask;
-    for (std::size_t i = 0; i < layout.matrix(m).numPlaces(); ++i) {
+    for (std::size_t i = 0; i < layout.matrix(m).numCells(); ++i) {
       if (first + i >= counts.size() || mask[i] == 0) continue;
       const float value = std::clamp(frame_.values[first + i], 0.0F, 4095.0F);
       counts[first + i] = static_cast<std::uint16_t>(std::lround(value));

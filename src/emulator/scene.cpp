@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
 constexpr std::size_t kMostObjects = 100;
-constexpr std::size_t kMostSteps = 10'000;
-constexpr std::uintmax_t kMostBytes = 1u << 20;
+constexpr std::size_t kMaxSteps = 10'000;
+constexpr std::uintmax_t kMaxBytes = 1u << 20;
 
 // One object of the file, with its place for messages.
 class Field {
@@ -267,7 +267,7 @@ Scene parseScene(std::string_view text, const fs::path& name) {
     scene.close = hand.number("close", 0.0, 0.0, 1.0);
   }
   if (root.has("script"))
-    for (const Field& step : root.at("script").items(kMostSteps)) {
+    for (const Field& step : root.at("script").items(kMaxSteps)) {
       step.only({"at_s",
                  "move",
                  "turn",
@@ -306,7 +306,7 @@ Scene loadScene(const std::string& nameOrFile, const fs::path& folder) {
     throw FileError(path, "no scene '" + nameOrFile + "'; there are: " + known);
   }
   if (!fs::is_regular_file(path, failure)) throw FileError(path, "no such file");
-  return parseScene(readTextFile(path, kMostBytes), path);
+  return parseScene(readTextFile(path, kMaxBytes), path);
 }
 
 }  // namespace palpate

@@ -1,4 +1,4 @@
-// Input, timing and binary records; what the commands do stands in sdh_motion.cpp and
+// Input, timing and binary records; what the commands do stands in sdh_command_processor.cpp and
 // sdh_text_commands.cpp.
 #include "palpate/emulator/sdh_server.h"
 
@@ -10,7 +10,7 @@
 #include "palpate/core/number_text.h"
 #include "palpate/device/weiss_checksum.h"
 
-#include "emulator/sdh_motion.h"
+#include "emulator/sdh_command_processor.h"
 #include "emulator/wire_writer.h"
 
 namespace palpate {
@@ -30,11 +30,12 @@ bool isBlank(std::byte b) { return b == std::byte{' '} || b == std::byte{'\t'}; 
 SdhServer::SdhServer(HandModel& model, const SdhServerOptions& options)
     : model_(model),
       options_(options),
-      motion_(std::make_unique<SdhMotion>(model, options)),
+      motion_(std::make_unique<SdhCommandProcessor>(model, options)),
       random_(options.seed) {
-  if (!(options.leastThinkUs >= 0.0 && options.mostThinkUs >= options.leastThinkUs))
-    throw std::invalid_argument("think times " + numberText(options.leastThinkUs) + ".." +
-                                numberText(options.mostThinkUs) + " us");
+  if (!(options.minResponseDelayUs >= 0.0 &&
+        options.maxResponseDelayUs >= options.minResponseDelayUs))
+    throw std::invalid_argument("think times " + numberText(options.minResponseDelayUs) + ".." +
+                                numberText(options.maxResponseDelayUs) + " us");
   bootEndUs_ = static_cast<std::int64_t>(std::max(options.bootS, 0.0) * 1e6);
 }
 
@@ -66,13 +67,13 @@ void SdhServer::receive(std::span<const std::byte> bytes, std::int64_t nowUs) {
   advance(nowUs_);
 }
 
-bool SdhServer::expectsMore() const noexcept {
+bool SdhServer::hasPartialRequest() const noexcept {
   return discarding_ ||
          (!pending_ && answerAfterMotion_.empty() && !input_.empty() && isBinary(input_.front()));
 }
 
-void SdhServer::quiet() {
-  if (!expectsMore()) return;
+void SdhServer::onReceiveTimeout() {
+  if (!hasPartialRequest()) return;
   discarding_ = false;
   input_.clear();
 }
@@ -144,9 +145,9 @@ void SdhServer::start(Command command) {
   const std::size_t bytes =
       command.record.empty() ? command.line.size() + 2 : command.record.size();
   double us = options_.requestByteUs * static_cast<double>(bytes);
-  if (options_.mostThinkUs > 0.0)
-    us += std::uniform_real_distribution<double>(options_.leastThinkUs,
-                                                 options_.mostThinkUs)(random_);
+  if (options_.maxResponseDelayUs > 0.0)
+    us += std::uniform_real_distribution<double>(options_.minResponseDelayUs,
+                                                 options_.maxResponseDelayUs)(random_);
   pending_ = Pending{std::move(command), nowUs_ + static_cast<std::int64_t>(us)};
 }
 

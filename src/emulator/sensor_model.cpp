@@ -33,10 +33,10 @@ SensorModel::SensorModel(const HandDescription& hand,
                          std::uint64_t seed)
     : layout_(*hand.layout),
       characteristics_(characteristics),
-      first_(layout_.numPlaces()),
-      lagged_(layout_.numPlaces()),
-      creep_(layout_.numPlaces()),
-      raised_(layout_.numPlaces()),
+      first_(layout_.numCells()),
+      lagged_(layout_.numCells()),
+      creep_(layout_.numCells()),
+      raised_(layout_.numCells()),
       random_(seed) {
   if (characteristics_.matrices.size() != layout_.numMatrices())
     throw std::invalid_argument("SensorModel: characteristics of " +
@@ -47,10 +47,10 @@ SensorModel::SensorModel(const HandDescription& hand,
     MatrixSetting setting;
     setting.sensitivity = setting.factorySensitivity = matrix.sensitivity;
     setting.thresholdCounts = setting.factoryThresholdCounts = matrix.thresholdCounts;
-    setting.dynamicMask.assign(layout_.matrix(m).numPlaces(), 1);
+    setting.dynamicMask.assign(layout_.matrix(m).numCells(), 1);
     settings_.push_back(std::move(setting));
-    for (const RaisedTaxel& taxel : matrix.raised) {
-      if (taxel.place >= layout_.matrix(m).numPlaces())
+    for (const OffsetTaxel& taxel : matrix.raised) {
+      if (taxel.place >= layout_.matrix(m).numCells())
         throw std::invalid_argument("SensorModel: matrix " + std::to_string(m) + " has no place " +
                                     std::to_string(taxel.place));
       raised_[layout_.offset(m) + taxel.place] = &taxel;
@@ -82,7 +82,7 @@ void SensorModel::advance(std::span<const double> pressureKpa, double dtS) {
       lagged_[i] = u + gap2 * b + gap1 * mixed;
       first_[i] = u + gap1 * a;
     }
-    const double share = characteristics_.creepShare * lagged_[i];
+    const double share = characteristics_.creepFraction * lagged_[i];
     creep_[i] = std::min(share + (creep_[i] - share) * c, share);
     most = std::max({most, first_[i], lagged_[i], creep_[i]});
   }
@@ -96,22 +96,22 @@ void SensorModel::advance(std::span<const double> pressureKpa, double dtS) {
 void SensorModel::scan(std::span<const double> degC,
                        double handDegC,
                        std::span<std::uint16_t> counts) {
-  if (counts.size() != layout_.numPlaces() || degC.size() != layout_.numMatrices())
+  if (counts.size() != layout_.numCells() || degC.size() != layout_.numMatrices())
     throw std::invalid_argument("SensorModel: wrong number of places or temperatures");
   std::size_t place = 0;
   for (std::size_t m = 0; m < layout_.numMatrices(); ++m) {
     const MatrixLayout& layout = layout_.matrix(m);
     const MatrixCharacteristics& matrix = characteristics_.matrices[m];
     const MatrixSetting& setting = settings_[m];
-    if (setting.dynamicMask.size() != layout.numPlaces())
+    if (setting.dynamicMask.size() != layout.numCells())
       throw std::invalid_argument("SensorModel: mask of matrix " + std::to_string(m));
     const double shared = matrix.sharedSd * normal_(random_);
     const double rest = matrix.restCounts(degC[m]);
     const double threshold = setting.thresholdCounts;
-    for (std::size_t i = 0; i < layout.numPlaces(); ++i, ++place) {
+    for (std::size_t i = 0; i < layout.numCells(); ++i, ++place) {
       counts[place] = 0;
       if (layout.staticMask[i] == 0 || setting.dynamicMask[i] == 0) continue;
-      const RaisedTaxel* const raised = raised_[place];
+      const OffsetTaxel* const raised = raised_[place];
       const double sd = raised ? raised->sd : matrix.taxelSd;
       double raw = raised ? raised->intercept + raised->slope * degC[m] : rest;
       const double kpa = responseKpa(place);
@@ -127,14 +127,14 @@ void SensorModel::scan(std::span<const double> degC,
 }
 
 void spreadPressure(const SensorLayout& layout, double share, std::span<double> pressureKpa) {
-  if (pressureKpa.size() != layout.numPlaces())
+  if (pressureKpa.size() != layout.numCells())
     throw std::invalid_argument("spreadPressure: wrong number of places");
   std::vector<double> spread;
   for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
     const MatrixLayout& matrix = layout.matrix(m);
     double* const of = &pressureKpa[layout.offset(m)];
-    if (std::all_of(of, of + matrix.numPlaces(), [](double kpa) { return kpa == 0.0; })) continue;
-    spread.assign(of, of + matrix.numPlaces());
+    if (std::all_of(of, of + matrix.numCells(), [](double kpa) { return kpa == 0.0; })) continue;
+    spread.assign(of, of + matrix.numCells());
     for (int y = 0; y < matrix.rows; ++y)
       for (int x = 0; x < matrix.columns; ++x) {
         const auto place = static_cast<std::size_t>(y * matrix.columns + x);

@@ -29,7 +29,7 @@ std::int64_t append(ProfileBuilder& builder,
                     std::int64_t startUs,
                     const Progress& progress) {
   PhysicalHand hand(scene, options.hand);
-  std::vector<std::uint16_t> counts(hand.hand().layout->numPlaces());
+  std::vector<std::uint16_t> counts(hand.hand().layout->numCells());
   std::vector<float> values(counts.size());
   double nextFrameS = 0.0, nextAngleS = 0.0, nextTemperatureS = 0.0;
   for (std::int64_t step = 0;; ++step) {
@@ -86,8 +86,8 @@ Profile simulateRecording(const Scene& scene,
 void GraspVariation::validate() const {
   for (const auto& [value, name] : {std::pair{positionMm, "positionMm"},
                                     std::pair{turnDeg, "turnDeg"},
-                                    std::pair{velocityPart, "velocityPart"},
-                                    std::pair{stiffnessPart, "stiffnessPart"}})
+                                    std::pair{velocitySdFraction, "velocitySdFraction"},
+                                    std::pair{stiffnessSdFraction, "stiffnessSdFraction"}})
     if (!(value >= 0.0 && std::isfinite(value)))
       throw std::invalid_argument(std::string("GraspVariation: ") + name + " must be >= 0");
 }
@@ -104,9 +104,9 @@ Scene variedScene(const Scene& scene, const GraspVariation& variation, std::uint
           Eigen::AngleAxisd(variation.turnDeg * normal(random) * std::numbers::pi / 180.0,
                             Eigen::Vector3d::Unit(axis)) *
           object.rotation;
-    object.stiffnessNPerMm3 *= std::exp(variation.stiffnessPart * normal(random));
+    object.stiffnessNPerMm3 *= std::exp(variation.stiffnessSdFraction * normal(random));
   }
-  const double faster = std::exp(variation.velocityPart * normal(random));
+  const double faster = std::exp(variation.velocitySdFraction * normal(random));
   for (ScriptStep& step : out.script)
     if (auto* grasp = std::get_if<GraspAction>(&step.action)) grasp->velocityDegPerS *= faster;
   return out;

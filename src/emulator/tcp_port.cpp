@@ -74,7 +74,7 @@ class TcpPort final : public PortServer {
   [[noreturn]] void fail() {
     const int error = errno;
     unplug();
-    throw DeviceError(error == EADDRINUSE ? DeviceFault::kBusy : DeviceFault::kGone,
+    throw DeviceError(error == EADDRINUSE ? DeviceFault::kBusy : DeviceFault::kDisconnected,
                       "tcp:127.0.0.1:" + std::to_string(port_),
                       std::string("can't listen: ") + std::strerror(error));
   }

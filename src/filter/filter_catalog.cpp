@@ -20,23 +20,26 @@ const char* const kShrinks =
     "the window holds the frames there are: shorter after the first frame and after a gap";
 
 FilterOption odd(
-    const char* key, double maximum, double fallback, const char* unit, const char* purpose) {
-  return {key, unit, FilterCatalogKind::kOdd, 1, maximum, fallback, {}, purpose};
+    const char* key, double maximum, double defaultValue, const char* unit, const char* purpose) {
+  return {key, unit, FilterCatalogKind::kOdd, 1, maximum, defaultValue, {}, purpose};
 }
-FilterOption size(double fallback = 3) {
-  return odd(
-      "size", kFilterCatalogLargestSize, fallback, "taxels", "width of the window, 2 radius + 1");
+FilterOption size(double defaultValue = 3) {
+  return odd("size",
+             kFilterCatalogLargestSize,
+             defaultValue,
+             "taxels",
+             "width of the window, 2 radius + 1");
 }
-FilterOption window(double fallback) {
-  return odd("window", kLargestWindow, fallback, "frames", "frames that count");
+FilterOption window(double defaultValue) {
+  return odd("window", kLargestWindow, defaultValue, "frames", "frames that count");
 }
 FilterOption real(const char* key,
                   double minimum,
                   double maximum,
-                  double fallback,
+                  double defaultValue,
                   const char* unit,
                   const char* purpose) {
-  return {key, unit, FilterCatalogKind::kReal, minimum, maximum, fallback, {}, purpose};
+  return {key, unit, FilterCatalogKind::kReal, minimum, maximum, defaultValue, {}, purpose};
 }
 FilterOption masked() {
   return {"masked",
@@ -207,7 +210,7 @@ std::vector<FilterKind> temporalKinds() {
       {"savitzky-golay",
        "Savitzky-Golay",
        FilterDomain::kTemporal,
-       {odd("window", kLongestSavitzkyGolayWindow, 5, "frames", "frames that count"),
+       {odd("window", kMaxSavitzkyGolayWindow, 5, "frames", "frames that count"),
         {"order",
          "",
          FilterCatalogKind::kInteger,

@@ -35,7 +35,7 @@ Recipe tried(const Recipe& recipe) {
   Recipe causal;
   for (FilterStep step : recipe.steps) {
     if (!step.enabled || !step.causal() || step.kind().domain == FilterDomain::kSpatial) continue;
-    if (step.kind().domain == FilterDomain::kSpatioTemporal) step.given["size"] = 1;
+    if (step.kind().domain == FilterDomain::kSpatioTemporal) step.explicitOptions["size"] = 1;
     step.matrices.clear();
     causal.steps.push_back(std::move(step));
   }
@@ -64,7 +64,7 @@ std::optional<std::size_t> memoryOf(const FilterStep& step) {
 
 std::optional<int> latencyFrames(const Recipe& recipe) {
   const Recipe causal = tried(recipe);
-  const auto memory = memoryFrames(causal);
+  const auto memory = filterLengthFrames(causal);
   const int before =
       static_cast<int>(std::min<std::size_t>(memory.value_or(kMostFrames), kMostMemory)) + 2;
   StepWatcher watcher;
@@ -74,7 +74,7 @@ std::optional<int> latencyFrames(const Recipe& recipe) {
   TactileFrame frame(layout);
   for (int i = 0; i < before + kMostFrames && !watcher.arrived(); ++i) {
     frame.layout = layout;
-    frame.values.assign(layout->numPlaces(), i < before ? 0.0F : kLoad);
+    frame.values.assign(layout->numCells(), i < before ? 0.0F : kLoad);
     frame.hostUs = i * kIntervalUs;
     chain.push(frame);
   }
@@ -89,7 +89,7 @@ std::optional<int> latencyFrames(const FilterStep& step) {
   return latencyFrames(recipe);
 }
 
-std::optional<std::size_t> memoryFrames(const Recipe& recipe) {
+std::optional<std::size_t> filterLengthFrames(const Recipe& recipe) {
   std::size_t sum = 0;
   for (const FilterStep& step : recipe.steps) {
     if (!step.enabled) continue;

@@ -91,7 +91,7 @@ double parseValue(const FilterStep& step, const FilterOption& option, std::strin
     if (at == option.choices.end()) refuse(step, option, "\"" + std::string(text) + "\"");
     return static_cast<double>(at - option.choices.begin());
   }
-  if (option.automatic() && text == "auto") return option.fallback;
+  if (option.automatic() && text == "auto") return option.defaultValue;
   const auto number = parseDouble(text);
   if (!number || !fits(option, *number)) refuse(step, option, "\"" + std::string(text) + "\"");
   return *number;
@@ -103,7 +103,7 @@ bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)
 
 void FilterStep::validate() const {
   const FilterKind& kind = this->kind();
-  for (const auto& [key, value] : given) {
+  for (const auto& [key, value] : explicitOptions) {
     const FilterOption* option = kind.option(key);
     if (option == nullptr) throw std::invalid_argument(unknownKey(kind, key));
     if (std::isnan(value) && option->automatic()) continue;
@@ -112,7 +112,7 @@ void FilterStep::validate() const {
   if (!std::is_sorted(matrices.begin(), matrices.end()))
     throw std::invalid_argument(name + ": matrices must be in ascending order");
   const FilterOption* window = kind.option("window");
-  if (window != nullptr && valueOr0("centred") != 0.0 && integer("window") % 2 == 0)
+  if (window != nullptr && valueOrZero("centred") != 0.0 && integer("window") % 2 == 0)
     throw std::invalid_argument(name + ": window must be odd with centred=1, is " +
                                 std::to_string(integer("window")));
   if (name == "median3d" &&
@@ -136,16 +136,16 @@ double FilterStep::value(std::string_view key) const {
   const FilterKind& kind = this->kind();
   const FilterOption* option = kind.option(key);
   if (option == nullptr) throw std::invalid_argument(unknownKey(kind, key));
-  const auto at = given.find(key);
-  return at == given.end() ? option->fallback : at->second;
+  const auto at = explicitOptions.find(key);
+  return at == explicitOptions.end() ? option->defaultValue : at->second;
 }
 
-double FilterStep::valueOr0(std::string_view key) const {
+double FilterStep::valueOrZero(std::string_view key) const {
   return kind().option(key) == nullptr ? 0.0 : value(key);
 }
 
 bool FilterStep::causal() const {
-  if (name == "rts" || valueOr0("centred") != 0.0) return false;
+  if (name == "rts" || valueOrZero("centred") != 0.0) return false;
   if (name != "kelvin-voigt") return true;
   // What isn't given is found in the recording.
   for (const char* key : {"e", "eta", "q", "r"})
@@ -181,7 +181,7 @@ FilterStep parseFilterStep(std::string_view text) {
       const FilterOption* option = kind.option(key);
       if (option == nullptr) throw std::invalid_argument(unknownKey(kind, key));
       const double number = parseValue(step, *option, value);
-      if (!same(number, option->fallback)) step.given[std::string(key)] = number;
+      if (!same(number, option->defaultValue)) step.explicitOptions[std::string(key)] = number;
     }
   }
   step.validate();
@@ -193,7 +193,7 @@ std::string filterText(const FilterStep& step) {
   char before = ':';
   for (const FilterOption& option : step.kind().options) {
     const double value = step.value(option.key);
-    if (same(value, option.fallback)) continue;
+    if (same(value, option.defaultValue)) continue;
     text += before + option.key + '=';
     if (option.kind == FilterStepKind::kChoice)
       text += option.choices.at(static_cast<std::size_t>(value));

@@ -123,7 +123,7 @@ class FilteredFrames final : public BesideFrames {
       : BesideFrames(std::move(source)),
         recipe_(std::move(recipe)),
         restartsUs_(std::move(restartsUs)),
-        memory_(*memoryFrames(recipe_) + kFramesForRate) {}
+        memory_(*filterLengthFrames(recipe_) + kFramesForRate) {}
 
   void readFrame(std::size_t frame, TactileFrame& out) const override {
     const std::lock_guard lock(mutex_);
@@ -203,7 +203,7 @@ Profile filteredProfile(const Profile& source,
   if (recipe.empty()) return source;
   ProfileInfo info = source.info();
   info.valueType = ValueType::kFloat;
-  if (memoryFrames(recipe))
+  if (filterLengthFrames(recipe))
     return Profile(info,
                    source.hand(),
                    std::make_shared<FilteredFrames>(source, recipe, std::move(options.restartsUs)));

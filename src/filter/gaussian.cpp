@@ -79,7 +79,7 @@ MatrixValues gaussianFiltered(const Eigen::Ref<const MatrixValues>& values,
   if (values.rows() != layout.rows || values.cols() != layout.columns)
     throw std::invalid_argument("gaussian: the matrix has not the size of its layout");
   const std::vector<float> kernel = gaussianWeights(options);
-  if (layout.numEnabled() == layout.numPlaces()) return convolvedBothWays(values, kernel);
+  if (layout.numEnabled() == layout.numCells()) return convolvedBothWays(values, kernel);
 
   // Normalised convolution: what masked taxels would have weighed goes to the others.
   MatrixValues read(layout.rows, layout.columns);

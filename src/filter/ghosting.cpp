@@ -32,19 +32,19 @@ class Outcome final : public FrameSink {
 };
 
 void checkGhosting(const Profile& profile,
-                   std::span<const TouchMask> truth,
+                   std::span<const CellTruthMask> truth,
                    const GhostingOptions& options) {
-  if (options.leastTaxels < 1 || !(options.activeAboveCounts >= 0.0) ||
-      !(options.wholeMatrixShare >= 0.0 && options.wholeMatrixShare <= 1.0))
+  if (options.minTaxels < 1 || !(options.activeAboveCounts >= 0.0) ||
+      !(options.wholeMatrixFraction >= 0.0 && options.wholeMatrixFraction <= 1.0))
     throw std::invalid_argument("measureGhosting: an option is out of range");
   if (truth.empty()) return;
   if (truth.size() != profile.numFrames())
     throw std::invalid_argument("measureGhosting: truth of " + std::to_string(truth.size()) +
                                 " frames for " + std::to_string(profile.numFrames()));
-  for (const TouchMask& mask : truth)
-    if (mask.size() != profile.layout().numPlaces())
+  for (const CellTruthMask& mask : truth)
+    if (mask.size() != profile.layout().numCells())
       throw std::invalid_argument("measureGhosting: truth of " + std::to_string(mask.size()) +
-                                  " places for " + std::to_string(profile.layout().numPlaces()));
+                                  " places for " + std::to_string(profile.layout().numCells()));
 }
 
 BeforeAfter& operator+=(BeforeAfter& sum, const BeforeAfter& more) {
@@ -56,7 +56,7 @@ BeforeAfter& operator+=(BeforeAfter& sum, const BeforeAfter& more) {
 class Counter {
  public:
   Counter(const Profile& profile,
-          std::span<const TouchMask> truth,
+          std::span<const CellTruthMask> truth,
           const GhostingOptions& options,
           GhostingReport& report)
       : profile_(profile), truth_(truth), options_(options), report_(report) {
@@ -68,7 +68,7 @@ class Counter {
   void count(const std::vector<float>& filtered) {
     const std::size_t frame = report_.frames++;
     profile_.readFrame(frame, raw_);
-    const TouchMask* const touch = truth_.empty() ? nullptr : &truth_[frame];
+    const CellTruthMask* const touch = truth_.empty() ? nullptr : &truth_[frame];
     bool falseBefore = false, falseAfter = false;
     for (std::size_t m = 0; m < report_.matrices.size(); ++m) {
       const BeforeAfter ghosts = countMatrix(m, frame, touch, filtered);
@@ -102,13 +102,13 @@ class Counter {
 
   BeforeAfter countMatrix(std::size_t m,
                           std::size_t frame,
-                          const TouchMask* touch,
+                          const CellTruthMask* touch,
                           const std::vector<float>& filtered) {
     const MatrixLayout& layout = profile_.layout().matrix(m);
     const std::size_t offset = profile_.layout().offset(m);
     BeforeAfter ghosts;
     Touched touched;
-    for (std::size_t i = 0; i < layout.numPlaces(); ++i) {
+    for (std::size_t i = 0; i < layout.numCells(); ++i) {
       if (layout.staticMask[i] == 0 || layout.dynamicMask[i] == 0) continue;
       const float before = raw_.values[offset + i];
       const float after = filtered[offset + i];
@@ -131,7 +131,7 @@ class Counter {
   }
 
   void add(MatrixGhosting& matrix, const BeforeAfter& ghosts, double taxels) const {
-    const double whole = options_.wholeMatrixShare * taxels;
+    const double whole = options_.wholeMatrixFraction * taxels;
     const bool wholeBefore = static_cast<double>(ghosts.before) > whole;
     matrix.falseTaxels += ghosts;
     if (!wholeBefore) matrix.scattered += ghosts;
@@ -153,7 +153,7 @@ class Counter {
       contact.matrix = m;
       contact.begin = frame;
     }
-    const auto least = static_cast<std::uint64_t>(options_.leastTaxels);
+    const auto least = static_cast<std::uint64_t>(options_.minTaxels);
     if (!open.seen && touched.active.before >= least) {
       open.seen = true;
       contact.firstBefore = frame;
@@ -177,7 +177,7 @@ class Counter {
   }
 
   const Profile& profile_;
-  const std::span<const TouchMask> truth_;
+  const std::span<const CellTruthMask> truth_;
   const GhostingOptions& options_;
   GhostingReport& report_;
   std::vector<Open> open_;  // per matrix
@@ -186,7 +186,7 @@ class Counter {
 
 }  // namespace
 
-double BeforeAfter::shareRemoved() const noexcept {
+double BeforeAfter::fractionRemoved() const noexcept {
   if (before == 0) return kNone;
   return 1.0 - static_cast<double>(after) / static_cast<double>(before);
 }
@@ -235,7 +235,7 @@ double GhostingReport::largestDelayFrames() const {
 
 GhostingReport measureGhosting(const Profile& profile,
                                const Recipe& recipe,
-                               std::span<const TouchMask> truth,
+                               std::span<const CellTruthMask> truth,
                                const GhostingOptions& options,
                                const Progress& progress) {
   checkGhosting(profile, truth, options);

@@ -310,9 +310,9 @@ void KelvinVoigtEstimationOptions::validate() const {
   if (!(tolerance >= 0.0 && std::isfinite(tolerance)))
     throw std::invalid_argument("kelvin-voigt: tolerance must be 0 or above, is " +
                                 std::to_string(tolerance));
-  if (mostRounds < 1 || mostRounds > 100'000)
+  if (maxRounds < 1 || maxRounds > 100'000)
     throw std::invalid_argument("kelvin-voigt: rounds must be 1..100000, are " +
-                                std::to_string(mostRounds));
+                                std::to_string(maxRounds));
 }
 
 KelvinVoigtEstimate estimateKelvinVoigt(std::span<const double> timeS,
@@ -329,10 +329,10 @@ KelvinVoigtEstimate estimateKelvinVoigt(std::span<const double> timeS,
   Expectation expectation;
   estimation.expect(estimate.model, expectation);
   estimate.logLikelihood.push_back(expectation.logLikelihood);
-  estimate.end = KelvinVoigtEnd::kMostRounds;
+  estimate.end = KelvinVoigtEnd::kMaxRounds;
   const auto enough = options.tolerance * static_cast<double>(expectation.numValues);
-  for (int round = 0; round < options.mostRounds; ++round) {
-    if (progress && !progress(static_cast<double>(round) / options.mostRounds)) throw Cancelled();
+  for (int round = 0; round < options.maxRounds; ++round) {
+    if (progress && !progress(static_cast<double>(round) / options.maxRounds)) throw Cancelled();
     estimation.maximise(expectation, estimate.model);
     estimation.expect(estimate.model, expectation);
     const double gained = expectation.logLikelihood - estimate.logLikelihood.back();

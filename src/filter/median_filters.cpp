@@ -103,7 +103,7 @@ class AnyMedian final : public MatrixKernel, public FramesMedian {
   }
 
   void apply(float* values) override {
-    read_.assign(values, values + layout_.numPlaces());
+    read_.assign(values, values + layout_.numCells());
     const float* frame = read_.data();
     apply({&frame, 1}, values);
   }

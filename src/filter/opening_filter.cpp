@@ -26,7 +26,7 @@ int halfWidth(int shape, int radius, int dy) {
 class OpeningKernel final : public MatrixKernel {
  public:
   OpeningKernel(const MatrixLayout& layout, int shape, int size)
-      : padded_(layout, size / 2), eroded_(layout.numPlaces(), 0.0F), out_(padded_.size(), 0.0F) {
+      : padded_(layout, size / 2), eroded_(layout.numCells(), 0.0F), out_(padded_.size(), 0.0F) {
     const int radius = size / 2;
     for (int dy = -radius; dy <= radius; ++dy) {
       const int half = halfWidth(shape, radius, dy);

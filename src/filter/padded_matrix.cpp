@@ -63,7 +63,7 @@ void PaddedMatrix::writeBack(std::vector<float>& plane, float* values) const {
 
 std::vector<float> PaddedMatrix::onPlane() const {
   PaddedMatrix plane(layout_, radius_);
-  plane.fill(std::vector<float>(layout_.numPlaces(), 1.0F).data(), 0.0F);
+  plane.fill(std::vector<float>(layout_.numCells(), 1.0F).data(), 0.0F);
   return plane.values_;
 }
 

@@ -86,9 +86,9 @@ std::string stepNumber(std::size_t index) { return "step " + std::to_string(inde
 }  // namespace
 
 void Recipe::validate() const {
-  if (steps.size() > kMostSteps)
+  if (steps.size() > kMaxSteps)
     throw std::invalid_argument("a recipe of " + std::to_string(steps.size()) + " steps: at most " +
-                                std::to_string(kMostSteps));
+                                std::to_string(kMaxSteps));
   for (std::size_t i = 0; i < steps.size(); ++i) {
     try {
       steps[i].validate();
@@ -155,9 +155,9 @@ Recipe recipeFromJson(const Json& json) {
                 ": it needs another palpate");
   const Json steps = json.at("steps");
   if (!steps.isArray()) throw Error("has no list \"steps\"");
-  if (steps.size() > Recipe::kMostSteps)
+  if (steps.size() > Recipe::kMaxSteps)
     throw Error("has " + std::to_string(steps.size()) + " steps: at most " +
-                std::to_string(Recipe::kMostSteps));
+                std::to_string(Recipe::kMaxSteps));
   Recipe recipe;
   if (json.at("name").isString()) recipe.name = json.at("name").asString();
   for (std::size_t i = 0; i < steps.size(); ++i) {

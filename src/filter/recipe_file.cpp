@@ -7,12 +7,12 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kMostBytes = 1 << 20;
+constexpr std::size_t kMaxBytes = 1 << 20;
 
 }  // namespace
 
 Recipe readRecipe(const std::filesystem::path& path) {
-  const std::string text = readTextFile(path, kMostBytes);
+  const std::string text = readTextFile(path, kMaxBytes);
   try {
     return recipeFromJson(Json::parse(text));
   } catch (const FileError&) {

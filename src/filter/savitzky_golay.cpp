@@ -13,8 +13,8 @@ void validate(int window, int order, int derivative, double position) {
   const auto fail = [](const std::string& field, const std::string& range, const std::string& is) {
     throw std::invalid_argument("savitzky-golay: " + field + " must be " + range + ", is " + is);
   };
-  if (window < 1 || window > kLongestSavitzkyGolayWindow)
-    fail("window", "1.." + std::to_string(kLongestSavitzkyGolayWindow), std::to_string(window));
+  if (window < 1 || window > kMaxSavitzkyGolayWindow)
+    fail("window", "1.." + std::to_string(kMaxSavitzkyGolayWindow), std::to_string(window));
   if (order < 0 || order >= window)
     fail(
         "order", "0.." + std::to_string(window - 1) + " (below the window)", std::to_string(order));

@@ -30,7 +30,7 @@ bool allZero(const float* values, std::size_t count) {
 }
 
 void keepOriginal(const float* original, float* values, const MatrixLayout& layout) {
-  const std::size_t count = layout.numPlaces();
+  const std::size_t count = layout.numCells();
   for (std::size_t i = 0; i < count; ++i) values[i] = values[i] > 0.0F ? original[i] : 0.0F;
 }
 
@@ -46,7 +46,7 @@ void SpatialFilter::push(TactileFrame& frame, FrameSink& out) {
   for (std::size_t m = 0; m < kernels_.size(); ++m) {
     const MatrixLayout& layout = layout_->matrix(m);
     float* values = frame.values.data() + layout_->offset(m);
-    const std::size_t count = layout.numPlaces();
+    const std::size_t count = layout.numCells();
     if (!kernels_[m] || allZero(values, count)) continue;
     if (masked_) original_.assign(values, values + count);
     kernels_[m]->apply(values);

@@ -33,7 +33,7 @@ class Median3d final : public WindowedFilter {
     for (std::size_t m = 0; m < medians_.size(); ++m) {
       if (!medians_[m]) continue;
       const std::size_t offset = layout_->offset(m);
-      const std::size_t count = layout_->matrix(m).numPlaces();
+      const std::size_t count = layout_->matrix(m).numCells();
       frames_.clear();
       bool empty = true;
       for (int i = first; i < first + depth_; ++i) {
@@ -63,7 +63,7 @@ class MinMedian final : public WindowedFilter {
         layout_(std::move(layout)),
         masked_(step.flag("masked")),
         places_(placesOf(step, *layout_)),
-        lowest_(layout_->numPlaces(), 0.0F) {
+        lowest_(layout_->numCells(), 0.0F) {
     for (std::size_t m = 0; m < layout_->numMatrices(); ++m)
       medians_.push_back(worksOn(step, m) ? medianKernel(layout_->matrix(m), step.integer("size"))
                                           : nullptr);
@@ -76,7 +76,7 @@ class MinMedian final : public WindowedFilter {
       for (std::size_t i = 0; i < lowest_.size(); ++i) lowest_[i] = std::min(lowest_[i], frame[i]);
     for (std::size_t m = 0; m < medians_.size(); ++m) {
       float* of = lowest_.data() + layout_->offset(m);
-      if (medians_[m] && !allZero(of, layout_->matrix(m).numPlaces())) medians_[m]->apply(of);
+      if (medians_[m] && !allZero(of, layout_->matrix(m).numCells())) medians_[m]->apply(of);
     }
     for (const std::size_t place : places_) {
       if (!masked_)

@@ -63,7 +63,7 @@ class StretchFilter : public FrameFilter {
                     std::span<const double> timeS,
                     std::size_t m) {
     const MatrixLayout& layout = layout_->matrix(m);
-    std::vector<double> sums(layout.numPlaces(), 0.0);
+    std::vector<double> sums(layout.numCells(), 0.0);
     for (const TactileFrame& frame : frames)
       for (std::size_t i = 0; i < sums.size(); ++i)
         sums[i] += std::abs(static_cast<double>(frame.values[layout_->offset(m) + i]));

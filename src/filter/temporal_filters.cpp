@@ -19,7 +19,7 @@ class WeightedFilter : public WindowedFilter {
   WeightedFilter(const FilterStep& step, const SensorLayout& layout, Edge edge)
       : WindowedFilter(step.integer("window"), step.flag("centred"), edge),
         places_(placesOf(step, layout)),
-        result_(layout.numPlaces(), 0.0) {}
+        result_(layout.numCells(), 0.0) {}
 
   // One per frame of the window, oldest first.
   virtual const std::vector<double>& weights(std::size_t frames, std::size_t current) = 0;
@@ -117,7 +117,7 @@ class TemporalMinimum final : public WindowedFilter {
   TemporalMinimum(const FilterStep& step, const SensorLayout& layout)
       : WindowedFilter(step.integer("window"), step.flag("centred"), Edge::kShrink),
         places_(placesOf(step, layout)),
-        result_(layout.numPlaces(), 0.0F) {}
+        result_(layout.numCells(), 0.0F) {}
 
  protected:
   void compute(std::span<const float* const> window, std::size_t current, float* values) override {

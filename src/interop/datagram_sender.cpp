@@ -27,7 +27,7 @@ DatagramSender::DatagramSender(std::uint16_t port) : port_(port) {
     return;
   const int error = errno;
   if (socket_ >= 0) ::close(socket_);
-  throw DeviceError(DeviceFault::kGone,
+  throw DeviceError(DeviceFault::kDisconnected,
                     "udp:127.0.0.1:" + std::to_string(port),
                     std::string("can't send: ") + std::strerror(error));
 }
@@ -36,7 +36,7 @@ DatagramSender::~DatagramSender() { ::close(socket_); }
 
 bool DatagramSender::send(std::string_view bytes) noexcept {
   const ssize_t taken = ::send(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
-  stats_.heard = taken >= 0 && lastTaken_;
+  stats_.delivered = taken >= 0 && lastTaken_;
   lastTaken_ = taken >= 0;
   ++(taken >= 0 ? stats_.sent : stats_.dropped);
   return taken >= 0;

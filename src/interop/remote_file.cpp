@@ -5,13 +5,13 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
-#include "palpate/core/one_line.h"
+#include "palpate/core/escaped_line.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMostBytes = 200;  // leaves room for "_002" and SQLite's journal
+constexpr std::size_t kMaxBytes = 200;  // leaves room for "_002" and SQLite's journal
 constexpr std::string_view kEnding = ".palpate";
 
 bool isTemplate(std::string_view name) { return name.find('{') != std::string_view::npos; }
@@ -26,9 +26,8 @@ bool hasOtherEnding(const fs::path& name) {
 
 std::string problemOfRemoteName(std::string_view name) {
   if (name.empty()) return "a name is missing";
-  if (name.size() > kMostBytes)
-    return "a name has at most " + std::to_string(kMostBytes) + " bytes";
-  if (oneLine(name) != name) return "a name is UTF-8 without control characters";
+  if (name.size() > kMaxBytes) return "a name has at most " + std::to_string(kMaxBytes) + " bytes";
+  if (escapedLine(name) != name) return "a name is UTF-8 without control characters";
   if (name.find('/') != std::string_view::npos)
     return "only a name, not a path: recordings stay in their folder";
   if (name.front() == '.' || name.front() == '-') return "a name doesn't begin with '.' or '-'";

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "palpate/core/one_line.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/trimmed.h"
 
 namespace palpate {
@@ -12,7 +12,7 @@ namespace {
 using RemoteProtocolVerb = RemoteRequest::Verb;
 
 constexpr std::string_view kBlanks = " \t";
-constexpr std::size_t kMostQuoted = 60;  // of what a stranger wrote, in an answer
+constexpr std::size_t kMaxQuoted = 60;  // of what a stranger wrote, in an answer
 
 bool hasText(RemoteProtocolVerb verb) {
   return verb == RemoteProtocolVerb::kStart || verb == RemoteProtocolVerb::kLabel ||
@@ -24,7 +24,7 @@ ReadRequest refuse(std::string code, std::string why) {
 }
 
 std::string quoted(std::string_view text) {
-  return "'" + oneLine(beginningOf(text, kMostQuoted)) + "'";
+  return "'" + escapedLine(beginningOf(text, kMaxQuoted)) + "'";
 }
 
 }  // namespace
@@ -74,20 +74,20 @@ std::string answerLine(const RemoteAnswer& answer, std::string_view command) {
   Json json = Json::object().set("ok", answer.ok());
   if (!command.empty()) json.set("command", command);
   if (!answer.ok()) json.set("error", answer.error);
-  if (!answer.message.empty()) json.set("message", oneLine(answer.message));
+  if (!answer.message.empty()) json.set("message", escapedLine(answer.message));
   for (const std::string& key : answer.fields.keys()) json.set(key, answer.fields.at(key));
   return json.text(-1);
 }
 
 ReadRequest readRequest(std::string_view line) {
-  if (line.size() > kMostRequestBytes)
+  if (line.size() > kMaxRequestBytes)
     return refuse("too_long",
-                  "a request has at most " + std::to_string(kMostRequestBytes) + " bytes");
-  // Whatever oneLine() would change is no text: control characters, bytes that are no UTF-8. Tabs
-  // are blanks.
+                  "a request has at most " + std::to_string(kMaxRequestBytes) + " bytes");
+  // Whatever escapedLine() would change is no text: control characters, bytes that are no UTF-8.
+  // Tabs are blanks.
   std::string plain(line);
   std::replace(plain.begin(), plain.end(), '\t', ' ');
-  if (oneLine(plain) != plain)
+  if (escapedLine(plain) != plain)
     return refuse("malformed", "a request is one line of UTF-8 without control characters");
   const std::string_view text = trimmed(plain);
   if (text.empty()) return refuse("malformed", "an empty request; 'help' lists what can be asked");
@@ -111,7 +111,7 @@ ReadRequest readRequest(std::string_view line) {
 std::optional<RequestLines::Line> RequestLines::next() {
   const auto end = pending_.find('\n');
   if (end == std::string::npos) {
-    if (pending_.size() > kMostRequestBytes + 1) {  // a CR may stand before the end
+    if (pending_.size() > kMaxRequestBytes + 1) {  // a CR may stand before the end
       pending_.clear();
       skipping_ = true;
     }
@@ -120,7 +120,7 @@ std::optional<RequestLines::Line> RequestLines::next() {
   Line line{pending_.substr(0, end), false};
   pending_.erase(0, end + 1);
   if (line.text.ends_with('\r')) line.text.pop_back();
-  if (std::exchange(skipping_, false) || line.text.size() > kMostRequestBytes)
+  if (std::exchange(skipping_, false) || line.text.size() > kMaxRequestBytes)
     line = {std::string(), true};
   return line;
 }

@@ -64,8 +64,8 @@ struct RemoteRecorder::Impl {
     const std::lock_guard lock(mutex);
     RemoteAnswer answer;
     answer.fields.set("state", nameOf(state));
-    if (state != State::kIdle) setRecorderFacts(answer.fields, health.recorder);
-    setLinkFacts(answer.fields, health);
+    if (state != State::kIdle) setRecorderFields(answer.fields, health.recorder);
+    setLinkFields(answer.fields, health);
     answer.fields.set("folder", options.folder.string()).set("next_file", nextFile());
     const auto freeBytes = freeBytesOf(options.folder);
     answer.fields.set("free_bytes",
@@ -273,7 +273,7 @@ struct RemoteRecorder::Impl {
             .count();
     // In this order: what is on disk stays true when it ends in between.
     const bool recording = session.recording();
-    const auto verdict = startVerdict(session.recorderStatus(), recording, waitedS, options.limits);
+    const auto verdict = startResult(session.recorderStatus(), recording, waitedS, options.limits);
     if (!verdict) return;
     const Done done = std::exchange(starting, std::nullopt)->done;
     try {

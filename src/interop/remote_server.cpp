@@ -185,7 +185,7 @@ struct RemoteServer::Impl {
     while (!client.pending && client.out.empty()) {
       const auto line = client.lines.next();
       if (!line) return !client.ended;
-      const ReadRequest read = line->tooLong ? readRequest(std::string(kMostRequestBytes + 1, 'x'))
+      const ReadRequest read = line->tooLong ? readRequest(std::string(kMaxRequestBytes + 1, 'x'))
                                              : readRequest(line->text);
       if (!read.request) {
         const std::lock_guard lock(mutex);
@@ -258,7 +258,7 @@ struct RemoteServer::Impl {
       if (errno == EACCES) turnAway();
       return;
     }
-    if (clients.size() >= options.mostClients && !makeRoom()) {
+    if (clients.size() >= options.maxClients && !makeRoom()) {
       Client stranger;
       stranger.socket = std::move(socket);
       answer(stranger, RemoteAnswer::refused("busy", "too many clients: close one"), {});
@@ -274,7 +274,7 @@ struct RemoteServer::Impl {
 
   void turnAway() {
     const std::lock_guard lock(mutex);
-    ++stats.turnedAway;
+    ++stats.rejectedClients;
   }
 
   // The one that has been silent for longest goes, if that is long enough.
@@ -305,8 +305,8 @@ struct RemoteServer::Impl {
 RemoteServer::RemoteServer(std::filesystem::path socket,
                            RemoteTarget& target,
                            RemoteServerOptions options) {
-  if (options.mostClients < 1 || options.mostClients > 1000)
-    throw std::invalid_argument("RemoteServerOptions: mostClients must be 1..1000");
+  if (options.maxClients < 1 || options.maxClients > 1000)
+    throw std::invalid_argument("RemoteServerOptions: maxClients must be 1..1000");
   if (!(options.idleS >= 0.0))
     throw std::invalid_argument("RemoteServerOptions: idleS must be >= 0");
   impl_ = std::make_unique<Impl>(std::move(socket), target, std::move(options));

@@ -19,11 +19,11 @@ void addSignals(JsonLine& json, const CharacteristicSignals& signals) {
   json.number("area_mm2", signals.areaMm2);
 }
 
-void addSlip(JsonLine& json, const SlipVerdict& slip) {
+void addSlip(JsonLine& json, const SlipDetection& slip) {
   json.begin("slip");
   json.word("state", nameOf(slip.state));
   json.flag("slipping", slip.slipping);
-  if (slip.lamp == SlipLamp::kReady || slip.lamp == SlipLamp::kSlipping)
+  if (slip.lamp == SlipIndicator::kReady || slip.lamp == SlipIndicator::kSlipping)
     json.number("confidence", slip.confidence);
   if (slip.motion.valid) {
     json.number("dx", slip.motion.dx);

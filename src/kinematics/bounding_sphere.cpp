@@ -75,12 +75,12 @@ Candidate tryOrder(const std::vector<Vector3d>& points) {
 
 }  // namespace
 
-std::optional<Sphere> boundingSphere(const std::vector<Vector3d>& pointsMm) {
+std::optional<Sphere> smallestEnclosingSphere(const std::vector<Vector3d>& pointsMm) {
   if (pointsMm.empty()) return std::nullopt;
   Vector3d low = pointsMm.front(), high = low;
   for (const Vector3d& point : pointsMm) {
     if (!point.allFinite())
-      throw std::invalid_argument("boundingSphere: a point that is not a number");
+      throw std::invalid_argument("smallestEnclosingSphere: a point that is not a number");
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }

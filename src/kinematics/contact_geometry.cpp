@@ -19,7 +19,7 @@ struct Moments {
 
 void requireSameSizes(const TactileFrame& frame, const SensorLayout& layout) {
   bool same = frame.layout && frame.layout->numMatrices() == layout.numMatrices() &&
-              frame.values.size() == layout.numPlaces();
+              frame.values.size() == layout.numCells();
   for (std::size_t m = 0; same && m < layout.numMatrices(); ++m)
     same = frame.layout->matrix(m).rows == layout.matrix(m).rows &&
            frame.layout->matrix(m).columns == layout.matrix(m).columns;
@@ -145,8 +145,8 @@ void contactOf(const TactileFrame& frame,
   if (out.numActive == 0) return;
   out.centroidMm = position / out.sum;
   if (!options.spheres) return;
-  out.taxelSphere = boundingSphere(out.activeMm);
-  out.centroidSphere = boundingSphere(centroids);
+  out.taxelSphere = smallestEnclosingSphere(out.activeMm);
+  out.centroidSphere = smallestEnclosingSphere(centroids);
 }
 
 }  // namespace palpate

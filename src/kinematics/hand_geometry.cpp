@@ -72,16 +72,16 @@ void HandGeometry::pose(const std::vector<double>& anglesDeg, HandPose& out) con
       throw std::invalid_argument("HandGeometry: angle " + std::to_string(i) + " is not a number");
 
   out.description_ = &description_;
-  turnLinks(anglesDeg, out);
-  out.positionsMm_.resize(description_.layout.numPlaces());
-  out.normals_.resize(description_.layout.numPlaces());
+  computeLinks(anglesDeg, out);
+  out.positionsMm_.resize(description_.layout.numCells());
+  out.normals_.resize(description_.layout.numCells());
   for (std::size_t m = 0; m < pads_.size(); ++m) {
     const std::size_t first = description_.layout.offset(m);
     placeTaxels(m, out.linkOf(m), out.positionsMm_.data() + first, out.normals_.data() + first);
   }
 }
 
-void HandGeometry::turnLinks(const std::vector<double>& anglesDeg, HandPose& out) const {
+void HandGeometry::computeLinks(const std::vector<double>& anglesDeg, HandPose& out) const {
   out.links_.resize(description_.fingers.size());
   out.jointLines_.clear();
   for (std::size_t f = 0; f < description_.fingers.size(); ++f) {

@@ -10,17 +10,17 @@ AnglesCheck checkAngles(const std::vector<double>& anglesDeg,
                         const std::vector<AxisDescription>& axes,
                         double toleranceDeg) {
   if (anglesDeg.size() != axes.size())
-    return {AnglesState::kUnusable,
+    return {AngleValidity::kUnusable,
             std::to_string(anglesDeg.size()) + " joint angles for " + std::to_string(axes.size()) +
                 " axes"};
   for (std::size_t i = 0; i < axes.size(); ++i)
     if (!std::isfinite(anglesDeg[i]))
-      return {AnglesState::kUnusable, "angle of axis " + std::to_string(i) + " is not a number"};
+      return {AngleValidity::kUnusable, "angle of axis " + std::to_string(i) + " is not a number"};
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const AxisDescription& axis = axes[i];
     if (anglesDeg[i] < axis.minimumDeg - toleranceDeg ||
         anglesDeg[i] > axis.maximumDeg + toleranceDeg)
-      return {AnglesState::kOutOfRange,
+      return {AngleValidity::kOutOfRange,
               "axis " + std::to_string(i) + " (" + axis.name + ") at " + numberText(anglesDeg[i]) +
                   " degrees; its range is " + numberText(axis.minimumDeg) + ".." +
                   numberText(axis.maximumDeg)};

@@ -57,7 +57,8 @@ std::vector<GraspFrame> readFrames(const Profile& profile,
         !progress(static_cast<double>(i - begin) / static_cast<double>(end - begin + 1)))
       throw Cancelled();
     const auto angles = profile.anglesAtFrame(i);
-    if (!angles || checkAngles(angles->deg, profile.hand().axes).state == AnglesState::kUnusable) {
+    if (!angles ||
+        checkAngles(angles->deg, profile.hand().axes).state == AngleValidity::kUnusable) {
       ++report.unusableFrames;
       continue;
     }
@@ -122,10 +123,10 @@ struct SurfacePoint {
 // The value-weighted mean over the plateau.
 SurfacePoint plateauCentroid(const std::vector<GraspFrame>& frames,
                              std::size_t matrix,
-                             double plateauPart) {
+                             double plateauFraction) {
   double sum = 0.0, x = 0.0, y = 0.0;
   for (const GraspFrame& frame : frames) {
-    if (frame.load < plateauPart) continue;
+    if (frame.load < plateauFraction) continue;
     const PadFrame& pad = frame.pads[matrix];
     sum += pad.sum;
     x += pad.sum * pad.xMm;
@@ -147,8 +148,8 @@ bool addSamples(const std::vector<GraspFrame>& frames,
                 const ObjectSizeOptions& options,
                 ObjectSizeReport& report) {
   const auto [pad1, pad2] = report.pads;
-  const SurfacePoint at1 = plateauCentroid(frames, pad1, options.plateauPart);
-  const SurfacePoint at2 = plateauCentroid(frames, pad2, options.plateauPart);
+  const SurfacePoint at1 = plateauCentroid(frames, pad1, options.plateauFraction);
+  const SurfacePoint at2 = plateauCentroid(frames, pad2, options.plateauFraction);
   HandPose pose;
   for (const GraspFrame& frame : frames) {
     geometry.pose(frame.anglesDeg, pose);
@@ -173,7 +174,7 @@ void conclude(const ObjectSizeOptions& options, ObjectSizeReport& report) {
   const std::vector<SizeSample>& samples = report.samples;
   std::vector<double> distances, spheres, foams;
   for (const SizeSample& sample : samples) {
-    if (sample.load < options.plateauPart) continue;
+    if (sample.load < options.plateauFraction) continue;
     if (distances.empty()) report.plateauFrame = sample.frame;
     distances.push_back(sample.distanceMm);
     spheres.push_back(sample.sphereMm);
@@ -223,7 +224,7 @@ void ObjectSizeOptions::validate() const {
     if (!holds) throw std::invalid_argument(std::string("ObjectSizeOptions: ") + what);
   };
   require(!pads || pads->first != pads->second, "pads must be two");
-  require(plateauPart >= 0.5 && plateauPart <= 1.0, "plateauPart must be 0.5..1");
+  require(plateauFraction >= 0.5 && plateauFraction <= 1.0, "plateauFraction must be 0.5..1");
   require(foamMm >= 0.0 && std::isfinite(foamMm), "foamMm must be >= 0");
   require(foamRelativeSd >= 0.0 && std::isfinite(foamRelativeSd), "foamRelativeSd must be >= 0");
   require(noiseSdMm >= 0.0 && std::isfinite(noiseSdMm), "noiseSdMm must be >= 0");
@@ -250,7 +251,7 @@ ObjectSizeReport objectSize(const Profile& profile,
   ObjectSizeReport report;
   std::vector<GraspFrame> frames = readFrames(profile, geometry, begin, end, progress, report);
   if (frames.empty()) {
-    report.trouble = "no joint angles";
+    report.problem = "no joint angles";
     return report;
   }
   const auto pads = options.pads ? options.pads : strongestPads(frames, geometry.description());
@@ -259,7 +260,7 @@ ObjectSizeReport objectSize(const Profile& profile,
         return frame.pads[pads->first].sum > 0.0 && frame.pads[pads->second].sum > 0.0;
       });
   if (!bothTouch) {
-    report.trouble = "no two fingers touch";
+    report.problem = "no two fingers touch";
     return report;
   }
   report.pads = *pads;
@@ -267,7 +268,7 @@ ObjectSizeReport objectSize(const Profile& profile,
   if (addSamples(frames, geometry, options, report))
     conclude(options, report);
   else
-    report.trouble = "the two pads don't face each other";
+    report.problem = "the two pads don't face each other";
   return report;
 }
 

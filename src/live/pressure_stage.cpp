@@ -16,7 +16,7 @@ void PressureStage::setCalibration(const std::optional<Calibration>& calibration
   const std::lock_guard lock(mutex_);
   map_ = std::move(map);
   settingsChanged_ = true;
-  trouble_.clear();
+  problem_.clear();
 }
 
 std::vector<std::string> PressureStage::assumptions() const {
@@ -24,39 +24,39 @@ std::vector<std::string> PressureStage::assumptions() const {
   return map_ ? map_->assumptions() : std::vector<std::string>{};
 }
 
-std::string PressureStage::trouble() const {
+std::string PressureStage::problem() const {
   const std::lock_guard lock(mutex_);
-  return trouble_;
+  return problem_;
 }
 
 void PressureStage::reset() {
   const std::lock_guard lock(mutex_);
   if (map_) map_->reset();
   settingsChanged_ = true;
-  told_.clear();
+  lastSettingsJson_.clear();
 }
 
 void PressureStage::onEvent(const RecordingEvent& event) {
   if (event.kind != "settings") return;
   const std::lock_guard lock(mutex_);
   settingsChanged_ = true;
-  told_ = event.json;
+  lastSettingsJson_ = event.json;
 }
 
 std::vector<SensorSettings> PressureStage::settingsNow() const {
-  if (!told_.empty()) return reportedSettingsFrom(Json::parse(told_));
+  if (!lastSettingsJson_.empty()) return reportedSettingsFrom(Json::parse(lastSettingsJson_));
   return askSettings_ ? askSettings_() : std::vector<SensorSettings>{};
 }
 
 void PressureStage::useSettings() {
   settingsChanged_ = false;
-  trouble_.clear();
+  problem_.clear();
   try {
     map_->setSettings(settingsNow());
   } catch (const Error& error) {
-    trouble_ = error.what();
+    problem_ = error.what();
   } catch (const std::invalid_argument& error) {
-    trouble_ = error.what();
+    problem_ = error.what();
   }
 }
 
@@ -65,9 +65,9 @@ void PressureStage::onFrame(LiveResults& results, std::vector<RecordingEvent>&) 
   if (!map_) return;
   if (settingsChanged_) useSettings();
   const TactileFrame& frame = results.unfiltered ? *results.unfiltered : *results.frame;
-  if (trouble_.empty() && frame.values.size() != hand_.layout->numPlaces())
-    trouble_ = "the sensor isn't the one that was connected: connect anew";
-  if (!trouble_.empty()) return;
+  if (problem_.empty() && frame.values.size() != hand_.layout->numCells())
+    problem_ = "the sensor isn't the one that was connected: connect anew";
+  if (!problem_.empty()) return;
   static const std::vector<double> kUnknown;
   auto pressure = std::make_shared<PressureFrame>();
   map_->apply(frame, results.temperatures ? results.temperatures->degC : kUnknown, *pressure);

@@ -40,10 +40,10 @@ ProcessingChain::~ProcessingChain() { stop(); }
 
 void ProcessingChain::connect(CaptureSession& session) {
   if (thread_.joinable()) throw std::logic_error("ProcessingChain::connect: it is running");
-  FeedOptions feed;
+  CaptureQueueOptions feed;
   feed.tactileItems = options_.waitingFrames;
   feed.motionItems = options_.waitingFrames * kMotionPerFrame;
-  feed.waitForRoom = options_.lossless;
+  feed.blockWhenFull = options_.lossless;
   feed_.reset();
   reset();
   feed_ = session.subscribe("live processing", feed);

@@ -17,7 +17,7 @@ std::string textOf(double pathTaxels, double turnDeg) {
 SlipDetectorOptions liveSlipOptions() {
   SlipDetectorOptions options;
   options.method = SlipMethod::kCentroid;
-  options.reference = SlipReference::kRest;
+  options.reference = SlipReference::kWhenAtRest;
   return options;
 }
 
@@ -39,12 +39,12 @@ SlipDetectorOptions SlipStage::options() const {
 
 void SlipStage::setReference(std::optional<std::size_t> matrix) {
   const std::lock_guard lock(mutex_);
-  wishes_.push_back({matrix, false});
+  referenceRequests_.push_back({matrix, false});
 }
 
 void SlipStage::clearReference() {
   const std::lock_guard lock(mutex_);
-  wishes_.push_back({{}, true});
+  referenceRequests_.push_back({{}, true});
 }
 
 void SlipStage::setOn(std::size_t matrix, bool on) {
@@ -63,7 +63,7 @@ void SlipStage::onEvent(const RecordingEvent& event) {
   if (event.kind == "settings") reset();
 }
 
-void SlipStage::obey(const SensorLayout& layout) {
+void SlipStage::applyReferenceRequests(const SensorLayout& layout) {
   const std::lock_guard lock(mutex_);
   if (changed_ || detectors_.size() != layout.numMatrices()) {
     detectors_.clear();
@@ -73,19 +73,19 @@ void SlipStage::obey(const SensorLayout& layout) {
   }
   for (std::size_t m = 0; m < detectors_.size(); ++m)
     detectors_[m].setOn(m >= off_.size() || !off_[m]);
-  due_.swap(wishes_);
-  wishes_.clear();
+  dueRequests_.swap(referenceRequests_);
+  referenceRequests_.clear();
 }
 
 void SlipStage::onFrame(LiveResults& results, std::vector<RecordingEvent>& out) {
   const TactileFrame& frame = *results.frame;
-  obey(*frame.layout);
+  applyReferenceRequests(*frame.layout);
   jointsDeg_.clear();
   if (results.angles) jointsDeg_.assign(results.angles->deg.begin(), results.angles->deg.end());
   results.slip.resize(detectors_.size());
   for (std::size_t m = 0; m < detectors_.size(); ++m) {
     results.slip[m] = detectors_[m].update(frame.matrix(m), frame.hostUs, jointsDeg_);
-    for (const Wish& wish : due_) {
+    for (const ReferenceRequest& wish : dueRequests_) {
       if (wish.matrix && *wish.matrix != m) continue;
       if (wish.clear)
         detectors_[m].clearReference();
@@ -93,15 +93,15 @@ void SlipStage::onFrame(LiveResults& results, std::vector<RecordingEvent>& out) 
         detectors_[m].setReference();
       results.slip[m] = detectors_[m].last();
     }
-    tell(m, results.slip[m], frame.hostUs, out);
+    emitSlipEvents(m, results.slip[m], frame.hostUs, out);
   }
-  due_.clear();
+  dueRequests_.clear();
 }
 
-void SlipStage::tell(std::size_t matrix,
-                     const SlipVerdict& verdict,
-                     std::int64_t hostUs,
-                     std::vector<RecordingEvent>& out) {
+void SlipStage::emitSlipEvents(std::size_t matrix,
+                               const SlipDetection& verdict,
+                               std::int64_t hostUs,
+                               std::vector<RecordingEvent>& out) {
   auto& slip = slipping_[matrix];
   const int number = static_cast<int>(matrix);
   if (verdict.slipping && !slip) {

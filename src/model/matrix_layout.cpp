@@ -13,14 +13,14 @@ constexpr int kMaxSide = 256;
 MatrixLayout MatrixLayout::full(int rows, int columns, double pitchMm) {
   MatrixLayout layout{rows, columns, pitchMm, {}, {}};
   if (rows >= 1 && rows <= kMaxSide && columns >= 1 && columns <= kMaxSide) {
-    layout.staticMask.assign(layout.numPlaces(), 1);
+    layout.staticMask.assign(layout.numCells(), 1);
     layout.dynamicMask = layout.staticMask;
   }
   layout.validate();
   return layout;
 }
 
-std::size_t MatrixLayout::numPlaces() const noexcept {
+std::size_t MatrixLayout::numCells() const noexcept {
   return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
 }
 
@@ -55,7 +55,7 @@ void MatrixLayout::validate() const {
   if (!std::isfinite(pitchMm) || pitchMm <= 0.0 || pitchMm > 1000.0)
     throw std::invalid_argument("MatrixLayout: pitchMm must be above 0 and at most 1000 mm, is " +
                                 std::to_string(pitchMm));
-  if (staticMask.size() != numPlaces() || dynamicMask.size() != numPlaces())
+  if (staticMask.size() != numCells() || dynamicMask.size() != numCells())
     throw std::invalid_argument("MatrixLayout: a mask has not rows * columns places");
 }
 
@@ -64,7 +64,7 @@ SensorLayout::SensorLayout(std::vector<MatrixLayout> matrices) : matrices_(std::
   for (const MatrixLayout& matrix : matrices_) {
     matrix.validate();
     offsets_.push_back(numPlaces_);
-    numPlaces_ += matrix.numPlaces();
+    numPlaces_ += matrix.numCells();
   }
 }
 

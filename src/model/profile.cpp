@@ -48,7 +48,7 @@ TactileFrame Profile::frame(std::size_t frame) const {
 void Profile::readFrame(std::size_t frame, TactileFrame& out) const {
   check("frame", frame, numFrames());
   out.layout = data_->hand.layout;
-  out.values.resize(layout().numPlaces());
+  out.values.resize(layout().numCells());
   out.filtered.clear();
   out.hostUs = data_->storage->frameTimeUs(frame);
   data_->storage->readFrame(frame, out);

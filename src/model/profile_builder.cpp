@@ -122,8 +122,8 @@ ProfileBuilder::~ProfileBuilder() = default;
 ProfileBuilder::ProfileBuilder(ProfileBuilder&&) noexcept = default;
 
 void ProfileBuilder::require(std::int64_t hostUs, std::span<const float> values) const {
-  if (values.size() != layout_->numPlaces())
-    throw std::invalid_argument("frame: expected " + std::to_string(layout_->numPlaces()) +
+  if (values.size() != layout_->numCells())
+    throw std::invalid_argument("frame: expected " + std::to_string(layout_->numCells()) +
                                 " values, got " + std::to_string(values.size()));
   const auto last = storage_->lastFrameUs();
   if (last && hostUs <= *last)

@@ -11,8 +11,8 @@ namespace {
 constexpr double kLeastDeadZoneKpa = 0.05;
 
 // Column 0, rows 7 to 13 of a proximal pad.
-std::vector<RaisedTaxel> raisedEdge(const double (&lines)[7][3]) {
-  std::vector<RaisedTaxel> edge;
+std::vector<OffsetTaxel> raisedEdge(const double (&lines)[7][3]) {
+  std::vector<OffsetTaxel> edge;
   for (const auto& [intercept, slope, sd] : lines)
     edge.push_back({42 + 6 * edge.size(), intercept, slope, sd});
   return edge;
@@ -67,11 +67,11 @@ SensorCharacteristics sensorCharacteristicsMakeSdh2() {
   std::copy(std::begin(plane), std::end(plane), sensor.pressure);
   sensor.countsPerMean = 4.75;
   sensor.thresholdKpa = 1.0;
-  sensor.spreadShare = 0.10;
+  sensor.neighbourFraction = 0.10;
   sensor.largestCounts = static_cast<double>(kSdh2LargestCounts);
   sensor.lag1S = 0.12;
   sensor.lag2S = 0.04;
-  sensor.creepShare = 0.15;  // in 5 s: 3 % of the step per second at first
+  sensor.creepFraction = 0.15;  // in 5 s: 3 % of the step per second at first
   sensor.creepS = 5.0;
   sensor.releaseS = 0.03;
   return sensor;

@@ -6,7 +6,7 @@
 namespace palpate {
 
 TactileFrame::TactileFrame(std::shared_ptr<const SensorLayout> sensorLayout)
-    : layout(std::move(sensorLayout)), values(layout->numPlaces(), 0.0F) {}
+    : layout(std::move(sensorLayout)), values(layout->numCells(), 0.0F) {}
 
 ConstMatrixMap TactileFrame::matrix(std::size_t index) const {
   const MatrixLayout& shape = layout->matrix(index);
@@ -24,10 +24,10 @@ ConstMatrixMap TactileFrame::allValues(std::size_t index) const {
 }
 
 void TactileFrame::setFiltered(std::vector<float> all, const std::vector<bool>& active) {
-  if (all.size() != layout->numPlaces() || active.size() != all.size())
+  if (all.size() != layout->numCells() || active.size() != all.size())
     throw std::invalid_argument("TactileFrame: " + std::to_string(all.size()) + " values and " +
                                 std::to_string(active.size()) + " marks for " +
-                                std::to_string(layout->numPlaces()) + " places");
+                                std::to_string(layout->numCells()) + " places");
   filtered.clear();
   bool same = true;
   for (std::size_t i = 0; i < all.size() && same; ++i) same = active[i] || all[i] == 0.0F;

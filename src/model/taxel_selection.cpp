@@ -9,7 +9,7 @@ namespace palpate {
 
 TaxelSelection::TaxelSelection(const SensorLayout& layout) {
   for (const MatrixLayout& matrix : layout.matrices()) {
-    masks_.emplace_back(matrix.numPlaces(), std::uint8_t{0});
+    masks_.emplace_back(matrix.numCells(), std::uint8_t{0});
     exists_.push_back(matrix.staticMask);
     sizes_.push_back({matrix.rows, matrix.columns});
   }

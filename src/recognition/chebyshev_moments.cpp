@@ -46,12 +46,15 @@ CentralMoments centralMoments(const Eigen::MatrixXd& picture, double cx, double 
   return mu;
 }
 
-void setAngle(const CentralMoments& mu, double size, PictureAngle how, ChebyshevInvariants& out) {
+void setAngle(const CentralMoments& mu,
+              double size,
+              ImageOrientation how,
+              ChebyshevInvariants& out) {
   const double spread = std::abs(mu.mu20) + std::abs(mu.mu02);
   const double difference = mu.mu20 - mu.mu02;
-  if (how == PictureAngle::kNone) return;
+  if (how == ImageOrientation::kNone) return;
   if (std::hypot(difference, 2.0 * mu.mu11) <= kRound * spread) return;
-  if (how == PictureAngle::kStudy) {
+  if (how == ImageOrientation::kStudy) {
     out.angleRad = 0.5 * std::atan(2.0 * mu.mu11 / difference);
     out.angleDetermined = true;
     return;
@@ -105,7 +108,7 @@ Eigen::MatrixXd chebyshevMoments(const Eigen::MatrixXd& picture, const Chebyshev
 
 ChebyshevInvariants chebyshevInvariants(const Eigen::MatrixXd& picture,
                                         const ChebyshevPolynomials& of,
-                                        PictureAngle angle) {
+                                        ImageOrientation angle) {
   requirePicture(picture, of);
   const int orders = of.order() + 1;
   ChebyshevInvariants out;
@@ -133,9 +136,9 @@ ChebyshevInvariants chebyshevInvariants(const Eigen::MatrixXd& picture,
   return out;
 }
 
-Eigen::MatrixXd pictureOf(const Eigen::MatrixXd& moments, const ChebyshevPolynomials& of) {
+Eigen::MatrixXd reconstructImage(const Eigen::MatrixXd& moments, const ChebyshevPolynomials& of) {
   if (moments.rows() != of.order() + 1 || moments.cols() != of.order() + 1)
-    throw std::invalid_argument("pictureOf: " + std::to_string(moments.rows()) + " x " +
+    throw std::invalid_argument("reconstructImage: " + std::to_string(moments.rows()) + " x " +
                                 std::to_string(moments.cols()) + " moments for order " +
                                 std::to_string(of.order()));
   Eigen::MatrixXd values(of.order() + 1, of.size());
@@ -143,18 +146,18 @@ Eigen::MatrixXd pictureOf(const Eigen::MatrixXd& moments, const ChebyshevPolynom
   return values.transpose() * moments.transpose() * values;
 }
 
-double pictureError(const Eigen::MatrixXd& picture, const Eigen::MatrixXd& approximation) {
+double reconstructionError(const Eigen::MatrixXd& picture, const Eigen::MatrixXd& approximation) {
   if (picture.rows() != approximation.rows() || picture.cols() != approximation.cols())
-    throw std::invalid_argument("pictureError: pictures of different sizes");
+    throw std::invalid_argument("reconstructionError: pictures of different sizes");
   const double wrong = (picture - approximation).squaredNorm(), all = picture.squaredNorm();
   if (all > 0.0) return std::sqrt(wrong / all);
   return wrong > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
 }
 
-Eigen::MatrixXd inSquare(const Eigen::MatrixXd& picture, int size, int above, int left) {
+Eigen::MatrixXd padToSquare(const Eigen::MatrixXd& picture, int size, int above, int left) {
   if (above < 0 || left < 0 || above + picture.rows() > size || left + picture.cols() > size)
-    throw std::invalid_argument("inSquare: a picture of " + std::to_string(picture.rows()) + " x " +
-                                std::to_string(picture.cols()) + " doesn't fit at (" +
+    throw std::invalid_argument("padToSquare: a picture of " + std::to_string(picture.rows()) +
+                                " x " + std::to_string(picture.cols()) + " doesn't fit at (" +
                                 std::to_string(left) + ", " + std::to_string(above) + ") of " +
                                 std::to_string(size));
   Eigen::MatrixXd square = Eigen::MatrixXd::Zero(size, size);

@@ -18,7 +18,7 @@ double ratio(std::size_t part, std::size_t whole) {
 
 }  // namespace
 
-ShareInterval wilsonInterval(std::size_t successes, std::size_t trials, double z) {
+BinomialInterval wilsonInterval(std::size_t successes, std::size_t trials, double z) {
   if (successes > trials)
     throw std::invalid_argument("wilsonInterval: " + std::to_string(successes) + " of " +
                                 std::to_string(trials));
@@ -64,8 +64,8 @@ std::size_t ConfusionMatrix::at(int truth, int called) const {
 
 double ConfusionMatrix::accuracy() const noexcept { return ratio(right_, total_); }
 
-std::vector<ClassFigures> ConfusionMatrix::figures() const {
-  std::vector<ClassFigures> all;
+std::vector<ClassMetrics> ConfusionMatrix::classMetrics() const {
+  std::vector<ClassMetrics> all;
   for (std::size_t c = 0; c < classes_.size(); ++c) {
     std::size_t are = 0, called = 0;
     for (std::size_t k = 0; k < classes_.size(); ++k) {
@@ -81,7 +81,7 @@ std::vector<ClassFigures> ConfusionMatrix::figures() const {
 }
 
 Json ConfusionMatrix::classesJson() const {
-  return jsonList(figures(), [](const ClassFigures& one) {
+  return jsonList(classMetrics(), [](const ClassMetrics& one) {
     return Json::object()
         .set("name", one.name)
         .set("precision", one.precision)
@@ -106,7 +106,7 @@ Json ConfusionMatrix::confusionJson() const {
   return Json::object().set("labels", std::move(labels)).set("counts", std::move(rows));
 }
 
-std::vector<CoveragePoint> coverageCurve(std::vector<ConfidentAnswer> answers) {
+std::vector<CoveragePoint> coverageCurve(std::vector<ScoredPrediction> answers) {
   std::sort(answers.begin(), answers.end(), [](const auto& a, const auto& b) {
     return a.confidence > b.confidence;
   });
@@ -121,7 +121,7 @@ std::vector<CoveragePoint> coverageCurve(std::vector<ConfidentAnswer> answers) {
   return curve;
 }
 
-double sureThreshold(const std::vector<ConfidentAnswer>& answers, double target) {
+double confidenceThreshold(const std::vector<ScoredPrediction>& answers, double target) {
   double threshold = 2.0;
   for (const CoveragePoint& point : coverageCurve(answers)) {
     const auto right =
@@ -132,9 +132,9 @@ double sureThreshold(const std::vector<ConfidentAnswer>& answers, double target)
   return threshold;
 }
 
-double calibrationError(std::span<const ConfidentAnswer> answers) {
+double expectedCalibrationError(std::span<const ScoredPrediction> answers) {
   std::vector<double> confidence(kBins, 0.0), right(kBins, 0.0);
-  for (const ConfidentAnswer& answer : answers) {
+  for (const ScoredPrediction& answer : answers) {
     const auto bin = std::min(kBins - 1,
                               static_cast<std::size_t>(std::clamp(answer.confidence, 0.0, 1.0) *
                                                        static_cast<double>(kBins)));

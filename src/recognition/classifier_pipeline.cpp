@@ -24,7 +24,7 @@ constexpr std::array<std::pair<ClassifierKind, std::string_view>, 4> kNames{{
 
 ClassGaussianOptions gaussianOf(const PipelineOptions& options) {
   ClassGaussianOptions gaussian = options.gaussian;
-  if (options.classifier == ClassifierKind::kLda) gaussian.pooledShare = 1.0;
+  if (options.classifier == ClassifierKind::kLda) gaussian.pooledFraction = 1.0;
   return gaussian;
 }
 
@@ -161,7 +161,8 @@ ClassifierPipeline ofDay(const SampleSet& samples) {
   ClassifierPipeline pipeline;
   pipeline.classifier = ClassifierKind::kGauss;
   pipeline.numClasses = samples.numClasses();
-  pipeline.day = DayModel::learn(samples.x, samples.y, samples.classes, samples.features);
+  pipeline.day =
+      SessionAdaptiveClassifier::learn(samples.x, samples.y, samples.classes, samples.features);
   pipeline.calibrated = true;
   return pipeline;
 }
@@ -176,11 +177,11 @@ Eigen::VectorXd separationWeights(const Eigen::MatrixXd& means, const Eigen::Vec
   return weights.sum() > 0.0 ? Eigen::VectorXd(weights / weights.sum()) : weights;
 }
 
-Eigen::VectorXd separationWeights(const DayModel& day) {
-  const DayModelData& data = day.data();
-  Eigen::MatrixXd means(static_cast<Eigen::Index>(data.bells.size()), data.pooled.cols());
-  for (std::size_t c = 0; c < data.bells.size(); ++c)
-    means.row(static_cast<Eigen::Index>(c)) = data.bells[c].mean.transpose();
+Eigen::VectorXd separationWeights(const SessionAdaptiveClassifier& day) {
+  const SessionAdaptiveParameters& data = day.data();
+  Eigen::MatrixXd means(static_cast<Eigen::Index>(data.classComponents.size()), data.pooled.cols());
+  for (std::size_t c = 0; c < data.classComponents.size(); ++c)
+    means.row(static_cast<Eigen::Index>(c)) = data.classComponents[c].mean.transpose();
   return separationWeights(means, data.pooled.diagonal());
 }
 
@@ -237,7 +238,7 @@ ClassifierPipeline ClassifierPipeline::of(const SampleSet& samples,
   pipeline.novelty = GaussianClassifier::of(projected(pipeline, samples.x),
                                             samples.y,
                                             samples.numClasses(),
-                                            {.pooledShare = 0.5, .ridge = 1e-2});
+                                            {.pooledFraction = 0.5, .ridge = 1e-2});
   return pipeline;
 }
 
@@ -262,7 +263,7 @@ Eigen::MatrixXd ClassifierPipeline::probabilities(const Eigen::MatrixXd& x) cons
   if (day) {
     Eigen::MatrixXd all(x.rows(), static_cast<Eigen::Index>(numClasses));
     for (Eigen::Index i = 0; i < x.rows(); ++i)
-      all.row(i) = judge(*day, x.row(i).transpose(), givenOffset(0.0)).probability.transpose();
+      all.row(i) = predict(*day, x.row(i).transpose(), givenOffset(0.0)).probability.transpose();
     return all;
   }
   if (classifier != ClassifierKind::kSvm) return softmaxRows(scores(x), exponent);
@@ -273,11 +274,11 @@ Eigen::MatrixXd ClassifierPipeline::probabilities(const Eigen::MatrixXd& x) cons
   return all;
 }
 
-Eigen::VectorXd ClassifierPipeline::noveltyOf(const Eigen::MatrixXd& x) const {
+Eigen::VectorXd ClassifierPipeline::noveltyScores(const Eigen::MatrixXd& x) const {
   if (day) {
     Eigen::VectorXd all(x.rows());
     for (Eigen::Index i = 0; i < x.rows(); ++i)
-      all[i] = -judge(*day, x.row(i).transpose(), givenOffset(0.0)).knownness;
+      all[i] = -predict(*day, x.row(i).transpose(), givenOffset(0.0)).logLikelihoodRatio;
     return all;
   }
   if (novelty.classes.empty()) throw std::invalid_argument("ClassifierPipeline: not calibrated");

@@ -12,7 +12,7 @@
 namespace palpate {
 namespace {
 
-std::vector<ExaminedSample> examine(const SampleSet& samples,
+std::vector<TestPrediction> examine(const SampleSet& samples,
                                     const PipelineOptions& options,
                                     const SampleSplit& split,
                                     std::size_t number) {
@@ -21,21 +21,21 @@ std::vector<ExaminedSample> examine(const SampleSet& samples,
   const Eigen::MatrixXd scores =
       pipeline.calibrated ? pipeline.probabilities(test.x) : pipeline.scores(test.x);
   const Eigen::VectorXd novelty =
-      pipeline.calibrated ? pipeline.noveltyOf(test.x) : Eigen::VectorXd::Zero(test.x.rows());
-  std::vector<ExaminedSample> examined;
+      pipeline.calibrated ? pipeline.noveltyScores(test.x) : Eigen::VectorXd::Zero(test.x.rows());
+  std::vector<TestPrediction> testPredictions;
   for (Eigen::Index i = 0; i < test.x.rows(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const std::vector<int> order = rankedClasses(scores.row(i).transpose());
     const auto top =
         order.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(3, order.size()));
-    examined.push_back({split.test[at],
-                        number,
-                        order.front(),
-                        std::find(order.begin(), top, test.y[at]) != top,
-                        pipeline.calibrated ? scores(i, order.front()) : 0.0,
-                        novelty[i]});
+    testPredictions.push_back({split.test[at],
+                               number,
+                               order.front(),
+                               std::find(order.begin(), top, test.y[at]) != top,
+                               pipeline.calibrated ? scores(i, order.front()) : 0.0,
+                               novelty[i]});
   }
-  return examined;
+  return testPredictions;
 }
 
 double meanOf(const std::vector<double>& values) {
@@ -51,23 +51,23 @@ double sdOf(const std::vector<double>& values) {
 }
 
 ValidationReport crossValidationReportOf(const SampleSet& samples,
-                                         const std::vector<std::vector<ExaminedSample>>& perSplit) {
+                                         const std::vector<std::vector<TestPrediction>>& perSplit) {
   ValidationReport report(samples.classes);
   std::size_t inTop3 = 0;
   for (const auto& split : perSplit) {
     std::size_t right = 0;
-    for (const ExaminedSample& one : split) {
+    for (const TestPrediction& one : split) {
       const int truth = samples.y[one.sample];
       report.confusion.add(truth, one.called);
       right += one.called == truth ? 1 : 0;
       inTop3 += one.inTop3 ? 1 : 0;
-      report.examined.push_back(one);
+      report.testPredictions.push_back(one);
     }
     report.accuracies.push_back(static_cast<double>(right) / static_cast<double>(split.size()));
   }
   report.accuracyMean = meanOf(report.accuracies);
   report.accuracySd = sdOf(report.accuracies);
-  report.top3 = static_cast<double>(inTop3) / static_cast<double>(report.examined.size());
+  report.top3 = static_cast<double>(inTop3) / static_cast<double>(report.testPredictions.size());
   return report;
 }
 
@@ -88,7 +88,7 @@ ValidationReport crossValidate(const SampleSet& samples,
   options.validate();
   requireLearnable(samples);
   requireSplits(splits);
-  std::vector<std::vector<ExaminedSample>> perSplit(splits.size());
+  std::vector<std::vector<TestPrediction>> perSplit(splits.size());
   forEachInParallel(
       splits.size(),
       [&](std::size_t i) { perSplit[i] = examine(samples, options, splits[i], i); },
@@ -105,8 +105,8 @@ std::vector<ValidationReport> crossValidateAll(const SampleSet& samples,
   for (const PipelineOptions& one : options) one.validate();
   requireLearnable(samples);
   requireSplits(splits);
-  std::vector<std::vector<std::vector<ExaminedSample>>> all(
-      options.size(), std::vector<std::vector<ExaminedSample>>(splits.size()));
+  std::vector<std::vector<std::vector<TestPrediction>>> all(
+      options.size(), std::vector<std::vector<TestPrediction>>(splits.size()));
   forEachInParallel(
       options.size() * splits.size(),
       [&](std::size_t i) {

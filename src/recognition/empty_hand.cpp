@@ -6,8 +6,8 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
-#include "palpate/recognition/day_features.h"
 #include "palpate/recognition/grasp_features.h"
+#include "palpate/recognition/plateau_features.h"
 
 namespace palpate {
 namespace {
@@ -38,8 +38,9 @@ void EmptyHandOptions::validate() const {
   require(foamMm >= 0.0 && std::isfinite(foamMm), "foamMm must be >= 0");
   require(foamRelativeSd >= 0.0 && std::isfinite(foamRelativeSd), "foamRelativeSd must be >= 0");
   require(touchSdMm > 0.0 && std::isfinite(touchSdMm), "touchSdMm must be > 0");
-  require(transferPart >= 0.0 && std::isfinite(transferPart), "transferPart must be >= 0");
-  require(mostMm > 0.0 && std::isfinite(mostMm), "mostMm must be > 0");
+  require(transferSdFraction >= 0.0 && std::isfinite(transferSdFraction),
+          "transferSdFraction must be >= 0");
+  require(maxZeroMm > 0.0 && std::isfinite(maxZeroMm), "maxZeroMm must be > 0");
 }
 
 EmptyHandZero emptyHandZero(const Profile& profile,
@@ -48,25 +49,25 @@ EmptyHandZero emptyHandZero(const Profile& profile,
                             const Progress& progress) {
   options.validate();
   EmptyHandZero out;
-  out.trouble = hand.mismatch(profile);
-  if (!out.trouble.empty()) return out;
+  out.problem = hand.mismatch(profile);
+  if (!out.problem.empty()) return out;
   PinchHand pinch = hand;  // its own two pads only
   pinch.otherPads.clear();
   std::vector<double> zeros;
   for (const GraspSegment& touch : findPinches(profile, pinch, progress)) {
-    const DayFeatures found = dayFeatures(profile, touch, pinch);
-    if (!found.trouble.empty()) {
+    const PlateauFeatures found = plateauFeatures(profile, touch, pinch);
+    if (!found.problem.empty()) {
       ++out.leftOut;
-      out.trouble = found.trouble;
+      out.problem = found.problem;
       continue;
     }
     double foam = 0.0;
     for (const PlateauPad& pad : found.pads)
       foam += options.foamMm * std::sqrt(std::exp(pad.lnPeak) / kCountsOfFoamMm);
     const double zero = found.distanceMm + foam;
-    if (std::abs(zero) > options.mostMm) {
+    if (std::abs(zero) > options.maxZeroMm) {
       ++out.leftOut;
-      out.trouble = "the pads seem to be " + fixedText(zero, 1) +
+      out.problem = "the pads seem to be " + fixedText(zero, 1) +
                     " mm apart while they touch: the hand isn't empty, or its joints are far off";
       continue;
     }
@@ -76,11 +77,11 @@ EmptyHandZero emptyHandZero(const Profile& profile,
   }
   out.touches = zeros.size();
   if (zeros.empty()) {
-    if (out.trouble.empty())
-      out.trouble = "no touch: the pads never touch for more than 20 frames in a row";
+    if (out.problem.empty())
+      out.problem = "no touch: the pads never touch for more than 20 frames in a row";
     return out;
   }
-  out.trouble.clear();
+  out.problem.clear();
   const auto count = static_cast<double>(zeros.size());
   out.foamMm /= count;
   for (const double zero : zeros) out.mm += zero / count;
@@ -99,16 +100,16 @@ SessionOffset emptyHandOffset(const EmptyHandZero& today,
                               const SessionOffsetOptions& grid) {
   options.validate();
   for (const EmptyHandZero* zero : {&today, &training})
-    if (!zero->trouble.empty() || zero->touches == 0)
+    if (!zero->problem.empty() || zero->touches == 0)
       throw std::invalid_argument("emptyHandOffset: a zero that isn't there");
   const double mm = today.mm - training.mm;
   const double foamSd = options.foamRelativeSd * (today.foamMm - training.foamMm);
-  const double transferSd = options.transferPart * mm;
+  const double transferSd = options.transferSdFraction * mm;
   SessionOffset out =
       measuredOffset(mm,
                      std::sqrt(today.sdMm * today.sdMm + training.sdMm * training.sdMm +
                                foamSd * foamSd + transferSd * transferSd),
-                     OffsetOrigin::kEmptyHand,
+                     OffsetSource::kEmptyHand,
                      grid);
   out.grasps = today.touches;
   return out;

@@ -23,7 +23,7 @@ struct Source {
 // What came of one recording.
 struct Gathered {
   std::vector<FeatureRow> rows;
-  std::vector<std::string> troubles;
+  std::vector<std::string> problems;
   std::string sensor;
   bool failed = false;
   std::size_t failedGrasps = 0;
@@ -33,19 +33,19 @@ std::string spanText(const GraspFeatures& grasp) {
   return "grasp " + std::to_string(grasp.begin) + ".." + std::to_string(grasp.end);
 }
 
-Gathered gather(const Source& source, const FeatureGatherOptions& options) {
+Gathered gather(const Source& source, const FeatureExtractionOptions& options) {
   Gathered out;
   const auto say = [&](const std::string& what) {
-    out.troubles.push_back(source.file.string() + ": " + what);
+    out.problems.push_back(source.file.string() + ": " + what);
   };
   try {
     const Profile profile = openRecording(source.file);
     RecordingFeatures found = recordingFeatures(profile, options.set, options.hand);
-    if (!found.trouble.empty()) say(found.trouble);
+    if (!found.problem.empty()) say(found.problem);
     out.sensor = sensorText(profile.layout());
     for (GraspFeatures& grasp : found.grasps) {
-      if (!grasp.trouble.empty()) {
-        say(spanText(grasp) + ": " + grasp.trouble);
+      if (!grasp.problem.empty()) {
+        say(spanText(grasp) + ": " + grasp.problem);
         ++out.failedGrasps;
         continue;
       }
@@ -59,7 +59,7 @@ Gathered gather(const Source& source, const FeatureGatherOptions& options) {
                           .values = std::move(grasp.values)});
     }
   } catch (const Error& error) {
-    out.troubles.emplace_back(error.what());  // names the file
+    out.problems.emplace_back(error.what());  // names the file
     out.failed = true;
   }
   return out;
@@ -72,12 +72,12 @@ fs::path withoutSlash(const fs::path& folder) {
 // Adds the recordings of a folder; what can't be looked into is said.
 void addFolder(const fs::path& folder,
                std::vector<Source>& sources,
-               std::vector<std::string>& troubles) {
+               std::vector<std::string>& problems) {
   RecordingFolder found = recordingsBelow(folder);
-  if (found.files.empty() && found.troubles.empty())
-    troubles.push_back(folder.string() +
+  if (found.files.empty() && found.problems.empty())
+    problems.push_back(folder.string() +
                        ": no recording (.palpate, .dsa) lies in this folder or below it");
-  std::move(found.troubles.begin(), found.troubles.end(), std::back_inserter(troubles));
+  std::move(found.problems.begin(), found.problems.end(), std::back_inserter(problems));
   for (const fs::path& file : found.files) {
     const fs::path rest = file.lexically_relative(folder);
     const bool inClass = !rest.empty() && std::next(rest.begin()) != rest.end();
@@ -144,9 +144,9 @@ std::string classOfFolder(const fs::path& folder) {
   return name;
 }
 
-FeatureTable gatherFeatures(const std::vector<fs::path>& paths,
-                            const FeatureGatherOptions& options,
-                            const Progress& progress) {
+FeatureTable extractFeatures(const std::vector<fs::path>& paths,
+                             const FeatureExtractionOptions& options,
+                             const Progress& progress) {
   options.hand.validate();
   FeatureTable table;
   table.set = options.set;
@@ -155,7 +155,7 @@ FeatureTable gatherFeatures(const std::vector<fs::path>& paths,
   for (const fs::path& path : paths) {
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) {
-      addFolder(path, sources, table.troubles);
+      addFolder(path, sources, table.problems);
     } else if (fs::exists(path, ignored)) {
       sources.push_back({path, {}});
     } else {
@@ -174,7 +174,7 @@ FeatureTable gatherFeatures(const std::vector<fs::path>& paths,
     Gathered& of = gathered[i];
     table.failedFiles += of.failed ? 1 : 0;
     table.failedGrasps += of.failedGrasps;
-    std::move(of.troubles.begin(), of.troubles.end(), std::back_inserter(table.troubles));
+    std::move(of.problems.begin(), of.problems.end(), std::back_inserter(table.problems));
     if (!of.rows.empty() && table.sensor.empty()) table.sensor = of.sensor;
     std::move(of.rows.begin(), of.rows.end(), std::back_inserter(table.rows));
   }

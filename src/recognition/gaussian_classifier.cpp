@@ -37,8 +37,8 @@ std::vector<Eigen::MatrixXd> classCovariances(const WithinScatter& within,
 }  // namespace
 
 void ClassGaussianOptions::validate() const {
-  requireShare(pooledShare, 1.0, "pooledShare");
-  requireShare(offDiagonal, 1.0, "offDiagonal");
+  requireShare(pooledFraction, 1.0, "pooledFraction");
+  requireShare(correlationScale, 1.0, "correlationScale");
   requireShare(extraVariance, 1e6, "extraVariance");
   if (!(ridge >= 1e-9) || !(ridge <= 1.0))
     throw std::invalid_argument("ClassGaussianOptions: ridge must be 1e-9 .. 1");
@@ -66,9 +66,9 @@ GaussianClassifier GaussianClassifier::of(const Eigen::MatrixXd& x,
     one.mean = within.means.row(static_cast<Eigen::Index>(c)).transpose();
     Eigen::MatrixXd covariance = pooled;
     if (own[c].size() > 0)
-      covariance = (1.0 - options.pooledShare) * own[c] + options.pooledShare * pooled;
+      covariance = (1.0 - options.pooledFraction) * own[c] + options.pooledFraction * pooled;
     const Eigen::VectorXd diagonal = covariance.diagonal();
-    covariance *= options.offDiagonal;
+    covariance *= options.correlationScale;
     covariance.diagonal() = diagonal + options.extraVariance * pooled.diagonal();
     covariance.diagonal().array() += options.ridge * (level > 0.0 ? level : 1.0);
     const Eigen::LLT<Eigen::MatrixXd> factor(covariance);

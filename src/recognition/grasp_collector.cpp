@@ -18,12 +18,12 @@ constexpr std::size_t kAnglesWithoutFrames = 2000;
 }  // namespace
 
 void GraspCollectorOptions::validate() const {
-  if (fewestFingers < 1 || fewestFingers > kMostFingers)
-    throw std::invalid_argument("fewestFingers must lie in 1..8");
+  if (minFingers < 1 || minFingers > kMostFingers)
+    throw std::invalid_argument("minFingers must lie in 1..8");
   if (framesAfter < bridgedFrames)
     throw std::invalid_argument("framesAfter must be bridgedFrames or more");
-  if (mostFrames <= moreThanFrames)
-    throw std::invalid_argument("mostFrames must be more than moreThanFrames");
+  if (maxFrames <= moreThanFrames)
+    throw std::invalid_argument("maxFrames must be more than moreThanFrames");
 }
 
 GraspCollector::GraspCollector(HandDescription hand, GraspCollectorOptions options)
@@ -51,11 +51,11 @@ bool GraspCollector::contactIn(const TactileFrame& frame) const {
     if (fingers[finger % kMostFingers]) continue;
     if ((frame.matrix(m).array() > 0.0F).any()) fingers.set(finger % kMostFingers);
   }
-  return fingers.count() >= options_.fewestFingers;
+  return fingers.count() >= options_.minFingers;
 }
 
 void GraspCollector::addFrame(std::shared_ptr<const TactileFrame> frame) {
-  if (!frame || frame->values.size() != static_cast<std::size_t>(hand_.layout->numPlaces())) return;
+  if (!frame || frame->values.size() != static_cast<std::size_t>(hand_.layout->numCells())) return;
   if (!frames_.empty() && frame->hostUs <= frames_.back()->hostUs) return;
   if (gaps_.afterGap(frame->hostUs)) {
     finish();
@@ -86,7 +86,7 @@ void GraspCollector::addFrame(std::shared_ptr<const TactileFrame> frame) {
   without_ = contact ? 0 : without_ + 1;
   if (contact) lastTouchUs_ = frame->hostUs;
   ++contactFrames_;
-  if (contactFrames_ <= options_.mostFrames) frames_.push_back(frame);
+  if (contactFrames_ <= options_.maxFrames) frames_.push_back(frame);
   if (without_ >= options_.framesAfter) finish();
 }
 
@@ -96,7 +96,7 @@ void GraspCollector::addAngles(JointAngles angles) {
     return;
   // Behind the last frame that is kept only the newest sample is of use: to the frames that are
   // kept next.
-  const bool beyond = contactFrames_ > options_.mostFrames && angles_.size() > 1 &&
+  const bool beyond = contactFrames_ > options_.maxFrames && angles_.size() > 1 &&
                       angles_.back().hostUs > frames_.back()->hostUs;
   if (beyond) angles_.pop_back();
   angles_.push_back(std::move(angles));
@@ -146,8 +146,8 @@ ChosenGrasp graspWithin(const Profile& profile,
                             " of " + std::to_string(profile.numFrames()));
   ChosenGrasp out;
   out.timeUs = profile.frameTimeUs(first);
-  out.features.trouble = hand.mismatch(profile);
-  if (!out.features.trouble.empty()) return out;
+  out.features.problem = hand.mismatch(profile);
+  if (!out.features.problem.empty()) return out;
   const bool part = first > 0 || last + 1 < profile.numFrames();
   const Profile seen = part ? cropped(profile, first, last, progress) : profile;
   const auto length = [](const GraspSegment& grasp) { return grasp.end - grasp.begin; };
@@ -155,7 +155,7 @@ ChosenGrasp graspWithin(const Profile& profile,
   const auto longest = std::max_element(
       found.begin(), found.end(), [&](auto& a, auto& b) { return length(a) < length(b); });
   if (longest == found.end()) {
-    out.features.trouble = "no grasp: matrices " + std::to_string(hand.pads[0]) + " and " +
+    out.features.problem = "no grasp: matrices " + std::to_string(hand.pads[0]) + " and " +
                            std::to_string(hand.pads[1]) +
                            " never touch together for more than 20 frames in a row";
     return out;
@@ -176,7 +176,7 @@ ChosenGrasp graspOf(const Profile& profile,
   if (profile.numFrames() > 0)
     return graspWithin(profile, 0, profile.numFrames() - 1, set, hand, progress);
   ChosenGrasp out;
-  out.features.trouble = "no frame";
+  out.features.problem = "no frame";
   return out;
 }
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "palpate/recognition/day_features.h"
+#include "palpate/recognition/plateau_features.h"
 #include "palpate/recognition/study_features.h"
 
 namespace palpate {
@@ -15,7 +15,7 @@ std::array<double, kSessionPadNames.size()> sessionOf(const PlateauPad& pad) {
   return {pad.row, pad.column, pad.lnSum, pad.lnPeak, pad.lnMajor, pad.lnMinor};
 }
 
-void appendSession(const DayFeatures& day, const PinchHand& hand, std::vector<double>& values) {
+void appendSession(const PlateauFeatures& day, const PinchHand& hand, std::vector<double>& values) {
   for (const std::size_t axis : hand.gripAxes) values.push_back(day.plateauAnglesDeg[axis]);
   for (const PlateauPad& pad : day.pads)
     for (const double value : sessionOf(pad)) values.push_back(value);
@@ -42,7 +42,7 @@ std::optional<FeatureSet> featureSetNamed(std::string_view name) noexcept {
 
 std::vector<std::string> featureNames(FeatureSet set, const PinchHand& hand) {
   if (set == FeatureSet::kStudy) return studyFeatureNames(hand);
-  std::vector<std::string> names = dayFeatureNames();
+  std::vector<std::string> names = plateauFeatureNames();
   if (set == FeatureSet::kBest) return names;
   for (const std::size_t axis : hand.gripAxes) names.push_back("angle_" + std::to_string(axis));
   for (const std::size_t pad : hand.pads)
@@ -65,17 +65,17 @@ GraspFeatures graspFeatures(const Profile& profile,
   out.end = grasp.end;
   if (set == FeatureSet::kStudy) {
     StudyFeatures study = studyFeatures(profile, grasp, hand);
-    out.trouble = std::move(study.trouble);
+    out.problem = std::move(study.problem);
     out.initialFrame = study.initialFrame;
     out.endFrame = study.endFrame;
     out.values = std::move(study.values);
     return out;
   }
-  DayFeatures day = dayFeatures(profile, grasp, hand);
-  out.trouble = std::move(day.trouble);
+  PlateauFeatures day = plateauFeatures(profile, grasp, hand);
+  out.problem = std::move(day.problem);
   out.initialFrame = day.startFrame;
   out.endFrame = day.plateauEndFrame;
-  if (!out.trouble.empty()) return out;
+  if (!out.problem.empty()) return out;
   out.values = std::move(day.values);
   if (set == FeatureSet::kSession) appendSession(day, hand, out.values);
   return out;
@@ -95,12 +95,12 @@ RecordingFeatures recordingFeatures(const Profile& profile,
                                     const PinchHand& hand,
                                     const Progress& progress) {
   RecordingFeatures out;
-  out.trouble = hand.mismatch(profile);
-  if (!out.trouble.empty()) return out;
+  out.problem = hand.mismatch(profile);
+  if (!out.problem.empty()) return out;
   for (const GraspSegment& grasp : findPinches(profile, hand, progress))
     out.grasps.push_back(graspFeatures(profile, grasp, set, hand));
   if (out.grasps.empty())
-    out.trouble = "no grasp: matrices " + std::to_string(hand.pads[0]) + " and " +
+    out.problem = "no grasp: matrices " + std::to_string(hand.pads[0]) + " and " +
                   std::to_string(hand.pads[1]) +
                   " never touch together for more than 20 frames in a row";
   return out;

@@ -90,7 +90,7 @@ class Finder {
             return m < matrices.size() && matrices[m].active;
           });
     else
-      frame.contact = touching >= options_.fewestFingers;
+      frame.contact = touching >= options_.minFingers;
     frames_.push_back(frame);
   }
 
@@ -146,7 +146,7 @@ class Finder {
     }
     std::stable_sort(
         times.begin(), times.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    const std::size_t least = options_.rule == GraspRule::kStudy ? 0 : options_.fewestFingers;
+    const std::size_t least = options_.rule == GraspRule::kStudy ? 0 : options_.minFingers;
     for (const auto& [framesTouched, number] : times)
       if (static_cast<double>(framesTouched) >= kFingerShare * count ||
           found.fingers.size() < least)
@@ -185,9 +185,9 @@ class Finder {
 }  // namespace
 
 void GraspSegmentOptions::validate() const {
-  if (fewestFingers < 1 || fewestFingers > 8)
-    throw std::invalid_argument("GraspSegmentOptions: fewestFingers must be 1..8, is " +
-                                std::to_string(fewestFingers));
+  if (minFingers < 1 || minFingers > 8)
+    throw std::invalid_argument("GraspSegmentOptions: minFingers must be 1..8, is " +
+                                std::to_string(minFingers));
   if (!(moreThanS >= 0.0))
     throw std::invalid_argument("GraspSegmentOptions: moreThanS must be 0 or more, is " +
                                 std::to_string(moreThanS));

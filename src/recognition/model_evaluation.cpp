@@ -17,7 +17,7 @@ constexpr std::size_t kTop = 5;  // named with a verdict
 constexpr double kFarthestMm = 20.0;
 
 Json intervalJson(std::size_t part, std::size_t whole) {
-  const ShareInterval interval = wilsonInterval(part, whole);
+  const BinomialInterval interval = wilsonInterval(part, whole);
   return Json::array().push(interval.low).push(interval.high);
 }
 
@@ -36,10 +36,10 @@ std::vector<std::size_t> firstOfClasses(const std::vector<std::size_t>& session,
 }
 
 // What a session is judged with when some of its grasps are labelled.
-SessionUse adaptedUse(const TrainedModel& adapted,
-                      const Eigen::MatrixXd& x,
-                      const OffsetChoice& choice) {
-  SessionUse use;
+SessionContext adaptedUse(const TrainedModel& adapted,
+                          const Eigen::MatrixXd& x,
+                          const OffsetChoice& choice) {
+  SessionContext use;
   use.offset = adapted.offset;
   if (choice.kind == OffsetChoice::Kind::kBatch)
     use.offset = offsetFromBatch(*adapted.pipeline.day, x, adapted.offset);
@@ -52,7 +52,7 @@ Json offsetJson(const SessionOffset& offset) {
   return Json::object()
       .set("mm", offset.mm)
       .set("sd_mm", offset.sdMm)
-      .set("origin", offsetOriginName(offset.origin))
+      .set("origin", offsetSourceName(offset.origin))
       .set("grasps", offset.grasps)
       .set("objects", offset.objects)
       .set("trusted", offset.trusted);
@@ -71,16 +71,16 @@ OffsetChoice OffsetChoice::from(const std::string& text) {
   return {Kind::kGiven, *mm};
 }
 
-SessionUse sessionFor(const TrainedModel& model,
-                      const Eigen::MatrixXd& x,
-                      const std::vector<std::int64_t>& timesUs,
-                      const OffsetChoice& choice) {
-  SessionUse use;
+SessionContext sessionFor(const TrainedModel& model,
+                          const Eigen::MatrixXd& x,
+                          const std::vector<std::int64_t>& timesUs,
+                          const OffsetChoice& choice) {
+  SessionContext use;
   use.sameSession =
       !timesUs.empty() && std::all_of(timesUs.begin(), timesUs.end(), [&](std::int64_t timeUs) {
         return model.sameSession(timeUs);
       });
-  if (!model.carriesOver()) {
+  if (!model.adaptsToSession()) {
     if (choice.kind == OffsetChoice::Kind::kBatch || choice.kind == OffsetChoice::Kind::kGiven)
       throw Error("a model of classifier " +
                   std::string(classifierName(model.pipeline.classifier)) +
@@ -93,16 +93,16 @@ SessionUse sessionFor(const TrainedModel& model,
   switch (choice.kind) {
     case OffsetChoice::Kind::kModel:
       use.offset = model.offset;
-      if (use.offset.origin != OffsetOrigin::kNone && use.offset.trusted && !use.sameSession) {
+      if (use.offset.origin != OffsetSource::kNone && use.offset.trusted && !use.sameSession) {
         use.offset.trusted = false;
         use.warnings.emplace_back(
             "nothing is sure: the model was adapted in another session; adapt it anew, or "
             "--session-offset batch");
-      } else if (use.offset.origin == OffsetOrigin::kNone && !use.sameSession) {
+      } else if (use.offset.origin == OffsetSource::kNone && !use.sameSession) {
         use.warnings.emplace_back(
             "nothing is sure: another session than that of the training, and its offset isn't "
             "known; adapt the model, or --session-offset batch");
-      } else if (use.offset.origin != OffsetOrigin::kNone && !use.offset.trusted) {
+      } else if (use.offset.origin != OffsetSource::kNone && !use.offset.trusted) {
         use.warnings.push_back("nothing is sure: " + use.offset.text());
       }
       break;
@@ -170,10 +170,10 @@ ModelEvaluation evaluateModel(const TrainedModel& model,
     const Eigen::MatrixXd x = samples.rows(rest).x;
     std::vector<std::int64_t> times;
     for (const std::size_t i : rest) times.push_back(timesUs[i]);
-    std::vector<Verdict> verdicts;
+    std::vector<Prediction> verdicts;
     if (labelled.empty()) {
       evaluation.sessions.push_back(sessionFor(model, x, times, options.offset));
-      const SessionUse& use = evaluation.sessions.back();
+      const SessionContext& use = evaluation.sessions.back();
       verdicts = classifyRows(model, x, use.offset, use.sameSession);
     } else {
       TrainedModel adapted = model;
@@ -183,7 +183,7 @@ ModelEvaluation evaluateModel(const TrainedModel& model,
     }
     for (std::size_t k = 0; k < rest.size(); ++k) {
       const int truth = samples.y[rest[k]];
-      Verdict& verdict = verdicts[k];
+      Prediction& verdict = verdicts[k];
       evaluation.confusion.add(truth, verdict.label);
       const auto top = verdict.ranking.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(
                                                      3, verdict.ranking.size()));
@@ -203,7 +203,7 @@ Json jsonOf(const ModelEvaluation& evaluation) {
   const std::size_t all = evaluation.confusion.total(), right = evaluation.confusion.right();
   const Json confusion = evaluation.confusion.confusionJson();
   Json sessions = Json::array(), warnings = Json::array();
-  for (const SessionUse& session : evaluation.sessions) {
+  for (const SessionContext& session : evaluation.sessions) {
     sessions.push(offsetJson(session.offset));
     for (const std::string& warning : session.warnings) warnings.push(warning);
   }
@@ -225,10 +225,10 @@ Json jsonOf(const ModelEvaluation& evaluation) {
 }
 
 std::string labelOf(const TrainedModel& model, int label) {
-  return label == Verdict::kUnknown ? "unknown" : model.classes[static_cast<std::size_t>(label)];
+  return label == Prediction::kUnknown ? "unknown" : model.classes[static_cast<std::size_t>(label)];
 }
 
-Json verdictJson(const TrainedModel& model, const FeatureRow& row, const Verdict& verdict) {
+Json predictionJson(const TrainedModel& model, const FeatureRow& row, const Prediction& verdict) {
   Json top = Json::array();
   for (std::size_t k = 0; k < std::min(kTop, verdict.ranking.size()); ++k)
     top.push(

@@ -83,11 +83,11 @@ Json jsonOf(const TrainedModel& model) {
       .set("classes", js::of(model.classes))
       .set("options", model.options)
       .set("validation", model.validation)
-      .set("sure_confidence", model.sureConfidence)
-      .set("most_novelty", model.mostNovelty)
+      .set("sure_confidence", model.minSureConfidence)
+      .set("most_novelty", model.maxNovelty)
       .set("session_offset", sessionOffsetJson(model.offset))
       .set("training_zero", jsonOf(model.trainingZero))
-      .set("today_zero", jsonOf(model.todayZero))
+      .set("today_zero", jsonOf(model.sessionZero))
       .set("inputs", jsonOf(model.inputs))
       .set("adapted_from", jsonOf(model.adaptedFrom))
       .set("pipeline", jsonOf(model.pipeline));
@@ -114,12 +114,12 @@ TrainedModel trainedModelFrom(const Json& json) {
   model.options = js::member(json, "options");
   model.validation = js::member(json, "validation");
   if (!model.options.isObject()) throw Error("model: 'options' is no object");
-  model.sureConfidence = js::number(json, "sure_confidence");
-  model.mostNovelty = js::number(json, "most_novelty");
+  model.minSureConfidence = js::number(json, "sure_confidence");
+  model.maxNovelty = js::number(json, "most_novelty");
   model.offset = sessionOffsetFrom(js::member(json, "session_offset"));
   if (version >= 2) {
     model.trainingZero = zeroFrom(json, "training_zero");
-    model.todayZero = zeroFrom(json, "today_zero");
+    model.sessionZero = zeroFrom(json, "today_zero");
   } else if (model.options.isObject() && model.options.contains(kZeroInOptions)) {
     model.trainingZero = emptyHandZeroFrom(model.options.at(kZeroInOptions));
   }
@@ -132,8 +132,8 @@ TrainedModel trainedModelFrom(const Json& json) {
 
 TrainedModel loadModel(const fs::path& path) {
   // The largest one of the study's 36 objects has 0.3 MB.
-  constexpr std::uint64_t kMostBytes = 64u << 20;
-  const std::string text = readTextFile(path, kMostBytes);
+  constexpr std::uint64_t kMaxBytes = 64u << 20;
+  const std::string text = readTextFile(path, kMaxBytes);
   try {
     return trainedModelFrom(Json::parse(text));
   } catch (const std::exception& error) {

@@ -91,7 +91,7 @@ std::vector<PipelineOptions> modelGrid(const SampleSet& samples,
   if (wanted(ClassifierKind::kLda)) add(ClassifierKind::kLda, [](PipelineOptions&) {});
   if (wanted(ClassifierKind::kQda))
     for (const double share : options.pooledShares)
-      add(ClassifierKind::kQda, [&](PipelineOptions& one) { one.gaussian.pooledShare = share; });
+      add(ClassifierKind::kQda, [&](PipelineOptions& one) { one.gaussian.pooledFraction = share; });
   if (wanted(ClassifierKind::kSvm))
     for (const double cost : options.costs)
       add(ClassifierKind::kSvm, [&](PipelineOptions& one) { one.svm.c = cost; });
@@ -106,12 +106,12 @@ ModelSearchReport searchModel(const SampleSet& samples,
   if (grid.empty()) throw std::invalid_argument("searchModel: nothing to choose from");
   ModelSearchReport report;
   const auto splits = blockSplits(samples.y, options.blocks);
-  const auto examined = crossValidateAll(samples, grid, splits, options.threads, progress);
+  const auto testPredictions = crossValidateAll(samples, grid, splits, options.threads, progress);
   for (std::size_t i = 0; i < grid.size(); ++i)
     report.candidates.push_back({grid[i],
-                                 examined[i].accuracyMean,
-                                 examined[i].accuracySd,
-                                 !examined[i].accuracies.empty()});
+                                 testPredictions[i].accuracyMean,
+                                 testPredictions[i].accuracySd,
+                                 !testPredictions[i].accuracies.empty()});
   const auto best = std::max_element(
       report.candidates.begin(), report.candidates.end(), [](const auto& a, const auto& b) {
         return a.accuracyMean < b.accuracyMean;
@@ -134,7 +134,7 @@ Json jsonOf(const PipelineOptions& options) {
   json.set("lda", options.components ? Json(*options.components) : Json());
   if (options.classifier == ClassifierKind::kSvm) json.set("c", options.svm.c);
   if (options.classifier == ClassifierKind::kQda)
-    json.set("pooled_share", options.gaussian.pooledShare);
+    json.set("pooled_share", options.gaussian.pooledFraction);
   return json;
 }
 

@@ -47,18 +47,18 @@ PinchFrames readPinch(const Profile& profile,
   PinchFrames out;
   out.begin = grasp.begin;
   const std::size_t count = grasp.end - grasp.begin + 1;
-  out.trouble = hand.mismatch(profile);
-  if (out.trouble.empty() && count < kFewestPinchFrames)
-    out.trouble = "half a grasp: " + std::to_string(count) + " frames, of at least " +
-                  std::to_string(kFewestPinchFrames);
-  if (out.trouble.empty() && profile.numAngles() == 0) out.trouble = "no joint angles";
-  if (!out.trouble.empty()) return out;
+  out.problem = hand.mismatch(profile);
+  if (out.problem.empty() && count < kMinPinchFrames)
+    out.problem = "half a grasp: " + std::to_string(count) + " frames, of at least " +
+                  std::to_string(kMinPinchFrames);
+  if (out.problem.empty() && profile.numAngles() == 0) out.problem = "no joint angles";
+  if (!out.problem.empty()) return out;
 
   const SensorLayout& layout = profile.layout();
   out.anglesDeg.reserve(count);
   out.loads.reserve(count);
   TactileFrame frame;
-  for (std::size_t i = grasp.begin; i <= grasp.end && out.trouble.empty(); ++i) {
+  for (std::size_t i = grasp.begin; i <= grasp.end && out.problem.empty(); ++i) {
     profile.readFrame(i, frame);
     const TactileFrame& values = frame;
     auto& loads = out.loads.emplace_back(layout.numMatrices());
@@ -66,19 +66,19 @@ PinchFrames readPinch(const Profile& profile,
       const bool isPad = m == hand.pads[0] || m == hand.pads[1];
       if (!isPad && !allMatrices) continue;
       const ConstMatrixMap matrix = values.matrix(m);
-      if (!matrix.allFinite()) out.trouble = "values that are no numbers" + inFrame(i);
+      if (!matrix.allFinite()) out.problem = "values that are no numbers" + inFrame(i);
       loads[m] = padLoad(matrix, layout.matrix(m).pitchMm);
-      if (isPad && !(loads[m].sum > 0.0) && out.trouble.empty())
-        out.trouble = "matrix " + std::to_string(m) + " doesn't touch" + inFrame(i);
+      if (isPad && !(loads[m].sum > 0.0) && out.problem.empty())
+        out.problem = "matrix " + std::to_string(m) + " doesn't touch" + inFrame(i);
     }
     const auto angles = profile.anglesAtFrame(i);
     out.anglesDeg.push_back(angles ? angles->deg : std::vector<double>{});
-    if (!out.trouble.empty()) break;
+    if (!out.problem.empty()) break;
     if (out.anglesDeg.back().size() != hand.effectiveGeometry->description().numAxes ||
         !std::all_of(out.anglesDeg.back().begin(), out.anglesDeg.back().end(), [](double deg) {
           return std::isfinite(deg);
         }))
-      out.trouble = "joint angles that are missing or no numbers" + inFrame(i);
+      out.problem = "joint angles that are missing or no numbers" + inFrame(i);
   }
   return out;
 }
@@ -99,7 +99,7 @@ std::optional<GraspSegment> longestTouch(const Profile& profile,
       end = i;
     }
   }
-  if (longest < kFewestPinchFrames) return std::nullopt;
+  if (longest < kMinPinchFrames) return std::nullopt;
   return GraspSegment{.begin = end + 1 - longest, .end = end, .fingers = {}};
 }
 

@@ -25,7 +25,7 @@ struct PadLoad {
 // Why a span is no grasp that features can be had of ("" when it is): too short, not finite values,
 // no joint angles, pads that don't touch, another hand.
 struct PinchFrames {
-  std::string trouble;
+  std::string problem;
   std::size_t begin = 0;
   std::vector<std::vector<double>> anglesDeg;  // per frame
   std::vector<std::vector<PadLoad>> loads;     // per frame, per matrix
@@ -38,7 +38,7 @@ PinchFrames readPinch(const Profile& profile,
                       bool allMatrices);
 
 // The longest run of frames within a grasp in which both pads touch; nothing when it is shorter
-// than kFewestPinchFrames.
+// than kMinPinchFrames.
 std::optional<GraspSegment> longestTouch(const Profile& profile,
                                          const GraspSegment& grasp,
                                          const std::array<std::size_t, 2>& pads);
@@ -46,6 +46,6 @@ std::optional<GraspSegment> longestTouch(const Profile& profile,
 // Of one matrix of a frame.
 PadLoad padLoad(const ConstMatrixMap& values, double pitchMm);
 
-constexpr std::size_t kFewestPinchFrames = 21;
+constexpr std::size_t kMinPinchFrames = 21;
 
 }  // namespace palpate

@@ -22,7 +22,7 @@ PinchHand makeSdh2() {
   hand.otherPads = {{1, 3}, {5, 3}};
   hand.secondPadGain = 2.7;
   hand.fullScaleCounts = 4096.0;
-  hand.pictureSize = 14;
+  hand.imageSize = 14;
   hand.largestCounts = {3554.0, 2493.0};
   hand.studyGeometry = std::make_shared<const HandGeometry>(sdh2Geometry());
   hand.effectiveGeometry =
@@ -55,9 +55,9 @@ void PinchHand::validate() const {
   require(pads[0] != pads[1], "pads must be two");
   for (const std::size_t pad : pads) {
     require(pad < mine.layout.numMatrices(), "there is no such pad");
-    require(mine.layout.matrix(pad).rows <= pictureSize &&
-                mine.layout.matrix(pad).columns <= pictureSize,
-            "pictureSize is smaller than a pad");
+    require(
+        mine.layout.matrix(pad).rows <= imageSize && mine.layout.matrix(pad).columns <= imageSize,
+        "imageSize is smaller than a pad");
   }
   for (const auto& [first, second] : otherPads)
     require(first != second && std::max(first, second) < mine.layout.numMatrices(),

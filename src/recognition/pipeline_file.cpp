@@ -94,7 +94,7 @@ Json jsonOf(const ClassifierPipeline& pipeline) {
     return Json::object()
         .set("classifier", classifierName(pipeline.classifier))
         .set("classes", pipeline.numClasses)
-        .set("day", dayModelJson(*pipeline.day));
+        .set("day", sessionAdaptiveJson(*pipeline.day));
   Json json = Json::object()
                   .set("classifier", classifierName(pipeline.classifier))
                   .set("classes", pipeline.numClasses)
@@ -130,7 +130,7 @@ ClassifierPipeline pipelineFrom(const Json& json) {
   pipeline.classifier = *kind;
   pipeline.numClasses = js::count(json, "classes");
   if (*kind == ClassifierKind::kGauss) {
-    pipeline.day = dayModelFrom(js::member(json, "day"));
+    pipeline.day = sessionAdaptiveFrom(js::member(json, "day"));
     if (pipeline.day->numClasses() != pipeline.numClasses)
       refusePipelineFile("'day' has other classes");
     pipeline.calibrated = true;

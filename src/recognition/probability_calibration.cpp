@@ -43,7 +43,7 @@ double Sigmoid::at(double decision) const noexcept {
 Sigmoid fitSigmoid(const std::vector<double>& decisions, const std::vector<bool>& first) {
   if (decisions.empty() || decisions.size() != first.size())
     throw std::invalid_argument("fitSigmoid: as many labels as decisions, one at least");
-  constexpr int kMostSteps = 100;
+  constexpr int kMaxSteps = 100;
   constexpr double kRidge = 1e-12, kLeastStep = 1e-10, kFlat = 1e-5;
   const auto positive = static_cast<double>(std::count(first.begin(), first.end(), true));
   const double negative = static_cast<double>(first.size()) - positive;
@@ -52,7 +52,7 @@ Sigmoid fitSigmoid(const std::vector<double>& decisions, const std::vector<bool>
   for (std::size_t i = 0; i < first.size(); ++i) target[i] = first[i] ? high : low;
   double a = 0.0, b = std::log((negative + 1.0) / (positive + 1.0));
   double loss = sigmoidLoss(decisions, target, a, b);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     double h11 = kRidge, h22 = kRidge, h21 = 0.0, g1 = 0.0, g2 = 0.0;
     for (std::size_t i = 0; i < decisions.size(); ++i) {
       const double p = Sigmoid{a, b}.at(decisions[i]), d2 = p * (1.0 - p), d1 = target[i] - p;

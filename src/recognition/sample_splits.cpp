@@ -75,12 +75,12 @@ void order(SampleSplit& split) {
 std::vector<SampleSplit> stratifiedSplits(const std::vector<int>& y,
                                           std::size_t splits,
                                           std::uint64_t seed,
-                                          double testShare) {
-  if (!(testShare > 0.0) || !(testShare < 1.0))
+                                          double testFraction) {
+  if (!(testFraction > 0.0) || !(testFraction < 1.0))
     throw std::invalid_argument("the share that examines must lie between 0 and 1");
   const Members members = membersOf(y);
   const auto wanted =
-      static_cast<std::size_t>(std::ceil(testShare * static_cast<double>(y.size())));
+      static_cast<std::size_t>(std::ceil(testFraction * static_cast<double>(y.size())));
   std::mt19937_64 generator(seed);
   std::vector<SampleSplit> all(splits);
   for (SampleSplit& split : all) {

@@ -10,7 +10,7 @@
 #include <Eigen/Cholesky>
 
 #include "palpate/core/number_text.h"
-#include "palpate/recognition/day_features.h"
+#include "palpate/recognition/plateau_features.h"
 
 namespace palpate {
 namespace {
@@ -48,7 +48,7 @@ void setDistribution(SessionOffset& offset, const Eigen::VectorXd& ln) {
 
 SessionOffset bellOffset(double mm, double sdMm, const SessionOffsetOptions& options) {
   SessionOffset out;
-  const auto steps = static_cast<int>(std::lround(options.reachMm / options.stepMm));
+  const auto steps = static_cast<int>(std::lround(options.gridHalfWidthMm / options.stepMm));
   Eigen::VectorXd ln(2 * steps + 1);
   for (int i = -steps; i <= steps; ++i) {
     out.gridMm.push_back(i * options.stepMm);
@@ -59,7 +59,7 @@ SessionOffset bellOffset(double mm, double sdMm, const SessionOffsetOptions& opt
   return out;
 }
 
-SessionOffset oneValue(double mm, OffsetOrigin origin) {
+SessionOffset oneValue(double mm, OffsetSource origin) {
   SessionOffset out;
   out.mm = mm;
   out.origin = origin;
@@ -69,7 +69,7 @@ SessionOffset oneValue(double mm, OffsetOrigin origin) {
 }
 
 // ln p(x | class, offset): one column per place of the grid, one row per class.
-Eigen::MatrixXd overGrid(const DayModel& model,
+Eigen::MatrixXd overGrid(const SessionAdaptiveClassifier& model,
                          const Eigen::VectorXd& x,
                          const SessionOffset& offset) {
   Eigen::MatrixXd out(static_cast<Eigen::Index>(model.numClasses()),
@@ -83,31 +83,32 @@ Eigen::MatrixXd overGrid(const DayModel& model,
 // another day.
 class ShapeDistance {
  public:
-  explicit ShapeDistance(const DayModel& model) : model_(model) {
+  explicit ShapeDistance(const SessionAdaptiveClassifier& model) : model_(model) {
     for (std::size_t f = 0; f < model.numFeatures(); ++f)
       if (f != model.data().sizeColumn) columns_.push_back(static_cast<Eigen::Index>(f));
     Eigen::MatrixXd scatter =
         Eigen::MatrixXd::Zero(model.data().pooled.rows(), model.data().pooled.cols());
-    for (const DayBell& bell : model.data().bells) scatter += bell.scatter;
+    for (const StudentTComponent& distribution : model.data().classComponents)
+      scatter += distribution.scatter;
     scatter /= static_cast<double>(model.numClasses());
     scatter_.compute(scatter(columns_, columns_));
   }
   double operator()(std::size_t a, std::size_t b) const {
     if (columns_.empty()) return 0.0;
     const Eigen::VectorXd apart =
-        (model_.data().bells[a].mean - model_.data().bells[b].mean)(columns_);
+        (model_.data().classComponents[a].mean - model_.data().classComponents[b].mean)(columns_);
     return std::sqrt(apart.dot(scatter_.solve(apart)));
   }
 
  private:
-  const DayModel& model_;
+  const SessionAdaptiveClassifier& model_;
   std::vector<Eigen::Index> columns_;
   Eigen::LDLT<Eigen::MatrixXd> scatter_;
 };
 
 // Different objects: classes that were told with certainty in enough grasps, and can't be taken for
 // one another by a wrong offset.
-std::size_t objectsIn(const DayModel& model,
+std::size_t objectsIn(const SessionAdaptiveClassifier& model,
                       const std::vector<std::pair<std::size_t, double>>& told,
                       const SessionOffsetOptions& options) {
   std::vector<std::size_t> times(model.numClasses(), 0);
@@ -119,7 +120,8 @@ std::size_t objectsIn(const DayModel& model,
       std::clamp(std::ceil(kStray * static_cast<double>(told.size())), 1.0, 2.0));
   const auto column = model.data().sizeColumn;
   const auto sizeOf = [&](std::size_t c) {
-    return column ? distanceOfSizeZ(model.data().bells[c].mean[static_cast<Eigen::Index>(*column)])
+    return column ? distanceOfSizeZ(
+                        model.data().classComponents[c].mean[static_cast<Eigen::Index>(*column)])
                   : 0.0;
   };
   const ShapeDistance shapeDistance(model);
@@ -128,19 +130,18 @@ std::size_t objectsIn(const DayModel& model,
     if (times[c] >= needed &&
         std::all_of(different.begin(), different.end(), [&](std::size_t other) {
           return std::abs(sizeOf(c) - sizeOf(other)) > options.objectGapMm ||
-                 shapeDistance(c, other) > options.objectDistance;
+                 shapeDistance(c, other) > options.minShapeDistance;
         }))
       different.push_back(c);
   return different.size();
 }
 
 void setTrust(SessionOffset& offset, const SessionOffsetOptions& options) {
-  offset.trusted =
-      offset.sdMm <= options.largestSdMm &&
-      (offset.objects >= options.fewestObjects || offset.origin == OffsetOrigin::kEmptyHand);
+  offset.trusted = offset.sdMm <= options.maxSdMm && (offset.objects >= options.minObjects ||
+                                                      offset.origin == OffsetSource::kEmptyHand);
 }
 
-void requireColumns(const DayModel& model, const Eigen::MatrixXd& x) {
+void requireColumns(const SessionAdaptiveClassifier& model, const Eigen::MatrixXd& x) {
   if (static_cast<std::size_t>(x.cols()) != model.numFeatures())
     throw std::invalid_argument("session offset: " + std::to_string(x.cols()) + " values for " +
                                 std::to_string(model.numFeatures()) + " features");
@@ -151,17 +152,17 @@ bool isFixed(const SessionOffset& before) { return before.gridMm.size() < 2; }
 
 }  // namespace
 
-std::string_view offsetOriginName(OffsetOrigin origin) noexcept {
+std::string_view offsetSourceName(OffsetSource origin) noexcept {
   switch (origin) {
-    case OffsetOrigin::kNone:
+    case OffsetSource::kNone:
       return "none";
-    case OffsetOrigin::kUnknown:
+    case OffsetSource::kUnknown:
       return "unknown";
-    case OffsetOrigin::kGiven:
+    case OffsetSource::kGiven:
       return "given";
-    case OffsetOrigin::kBatch:
+    case OffsetSource::kBatch:
       return "batch";
-    case OffsetOrigin::kReferences:
+    case OffsetSource::kReferences:
       return "references";
     default:
       return "empty_hand";
@@ -174,29 +175,30 @@ void SessionOffsetOptions::validate() const {
   };
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
   require(positive(priorSdMm), "priorSdMm must be > 0");
-  require(positive(reachMm) && reachMm <= 100.0, "reachMm must be above 0, up to 100");
-  require(positive(stepMm) && stepMm <= reachMm && reachMm / stepMm <= 10000.0,
-          "stepMm must be above 0, up to reachMm");
-  require(batchWeight >= 0.0 && batchWeight <= 1.0, "batchWeight must be 0..1");
-  require(positive(floorNats), "floorNats must be > 0");
-  require(positive(mostReferences), "mostReferences must be > 0");
+  require(positive(gridHalfWidthMm) && gridHalfWidthMm <= 100.0,
+          "gridHalfWidthMm must be above 0, up to 100");
+  require(positive(stepMm) && stepMm <= gridHalfWidthMm && gridHalfWidthMm / stepMm <= 10000.0,
+          "stepMm must be above 0, up to gridHalfWidthMm");
+  require(unlabelledWeight >= 0.0 && unlabelledWeight <= 1.0, "unlabelledWeight must be 0..1");
+  require(positive(logLikelihoodFloorNats), "logLikelihoodFloorNats must be > 0");
+  require(positive(maxEffectiveReferences), "maxEffectiveReferences must be > 0");
   require(objectGapMm >= 0.0 && std::isfinite(objectGapMm), "objectGapMm must be >= 0");
-  require(positive(objectDistance), "objectDistance must be > 0");
+  require(positive(minShapeDistance), "minShapeDistance must be > 0");
   require(objectProbability >= 0.0 && objectProbability <= 1.0, "objectProbability must be 0..1");
-  require(positive(largestSdMm), "largestSdMm must be > 0");
+  require(positive(maxSdMm), "maxSdMm must be > 0");
 }
 
-void VerdictOptions::validate() const {
-  if (!std::isfinite(leastKnown))
-    throw std::invalid_argument("VerdictOptions: leastKnown must be a number");
+void OpenSetOptions::validate() const {
+  if (!std::isfinite(minLogLikelihoodRatio))
+    throw std::invalid_argument("OpenSetOptions: minLogLikelihoodRatio must be a number");
   if (!(sureProbability >= 0.5 && sureProbability <= 1.0))
-    throw std::invalid_argument("VerdictOptions: sureProbability must be 0.5..1");
+    throw std::invalid_argument("OpenSetOptions: sureProbability must be 0.5..1");
 }
 
 std::string SessionOffset::text() const {
-  if (origin == OffsetOrigin::kNone)
+  if (origin == OffsetSource::kNone)
     return "no session offset: the hand is taken to read as it did in training";
-  if (origin == OffsetOrigin::kUnknown)
+  if (origin == OffsetSource::kUnknown)
     return "the session offset is not known (+- " + fixedText(sdMm, 1) + " mm)";
   constexpr double kLeastSaidMm = 0.05;
   std::string out = "today the hand reads sizes as it did in training (";
@@ -204,18 +206,18 @@ std::string SessionOffset::text() const {
     out = "today the hand reads " + fixedText(std::abs(mm), 1) + " mm " +
           (mm < 0.0 ? "small" : "large") + " (";
   if (sdMm > 0.0) out += "+- " + fixedText(sdMm, 1) + " mm, ";
-  if (origin == OffsetOrigin::kGiven) return out + "given)";
-  if (origin == OffsetOrigin::kEmptyHand && objects == 0) return out + "from the empty hand)";
+  if (origin == OffsetSource::kGiven) return out + "given)";
+  if (origin == OffsetSource::kEmptyHand && objects == 0) return out + "from the empty hand)";
   return out + "from " + std::to_string(objects) + (objects == 1 ? " object" : " objects") + ")" +
          (trusted ? "" : "; too little is known by that to call a verdict sure");
 }
 
-SessionOffset noOffset() { return oneValue(0.0, OffsetOrigin::kNone); }
+SessionOffset noOffset() { return oneValue(0.0, OffsetSource::kNone); }
 
 SessionOffset unknownOffset(const SessionOffsetOptions& options) {
   options.validate();
   SessionOffset out = bellOffset(0.0, options.priorSdMm, options);
-  out.origin = OffsetOrigin::kUnknown;
+  out.origin = OffsetSource::kUnknown;
   return out;
 }
 
@@ -223,16 +225,16 @@ SessionOffset givenOffset(double mm, double sdMm) {
   if (!std::isfinite(mm) || !(sdMm >= 0.0 && std::isfinite(sdMm)))
     throw std::invalid_argument("givenOffset: a value that is no number, or an error below 0");
   if (sdMm == 0.0) {
-    SessionOffset out = oneValue(mm, OffsetOrigin::kGiven);
+    SessionOffset out = oneValue(mm, OffsetSource::kGiven);
     out.trusted = true;
     return out;
   }
-  return measuredOffset(mm, sdMm, OffsetOrigin::kGiven);
+  return measuredOffset(mm, sdMm, OffsetSource::kGiven);
 }
 
 SessionOffset measuredOffset(double mm,
                              double sdMm,
-                             OffsetOrigin origin,
+                             OffsetSource origin,
                              const SessionOffsetOptions& options) {
   options.validate();
   if (!std::isfinite(mm) || !(sdMm > 0.0 && std::isfinite(sdMm)))
@@ -240,18 +242,19 @@ SessionOffset measuredOffset(double mm,
         "measuredOffset: a value that is no number, or an error not above 0");
   // Far away, or finer than the grid: one that fits.
   SessionOffsetOptions grid = options;
-  grid.reachMm = std::max(options.reachMm, std::min(100.0, std::abs(mm) + 4.0 * sdMm));
-  grid.stepMm = std::max(grid.reachMm / 10000.0, std::min(options.stepMm, sdMm / 2.0));
+  grid.gridHalfWidthMm =
+      std::max(options.gridHalfWidthMm, std::min(100.0, std::abs(mm) + 4.0 * sdMm));
+  grid.stepMm = std::max(grid.gridHalfWidthMm / 10000.0, std::min(options.stepMm, sdMm / 2.0));
   SessionOffset out = bellOffset(mm, sdMm, grid);
   out.mm = mm;
   out.sdMm = sdMm;
   out.origin = origin;
-  out.trusted = sdMm <= options.largestSdMm &&
-                (origin == OffsetOrigin::kEmptyHand || origin == OffsetOrigin::kGiven);
+  out.trusted = sdMm <= options.maxSdMm &&
+                (origin == OffsetSource::kEmptyHand || origin == OffsetSource::kGiven);
   return out;
 }
 
-SessionOffset offsetFromBatch(const DayModel& model,
+SessionOffset offsetFromBatch(const SessionAdaptiveClassifier& model,
                               const Eigen::MatrixXd& x,
                               const SessionOffset& before,
                               const SessionOffsetOptions& options) {
@@ -267,12 +270,12 @@ SessionOffset offsetFromBatch(const DayModel& model,
     for (Eigen::Index o = 0; o < known.size(); ++o)
       speaks[o] = lnSumExp(all.back().col(o)) - std::log(static_cast<double>(model.numClasses()));
     const double best = speaks.maxCoeff();
-    ln += options.batchWeight * speaks.cwiseMax(best - options.floorNats);
+    ln += options.unlabelledWeight * speaks.cwiseMax(best - options.logLikelihoodFloorNats);
   }
   if (!isFixed(before)) {
     setDistribution(out, ln);
-    if (out.origin != OffsetOrigin::kEmptyHand && out.origin != OffsetOrigin::kReferences)
-      out.origin = OffsetOrigin::kBatch;
+    if (out.origin != OffsetSource::kEmptyHand && out.origin != OffsetSource::kReferences)
+      out.origin = OffsetSource::kBatch;
   }
   // What was told with what is known now.
   const Eigen::VectorXd now = lnOf(out);
@@ -291,7 +294,7 @@ SessionOffset offsetFromBatch(const DayModel& model,
   return out;
 }
 
-SessionOffset offsetFromReferences(const DayModel& model,
+SessionOffset offsetFromReferences(const SessionAdaptiveClassifier& model,
                                    const Eigen::MatrixXd& x,
                                    const std::vector<int>& y,
                                    const SessionOffset& before,
@@ -315,14 +318,14 @@ SessionOffset offsetFromReferences(const DayModel& model,
       count += 1.0;
       told.emplace_back(c, 1.0);
     }
-    if (count > 0.0) ln += sum / count * std::min(count, options.mostReferences);
+    if (count > 0.0) ln += sum / count * std::min(count, options.maxEffectiveReferences);
   }
   if (told.size() != y.size())
     throw std::invalid_argument("session offset: a label that is no class of the model");
   if (told.empty()) return out;
   if (!isFixed(before)) {
     setDistribution(out, ln);
-    out.origin = OffsetOrigin::kReferences;
+    out.origin = OffsetSource::kReferences;
   }
   out.grasps = before.grasps + told.size();
   // Labels are certain: a single grasp of an object is one.
@@ -337,10 +340,10 @@ SessionOffset offsetFromReferences(const DayModel& model,
   return out;
 }
 
-DayVerdict judge(const DayModel& model,
-                 const Eigen::VectorXd& x,
-                 const SessionOffset& offset,
-                 const VerdictOptions& options) {
+OpenSetPrediction predict(const SessionAdaptiveClassifier& model,
+                          const Eigen::VectorXd& x,
+                          const SessionOffset& offset,
+                          const OpenSetOptions& options) {
   options.validate();
   if (offset.gridMm.empty() || offset.gridMm.size() != offset.probability.size())
     throw std::invalid_argument("judge: an offset without a distribution");
@@ -354,9 +357,9 @@ DayVerdict judge(const DayModel& model,
     background[static_cast<Eigen::Index>(i)] =
         model.logBackground(x, offset.gridMm[i]) + ln[static_cast<Eigen::Index>(i)];
 
-  DayVerdict out;
-  out.knownness = scores.maxCoeff() - lnSumExp(background);
-  out.unknown = !(out.knownness >= options.leastKnown);
+  OpenSetPrediction out;
+  out.logLikelihoodRatio = scores.maxCoeff() - lnSumExp(background);
+  out.unknown = !(out.logLikelihoodRatio >= options.minLogLikelihoodRatio);
   const Eigen::VectorXd weighed = scores + model.logPrior();
   out.probability = (weighed.array() - lnSumExp(weighed)).exp();
   out.ranking.resize(static_cast<std::size_t>(scores.size()));
@@ -369,13 +372,13 @@ DayVerdict judge(const DayModel& model,
   return out;
 }
 
-std::vector<DayVerdict> judgeAll(const DayModel& model,
-                                 const Eigen::MatrixXd& x,
-                                 const SessionOffset& offset,
-                                 const VerdictOptions& options) {
-  std::vector<DayVerdict> out;
+std::vector<OpenSetPrediction> predictAll(const SessionAdaptiveClassifier& model,
+                                          const Eigen::MatrixXd& x,
+                                          const SessionOffset& offset,
+                                          const OpenSetOptions& options) {
+  std::vector<OpenSetPrediction> out;
   for (Eigen::Index i = 0; i < x.rows(); ++i)
-    out.push_back(judge(model, x.row(i).transpose(), offset, options));
+    out.push_back(predict(model, x.row(i).transpose(), offset, options));
   return out;
 }
 

@@ -47,7 +47,7 @@ class Diameters {
         points_.push_back(pointOf(m));
     // Any sphere around two points is at least as large as they are apart.
     if (points_.size() == 2 || apart + impression > enough) return apart + impression;
-    return 2.0 * boundingSphere(points_)->radiusMm + impression;
+    return 2.0 * smallestEnclosingSphere(points_)->radiusMm + impression;
   }
 
  private:
@@ -97,10 +97,12 @@ double standardDeviation(const Eigen::MatrixXd& picture) {
   return std::sqrt(squares / count);
 }
 
-Eigen::MatrixXd pictureOf(const TactileFrame& frame, std::size_t pad, const PinchHand& hand) {
+Eigen::MatrixXd reconstructImage(const TactileFrame& frame,
+                                 std::size_t pad,
+                                 const PinchHand& hand) {
   const ConstMatrixMap values = frame.matrix(pad);
-  const int left = (hand.pictureSize - static_cast<int>(values.cols())) / 2;
-  return inSquare(values.cast<double>() / hand.fullScaleCounts, hand.pictureSize, 0, left);
+  const int left = (hand.imageSize - static_cast<int>(values.cols())) / 2;
+  return padToSquare(values.cast<double>() / hand.fullScaleCounts, hand.imageSize, 0, left);
 }
 
 }  // namespace
@@ -124,8 +126,8 @@ StudyFeatures studyFeatures(const Profile& profile,
                                 " outside of the grasp");
   StudyFeatures out;
   const PinchFrames frames = readPinch(profile, grasp, hand, true);
-  out.trouble = frames.trouble;
-  if (!out.trouble.empty()) return out;
+  out.problem = frames.problem;
+  if (!out.problem.empty()) return out;
 
   const std::size_t count = frames.loads.size();
   Diameters diameters(frames, hand);
@@ -152,12 +154,12 @@ StudyFeatures studyFeatures(const Profile& profile,
   out.values = {diameter, widest - distanceAt(frames, hand, end, frames.loads[end], pose)};
 
   const TactileFrame frame = profile.frame(out.endFrame);
-  const ChebyshevPolynomials polynomials(hand.pictureSize, kOrder);
+  const ChebyshevPolynomials polynomials(hand.imageSize, kOrder);
   std::vector<double> moments;
   for (const std::size_t pad : hand.pads) {
-    const Eigen::MatrixXd picture = pictureOf(frame, pad, hand);
+    const Eigen::MatrixXd picture = reconstructImage(frame, pad, hand);
     out.values.push_back(standardDeviation(picture));
-    const auto found = chebyshevInvariants(picture, polynomials, PictureAngle::kStudy);
+    const auto found = chebyshevInvariants(picture, polynomials, ImageOrientation::kStudy);
     for (int p = 0; p <= kOrder; ++p)
       for (int q = 0; q <= kOrder; ++q) moments.push_back(found.moments(p, q));
   }

@@ -27,7 +27,7 @@ cv::Ptr<cv::ml::SVM> trained(const Eigen::MatrixXd& x,
   svm->setKernel(cv::ml::SVM::LINEAR);
   svm->setC(options.c);
   svm->setTermCriteria({cv::TermCriteria::MAX_ITER + cv::TermCriteria::EPS,
-                        options.mostIterations,
+                        options.maxIterations,
                         options.tolerance});
   svm->train(samples, cv::ml::ROW_SAMPLE, labels);
   return svm;
@@ -55,8 +55,7 @@ void takePlanes(const cv::ml::SVM& svm, SupportVectorMachine& machine) {
 void SvmOptions::validate() const {
   if (!(c > 0.0) || !std::isfinite(c)) throw std::invalid_argument("SvmOptions: c must be above 0");
   if (!(tolerance > 0.0)) throw std::invalid_argument("SvmOptions: tolerance must be above 0");
-  if (mostIterations < 1)
-    throw std::invalid_argument("SvmOptions: mostIterations must be 1 or more");
+  if (maxIterations < 1) throw std::invalid_argument("SvmOptions: maxIterations must be 1 or more");
 }
 
 SupportVectorMachine SupportVectorMachine::of(const Eigen::MatrixXd& x,

@@ -27,16 +27,16 @@ bool within(const std::vector<ModelInput>& inputs, std::int64_t timeUs) {
 // From grasps that did not teach: from which confidence on it is sure, from which novelty on
 // unknown.
 void setThresholds(const SampleSet& samples, const ValidationReport& report, TrainedModel& model) {
-  std::vector<ConfidentAnswer> answers;
+  std::vector<ScoredPrediction> answers;
   std::vector<double> novelty;
-  for (const ExaminedSample& one : report.examined) {
+  for (const TestPrediction& one : report.testPredictions) {
     answers.push_back({one.confidence, one.called == samples.y[one.sample]});
     novelty.push_back(one.novelty);
   }
   std::sort(novelty.begin(), novelty.end());
   const auto last = static_cast<std::size_t>(kKnownShare * static_cast<double>(novelty.size() - 1));
-  model.mostNovelty = novelty[last];
-  model.sureConfidence = sureThreshold(answers);
+  model.maxNovelty = novelty[last];
+  model.minSureConfidence = confidenceThreshold(answers);
 }
 
 Json validationJson(const ValidationReport& report) {
@@ -45,34 +45,34 @@ Json validationJson(const ValidationReport& report) {
       .set("accuracy_mean", report.accuracyMean)
       .set("accuracy_sd", report.accuracySd)
       .set("top3", report.top3)
-      .set("grasps", report.examined.size());
+      .set("grasps", report.testPredictions.size());
 }
 
 void requireCarriesOver(const TrainedModel& model) {
-  if (!model.carriesOver())
+  if (!model.adaptsToSession())
     throw Error("a model of classifier " + std::string(classifierName(model.pipeline.classifier)) +
                 " can't adapt to a day: train one with --classifier gauss");
 }
 
-Verdict verdictOf(const DayVerdict& day) {
-  Verdict verdict;
+Prediction verdictOf(const OpenSetPrediction& day) {
+  Prediction verdict;
   for (const std::size_t c : day.ranking) {
     verdict.ranking.push_back(static_cast<int>(c));
     verdict.p.push_back(day.probability[static_cast<Eigen::Index>(c)]);
   }
-  verdict.label = day.unknown ? Verdict::kUnknown : verdict.ranking.front();
+  verdict.label = day.unknown ? Prediction::kUnknown : verdict.ranking.front();
   verdict.confidence = verdict.p.front();
   verdict.sure = day.sure;
-  verdict.novelty = -day.knownness;
+  verdict.novelty = -day.logLikelihoodRatio;
   return verdict;
 }
 
 }  // namespace
 
 bool TrainedModel::sameSession(std::int64_t timeUs) const noexcept {
-  if (offset.origin == OffsetOrigin::kNone) return within(inputs, timeUs);
+  if (offset.origin == OffsetSource::kNone) return within(inputs, timeUs);
   return within(adaptedFrom, timeUs) ||
-         (todayZero && std::abs(timeUs - todayZero->timeUs) <= kHalfDayUs);
+         (sessionZero && std::abs(timeUs - sessionZero->timeUs) <= kHalfDayUs);
 }
 
 std::vector<ModelInput> inputsOf(const FeatureTable& table, const Progress& progress) {
@@ -111,8 +111,8 @@ TrainedModel trainModel(const SampleSet& samples,
   const auto splits = blockSplits(samples.y, options.calibrationBlocks);
   const auto reports = splits.empty() ? std::vector<ValidationReport>()
                                       : crossValidateAll(samples, {options}, splits, 0, progress);
-  if (reports.empty() || reports.front().examined.empty()) {
-    model.mostNovelty = 1e9;
+  if (reports.empty() || reports.front().testPredictions.empty()) {
+    model.maxNovelty = 1e9;
     return model;
   }
   setThresholds(samples, reports.front(), model);
@@ -120,30 +120,30 @@ TrainedModel trainModel(const SampleSet& samples,
   return model;
 }
 
-std::vector<Verdict> classifyRows(const TrainedModel& model,
-                                  const Eigen::MatrixXd& x,
-                                  const SessionOffset& offset,
-                                  bool sameSession) {
-  std::vector<Verdict> verdicts;
+std::vector<Prediction> classifyRows(const TrainedModel& model,
+                                     const Eigen::MatrixXd& x,
+                                     const SessionOffset& offset,
+                                     bool sameSession) {
+  std::vector<Prediction> verdicts;
   if (x.rows() == 0) return verdicts;
   if (model.pipeline.day) {
     SessionOffset used = offset;
-    if (used.origin == OffsetOrigin::kNone && sameSession) used.trusted = true;
-    for (const DayVerdict& day : judgeAll(*model.pipeline.day, x, used))
+    if (used.origin == OffsetSource::kNone && sameSession) used.trusted = true;
+    for (const OpenSetPrediction& day : predictAll(*model.pipeline.day, x, used))
       verdicts.push_back(verdictOf(day));
     return verdicts;
   }
   const Eigen::MatrixXd p = model.pipeline.probabilities(x);
-  const Eigen::VectorXd novelty = model.pipeline.noveltyOf(x);
+  const Eigen::VectorXd novelty = model.pipeline.noveltyScores(x);
   for (Eigen::Index i = 0; i < x.rows(); ++i) {
-    Verdict verdict;
+    Prediction verdict;
     verdict.ranking = rankedClasses(p.row(i).transpose());
     for (const int c : verdict.ranking) verdict.p.push_back(p(i, c));
     verdict.novelty = novelty[i];
     verdict.confidence = verdict.p.front();
-    const bool known = novelty[i] <= model.mostNovelty;
-    verdict.label = known ? verdict.ranking.front() : Verdict::kUnknown;
-    verdict.sure = known && sameSession && verdict.confidence >= model.sureConfidence;
+    const bool known = novelty[i] <= model.maxNovelty;
+    verdict.label = known ? verdict.ranking.front() : Prediction::kUnknown;
+    verdict.sure = known && sameSession && verdict.confidence >= model.minSureConfidence;
     verdicts.push_back(std::move(verdict));
   }
   return verdicts;
@@ -161,14 +161,14 @@ void requireFits(const TrainedModel& model, const FeatureTable& table) {
 void adaptModel(TrainedModel& model, const SampleSet& today, const SessionOffset& before) {
   requireCarriesOver(model);
   if (today.numSamples() == 0) throw Error("there is no grasp to adapt to");
-  DayModel& day = *model.pipeline.day;
+  SessionAdaptiveClassifier& day = *model.pipeline.day;
   model.offset = offsetFromReferences(day, today.x, today.y, before);
-  day.addToday(today.x, today.y, model.offset.mm);
+  day.addSessionComponents(today.x, today.y, model.offset.mm);
 }
 
 SessionOffset offsetOfEmptyHand(const TrainedModel& model, const EmptyHandZero& today) {
   requireCarriesOver(model);
-  if (!today.trouble.empty()) throw Error(today.trouble);
+  if (!today.problem.empty()) throw Error(today.problem);
   if (!model.trainingZero)
     throw Error(
         "the model keeps no zero of its own to compare with: it takes one touch of the empty hand "
@@ -176,19 +176,19 @@ SessionOffset offsetOfEmptyHand(const TrainedModel& model, const EmptyHandZero& 
   return emptyHandOffset(today, *model.trainingZero);
 }
 
-void forgetToday(TrainedModel& model) {
+void resetSession(TrainedModel& model) {
   model.offset = noOffset();
-  model.todayZero.reset();
+  model.sessionZero.reset();
   model.adaptedFrom.clear();
   if (!model.pipeline.day) return;
-  DayModelData data = model.pipeline.day->data();
+  SessionAdaptiveParameters data = model.pipeline.day->data();
   data.today.clear();
-  model.pipeline.day = DayModel(std::move(data));
+  model.pipeline.day = SessionAdaptiveClassifier(std::move(data));
 }
 
 void adaptToEmptyHand(TrainedModel& model, const EmptyHandZero& today) {
   model.offset = offsetOfEmptyHand(model, today);
-  model.todayZero = today;
+  model.sessionZero = today;
 }
 
 }  // namespace palpate

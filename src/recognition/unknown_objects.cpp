@@ -64,8 +64,10 @@ void requireThreeClasses(const SampleSet& samples) {
     throw Error("unknown objects: three classes with two grasps each are the least");
 }
 
-SessionOffset offsetOf(const DayModel& model, const Eigen::MatrixXd& day, StrangerOffset kind) {
-  return kind == StrangerOffset::kUnknown ? unknownOffset() : offsetFromBatch(model, day);
+SessionOffset offsetOf(const SessionAdaptiveClassifier& model,
+                       const Eigen::MatrixXd& day,
+                       UnknownClassOffset kind) {
+  return kind == UnknownClassOffset::kUnknown ? unknownOffset() : offsetFromBatch(model, day);
 }
 
 }  // namespace
@@ -87,9 +89,9 @@ UnknownReport unknownWithin(const SampleSet& samples,
   };
   const SampleSet present = without(samples, kNone);
   std::vector<double> known;
-  for (const ExaminedSample& one :
+  for (const TestPrediction& one :
        crossValidate(present, used, blockSplits(present.y, blocks), 0, part(0.0, kKnownPart))
-           .examined)
+           .testPredictions)
     known.push_back(one.novelty);
   std::vector<std::vector<double>> ofClass(present.numClasses());
   forEachInParallel(
@@ -97,7 +99,7 @@ UnknownReport unknownWithin(const SampleSet& samples,
       [&](std::size_t c) {
         const auto pipeline = ClassifierPipeline::of(without(present, static_cast<int>(c)), used);
         const Eigen::VectorXd novelty =
-            pipeline.noveltyOf(present.rows(rowsOf(present, static_cast<int>(c))).x);
+            pipeline.noveltyScores(present.rows(rowsOf(present, static_cast<int>(c))).x);
         ofClass[c].assign(novelty.begin(), novelty.end());
       },
       part(kKnownPart, 1.0));
@@ -107,7 +109,7 @@ UnknownReport unknownWithin(const SampleSet& samples,
 UnknownReport unknownOnAnotherDay(const SampleSet& training,
                                   const SampleSet& later,
                                   const std::vector<std::vector<std::size_t>>& sessions,
-                                  StrangerOffset offset,
+                                  UnknownClassOffset offset,
                                   const Progress& progress) {
   if (later.classes != training.classes || later.features != training.features)
     throw Error("unknown objects: the other day has other classes or features than the training");
@@ -117,14 +119,15 @@ UnknownReport unknownOnAnotherDay(const SampleSet& training,
   const auto modelOf = [&](int taken) {
     return *ClassifierPipeline::of(without(training, taken), options).day;
   };
-  const DayModel whole = modelOf(kNone);
+  const SessionAdaptiveClassifier whole = modelOf(kNone);
   std::vector<double> known;
   std::vector<std::vector<double>> ofClass(later.numClasses());
-  const auto strangeness = [](const DayModel& model,
+  const auto strangeness = [](const SessionAdaptiveClassifier& model,
                               const Eigen::MatrixXd& x,
                               const SessionOffset& with,
                               std::vector<double>& out) {
-    for (const DayVerdict& verdict : judgeAll(model, x, with)) out.push_back(-verdict.knownness);
+    for (const OpenSetPrediction& verdict : predictAll(model, x, with))
+      out.push_back(-verdict.logLikelihoodRatio);
   };
   std::vector<std::pair<std::size_t, int>> strangers;
   for (std::size_t s = 0; s < sessions.size(); ++s)
@@ -140,10 +143,10 @@ UnknownReport unknownOnAnotherDay(const SampleSet& training,
       throw Cancelled();
     const auto [session, c] = strangers[k];
     const SampleSet day = later.rows(sessions[session]);
-    const DayModel rest = modelOf(c);
+    const SessionAdaptiveClassifier rest = modelOf(c);
     strangeness(rest,
                 day.rows(rowsOf(day, c)).x,
-                offsetOf(offset == StrangerOffset::kKnown ? whole : rest, day.x, offset),
+                offsetOf(offset == UnknownClassOffset::kKnown ? whole : rest, day.x, offset),
                 ofClass[static_cast<std::size_t>(c)]);
   }
   return unknownObjectsReportOf(later, known, ofClass);

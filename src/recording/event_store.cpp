@@ -15,11 +15,11 @@
 
 #include "palpate/core/error.h"
 
-#include "recording/event_notes.h"
-#include "recording/native/palpate_access.h"
+#include "recording/event_sidecar.h"
+#include "recording/native/palpate_connection.h"
 #include "recording/native/palpate_lock.h"
 #include "recording/native/palpate_rows.h"
-#include "recording/recording_form.h"
+#include "recording/recording_format.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -43,7 +43,7 @@ EventCounts countsOf(std::span<const RecordingEvent> events) {
 EventCounts happened(std::span<const RecordingEvent> events) {
   EventCounts counts;
   for (const RecordingEvent& event : events)
-    if (!isNoted(event)) ++counts[keyOf(event)];
+    if (!isUserEvent(event)) ++counts[keyOf(event)];
   return counts;
 }
 
@@ -134,7 +134,7 @@ void replaceRows(SqliteDatabase& database, std::span<const RecordingEvent> event
 // Throws FileError unless it is a finished native recording. Reads only: a journal of an unfinished
 // one is not played back.
 void requireFinished(const fs::path& path) {
-  const PalpateAccess access(path);
+  const PalpateConnection access(path);
   if (access.beingWritten())
     throw FileError(path, "is being recorded; save its notes when it is finished");
   if (access.unfinished())
@@ -182,16 +182,16 @@ void saveRows(const fs::path& given,
 void saveSidecar(const fs::path& path,
                  const EventsReport& asRead,
                  std::span<const RecordingEvent> events) {
-  const fs::path sidecar = notesPathOf(path);
+  const fs::path sidecar = sidecarPathOf(path);
   requireWritableBy(path, sidecar);
   const auto lock = locked(path, sidecar);
-  const EventsReport now = readEventNotes(path);
-  if (needsSaving(path, now.events, asRead, events)) replaceEventNotes(path, events);
+  const EventsReport now = readEventSidecar(path);
+  if (needsSaving(path, now.events, asRead, events)) replaceEventSidecar(path, events);
 }
 
 }  // namespace
 
-bool isNoted(const RecordingEvent& event) {
+bool isUserEvent(const RecordingEvent& event) {
   constexpr std::array<std::string_view, 7> kNoted{
       "label", "mark", "note", "recipe", "segment", "sensor_settings", "tare"};
   return std::find(kNoted.begin(), kNoted.end(), event.kind) != kNoted.end();

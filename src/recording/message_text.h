@@ -5,14 +5,14 @@
 #include <string>
 #include <string_view>
 
-#include "palpate/core/one_line.h"
+#include "palpate/core/escaped_line.h"
 
 namespace palpate {
 
 // Text of a file as shown in a message: in quotes, cut to a bearable length.
 inline std::string inQuotes(std::string_view text) {
   constexpr std::size_t kShown = 40;
-  return "\"" + oneLine(beginningOf(text, kShown)) + (text.size() > kShown ? "..\"" : "\"");
+  return "\"" + escapedLine(beginningOf(text, kShown)) + (text.size() > kShown ? "..\"" : "\"");
 }
 
 // "1 frame", "2 frames".

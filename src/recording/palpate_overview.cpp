@@ -9,9 +9,9 @@
 #include "palpate/recording/dsa_reader.h"
 #include "palpate/recording/palpate_schema.h"
 
-#include "recording/native/palpate_access.h"
+#include "recording/native/palpate_connection.h"
 #include "recording/native/palpate_rows.h"
-#include "recording/recording_form.h"
+#include "recording/recording_format.h"
 
 namespace palpate {
 namespace {
@@ -52,15 +52,15 @@ std::int64_t writeOverview(SqliteDatabase& database, std::size_t numMatrices) {
   while (rows.next()) {
     if (rows.integer(1) == 0) {
       if (data.size() + 8 + numMatrices * kMatrixBytes > kMaxBlockBytes) flush();
-      appendLittle(data, static_cast<std::uint64_t>(rows.integer(0)), 8);
+      appendLittleEndian(data, static_cast<std::uint64_t>(rows.integer(0)), 8);
       ++inRow;
       ++seconds;
     }
-    appendLittle(data, static_cast<std::uint64_t>(rows.integer(2)), 4);
-    appendLittle(data, std::bit_cast<std::uint32_t>(static_cast<float>(rows.real(3))), 4);
-    appendLittle(data, std::bit_cast<std::uint32_t>(static_cast<float>(rows.real(4))), 4);
-    appendLittle(data, std::bit_cast<std::uint64_t>(rows.real(5)), 8);
-    appendLittle(data, static_cast<std::uint64_t>(rows.integer(6)), 4);
+    appendLittleEndian(data, static_cast<std::uint64_t>(rows.integer(2)), 4);
+    appendLittleEndian(data, std::bit_cast<std::uint32_t>(static_cast<float>(rows.real(3))), 4);
+    appendLittleEndian(data, std::bit_cast<std::uint32_t>(static_cast<float>(rows.real(4))), 4);
+    appendLittleEndian(data, std::bit_cast<std::uint64_t>(rows.real(5)), 8);
+    appendLittleEndian(data, static_cast<std::uint64_t>(rows.integer(6)), 4);
   }
   flush();
   return seconds;
@@ -110,7 +110,7 @@ std::optional<std::vector<SecondSummary>> readOverview(SqliteDatabase& database,
 
 std::vector<SecondSummary> readSeconds(const std::filesystem::path& path) {
   if (!isNativeRecording(path)) return secondsOf(readDsa(path));
-  PalpateAccess access(path);
+  PalpateConnection access(path);
   const std::size_t numMatrices = readLayout(access.database()).numMatrices();
   auto seconds =
       readOverview(access.database(), numMatrices, access.meta().integer("seconds").value_or(0));

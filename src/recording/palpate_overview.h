@@ -1,6 +1,6 @@
 // Many seconds of the per-second summary packed in one row, for charts: the rows of a day's
 // `second` table take half a second to read, these 20 ms. Derived data, made when a recording is
-// finished; without it `second` is read. Private to the room.
+// finished; without it `second` is read. Private to this module.
 #pragma once
 
 #include <cstdint>

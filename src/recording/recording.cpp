@@ -8,20 +8,20 @@
 
 #include "palpate/core/error.h"
 #include "palpate/recording/dsa_reader.h"
-#include "palpate/recording/dsa_salvage.h"
+#include "palpate/recording/dsa_recovery.h"
 #include "palpate/recording/dsa_writer.h"
 #include "palpate/recording/palpate_reader.h"
-#include "palpate/recording/palpate_salvage.h"
+#include "palpate/recording/palpate_recovery.h"
 #include "palpate/recording/palpate_writer.h"
 #include "palpate/recording/table_export.h"
 #include "palpate/recording/tactile_sensor_json.h"
 
-#include "recording/event_notes.h"
+#include "recording/event_sidecar.h"
 #include "recording/message_text.h"
-#include "recording/native/palpate_access.h"
+#include "recording/native/palpate_connection.h"
 #include "recording/native/palpate_content.h"
 #include "recording/native/palpate_rows.h"
-#include "recording/recording_form.h"
+#include "recording/recording_format.h"
 
 namespace palpate {
 namespace {
@@ -32,7 +32,7 @@ std::string countsText(std::size_t frames, std::size_t angles, std::size_t tempe
 }
 
 // What is wrong with a native recording; empty when nothing is.
-std::string damageText(const PalpateSalvage& salvage) {
+std::string damageText(const PalpateRecovery& salvage) {
   std::string text;
   const auto add = [&](std::size_t count, const char* what) {
     if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, what);
@@ -53,7 +53,7 @@ std::string damageText(const PalpateSalvage& salvage) {
 }
 
 VerifyReport verifyNative(const std::filesystem::path& path, const Progress& progress) {
-  const PalpateSalvage salvage = salvagePalpate(path, progress);
+  const PalpateRecovery salvage = recoverPalpateProfile(path, progress);
   VerifyReport report;
   report.message = countsText(salvage.frames, salvage.angles, salvage.temperatures);
   if (salvage.unfinished) report.message += "; unfinished: its writer stopped before the end";
@@ -72,7 +72,7 @@ RecoverReport recoverNative(const std::filesystem::path& in,
                             const std::filesystem::path& out,
                             Overwrite overwrite,
                             const Progress& progress) {
-  const PalpateSalvage salvage = salvagePalpate(in, progress);
+  const PalpateRecovery salvage = recoverPalpateProfile(in, progress);
   RecoverReport report;
   if (!salvage.profile) {
     report.message = "nothing can be saved: no intact block was found";
@@ -88,7 +88,7 @@ RecoverReport recoverNative(const std::filesystem::path& in,
 // Notes beside a damaged .dsa; that they are damaged, too, is no reason to save nothing.
 std::vector<RecordingEvent> readEventsOf(const std::filesystem::path& path, std::string& lost) {
   try {
-    return readEventNotes(path).events;
+    return readEventSidecar(path).events;
   } catch (const Error& error) {
     lost = error.what();
     return {};
@@ -109,7 +109,7 @@ RecoverReport recoverDsa(const std::filesystem::path& in,
     report.message = "nothing was damaged; saved " +
                      countsText(checked.frames, checked.angles, checked.temperatures);
   } else {
-    const DsaSalvage salvage = salvageDsa(in, progress);
+    const DsaRecovery salvage = recoverDsaProfile(in, progress);
     if (!salvage.profile) {
       report.message = "nothing can be saved: " + checked.message;
       return report;
@@ -155,7 +155,7 @@ void readThrough(const Profile& profile, const Progress& progress) {
 // Of a .dsa the notes beside it.
 void addNotes(const std::filesystem::path& path, ReadableRecording& recording) {
   try {
-    EventsReport report = readEventNotes(path);
+    EventsReport report = readEventSidecar(path);
     if (report.damaged > 0) recording.damage = counted(report.damaged, "damaged row");
     recording.events = std::move(report.events);
     recording.damagedEvents = report.damaged;
@@ -185,7 +185,7 @@ ReadableRecording openReadable(const std::filesystem::path& path, const Progress
 // Nothing where nothing can be read.
 std::optional<ReadableRecording> salvagedDsa(const std::filesystem::path& path,
                                              const Progress& progress) {
-  DsaSalvage salvage = salvageDsa(path, progress);
+  DsaRecovery salvage = recoverDsaProfile(path, progress);
   if (!salvage.profile) return std::nullopt;
   ReadableRecording recording{.profile = std::move(*salvage.profile)};
   addNotes(path, recording);
@@ -196,7 +196,7 @@ std::optional<ReadableRecording> salvagedDsa(const std::filesystem::path& path,
 
 std::optional<ReadableRecording> salvagedPalpate(const std::filesystem::path& path,
                                                  const Progress& progress) {
-  PalpateSalvage salvage = salvagePalpate(path, progress);
+  PalpateRecovery salvage = recoverPalpateProfile(path, progress);
   if (!salvage.profile) return std::nullopt;
   ReadableRecording recording{
       .profile = std::move(*salvage.profile),
@@ -204,7 +204,7 @@ std::optional<ReadableRecording> salvagedPalpate(const std::filesystem::path& pa
       .damage = damageText(salvage) +
                 "; readable: " + countsText(salvage.frames, salvage.angles, salvage.temperatures)};
   try {
-    PalpateAccess access(path);
+    PalpateConnection access(path);
     recording.meta = access.meta().values;
     recording.damagedEvents = readEventRows(access.database()).damaged;
   } catch (const FormatError&) {
@@ -265,18 +265,18 @@ VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& 
   return report;
 }
 
-RecordingForm formOf(const std::filesystem::path& path) {
+RecordingFormat formatOf(const std::filesystem::path& path) {
   const std::string ending = lowerEndingOf(path);
-  if (ending == ".dsa") return RecordingForm::kDsa;
-  if (ending == ".palpate") return RecordingForm::kPalpate;
-  if (ending == ".csv") return RecordingForm::kCsv;
-  if (ending == ".npz") return RecordingForm::kNpz;
-  if (ending == ".jsonl") return RecordingForm::kJsonLines;
+  if (ending == ".dsa") return RecordingFormat::kDsa;
+  if (ending == ".palpate") return RecordingFormat::kPalpate;
+  if (ending == ".csv") return RecordingFormat::kCsv;
+  if (ending == ".npz") return RecordingFormat::kNpz;
+  if (ending == ".jsonl") return RecordingFormat::kJsonLines;
   throw FileError(path, "its name must end in .dsa, .palpate, .csv, .npz or .jsonl");
 }
 
 EventsReport readEvents(const std::filesystem::path& path) {
-  return isNativeRecording(path) ? readPalpateEvents(path) : readEventNotes(path);
+  return isNativeRecording(path) ? readPalpateEvents(path) : readEventSidecar(path);
 }
 
 void requireOther(const std::filesystem::path& in, const std::filesystem::path& out) {
@@ -291,24 +291,24 @@ SaveReport saveRecording(const Profile& profile,
                          Overwrite overwrite,
                          const Progress& progress) {
   SaveReport report;
-  switch (formOf(path)) {
-    case RecordingForm::kDsa: {
+  switch (formatOf(path)) {
+    case RecordingFormat::kDsa: {
       // Checked first: a .dsa must not come to notes that were made for another one.
-      const EventNotes notes(path, events, overwrite);
+      const EventSidecar notes(path, events, overwrite);
       report.movedStamps = writeDsa(profile, path, overwrite, progress).movedStamps;
       notes.commit();
       break;
     }
-    case RecordingForm::kPalpate:
+    case RecordingFormat::kPalpate:
       writePalpate(profile, events, path, overwrite, progress);
       break;
-    case RecordingForm::kCsv:
+    case RecordingFormat::kCsv:
       writeCsv(profile, path, overwrite, progress);
       break;
-    case RecordingForm::kNpz:
+    case RecordingFormat::kNpz:
       writeNpz(profile, events, path, overwrite, progress);
       break;
-    case RecordingForm::kJsonLines:
+    case RecordingFormat::kJsonLines:
       writeTactileSensorLines(profile, path, overwrite, progress);
       break;
   }
@@ -319,7 +319,7 @@ RecoverReport recoverRecording(const std::filesystem::path& in,
                                const std::filesystem::path& out,
                                Overwrite overwrite,
                                const Progress& progress) {
-  formOf(out);  // before the work, not after it
+  formatOf(out);  // before the work, not after it
   requireOther(in, out);
   requireWritable(out, overwrite);
   return isNativeRecording(in) ? recoverNative(in, out, overwrite, progress)

@@ -20,7 +20,7 @@
 #include "palpate/core/output_file.h"
 #include "palpate/recording/recording_folder.h"
 
-#include "recording/event_notes.h"
+#include "recording/event_sidecar.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -47,7 +47,7 @@ Stamp recordingCatalogStampOf(const fs::path& recording) {
   Stamp stamp{};
   const std::span<std::int64_t, 6> all(stamp);
   recordingCatalogStampOf(recording, all.first<3>());
-  recordingCatalogStampOf(notesPathOf(recording), all.last<3>());
+  recordingCatalogStampOf(sidecarPathOf(recording), all.last<3>());
   return stamp;
 }
 
@@ -186,7 +186,7 @@ class CatalogRun {
 
   CatalogReport through(RecordingFolder listing, const Progress& progress) {
     report_.numFiles = listing.files.size();
-    report_.troubles = std::move(listing.troubles);
+    report_.problems = std::move(listing.problems);
     report_.folders = std::move(listing.folders);
     report_.local = isLocal(folder_);
     if (sink_.listed) sink_.listed(report_.numFiles);
@@ -244,7 +244,7 @@ class CatalogRun {
     try {
       writeCache(cachePath_, entries);
     } catch (const Error& error) {
-      report_.cacheTrouble = error.what();
+      report_.cacheProblem = error.what();
     }
   }
 

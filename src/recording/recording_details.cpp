@@ -9,12 +9,12 @@
 #include <sys/stat.h>
 
 #include "palpate/core/error.h"
-#include "palpate/core/one_line.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/recording/dsa_reader.h"
 
-#include "recording/event_notes.h"
-#include "recording/native/palpate_access.h"
-#include "recording/recording_form.h"
+#include "recording/event_sidecar.h"
+#include "recording/native/palpate_connection.h"
+#include "recording/recording_format.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -31,15 +31,17 @@ constexpr std::array<std::pair<State, const char*>, 5> kStateNames{{
 }};
 
 // Bounds of what a list keeps of one recording.
-constexpr std::size_t kMostText = 2000;  // [bytes]
+constexpr std::size_t kMaxTextLength = 2000;  // [bytes]
 constexpr std::size_t kMostLabels = 200;
 
-std::string bounded(std::string_view text) { return std::string(beginningOf(text, kMostText)); }
+std::string bounded(std::string_view text) {
+  return std::string(beginningOf(text, kMaxTextLength));
+}
 
 void addNote(std::string& notes, std::string_view text) {
-  if (text.empty() || notes.size() >= kMostText) return;
+  if (text.empty() || notes.size() >= kMaxTextLength) return;
   if (!notes.empty()) notes += '\n';
-  notes += beginningOf(text, kMostText - std::min(kMostText, notes.size()));
+  notes += beginningOf(text, kMaxTextLength - std::min(kMaxTextLength, notes.size()));
 }
 
 void addEvents(RecordingDetails& details, const EventsReport& report) {
@@ -56,7 +58,7 @@ void addEvents(RecordingDetails& details, const EventsReport& report) {
 // The first and the last block of frames are found without a look at the others: by the index over
 // the blocks, or, where an unfinished recording has none, because blocks lie in the order of their
 // writing.
-void readSpan(RecordingDetails& details, PalpateAccess& access) {
+void readSpan(RecordingDetails& details, PalpateConnection& access) {
   SqliteDatabase& database = access.database();
   const bool indexed = !access.unfinished() && !access.beingWritten();
   SqliteStatement first = database.prepare(
@@ -84,7 +86,7 @@ void readSpan(RecordingDetails& details, PalpateAccess& access) {
 
 void readNative(RecordingDetails& details) {
   details.form = "palpate";
-  PalpateAccess access(details.path);
+  PalpateConnection access(details.path);
   const MetaRows& meta = access.meta();
   details.operatorName = bounded(meta["operator"]);
   details.object = bounded(meta["object"]);
@@ -160,7 +162,7 @@ RecordingDetails readDetails(const fs::path& path, const Progress& progress) {
   });
   if (details.form == "dsa") {
     const State state = details.state;
-    attemptRecordingDetails(details, [&] { addEvents(details, readEventNotes(path)); });
+    attemptRecordingDetails(details, [&] { addEvents(details, readEventSidecar(path)); });
     if (state == State::kFinished && details.state != state) {
       // The recording itself is sound: its notes are not.
       details.state = State::kFinished;

@@ -76,11 +76,11 @@ class FolderWalk {
     }
     takeLinkedFiles();
     std::sort(files_.begin(), files_.end());
-    std::sort(troubles_.begin(), troubles_.end());
+    std::sort(problems_.begin(), problems_.end());
   }
 
   RecordingFolder taken() {
-    return {std::move(files_), std::move(troubles_), {seenPaths_.begin(), seenPaths_.end()}};
+    return {std::move(files_), std::move(problems_), {seenPaths_.begin(), seenPaths_.end()}};
   }
 
  private:
@@ -95,7 +95,7 @@ class FolderWalk {
     }
     if (failure) {
       const FileError error(folder, "can't be looked into: " + failure.message());
-      troubles_.emplace_back(error.what());
+      problems_.emplace_back(error.what());
     }
   }
 
@@ -140,7 +140,7 @@ class FolderWalk {
   std::set<FileId> seen_;  // folders
   std::set<fs::path> seenPaths_;
   std::vector<fs::path> files_;
-  std::vector<std::string> troubles_;
+  std::vector<std::string> problems_;
 };
 
 }  // namespace

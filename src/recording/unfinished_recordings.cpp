@@ -13,10 +13,10 @@
 #include <sys/stat.h>
 
 #include "palpate/core/error.h"
-#include "palpate/core/one_line.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/recording/palpate_schema.h"
 
-#include "recording/native/palpate_access.h"
+#include "recording/native/palpate_connection.h"
 #include "recording/native/palpate_lock.h"
 
 namespace palpate {
@@ -113,7 +113,7 @@ bool isUnfinished(const fs::path& path) {
   // A copy, as the reader makes one, would take long for a long recording.
   if (diedInCommit(path)) return looksLikeRecording(path);
   try {
-    PalpateAccess access(path);
+    PalpateConnection access(path);
     return access.unfinished() &&
            access.database().integerOf(
                "SELECT EXISTS(SELECT 1 FROM block) OR EXISTS(SELECT 1 FROM event)") != 0;

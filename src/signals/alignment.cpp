@@ -22,7 +22,7 @@ std::string_view nameOf(Alignment alignment) {
       return "start";
     case Alignment::kClock:
       return "clock";
-    case Alignment::kByHand:
+    case Alignment::kManual:
       return "hand";
     case Alignment::kContact:
       break;
@@ -79,7 +79,7 @@ std::optional<double> offsetBetween(const TimedProfile& a,
     case Alignment::kContact:
       if (!a.contact || !b.contact) return std::nullopt;
       return a.timeS(*a.contact) - b.timeS(*b.contact);
-    case Alignment::kByHand:
+    case Alignment::kManual:
       break;
   }
   return std::nullopt;

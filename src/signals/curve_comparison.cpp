@@ -75,13 +75,14 @@ struct Moments {
     products += fromA * (b - meanB);
   }
   std::optional<double> correlation() const {
-    constexpr double kFewest = 3.0;
+    constexpr double kMinIntervals = 3.0;
     // What rounding leaves of a constant curve is no variation.
     constexpr double kRelative = 1e-12;
     const auto constant = [&](double squares, double mean) {
       return !(squares > kRelative * n * std::max(1e-12, mean * mean));
     };
-    if (n < kFewest || constant(squaresA, meanA) || constant(squaresB, meanB)) return std::nullopt;
+    if (n < kMinIntervals || constant(squaresA, meanA) || constant(squaresB, meanB))
+      return std::nullopt;
     return std::clamp(products / std::sqrt(squaresA) / std::sqrt(squaresB), -1.0, 1.0);
   }
 };

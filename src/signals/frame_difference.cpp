@@ -74,11 +74,11 @@ bool FrameComparison::allCompared() const {
 }
 
 void FrameComparison::check(const TactileFrame& a, const TactileFrame& b) const {
-  if (a.values.size() != a_->numPlaces() || b.values.size() != b_->numPlaces())
+  if (a.values.size() != a_->numCells() || b.values.size() != b_->numCells())
     throw std::invalid_argument("FrameComparison: frames of " + std::to_string(a.values.size()) +
                                 " and " + std::to_string(b.values.size()) +
-                                " values, the layouts have " + std::to_string(a_->numPlaces()) +
-                                " and " + std::to_string(b_->numPlaces()));
+                                " values, the layouts have " + std::to_string(a_->numCells()) +
+                                " and " + std::to_string(b_->numCells()));
 }
 
 void FrameComparison::difference(const TactileFrame& a,
@@ -88,7 +88,7 @@ void FrameComparison::difference(const TactileFrame& a,
   out.layout = layout_;
   out.hostUs = a.hostUs;
   out.deviceMs = a.deviceMs;
-  out.values.assign(layout_->numPlaces(), 0.0F);
+  out.values.assign(layout_->numCells(), 0.0F);
   for (std::size_t m = 0; m < layout_->numMatrices(); ++m) {
     if (!compared_[m]) continue;
     const Mask& existing = layout_->matrix(m).staticMask;

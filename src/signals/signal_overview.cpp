@@ -33,7 +33,7 @@ SignalOverview::SignalOverview(const Profile& profile, double bucketS)
 void SignalOverview::compute(const Progress& progress) {
   const std::size_t frames = profile_.numFrames();
   const std::size_t framesPerReport =
-      std::max<std::size_t>(1, kSignalOverviewPlacesPerReport / profile_.layout().numPlaces());
+      std::max<std::size_t>(1, kSignalOverviewPlacesPerReport / profile_.layout().numCells());
   const auto saturation = static_cast<double>(profile_.hand().saturationCounts);
   std::vector<std::int64_t> stampsUs;
   stampsUs.reserve(frames);

@@ -6,14 +6,14 @@
 
 namespace palpate {
 
-SpectrumOptions SpectrogramOptions::fitted() const {
-  if (mostSegments == 0 || mostCells == 0)
-    throw std::invalid_argument("spectrogram: mostSegments and mostCells must be above 0");
+SpectrumOptions SpectrogramOptions::limitedToCells() const {
+  if (maxSegments == 0 || maxCells == 0)
+    throw std::invalid_argument("spectrogram: maxSegments and maxCells must be above 0");
   spectrum.validate();
   SpectrumOptions options = spectrum;
   const std::size_t most =
-      std::max<std::size_t>(1, std::min(mostSegments, mostCells / spectrum.numBins()));
-  options.mostSegments = spectrum.mostSegments == 0 ? most : std::min(most, spectrum.mostSegments);
+      std::max<std::size_t>(1, std::min(maxSegments, maxCells / spectrum.numBins()));
+  options.maxSegments = spectrum.maxSegments == 0 ? most : std::min(most, spectrum.maxSegments);
   return options;
 }
 
@@ -21,7 +21,7 @@ Spectrogram spectrogramOf(std::span<const double> timeS,
                           std::span<const double> values,
                           const SpectrogramOptions& options,
                           const Progress& progress) {
-  const SpectrumOptions spectrum = options.fitted();
+  const SpectrumOptions spectrum = options.limitedToCells();
   Spectrogram all;
   all.numBins = spectrum.numBins();
   const SpectrumReport plan = planSpectra(timeS, values, spectrum);
@@ -30,7 +30,7 @@ Spectrogram spectrogramOf(std::span<const double> timeS,
   const auto collect = [&](const SpectrumSegment& segment) {
     if (segment.stretch != stretch) {
       stretch = segment.stretch;
-      const SpectrumStretch& whole = plan.stretches[stretch];
+      const GapFreeSpan& whole = plan.stretches[stretch];
       SpectrogramPart part{.firstS = segment.timeS,
                            .stepS = static_cast<double>(plan.hop) / whole.rateHz,
                            .binHz = segment.binHz,

@@ -59,11 +59,11 @@ struct Plan {
 
 void addStretch(Plan& plan, std::size_t begin, std::size_t end, GridRate gridRate) {
   const std::vector<double>& timeS = plan.samples.timeS;
-  SpectrumStretch stretch{.first = plan.samples.index[begin],
-                          .samples = end - begin,
-                          .beginS = timeS[begin],
-                          .endS = timeS[end - 1],
-                          .gridSamples = 1};
+  GapFreeSpan stretch{.first = plan.samples.index[begin],
+                      .samples = end - begin,
+                      .beginS = timeS[begin],
+                      .endS = timeS[end - 1],
+                      .gridSamples = 1};
   const double durationS = stretch.endS - stretch.beginS;
   if (end - begin > 1) {
     if (gridRate == GridRate::kMean) {
@@ -81,7 +81,7 @@ void addStretch(Plan& plan, std::size_t begin, std::size_t end, GridRate gridRat
   plan.report.stretches.push_back(stretch);
 }
 
-std::size_t segmentsOf(const SpectrumStretch& stretch, std::size_t window, std::size_t hop) {
+std::size_t segmentsOf(const GapFreeSpan& stretch, std::size_t window, std::size_t hop) {
   return stretch.gridSamples < window ? 0 : (stretch.gridSamples - window) / hop + 1;
 }
 
@@ -90,23 +90,23 @@ void planSegments(SpectrumReport& report, const SpectrumOptions& options) {
   const auto window = static_cast<std::size_t>(options.window);
   const auto total = [&](std::size_t hop) {
     std::size_t sum = 0;
-    for (const SpectrumStretch& stretch : report.stretches) sum += segmentsOf(stretch, window, hop);
+    for (const GapFreeSpan& stretch : report.stretches) sum += segmentsOf(stretch, window, hop);
     return sum;
   };
   std::size_t hop = window - static_cast<std::size_t>(options.overlap);
-  if (options.mostSegments > 0 && total(hop) > options.mostSegments) {
+  if (options.maxSegments > 0 && total(hop) > options.maxSegments) {
     // Every stretch keeps its first segment, however large the hop: more stretches than segments
     // stay so.
     std::size_t below = hop, enough = hop;
-    while (total(enough) > options.mostSegments && enough < report.samples) enough *= 2;
+    while (total(enough) > options.maxSegments && enough < report.samples) enough *= 2;
     while (enough - below > 1) {
       const std::size_t middle = below + (enough - below) / 2;
-      (total(middle) > options.mostSegments ? below : enough) = middle;
+      (total(middle) > options.maxSegments ? below : enough) = middle;
     }
     hop = enough;
   }
   report.hop = hop;
-  for (SpectrumStretch& stretch : report.stretches) {
+  for (GapFreeSpan& stretch : report.stretches) {
     stretch.segments = segmentsOf(stretch, window, hop);
     report.segments += stretch.segments;
     if (stretch.segments == 0) report.inNoSegment += stretch.samples;
@@ -145,7 +145,7 @@ Plan planOf(std::span<const double> timeS,
   }
   planSegments(report, options);
   std::size_t longest = 1;
-  for (const SpectrumStretch& stretch : report.stretches)
+  for (const GapFreeSpan& stretch : report.stretches)
     if (stretch.samples > longest) {
       longest = stretch.samples;
       report.rateHz = stretch.rateHz;
@@ -156,7 +156,7 @@ Plan planOf(std::span<const double> timeS,
 
 // The samples of a stretch on its grid, linearly between the two neighbours of each point.
 std::vector<double> onGrid(const Plan& plan, std::size_t which) {
-  const SpectrumStretch& stretch = plan.report.stretches[which];
+  const GapFreeSpan& stretch = plan.report.stretches[which];
   const double* timeS = plan.samples.timeS.data() + plan.begins[which];
   const double* values = plan.samples.values.data() + plan.begins[which];
   std::vector<double> grid(stretch.gridSamples);
@@ -259,7 +259,7 @@ SpectrumReport visitSpectra(std::span<const double> timeS,
   Transformer transformer(options);
   std::size_t done = 0;
   for (std::size_t s = 0; s < report.stretches.size(); ++s) {
-    const SpectrumStretch& stretch = report.stretches[s];
+    const GapFreeSpan& stretch = report.stretches[s];
     if (stretch.segments == 0) continue;
     const std::vector<double> grid = onGrid(plan, s);
     for (std::size_t i = 0; i < stretch.segments; ++i, ++done) {

@@ -9,13 +9,13 @@
 namespace palpate {
 
 std::optional<TaxelPlace> strongestTaxel(const Profile& profile,
-                                         std::size_t mostFrames,
+                                         std::size_t maxFrames,
                                          const Progress& progress) {
-  if (mostFrames == 0) throw std::invalid_argument("strongestTaxel: no frames to look at");
+  if (maxFrames == 0) throw std::invalid_argument("strongestTaxel: no frames to look at");
   const SensorLayout& layout = profile.layout();
   const std::size_t numFrames = profile.numFrames();
-  const std::size_t looks = std::min(mostFrames, numFrames);
-  std::vector<double> sums(layout.numPlaces(), 0.0);
+  const std::size_t looks = std::min(maxFrames, numFrames);
+  std::vector<double> sums(layout.numCells(), 0.0);
   TactileFrame frame;
   for (std::size_t i = 0; i < looks; ++i) {
     if (progress && !progress(static_cast<double>(i) / static_cast<double>(looks)))

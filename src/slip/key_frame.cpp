@@ -16,7 +16,7 @@ namespace {
 constexpr int kKeyFrameAround = 2;     // places of coefficients on every side
 constexpr float kPole = -0.26794919F;  // sqrt(3) - 2, of the cubic spline's inverse filter
 
-using spline::Four;
+using spline::SplineWeights;
 
 // In place: values -> coefficients of the spline through them, along one line; mirrored at its
 // ends.
@@ -101,7 +101,7 @@ KeyFrame::KeyFrame(const MatrixLayout& layout, const KeyFrameOptions& options)
     : layout_(layout), options_(options) {
   layout_.validate();
   options_.validate();
-  const std::size_t places = layout_.numPlaces();
+  const std::size_t places = layout_.numCells();
   enabled_.resize(places);
   for (int y = 0; y < layout_.rows; ++y)
     for (int x = 0; x < layout_.columns; ++x)
@@ -119,7 +119,7 @@ bool KeyFrame::set(const ConstMatrixMap& frame) {
     throw std::invalid_argument("KeyFrame: the frame hasn't the size of the matrix");
   const ContactMoments moments = contactMoments(frame);
   active_ = 0;
-  if (moments.active < kFewestTaxels) return false;
+  if (moments.active < kMinTaxels) return false;
   centerX_ = moments.x;
   centerY_ = moments.y;
   sum_ = moments.sum;
@@ -131,7 +131,7 @@ bool KeyFrame::set(const ConstMatrixMap& frame) {
   active_ = moments.active;
   fill();
   interpolate();
-  lookForTurning();
+  computeRotationSensitivity();
   return true;
 }
 
@@ -187,7 +187,7 @@ void KeyFrame::interpolate() noexcept {
   }
 }
 
-void KeyFrame::lookForTurning() noexcept {
+void KeyFrame::computeRotationSensitivity() noexcept {
   const int rows = layout_.rows;
   const int columns = layout_.columns;
   float around = 0.0F;
@@ -203,7 +203,7 @@ void KeyFrame::lookForTurning() noexcept {
       around += turn * turn;
       all += (slopeX * slopeX + slopeY * slopeY) * (ux * ux + uy * uy);
     }
-  turning_ = all > 0.0F ? around / all : 0.0F;
+  rotationSensitivity_ = all > 0.0F ? around / all : 0.0F;
 }
 
 float KeyFrame::coefficient(int y, int x) const noexcept {
@@ -220,16 +220,16 @@ KeyFrame::Sample KeyFrame::at(float x, float y) const noexcept {
   const int corner = (static_cast<int>(floorY) + kKeyFrameAround) * stride_ +
                      static_cast<int>(floorX) + kKeyFrameAround;
   const float* places = coefficients_.data() + corner - stride_ - 1;
-  const Four weightsY = spline::weights(ty);
-  const Four slopesY = spline::slopes(ty);
-  Four values = Four::Zero();
-  Four slopes = Four::Zero();
+  const SplineWeights weightsY = spline::weights(ty);
+  const SplineWeights slopesY = spline::slopes(ty);
+  SplineWeights values = SplineWeights::Zero();
+  SplineWeights slopes = SplineWeights::Zero();
   for (int j = 0; j < 4; ++j) {
-    const Four line = Eigen::Map<const Four>(places + j * stride_);
+    const SplineWeights line = Eigen::Map<const SplineWeights>(places + j * stride_);
     values += weightsY(j) * line;
     slopes += slopesY(j) * line;
   }
-  const Four weightsX = spline::weights(tx);
+  const SplineWeights weightsX = spline::weights(tx);
   Sample sample;
   sample.value = (values * weightsX).sum();
   sample.alongX = (values * spline::slopes(tx)).sum();

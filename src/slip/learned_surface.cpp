@@ -11,7 +11,7 @@
 namespace palpate {
 namespace {
 
-using spline::Four;
+using spline::SplineWeights;
 
 // Half places before the first taxel: the margin, and one that a spline reaches out.
 constexpr int kBefore = 2 * LearnedSurface::kMargin + 1;
@@ -29,10 +29,10 @@ float learnedSurfaceSquare(float value) { return value * value; }
 }  // namespace
 
 void LearnedSurfaceOptions::validate() const {
-  checkLearnedSurface(unsureOfBend >= 0.0, "unsureOfBend", unsureOfBend);
-  checkLearnedSurface(unsureOfSilence >= 0.0, "unsureOfSilence", unsureOfSilence);
-  checkLearnedSurface(unsureOutside > 0.0, "unsureOutside", unsureOutside);
-  checkLearnedSurface(forgetting >= 0.0, "forgetting", forgetting);
+  checkLearnedSurface(curvatureSd >= 0.0, "curvatureSd", curvatureSd);
+  checkLearnedSurface(belowThresholdSd >= 0.0, "belowThresholdSd", belowThresholdSd);
+  checkLearnedSurface(outsideSd > 0.0, "outsideSd", outsideSd);
+  checkLearnedSurface(processNoiseRatio >= 0.0, "forgetting", processNoiseRatio);
   key.validate();
 }
 
@@ -44,7 +44,7 @@ LearnedSurface::LearnedSurface(const MatrixLayout& layout, const LearnedSurfaceO
   const auto size = static_cast<std::size_t>(columns_ * rows_);
   coefficients_.resize(size);
   variances_.resize(size);
-  ofTaxels_.resize(layout.numPlaces());
+  ofTaxels_.resize(layout.numCells());
 }
 
 bool LearnedSurface::set(const ConstMatrixMap& frame, double noiseCounts) {
@@ -52,13 +52,14 @@ bool LearnedSurface::set(const ConstMatrixMap& frame, double noiseCounts) {
   const MatrixLayout& layout = key_.layout();
   const int rows = layout.rows;
   const int columns = layout.columns;
-  least_ = key_.leastCounts();
+  least_ = key_.minCounts();
   const float* filled = key_.filled().data();
   const float noise2 = learnedSurfaceSquare(static_cast<float>(noiseCounts));
-  const float largest = *std::max_element(filled, filled + layout.numPlaces());
-  const float outside = learnedSurfaceSquare(static_cast<float>(options_.unsureOutside) * largest);
-  const float silence = learnedSurfaceSquare(static_cast<float>(options_.unsureOfSilence) * least_);
-  const auto bendSd = static_cast<float>(options_.unsureOfBend);
+  const float largest = *std::max_element(filled, filled + layout.numCells());
+  const float outside = learnedSurfaceSquare(static_cast<float>(options_.outsideSd) * largest);
+  const float silence =
+      learnedSurfaceSquare(static_cast<float>(options_.belowThresholdSd) * least_);
+  const auto bendSd = static_cast<float>(options_.curvatureSd);
 
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < columns; ++x) {
@@ -118,22 +119,23 @@ LearnedSurface::Sample LearnedSurface::at(float x, float y) const noexcept {
   const float halfY = 2.0F * y;
   const float floorX = std::floor(halfX);
   const float floorY = std::floor(halfY);
-  const Four weightsX = spline::weights(halfX - floorX);
-  const Four slopesX = spline::slopes(halfX - floorX);
-  const Four weightsY = spline::weights(halfY - floorY);
-  const Four slopesY = spline::slopes(halfY - floorY);
+  const SplineWeights weightsX = spline::weights(halfX - floorX);
+  const SplineWeights slopesX = spline::slopes(halfX - floorX);
+  const SplineWeights weightsY = spline::weights(halfY - floorY);
+  const SplineWeights slopesY = spline::slopes(halfY - floorY);
   const int corner =
       (static_cast<int>(floorY) + kBefore - 1) * columns_ + static_cast<int>(floorX) + kBefore - 1;
   const float* coefficients = coefficients_.data() + corner;
   const float* variances = variances_.data() + corner;
-  Four values = Four::Zero();
-  Four slopes = Four::Zero();
-  Four unsure = Four::Zero();
+  SplineWeights values = SplineWeights::Zero();
+  SplineWeights slopes = SplineWeights::Zero();
+  SplineWeights unsure = SplineWeights::Zero();
   for (int j = 0; j < 4; ++j) {
-    const Four line = Eigen::Map<const Four>(coefficients + j * columns_);
+    const SplineWeights line = Eigen::Map<const SplineWeights>(coefficients + j * columns_);
     values += weightsY(j) * line;
     slopes += slopesY(j) * line;
-    unsure += (weightsY(j) * weightsY(j)) * Eigen::Map<const Four>(variances + j * columns_);
+    unsure +=
+        (weightsY(j) * weightsY(j)) * Eigen::Map<const SplineWeights>(variances + j * columns_);
   }
   return {(values * weightsX).sum(),
           2.0F * (values * slopesX).sum(),
@@ -158,7 +160,7 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
   const float noise2 = learnedSurfaceSquare(static_cast<float>(options.noiseCounts));
   const float relative2 = learnedSurfaceSquare(static_cast<float>(options.relativeError));
   const auto saturated = static_cast<float>(options.saturationCounts);
-  const float forgotten = static_cast<float>(options_.forgetting) * noise2;
+  const float forgotten = static_cast<float>(options_.processNoiseRatio) * noise2;
   const auto sdX = static_cast<float>(found.sdX);
   const auto sdY = static_cast<float>(found.sdY);
   const auto sdAngle = static_cast<float>(found.sdAngleDeg) * registration::kRadians;
@@ -184,18 +186,18 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
       const float halfY = 2.0F * sy;
       const float floorX = std::floor(halfX);
       const float floorY = std::floor(halfY);
-      const Four weightsX = spline::weights(halfX - floorX);
-      const Four weightsY = spline::weights(halfY - floorY);
+      const SplineWeights weightsX = spline::weights(halfX - floorX);
+      const SplineWeights weightsY = spline::weights(halfY - floorY);
       const int corner = (static_cast<int>(floorY) + kBefore - 1) * columns_ +
                          static_cast<int>(floorX) + kBefore - 1;
       float* coefficients = coefficients_.data() + corner;
       float* variances = variances_.data() + corner;
-      Four values = Four::Zero();
-      Four unsure = Four::Zero();
+      SplineWeights values = SplineWeights::Zero();
+      SplineWeights unsure = SplineWeights::Zero();
       for (int j = 0; j < 4; ++j) {
-        values += weightsY(j) * Eigen::Map<const Four>(coefficients + j * columns_);
-        unsure +=
-            learnedSurfaceSquare(weightsY(j)) * Eigen::Map<const Four>(variances + j * columns_);
+        values += weightsY(j) * Eigen::Map<const SplineWeights>(coefficients + j * columns_);
+        unsure += learnedSurfaceSquare(weightsY(j)) *
+                  Eigen::Map<const SplineWeights>(variances + j * columns_);
       }
       const float model = gain * (values * weightsX).sum();
       const float variance = learnedSurfaceSquare(gain) * (unsure * weightsX * weightsX).sum();
@@ -208,11 +210,11 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
       }
       // An error of the motion moves the whole surface, which no single taxel can know: it counts
       // more than once.
-      const Four along = values * spline::slopes(halfX - floorX);
-      Four across = Four::Zero();
-      const Four slopesY = spline::slopes(halfY - floorY);
+      const SplineWeights along = values * spline::slopes(halfX - floorX);
+      SplineWeights across = SplineWeights::Zero();
+      const SplineWeights slopesY = spline::slopes(halfY - floorY);
       for (int j = 0; j < 4; ++j)
-        across += slopesY(j) * Eigen::Map<const Four>(coefficients + j * columns_);
+        across += slopesY(j) * Eigen::Map<const SplineWeights>(coefficients + j * columns_);
       const float slopeX = 2.0F * gain * along.sum();
       const float slopeY = 2.0F * gain * (across * weightsX).sum();
       const float turn = slopeX * (sy - cy) - slopeY * (sx - cx);
@@ -224,9 +226,10 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
       const float residual = measured - model;
       const float scale = gain / all;
       for (int j = 0; j < 4; ++j) {
-        Eigen::Map<Four> variancesOfRow(variances + j * columns_);
-        Eigen::Map<Four> row(coefficients + j * columns_);
-        const Four toward = (scale * weightsY(j)) * weightsX * variancesOfRow;  // Kalman gain
+        Eigen::Map<SplineWeights> variancesOfRow(variances + j * columns_);
+        Eigen::Map<SplineWeights> row(coefficients + j * columns_);
+        // Kalman gain
+        const SplineWeights toward = (scale * weightsY(j)) * weightsX * variancesOfRow;
         row += residual * toward;
         variancesOfRow += forgotten - toward * toward * all;
       }
@@ -252,16 +255,17 @@ RegistrationResult registerFrame(const LearnedSurface& surface,
       registration::windowOf(frame.data(), layout.rows, layout.columns, least)};
   if (least == 0.0F) return result;
   constexpr auto kMargin = static_cast<float>(LearnedSurface::kMargin);
-  const registration::Contact contact{static_cast<float>(key.centerX()),
-                                      static_cast<float>(key.centerY()),
-                                      static_cast<float>(key.sum()),
-                                      std::sqrt(static_cast<float>(key.active())),
-                                      key.turning() >= static_cast<float>(options.leastTurning),
-                                      std::min(least, surface.leastCounts()),
-                                      -kMargin,
-                                      static_cast<float>(layout.columns - 1) + kMargin,
-                                      -kMargin,
-                                      static_cast<float>(layout.rows - 1) + kMargin};
+  const registration::Contact contact{
+      static_cast<float>(key.centerX()),
+      static_cast<float>(key.centerY()),
+      static_cast<float>(key.sum()),
+      std::sqrt(static_cast<float>(key.active())),
+      key.rotationSensitivity() >= static_cast<float>(options.minRotationSensitivity),
+      std::min(least, surface.minCounts()),
+      -kMargin,
+      static_cast<float>(layout.columns - 1) + kMargin,
+      -kMargin,
+      static_cast<float>(layout.rows - 1) + kMargin};
   return registration::registerTo(surface, contact, view, start, options);
 }
 

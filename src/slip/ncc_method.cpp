@@ -31,11 +31,11 @@ class NccMethod final : public TranslationMethod {
   NccMethod(const MatrixLayout& layout, const SlipTrackerOptions& options, bool paraboloid)
       : rows_(layout.rows),
         columns_(layout.columns),
-        farthest_(options.farthestTaxels),
+        farthest_(options.maxStepTaxels),
         paraboloid_(paraboloid),
-        last_(layout.numPlaces()),
-        reference_(layout.numPlaces()),
-        now_(layout.numPlaces()) {
+        last_(layout.numCells()),
+        reference_(layout.numCells()),
+        now_(layout.numCells()) {
     reach_ = farthest_ + kNccMethodAround;
     known_.resize(static_cast<std::size_t>((2 * reach_ + 1) * (2 * reach_ + 1)));
     // Squares summed over rectangles from the first taxel.

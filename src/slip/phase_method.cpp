@@ -34,7 +34,7 @@ class PhaseMethod final : public TranslationMethod {
         sizeY_(2 * layout.rows),
         halfX_(layout.columns + 1),
         normalized_(normalized),
-        farthest_(options.farthestTaxels) {
+        farthest_(options.maxStepTaxels) {
     const auto bins = static_cast<std::size_t>(sizeY_ * halfX_);
     for (Spectrum* spectrum : {&now_, &last_, &reference_}) {
       spectrum->real.resize(bins);

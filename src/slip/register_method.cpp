@@ -142,7 +142,8 @@ class RegisterMethod final : public TranslationMethod {
     const double misfit = std::sqrt(result.chi2) * noise_ / mean;
     const double scale = noise_ / options_.noiseCounts;
     reading.residual = result.chi2 * scale * scale;
-    reading.turns = surface_.start().turning() >= static_cast<float>(options_.leastTurning);
+    reading.turns = surface_.start().rotationSensitivity() >=
+                    static_cast<float>(options_.minRotationSensitivity);
 
     if (!result.converged || misfit > kNoFit) {
       // Nothing of the key is left: the centroid leads on, and is believed little.
@@ -158,7 +159,7 @@ class RegisterMethod final : public TranslationMethod {
       return;
     }
     motion_ = result.motion;
-    reading.untold = result.untold;
+    reading.degenerate = result.degenerate;
     reading.valid = stepPossible;
     if (stepPossible) {
       reading.dx = motion_.dx - before.dx;

@@ -13,8 +13,8 @@
 
 namespace palpate::registration {
 
-using Normal = Eigen::Matrix4f;
-using Unknowns = Eigen::Vector4f;  // dx, dy, angle [rad], gain
+using NormalMatrix = Eigen::Matrix4f;
+using MotionParameters = Eigen::Vector4f;  // dx, dy, angle [rad], gain
 
 constexpr float kRadians = static_cast<float>(std::numbers::pi / 180.0);
 
@@ -71,26 +71,26 @@ inline Window windowOf(const float* values, int rows, int columns, float& least)
           std::min(window.right + 1, columns - 1)};
 }
 
-struct Pass {
+struct NormalEquations {
   std::array<float, 15> sums{};  // upper triangle of the normal equations, right side, squares
   int taxels = 0;
   float inside = 0.0F;  // load of the surface that was seen
 };
 
 template <typename Surface>
-Pass passOver(const Surface& surface,
-              const Contact& contact,
-              const Frame& frame,
-              const Place& at,
-              const RegistrationOptions& options) {
-  Pass pass;
+NormalEquations accumulateNormalEquations(const Surface& surface,
+                                          const Contact& contact,
+                                          const Frame& frame,
+                                          const Place& at,
+                                          const RegistrationOptions& options) {
+  NormalEquations pass;
   const float cosine = std::cos(at.angle);
   const float sine = std::sin(at.angle);
   const auto noise2 = static_cast<float>(options.noiseCounts * options.noiseCounts);
   const auto relative2 = static_cast<float>(options.relativeError * options.relativeError);
   const auto saturated = static_cast<float>(options.saturationCounts);
-  Normal normal = Normal::Zero();
-  Unknowns right = Unknowns::Zero();
+  NormalMatrix normal = NormalMatrix::Zero();
+  MotionParameters right = MotionParameters::Zero();
   float squares = 0.0F;
   for (int y = frame.window.top; y <= frame.window.bottom; ++y)
     for (int x = frame.window.left; x <= frame.window.right; ++x) {
@@ -117,11 +117,11 @@ Pass passOver(const Surface& surface,
       const float residual = measured - model;
       const float weight =
           1.0F / (noise2 + relative2 * measured * measured + at.gain * at.gain * sample.variance);
-      const Unknowns slope(-at.gain * (cosine * sample.alongX - sine * sample.alongY),
-                           -at.gain * (sine * sample.alongX + cosine * sample.alongY),
-                           at.gain * (sample.alongX * uy - sample.alongY * ux),
-                           sample.value);
-      const Unknowns weighted = weight * slope;
+      const MotionParameters slope(-at.gain * (cosine * sample.alongX - sine * sample.alongY),
+                                   -at.gain * (sine * sample.alongX + cosine * sample.alongY),
+                                   at.gain * (sample.alongX * uy - sample.alongY * ux),
+                                   sample.value);
+      const MotionParameters weighted = weight * slope;
       normal.noalias() += weighted * slope.transpose();
       right += residual * weighted;
       squares += weight * residual * residual;
@@ -135,8 +135,8 @@ Pass passOver(const Surface& surface,
   return pass;
 }
 
-inline Normal normalOf(const Pass& pass) {
-  Normal normal;
+inline NormalMatrix normalOf(const NormalEquations& pass) {
+  NormalMatrix normal;
   std::size_t i = 0;
   for (int row = 0; row < 4; ++row)
     for (int column = row; column < 4; ++column)
@@ -145,11 +145,13 @@ inline Normal normalOf(const Pass& pass) {
 }
 
 // Which directions the normal equations don't tell, and what holds the motion along them.
-inline Untold untoldOf(const Normal& normal, double sdTaxels, Eigen::Matrix2f& held) {
+inline DegenerateDirections degenerateDirectionsOf(const NormalMatrix& normal,
+                                                   double sdTaxels,
+                                                   Eigen::Matrix2f& held) {
   constexpr float kFirm = 1e6F;
-  const Eigen::LLT<Normal> solver(normal);
+  const Eigen::LLT<NormalMatrix> solver(normal);
   if (solver.info() != Eigen::Success) return {};
-  Normal unit = Normal::Identity();
+  NormalMatrix unit = NormalMatrix::Identity();
   solver.solveInPlace(unit);
   const float xx = unit(0, 0);
   const float yy = unit(1, 1);
@@ -160,18 +162,18 @@ inline Untold untoldOf(const Normal& normal, double sdTaxels, Eigen::Matrix2f& h
   const float angle = 0.5F * std::atan2(2.0F * xy, xx - yy);  // of the larger variance
   const Eigen::Vector2f along(std::cos(angle), std::sin(angle));
   const Eigen::Vector2f across(-along.y(), along.x());
-  Untold untold;
+  DegenerateDirections degenerate;
   if (0.5F * (xx + yy) + root > most) {
     held += kFirm * along * along.transpose();
-    untold.count = 1;
-    untold.x = static_cast<double>(along.x());
-    untold.y = static_cast<double>(along.y());
+    degenerate.count = 1;
+    degenerate.x = static_cast<double>(along.x());
+    degenerate.y = static_cast<double>(along.y());
   }
   if (0.5F * (xx + yy) - root > most) {
     held += kFirm * across * across.transpose();
-    untold.count = 2;
+    degenerate.count = 2;
   }
-  return untold;
+  return degenerate;
 }
 
 // Gauss-Newton from `start`; `least` is the frame's smallest active value (0: nothing is active).
@@ -193,15 +195,15 @@ RegistrationResult registerTo(const Surface& surface,
   const float gainPrior = 1.0F / static_cast<float>(std::pow(options.gainPrior * start.gain, 2));
   Eigen::Matrix2f held = Eigen::Matrix2f::Zero();
   const auto limit = static_cast<float>(options.convergedTaxels);
-  for (int i = 0; i < options.passes; ++i) {
-    const Pass pass = passOver(surface, contact, frame, at, options);
+  for (int i = 0; i < options.maxIterations; ++i) {
+    const NormalEquations pass = accumulateNormalEquations(surface, contact, frame, at, options);
     result.taxels = pass.taxels;
     result.overlap =
         std::clamp(static_cast<double>(pass.inside) / static_cast<double>(contact.sum), 0.0, 1.0);
-    if (pass.taxels < 2 || result.overlap < options.leastOverlap) break;
+    if (pass.taxels < 2 || result.overlap < options.minOverlap) break;
     result.chi2 = static_cast<double>(pass.sums[14]) / pass.taxels;
-    Normal normal = normalOf(pass);
-    Unknowns right(pass.sums[10], pass.sums[11], pass.sums[12], pass.sums[13]);
+    NormalMatrix normal = normalOf(pass);
+    MotionParameters right(pass.sums[10], pass.sums[11], pass.sums[12], pass.sums[13]);
     normal(0, 0) += 1e-3F;
     normal(1, 1) += 1e-3F;
     normal(2, 2) += anglePrior;
@@ -214,12 +216,13 @@ RegistrationResult registerTo(const Surface& surface,
       normal(2, 2) = 1.0F;
       right(2) = 0.0F;
     }
-    if (i == 0) result.untold = untoldOf(normal, options.untoldTaxels, held);
+    if (i == 0)
+      result.degenerate = degenerateDirectionsOf(normal, options.maxDirectionSdTaxels, held);
     normal.topLeftCorner<2, 2>() += held;
     right.head<2>() += held * Eigen::Vector2f(from.dx - at.dx, from.dy - at.dy);
-    const Eigen::LLT<Normal> solver(normal);
+    const Eigen::LLT<NormalMatrix> solver(normal);
     if (solver.info() != Eigen::Success) break;
-    Unknowns step = solver.solve(right);
+    MotionParameters step = solver.solve(right);
     if (!step.allFinite()) break;
     // A Gauss-Newton step is trusted over a taxel, half a radian and a doubled load.
     const float longest = std::max({std::abs(step(0)),
@@ -234,8 +237,8 @@ RegistrationResult registerTo(const Surface& surface,
     if (std::abs(at.dx) > 300.0F || std::abs(at.dy) > 300.0F) break;
     const float moved =
         std::max({std::abs(step(0)), std::abs(step(1)), contact.extent * std::abs(step(2))});
-    if (moved < limit || i + 1 == options.passes) {
-      const Normal covariance = solver.solve(Normal::Identity());
+    if (moved < limit || i + 1 == options.maxIterations) {
+      const NormalMatrix covariance = solver.solve(NormalMatrix::Identity());
       result.sdX = static_cast<double>(std::sqrt(covariance(0, 0)));
       result.sdY = static_cast<double>(std::sqrt(covariance(1, 1)));
       if (contact.turns)

@@ -34,16 +34,18 @@ void checkRigidRegistration(bool good, const char* field, double value) {
 }  // namespace
 
 void RegistrationOptions::validate() const {
-  checkRigidRegistration(passes >= 1 && passes <= 50, "passes", passes);
+  checkRigidRegistration(maxIterations >= 1 && maxIterations <= 50, "passes", maxIterations);
   checkRigidRegistration(convergedTaxels > 0.0, "convergedTaxels", convergedTaxels);
   checkRigidRegistration(noiseCounts > 0.0, "noiseCounts", noiseCounts);
   checkRigidRegistration(relativeError >= 0.0, "relativeError", relativeError);
   checkRigidRegistration(saturationCounts > 0.0, "saturationCounts", saturationCounts);
   checkRigidRegistration(anglePriorDeg > 0.0, "anglePriorDeg", anglePriorDeg);
-  checkRigidRegistration(leastTurning >= 0.0 && leastTurning <= 0.5, "leastTurning", leastTurning);
-  checkRigidRegistration(untoldTaxels > 0.0, "untoldTaxels", untoldTaxels);
+  checkRigidRegistration(minRotationSensitivity >= 0.0 && minRotationSensitivity <= 0.5,
+                         "minRotationSensitivity",
+                         minRotationSensitivity);
+  checkRigidRegistration(maxDirectionSdTaxels > 0.0, "maxDirectionSdTaxels", maxDirectionSdTaxels);
   checkRigidRegistration(gainPrior > 0.0, "gainPrior", gainPrior);
-  checkRigidRegistration(leastOverlap >= 0.0 && leastOverlap <= 1.0, "leastOverlap", leastOverlap);
+  checkRigidRegistration(minOverlap >= 0.0 && minOverlap <= 1.0, "minOverlap", minOverlap);
 }
 
 RegistrationResult registerFrame(const KeyFrame& key,
@@ -70,24 +72,25 @@ RegistrationResult registerFrame(const KeyFrame& key,
     smoothMatrix(layout, key.options().blurTaxels, frame.data(), scratch);
     view.values = scratch;
   }
-  const registration::Contact contact{static_cast<float>(key.centerX()),
-                                      static_cast<float>(key.centerY()),
-                                      static_cast<float>(key.sum()),
-                                      std::sqrt(static_cast<float>(key.active())),
-                                      key.turning() >= static_cast<float>(options.leastTurning),
-                                      smooth ? 0.0F : std::min(least, key.leastCounts()),
-                                      0.0F,
-                                      static_cast<float>(layout.columns - 1),
-                                      0.0F,
-                                      static_cast<float>(layout.rows - 1)};
-  const KeySurface surface{key, 0.3F * key.leastCounts()};
+  const registration::Contact contact{
+      static_cast<float>(key.centerX()),
+      static_cast<float>(key.centerY()),
+      static_cast<float>(key.sum()),
+      std::sqrt(static_cast<float>(key.active())),
+      key.rotationSensitivity() >= static_cast<float>(options.minRotationSensitivity),
+      smooth ? 0.0F : std::min(least, key.minCounts()),
+      0.0F,
+      static_cast<float>(layout.columns - 1),
+      0.0F,
+      static_cast<float>(layout.rows - 1)};
+  const KeySurface surface{key, 0.3F * key.minCounts()};
   return registration::registerTo(surface, contact, view, start, options);
 }
 
 RigidRegistration::RigidRegistration(const MatrixLayout& layout,
                                      const RegistrationOptions& options,
                                      const KeyFrameOptions& keyOptions)
-    : key_(layout, keyOptions), options_(options), scratch_(layout.numPlaces()) {
+    : key_(layout, keyOptions), options_(options), scratch_(layout.numCells()) {
   options_.validate();
 }
 

@@ -7,14 +7,14 @@
 namespace palpate {
 
 void RotationOptions::validate() const {
-  if (!(leastEccentricity >= 0.0 && leastEccentricity <= 1.0))
-    throw std::invalid_argument("RotationOptions: leastEccentricity is " +
-                                std::to_string(leastEccentricity) + ", not 0..1");
-  if (!(mostRoundness >= 0.0 && mostRoundness <= 1.0))
-    throw std::invalid_argument("RotationOptions: mostRoundness is " +
-                                std::to_string(mostRoundness) + ", not 0..1");
-  if (fewestTaxels < 1)
-    throw std::invalid_argument("RotationOptions: fewestTaxels is " + std::to_string(fewestTaxels));
+  if (!(minEccentricity >= 0.0 && minEccentricity <= 1.0))
+    throw std::invalid_argument("RotationOptions: minEccentricity is " +
+                                std::to_string(minEccentricity) + ", not 0..1");
+  if (!(maxRoundness >= 0.0 && maxRoundness <= 1.0))
+    throw std::invalid_argument("RotationOptions: maxRoundness is " + std::to_string(maxRoundness) +
+                                ", not 0..1");
+  if (minTaxels < 1)
+    throw std::invalid_argument("RotationOptions: minTaxels is " + std::to_string(minTaxels));
 }
 
 RotationTracker::RotationTracker(const RotationOptions& options) : options_(options) {
@@ -28,9 +28,9 @@ const SlipRotation& RotationTracker::update(const ContactMoments& moments,
   state_.valid = false;
   state_.refValid = false;
   state_.rotationDeg = 0.0;
-  const bool round = state_.axis.studyEccentricity < options_.leastEccentricity &&
-                     roundness > options_.mostRoundness;
-  state_.reliable = moments.active >= options_.fewestTaxels && state_.axis.lambda1 > 0.0 && !round;
+  const bool round =
+      state_.axis.studyEccentricity < options_.minEccentricity && roundness > options_.maxRoundness;
+  state_.reliable = moments.active >= options_.minTaxels && state_.axis.lambda1 > 0.0 && !round;
   if (!state_.reliable) {
     hasLast_ = false;
     return state_;

@@ -12,8 +12,8 @@ SensorSlipDetector::SensorSlipDetector(const SensorLayout& layout,
   for (const MatrixLayout& matrix : layout.matrices()) detectors_.emplace_back(matrix, options);
 }
 
-const std::vector<SlipVerdict>& SensorSlipDetector::update(const TactileFrame& frame,
-                                                           std::span<const double> jointsDeg) {
+const std::vector<SlipDetection>& SensorSlipDetector::update(const TactileFrame& frame,
+                                                             std::span<const double> jointsDeg) {
   if (!frame.layout || frame.layout->numMatrices() != detectors_.size())
     throw std::invalid_argument("SensorSlipDetector: the frame has another layout");
   for (std::size_t m = 0; m < detectors_.size(); ++m)
@@ -46,7 +46,7 @@ void SensorSlipDetector::setOn(bool on) noexcept {
 
 bool SensorSlipDetector::slipping() const noexcept {
   return std::any_of(
-      verdicts_.begin(), verdicts_.end(), [](const SlipVerdict& one) { return one.slipping; });
+      verdicts_.begin(), verdicts_.end(), [](const SlipDetection& one) { return one.slipping; });
 }
 
 }  // namespace palpate

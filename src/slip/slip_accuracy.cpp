@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
-#include "palpate/slip/slip_bound.h"
+#include "palpate/slip/cramer_rao_bound.h"
 #include "palpate/slip/slip_detector.h"
 #include "palpate/slip/slip_tracker.h"
 
@@ -140,7 +140,7 @@ class Trial {
   double middleY() const { return 0.5 * (slip_.sensor().layout.rows - 14); }
   void read(const SyntheticContact& contact, Readings& readings) {
     const MatrixLayout& layout = slip_.sensor().layout;
-    std::vector<float> values(layout.numPlaces());
+    std::vector<float> values(layout.numCells());
     slip_.read(contact, MatrixMap(values.data(), layout.rows, layout.columns));
     readings.frames.push_back(std::move(values));
     readings.contacts.push_back(contact);
@@ -151,11 +151,11 @@ class Trial {
   SlipShape shape_;
 };
 
-std::vector<SlipMotion> follow(const MeasuredMethod& method,
+std::vector<SlipMotion> follow(const BenchmarkedMethod& method,
                                const MatrixLayout& layout,
                                const Readings& readings,
                                Sums& sums) {
-  const SlipReader reader = method.begin(layout);
+  const SlipEstimator reader = method.begin(layout);
   std::vector<SlipMotion> motions;
   motions.reserve(readings.frames.size());
   const auto begin = std::chrono::steady_clock::now();
@@ -220,7 +220,7 @@ void judgeWandering(const Readings& readings, const std::vector<SlipMotion>& mot
 
 void addBounds(const Readings& readings, const SyntheticSensor& sensor, Sums& sums) {
   for (std::size_t i = 0; i < readings.contacts.size(); i += kBoundEvery) {
-    const SlipBound bound = slipBound(readings.contacts[i], sensor);
+    const CramerRaoBound bound = cramerRaoBound(readings.contacts[i], sensor);
     sums.bound += bound.x * bound.x + bound.y * bound.y;
     sums.boundN += 2.0;
     if (std::isfinite(bound.angleDeg)) {
@@ -243,7 +243,7 @@ void SlipAccuracyOptions::validate() const {
 
 namespace {
 
-SlipReader beginContest(const MatrixLayout& layout) {
+SlipEstimator beginHypothesisMethod(const MatrixLayout& layout) {
   SlipDetectorOptions options;
   options.reference = SlipReference::kFirst;
   auto detector = std::make_shared<SlipDetector>(layout, options);
@@ -255,11 +255,11 @@ SlipReader beginContest(const MatrixLayout& layout) {
 
 }  // namespace
 
-std::vector<MeasuredMethod> measuredMethods() {
-  std::vector<MeasuredMethod> methods;
+std::vector<BenchmarkedMethod> benchmarkedMethods() {
+  std::vector<BenchmarkedMethod> methods;
   for (const SlipMethod method : slipMethods()) {
-    if (method == SlipMethod::kContest) {
-      methods.push_back({std::string(nameOf(method)), &beginContest});
+    if (method == SlipMethod::kHypotheses) {
+      methods.push_back({std::string(nameOf(method)), &beginHypothesisMethod});
       continue;
     }
     methods.push_back({std::string(nameOf(method)), [method](const MatrixLayout& layout) {
@@ -274,7 +274,7 @@ std::vector<MeasuredMethod> measuredMethods() {
   return methods;
 }
 
-std::vector<MethodAccuracy> measureSlipAccuracy(const std::vector<MeasuredMethod>& methods,
+std::vector<MethodAccuracy> measureSlipAccuracy(const std::vector<BenchmarkedMethod>& methods,
                                                 const SlipAccuracyOptions& options,
                                                 const Progress& progress) {
   options.validate();

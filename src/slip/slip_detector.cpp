@@ -9,7 +9,7 @@ namespace {
 
 // the reading trusts the contest this much more than the alarm does
 constexpr double kReading = 2.0;
-constexpr double kDoubtFrom = 3.0;  // ShapeCondition
+constexpr double kDoubtFrom = 3.0;  // MotionSdInflation
 constexpr double kDoubt = 4.0;
 constexpr double kSureP = 0.9;
 constexpr double kSureTaxels = 0.35;
@@ -26,7 +26,8 @@ constexpr double kRestLoad = 0.05;  // ln
 
 SlipTrackerOptions trackerOptions(const SlipDetectorOptions& options) {
   SlipTrackerOptions tracker = options.tracker;
-  tracker.method = options.method == SlipMethod::kContest ? SlipMethod::kRegister : options.method;
+  tracker.method =
+      options.method == SlipMethod::kHypotheses ? SlipMethod::kRegister : options.method;
   tracker.firstContactIsReference = options.reference == SlipReference::kFirst;
   return tracker;
 }
@@ -61,36 +62,36 @@ void SlipDetector::reset() {
   verdict_ = {};
   wantsReference_ = options_.reference == SlipReference::kFirst;
   calm_ = 0;
-  looks_ = 0;
+  rotationChecks_ = 0;
 }
 
 void SlipDetector::clearReference() {
   tracker_.clearReference();
   reference_.clear();
-  condition_ = {.x = kWorstCondition, .y = kWorstCondition};
-  referenceContest_.reset();
-  hasReference_ = wantsReference_ = slipped_ = latched_ = lastWeighed_ = false;
+  condition_ = {.x = kUnboundedMotionSdInflation, .y = kUnboundedMotionSdInflation};
+  referenceHypotheses_.reset();
+  hasReference_ = wantsReference_ = slipped_ = latched_ = hasLastScored_ = false;
   certain_ = 0;
 }
 
 void SlipDetector::setReference() {
   clearReference();
   tracker_.setReference();
-  wantsReference_ = !keepReference();
+  wantsReference_ = !updateReference();
 }
 
 // The contest's own copy of the reference.
-bool SlipDetector::keepReference() {
+bool SlipDetector::updateReference() {
   if (!reference_.set(windows_.frame())) return false;
   hasReference_ = true;
   wantsReference_ = false;
-  condition_ = shapeCondition(reference_, options_.windows.contest.registration);
+  condition_ = motionSdInflation(reference_, options_.windows.contest.registration);
   return true;
 }
 
-const SlipVerdict& SlipDetector::update(const ConstMatrixMap& frame,
-                                        std::int64_t timeUs,
-                                        std::span<const double> jointsDeg) {
+const SlipDetection& SlipDetector::update(const ConstMatrixMap& frame,
+                                          std::int64_t timeUs,
+                                          std::span<const double> jointsDeg) {
   const SlipEvidence& evidence = windows_.add(frame, timeUs, jointsDeg);
   const bool wasSlipping = verdict_.slipping;
   const SlipMotion motion = tracker_.update(windows_.frame(), windows_.afterGap());
@@ -98,34 +99,34 @@ const SlipVerdict& SlipDetector::update(const ConstMatrixMap& frame,
   verdict_.motion = motion;
   verdict_.slipping = wasSlipping;
   const bool lost = motion.active == 0 || motion.afterGap;
-  if (lost && options_.reference == SlipReference::kRest) clearReference();
-  if (wantsReference_) keepReference();
-  if (options_.method == SlipMethod::kContest) weigh(motion);
-  if (options_.contestAlarm)
-    decideByContest(evidence);
+  if (lost && options_.reference == SlipReference::kWhenAtRest) clearReference();
+  if (wantsReference_) updateReference();
+  if (options_.method == SlipMethod::kHypotheses) applyMotionScore(motion);
+  if (options_.hypothesisAlarm)
+    decideByHypotheses(evidence);
   else
-    decidePlainly();
+    decideByThresholds();
   if (lost) verdict_.slipping = false;
   if (verdict_.slipping) slipped_ = true;
-  if (options_.reference == SlipReference::kRest && rests(evidence)) {
+  if (options_.reference == SlipReference::kWhenAtRest && isAtRest(evidence)) {
     const bool again = slipped_;
     if (!hasReference_ || again) {
       setReference();
       verdict_.newReference = true;
       verdict_.motion.refValid = true;
       verdict_.motion.refDx = verdict_.motion.refDy = 0.0;
-      lastWeighed_ = options_.method == SlipMethod::kContest;
-      lastWeighedX_ = lastWeighedY_ = 0.0;
+      hasLastScored_ = options_.method == SlipMethod::kHypotheses;
+      lastScoredX_ = lastScoredY_ = 0.0;
     }
   }
   if (!on_) {
-    verdict_.lamp = SlipLamp::kOff;
-    verdict_.slipping = verdict_.alarm = verdict_.turning = false;
+    verdict_.lamp = SlipIndicator::kOff;
+    verdict_.slipping = verdict_.alarm = verdict_.rotating = false;
   }
   return verdict_;
 }
 
-bool SlipDetector::rests(const SlipEvidence& evidence) const {
+bool SlipDetector::isAtRest(const SlipEvidence& evidence) const {
   const WindowEvidence& middle = evidence.windows[kMiddleWindow];
   return evidence.computable && evidence.contactAge >= kRestAge && middle.filled &&
          !verdict_.slipping && std::abs(middle.logLoadRatio) < kRestLoad &&
@@ -133,11 +134,11 @@ bool SlipDetector::rests(const SlipEvidence& evidence) const {
 }
 
 // The motion of `register`, as far as the contest of reference and frame believes in it.
-void SlipDetector::weigh(const SlipMotion& moved) {
-  referenceContest_.reset();
+void SlipDetector::applyMotionScore(const SlipMotion& moved) {
+  referenceHypotheses_.reset();
   SlipMotion& motion = verdict_.motion;
   if (!hasReference_ || !moved.refValid) {
-    lastWeighed_ = false;
+    hasLastScored_ = false;
     return;
   }
   double weight = 1.0;
@@ -147,10 +148,10 @@ void SlipDetector::weigh(const SlipMotion& moved) {
                             .dy = moved.refDy,
                             .angleDeg = moved.rotation.refValid ? moved.rotation.refRotationDeg : 0,
                             .gain = moved.sum / reference_.sum()};
-    referenceContest_ =
+    referenceHypotheses_ =
         contest(reference_, windows_.frame(), std::span(&start, 1), options_.windows.contest);
-    if (referenceContest_->computed) {
-      p = referenceContest_->pMoved;
+    if (referenceHypotheses_->computed) {
+      p = referenceHypotheses_->pMoved;
       // The less the shape can tell, the more it must say.
       const double doubt = std::max(1.0, std::max(condition_.x, condition_.y) / kDoubtFrom);
       const double odds = std::pow(p / std::max(1.0 - p, 1e-9), kReading) / std::pow(doubt, kDoubt);
@@ -165,16 +166,16 @@ void SlipDetector::weigh(const SlipMotion& moved) {
   }
   motion.refDx = weight * moved.refDx;
   motion.refDy = weight * moved.refDy;
-  if (motion.valid && lastWeighed_) {
-    motion.dx = motion.refDx - lastWeighedX_;
-    motion.dy = motion.refDy - lastWeighedY_;
+  if (motion.valid && hasLastScored_) {
+    motion.dx = motion.refDx - lastScoredX_;
+    motion.dy = motion.refDy - lastScoredY_;
   }
-  lastWeighedX_ = motion.refDx;
-  lastWeighedY_ = motion.refDy;
-  lastWeighed_ = true;
+  lastScoredX_ = motion.refDx;
+  lastScoredY_ = motion.refDy;
+  hasLastScored_ = true;
 }
 
-void SlipDetector::holdAlarm(bool raised, bool calm) {
+void SlipDetector::latchAlarm(bool raised, bool calm) {
   verdict_.alarm = raised;
   if (raised) {
     verdict_.slipping = true;
@@ -183,53 +184,53 @@ void SlipDetector::holdAlarm(bool raised, bool calm) {
     calm_ = calm ? calm_ + 1 : 0;
     if (calm_ >= kCalmFrames) verdict_.slipping = false;
   }
-  verdict_.lamp = verdict_.slipping ? SlipLamp::kSlipping : SlipLamp::kReady;
+  verdict_.lamp = verdict_.slipping ? SlipIndicator::kSlipping : SlipIndicator::kReady;
 }
 
-void SlipDetector::decideByContest(const SlipEvidence& seen) {
-  const auto asked = rule_.asksFor(seen);
+void SlipDetector::decideByHypotheses(const SlipEvidence& seen) {
+  const auto asked = rule_.windowToEvaluate(seen);
   if (asked)
-    windows_.compete(*asked);
-  else if (rule_.canTurn(seen) && ++looks_ % kTurnLook == 0)
-    windows_.compete(kMiddleWindow);
+    windows_.evaluateHypotheses(*asked);
+  else if (rule_.mayDetectRotation(seen) && ++rotationChecks_ % kTurnLook == 0)
+    windows_.evaluateHypotheses(kMiddleWindow);
   const SlipEvidence& evidence = windows_.evidence();
-  const RuleOutcome outcome = rule_.decide(evidence);
+  const SlipRuleResult outcome = rule_.decide(evidence);
   if (!evidence.computable || !outcome.leading) {
     // Too little, or too short a time.
     verdict_.slipping = verdict_.slipping && evidence.computable;
     verdict_.state = SlipState::kInvalid;
-    verdict_.lamp = SlipLamp::kNotComputable;
+    verdict_.lamp = SlipIndicator::kNotComputable;
     return;
   }
-  verdict_.turning = outcome.turning;
+  verdict_.rotating = outcome.rotating;
   const bool calm = kSlipDetectorCentroidPart * slipDetectorShift(evidence.windows[kShortWindow]) <
                         kCalmPart * options_.rule.shortSteps * options_.rule.stepTaxels &&
                     kSlipDetectorCentroidPart * slipDetectorShift(evidence.windows[kMiddleWindow]) <
                         kCalmPart * options_.rule.middleSteps * options_.rule.stepTaxels;
-  holdAlarm(outcome.alarm || outcome.turning, calm);
+  latchAlarm(outcome.alarm || outcome.rotating, calm);
   if (outcome.alarm && hasReference_) latched_ = true;
 
-  const ContestResult* deciding = asked ? &evidence.windows[*asked].contest : nullptr;
-  if (!deciding && referenceContest_) deciding = &*referenceContest_;
+  const SlipHypothesisResult* deciding = asked ? &evidence.windows[*asked].contest : nullptr;
+  if (!deciding && referenceHypotheses_) deciding = &*referenceHypotheses_;
   if (deciding && deciding->computed) {
     verdict_.pMoved = deciding->pMoved;
-    verdict_.residual = std::min(deciding->stillResidual, deciding->movedResidual);
+    verdict_.residual = std::min(deciding->loadShiftResidual, deciding->motionResidual);
   }
   if (verdict_.slipping) {
     verdict_.state = SlipState::kSlip;
     verdict_.confidence = std::max(0.5, verdict_.pMoved.value_or(0.5));
-  } else if (outcome.reach < 1.0) {
+  } else if (outcome.thresholdRatio < 1.0) {
     verdict_.state = SlipState::kStill;
-    verdict_.confidence = 1.0 - 0.5 * outcome.reach;
-  } else if (outcome.allowedReach < 1.0) {
+    verdict_.confidence = 1.0 - 0.5 * outcome.thresholdRatio;
+  } else if (outcome.allowedThresholdRatio < 1.0) {
     verdict_.state = SlipState::kLoading;
-    verdict_.confidence = 1.0 - 0.5 * outcome.allowedReach;
+    verdict_.confidence = 1.0 - 0.5 * outcome.allowedThresholdRatio;
   } else if (!verdict_.pMoved || verdict_.residual > kModelInvalid) {
     verdict_.state = SlipState::kInvalid;
-  } else if (*verdict_.pMoved < kSurelyStill) {
+  } else if (*verdict_.pMoved < kMaxStillScore) {
     verdict_.state = SlipState::kLoadShift;
     verdict_.confidence = 1.0 - *verdict_.pMoved;
-  } else if (*verdict_.pMoved > kSurelyMoved) {
+  } else if (*verdict_.pMoved > kMinMotionScore) {
     verdict_.state = SlipState::kSlip;
     verdict_.confidence = *verdict_.pMoved;
   } else {
@@ -238,7 +239,7 @@ void SlipDetector::decideByContest(const SlipEvidence& seen) {
   }
 }
 
-void SlipDetector::decidePlainly() {
+void SlipDetector::decideByThresholds() {
   const SlipMotion& motion = verdict_.motion;
   if (!motion.valid && !motion.refValid) {
     verdict_.slipping = false;
@@ -246,9 +247,9 @@ void SlipDetector::decidePlainly() {
   }
   const double step = std::max(std::abs(motion.dx), std::abs(motion.dy));
   const double whole = std::max(std::abs(motion.refDx), std::abs(motion.refDy));
-  const double reach =
+  const double thresholdRatio =
       std::max(step / options_.rule.stepTaxels, whole / options_.rule.referenceTaxels);
-  holdAlarm(reach > 1.0, reach < kPlainCalmPart);
+  latchAlarm(thresholdRatio > 1.0, thresholdRatio < kPlainCalmPart);
   verdict_.state = verdict_.slipping ? SlipState::kSlip : SlipState::kStill;
   verdict_.residual = motion.residual;
   verdict_.confidence = motion.confidence;

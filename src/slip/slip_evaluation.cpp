@@ -97,7 +97,7 @@ std::vector<SlipLabel> labelSlips(const Profile& profile) {
     for (std::size_t m = 0; m < places.size(); ++m) {
       const ContactMoments moments = contactMoments(std::as_const(frame).matrix(m));
       Place place{.x = moments.x, .y = moments.y};
-      place.contact = moments.active >= options.leastActive && moments.sum > options.leastCounts;
+      place.contact = moments.active >= options.minActiveTaxels && moments.sum > options.minCounts;
       const std::size_t before = places[m].empty() || gap ? 0 : places[m].back().age;
       place.age = place.contact ? before + 1 : 0;
       places[m].push_back(place);
@@ -113,7 +113,7 @@ double SlipScore::perHour(std::size_t kind) const {
                                     : 0.0;
 }
 
-double SlipScore::foundPart() const {
+double SlipScore::detectionRate() const {
   return slips > 0 ? static_cast<double>(found) / static_cast<double>(slips) : 0.0;
 }
 
@@ -128,12 +128,12 @@ void SlipScore::add(const SlipScore& other) {
   std::sort(delaysFrames.begin(), delaysFrames.end());
 }
 
-void SlipEvaluation::addHold(const Profile& profile, const Progress& progress) {
+void SlipEvaluation::addNoSlipRecording(const Profile& profile, const Progress& progress) {
   add(profile, false, progress);
   ++holds_;
 }
 
-void SlipEvaluation::addSlip(const Profile& profile, const Progress& progress) {
+void SlipEvaluation::addSlipRecording(const Profile& profile, const Progress& progress) {
   add(profile, true, progress);
   ++slips_;
 }
@@ -171,7 +171,7 @@ void SlipEvaluation::add(const Profile& profile, bool slip, const Progress& prog
       if (!evidence.computable) continue;
       for (std::size_t w = 0; w < kSlipWindows; ++w)
         if (evidence.windows[w].filled && slipEvaluationShift(evidence.windows[w]) > kGates[w])
-          windows[m].compete(static_cast<SlipWindow>(w));
+          windows[m].evaluateHypotheses(static_cast<SlipWindow>(w));
       const WindowEvidence& middle = evidence.windows[kMiddleWindow];
       series[m].seen.push_back({.frame = i,
                                 .age = evidence.contactAge,
@@ -192,7 +192,7 @@ SlipScore SlipEvaluation::scoreOf(const Alarm& begin, int fold) const {
     std::array<std::size_t, 3> last{};
     std::array<bool, 3> any{};
     std::vector<std::size_t> alarms;
-    for (const Seen& seen : series.seen) {
+    for (const FrameEvidence& seen : series.seen) {
       const bool raised = alarm(seen.evidence);
       if (series.slip) {
         if (raised) alarms.push_back(seen.frame);
@@ -225,7 +225,7 @@ SlipScore SlipEvaluation::scoreOf(const Alarm& begin, int fold) const {
 
 SlipScore SlipEvaluation::score(const SlipRuleOptions& options, bool joints, int fold) const {
   SlipRuleOptions used = options;
-  if (!joints) used.perJointDeg = 0.0;
+  if (!joints) used.allowancePerJointDeg = 0.0;
   return scoreOf(
       [&] {
         return [rule = SlipRule(used)](const SlipEvidence& evidence) mutable {
@@ -238,7 +238,7 @@ SlipScore SlipEvaluation::score(const SlipRuleOptions& options, bool joints, int
 
 SlipEvaluationReport SlipEvaluation::report() const {
   SlipEvaluationReport report;
-  report.holdRecordings = holds_;
+  report.noSlipRecordings = holds_;
   report.slipRecordings = slips_;
   const auto step = [] {
     return [](const SlipEvidence& evidence) {
@@ -268,7 +268,7 @@ SlipEvaluationReport SlipEvaluation::report() const {
     bool any = false;
     for (const SlipRuleOptions& options : slipGrid()) {
       const SlipScore own = score(options, false, fold);
-      const double missed = std::max(0.0, kFoldFound - own.foundPart());
+      const double missed = std::max(0.0, kFoldFound - own.detectionRate());
       const double cost = static_cast<double>(own.falseAlarms[kSettledContact]) +
                           static_cast<double>(own.falseAlarms[kAllContact]) / 7.0 + 1000.0 * missed;
       if (any && cost >= least) continue;
@@ -290,8 +290,8 @@ std::vector<SlipRuleOptions> slipGrid() {
         for (const double accumulated : {1.0, 1.4})
           grid.push_back({.shortSteps = shortSteps,
                           .middleSteps = middleSteps,
-                          .accumulatedReferences = accumulated,
-                          .perLogRise = {rise, rise, rise}});
+                          .accumulatedThreshold = accumulated,
+                          .allowancePerLogRise = {rise, rise, rise}});
   return grid;
 }
 

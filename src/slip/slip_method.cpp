@@ -12,7 +12,7 @@ constexpr std::array kMethods{SlipMethod::kCentroid,
                               SlipMethod::kPhase,
                               SlipMethod::kPhaseNormalized,
                               SlipMethod::kRegister,
-                              SlipMethod::kContest};
+                              SlipMethod::kHypotheses};
 
 }  // namespace
 
@@ -34,7 +34,7 @@ std::string_view nameOf(SlipMethod method) noexcept {
       return "phase-normalized";
     case SlipMethod::kRegister:
       return "register";
-    case SlipMethod::kContest:
+    case SlipMethod::kHypotheses:
       return "contest";
   }
   return "unknown";

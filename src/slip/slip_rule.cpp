@@ -34,11 +34,14 @@ void SlipRuleOptions::validate() const {
   checkSlipRule(shortSteps > 0.0, "shortSteps", shortSteps);
   checkSlipRule(middleSteps > 0.0, "middleSteps", middleSteps);
   checkSlipRule(longReferences > 0.0, "longReferences", longReferences);
-  checkSlipRule(accumulatedReferences > 0.0, "accumulatedReferences", accumulatedReferences);
-  for (const double value : perLogRise) checkSlipRule(value >= 0.0, "perLogRise", value);
-  checkSlipRule(perJointDeg >= 0.0, "perJointDeg", perJointDeg);
-  checkSlipRule(rotationPerLog >= 0.0, "rotationPerLog", rotationPerLog);
-  checkSlipRule(furthest >= 1.0, "furthest", furthest);
+  checkSlipRule(accumulatedThreshold > 0.0, "accumulatedThreshold", accumulatedThreshold);
+  for (const double value : allowancePerLogRise)
+    checkSlipRule(value >= 0.0, "allowancePerLogRise", value);
+  checkSlipRule(allowancePerJointDeg >= 0.0, "allowancePerJointDeg", allowancePerJointDeg);
+  checkSlipRule(rotationAllowancePerLogChange >= 0.0,
+                "rotationAllowancePerLogChange",
+                rotationAllowancePerLogChange);
+  checkSlipRule(maxShiftRatio >= 1.0, "furthest", maxShiftRatio);
 }
 
 SlipRule::SlipRule(const SlipRuleOptions& options) : options_(options) { options_.validate(); }
@@ -65,59 +68,61 @@ double SlipRule::threshold(std::size_t window) const {
 }
 
 double SlipRule::allowance(const WindowEvidence& evidence, std::size_t window) const {
-  return options_.perLogRise[window] * std::max(0.0, evidence.logLoadRatio) +
-         options_.perJointDeg * evidence.jointsDeg;
+  return options_.allowancePerLogRise[window] * std::max(0.0, evidence.logLoadRatio) +
+         options_.allowancePerJointDeg * evidence.jointsDeg;
 }
 
-bool SlipRule::canTurn(const SlipEvidence& evidence) const {
+bool SlipRule::mayDetectRotation(const SlipEvidence& evidence) const {
   return counts(evidence, kMiddleWindow);
 }
 
-std::optional<SlipWindow> SlipRule::asksFor(const SlipEvidence& evidence) const {
+std::optional<SlipWindow> SlipRule::windowToEvaluate(const SlipEvidence& evidence) const {
   std::optional<SlipWindow> best;
   double most = 1.0;
   for (std::size_t i = 0; i < kSlipWindows; ++i) {
     if (!counts(evidence, i)) continue;
     const WindowEvidence& window = evidence.windows[i];
-    const double reach =
+    const double thresholdRatio =
         kSlipRuleCentroidPart * shiftOf(window) / (threshold(i) + allowance(window, i));
-    if (reach <= most) continue;
-    most = reach;
+    if (thresholdRatio <= most) continue;
+    most = thresholdRatio;
     best = static_cast<SlipWindow>(i);
   }
   return best;
 }
 
-RuleOutcome SlipRule::decide(const SlipEvidence& evidence) {
-  RuleOutcome outcome;
+SlipRuleResult SlipRule::decide(const SlipEvidence& evidence) {
+  SlipRuleResult outcome;
   bool above = false;
   for (std::size_t i = 0; i < kSlipWindows; ++i) {
     if (!counts(evidence, i)) continue;
     const WindowEvidence& window = evidence.windows[i];
     const double most = kSlipRuleCentroidPart * shiftOf(window);
-    const double reach = most / threshold(i);
-    if (outcome.leading && reach <= outcome.reach) continue;
+    const double thresholdRatio = most / threshold(i);
+    if (outcome.leading && thresholdRatio <= outcome.thresholdRatio) continue;
     outcome.leading = static_cast<SlipWindow>(i);
-    outcome.reach = reach;
-    outcome.allowedReach = most / (threshold(i) + allowance(window, i));
+    outcome.thresholdRatio = thresholdRatio;
+    outcome.allowedThresholdRatio = most / (threshold(i) + allowance(window, i));
   }
-  if (const auto asked = asksFor(evidence)) {
+  if (const auto asked = windowToEvaluate(evidence)) {
     const WindowEvidence& window = evidence.windows[*asked];
-    const ContestResult& contest = window.contest;
+    const SlipHypothesisResult& contest = window.contest;
     outcome.leading = asked;
-    outcome.reach = kSlipRuleCentroidPart * shiftOf(window) / threshold(*asked);
+    outcome.thresholdRatio = kSlipRuleCentroidPart * shiftOf(window) / threshold(*asked);
     const double allowed = allowance(window, *asked);
-    outcome.allowedReach = kSlipRuleCentroidPart * shiftOf(window) / (threshold(*asked) + allowed);
+    outcome.allowedThresholdRatio =
+        kSlipRuleCentroidPart * shiftOf(window) / (threshold(*asked) + allowed);
     // Where nothing could be registered the centroid alone speaks, and P is undecided.
     const double shift = shiftOf(window);
     const double registered =
         contest.computed ? std::hypot(contest.motion.dx, contest.motion.dy) : shift;
     const double motion = std::min(kSlipRuleCentroidPart * shift, registered);
-    const bool believed = contest.computed && registered <= options_.furthest * shift + kFarSlack;
+    const bool believed =
+        contest.computed && registered <= options_.maxShiftRatio * shift + kFarSlack;
     above = motion * (believed ? contest.pMoved : 0.5) > threshold(*asked) + allowed;
     if (*asked == kShortWindow && above) outcome.alarm = true;
     if (*asked == kMiddleWindow &&
-        motion > options_.accumulatedReferences * options_.referenceTaxels + allowed)
+        motion > options_.accumulatedThreshold * options_.referenceTaxels + allowed)
       above = true;
   }
   outcome.alarm = outcome.alarm || (above && pending_);
@@ -125,12 +130,12 @@ RuleOutcome SlipRule::decide(const SlipEvidence& evidence) {
   const WindowEvidence& middle = evidence.windows[kMiddleWindow];
   if (!evidence.computable) turnPending_ = false;
   if (counts(evidence, kMiddleWindow) && middle.contest.computed) {
-    const ContestResult& contest = middle.contest;
-    const bool turns =
-        std::abs(contest.motion.angleDeg) - kSds * contest.sdAngleDeg >
-            options_.rotationDeg + options_.rotationPerLog * std::abs(middle.logLoadRatio) &&
-        contest.pMoved > kUndecided;
-    outcome.turning = turns && turnPending_;
+    const SlipHypothesisResult& contest = middle.contest;
+    const bool turns = std::abs(contest.motion.angleDeg) - kSds * contest.sdAngleDeg >
+                           options_.rotationDeg + options_.rotationAllowancePerLogChange *
+                                                      std::abs(middle.logLoadRatio) &&
+                       contest.pMoved > kUndecided;
+    outcome.rotating = turns && turnPending_;
     turnPending_ = turns;
   }
   return outcome;

@@ -10,13 +10,13 @@
 
 namespace palpate {
 
-void passSlip(const Profile& profile,
-              const SlipPassOptions& options,
-              const SlipSink& sink,
-              const Progress& progress) {
+void runSlipDetector(const Profile& profile,
+                     const SlipRunOptions& options,
+                     const SlipSink& sink,
+                     const Progress& progress) {
   const bool given = options.detector.reference == SlipReference::kGiven;
   if (given && options.referenceFrame >= profile.numFrames())
-    throw std::invalid_argument("passSlip: referenceFrame is " +
+    throw std::invalid_argument("runSlipDetector: referenceFrame is " +
                                 std::to_string(options.referenceFrame) + " of " +
                                 std::to_string(profile.numFrames()));
   SensorSlipDetector detector(profile.layout(), options.detector);
@@ -42,9 +42,9 @@ SlipSegmenter::SlipSegmenter(std::size_t numMatrices, std::size_t bridgedFrames)
 
 void SlipSegmenter::add(std::size_t frame,
                         std::int64_t timeUs,
-                        const std::vector<SlipVerdict>& verdicts) {
+                        const std::vector<SlipDetection>& verdicts) {
   for (std::size_t m = 0; m < open_.size() && m < verdicts.size(); ++m) {
-    const SlipVerdict& verdict = verdicts[m];
+    const SlipDetection& verdict = verdicts[m];
     Open& open = open_[m];
     if (open.segment && (frame > open.segment->end + bridgedFrames_ + 1 ||
                          verdict.motion.afterGap || verdict.motion.active == 0)) {
@@ -86,10 +86,10 @@ std::vector<SlipSegment> findSlips(const Profile& profile,
                                    const SlipSegmentOptions& options,
                                    const Progress& progress) {
   SlipSegmenter segmenter(profile.layout().numMatrices(), options.bridgedFrames);
-  passSlip(
+  runSlipDetector(
       profile,
       options.pass,
-      [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipVerdict>& verdicts) {
+      [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& verdicts) {
         segmenter.add(frame, timeUs, verdicts);
       },
       progress);

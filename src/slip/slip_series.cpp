@@ -21,14 +21,14 @@ SlipDetectorOptions detectorOptions(const SlipSeriesOptions& options) {
   SlipDetectorOptions detector;
   detector.method = options.method;
   detector.reference = options.referenceFrame ? SlipReference::kGiven : options.reference;
-  detector.contestAlarm = options.method == SlipMethod::kContest;
+  detector.hypothesisAlarm = options.method == SlipMethod::kHypotheses;
   detector.rule.stepTaxels = options.stepTaxels;
   detector.rule.referenceTaxels = options.referenceTaxels;
   detector.rule.rotationDeg = options.rotationDeg;
   return detector;
 }
 
-SlipSample sampleOf(const SlipVerdict& verdict, std::size_t frame) {
+SlipSample sampleOf(const SlipDetection& verdict, std::size_t frame) {
   const SlipMotion& motion = verdict.motion;
   const SlipRotation& rotation = motion.rotation;
   const auto f = [](double value) { return static_cast<float>(value); };
@@ -148,8 +148,8 @@ SlipSeries slipSeries(const Profile& profile,
   series.options = options;
   series.matrices.resize(profile.layout().numMatrices());
   series.timeS.reserve(profile.numFrames());
-  const SlipPassOptions pass{.detector = detectorOptions(options),
-                             .referenceFrame = options.referenceFrame.value_or(0)};
+  const SlipRunOptions pass{.detector = detectorOptions(options),
+                            .referenceFrame = options.referenceFrame.value_or(0)};
   SlipSegmenter segmenter(series.matrices.size());
   series.firstUs = profile.numFrames() > 0 ? profile.frameTimeUs(0) : 0;
   const auto take = [&](std::size_t frame, std::int64_t timeUs, const auto& verdicts) {
@@ -158,7 +158,7 @@ SlipSeries slipSeries(const Profile& profile,
       if (verdicts[m].motion.active > 0) series.matrices[m].push_back(sampleOf(verdicts[m], frame));
     segmenter.add(frame, timeUs, verdicts);
   };
-  passSlip(profile, pass, take, [&](double done) { return !progress || progress(done); });
+  runSlipDetector(profile, pass, take, [&](double done) { return !progress || progress(done); });
   series.slips = segmenter.segments();
   return series;
 }

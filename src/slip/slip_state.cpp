@@ -29,15 +29,15 @@ std::optional<SlipState> slipStateNamed(std::string_view name) noexcept {
   return std::nullopt;
 }
 
-std::string_view nameOf(SlipLamp lamp) noexcept {
+std::string_view nameOf(SlipIndicator lamp) noexcept {
   switch (lamp) {
-    case SlipLamp::kOff:
+    case SlipIndicator::kOff:
       return "off";
-    case SlipLamp::kNotComputable:
+    case SlipIndicator::kNotComputable:
       return "not computable";
-    case SlipLamp::kReady:
+    case SlipIndicator::kReady:
       return "ready";
-    case SlipLamp::kSlipping:
+    case SlipIndicator::kSlipping:
       return "slipping";
   }
   return "off";

@@ -10,7 +10,7 @@
 namespace palpate {
 namespace {
 
-constexpr int kFewestTaxels = 2;
+constexpr int kMinTaxels = 2;
 
 std::unique_ptr<TranslationMethod> makeMethod(const MatrixLayout& layout,
                                               const SlipTrackerOptions& options) {
@@ -29,7 +29,7 @@ std::unique_ptr<TranslationMethod> makeMethod(const MatrixLayout& layout,
       return makePhaseMethod(layout, options, true);
     case SlipMethod::kRegister:
       return makeRegisterMethod(layout, options);
-    case SlipMethod::kContest:
+    case SlipMethod::kHypotheses:
       break;
   }
   throw std::invalid_argument("SlipTracker: method is " + std::string(nameOf(options.method)));
@@ -38,14 +38,14 @@ std::unique_ptr<TranslationMethod> makeMethod(const MatrixLayout& layout,
 }  // namespace
 
 void SlipTrackerOptions::validate() const {
-  if (method == SlipMethod::kContest)
+  if (method == SlipMethod::kHypotheses)
     throw std::invalid_argument("SlipTrackerOptions: method is contest");
   if (!(saturationCounts > 0.0))
     throw std::invalid_argument("SlipTrackerOptions: saturationCounts is " +
                                 std::to_string(saturationCounts));
-  if (farthestTaxels < 1 || farthestTaxels > 8)
-    throw std::invalid_argument("SlipTrackerOptions: farthestTaxels is " +
-                                std::to_string(farthestTaxels) + ", not 1..8");
+  if (maxStepTaxels < 1 || maxStepTaxels > 8)
+    throw std::invalid_argument("SlipTrackerOptions: maxStepTaxels is " +
+                                std::to_string(maxStepTaxels) + ", not 1..8");
   rotation.validate();
   registration.validate();
   surface.validate();
@@ -72,22 +72,22 @@ void SlipTracker::reset() {
   if (!wantsReference_) rotation_.clearReference();
 }
 
-int SlipTracker::fewestForReference() const noexcept {
+int SlipTracker::minForReference() const noexcept {
   const bool point =
       options_.method == SlipMethod::kCentroid || options_.method == SlipMethod::kAlcazar;
-  return point ? 1 : kFewestTaxels;
+  return point ? 1 : kMinTaxels;
 }
 
 void SlipTracker::setReference() {
   rotation_.setReference();
   motion_.refDx = 0.0;
   motion_.refDy = 0.0;
-  wantsReference_ = motion_.active < fewestForReference();
+  wantsReference_ = motion_.active < minForReference();
   if (wantsReference_)
     method_->dropReference();
   else
     method_->takeReference();
-  motion_.refValid = motion_.active >= kFewestTaxels;
+  motion_.refValid = motion_.active >= kMinTaxels;
   motion_.rotation.refRotationDeg = 0.0;
 }
 
@@ -119,9 +119,9 @@ const SlipMotion& SlipTracker::update(const ConstMatrixMap& frame, bool afterGap
     motion_.rotation = rotation_.update(moments, 0.0);
     return motion_;
   }
-  const bool measurable = moments.active >= kFewestTaxels;
+  const bool measurable = moments.active >= kMinTaxels;
   const TranslationReading reading =
-      method_->update(frame, moments, measurable, activeBefore >= kFewestTaxels && !afterGap);
+      method_->update(frame, moments, measurable, activeBefore >= kMinTaxels && !afterGap);
   motion_.valid = reading.valid;
   motion_.dx = reading.dx;
   motion_.dy = reading.dy;
@@ -130,11 +130,11 @@ const SlipMotion& SlipTracker::update(const ConstMatrixMap& frame, bool afterGap
   motion_.refDy = reading.refDy;
   motion_.residual = reading.residual;
   motion_.gain = reading.gain;
-  motion_.untold = reading.untold.count;
-  motion_.untoldX = reading.untold.x;
-  motion_.untoldY = reading.untold.y;
+  motion_.degenerate = reading.degenerate.count;
+  motion_.degenerateX = reading.degenerate.x;
+  motion_.degenerateY = reading.degenerate.y;
   motion_.newKey = reading.newKey;
-  const double unseen = unseenPart(frame);
+  const double unseen = unseenFraction(frame);
   if (measurable)
     motion_.confidence = reading.confidence * (reading.isCentroid ? 1.0 - unseen : 1.0);
   motion_.rotation = rotation_.update(moments, outline_.describe(frame).roundness);
@@ -145,7 +145,7 @@ const SlipMotion& SlipTracker::update(const ConstMatrixMap& frame, bool afterGap
     motion_.rotation.refValid = reading.refAngleValid;
     motion_.rotation.refRotationDeg = reading.refAngleDeg;
   }
-  if (wantsReference_ && moments.active >= fewestForReference()) {
+  if (wantsReference_ && moments.active >= minForReference()) {
     method_->takeReference();
     wantsReference_ = false;
     motion_.refValid = measurable;
@@ -156,7 +156,7 @@ const SlipMotion& SlipTracker::update(const ConstMatrixMap& frame, bool afterGap
 
 // The part of the load that is saturated, or at a side where the contact may go on outside of the
 // matrix.
-double SlipTracker::unseenPart(const ConstMatrixMap& frame) {
+double SlipTracker::unseenFraction(const ConstMatrixMap& frame) {
   const auto saturation = static_cast<float>(options_.saturationCounts);
   const int right = layout_.columns - 1;
   const int bottom = layout_.rows - 1;

@@ -22,8 +22,8 @@ void checkSlipWindows(bool good, const char* field, double value) {
 
 void SlipWindowsOptions::validate() const {
   contest.validate();
-  checkSlipWindows(leastActive >= 2, "leastActive", leastActive);
-  checkSlipWindows(leastCounts >= 0.0, "leastCounts", leastCounts);
+  checkSlipWindows(minActiveTaxels >= 2, "minActiveTaxels", minActiveTaxels);
+  checkSlipWindows(minCounts >= 0.0, "minCounts", minCounts);
   checkSlipWindows(keepUs >= 0, "keepUs", static_cast<double>(keepUs));
 }
 
@@ -31,10 +31,10 @@ SlipWindows::SlipWindows(const MatrixLayout& layout, const SlipWindowsOptions& o
     : layout_(layout),
       options_(options),
       kept_(kRing),
-      current_(layout.numPlaces()),
+      current_(layout.numCells()),
       key_(layout, {.blurTaxels = 0.0}) {
   options_.validate();
-  for (Kept& kept : kept_) kept.values.resize(layout.numPlaces());
+  for (Kept& kept : kept_) kept.values.resize(layout.numCells());
 }
 
 void SlipWindows::reset() {
@@ -64,7 +64,7 @@ const SlipEvidence& SlipWindows::add(const ConstMatrixMap& frame,
   const std::size_t ageBefore = evidence_.contactAge;
   evidence_ = {};
   evidence_.computable =
-      moments_.active >= options_.leastActive && moments_.sum > options_.leastCounts;
+      moments_.active >= options_.minActiveTaxels && moments_.sum > options_.minCounts;
   if (!evidence_.computable || afterGap_) numKept_ = 0;
   if (!evidence_.computable) return evidence_;
   evidence_.contactAge = numKept_ == 0 ? 0 : ageBefore;
@@ -95,7 +95,7 @@ const SlipEvidence& SlipWindows::add(const ConstMatrixMap& frame,
   return evidence_;
 }
 
-void SlipWindows::compete(SlipWindow which) {
+void SlipWindows::evaluateHypotheses(SlipWindow which) {
   WindowEvidence& window = evidence_.windows.at(which);
   if (!window.filled) return;
   const Kept& then = back(kWindowFrames[which]);

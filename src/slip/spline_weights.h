@@ -5,21 +5,23 @@
 
 namespace palpate::spline {
 
-using Four = Eigen::Array<float, 4, 1>;
+using SplineWeights = Eigen::Array<float, 4, 1>;
 
 // At the four knots around a place: one before, the last at or before it, two behind; t = 0..1 from
 // the second.
-inline Four weights(float t) noexcept {
+inline SplineWeights weights(float t) noexcept {
   const float s = 1.0F - t;
   const float t2 = t * t;
   const float s2 = s * s;
-  return Four(s2 * s, 4.0F - 6.0F * t2 + 3.0F * t2 * t, 4.0F - 6.0F * s2 + 3.0F * s2 * s, t2 * t) *
+  return SplineWeights(
+             s2 * s, 4.0F - 6.0F * t2 + 3.0F * t2 * t, 4.0F - 6.0F * s2 + 3.0F * s2 * s, t2 * t) *
          (1.0F / 6.0F);
 }
 // Their derivatives, per distance of knots.
-inline Four slopes(float t) noexcept {
+inline SplineWeights slopes(float t) noexcept {
   const float s = 1.0F - t;
-  return Four(-0.5F * s * s, 1.5F * t * t - 2.0F * t, -1.5F * s * s + 2.0F * s, 0.5F * t * t);
+  return SplineWeights(
+      -0.5F * s * s, 1.5F * t * t - 2.0F * t, -1.5F * s * s + 2.0F * s, 0.5F * t * t);
 }
 
 }  // namespace palpate::spline

@@ -18,7 +18,7 @@ struct TranslationReading {
   double residual = 0.0;
   double confidence = 0.0;
   double gain = 1.0;
-  Untold untold;
+  DegenerateDirections degenerate;
   bool newKey = false;
   bool isCentroid = false;
   bool turns = false;  // the method has an angle of its own

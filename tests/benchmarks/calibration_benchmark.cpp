@@ -53,7 +53,7 @@ void BM_StepFitOf500SamplesByCeres(benchmark::State& state) {
   const Eigen::Vector4d start(400.0, 10.0, std::log(0.4), std::log(0.05));
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        solveLeastSquares(problem, start, {.mostIterations = 100, .tolerance = 1e-10}));
+        solveLeastSquares(problem, start, {.maxIterations = 100, .tolerance = 1e-10}));
 }
 BENCHMARK(BM_StepFitOf500SamplesByCeres)->Unit(benchmark::kMicrosecond);
 
@@ -63,7 +63,7 @@ Profile tenMinutes() {
   const StepParameters p = StepParameters::ofTimes(4000.0 / 10.0, 10.0, 0.5, 0.07);
   for (int i = 0; i < 600 * kRateHz; ++i) {
     const double inStep = std::fmod(i / kRateHz, 20.0) - 5.0;  // 5 s unloaded, 15 s loaded
-    std::vector<float> values(sdh2().layout->numPlaces(), 0.0F);
+    std::vector<float> values(sdh2().layout->numCells(), 0.0F);
     const auto counts = static_cast<float>(std::round(stepResponse(p, inStep)));
     for (std::size_t place = 30; place < 54; ++place) values[offset + place] = counts;
     builder.addFrame(1 + static_cast<std::int64_t>(1e6 * i / kRateHz), values);
@@ -103,8 +103,8 @@ void BM_CalibrationOfALiveFrame(benchmark::State& state) {
   Calibration calibration;
   for (int i = 0; i < 24; ++i) {
     PressureSample s;
-    s.gainCounts = 100.0 + 30.0 * i;
-    s.driftPerS = 2.0 + 0.5 * i + (i % 3);
+    s.staticResponseCounts = 100.0 + 30.0 * i;
+    s.driftCountsPerS = 2.0 + 0.5 * i + (i % 3);
     s.nearestDegC = 28.0 + 4.0 * (i % 5);
     s.pressureKpa = 20.0 + 3.0 * i + (i % 2);
     calibration.samples.push_back(s);

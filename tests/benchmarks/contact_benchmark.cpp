@@ -34,7 +34,7 @@ std::vector<Points> taxelSets(std::size_t number) {
 void sphere(benchmark::State& state) {
   const auto sets = taxelSets(static_cast<std::size_t>(state.range(0)));
   std::size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(boundingSphere(sets[i++ % sets.size()]));
+  for (auto _ : state) benchmark::DoNotOptimize(smallestEnclosingSphere(sets[i++ % sets.size()]));
 }
 
 // Welzl 1991, as textbooks have it: recursion over the points, spheres through up to four of them.

@@ -8,11 +8,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include "gui/space/gl_probe.h"
-#include "gui/space/hand_drawing.h"
-#include "gui/space/hand_gl.h"
-#include "gui/space/hand_raster.h"
-#include "gui/space/sample_scene.h"
+#include "gui/hand3d/gl_probe.h"
+#include "gui/hand3d/hand_gl.h"
+#include "gui/hand3d/hand_raster.h"
+#include "gui/hand3d/hand_scene_builder.h"
+#include "gui/hand3d/sample_scene.h"
 #include "window_bench.h"
 
 namespace {
@@ -37,7 +37,7 @@ void handRaster(benchmark::State& state, RasterQuality quality, double distanceM
 // The whole way of the window without OpenGL, one frame of a grasp after the other: pose, contact
 // geometry, scene, picture.
 void handRepaint(benchmark::State& state) {
-  HandDrawing drawing;
+  HandSceneBuilder drawing;
   drawing.setHand(palpate::sdh2());
   palpate::TactileFrame frame(palpate::sdh2().layout);
   for (int y = 3; y < 9; ++y)
@@ -66,7 +66,7 @@ void handRepaint(benchmark::State& state) {
 // With OpenGL, into a picture with fourfold multisampling; read back as well, or only finished.
 void handGl(benchmark::State& state, double distanceMm, bool readBack) {
   palpate::testing::windowApplication();
-  if (const QString why = whyNoOpenGl(); !why.isEmpty())
+  if (const QString why = openGlProblem(); !why.isEmpty())
     return state.SkipWithError(qUtf8Printable(why));
   QSurfaceFormat format;
   format.setVersion(3, 3);

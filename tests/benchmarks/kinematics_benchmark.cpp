@@ -40,7 +40,7 @@ Eigen::Matrix4d dh(double theta, double d, double r, double alpha) {
 void textbook4x4(benchmark::State& state) {
   const HandGeometry geometry;
   const GeometryDescription& hand = geometry.description();
-  std::vector<Eigen::Vector3d> positions(hand.layout.numPlaces());
+  std::vector<Eigen::Vector3d> positions(hand.layout.numCells());
   std::size_t i = 0;
   for (auto _ : state) {
     const std::vector<double> angles = anglesOf(i++);

@@ -95,7 +95,7 @@ class Bench {
   explicit Bench(double hz) {
     windowApplication();
     hand_ = makeHand("a", hz);
-    gui::WindowSurroundings surroundings;
+    gui::WindowEnvironment surroundings;
     surroundings.dataFolder = palpate::testing::dataFolder();
     surroundings.settingsPath = QString::fromStdString((folder_ / "palpate.ini").string());
     window_ = std::make_unique<gui::MainWindow>(surroundings);
@@ -105,10 +105,10 @@ class Bench {
     connection.kind = gui::Connection::Kind::kPorts;
     connection.dsaPort = QString::fromStdString(hand_->dsaPort());
     connection.sdhPort = QString::fromStdString(hand_->sdhPort());
-    window_->bench().connectTo(connection);
-    for (int i = 0; i < 400 && !window_->bench().live.framesCameYet(); ++i) runFor(0.05);
-    QObject::connect(&window_->bench().live,
-                     &gui::LiveController::frameCame,
+    window_->state().connectTo(connection);
+    for (int i = 0; i < 400 && !window_->state().live.hasReceivedFrames(); ++i) runFor(0.05);
+    QObject::connect(&window_->state().live,
+                     &gui::LiveController::frameReceived,
                      [this](const palpate::TactileFrame& frame) {
                        if (frame.deviceMs) deviceMs_[frame.hostUs] = *frame.deviceMs;
                      });
@@ -132,7 +132,7 @@ class Bench {
     options.dsaPort = (folder_ / (name + "_dsa")).string();
     options.sdhPort = (folder_ / (name + "_sdh")).string();
     if (hz > 0.0) {
-      options.rate = palpate::EmulationRate::kHz;
+      options.rate = palpate::EmulationRate::kFixed;
       options.hz = hz;
     }
     return std::make_unique<palpate::EmulatedHand>(
@@ -271,7 +271,7 @@ void windowUnderLoad(benchmark::State& state) {
     count(state, ages);
     state.counters["turn_p99_ms"] = heartbeat.p99Ms();
     state.counters["window_away_max_ms"] = heartbeat.longestMs();
-    state.counters["lost"] = static_cast<double>(bench.window().bench().live.health().lost);
+    state.counters["lost"] = static_cast<double>(bench.window().state().live.health().lost);
   }
 }
 
@@ -293,13 +293,13 @@ void windowReplug(benchmark::State& state) {
       clock.start();
       // Accidents wait for the hand: not in the window's thread.
       std::jthread pull([&] { bench.hand().unplug(); });
-      while (!window.bench().live.stale() && clock.elapsed() < 5000) runFor(0.002);
+      while (!window.state().live.stale() && clock.elapsed() < 5000) runFor(0.002);
       noticedMs.push_back(static_cast<double>(clock.nsecsElapsed()) / 1e6);
       runFor(0.05 + 0.01 * (cycle % 7));
       pull.join();
       clock.restart();
       std::jthread plug([&] { bench.hand().replug(); });
-      while (window.bench().live.stale() && clock.elapsed() < 5000) runFor(0.002);
+      while (window.state().live.stale() && clock.elapsed() < 5000) runFor(0.002);
       returnedMs.push_back(static_cast<double>(clock.nsecsElapsed()) / 1e6);
       runFor(0.3);
       if (cycle == 0) before = facts();

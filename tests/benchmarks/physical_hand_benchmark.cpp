@@ -30,7 +30,7 @@ void scanOfAHeldBall(benchmark::State& state) {
   const auto hand = handWithBall(kHeldS);
   for (MatrixSetting& setting : hand->settings())
     if (state.range(0) == 0) setting.thresholdCounts = 0;
-  std::vector<std::uint16_t> counts(hand->hand().layout->numPlaces());
+  std::vector<std::uint16_t> counts(hand->hand().layout->numCells());
   for (auto _ : state) {
     hand->scan(counts);
     benchmark::DoNotOptimize(counts.data());
@@ -42,7 +42,7 @@ BENCHMARK(scanOfAHeldBall)->ArgName("threshold")->Arg(0)->Arg(150)->Unit(benchma
 void framePeriodOfAClosingGrasp(benchmark::State& state) {
   constexpr double kPeriodS = 1.0 / 300.0;
   auto hand = handWithBall(kClosingS);
-  std::vector<std::uint16_t> counts(hand->hand().layout->numPlaces());
+  std::vector<std::uint16_t> counts(hand->hand().layout->numCells());
   double timeS = kClosingS;
   for (auto _ : state) {
     if (timeS > kHeldS) {
@@ -62,7 +62,7 @@ BENCHMARK(framePeriodOfAClosingGrasp)->Unit(benchmark::kMicrosecond);
 void noiseAlone(benchmark::State& state) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
-  std::vector<std::uint16_t> counts(sdh2().layout->numPlaces());
+  std::vector<std::uint16_t> counts(sdh2().layout->numCells());
   for (auto _ : state) {
     for (std::uint16_t& count : counts)
       count = static_cast<std::uint16_t>(std::round(42.0 + normal(random)));

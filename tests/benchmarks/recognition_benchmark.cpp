@@ -9,9 +9,9 @@
 
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/recognition/chebyshev_moments.h"
-#include "palpate/recognition/day_model.h"
 #include "palpate/recognition/grasp_features.h"
 #include "palpate/recognition/grasp_segments.h"
+#include "palpate/recognition/session_adaptive_classifier.h"
 #include "palpate/recognition/session_offset.h"
 #include "palpate/recording/recording.h"
 
@@ -85,7 +85,7 @@ void featuresOfGrasp(benchmark::State& state, FeatureSet set) {
   const GraspSegment grasp = findPinches(realGrasp()).at(0);
   for (auto _ : state) {
     const GraspFeatures features = graspFeatures(realGrasp(), grasp, set);
-    if (!features.trouble.empty()) return state.SkipWithError(features.trouble.c_str());
+    if (!features.problem.empty()) return state.SkipWithError(features.problem.c_str());
     benchmark::DoNotOptimize(features.values.data());
   }
 }
@@ -98,7 +98,7 @@ void momentInvariants(benchmark::State& state) {
   for (int i = 0; i < 20; ++i) picture(4 + i / 4, 5 + i % 4) = 0.1 + 0.01 * i;
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        chebyshevInvariants(picture, polynomials, PictureAngle::kStudy).moments.data());
+        chebyshevInvariants(picture, polynomials, ImageOrientation::kStudy).moments.data());
 }
 
 // One verdict among 36 classes, summed over an unknown session offset.
@@ -108,10 +108,10 @@ void verdictOfADay(benchmark::State& state) {
   std::vector<std::string> classes, features = featureNames(FeatureSet::kBest);
   for (int c = 0; c < 36; ++c) classes.push_back("class " + std::to_string(c));
   for (int i = 0; i < 360; ++i) y.push_back(i % 36);
-  const DayModel model = DayModel::learn(x, y, classes, features);
+  const SessionAdaptiveClassifier model = SessionAdaptiveClassifier::learn(x, y, classes, features);
   const SessionOffset offset = unknownOffset();
   const Eigen::VectorXd one = x.row(7).transpose();
-  for (auto _ : state) benchmark::DoNotOptimize(judge(model, one, offset).knownness);
+  for (auto _ : state) benchmark::DoNotOptimize(predict(model, one, offset).logLikelihoodRatio);
 }
 
 BENCHMARK(readGraspOnly)->Unit(benchmark::kMicrosecond);

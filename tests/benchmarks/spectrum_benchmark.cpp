@@ -168,7 +168,7 @@ void estimation(benchmark::State& state, bool wholeMs) {
   const Signal made = signal(wholeMs);
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        estimateKelvinVoigt(made.timeS, made.values, {.tolerance = 0.0, .mostRounds = kRounds}));
+        estimateKelvinVoigt(made.timeS, made.values, {.tolerance = 0.0, .maxRounds = kRounds}));
   state.SetItemsProcessed(state.iterations() * kRounds * static_cast<std::int64_t>(kSamples));
 }
 

@@ -63,7 +63,7 @@ void timelineOfADay(benchmark::State& state) {
       const double span = recording->durationS() * std::pow(10.0, -5.0 * unit(random));
       const double from = (recording->durationS() - span) * unit(random);
       const auto asked = Clock::now();
-      chart.setSeen(from, from + span);
+      chart.setVisibleRange(from, from + span);
       chart.replot(QCustomPlot::rpImmediateRefresh);
       zooms.push_back(secondsSince(asked) * 1e3);
     }
@@ -78,7 +78,7 @@ void timelineOfADay(benchmark::State& state) {
     for (int i = 0; i < 50; ++i) {
       const double from = recording->durationS() * 0.99 * unit(random);
       const auto asked = Clock::now();
-      chart.setSeen(from, from + 120.0);
+      chart.setVisibleRange(from, from + 120.0);
       chart.store().waitUntilRead();
       chart.replot(QCustomPlot::rpImmediateRefresh);
       exact.push_back(secondsSince(asked) * 1e3);

@@ -96,13 +96,13 @@ void window(benchmark::State& state, Work work) {
   window.resize(1600, 1000);
   window.show();
   const palpate::testing::TemporaryFolder folder;
-  window.bench().open({busyRecording(folder.path())});
+  window.state().open({busyRecording(folder.path())});
   QEventLoop opened;
   QObject::connect(
-      &window.bench().opener, &gui::RecordingOpener::finished, &opened, &QEventLoop::quit);
+      &window.state().opener, &gui::RecordingOpener::finished, &opened, &QEventLoop::quit);
   opened.exec();
   wait(500);
-  window.bench().playback.seekSeconds(kHeldFromS);
+  window.state().playback.seekSeconds(kHeldFromS);
   auto* view = window.findChild<gui::MatricesView*>();
   if (!view) return state.SkipWithError("no heat maps");
   PaintCounter paints(view);
@@ -116,11 +116,11 @@ void window(benchmark::State& state, Work work) {
     QElapsedTimer wall;
     wall.start();
     const double before = processSeconds();
-    if (work == Work::kPlay) window.bench().playback.play();
+    if (work == Work::kPlay) window.state().playback.play();
     if (work == Work::kRepaintAll) everything.start(16);
     wait(kMs);
     everything.stop();
-    window.bench().playback.pause();
+    window.state().playback.pause();
     const double seconds = 1e-3 * static_cast<double>(wall.elapsed());
     state.SetIterationTime(seconds);
     state.counters["cpu_percent"] = 100.0 * (processSeconds() - before) / seconds;

@@ -19,8 +19,8 @@ Calibration example() {
     PressureSample s;
     s.file = "file" + std::to_string(i) + ".dsa";
     s.sha256 = std::string(64, 'a');
-    s.gainCounts = 60.0 * i;
-    s.driftPerS = 1.0 + i;
+    s.staticResponseCounts = 60.0 * i;
+    s.driftCountsPerS = 1.0 + i;
     s.nearestDegC = 28.0 + 3.0 * (i % 4);
     s.pressureKpa = 10.0 + 5.9 * i + (i % 3);
     calibration.samples.push_back(s);

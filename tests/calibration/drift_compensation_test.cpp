@@ -62,7 +62,7 @@ TEST(DriftCompensation, ASingleFrameThatJumpsIsNoNewLoad) {
 
 TEST(DriftCompensation, StopsWhereCreepWasNotMeasuredAnyMore) {
   const Surface drift = driftSurface();
-  DriftCompensation compensation({.steadyS = 1.0, .longestS = 10.0});
+  DriftCompensation compensation({.steadyS = 1.0, .maxDurationS = 10.0});
   double gain = 0.0;
   for (double t = 0.0; t < 1000.0; t += 0.5) gain = compensation.gainOf(drift, t, 400.0, 30.0);
   // K + .02 K * 10 = 400

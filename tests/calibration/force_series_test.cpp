@@ -20,8 +20,8 @@ Calibration tenth() {
       calibration.samples.push_back({.file = "a",
                                      .sha256 = "",
                                      .pressureKpa = 0.1 * k + (i++ % 2 == 0 ? 0.01 : -0.01),
-                                     .gainCounts = k,
-                                     .driftPerS = 0.0,
+                                     .staticResponseCounts = k,
+                                     .driftCountsPerS = 0.0,
                                      .nearestDegC = t,
                                      .activeAreaMm2 = 100.0});
   calibration.pressure = fitPressureModel(calibration.samples, {});
@@ -49,7 +49,7 @@ TEST(ForceSeries, IsPressureTimesActiveArea) {
   EXPECT_DOUBLE_EQ(series.timeS[3], 0.15);
   const MatrixForce& contact = series.at(3, 2);
   // K is the mean of the filtered matrix over what it is active on: less than 400 at the borders.
-  EXPECT_NEAR(contact.kpa, 0.1F * contact.gainCounts, 0.2F);
+  EXPECT_NEAR(contact.kpa, 0.1F * contact.staticResponseCounts, 0.2F);
   const double areaMm2 = contact.active * 11.56;
   EXPECT_NEAR(contact.forceN, static_cast<double>(contact.kpa) * 1e-3 * areaMm2, 0.02);
   EXPECT_EQ(series.at(2, 2).forceN, 0.0F);
@@ -90,7 +90,7 @@ TEST(ForceSeries, SaysWhatIsAssumedAndBeyond) {
 TEST(ForceSeries, TakesTheTareOff) {
   const Profile profile = recorded(400.0F, true);
   Tare tare;
-  tare.zero.assign(profile.layout().numPlaces(), 400.0F);
+  tare.zero.assign(profile.layout().numCells(), 400.0F);
   tare.matrices.resize(6);
   const ForceSeries series = forceSeries(profile, tenth(), {}, tare);
   EXPECT_EQ(series.contacts, 0u);

@@ -265,7 +265,7 @@ TEST(LeastSquares, RefusesBrokenContracts) {
   EXPECT_THROW(solveLeastSquares(few, start), std::invalid_argument);
   EXPECT_THROW(solveLeastSquares(line(), Eigen::Vector2d(0.0, std::nan(""))),
                std::invalid_argument);
-  EXPECT_THROW(solveLeastSquares(line(), start, {.mostIterations = 0}), std::invalid_argument);
+  EXPECT_THROW(solveLeastSquares(line(), start, {.maxIterations = 0}), std::invalid_argument);
   EXPECT_THROW(solveLeastSquares(line(), start, {.tolerance = 0.0}), std::invalid_argument);
 }
 

@@ -66,7 +66,7 @@ TEST(LoadingSteps, BridgeFlickerAndCountIt) {
 TEST(LoadingSteps, LeaveOutWhatIsTooShort) {
   EXPECT_TRUE(findLoadingSteps(levels({{5, 0.0}, {25, 50.0}, {20, 0.0}})).empty()) << "0.8 s";
   LoadingStepOptions options;
-  options.leastDurationS = 0.5;
+  options.minDurationS = 0.5;
   EXPECT_EQ(findLoadingSteps(levels({{5, 0.0}, {25, 50.0}, {20, 0.0}}), options).size(), 1u);
 }
 
@@ -100,9 +100,9 @@ TEST(LoadingSteps, TakeNumbersOnly) {
 
 TEST(LoadingSteps, RefuseBadOptions) {
   for (const auto spoil : {+[](LoadingStepOptions& o) { o.aboveCounts = -1.0; },
-                           +[](LoadingStepOptions& o) { o.leastDurationS = std::nan(""); },
-                           +[](LoadingStepOptions& o) { o.leastFrames = 5; },
-                           +[](LoadingStepOptions& o) { o.releaseShare = 1.1; }}) {
+                           +[](LoadingStepOptions& o) { o.minDurationS = std::nan(""); },
+                           +[](LoadingStepOptions& o) { o.minFrames = 5; },
+                           +[](LoadingStepOptions& o) { o.releaseFraction = 1.1; }}) {
     LoadingStepOptions options;
     spoil(options);
     EXPECT_THROW(findLoadingSteps({}, options), std::invalid_argument);
@@ -120,7 +120,7 @@ TEST(LoadingSteps, SignalTellsMeanSaturationAndSwitchedTaxels) {
   const StepSignal signal = stepSignal(profile, 1, SignalKind::kMean);
   EXPECT_EQ(signal.values, (std::vector{0.0, 4097.0 / 2.0, 4098.0 / 2.0}));
   EXPECT_EQ(signal.saturatedTaxels, (std::vector{0, 1, 1}));
-  EXPECT_EQ(signal.switchedTaxels, (std::vector{0, 2, 2}));
+  EXPECT_EQ(signal.toggledTaxels, (std::vector{0, 2, 2}));
   EXPECT_NEAR(signal.timeS[2], 0.064, 1e-12);
   EXPECT_THROW(stepSignal(profile, 2), std::out_of_range);
 }

@@ -114,7 +114,7 @@ TEST(NoiseFloor, LeavesOutWhatIsNoNumberAndSensorsThatHaveNotReported) {
 
 TEST(NoiseFloor, SaysThatTemperaturesAreMissing) {
   ProfileBuilder builder(sdh2().layout);
-  builder.addFrame(1, std::vector<float>(sdh2().layout->numPlaces(), 40.0F));
+  builder.addFrame(1, std::vector<float>(sdh2().layout->numCells(), 40.0F));
   const NoiseFloor floor = fitNoiseFloor(builder.finish({}));
   ASSERT_EQ(floor.lines.size(), 6u);
   EXPECT_FALSE(floor.lines[0].valid);

@@ -20,8 +20,8 @@ NoiseFloor floorOfTwo() {
     line.slope = 0.5;
     line.intercept = 30.0 + 10.0 * static_cast<double>(m);
     line.rmse = 1.0;
-    line.leastDegC = 25.0;
-    line.mostDegC = 55.0;
+    line.minDegC = 25.0;
+    line.maxDegC = 55.0;
     line.valid = true;
     floor.lines.push_back(line);
   }
@@ -36,8 +36,8 @@ TEST(NoiseThreshold, IsTheLinePlusThreeRmseRoundedUp) {
   // 30 + .5 * 40 + 3 = 53; at 40.5 it is 53.25
   EXPECT_EQ(noiseThreshold(floorOfTwo().lines[0], 40.0), 53);
   EXPECT_EQ(noiseThreshold(floorOfTwo().lines[0], 40.5), 54);
-  EXPECT_EQ(noiseThreshold(floorOfTwo().lines[0], 40.0, {.leastCounts = 60}), 60);
-  EXPECT_EQ(noiseThreshold(floorOfTwo().lines[0], 40.0, {.mostCounts = 50}), 50);
+  EXPECT_EQ(noiseThreshold(floorOfTwo().lines[0], 40.0, {.minCounts = 60}), 60);
+  EXPECT_EQ(noiseThreshold(floorOfTwo().lines[0], 40.0, {.maxCounts = 50}), 50);
 }
 
 TEST(NoiseThreshold, ResetIsWhatTheControllerPowersUpWith) {
@@ -90,11 +90,11 @@ TEST(NoiseThreshold, RisesWhileTheRateIsCollapsedAndComesDownInCalm) {
 }
 
 TEST(NoiseThreshold, TheGuardStopsAtItsLimit) {
-  NoiseThresholds thresholds = twoMatrices({.mostCounts = 70});
+  NoiseThresholds thresholds = twoMatrices({.maxCounts = 70});
   const std::vector<double> degC = {0.0, 40.0, 30.0};
   int settings = 0;
   for (double t = 0.0; t < 60.0; t += 0.5) settings += thresholds.update(t, degC, 3.0) ? 1 : 0;
-  EXPECT_TRUE(thresholds.status().atLimit);
+  EXPECT_TRUE(thresholds.status().guardAtLimit);
   for (const int counts : thresholds.proposed().counts) EXPECT_EQ(counts, 70);
   EXPECT_LE(settings, 30);
   EXPECT_LE(thresholds.status().guardCounts, 250);
@@ -119,9 +119,9 @@ TEST(NoiseThreshold, SaysWhereItExtrapolates) {
 TEST(NoiseThreshold, RefusesBadOptions) {
   EXPECT_THROW(twoMatrices({.sigmas = -1.0}), std::invalid_argument);
   EXPECT_THROW(twoMatrices({.sensitivity = 1.5}), std::invalid_argument);
-  EXPECT_THROW(twoMatrices({.leastCounts = 2000}), std::invalid_argument);
+  EXPECT_THROW(twoMatrices({.minCounts = 2000}), std::invalid_argument);
   EXPECT_THROW(twoMatrices({.hysteresisCounts = 0}), std::invalid_argument);
-  EXPECT_THROW(twoMatrices({.collapseShare = 2.0}), std::invalid_argument);
+  EXPECT_THROW(twoMatrices({.rateCollapseFraction = 2.0}), std::invalid_argument);
   EXPECT_THROW(twoMatrices({.guardWindowS = 0.0}), std::invalid_argument);
   EXPECT_THROW(twoMatrices({.guardStepCounts = 0}), std::invalid_argument);
   EXPECT_THROW(NoiseThresholds(floorOfTwo(), {1}, {0.5, {150, 300}}, 30.0), std::invalid_argument);

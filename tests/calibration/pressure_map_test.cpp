@@ -20,15 +20,15 @@ Calibration example(double area = 0.0) {
   for (const double t : {28.0, 36.0, 44.0})
     for (double k = 50.0; k <= 850.0; k += 100.0) {
       PressureSample s;
-      s.gainCounts = k;
-      s.driftPerS = 0.0;
+      s.staticResponseCounts = k;
+      s.driftCountsPerS = 0.0;
       s.nearestDegC = t;
       s.pressureKpa = 20.0 - 0.5 * t + 0.1 * k + (i++ % 2 == 0 ? 0.5 : -0.5);
       s.activeAreaMm2 = 220.5;
       calibration.samples.push_back(s);
     }
   PressureModelOptions options;
-  options.stampAreaMm2 = area;
+  options.indenterAreaMm2 = area;
   calibration.pressure = fitPressureModel(calibration.samples, options);
   return calibration;
 }
@@ -64,8 +64,9 @@ TEST(PressureMap, UsesTheFilteredMeanAsTheStudyDoes) {
     map.apply(frame, kWarm, out);
     const auto signals = characteristicSignals(frame);
     for (std::size_t m = 0; m < 6; ++m) {
-      EXPECT_NEAR(
-          out.matrices[m].gainCounts, signals[m].filteredMean, 1e-4 * signals[m].filteredMean)
+      EXPECT_NEAR(out.matrices[m].staticResponseCounts,
+                  signals[m].filteredMean,
+                  1e-4 * signals[m].filteredMean)
           << m;
       EXPECT_EQ(out.matrices[m].active, signals[m].active);
     }
@@ -157,7 +158,7 @@ TEST(PressureMap, ConvertsTheSensitivityAndWidensForAnotherThreshold) {
   const double k = characteristicSignals(frame)[1].filteredMean;
   PressureFrame half, same, other;
   PressureMap(calibration, sdh2(), {.settings = {{0.5, 100.0, true}}}).apply(frame, kWarm, half);
-  EXPECT_NEAR(half.matrices[1].gainCounts, 2.0 * (k + 10.0) - 10.0, 1e-2);
+  EXPECT_NEAR(half.matrices[1].staticResponseCounts, 2.0 * (k + 10.0) - 10.0, 1e-2);
   PressureMap(calibration, sdh2()).apply(frame, kWarm, same);
   PressureMap(calibration, sdh2(), {.settings = {{1.0, 150.0, true}}}).apply(frame, kWarm, other);
   EXPECT_NEAR(other.matrices[1].sdKpa, std::hypot(same.matrices[1].sdKpa, 5.0), 0.1)
@@ -176,7 +177,8 @@ TEST(PressureMap, ServesSensorsOfAnyWidth) {
   frame.matrix(0)(1, 71) = 700.0F;
   PressureFrame out;
   PressureMap(example(), wide).apply(frame, {}, out);
-  EXPECT_NEAR(out.matrices[0].gainCounts, characteristicSignals(frame)[0].filteredMean, 1e-3);
+  EXPECT_NEAR(
+      out.matrices[0].staticResponseCounts, characteristicSignals(frame)[0].filteredMean, 1e-3);
   EXPECT_FALSE(out.temperatureKnown);
 }
 

@@ -18,8 +18,8 @@ std::vector<PressureSample> samples() {
     for (double k = 100.0; k <= 800.0; k += 100.0) {
       PressureSample s;
       s.file = "a.dsa";
-      s.gainCounts = k;
-      s.driftPerS = 0.02 * k + 0.1 * t + (i % 3 == 0 ? 0.4 : -0.2);
+      s.staticResponseCounts = k;
+      s.driftCountsPerS = 0.02 * k + 0.1 * t + (i % 3 == 0 ? 0.4 : -0.2);
       s.nearestDegC = t;
       s.studyDegC = t + 5.0;
       s.pressureKpa = 30.0 - 0.6 * t + 0.1 * k + (i++ % 2 == 0 ? 0.5 : -0.5);
@@ -67,10 +67,10 @@ TEST(PressureModel, TakesTheStudysChoicesWhenAsked) {
 
 TEST(PressureModel, KnowsTheShareOfTheAreaThatIsLoaded) {
   PressureModelOptions options;
-  options.stampAreaMm2 = 110.25;
-  EXPECT_NEAR(fitPressureModel(samples(), options).areaShare, 0.5, 1e-12);
+  options.indenterAreaMm2 = 110.25;
+  EXPECT_NEAR(fitPressureModel(samples(), options).areaFraction, 0.5, 1e-12);
   const PressureModel unknown = fitPressureModel(samples());
-  EXPECT_EQ(unknown.areaShare, 1.0);
+  EXPECT_EQ(unknown.areaFraction, 1.0);
   EXPECT_NE(unknown.notes.at(0).find("stamp"), std::string::npos);
 }
 
@@ -94,13 +94,13 @@ TEST(PressureModel, SaysWhatIsMissing) {
   EXPECT_TRUE(said);
   std::vector<PressureSample> some = samples();
   some[3].used = false;
-  some[4].gainCounts = std::nan("");
+  some[4].staticResponseCounts = std::nan("");
   EXPECT_EQ(fitPressureModel(some).gain.numPoints, 22u);
 }
 
 TEST(PressureModel, PassesThroughJson) {
   PressureModelOptions options;
-  options.stampAreaMm2 = 110.25;
+  options.indenterAreaMm2 = 110.25;
   PressureModel model = fitPressureModel(samples(), options);
   model.steadyS = 1.62;
   const PressureModel back = pressureModelFrom(Json::parse(jsonOf(model).text()));
@@ -108,7 +108,7 @@ TEST(PressureModel, PassesThroughJson) {
   EXPECT_EQ(a.kpa, b.kpa);
   EXPECT_NEAR(a.sdKpa, b.sdKpa, 1e-12);
   EXPECT_EQ(a.inRange, b.inRange);
-  EXPECT_EQ(back.areaShare, model.areaShare);
+  EXPECT_EQ(back.areaFraction, model.areaFraction);
   EXPECT_EQ(back.steadyS, 1.62);
   EXPECT_EQ(back.driftOfGain.at(300.0, 30.0).value, model.driftOfGain.at(300.0, 30.0).value);
 }
@@ -131,7 +131,7 @@ TEST(PressureModel, RefusesJsonThatIsNone) {
 TEST(PressureModel, RefusesBadOptions) {
   EXPECT_THROW(fitPressureModel({}, {.assumedDegC = 1000.0}), std::invalid_argument);
   EXPECT_THROW(fitPressureModel({}, {.assumedSdDegC = 0.0}), std::invalid_argument);
-  EXPECT_THROW(fitPressureModel({}, {.stampAreaMm2 = -1.0}), std::invalid_argument);
+  EXPECT_THROW(fitPressureModel({}, {.indenterAreaMm2 = -1.0}), std::invalid_argument);
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ Calibration creeping() {
   made.settings = {1.0, 100.0, false};
   for (int i = 0; i < 16; ++i) {
     PressureSample sample;
-    sample.gainCounts = 100.0 * (i + 1);
-    sample.driftPerS = 0.01 * sample.gainCounts;
-    sample.pressureKpa = 2.0 + 0.1 * sample.gainCounts;
+    sample.staticResponseCounts = 100.0 * (i + 1);
+    sample.driftCountsPerS = 0.01 * sample.staticResponseCounts;
+    sample.pressureKpa = 2.0 + 0.1 * sample.staticResponseCounts;
     sample.nearestDegC = 30.0 + i % 4;
     made.samples.push_back(sample);
   }
@@ -34,7 +34,7 @@ Calibration creeping() {
 // Loads that come, stay between one and fifty seconds, and go.
 Profile loads() {
   ProfileBuilder builder(sdh2().layout);
-  std::vector<float> values(sdh2().layout->numPlaces(), 0.0F);
+  std::vector<float> values(sdh2().layout->numCells(), 0.0F);
   const std::size_t offset = sdh2().layout->offset(1);
   std::int64_t us = 1'000'000;
   builder.addTemperatures(us, std::vector<double>(9, 31.0));
@@ -71,7 +71,7 @@ TEST(PressureReader, SaysOfAnyFrameWhatTheSeriesSays) {
 TEST(PressureReader, TakesTareSettingsAndTemperaturesAsTheSeriesDoes) {
   const Profile profile = synthesize({.durationS = 6.0, .grasps = 2, .noiseCounts = 12.0});
   Tare tare;
-  tare.zero.assign(profile.layout().numPlaces(), 4.0F);
+  tare.zero.assign(profile.layout().numCells(), 4.0F);
   tare.matrices.resize(profile.layout().numMatrices());
   PressureMapOptions options;
   options.settings.push_back({0.5, 100.0, true});

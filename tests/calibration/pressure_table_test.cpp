@@ -21,19 +21,19 @@ TEST(PressureTable, ReadsRowsInAnyOrderOfColumns) {
   EXPECT_EQ(rows[1].file, "B 1.dsa");
   EXPECT_EQ(rows[1].temperatureC, 31.5);
   EXPECT_EQ(rows[1].line, 4u);
-  EXPECT_TRUE(rows[1].trouble.empty());
+  EXPECT_TRUE(rows[1].problem.empty());
 }
 
 TEST(PressureTable, SaysWhatIsWrongWithARow) {
   const auto rows = parsePressureTable(
       "file,pressure_kpa,temperature_c\nA,heavy,\n,5,\nB,5,warm\nC,-1\nD,nan\nE,5,30\n", "t.csv");
   ASSERT_EQ(rows.size(), 6u);
-  EXPECT_NE(rows[0].trouble.find("heavy"), std::string::npos);
-  EXPECT_NE(rows[1].trouble.find("no file"), std::string::npos);
-  EXPECT_NE(rows[2].trouble.find("warm"), std::string::npos);
-  EXPECT_FALSE(rows[3].trouble.empty());
-  EXPECT_FALSE(rows[4].trouble.empty());
-  EXPECT_TRUE(rows[5].trouble.empty());
+  EXPECT_NE(rows[0].problem.find("heavy"), std::string::npos);
+  EXPECT_NE(rows[1].problem.find("no file"), std::string::npos);
+  EXPECT_NE(rows[2].problem.find("warm"), std::string::npos);
+  EXPECT_FALSE(rows[3].problem.empty());
+  EXPECT_FALSE(rows[4].problem.empty());
+  EXPECT_TRUE(rows[5].problem.empty());
 }
 
 TEST(PressureTable, RefusesWhatIsNoTable) {
@@ -62,7 +62,7 @@ TEST(PressureTable, ARowWithoutAStepIsASampleThatIsNotUsed) {
 TEST(PressureTable, TheTablesTemperatureGoesFirst) {
   StepReport report;
   FittedStep step;
-  step.fit.converged = step.fit.gainReached = true;
+  step.fit.converged = step.fit.steadyStateReached = true;
   step.fit.parameters = StepParameters::ofTimes(300.0, 8.0, 0.5, 0.1);
   step.characteristics.steadyS = 1.5;
   step.nearestDegC = 31.0;

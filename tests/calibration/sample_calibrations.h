@@ -15,8 +15,8 @@ inline Calibration linearCalibration(const SensorSettings& settings) {
   made.settings = settings;
   for (int i = 0; i < 24; ++i) {
     PressureSample sample;
-    sample.gainCounts = 50.0 * (i + 1);
-    sample.pressureKpa = 2.0 + 0.1 * sample.gainCounts;
+    sample.staticResponseCounts = 50.0 * (i + 1);
+    sample.pressureKpa = 2.0 + 0.1 * sample.staticResponseCounts;
     sample.nearestDegC = 28.0 + i % 5;
     made.samples.push_back(sample);
   }
@@ -34,8 +34,8 @@ inline NoiseFloor evenNoise(double slope, double intercept, double rmse) {
     line.intercept = intercept + static_cast<double>(m);
     line.rmse = rmse;
     line.valid = true;
-    line.leastDegC = 20.0;
-    line.mostDegC = 60.0;
+    line.minDegC = 20.0;
+    line.maxDegC = 60.0;
     floor.lines.push_back(line);
   }
   return floor;

@@ -19,7 +19,8 @@ TEST(SensitivityCurve, IsALineThroughTheRealSteps) {
   ASSERT_EQ(report.steps.size(), 10u);
   std::vector<SensitivityPoint> points;
   for (std::size_t i = 0; i < 10; ++i)
-    points.push_back({0.1 * static_cast<double>(i + 1), report.steps[i].fit.parameters.gainCounts});
+    points.push_back(
+        {0.1 * static_cast<double>(i + 1), report.steps[i].fit.parameters.staticResponseCounts});
   const SensitivityCurve curve = fitSensitivityCurve(points, 100.0);
   ASSERT_TRUE(curve.valid);
   EXPECT_NEAR(curve.slope, 589.3, 0.012 * 589.3) << "where a step ends is a matter of taste";

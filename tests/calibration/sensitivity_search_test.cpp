@@ -77,8 +77,8 @@ TEST(SensitivitySearch, RefusesBadOptions) {
   EXPECT_THROW(SensitivitySearch(0.5, 0.0, {.resolution = 0.0}), std::invalid_argument);
   EXPECT_THROW(SensitivitySearch(0.5, 0.0, {.saturationCounts = 0.0}), std::invalid_argument);
   EXPECT_THROW(SensitivitySearch(0.5, 0.0, {.headroom = 1.0}), std::invalid_argument);
-  EXPECT_THROW(SensitivitySearch(0.5, 0.0, {.framesToLook = 0}), std::invalid_argument);
-  EXPECT_THROW(SensitivitySearch(0.5, 0.0, {.loosenAfterS = -1.0}), std::invalid_argument);
+  EXPECT_THROW(SensitivitySearch(0.5, 0.0, {.framesPerTrial = 0}), std::invalid_argument);
+  EXPECT_THROW(SensitivitySearch(0.5, 0.0, {.resetUpperBoundAfterS = -1.0}), std::invalid_argument);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ inline constexpr double kRateHz = 31.7;
 // Pressure on every place when the stamp stands on the matrix, as the rubber spreads it [kPa].
 inline std::vector<double> underTheStamp(double kpa) {
   const HandDescription& hand = sdh2();
-  std::vector<double> loaded(hand.layout->numPlaces(), 0.0);
+  std::vector<double> loaded(hand.layout->numCells(), 0.0);
   const auto covered = [](std::size_t place, double fromMm) {
     const double low = std::max(3.4 * static_cast<double>(place), fromMm);
     return std::max(std::min(3.4 * static_cast<double>(place + 1), fromMm + kStampMm) - low, 0.0) /
@@ -31,7 +31,7 @@ inline std::vector<double> underTheStamp(double kpa) {
     for (std::size_t x = 0; x < 6; ++x)
       loaded[hand.layout->offset(kMatrix) + y * 6 + x] =
           kpa * covered(y, kTopMm) * covered(x, kLeftMm);
-  spreadPressure(*hand.layout, sdh2Sensor().spreadShare, loaded);
+  spreadPressure(*hand.layout, sdh2Sensor().neighbourFraction, loaded);
   return loaded;
 }
 
@@ -43,7 +43,7 @@ inline Profile stamped(double kpa, double degC, std::uint64_t seed, double holdS
     setting.sensitivity = 1.0;
     setting.thresholdCounts = 100;
   }
-  const std::vector<double> none(hand.layout->numPlaces(), 0.0), loaded = underTheStamp(kpa);
+  const std::vector<double> none(hand.layout->numCells(), 0.0), loaded = underTheStamp(kpa);
   ProfileBuilder builder(hand.layout);
   std::vector<std::uint16_t> counts(none.size());
   std::vector<float> values(none.size());
@@ -71,7 +71,7 @@ inline Calibration calibrated() {
         calibration.samples.push_back(std::move(sample));
     }
   PressureModelOptions options;
-  options.stampAreaMm2 = kStampMm2;
+  options.indenterAreaMm2 = kStampMm2;
   calibration.pressure = fitPressureModel(calibration.samples, options);
   calibration.pressure.steadyS = medianSteadyS(reports);
   return calibration;

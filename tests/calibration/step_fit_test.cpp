@@ -45,11 +45,11 @@ TEST(StepFit, FindsTheTruthWithoutNoise) {
   const StepFit fit = fitStep(samples.t, samples.y);
   EXPECT_TRUE(fit.converged);
   EXPECT_TRUE(fit.identifiable);
-  EXPECT_TRUE(fit.gainReached);
+  EXPECT_TRUE(fit.steadyStateReached);
   EXPECT_TRUE(fit.notes.empty());
   EXPECT_EQ(fit.numSamples, samples.t.size());
-  EXPECT_NEAR(fit.parameters.gainCounts, 436.0, 1e-6);
-  EXPECT_NEAR(fit.parameters.driftPerS, 12.4, 1e-7);
+  EXPECT_NEAR(fit.parameters.staticResponseCounts, 436.0, 1e-6);
+  EXPECT_NEAR(fit.parameters.driftCountsPerS, 12.4, 1e-7);
   EXPECT_NEAR(fit.parameters.t1S(), 0.505, 1e-8);
   EXPECT_NEAR(fit.parameters.t2S(), 0.0636, 1e-8);
   EXPECT_LT(fit.rmse, 1e-6);
@@ -69,12 +69,13 @@ TEST(StepFit, FindsAThousandRandomTruths) {
     const Samples clean = samplesOf(truth, between(6.0, 14.0), 0.0, random);
     const StepFit exact = fitStep(clean.t, clean.y);
     const StepParameters& p = exact.parameters;
-    if (!exact.converged || std::abs(p.gainCounts / truth.gainCounts - 1.0) > 1e-5 ||
-        std::abs(p.driftPerS / truth.driftPerS - 1.0) > 1e-4 ||
+    if (!exact.converged ||
+        std::abs(p.staticResponseCounts / truth.staticResponseCounts - 1.0) > 1e-5 ||
+        std::abs(p.driftCountsPerS / truth.driftCountsPerS - 1.0) > 1e-4 ||
         std::abs(p.t1S() / t1 - 1.0) > 1e-2 || std::abs(p.t2S() / t2 - 1.0) > 1e-2)
       ++missed;
     // With noise no fit may be worse than the truth itself.
-    const Samples noisy = samplesOf(truth, 10.0, 0.03 * truth.gainCounts, random);
+    const Samples noisy = samplesOf(truth, 10.0, 0.03 * truth.staticResponseCounts, random);
     const StepFit fit = fitStep(noisy.t, noisy.y);
     if (!fit.converged || fit.rmse > rmseOf(noisy, truth)) ++above;
   }
@@ -92,7 +93,7 @@ TEST(StepFit, StatedIntervalsHoldTheTruthInNinetyFivePerCent) {
     const Samples samples = samplesOf(truth, 12.0, 11.5, random);
     const StepFit fit = fitStep(samples.t, samples.y);
     const double found[] = {
-        fit.parameters.gainCounts, fit.parameters.driftPerS, fit.parameters.t1S()};
+        fit.parameters.staticResponseCounts, fit.parameters.driftCountsPerS, fit.parameters.t1S()};
     for (int p = 0; p < 3; ++p)
       if (std::abs(found[p] - values[p]) <= fit.interval95(p)) ++inside[p];
   }
@@ -112,7 +113,7 @@ TEST(StepFit, CovarianceIsThatOfRepeatedFits) {
     const Samples samples = samplesOf(truth, 10.0, 3.0, random);
     const StepFit fit = fitStep(samples.t, samples.y);
     const StepParameters& p = fit.parameters;
-    const Eigen::Vector4d found(p.gainCounts, p.driftPerS, p.t1S(), p.t2S());
+    const Eigen::Vector4d found(p.staticResponseCounts, p.driftCountsPerS, p.t1S(), p.t2S());
     stated += fit.covariance / kRuns;
     sum += found / kRuns;
     squares += found * found.transpose() / kRuns;
@@ -130,7 +131,7 @@ TEST(StepFit, FitsTheCriticalAndTheOscillatingCase) {
   const Samples samples = samplesOf(critical, 6.0, 0.0, random);
   const StepFit fit = fitStep(samples.t, samples.y);
   EXPECT_TRUE(fit.converged);
-  EXPECT_NEAR(fit.parameters.gainCounts, 500.0, 1e-3);
+  EXPECT_NEAR(fit.parameters.staticResponseCounts, 500.0, 1e-3);
   EXPECT_NEAR(fit.parameters.timeConstantS, 0.22, 1e-5);
   EXPECT_NEAR(fit.parameters.damping, 1.0, 1e-4);
 
@@ -157,14 +158,14 @@ TEST(StepFit, RobustLossesShrugOffOutliers) {
   Samples samples = samplesOf(truth, 12.0, 2.0, random);
   for (std::size_t i = 30; i < samples.y.size(); i += 12) samples.y[i] += 150.0;
   const StepFit plain = fitStep(samples.t, samples.y);
-  EXPECT_GT(std::abs(plain.parameters.gainCounts - 300.0), 5.0);
+  EXPECT_GT(std::abs(plain.parameters.staticResponseCounts - 300.0), 5.0);
   for (const StepLoss loss : {StepLoss::kHuber, StepLoss::kCauchy}) {
     StepFitOptions options;
     options.loss = loss;
     const StepFit robust = fitStep(samples.t, samples.y, options);
     EXPECT_TRUE(robust.converged);
-    EXPECT_NEAR(robust.parameters.gainCounts, 300.0, 1.5);
-    EXPECT_NEAR(robust.parameters.driftPerS, 8.0, 0.2);
+    EXPECT_NEAR(robust.parameters.staticResponseCounts, 300.0, 1.5);
+    EXPECT_NEAR(robust.parameters.driftCountsPerS, 8.0, 0.2);
     EXPECT_GE(robust.numDownweighted, 25u);
     EXPECT_LE(robust.numDownweighted, 60u);
   }
@@ -179,7 +180,7 @@ TEST(StepFit, SaysThatT2IsNotIdentifiableFarBelowTheFramePeriod) {
     const StepFit fit = fitStep(samples.t, samples.y);
     EXPECT_TRUE(fit.converged);
     EXPECT_TRUE(fit.usable()) << "K and m are sound";
-    EXPECT_NEAR(fit.parameters.gainCounts, 57.0, 5 * fit.sd(0));
+    EXPECT_NEAR(fit.parameters.staticResponseCounts, 57.0, 5 * fit.sd(0));
     if (!fit.identifiable && fit.notes.size() == 1 &&
         fit.notes[0].find("T2 is not identifiable") != std::string::npos)
       ++said;
@@ -192,7 +193,7 @@ TEST(StepFit, SaysThatAStepWasCutOffBeforeItsGain) {
   const Samples samples =
       samplesOf(StepParameters::ofTimes(400.0, 10.0, 1.0, 0.1), 1.5, 4.0, random);
   const StepFit fit = fitStep(samples.t, samples.y);
-  EXPECT_FALSE(fit.gainReached);
+  EXPECT_FALSE(fit.steadyStateReached);
   EXPECT_FALSE(fit.usable());
   ASSERT_FALSE(fit.notes.empty());
   EXPECT_NE(fit.notes[0].find("cut off before the gain"), std::string::npos);
@@ -210,7 +211,7 @@ TEST(StepFit, LeavesOutWhatIsNoNumberAndTakesAnyOrder) {
   std::swap(samples.y[20], samples.y[90]);
   const StepFit fit = fitStep(samples.t, samples.y);
   EXPECT_EQ(fit.numDropped, 3u);
-  EXPECT_NEAR(fit.parameters.gainCounts, 300.0, 1e-6);
+  EXPECT_NEAR(fit.parameters.staticResponseCounts, 300.0, 1e-6);
   ASSERT_EQ(fit.notes.size(), 1u);
   EXPECT_NE(fit.notes[0].find("3 of"), std::string::npos);
 }
@@ -221,8 +222,8 @@ TEST(StepFit, SaysWhatIsMissingWhereNothingCanBeFitted) {
   EXPECT_FALSE(none.usable());
   EXPECT_EQ(none.notes.size(), 1u);
   // What wasn't fitted is not a number, and no gain of 0.
-  for (const double value : {none.parameters.gainCounts,
-                             none.parameters.driftPerS,
+  for (const double value : {none.parameters.staticResponseCounts,
+                             none.parameters.driftCountsPerS,
                              none.parameters.timeConstantS,
                              none.parameters.damping,
                              none.rmse,
@@ -248,7 +249,7 @@ TEST(StepFit, RefusesBadOptions) {
   scale.lossScale = -1.0;
   EXPECT_THROW(fitStep(t, t, scale), std::invalid_argument);
   StepFitOptions iterations;
-  iterations.mostIterations = 0;
+  iterations.maxIterations = 0;
   EXPECT_THROW(fitStep(t, t, iterations), std::invalid_argument);
   EXPECT_THROW(fitStep(t, t).sd(4), std::out_of_range);
 }

@@ -79,8 +79,9 @@ TEST(StepModel, DerivativesAgreeWithDifferences) {
       const StepShape shape = overdampedShape(t, t1, t2);
       const double up = std::exp(h), ratio = t1 / t2 - 1.0;
       const auto phi = [&](double a, double b) { return overdampedShape(t, a, b).phi; };
-      EXPECT_NEAR(shape.byFirst, (phi(t1 * up, t2 * up) - phi(t1 / up, t2 / up)) / (2 * h), 1e-8);
-      EXPECT_NEAR(shape.bySecond,
+      EXPECT_NEAR(
+          shape.derivativeByFirst, (phi(t1 * up, t2 * up) - phi(t1 / up, t2 / up)) / (2 * h), 1e-8);
+      EXPECT_NEAR(shape.derivativeBySecond,
                   (phi(t2 * (1 + ratio * up), t2) - phi(t2 * (1 + ratio / up), t2)) / (2 * h),
                   1e-8);
       const double rate =
@@ -91,10 +92,10 @@ TEST(StepModel, DerivativesAgreeWithDifferences) {
     for (const double d : {0.2, 0.95, 1.0, 1.1}) {
       const StepShape shape = oscillatingShape(t, 0.25, d);
       const auto phi = [&](double a, double b) { return oscillatingShape(t, a, b).phi; };
-      EXPECT_NEAR(shape.byFirst,
+      EXPECT_NEAR(shape.derivativeByFirst,
                   (phi(0.25 * std::exp(h), d) - phi(0.25 * std::exp(-h), d)) / (2 * h),
                   1e-8);
-      EXPECT_NEAR(shape.bySecond, (phi(0.25, d + h) - phi(0.25, d - h)) / (2 * h), 1e-8);
+      EXPECT_NEAR(shape.derivativeBySecond, (phi(0.25, d + h) - phi(0.25, d - h)) / (2 * h), 1e-8);
     }
   }
 }

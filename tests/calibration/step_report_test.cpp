@@ -41,8 +41,8 @@ TEST(StepReport, AgreesWithTheIndependentFitsOfRealSteps) {
     const StepParameters& p = step.fit.parameters;
     EXPECT_TRUE(step.fit.converged);
     EXPECT_TRUE(step.fit.usable());
-    EXPECT_NEAR(p.gainCounts / number(4), 1.0, 1e-3);
-    EXPECT_NEAR(p.driftPerS / number(5), 1.0, 5e-3);
+    EXPECT_NEAR(p.staticResponseCounts / number(4), 1.0, 1e-3);
+    EXPECT_NEAR(p.driftCountsPerS / number(5), 1.0, 5e-3);
     const double d = number(7), sum = d + std::sqrt(d * d - 1.0);
     EXPECT_NEAR(p.t1S() / (number(6) * sum), 1.0, 5e-3);
     EXPECT_NEAR(p.t2S(), number(6) / sum, 5e-3 * p.t1S());
@@ -99,8 +99,9 @@ TEST(StepReport, FitsEveryStepOfARecording) {
   ASSERT_EQ(report.steps.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_TRUE(report.steps[i].usable());
-    EXPECT_NEAR(
-        report.steps[i].fit.parameters.gainCounts, 100.0 + 200.0 * static_cast<double>(i), 0.01);
+    EXPECT_NEAR(report.steps[i].fit.parameters.staticResponseCounts,
+                100.0 + 200.0 * static_cast<double>(i),
+                0.01);
     EXPECT_FALSE(report.steps[i].nearestDegC);
   }
   ASSERT_EQ(report.notes.size(), 1u);
@@ -157,7 +158,7 @@ TEST(StepReport, NotesWhatSpeaksAgainstAStep) {
     builder.addFrame(1 + 32'000 * i, values);
   }
   const FittedStep flickering = reportSteps(builder.finish({}), 0).steps.at(0);
-  EXPECT_GT(flickering.switchedPerFrame, 5.0);
+  EXPECT_GT(flickering.toggledPerFrame, 5.0);
   EXPECT_NE(flickering.notes.at(0).find("flickering"), std::string::npos);
 }
 

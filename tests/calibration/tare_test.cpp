@@ -99,9 +99,9 @@ TEST(Tare, RefusesAnEventOfAnotherSensor) {
 
 TEST(Tare, RefusesBadOptions) {
   EXPECT_THROW(findTare(recording(), {.windowS = 0.0}), std::invalid_argument);
-  EXPECT_THROW(findTare(recording(), {.mostRestCounts = -1.0}), std::invalid_argument);
+  EXPECT_THROW(findTare(recording(), {.maxRestCounts = -1.0}), std::invalid_argument);
   EXPECT_THROW(findTare(recording(), {.sameRestCounts = -1.0}), std::invalid_argument);
-  EXPECT_THROW(findTare(recording(), {.mostSdCounts = -1.0}), std::invalid_argument);
+  EXPECT_THROW(findTare(recording(), {.maxSdCounts = -1.0}), std::invalid_argument);
 }
 
 }  // namespace

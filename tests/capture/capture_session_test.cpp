@@ -76,7 +76,7 @@ TEST(CaptureSession, RecordsWhatTheDeviceDelivers) {
 TEST(CaptureSession, notesWhatTheDeviceSaysAboutItselfAndWhatTheLinkCounted) {
   const TemporaryFolder folder;
   ScriptedSession scripted;
-  DeviceFacts& says = scripted.device->says;
+  DeviceInfo& says = scripted.device->says;
   says.serial = "1D9B0057";
   says.firmware = "2.9.0.0";
   says.sensorRevision = 105;
@@ -170,7 +170,7 @@ TEST(CaptureSession, aSubscriberGetsEverythingInOrderWhateverTheRecorderDoes) {
 TEST(CaptureSession, aSubscriberThatIsTooSlowLosesItsOwnItemsOnly) {
   const TemporaryFolder folder;
   ScriptedSession scripted;
-  FeedOptions few;
+  CaptureQueueOptions few;
   few.tactileItems = few.motionItems = 10;
   const auto feed = scripted.session->subscribe("live processing", few);
   scripted.session->startRecording(to(folder / "a.palpate"));
@@ -211,7 +211,7 @@ TEST(CaptureSession, linkHealthCountsWhatCame) {
   EXPECT_EQ(health.frames.frames, 1101u);
   EXPECT_NEAR(health.frames.rateHz, 100.0, 0.6);
   EXPECT_EQ(health.frames.saturatedFrames, 1u);
-  EXPECT_NEAR(health.frames.saturatedShare, 1.0 / 202.0, 1e-4);
+  EXPECT_NEAR(health.frames.saturatedFraction, 1.0 / 202.0, 1e-4);
   EXPECT_EQ(health.queues.tactile.depth, 0u);
   EXPECT_GE(health.queues.tactile.highWater, 1u);
   ASSERT_TRUE(health.diskHours);
@@ -230,14 +230,14 @@ TEST(CaptureSession, linkHealthCountsWhatCame) {
 TEST(CaptureSession, theCheckBeforeARunLooksAtTheFolderToo) {
   const TemporaryFolder folder;
   ScriptedSession scripted;
-  EXPECT_FALSE(scripted.session->checkBeforeRun(folder.path()).ready);
+  EXPECT_FALSE(scripted.session->checkPreflight(folder.path()).ready);
   scripted.run(3.0);
-  const BeforeRun good = scripted.session->checkBeforeRun(folder.path());
+  const PreflightCheck good = scripted.session->checkPreflight(folder.path());
   EXPECT_TRUE(good.ready) << good.text;
   EXPECT_NE(good.text.find("up to 30 deg C"), std::string::npos);
-  EXPECT_FALSE(scripted.session->checkBeforeRun(folder / "none").ready);
+  EXPECT_FALSE(scripted.session->checkPreflight(folder / "none").ready);
   scripted.session->stop();
-  EXPECT_FALSE(scripted.session->checkBeforeRun(folder.path()).ready);
+  EXPECT_FALSE(scripted.session->checkPreflight(folder.path()).ready);
 }
 
 TEST(CaptureSession, startedAgainItForgetsWhatWasBefore) {
@@ -305,7 +305,7 @@ TEST(CaptureSession, aHandIsStampedBefore1970WhenTheClockStandsThere) {
   const TemporaryFolder folder;
   const WrongClock clock;
   EmulatedHandOptions emulated;
-  emulated.rate = EmulationRate::kHz;
+  emulated.rate = EmulationRate::kFixed;
   emulated.hz = 100.0;
   const EmulatedHand hand(std::make_unique<NumberedHand>(), emulated);
   LiveHandOptions ports;

@@ -105,7 +105,7 @@ TEST(CaptureStress, everyFrameOfALongRunIsRecordedAndNothingGrows) {
   const std::size_t frames = countFrom("PALPATE_STRESS_FRAMES", 100'000);
   const TemporaryFolder folder;
   CaptureOptions options;
-  options.recorder.feed.waitForRoom = true;  // as fast as the disk takes it
+  options.recorder.feed.blockWhenFull = true;  // as fast as the disk takes it
   auto owned = std::make_unique<EagerDevice>(frames);
   EagerDevice& device = *owned;
   CaptureSession session(std::move(owned), options);
@@ -170,7 +170,7 @@ TEST(CaptureStress, startsAndStopsWhileEverythingPulls) {
       session.takeTemperatures();
       session.takeEvents();
       session.health();
-      session.checkBeforeRun(folder.path());
+      session.checkPreflight(folder.path());
       std::this_thread::yield();
     }
   });

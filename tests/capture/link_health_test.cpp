@@ -18,7 +18,7 @@ std::vector<AlarmKind> kindsOf(const LinkHealth& health) {
 }
 
 // A hand that delivers 31.25 frames a second for ten seconds.
-LinkMeter::Reading steady(LinkMeter& meter, std::int64_t& monoUs) {
+LinkMonitor::Reading steady(LinkMonitor& meter, std::int64_t& monoUs) {
   for (int i = 0; i <= 312; ++i) {
     monoUs = i * 32'000;
     meter.frame(monoUs, false);
@@ -30,14 +30,14 @@ LinkInputs streaming() {
   LinkInputs inputs;
   inputs.started = true;
   inputs.device.tactile.state = PortState::kStreaming;
-  LinkMeter meter;
+  LinkMonitor meter;
   std::int64_t monoUs = 0;
   inputs.frames = steady(meter, monoUs);
   return inputs;
 }
 
-TEST(LinkMeter, tellsRateAndAgeExactly) {
-  LinkMeter meter;
+TEST(LinkMonitor, tellsRateAndAgeExactly) {
+  LinkMonitor meter;
   EXPECT_FALSE(meter.read(5).ageMs);
   EXPECT_EQ(meter.read(5).rateHz, 0.0);
   std::int64_t monoUs = 0;
@@ -48,8 +48,8 @@ TEST(LinkMeter, tellsRateAndAgeExactly) {
   EXPECT_EQ(meter.read(monoUs + 5'000).ageMs, 5.0);
 }
 
-TEST(LinkMeter, theRateFallsWhenFramesCease) {
-  LinkMeter meter;
+TEST(LinkMonitor, theRateFallsWhenFramesCease) {
+  LinkMonitor meter;
   std::int64_t monoUs = 0;
   steady(meter, monoUs);
   // Of the last 2 s only 1 s brought frames: from the oldest one to now 31.25 Hz * 1 s / 2 s.
@@ -58,19 +58,19 @@ TEST(LinkMeter, theRateFallsWhenFramesCease) {
   EXPECT_NEAR(meter.read(monoUs + 3 * kSecond).meanRateHz, 31.25, 1e-9);
 }
 
-TEST(LinkMeter, countsSaturatedFramesAndTheirShareOfTheLastTwoSeconds) {
-  LinkMeter meter;
+TEST(LinkMonitor, countsSaturatedFramesAndTheirShareOfTheLastTwoSeconds) {
+  LinkMonitor meter;
   for (int i = 0; i < 100; ++i) meter.frame(i * 100'000, i < 50 || i % 4 == 0);
   const auto reading = meter.read(99 * 100'000);
   EXPECT_EQ(reading.saturatedFrames, 50u + 12u);  // 52, 56, .., 96
   // Frames 79..99 lie in the window, of these 80, 84, 88, 92, 96 are saturated.
-  EXPECT_NEAR(reading.saturatedShare, 5.0 / 21.0, 1e-12);
+  EXPECT_NEAR(reading.saturatedFraction, 5.0 / 21.0, 1e-12);
 }
 
-TEST(LinkMeter, lowIsMeasuredByTheExpectedRateAndLasts) {
+TEST(LinkMonitor, lowIsMeasuredByTheExpectedRateAndLasts) {
   HealthOptions options;
   options.expectedRateHz = 31.25;
-  LinkMeter meter(options);
+  LinkMonitor meter(options);
   std::int64_t monoUs = 0;
   EXPECT_EQ(steady(meter, monoUs).lowRateS, 0.0);
   for (int i = 0; i < 100; ++i) meter.frame(monoUs += 100'000, false);
@@ -82,9 +82,9 @@ TEST(LinkMeter, lowIsMeasuredByTheExpectedRateAndLasts) {
   EXPECT_EQ(meter.read(monoUs).lowRateS, 0.0);
 }
 
-TEST(LinkMeter, lowStaysLowHoweverLongItLasts) {
+TEST(LinkMonitor, lowStaysLowHoweverLongItLasts) {
   // As with thresholds of 0: 17.3 frames/s for ten minutes, of a hand that gives 31.7.
-  LinkMeter meter;
+  LinkMonitor meter;
   meter.expect(scanRateHz(456));
   std::int64_t monoUs = 0;
   for (int i = 0; i < 10'000; ++i) meter.frame(monoUs += 57'800, false, 330);
@@ -100,13 +100,13 @@ TEST(LinkMeter, lowStaysLowHoweverLongItLasts) {
   EXPECT_EQ(health.alarms[0].text,
             "only 17.3 frames/s instead of 31.7: noise fills the line; raise the threshold (dock "
             "Hand), or scan fewer taxels");
-  const BeforeRun before = checkBeforeRun(inputs, {"/tmp", true, 1'000'000'000'000});
+  const PreflightCheck before = checkPreflight(inputs, {"/tmp", true, 1'000'000'000'000});
   EXPECT_FALSE(before.ready);
   EXPECT_NE(before.text.find("raise the threshold"), std::string::npos) << before.text;
 }
 
-TEST(LinkMeter, fewFramesOfALineThatHasRoomAreAnotherTrouble) {
-  LinkMeter meter;
+TEST(LinkMonitor, fewFramesOfALineThatHasRoomAreAnotherTrouble) {
+  LinkMonitor meter;
   meter.expect(scanRateHz(456));
   std::int64_t monoUs = 0;
   for (int i = 0; i < 1000; ++i) meter.frame(monoUs += 57'800, false, 40);
@@ -122,7 +122,7 @@ TEST(LinkMeter, fewFramesOfALineThatHasRoomAreAnotherTrouble) {
 
 // reference of the protocol, 1.6.1 (real hand): 31.7 frames/s with all, 55 to 58 with one matrix of
 // 78, 76 with two.
-TEST(LinkMeter, knowsWhatAHandGivesBySettings) {
+TEST(LinkMonitor, knowsWhatAHandGivesBySettings) {
   EXPECT_NEAR(scanRateHz(456), 31.7, 0.05);
   EXPECT_GT(scanRateHz(68), 55.0);
   EXPECT_LT(scanRateHz(68), 58.0);
@@ -139,8 +139,8 @@ TEST(LinkMeter, knowsWhatAHandGivesBySettings) {
   EXPECT_EQ(runsOf(frame), 486u);
 }
 
-TEST(LinkMeter, staysBoundedAtAnyRate) {
-  LinkMeter meter;
+TEST(LinkMonitor, staysBoundedAtAnyRate) {
+  LinkMonitor meter;
   for (int i = 0; i < 1'000'000; ++i) meter.frame(i * 10, false);
   EXPECT_EQ(meter.read(10'000'000).frames, 1'000'000u);
   EXPECT_NEAR(meter.read(9'999'990).rateHz, 100'000.0, 1.0);
@@ -245,7 +245,7 @@ TEST(CheckBeforeRun, saysReadyInOneLine) {
   Temperatures temperatures{0, std::vector<double>(9, 31.0)};
   temperatures.degC[4] = 38.4;
   inputs.temperatures = temperatures;
-  const BeforeRun check = checkBeforeRun(inputs, kGoodFolder);
+  const PreflightCheck check = checkPreflight(inputs, kGoodFolder);
   EXPECT_TRUE(check.ready);
   EXPECT_EQ(check.text, "ready: 31.2 frames/s, up to 38 deg C, disk for 120 h");
 }
@@ -254,7 +254,7 @@ TEST(CheckBeforeRun, namesTheFirstThingThatIsWrong) {
   const Temperatures warm{0, {30.0}};
   const auto textOf = [&](LinkInputs inputs, const FolderState& folder = kGoodFolder) {
     inputs.temperatures = warm;
-    const BeforeRun check = checkBeforeRun(inputs, folder);
+    const PreflightCheck check = checkPreflight(inputs, folder);
     EXPECT_FALSE(check.ready);
     EXPECT_EQ(check.text.find("not ready: "), 0u);
     EXPECT_EQ(check.text.find('\n'), std::string::npos);
@@ -278,7 +278,7 @@ TEST(CheckBeforeRun, namesTheFirstThingThatIsWrong) {
   EXPECT_NE(textOf(inputs, {"/full", true, 18'000 * 60 * 12}).find("12 minutes"),
             std::string::npos);
   inputs.temperatures = Temperatures{0, {30.0, 70.2}};
-  const BeforeRun hot = checkBeforeRun(inputs, kGoodFolder);
+  const PreflightCheck hot = checkPreflight(inputs, kGoodFolder);
   EXPECT_FALSE(hot.ready);
   EXPECT_NE(hot.text.find("70 deg C"), std::string::npos);
 }

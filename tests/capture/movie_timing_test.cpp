@@ -11,7 +11,7 @@
 namespace palpate::movie_timing_test {
 namespace {
 
-using Shots = std::vector<MovieShot>;
+using Shots = std::vector<MovieFrame>;
 
 std::vector<std::int64_t> everyMs(std::int64_t intervalMs, std::size_t count) {
   std::vector<std::int64_t> stampsUs;
@@ -23,7 +23,7 @@ std::vector<std::int64_t> everyMs(std::int64_t intervalMs, std::size_t count) {
 // The frame of each picture, one after the other.
 std::vector<std::size_t> framesOf(const MovieTiming& movie) {
   std::vector<std::size_t> frames;
-  for (const MovieShot& shot : movie.shots)
+  for (const MovieFrame& shot : movie.shots)
     frames.insert(frames.end(), shot.numPictures, shot.frame);
   return frames;
 }
@@ -49,7 +49,7 @@ TEST(MovieTiming, ThirtyASecondInWholeMillisecondsAreThirtyPictures) {
     stampsUs.push_back(std::llround(static_cast<double>(i) * 1000.0 / 30.0) * 1000);
   const MovieTiming movie = movieTiming(stampsUs);
   ASSERT_EQ(movie.shots.size(), stampsUs.size()) << "none twice, none left out";
-  for (const MovieShot& shot : movie.shots) ASSERT_EQ(shot.numPictures, 1u) << shot.frame;
+  for (const MovieFrame& shot : movie.shots) ASSERT_EQ(shot.numPictures, 1u) << shot.frame;
 }
 
 TEST(MovieTiming, SpeedsStretchAndShrink) {
@@ -86,9 +86,9 @@ TEST(MovieTiming, AGapIsShownAsOneSecond) {
   for (std::size_t i = 5; i < 10; ++i) stampsUs[i] += 600'000'000;  // ten minutes
   const MovieTiming movie = movieTiming(stampsUs, {.picturesPerS = 10.0});
   EXPECT_EQ(movie.numGaps, 1u);
-  EXPECT_NEAR(movie.leftOutS, 599.1, 1e-9);  // 600.1 s became 1 s
+  EXPECT_NEAR(movie.shortenedS, 599.1, 1e-9);  // 600.1 s became 1 s
   ASSERT_EQ(movie.shots.size(), 10u);
-  EXPECT_EQ(movie.shots[4], (MovieShot{4, 10}));
+  EXPECT_EQ(movie.shots[4], (MovieFrame{4, 10}));
   EXPECT_EQ(movie.numPictures, 19u);
   const MovieTiming slow = movieTiming(stampsUs, {.picturesPerS = 10.0, .speed = 0.5});
   EXPECT_EQ(slow.shots[4].numPictures, 20u) << "a second of the recording";
@@ -105,7 +105,7 @@ TEST(MovieTiming, APauseUpToASecondIsHeldAsItIs) {
 TEST(MovieTiming, FramesThatAlwaysComeSlowlyAreNoGaps) {
   const MovieTiming movie = movieTiming(everyMs(3000, 3), {.picturesPerS = 10.0});
   EXPECT_EQ(movie.shots, (Shots{{0, 30}, {1, 30}, {2, 30}}));
-  EXPECT_EQ(movie.leftOutS, 0.0);
+  EXPECT_EQ(movie.shortenedS, 0.0);
 }
 
 TEST(MovieTiming, FirstAndLastAreSeenHoweverFast) {

@@ -47,7 +47,7 @@ TEST(RecorderLayout, aSensorOfAnotherShapeBeginsAPartOfItsOwn) {
   ASSERT_EQ(report.paths.size(), 2u);
   EXPECT_EQ(openRecording(report.paths[0]).numFrames(), 50u);
   EXPECT_EQ(openRecording(report.paths[1]).numFrames(), 10u);
-  EXPECT_EQ(openRecording(report.paths[1]).layout().numPlaces(), 20u);
+  EXPECT_EQ(openRecording(report.paths[1]).layout().numCells(), 20u);
 }
 
 // A frame of the SDH-2 with one taxel of the first matrix switched off, when asked.

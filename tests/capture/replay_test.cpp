@@ -64,7 +64,7 @@ Profile shortProfile() {
   return builder.finish({});
 }
 
-ReplayOptions byHand() { return {ReplayPace::kByHand, 1.0}; }
+ReplayOptions byHand() { return {ReplayPace::kManual, 1.0}; }
 
 TEST(Replay, deliversInOrderOfTimeAndWhatBelongsToAFrameBeforeIt) {
   Listener listener;
@@ -170,7 +170,7 @@ TEST(Replay, keepsTimeTimesItsSpeed) {
 
 Profile twoFrames(double apartS) {
   ProfileBuilder builder(sdh2().layout);
-  const std::vector<float> zero(sdh2().layout->numPlaces());
+  const std::vector<float> zero(sdh2().layout->numCells());
   builder.addFrame(kWallStartUs, zero);
   builder.addFrame(kWallStartUs + static_cast<std::int64_t>(apartS * 1e6), zero);
   return builder.finish({});
@@ -223,8 +223,8 @@ void expectSame(const Profile& a, const Profile& b) {
 // Replays a profile through a session into a recording of its own.
 Profile recordedAgain(const Profile& profile, const std::filesystem::path& path) {
   CaptureOptions options;
-  options.recorder.feed.waitForRoom = true;
-  auto replay = std::make_unique<Replay>(profile, ReplayOptions{ReplayPace::kAsFastAsTaken, 1.0});
+  options.recorder.feed.blockWhenFull = true;
+  auto replay = std::make_unique<Replay>(profile, ReplayOptions{ReplayPace::kUnpaced, 1.0});
   const Replay& running = *replay;
   CaptureSession session(std::move(replay), options);
   RecordingOptions recording;
@@ -277,12 +277,12 @@ TEST(Replay, whatADamagedBlockHeldIsCountedToldAndPassedOver) {
   const std::size_t lost = writeDamaged(folder / "damaged.palpate", kFrames);
   ASSERT_GE(lost, 3u);  // a frame in the middle of the block has no stamp in the index
   for (const ReplayOptions& options :
-       {byHand(), ReplayOptions{ReplayPace::kAsFastAsTaken, 1.0}, ReplayOptions{}}) {
+       {byHand(), ReplayOptions{ReplayPace::kUnpaced, 1.0}, ReplayOptions{}}) {
     Listener listener;
     Replay replay(openRecording(folder / "damaged.palpate"), options);
     if (options.pace == ReplayPace::kRecorded) replay.setSpeed(16.0);
     replay.start(listener);
-    if (options.pace == ReplayPace::kByHand) replay.advance(60'000'000);
+    if (options.pace == ReplayPace::kManual) replay.advance(60'000'000);
     while (!replay.finished()) std::this_thread::yield();
     replay.stop();
     EXPECT_EQ(listener.frames.size(), kFrames - lost);
@@ -307,7 +307,7 @@ TEST(Replay, aSinkThatFailsEndsTheReplayNotTheProcess) {
     }
   };
   Failing listener;
-  Replay replay(shortProfile(), {ReplayPace::kAsFastAsTaken, 1.0});
+  Replay replay(shortProfile(), {ReplayPace::kUnpaced, 1.0});
   replay.start(listener);
   while (!replay.finished()) std::this_thread::yield();
   replay.stop();

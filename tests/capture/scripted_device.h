@@ -53,11 +53,11 @@ class ScriptedDevice : public Device {
   // What the test moves it by; lives as long as the device.
   DeviceSink* sink = nullptr;
   DeviceStatus state;
-  DeviceFacts says;
+  DeviceInfo says;
 
   ScriptedDevice() { state.tactile.port = "/dev/scripted"; }
   HandDescription hand() const override { return sdh2(); }
-  DeviceFacts facts() const override { return says; }
+  DeviceInfo facts() const override { return says; }
   void start(DeviceSink& to) override {
     sink = &to;
     state.tactile.state = PortState::kStreaming;

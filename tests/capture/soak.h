@@ -53,7 +53,7 @@ inline void soak(std::size_t frames) {
   ports.sdhPort = hand.sdhPort();
   CaptureOptions capture;
   // the hand waits for the disk: it runs faster than any real one
-  capture.recorder.feed.waitForRoom = true;
+  capture.recorder.feed.blockWhenFull = true;
   CaptureSession session(std::make_unique<LiveHand>(ports), capture);
   RecordingOptions recording;
   recording.path = folder / "day.palpate";
@@ -106,7 +106,7 @@ inline void soak(std::size_t frames) {
   }
   ReplayCheck check(profile);
   ReplayOptions pace;
-  pace.pace = ReplayPace::kByHand;
+  pace.pace = ReplayPace::kManual;
   Replay replay(profile, pace);
   replay.start(check);
   while (!replay.finished()) replay.advance(1'000'000);

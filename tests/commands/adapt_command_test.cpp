@@ -144,7 +144,7 @@ TEST_F(AdaptCommand, LabelledGraspsNarrowTheZeroOfTheDay) {
   sdOf({"adapt", folder_ / "m4.json", folder_ / "next", "-o", folder_ / "m5.json"});
   const TrainedModel next = loadModel(folder_ / "m5.json");
   EXPECT_NEAR(next.offset.mm, -3.0, 0.8);
-  EXPECT_FALSE(next.todayZero);
+  EXPECT_FALSE(next.sessionZero);
   EXPECT_EQ(next.adaptedFrom.size(), 4u);
 }
 

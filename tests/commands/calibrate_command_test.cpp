@@ -30,7 +30,7 @@ void writeStep(const fs::path& path, double gain, double degC, int frames = 350)
   builder.addAngles(1'000'000'000, std::vector<double>(7, 0.0));
   const std::size_t offset = sdh2().layout->offset(1);
   for (int i = 0; i < frames; ++i) {
-    std::vector<float> values(sdh2().layout->numPlaces(), 0.0F);
+    std::vector<float> values(sdh2().layout->numCells(), 0.0F);
     const auto counts = static_cast<float>(std::round(10.0 * stepResponse(p, 0.032 * (i - 10))));
     for (std::size_t place = 36; place < 48; ++place) values[offset + place] = counts;
     builder.addFrame(1'000'000'000 + 32'000 * i, values);
@@ -103,7 +103,7 @@ TEST(CalibrateCommand, NoiseWritesJsonAndXml) {
     builder.addTemperatures(1'000'000 + 1'000'000 * i, std::vector<double>(9, degC));
     const auto counts = static_cast<float>(std::round(30.0 + 0.5 * degC + (i * 7 % 5) - 2));
     builder.addFrame(1'000'000 + 1'000'000 * i,
-                     std::vector<float>(sdh2().layout->numPlaces(), counts));
+                     std::vector<float>(sdh2().layout->numCells(), counts));
   }
   saveRecording(builder.finish({}), {}, folder / "noise.dsa");
   const auto result = palpate({"calibrate", "noise", folder / "noise.dsa", "-o", folder / "n.xml"});
@@ -240,7 +240,7 @@ TEST(CalibrateCommand, TareIsNotedAppliedAndTakenAway) {
   for (const char* name : {"a.dsa", "a.palpate"}) {
     ProfileBuilder builder(sdh2().layout);
     for (int i = 0; i < 100; ++i) {
-      std::vector<float> values(sdh2().layout->numPlaces(), 0.0F);
+      std::vector<float> values(sdh2().layout->numCells(), 0.0F);
       values[3] = 25.0F;
       builder.addFrame(1'000'000 + 32'000 * i, values);
     }
@@ -269,10 +269,10 @@ TEST(CalibrateCommand, SensitivityIsALineOverItsSteps) {
     const StepParameters p = StepParameters::ofTimes(400.0 * sensitivity - 10.0, 2.0, 0.4, 0.05);
     for (int i = 0; i < 250; ++i) {
       const auto counts = static_cast<float>(i < 30 ? 0.0 : stepResponse(p, 0.032 * (i - 29)));
-      std::vector<float> values(sdh2().layout->numPlaces(), 0.0F);
+      std::vector<float> values(sdh2().layout->numCells(), 0.0F);
       std::fill(values.begin() + 84, values.begin() + 162, 0.0F);
       const auto& layout = sdh2().layout->matrix(1);
-      for (std::size_t p2 = 0; p2 < layout.numPlaces(); ++p2)
+      for (std::size_t p2 = 0; p2 < layout.numCells(); ++p2)
         if (layout.staticMask[p2] != 0) values[84 + p2] = counts;
       builder.addFrame(1'000'000 + 32'000 * frame++, values);
     }

@@ -15,8 +15,8 @@ const CommandSpec kSpec{.synopsis = "palpate try FILE",
                                     {"filter", "SPEC", "may be repeated"},
                                     {"force", "", "a flag"}},
                         .example = "palpate try a.dsa",
-                        .fewestWords = 1,
-                        .mostWords = 2};
+                        .minArguments = 1,
+                        .maxArguments = 2};
 
 TEST(CommandLine, SortsOptionsFromWords) {
   const CommandLine given(kSpec,

@@ -84,7 +84,7 @@ std::optional<PenWay> wayOf(const std::vector<PenMoment>& moments) {
 
 PenWay simulatedWay() {
   PhysicalHand hand(loadScene("slipping_pen", testing::dataFolder() / "scenes"));
-  std::vector<std::uint16_t> counts(hand.hand().layout->numPlaces());
+  std::vector<std::uint16_t> counts(hand.hand().layout->numCells());
   std::vector<PenMoment> moments;
   for (double timeS = 0.0; timeS < 8.5; timeS += 0.01) {
     hand.advanceTo(timeS);
@@ -304,9 +304,9 @@ TEST_F(DemoTourTest, WhatWasHeldIsNamed) {
     const Json grasp = recognition.at("grasps").at(i);
     EXPECT_EQ(grasp.at("file").asString(), file);
     EXPECT_EQ(grasp.at("object").asString(), object);
-    const bool taught = object != "handle";
-    EXPECT_EQ(grasp.at("taught").asBool(), taught);
-    EXPECT_EQ(grasp.at("label").asString(), taught ? object : "unknown");
+    const bool inTraining = object != "handle";
+    EXPECT_EQ(grasp.at("taught").asBool(), inTraining);
+    EXPECT_EQ(grasp.at("label").asString(), inTraining ? object : "unknown");
     EXPECT_TRUE(grasp.at("right").asBool());
     // The command says the same of the same recording.
     const auto asked = palpate({"classify",
@@ -320,7 +320,7 @@ TEST_F(DemoTourTest, WhatWasHeldIsNamed) {
     const Json said = Json::parse(asked.out).at("grasps").at(0);
     EXPECT_EQ(said.at("label").asString(), grasp.at("label").asString());
     EXPECT_EQ(said.at("top").text(), grasp.at("top").text());
-    if (!taught) continue;
+    if (!inTraining) continue;
     EXPECT_EQ(grasp.at("rank").asInteger(), 1);
     EXPECT_GT(grasp.at("probability").asDouble(), 0.9) << object;
     EXPECT_TRUE(grasp.at("sure").asBool()) << object;

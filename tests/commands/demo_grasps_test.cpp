@@ -31,7 +31,7 @@ TEST(SlippingPen, SlipsWhenFrictionHoldsItNoLongerAndIsCaught) {
   const Scene scene = sceneNamed("slipping_pen");
   const PullTimes times = pullTimesOf(scene);
   PhysicalHand hand(scene);
-  std::vector<std::uint16_t> counts(hand.hand().layout->numPlaces());
+  std::vector<std::uint16_t> counts(hand.hand().layout->numCells());
   const auto truthAt = [&](double timeS) {
     hand.advanceTo(timeS);
     hand.scan(counts);
@@ -41,9 +41,9 @@ TEST(SlippingPen, SlipsWhenFrictionHoldsItNoLongerAndIsCaught) {
   ASSERT_TRUE(held[1].contact && held[5].contact);
   const auto rested = truthAt(times.pullS);
   EXPECT_NEAR(rested[1].slipYTaxels, held[1].slipYTaxels, 0.01) << "at rest";
-  const double holdsN = 0.35 * (rested[1].forceN + rested[5].forceN);
+  const double frictionLimitN = 0.35 * (rested[1].forceN + rested[5].forceN);
   const double weightN = 0.02 * 9.81, pullNPerS = 20.0 / 2.0;
-  const double slipsS = times.pullS + (holdsN + weightN) / pullNPerS;
+  const double slipsS = times.pullS + (frictionLimitN + weightN) / pullNPerS;
   ASSERT_LT(slipsS, times.pullS + 2.0) << "the pull is strong enough";
   EXPECT_NEAR(truthAt(slipsS - 0.15)[1].slipYTaxels, rested[1].slipYTaxels, 0.1);
   EXPECT_LT(truthAt(slipsS + 0.4)[1].slipYTaxels, rested[1].slipYTaxels - 0.1) << "upwards";

@@ -44,7 +44,7 @@ DemoFacts hostileFacts() {
   facts.recognition.emplace();
   AskedGrasp asked;
   asked.known = {"x", kHostile + "object"};
-  asked.trouble = kHostile + "trouble";
+  asked.problem = kHostile + "trouble";
   facts.recognition->grasps = {asked};
   facts.recognition->warnings = {kHostile + "warning"};
   facts.windowPng = "PNG";
@@ -77,7 +77,7 @@ TEST(DemoPage, CarriesItsPictures) {
 TEST(DemoPage, SaysWhatIsWrongAndWhatWasNotSeen) {
   DemoFacts facts = hostileFacts();
   AskedGrasp& asked = facts.recognition->grasps.front();
-  asked.taught = true;
+  asked.inTraining = true;
   asked.verdict.emplace();
   asked.called = "pen";
   asked.rank = 4;

@@ -43,10 +43,10 @@ TEST_F(DemoRecognitionTest, NamesWhatItWasTaughtAndCallsOtherThingsUnknown) {
   EXPECT_EQ(asked.grasps[1].called, "ball");
   EXPECT_EQ(asked.grasps[1].rank, 1u);
   EXPECT_GT(asked.grasps[1].probability, 0.97);
-  EXPECT_FALSE(asked.grasps[2].taught);
+  EXPECT_FALSE(asked.grasps[2].inTraining);
   EXPECT_FALSE(asked.grasps[2].rank);
   EXPECT_EQ(asked.grasps[2].called, "unknown");
-  EXPECT_EQ(asked.numTaught(), 2u);
+  EXPECT_EQ(asked.numInTraining(), 2u);
   EXPECT_EQ(asked.numRight(true), 2u);
   EXPECT_EQ(asked.numRight(false), 1u);
   const std::string text = demoRecognitionText(asked);
@@ -64,7 +64,7 @@ TEST_F(DemoRecognitionTest, SaysWhatIsWrong) {
                                           recorded("pen", "bottle"),
                                           recorded("empty", "box"),
                                           recorded("pen", "marble")});
-  EXPECT_EQ(asked.numTaught(), 3u);
+  EXPECT_EQ(asked.numInTraining(), 3u);
   EXPECT_EQ(asked.numRight(true), 0u);
   EXPECT_EQ(asked.numRight(false), 0u);
   EXPECT_EQ(asked.grasps[1].called, "pen");

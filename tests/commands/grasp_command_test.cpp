@@ -33,7 +33,7 @@ std::vector<std::string> statesOf(const std::string& out) {
 using States = std::vector<std::string>;
 
 TEST(GraspCommand, PlainGraspGoesToThePreshape) {
-  EmulatedBench bench(stillHand(), {.rate = EmulationRate::kHz, .hz = 30.0});
+  EmulatedBench bench(stillHand(), {.rate = EmulationRate::kFixed, .hz = 30.0});
   const auto result = palpate({"grasp",
                                "--sdh",
                                bench.hand->sdhPort(),
@@ -88,7 +88,7 @@ TEST(GraspCommand, ReactiveGraspStopsAtTheBall) {
 }
 
 TEST(GraspCommand, ReactiveGraspOfNothingCloses) {
-  EmulatedBench bench(stillHand(), {.rate = EmulationRate::kHz, .hz = 60.0});
+  EmulatedBench bench(stillHand(), {.rate = EmulationRate::kFixed, .hz = 60.0});
   const auto result = palpate({"grasp",
                                "--sdh",
                                bench.hand->sdhPort(),
@@ -240,7 +240,7 @@ TEST(GraspCommand, AHandThatDoesNotAnswerIsOneLine) {
 TEST(GraspCommand, OverTheLimitAlreadyIsRefused) {
   auto still = std::make_unique<StillHand>(std::vector<double>{60, -75, 75, -75, 75, -75, 75});
   still->values[3] = 900;
-  EmulatedBench bench(std::move(still), {.rate = EmulationRate::kHz, .hz = 60.0});
+  EmulatedBench bench(std::move(still), {.rate = EmulationRate::kFixed, .hz = 60.0});
   const auto result = palpate({"grasp",
                                "--sdh",
                                bench.hand->sdhPort(),

@@ -111,7 +111,7 @@ inline KillFigures killRecordings(const std::string& program, int kills, int han
     workers.emplace_back([&, h] {
       EmulatedHandOptions options;
       if (h % 2 == 1) {
-        options.rate = EmulationRate::kHz;
+        options.rate = EmulationRate::kFixed;
         options.hz = 300.0;
       }
       KilledRecordings recordings(program, options, static_cast<unsigned>(h) + 1);

@@ -19,7 +19,7 @@ using namespace testing;
 
 std::unique_ptr<EmulatedHand> handAt(double hz) {
   EmulatedHandOptions options;
-  options.rate = EmulationRate::kHz;
+  options.rate = EmulationRate::kFixed;
   options.hz = hz;
   return std::make_unique<EmulatedHand>(std::make_unique<NumberedHand>(), options);
 }
@@ -150,7 +150,7 @@ TEST(RecordCommand, NamesFromATemplateCountUp) {
 TEST(RecordCommand, WithoutAFrameItFailsAndLeavesNothing) {
   const TemporaryFolder folder;
   EmulatedHandOptions options;
-  options.rate = EmulationRate::kHz;
+  options.rate = EmulationRate::kFixed;
   EmulatedHand mute(std::make_unique<NumberedHand>(), options);
   mute.mute(true);
   expectOneLineError(

@@ -77,7 +77,7 @@ TEST(RecordingList, FindsEveryRecordingBelowAFolderSortedByPath) {
   const RecordingList list = recordingsIn({folder.path().string() + "/"});
   EXPECT_EQ(list.files.at(0).string(), (folder / "a.dsa").string());  // no doubled slash
   EXPECT_TRUE(list.several);
-  EXPECT_TRUE(list.troubles.empty());
+  EXPECT_TRUE(list.problems.empty());
 }
 
 TEST(RecordingList, PassesOverWhatLiesBesideRecordings) {
@@ -153,9 +153,9 @@ TEST(RecordingList, AFolderWithoutRecordingsIsATrouble) {
   writeFiles(folder.path(), {"a.txt"});
   const RecordingList list = recordingsIn({folder.path().string()});
   EXPECT_TRUE(list.files.empty());
-  ASSERT_EQ(list.troubles.size(), 1u);
-  EXPECT_NE(list.troubles[0].find(folder.path().string()), std::string::npos);
-  EXPECT_NE(list.troubles[0].find("no recording"), std::string::npos);
+  ASSERT_EQ(list.problems.size(), 1u);
+  EXPECT_NE(list.problems[0].find(folder.path().string()), std::string::npos);
+  EXPECT_NE(list.problems[0].find("no recording"), std::string::npos);
 }
 
 TEST(RecordingList, ASubfolderThatCannotBeReadIsATroubleAndTheOthersAreFound) {
@@ -169,8 +169,8 @@ TEST(RecordingList, ASubfolderThatCannotBeReadIsATroubleAndTheOthersAreFound) {
     const RecordingList list = recordingsIn({folder.path().string()});
     const bool right =
         list.files == std::vector<fs::path>{folder / "a.dsa", folder / "open/c.dsa"} &&
-        list.troubles.size() == 1 &&
-        list.troubles[0].find("locked: can't be looked into: Permission denied") !=
+        list.problems.size() == 1 &&
+        list.problems[0].find("locked: can't be looked into: Permission denied") !=
             std::string::npos;
     _exit(right ? 0 : 1);
   }
@@ -197,7 +197,7 @@ ListResult runOver(const RecordingList& list, const FileWork& work, bool quiet =
   return run;
 }
 
-const RecordingList kThree{.files = {"a", "b", "c"}, .troubles = {}, .several = true};
+const RecordingList kThree{.files = {"a", "b", "c"}, .problems = {}, .several = true};
 
 TEST(ForEachRecording, TheExitCodeTellsHowMuchWasDone) {
   const auto failingAt = [](std::set<fs::path> bad) {
@@ -223,13 +223,13 @@ TEST(ForEachRecording, TheExitCodeTellsHowMuchWasDone) {
 
 TEST(ForEachRecording, WhatIsDoneInPartOrNotFoundMakesItThree) {
   const ListResult part = runOver(kThree, [](const fs::path& file, const Progress&) {
-    return FileOutcome{.said = {}, .trouble = file == "c" ? "c: half of it" : ""};
+    return FileOutcome{.said = {}, .problem = file == "c" ? "c: half of it" : ""};
   });
   EXPECT_EQ(part.exitCode, kPartlyDone);
   EXPECT_EQ(part.err, "palpate: c: half of it\n");
   const auto done = [](const fs::path&, const Progress&) { return FileOutcome{}; };
   RecordingList list = kThree;
-  list.troubles = {"sub: can't be looked into"};
+  list.problems = {"sub: can't be looked into"};
   const ListResult beside = runOver(list, done);
   EXPECT_EQ(beside.exitCode, kPartlyDone);
   EXPECT_EQ(beside.err, "palpate: sub: can't be looked into\n");

@@ -24,7 +24,7 @@ class RemoteCommandTest : public ::testing::Test {
  protected:
   RemoteCommandTest() {
     EmulatedHandOptions options;
-    options.rate = EmulationRate::kHz;
+    options.rate = EmulationRate::kFixed;
     options.hz = 100.0;
     hand_ = std::make_unique<EmulatedHand>(std::make_unique<NumberedHand>(), options);
     fs::create_directory(folder_ / "runs");

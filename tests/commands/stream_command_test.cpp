@@ -21,7 +21,7 @@ std::string demoFile() { return testing::dataFolder() / "demo_grasps.dsa"; }
 
 std::unique_ptr<EmulatedHand> hand() {
   EmulatedHandOptions options;
-  options.rate = EmulationRate::kHz;
+  options.rate = EmulationRate::kFixed;
   options.hz = 100.0;
   return std::make_unique<EmulatedHand>(std::make_unique<NumberedHand>(), options);
 }

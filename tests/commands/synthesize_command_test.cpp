@@ -72,8 +72,8 @@ TEST(SynthesizeCommand, TheEmptyHandOfAnotherDayTouchesAtOtherAngles) {
   const Profile later = make("later.dsa", {"--zero-error", "-1", "--days-later", "3"});
   EXPECT_EQ(later.frameTimeUs(0) - first.frameTimeUs(0), 3 * 24 * 3600 * 1'000'000LL);
   const EmptyHandZero a = emptyHandZero(first), b = emptyHandZero(later);
-  ASSERT_EQ(a.trouble, "");
-  ASSERT_EQ(b.trouble, "");
+  ASSERT_EQ(a.problem, "");
+  ASSERT_EQ(b.problem, "");
   // Both proximal joints at about 150 mm from the pads: 2 x 150 mm x 1 deg, less what their lean
   // takes.
   EXPECT_LT(b.mm - a.mm, -3.0);

@@ -30,7 +30,7 @@ TEST(TrainCommand, WritesAModelThatKnowsWhatItIsMadeFrom) {
   EXPECT_FALSE(model.programVersion.empty());
   ASSERT_EQ(model.inputs.size(), 4u);
   EXPECT_EQ(model.inputs[0].sha256, sha256OfFile(folder / "all/bottle/a.dsa"));
-  EXPECT_EQ(model.offset.origin, OffsetOrigin::kNone);
+  EXPECT_EQ(model.offset.origin, OffsetSource::kNone);
   EXPECT_EQ(model.offset.mm, 0.0);
   expectOneLineError(palpate({"train", folder / "all", "-o", folder / "m.json"}), 1, {"m.json"});
   EXPECT_EQ(palpate({"train", folder / "all", "-o", folder / "m.json", "--force"}).exitCode, 0);
@@ -149,7 +149,7 @@ TEST(TrainCommand, KeepsTheZeroOfTheEmptyHand) {
   ASSERT_TRUE(model.trainingZero);
   EXPECT_EQ(model.trainingZero->origin, "touch.dsa");
   EXPECT_EQ(model.trainingZero->sha256, sha256OfFile(folder / "touch.dsa"));
-  EXPECT_FALSE(model.todayZero);
+  EXPECT_FALSE(model.sessionZero);
 }
 
 }  // namespace

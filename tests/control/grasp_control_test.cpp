@@ -183,7 +183,7 @@ TEST(GraspControl, SilenceStopsAReactiveGrasp) {
   bench.wait(1);
   EXPECT_EQ(bench.hand->count<StopMotion>(), 1u);
   bench.wait(1);
-  EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kStreamDead);
+  EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kStreamLost);
 }
 
 TEST(GraspControl, SettingsAreRefusedWhileFingersMoveUnderTactileControl) {
@@ -275,7 +275,7 @@ TEST(GraspControl, ARecordingThatIsReplayedCannotBeMoved) {
   SyntheticOptions options;
   options.durationS = 5.0;
   ReplayOptions byHand;
-  byHand.pace = ReplayPace::kByHand;
+  byHand.pace = ReplayPace::kManual;
   testing::HandClock clock;
   CaptureOptions capture;
   capture.ownThread = false;

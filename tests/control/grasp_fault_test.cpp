@@ -178,9 +178,9 @@ TEST(GraspFault, AnotherLayoutBetweenGraspsIsLearned) {
 // the hand.
 TEST(GraspFault, AConsumerThatHangsKeepsNobodyFromStopping) {
   GraspBench bench;
-  FeedOptions patient;
+  CaptureQueueOptions patient;
   patient.eventItems = 1;
-  patient.waitForRoom = true;
+  patient.blockWhenFull = true;
   auto hanging = bench.session->subscribe("hangs", patient);
   bench.control->run();
   std::jthread other([&] {

@@ -45,14 +45,14 @@ Reach reachOf(const std::string& scene, double velocity, int limit, double hair 
 TEST(GraspReach, WhatIsReachedAfterTheStopIsInTheReport) {
   const Reach reach = reachOf("ball", 10.0, 200);
   EXPECT_EQ(reach.report.outcome, GraspOutcome::kLimitReached);
-  ASSERT_TRUE(reach.report.reached.has_value());
-  EXPECT_NEAR(static_cast<double>(reach.report.reached->counts), reach.largest, 50.0);
+  ASSERT_TRUE(reach.report.peakAfterStop.has_value());
+  EXPECT_NEAR(static_cast<double>(reach.report.peakAfterStop->counts), reach.largest, 50.0);
   EXPECT_GT(reach.largest, 1000.0) << "the ball is hard";
   EXPECT_NE(reach.report.text.find("after the stop"), std::string::npos) << reach.report.text;
   EXPECT_NE(reach.report.text.find("close more slowly"), std::string::npos) << reach.report.text;
   const Json json = Json::parse(endEvent(reach.report).json);
   EXPECT_EQ(json.at("reached_counts").asDouble(),
-            static_cast<double>(reach.report.reached->counts));
+            static_cast<double>(reach.report.peakAfterStop->counts));
   EXPECT_EQ(json.at("limit_counts").asInteger(), 200);
 }
 

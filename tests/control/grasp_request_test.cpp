@@ -160,7 +160,7 @@ TEST(GraspRequest, ItsHighestLimitIsJudgedOnTheFingersThatItMoves) {
     request.mode = mode;
     request.preshape = preshape;
     std::vector<std::size_t> found;
-    for (const UnfeltLimit& each : unfeltLimits(sdh2(), settings, request))
+    for (const UnmeasurableLimit& each : unmeasurableLimits(sdh2(), settings, request))
       found.push_back(each.matrix);
     return found;
   };

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "palpate/control/grasp_machine.h"
+#include "palpate/control/grasp_state_machine.h"
 #include "palpate/emulator/physical_hand.h"
 
 #include "testing/testing.h"
@@ -21,18 +21,18 @@ class HeldObject {
   static constexpr double kPeriodS = 0.0315;
 
   explicit HeldObject(const Scene& scene) : hand_(scene), machine_(hand_.hand()) {
-    counts_.resize(hand_.hand().layout->numPlaces());
+    counts_.resize(hand_.hand().layout->numCells());
     run(1.0);  // the machine knows its stream then
   }
 
-  GraspMachine& machine() { return machine_; }
+  GraspStateMachine& machine() { return machine_; }
   PhysicalHand& hand() { return hand_; }
   double timeS() const { return timeS_; }
   std::int64_t us() const { return static_cast<std::int64_t>(std::llround(timeS_ * 1e6)); }
-  const std::vector<GraspNote>& notes() const { return notes_; }
+  const std::vector<GraspStep>& notes() const { return notes_; }
   int actions(const std::string& action) const {
     int found = 0;
-    for (const GraspNote& note : notes_) found += note.action == action ? 1 : 0;
+    for (const GraspStep& note : notes_) found += note.action == action ? 1 : 0;
     return found;
   }
   double farthestSlip() const {  // of any matrix, now [taxels]
@@ -68,7 +68,7 @@ class HeldObject {
       machine_.onAxisStates(states, us());
       machine_.onTime(us());
       obey();
-      for (GraspNote& note : machine_.takeNotes()) notes_.push_back(std::move(note));
+      for (GraspStep& note : machine_.takeNotes()) notes_.push_back(std::move(note));
       if (enough && enough()) return true;
     }
     return !enough;
@@ -82,18 +82,18 @@ class HeldObject {
         joints.setTargets(move->targetDeg);
         joints.setVelocities(move->velocityDegPerS);
         joints.setProfile(move->ramp ? VelocityProfile::kRamp : VelocityProfile::kSinSquare);
-        machine_.onMoveTaken(joints.startMotion(), us());
+        machine_.onMoveAcknowledged(joints.startMotion(), us());
       } else {
         joints.stop();
-        machine_.onStopTaken(us());
+        machine_.onStopAcknowledged(us());
       }
     }
   }
 
   PhysicalHand hand_;
-  GraspMachine machine_;
+  GraspStateMachine machine_;
   std::vector<std::uint16_t> counts_;
-  std::vector<GraspNote> notes_;
+  std::vector<GraspStep> notes_;
   double timeS_ = 0.0;
 };
 

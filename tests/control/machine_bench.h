@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "palpate/control/grasp_machine.h"
+#include "palpate/control/grasp_state_machine.h"
 
 namespace palpate::testing {
 
@@ -15,7 +15,7 @@ inline const std::vector<int> kMoving{0, 1, 1, 0, 0, 1, 1};
 inline const std::vector<int> kHeld{0, 4, 0, 0, 0, 4, 0};
 
 struct MachineBench {
-  GraspMachine machine{sdh2()};
+  GraspStateMachine machine{sdh2()};
   std::int64_t us = 1'000'000;
 
   MachineBench() { frames(20); }
@@ -36,7 +36,7 @@ struct MachineBench {
   MoveJoints take(double durationS = 2.0) {
     const auto command = machine.takeCommand();
     const MoveJoints move = std::get<MoveJoints>(command.value());
-    machine.onMoveTaken(durationS, us);
+    machine.onMoveAcknowledged(durationS, us);
     return move;
   }
   // The half second after the stop at a limit.

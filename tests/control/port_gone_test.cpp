@@ -34,7 +34,7 @@ void hold(Bench& bench, GraspRequest request) {
   bench.take();
   bench.frames(1, 250.0F);
   EXPECT_TRUE(bench.takeStop());
-  bench.machine.onStopTaken(bench.us);
+  bench.machine.onStopAcknowledged(bench.us);
   for (int i = 0; i < 20; ++i) {
     bench.frames(1, 250.0F);
     bench.machine.onTime(bench.us);
@@ -51,7 +51,7 @@ TEST(PortGone, ClosingGoesOnForAsLongAsWasAnnounced) {
   EXPECT_EQ(report.outcome, GraspOutcome::kPortGone);
   EXPECT_EQ(report.text,
             "the motion port is gone: unplugged; the hand finishes its motion by itself");
-  EXPECT_NEAR(report.goesOnS.value(), 2.5 + kStartAndStopS, 1e-6);
+  EXPECT_NEAR(report.remainingMotionS.value(), 2.5 + kStartAndStopS, 1e-6);
 }
 
 TEST(PortGone, WhatWasAnnouncedIsOverAtItsEnd) {
@@ -59,7 +59,7 @@ TEST(PortGone, WhatWasAnnouncedIsOverAtItsEnd) {
   bench.begin({});
   bench.take(1.0);
   bench.us += 6'000'000;
-  EXPECT_EQ(gone(bench).goesOnS, 0.0);
+  EXPECT_EQ(gone(bench).remainingMotionS, 0.0);
 }
 
 // 10 deg/s. On the way to the start it is the start that counts, not where it would have closed.
@@ -74,7 +74,7 @@ TEST(PortGone, PreshapingGoesOnToItsStartByVelocityAndAnglesWhereNothingWasAnnou
       bench.take(std::numeric_limits<double>::quiet_NaN());
     else
       bench.machine.takeCommand();
-    EXPECT_NEAR(gone(bench).goesOnS.value(), 3.0 + kStartAndStopS, 1e-9) << answered;
+    EXPECT_NEAR(gone(bench).remainingMotionS.value(), 3.0 + kStartAndStopS, 1e-9) << answered;
   }
 }
 
@@ -85,13 +85,13 @@ TEST(PortGone, WithoutAnglesItMayComeFromAnywhere) {
   request.startRatio = 0.0;
   bench.begin(request);
   bench.machine.takeCommand();
-  EXPECT_NEAR(gone(bench).goesOnS.value(), 16.5 + kStartAndStopS, 1e-9);
+  EXPECT_NEAR(gone(bench).remainingMotionS.value(), 16.5 + kStartAndStopS, 1e-9);
 }
 
 TEST(PortGone, LooseningGoesOnAtItsOwnVelocity) {
   Bench bench;
   GraspRequest request = slipAware();
-  request.holding.calmS = 1.0;
+  request.holding.noSlipS = 1.0;
   request.holding.weightN = 1.0;
   hold(bench, request);
   for (int i = 0; i < 100 && bench.machine.phase() == GraspPhase::kHolding; ++i) {
@@ -102,7 +102,7 @@ TEST(PortGone, LooseningGoesOnAtItsOwnVelocity) {
   // To the open hand at 1 deg/s, though the grasp was asked for 10.
   bench.machine.onAngles({60.0, -63.0, 75.0, -75.0, 65.0, -75.0, 75.0});
   const GraspReport report = gone(bench);
-  EXPECT_NEAR(report.goesOnS.value(), 12.0 + kStartAndStopS, 1e-9);
+  EXPECT_NEAR(report.remainingMotionS.value(), 12.0 + kStartAndStopS, 1e-9);
 }
 
 TEST(PortGone, AHandThatHoldsStandsStill) {
@@ -111,7 +111,7 @@ TEST(PortGone, AHandThatHoldsStandsStill) {
   const GraspReport report = gone(bench);
   EXPECT_EQ(report.outcome, GraspOutcome::kPortGone);
   EXPECT_EQ(report.text, "the motion port is gone: unplugged; the hand holds, nobody watches");
-  EXPECT_EQ(report.goesOnS, 0.0);
+  EXPECT_EQ(report.remainingMotionS, 0.0);
 }
 
 TEST(PortGone, AStopThatWasNotTakenLeavesTheMotionToItself) {
@@ -123,7 +123,7 @@ TEST(PortGone, AStopThatWasNotTakenLeavesTheMotionToItself) {
   EXPECT_EQ(report.text,
             "stopped by the user, but the motion port is gone: unplugged; the hand finishes its "
             "motion by itself");
-  EXPECT_NEAR(report.goesOnS.value(), 4.0 + kStartAndStopS, 1e-6);
+  EXPECT_NEAR(report.remainingMotionS.value(), 4.0 + kStartAndStopS, 1e-6);
 }
 
 TEST(PortGone, AStopWhileItHoldsLeavesItHolding) {
@@ -134,7 +134,7 @@ TEST(PortGone, AStopWhileItHoldsLeavesItHolding) {
   EXPECT_EQ(report.text,
             "stopped by the user: the hand holds, nobody watches, and the motion port is gone: "
             "unplugged");
-  EXPECT_EQ(report.goesOnS, 0.0);
+  EXPECT_EQ(report.remainingMotionS, 0.0);
 }
 
 TEST(PortGone, AnEndOfAnotherKindSaysNothingOfIt) {
@@ -143,7 +143,7 @@ TEST(PortGone, AnEndOfAnotherKindSaysNothingOfIt) {
   bench.take();
   bench.us += 3'000'000;
   bench.machine.onAxisStates(kIdle, bench.us);
-  EXPECT_FALSE(bench.machine.takeReport()->goesOnS.has_value());
+  EXPECT_FALSE(bench.machine.takeReport()->remainingMotionS.has_value());
 }
 
 // A refusal meanwhile is the last report, but not what the hand does.
@@ -161,7 +161,7 @@ TEST(PortGone, IsRememberedUntilThePortIsBackWhateverIsRefusedMeanwhile) {
   EXPECT_EQ(status.last->outcome, GraspOutcome::kRefused);
   ASSERT_TRUE(status.portGone.has_value());
   EXPECT_EQ(status.portGone->outcome, GraspOutcome::kPortGone);
-  EXPECT_GT(status.portGone->goesOnS.value(), 4.0);
+  EXPECT_GT(status.portGone->remainingMotionS.value(), 4.0);
   bench.hand->state.motion->state = PortState::kStreaming;
   bench.wait(5000);
   EXPECT_FALSE(bench.control->status().portGone.has_value());
@@ -180,7 +180,8 @@ TEST(PortGone, TheControlKnowsTheAngles) {
   bench.control->grasp(request);
   bench.hand->state.motion->state = PortState::kLost;
   bench.wait(5000);
-  EXPECT_NEAR(bench.control->status().portGone->goesOnS.value(), 1.0 + kStartAndStopS, 1e-9);
+  EXPECT_NEAR(
+      bench.control->status().portGone->remainingMotionS.value(), 1.0 + kStartAndStopS, 1e-9);
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ constexpr std::int64_t kPeriodUs = 31'500;
 
 TEST(SensitivityControl, HighSensitivityPutsThresholdsAboveTheNoiseAndFollowsTheTemperature) {
   SensitivityBench bench;
-  bench.control.holdHigh(evenNoise(0.5, 30.0, 2.0));
+  bench.control.beginHighSensitivity(evenNoise(0.5, 30.0, 2.0));
   EXPECT_TRUE(bench.control.status().measuring);
   bench.run(2.0, kPeriodUs, 0.0, 30.0);
   EXPECT_FALSE(bench.control.status().measuring);
@@ -81,7 +81,7 @@ TEST(SensitivityControl, HighSensitivityPutsThresholdsAboveTheNoiseAndFollowsThe
 
 TEST(SensitivityControl, TheGuardRaisesThresholdsWhenTheRateCollapses) {
   SensitivityBench bench;
-  bench.control.holdHigh(evenNoise(0.5, 30.0, 2.0));
+  bench.control.beginHighSensitivity(evenNoise(0.5, 30.0, 2.0));
   bench.run(3.0, kPeriodUs, 0.0, 30.0);
   EXPECT_EQ(bench.settings()[0].thresholdCounts, 51);
   bench.run(6.0, 3 * kPeriodUs, 0.0, 30.0);
@@ -89,7 +89,7 @@ TEST(SensitivityControl, TheGuardRaisesThresholdsWhenTheRateCollapses) {
   EXPECT_GE(bench.settings()[0].thresholdCounts, 61);
   // A pause (of a setting, say) is no slow stream.
   SensitivityBench paused;
-  paused.control.holdHigh(evenNoise(0.5, 30.0, 2.0));
+  paused.control.beginHighSensitivity(evenNoise(0.5, 30.0, 2.0));
   paused.run(3.0, kPeriodUs, 0.0, 30.0);
   for (int i = 0; i < 10; ++i) {
     paused.bench.clock.pass(700'000);
@@ -102,7 +102,7 @@ TEST(SensitivityControl, TheGuardRaisesThresholdsWhenTheRateCollapses) {
 
 TEST(SensitivityControl, WaitsWhileFingersMoveUnderTactileControl) {
   SensitivityBench bench;
-  bench.control.holdHigh(evenNoise(0.5, 30.0, 2.0));
+  bench.control.beginHighSensitivity(evenNoise(0.5, 30.0, 2.0));
   bench.run(0.2, kPeriodUs, 0.0, 30.0);
   GraspRequest request;
   request.mode = GraspMode::kReactive;
@@ -124,7 +124,7 @@ TEST(SensitivityControl, WaitsWhileFingersMoveUnderTactileControl) {
 TEST(SensitivityControl, AdaptiveFindsTheHighestThatDoesNotSaturate) {
   // Readings s * gain - 200: at gain 5000 the aim of 3150 counts needs s = 0.67.
   SensitivityBench bench;
-  bench.control.seek();
+  bench.control.beginAdaptiveSensitivity();
   bench.run(30.0, kPeriodUs, 5000.0, 30.0);
   EXPECT_TRUE(bench.control.status().settled);
   EXPECT_NEAR(bench.settings()[1].sensitivity, 0.67, 0.04);
@@ -139,9 +139,9 @@ TEST(SensitivityControl, AdaptiveFindsTheHighestThatDoesNotSaturate) {
 
 TEST(SensitivityControl, LettingGoLeavesAndResetBringsBack) {
   SensitivityBench bench;
-  bench.control.holdHigh(evenNoise(0.5, 30.0, 2.0));
+  bench.control.beginHighSensitivity(evenNoise(0.5, 30.0, 2.0));
   bench.run(3.0, kPeriodUs, 0.0, 30.0);
-  bench.control.letGo();
+  bench.control.endMode();
   bench.run(15.0, kPeriodUs, 0.0, 50.0);
   EXPECT_EQ(bench.settings()[0].thresholdCounts, 51);
   EXPECT_EQ(bench.control.status().mode, SensitivityMode::kManual);
@@ -158,13 +158,13 @@ TEST(SensitivityControl, SaysWhatIsMissing) {
   SensitivityBench bench;
   NoiseFloor none = evenNoise(0.5, 30.0, 2.0);
   for (NoiseLine& line : none.lines) line.valid = false;
-  EXPECT_THROW(bench.control.holdHigh(none), std::invalid_argument);
+  EXPECT_THROW(bench.control.beginHighSensitivity(none), std::invalid_argument);
   NoiseFloor other = evenNoise(0.5, 30.0, 2.0);
   other.lines.back().matrix = 6;
-  EXPECT_THROW(bench.control.holdHigh(other), std::invalid_argument);
+  EXPECT_THROW(bench.control.beginHighSensitivity(other), std::invalid_argument);
   EXPECT_EQ(bench.control.status().mode, SensitivityMode::kManual);
   bench.bench.hand->says.matrices.clear();
-  bench.control.seek();
+  bench.control.beginAdaptiveSensitivity();
   bench.bench.clock.pass(1000);
   bench.control.step();
   EXPECT_EQ(bench.control.status().waiting, "no tactile controller is connected");
@@ -175,7 +175,7 @@ TEST(SensitivityControl, OnTheEmulatedHand) {
   EmulatedBench bench(handWith("empty"));
   bench.connect();
   SensitivityControl control(*bench.session, *bench.control);
-  control.holdHigh(evenNoise(0.3, 40.0, 2.0));
+  control.beginHighSensitivity(evenNoise(0.3, 40.0, 2.0));
   const auto set = [&] {
     control.step();
     const TactileSettings now = bench.session->device().facts().matrices;

@@ -42,11 +42,11 @@ TEST(SlipGrasp, HoldsWhatRestsAndMovesNothing) {
   request.velocityDegPerS = 8.0;
   held.begin(request);
   ASSERT_TRUE(held.run(8.0, [&] { return held.machine().phase() == GraspPhase::kHolding; }));
-  const std::uint64_t orders = held.hand().joints().orders();
+  const std::uint64_t motionCount = held.hand().joints().motionCount();
   held.run(4.0);
   EXPECT_EQ(held.machine().phase(), GraspPhase::kHolding);
   EXPECT_EQ(held.machine().running().slips, 0);
-  EXPECT_EQ(held.hand().joints().orders(), orders);
+  EXPECT_EQ(held.hand().joints().motionCount(), motionCount);
   EXPECT_EQ(held.actions("holding"), 1);
 }
 
@@ -75,7 +75,7 @@ Pulled pullTheHandle(GraspMode mode, const HoldingOptions& holding = {}) {
                 held.machine().running().limitCounts,
                 held.machine().phase(),
                 {}};
-  for (const GraspNote& note : held.notes()) pulled.log += note.action + ": " + note.text + "\n";
+  for (const GraspStep& note : held.notes()) pulled.log += note.action + ": " + note.text + "\n";
   return pulled;
 }
 
@@ -86,12 +86,12 @@ TEST(SlipGrasp, ClosesAgainUponWhatSlipsAndItStays) {
   EXPECT_EQ(aware.phase, GraspPhase::kHolding) << aware.log;
   EXPECT_GE(aware.slips, 2) << aware.log;
   EXPECT_GT(aware.limit, 400) << aware.log;
-  EXPECT_LE(aware.limit, kMostSlipLimitCounts) << aware.log;
+  EXPECT_LE(aware.limit, kMaxSlipLimitCounts) << aware.log;
 }
 
 TEST(SlipGrasp, LowersItsLimitWhenNothingSlipsAndOpensOnlyWhenTold) {
   HoldingOptions holding;
-  holding.calmS = 1.0;
+  holding.noSlipS = 1.0;
   const Pulled quiet = pullTheHandle(GraspMode::kSlip, holding);
   EXPECT_NE(quiet.log.find("lower: nothing slips"), std::string::npos) << quiet.log;
   EXPECT_EQ(quiet.log.find("loosen"), std::string::npos) << quiet.log;
@@ -102,7 +102,7 @@ TEST(SlipGrasp, LooksForFrictionWhenTheWeightIsGiven) {
   HeldObject held(sceneOf("slipping_handle"));
   GraspRequest request = slipAware("pinch-parallel", 400);
   request.velocityDegPerS = 8.0;
-  request.holding.calmS = 1.0;
+  request.holding.noSlipS = 1.0;
   request.holding.weightN = 0.15 * 9.81;
   request.holding.newtonsPerCount = 0.0007;
   held.begin(request);
@@ -145,7 +145,7 @@ TEST(SlipGrasp, ADeadStreamEndsItWithoutAMotion) {
   ASSERT_TRUE(held.run(8.0, [&] { return held.machine().phase() == GraspPhase::kHolding; }));
   held.machine().onTime(held.us() + 200'000);
   EXPECT_FALSE(held.machine().active());
-  EXPECT_EQ(held.machine().takeReport()->outcome, GraspOutcome::kStreamDead);
+  EXPECT_EQ(held.machine().takeReport()->outcome, GraspOutcome::kStreamLost);
   EXPECT_FALSE(held.machine().takeCommand().has_value());
 }
 
@@ -170,13 +170,13 @@ TEST(SlipGrasp, NothingIsThereToHold) {
 
 TEST(SlipGrasp, RefusesWhatItCantDo) {
   GraspRequest request = slipAware("centrical", 400);
-  request.holding.mostLimitCounts = 300;
+  request.holding.maxLimitCounts = 300;
   EXPECT_THROW(request.validate(), std::invalid_argument);
   request = slipAware("centrical", 400);
-  request.holding.calmS = 0.0;
+  request.holding.noSlipS = 0.0;
   EXPECT_THROW(request.validate(), std::invalid_argument);
   // Without a living stream nothing is begun.
-  GraspMachine machine(sdh2());
+  GraspStateMachine machine(sdh2());
   EXPECT_THROW(machine.begin(slipAware("centrical", 400), 1'000'000, 0), DeviceError);
   EXPECT_FALSE(machine.takeCommand().has_value());
 }

@@ -34,7 +34,7 @@ class StopMoments {
     bench_.control->stop();
     const auto report = bench_.awaitEnd();
     ASSERT_TRUE(report.has_value());
-    if (report->outcome == GraspOutcome::kStreamDead) return lost(report->text);
+    if (report->outcome == GraspOutcome::kStreamLost) return lost(report->text);
     // The way back may be so short that the hand is there already: a stop goes out all the same.
     EXPECT_TRUE(report->outcome == GraspOutcome::kStopped ||
                 report->outcome == GraspOutcome::kFinished)

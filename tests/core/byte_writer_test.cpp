@@ -9,14 +9,14 @@ namespace {
 
 TEST(ByteWriter, PutsTheLowestByteFirst) {
   std::vector<std::byte> bytes;
-  appendLittle(bytes, 0x0102030405060708, 8);
-  appendLittle(bytes, 0xABCDEF, 2);  // its lowest two
+  appendLittleEndian(bytes, 0x0102030405060708, 8);
+  appendLittleEndian(bytes, 0xABCDEF, 2);  // its lowest two
   ByteReader in(bytes);
   EXPECT_EQ(in.u8(), 8);
   EXPECT_EQ(in.take(7).back(), std::byte{1});
   EXPECT_EQ(in.u16(), 0xCDEF);
   std::string text;
-  appendLittle(text, 0x6261, 2);
+  appendLittleEndian(text, 0x6261, 2);
   EXPECT_EQ(text, "ab");
 }
 

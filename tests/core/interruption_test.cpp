@@ -14,10 +14,10 @@ class InterruptionTest : public ::testing::TestWithParam<int> {};
 
 TEST_P(InterruptionTest, ASignalIsToldOnceAndEndsNothing) {
   Interruption interruption;
-  EXPECT_FALSE(interruption.came(0));
+  EXPECT_FALSE(interruption.waitForSignal(0));
   std::raise(GetParam());
-  EXPECT_TRUE(interruption.came(0));
-  EXPECT_FALSE(interruption.came(0));
+  EXPECT_TRUE(interruption.waitForSignal(0));
+  EXPECT_FALSE(interruption.waitForSignal(0));
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptionTest, ::testing::Values(SIGINT, SIGTERM, SIGHUP));
@@ -33,7 +33,8 @@ TEST(Interruption, TheDescriptorCanBeReadWhenOneCame) {
 TEST(Interruption, WaitingEndsWithTheSignal) {
   Interruption interruption;
   constexpr int kWithinMs = 60'000;
-  auto waits = std::async(std::launch::async, [&] { return interruption.came(kWithinMs); });
+  auto waits =
+      std::async(std::launch::async, [&] { return interruption.waitForSignal(kWithinMs); });
   std::raise(SIGTERM);
   EXPECT_TRUE(waits.get());
 }
@@ -43,7 +44,7 @@ TEST(Interruption, WhatWasIgnoredBeforeStaysSoAndTheRestIsAsBefore) {
   {
     Interruption interruption;
     std::raise(SIGHUP);
-    EXPECT_FALSE(interruption.came(0)) << "nohup";
+    EXPECT_FALSE(interruption.waitForSignal(0)) << "nohup";
   }
   EXPECT_EQ(std::signal(SIGHUP, SIG_DFL), SIG_IGN);
   EXPECT_EQ(std::signal(SIGTERM, SIG_DFL), SIG_DFL);

@@ -7,9 +7,9 @@
 namespace palpate::text_file_test {
 namespace {
 
-std::string messageOf(const std::filesystem::path& path, std::uint64_t mostBytes) {
+std::string messageOf(const std::filesystem::path& path, std::uint64_t byteLimit) {
   try {
-    readTextFile(path, mostBytes);
+    readTextFile(path, byteLimit);
   } catch (const Error& error) {
     return error.what();
   }

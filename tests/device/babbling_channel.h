@@ -11,7 +11,7 @@
 
 namespace palpate::testing {
 
-enum class Behaviour { kHonest, kSilent, kBabbling, kDripping, kGone };
+enum class Behaviour { kHonest, kSilent, kBabbling, kDripping, kDisconnected };
 
 struct BabblerControls {
   std::atomic<Behaviour> behaviour{Behaviour::kHonest};
@@ -48,8 +48,8 @@ class BabblingChannel : public ByteChannel {
         nextDrop_ = std::chrono::steady_clock::now() + std::chrono::seconds(1);
         into[0] = std::byte{0xAA};
         return 1;
-      case Behaviour::kGone:
-        throw DeviceError(DeviceFault::kGone, name_, "unplugged");
+      case Behaviour::kDisconnected:
+        throw DeviceError(DeviceFault::kDisconnected, name_, "unplugged");
       case Behaviour::kBabbling:
         break;
     }
@@ -70,8 +70,8 @@ class BabblingChannel : public ByteChannel {
     return into.size();
   }
   void write(std::span<const std::byte> bytes) override {
-    if (controls_.behaviour == Behaviour::kGone)
-      throw DeviceError(DeviceFault::kGone, name_, "unplugged");
+    if (controls_.behaviour == Behaviour::kDisconnected)
+      throw DeviceError(DeviceFault::kDisconnected, name_, "unplugged");
     if (controls_.behaviour == Behaviour::kHonest) line_.write(bytes);
     controls_.threshold2 = hand_.thresholds[2];
     controls_.setWhileStreaming = controls_.setWhileStreaming || hand_.setWhileStreaming;

@@ -190,11 +190,12 @@ TEST(ByteChannel, NoticesThatTheOtherEndIsGone) {
   Bytes buffer(4);
   std::thread other([&] { pty.unplug(); });
   const auto start = SteadyClock::now();
-  EXPECT_EQ(faultOf(pty.path(), [&] { channel->read(buffer, 10s); }), DeviceFault::kGone);
+  EXPECT_EQ(faultOf(pty.path(), [&] { channel->read(buffer, 10s); }), DeviceFault::kDisconnected);
   EXPECT_LT(SteadyClock::now() - start, 500ms);
   other.join();
-  EXPECT_EQ(faultOf(pty.path(), [&] { channel->read(buffer, 0ms); }), DeviceFault::kGone);
-  EXPECT_EQ(faultOf(pty.path(), [&] { channel->write(textBytes("x")); }), DeviceFault::kGone);
+  EXPECT_EQ(faultOf(pty.path(), [&] { channel->read(buffer, 0ms); }), DeviceFault::kDisconnected);
+  EXPECT_EQ(faultOf(pty.path(), [&] { channel->write(textBytes("x")); }),
+            DeviceFault::kDisconnected);
 }
 
 TEST(ByteChannel, AWriteThatNobodyTakesEndsAfterASecond) {
@@ -280,14 +281,14 @@ TEST(ByteChannel, CarriesEveryByteBothWaysOverTheNetwork) {
     ASSERT_EQ(::send(listener.peer(), got.data(), got.size(), 0), 256);
     EXPECT_EQ(readExactly(*channel, 256), allBytes());
     listener.hangUp();
-    EXPECT_EQ(faultOf(name, [&] { channel->read(got, 5s); }), DeviceFault::kGone);
+    EXPECT_EQ(faultOf(name, [&] { channel->read(got, 5s); }), DeviceFault::kDisconnected);
     EXPECT_EQ(faultOf(name,
                       [&] {
                         channel->write(allBytes());  // the first may still go out
                         channel->write(allBytes());
                         channel->read(got, 5s);
                       }),
-              DeviceFault::kGone);
+              DeviceFault::kDisconnected);
   }
 }
 

@@ -36,7 +36,7 @@ class DsaControllerTest : public ::testing::Test {
 };
 
 TEST_F(DsaControllerTest, OpensAndLearnsTheSensor) {
-  const DsaFacts& facts = controller.open();
+  const DsaControllerInfo& facts = controller.open();
   EXPECT_EQ(facts.serial, 0x1D9B0057u);
   EXPECT_EQ(facts.firmwareText(), "2.9.0.0");
   EXPECT_EQ(facts.generatedBy, 105);
@@ -170,7 +170,7 @@ TEST_F(DsaControllerTest, MasksAreSetAndReadBack) {
 TEST_F(DsaControllerTest, OlderFirmwareWithoutMasksOrThresholds) {
   hand.firmware = 218;
   hand.knowsMasks = false;
-  const DsaFacts& facts = controller.open();
+  const DsaControllerInfo& facts = controller.open();
   EXPECT_EQ(facts.firmwareText(), "218");
   EXPECT_FALSE(facts.masksKnown);
   EXPECT_EQ(facts.layout().numTaxels(), 486u);
@@ -208,7 +208,8 @@ TEST_F(DsaControllerTest, AnErrorCodeIsNamed) {
 TEST_F(DsaControllerTest, AnUnpluggedPortIsNoTimeout) {
   controller.open();
   line.pullThePlug();
-  EXPECT_EQ(faultOf([&] { controller.poll(std::chrono::milliseconds(1)); }), DeviceFault::kGone);
+  EXPECT_EQ(faultOf([&] { controller.poll(std::chrono::milliseconds(1)); }),
+            DeviceFault::kDisconnected);
 }
 
 TEST_F(DsaControllerTest, BabbleInsteadOfAControllerEndsInTime) {

@@ -10,7 +10,7 @@ namespace palpate::testing::dsa_frame_test {
 namespace {
 
 std::optional<DsaFrame> decode(const Bytes& payload, std::vector<float>& counts) {
-  counts.assign(sdh2().layout->numPlaces(), -1.0F);
+  counts.assign(sdh2().layout->numCells(), -1.0F);
   return decodeDsaFrame(payload, *sdh2().layout, true, counts);
 }
 
@@ -82,42 +82,42 @@ TEST(DsaFrame, ACountWhereNoTaxelIsIsRefusedWhenTheMaskIsKnown) {
   EXPECT_THROW(decodeDsaFrame(payload, *sdh2().layout, false, counts), std::invalid_argument);
 }
 
-using Verdict = DsaClock::Verdict;
+using FrameAcceptance = DsaClock::FrameAcceptance;
 
 TEST(DsaClock, UnwrapsAt32Bits) {
   DsaClock clock;
-  EXPECT_EQ(clock.judge(0xFFFFFFF0u, 0), Verdict::kAccept);
+  EXPECT_EQ(clock.checkStamp(0xFFFFFFF0u, 0), FrameAcceptance::kAccept);
   EXPECT_EQ(clock.deviceMs(), 0xFFFFFFF0ll);
-  EXPECT_EQ(clock.judge(0x0000000Fu, 31'000), Verdict::kAccept);
+  EXPECT_EQ(clock.checkStamp(0x0000000Fu, 31'000), FrameAcceptance::kAccept);
   EXPECT_EQ(clock.deviceMs(), 0x10000000Fll);
 }
 
 TEST(DsaClock, OneWrongStampIsDroppedAndTheNextGoodOneAccepted) {
   DsaClock clock;
-  clock.judge(1000, 0);
-  EXPECT_EQ(clock.judge(900, 31'000), Verdict::kHold);  // backwards
-  EXPECT_EQ(clock.judge(1063, 63'000), Verdict::kDropHeld);
-  EXPECT_EQ(clock.judge(1063, 94'000), Verdict::kHold);               // stands still
-  EXPECT_EQ(clock.judge(9'001'063, 126'000), Verdict::kReplaceHeld);  // hours ahead
-  EXPECT_EQ(clock.judge(1157, 157'000), Verdict::kDropHeld);
+  clock.checkStamp(1000, 0);
+  EXPECT_EQ(clock.checkStamp(900, 31'000), FrameAcceptance::kHold);  // backwards
+  EXPECT_EQ(clock.checkStamp(1063, 63'000), FrameAcceptance::kDropHeld);
+  EXPECT_EQ(clock.checkStamp(1063, 94'000), FrameAcceptance::kHold);               // stands still
+  EXPECT_EQ(clock.checkStamp(9'001'063, 126'000), FrameAcceptance::kReplaceHeld);  // hours ahead
+  EXPECT_EQ(clock.checkStamp(1157, 157'000), FrameAcceptance::kDropHeld);
   EXPECT_EQ(clock.deviceMs(), 1157);
 }
 
 TEST(DsaClock, AControllerThatStartedAnewIsBelievedAtItsSecondFrame) {
   DsaClock clock;
-  clock.judge(500'000, 0);
-  EXPECT_EQ(clock.judge(9000, 12'000'000), Verdict::kHold);
-  EXPECT_EQ(clock.judge(9031, 12'031'000), Verdict::kRestarted);
+  clock.checkStamp(500'000, 0);
+  EXPECT_EQ(clock.checkStamp(9000, 12'000'000), FrameAcceptance::kHold);
+  EXPECT_EQ(clock.checkStamp(9031, 12'031'000), FrameAcceptance::kRestarted);
   EXPECT_EQ(clock.heldMs(), 500'001);
   EXPECT_EQ(clock.deviceMs(), 500'032);
-  EXPECT_EQ(clock.judge(9063, 12'063'000), Verdict::kAccept);
+  EXPECT_EQ(clock.checkStamp(9063, 12'063'000), FrameAcceptance::kAccept);
   EXPECT_EQ(clock.deviceMs(), 500'064);
 }
 
 TEST(DsaClock, AnHourOfSilenceIsNoFault) {
   DsaClock clock;
-  clock.judge(1000, 0);
-  EXPECT_EQ(clock.judge(3'601'000, 3'600'000'000), Verdict::kAccept);
+  clock.checkStamp(1000, 0);
+  EXPECT_EQ(clock.checkStamp(3'601'000, 3'600'000'000), FrameAcceptance::kAccept);
 }
 
 TEST(DsaLossEstimate, CountsWhatTheDeviceClockMisses) {

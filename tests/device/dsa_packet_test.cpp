@@ -107,9 +107,9 @@ TEST(DsaPacket, EscapeSequencesOfABootingControllerAreSkipped) {
 }
 
 TEST(DsaPacket, RefusesPlacesThatNoFrameCanHave) {
-  EXPECT_THROW(DsaPacketParser({.numPlaces = 0}), std::invalid_argument);
-  EXPECT_THROW(DsaPacketParser({.numPlaces = 32'766}), std::invalid_argument);
-  EXPECT_NO_THROW(DsaPacketParser({.numPlaces = 32'765}));
+  EXPECT_THROW(DsaPacketParser({.numCells = 0}), std::invalid_argument);
+  EXPECT_THROW(DsaPacketParser({.numCells = 32'766}), std::invalid_argument);
+  EXPECT_NO_THROW(DsaPacketParser({.numCells = 32'765}));
 }
 
 }  // namespace

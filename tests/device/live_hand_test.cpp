@@ -22,7 +22,7 @@ class LiveHandTest : public ::testing::Test {
     LiveHandOptions given;
     given.dsaPort = "babbler";
     given.open = [this](const std::string& port) -> std::unique_ptr<ByteChannel> {
-      if (controls.behaviour == Behaviour::kGone)
+      if (controls.behaviour == Behaviour::kDisconnected)
         throw DeviceError(DeviceFault::kNotFound, port, "no such port");
       return std::make_unique<BabblingChannel>(controls);
     };
@@ -137,7 +137,7 @@ TEST_F(LiveHandTest, AHandThatReturnsStreamsAgainWithItsSettings) {
   hand.start(sink);
   ASSERT_TRUE(sink.awaitFrames(5));
   hand.submit(SetThreshold{2, 60}).get();
-  controls.behaviour = Behaviour::kGone;
+  controls.behaviour = Behaviour::kDisconnected;
   ASSERT_TRUE(sink.await([&] { return hand.status().tactile.state == PortState::kLost; },
                          milliseconds(500)));
   EXPECT_FALSE(hand.status().tactile.message.empty());
@@ -170,7 +170,7 @@ TEST_F(LiveHandTest, APtyNamedByItsNumberIsNotOpenedAgainOnceItIsGone) {
   LiveHand named(given);
   named.start(sink);
   ASSERT_TRUE(sink.awaitFrames(3));
-  controls.behaviour = Behaviour::kGone;
+  controls.behaviour = Behaviour::kDisconnected;
   ASSERT_TRUE(sink.await([&] { return named.status().tactile.state == PortState::kLost; }));
   controls.behaviour = Behaviour::kHonest;
   EXPECT_FALSE(sink.await([&] { return opened > 1; }, milliseconds(400)));
@@ -181,7 +181,7 @@ TEST_F(LiveHandTest, APtyNamedByItsNumberIsNotOpenedAgainOnceItIsGone) {
 TEST_F(LiveHandTest, AnotherControllerInTheSamePlaceIsNotTakenForTheFirst) {
   hand.start(sink);
   ASSERT_TRUE(sink.awaitFrames(3));
-  controls.behaviour = Behaviour::kGone;
+  controls.behaviour = Behaviour::kDisconnected;
   ASSERT_TRUE(sink.await([&] { return hand.status().tactile.state == PortState::kLost; }));
   const std::size_t frames = sink.numFrames();
   controls.serialByte = 0x99;
@@ -199,7 +199,7 @@ TEST_F(LiveHandTest, StopsSoonWhateverTheStateOfThePort) {
                                     Behaviour::kSilent,
                                     Behaviour::kBabbling,
                                     Behaviour::kDripping,
-                                    Behaviour::kGone}) {
+                                    Behaviour::kDisconnected}) {
     controls.behaviour = Behaviour::kHonest;
     controls.most = UINT64_MAX;
     hand.start(sink);

@@ -151,7 +151,7 @@ TEST_F(PortProbeTest, OtherBytesAreSomethingElse) {
     for (int i = 0; i < 3000; ++i) line.arrive(bytesOf("24 47 50 47 47 41 FF 0A"), i * 1000);
   };
   const PortProbe found = probe();
-  EXPECT_EQ(found.answer, PortAnswer::kSomething);
+  EXPECT_EQ(found.answer, PortAnswer::kUnknownDevice);
   EXPECT_LE(seconds(), 2.6);
 }
 
@@ -160,7 +160,7 @@ TEST_F(PortProbeTest, GivesUpWhenTold) {
   options.open = [&](const std::string&) {
     return std::make_unique<ScriptedChannel>(clock, ScriptedChannel::Answer{});
   };
-  options.giveUp = [&] { return clock.nowUs > 200'000; };
+  options.isCancelled = [&] { return clock.nowUs > 200'000; };
   EXPECT_EQ(probePort("x", options, clock).answer, PortAnswer::kNothing);
   EXPECT_LT(seconds(), 0.3);
 }

@@ -48,7 +48,7 @@ class ScriptedChannel : public ByteChannel {
   void pullThePlug() { gone_ = true; }
 
   std::size_t read(std::span<std::byte> into, std::chrono::milliseconds timeout) override {
-    if (gone_) throw DeviceError(DeviceFault::kGone, name_, "unplugged");
+    if (gone_) throw DeviceError(DeviceFault::kDisconnected, name_, "unplugged");
     const std::int64_t endUs = clock_.nowUs + std::int64_t{timeout.count()} * 1000;
     if (here_.empty()) {
       if (coming_.empty() || coming_.begin()->first > endUs) {
@@ -65,7 +65,7 @@ class ScriptedChannel : public ByteChannel {
     return n;
   }
   void write(std::span<const std::byte> bytes) override {
-    if (gone_) throw DeviceError(DeviceFault::kGone, name_, "unplugged");
+    if (gone_) throw DeviceError(DeviceFault::kDisconnected, name_, "unplugged");
     const Bytes request(bytes.begin(), bytes.end());
     written.insert(written.end(), request.begin(), request.end());
     requests.push_back(request);

@@ -14,7 +14,7 @@ using Values = SdhController::Values;
 using SdhControllerTest = testing::SdhOnAWire;
 
 TEST_F(SdhControllerTest, OpensAndLearnsWhatTheHandIs) {
-  const SdhFacts facts = controller.open();
+  const SdhControllerInfo facts = controller.open();
   EXPECT_EQ(facts.firmware, "0.0.3.3");
   EXPECT_EQ(facts.date, "2013-09-19");
   EXPECT_EQ(facts.soc, "SDH_SOC 7");
@@ -195,7 +195,7 @@ TEST_F(SdhControllerTest, OlderFirmwareIsAskedInLines) {
 
 TEST_F(SdhControllerTest, VeryOldFirmwareIsNotAskedForWhatItHasNot) {
   hand.firmware = "0.0.1.0";
-  const SdhFacts facts = controller.open();
+  const SdhControllerInfo facts = controller.open();
   EXPECT_EQ(facts.maximumVelocity, (Values{83, 140, 200, 140, 200, 140, 200}));
   for (const std::string& asked : hand.log)
     EXPECT_FALSE(asked == "vlim" || asked == "alim" || asked == "con") << asked;

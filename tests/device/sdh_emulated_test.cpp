@@ -21,7 +21,7 @@ using Values = SdhController::Values;
 
 EmulatedHandOptions quick() {
   EmulatedHandOptions options;
-  options.rate = EmulationRate::kHz;  // lines and commands without delay, time as it is
+  options.rate = EmulationRate::kFixed;  // lines and commands without delay, time as it is
   options.hz = 30.0;
   return options;
 }
@@ -55,7 +55,7 @@ TEST_P(SdhEmulated, MovesTheJointsToWhereTheyWereSent) {
   EmulatedHand emulated(std::make_unique<testing::StillHand>(), options);
   const auto channel = openChannel(emulated.sdhPort());
   SdhController hand(*channel);
-  const SdhFacts facts = hand.open();
+  const SdhControllerInfo facts = hand.open();
   EXPECT_EQ(facts.firmware, GetParam());
   EXPECT_EQ(facts.serial, "48");
   expectNear(hand.angles(), Values(7, 0.0), 1e-3);

@@ -141,9 +141,9 @@ TEST_F(SdhLinkTest, ALineThatTricklesIsGivenUpInBoundedTime) {
 TEST_F(SdhLinkTest, APulledPlugIsSaidAtOnce) {
   controller.open();
   line.pullThePlug();
-  EXPECT_EQ(errorOf([&] { controller.angles(); }).fault(), DeviceFault::kGone);
-  EXPECT_EQ(errorOf([&] { controller.move(); }).fault(), DeviceFault::kGone);
-  EXPECT_EQ(errorOf([&] { controller.stop(); }).fault(), DeviceFault::kGone);
+  EXPECT_EQ(errorOf([&] { controller.angles(); }).fault(), DeviceFault::kDisconnected);
+  EXPECT_EQ(errorOf([&] { controller.move(); }).fault(), DeviceFault::kDisconnected);
+  EXPECT_EQ(errorOf([&] { controller.stop(); }).fault(), DeviceFault::kDisconnected);
 }
 
 // --- motion and stop

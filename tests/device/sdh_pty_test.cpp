@@ -117,7 +117,7 @@ TEST_F(SdhPtyTest, UnpluggingIsNoticedWithin500Ms) {
     controller.angles();
     ADD_FAILURE() << "answered";
   } catch (const DeviceError& error) {
-    EXPECT_EQ(error.fault(), DeviceFault::kGone) << error.what();
+    EXPECT_EQ(error.fault(), DeviceFault::kDisconnected) << error.what();
   }
   EXPECT_LT(msSince(start), 500.0);
   other.join();

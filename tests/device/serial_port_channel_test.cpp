@@ -173,7 +173,7 @@ TEST_F(SerialPortChannelTest, NoticesThatTheAdapterWasPulled) {
       channel->read(got, 5000ms);
       ADD_FAILURE() << "not noticed";
     } catch (const DeviceError& error) {
-      EXPECT_EQ(error.fault(), DeviceFault::kGone);
+      EXPECT_EQ(error.fault(), DeviceFault::kDisconnected);
     }
   }
 }

@@ -124,18 +124,18 @@ class NoisyLine {
       const auto frame = decodeDsaFrame(packet.payload, *sdh2().layout, true, counts_);
       if (!frame) return;
       const Seen seen{frame->stampMs, fingerprintOf(packet.payload)};
-      switch (clock_.judge(frame->stampMs, nowUs_)) {
-        case DsaClock::Verdict::kHold:
+      switch (clock_.checkStamp(frame->stampMs, nowUs_)) {
+        case DsaClock::FrameAcceptance::kHold:
           held_ = seen;
           return;
-        case DsaClock::Verdict::kReplaceHeld:
+        case DsaClock::FrameAcceptance::kReplaceHeld:
           held_ = seen;
           return;
-        case DsaClock::Verdict::kRestarted:
+        case DsaClock::FrameAcceptance::kRestarted:
           accept(*held_);
           break;
-        case DsaClock::Verdict::kDropHeld:
-        case DsaClock::Verdict::kAccept:
+        case DsaClock::FrameAcceptance::kDropHeld:
+        case DsaClock::FrameAcceptance::kAccept:
           break;
       }
       held_.reset();

@@ -331,10 +331,10 @@ TEST_F(DsaServerTest, FindsRequestsAmongNoise) {
   EXPECT_EQ(say("AA AA AA 03 FF FF " + query), bare(0x03, 14) + " " + answer);
   // Half a request is given up when nothing follows it, and hides no whole one behind it.
   EXPECT_EQ(say("AA AA AA 03 10 00 81 " + query), "");
-  EXPECT_TRUE(server.expectsMore());
-  server.quiet();
+  EXPECT_TRUE(server.hasPartialRequest());
+  server.onReceiveTimeout();
   EXPECT_EQ(taken(), answer);
-  EXPECT_FALSE(server.expectsMore());
+  EXPECT_FALSE(server.hasPartialRequest());
   // One byte at a time.
   std::string said;
   for (const std::uint8_t byte : octets(query)) said += say(Octets{byte});
@@ -349,7 +349,7 @@ TEST_F(DsaServerTest, SurvivesAMillionRandomBytes) {
     server.receive(bytesOf(noise), i);
     server.take();
   }
-  server.quiet();
+  server.onReceiveTimeout();
   server.take();
   say(kStop);
   EXPECT_EQ(say(kStop), kAcknowledge);

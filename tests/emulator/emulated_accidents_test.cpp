@@ -166,7 +166,7 @@ TEST(EmulatedAccidents, MutedItListensAndSaysNothing) {
 TEST(EmulatedAccidents, BabblesAsMuchAsAsked) {
   EmulatedHand hand(std::make_unique<StillHand>(), fastHand());
   LineClient tactile(hand.dsaPort()), motion(hand.sdhPort());
-  hand.babble(100'000, true, false);
+  hand.sendRandomBytes(100'000, true, false);
   EXPECT_EQ(tactile.receiveExactly(100'000, 20s).size(), 100'000u);
   EXPECT_TRUE(tactile.receive(50ms).empty());
   EXPECT_TRUE(motion.receive(0ms).empty());

@@ -20,7 +20,7 @@ inline const Octets kStop = octets("AA AA AA 03 03 00 01 00 00 2F 6A");
 
 // No pacing: tests that aren't about time take none.
 inline EmulatedHandOptions fastHand(double hz = 300.0) {
-  return {.rate = EmulationRate::kHz, .hz = hz};
+  return {.rate = EmulationRate::kFixed, .hz = hz};
 }
 
 // Reads so many frames; fewer when none comes for two seconds.

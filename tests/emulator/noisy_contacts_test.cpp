@@ -85,8 +85,7 @@ TEST(NoisyContacts, LowerThresholdsShowMoreGhosts) {
 
 // Peak pressure all the same: sizes by the most taxels that are touched at once.
 TEST(NoisyContacts, SizesComeInTurnOnAllMatrices) {
-  const NoisyContacts made =
-      makeNoisyContacts({.frames = 3000, .lightestKpa = 40.0, .heaviestKpa = 40.0});
+  const NoisyContacts made = makeNoisyContacts({.frames = 3000, .minKpa = 40.0, .maxKpa = 40.0});
   ASSERT_GE(made.contacts.size(), 30u);
   std::map<ContactSize, double> taxels;
   std::map<ContactSize, std::size_t> number;
@@ -122,7 +121,7 @@ TEST(NoisyContacts, RefusesWhatMakesNoSense) {
   EXPECT_THROW(makeNoisyContacts({.degC = -1.0}), std::invalid_argument);
   EXPECT_THROW(makeNoisyContacts({.sensitivity = 2.0}), std::invalid_argument);
   EXPECT_THROW(makeNoisyContacts({.belowCounts = 1e9}), std::invalid_argument);
-  EXPECT_THROW(makeNoisyContacts({.lightestKpa = 10.0, .heaviestKpa = 5.0}), std::invalid_argument);
+  EXPECT_THROW(makeNoisyContacts({.minKpa = 10.0, .maxKpa = 5.0}), std::invalid_argument);
 }
 
 }  // namespace

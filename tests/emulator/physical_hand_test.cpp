@@ -27,7 +27,7 @@ Scene quietScene(const std::string& name) {
 
 std::vector<std::uint16_t> scanAt(PhysicalHand& hand, double timeS) {
   hand.advanceTo(timeS);
-  std::vector<std::uint16_t> counts(sdh2().layout->numPlaces());
+  std::vector<std::uint16_t> counts(sdh2().layout->numCells());
   hand.scan(counts);
   return counts;
 }
@@ -36,7 +36,7 @@ std::vector<int> activeFingers(const std::vector<std::uint16_t>& counts) {
   std::vector<int> fingers;
   for (std::size_t m = 0; m < 6; ++m) {
     const auto from = counts.begin() + static_cast<std::ptrdiff_t>(sdh2().layout->offset(m));
-    const auto to = from + static_cast<std::ptrdiff_t>(sdh2().layout->matrix(m).numPlaces());
+    const auto to = from + static_cast<std::ptrdiff_t>(sdh2().layout->matrix(m).numCells());
     const int finger = static_cast<int>(m) / 2;
     if (std::any_of(from, to, [](std::uint16_t value) { return value > 0; }) &&
         (fingers.empty() || fingers.back() != finger))
@@ -180,11 +180,12 @@ TEST(PhysicalHand, ATorqueAboveWhatThePrintsHoldTurnsTheObject) {
     // pressure, whose mean square distance from its middle is a^2 / 3.
     const double k = 0.15 * 20.0 / (0.15 + 20.0);
     const double depth = std::sqrt(contact.forceN / (std::numbers::pi * k * kRadiusMm));
-    const double printMm = std::sqrt(2.0 * kRadiusMm * depth / 3.0);
+    const double contactRadiusMm = std::sqrt(2.0 * kRadiusMm * depth / 3.0);
     const double belowMm = 150.0 - contact.zMm;
-    const double holds = 2.0 * kFriction * contact.forceN *
-                         (printMm * std::sqrt(1.0 - belowMm * belowMm / (kRadiusMm * kRadiusMm)) +
-                          std::abs(belowMm));
+    const double holds =
+        2.0 * kFriction * contact.forceN *
+        (contactRadiusMm * std::sqrt(1.0 - belowMm * belowMm / (kRadiusMm * kRadiusMm)) +
+         std::abs(belowMm));
     scene.script = {{10.0, LoadObject{0, {0, 0, 0}, {0, share * holds, 0}, 0.1}}};
     const auto hand = pinched();
     scanAt(*hand, 12.0);
@@ -264,7 +265,7 @@ TEST(PhysicalHand, ABottleIsWrappedByAllSixPads) {
     EXPECT_TRUE(hand.truth()[m].contact) << m;
     const auto from = counts.begin() + static_cast<std::ptrdiff_t>(sdh2().layout->offset(m));
     const auto peak = *std::max_element(
-        from, from + static_cast<std::ptrdiff_t>(sdh2().layout->matrix(m).numPlaces()));
+        from, from + static_cast<std::ptrdiff_t>(sdh2().layout->matrix(m).numCells()));
     EXPECT_GT(peak, 500) << m;
     EXPECT_LT(peak, 3500) << m << ": not saturated";
   }

@@ -134,7 +134,7 @@ TEST(PortServer, LiftsTheClaimOfAClientThatIsGone) {
   ASSERT_GE(client, 0);
   ASSERT_EQ(::ioctl(client, TIOCEXCL), 0);
   ::close(client);
-  port->tidy();
+  port->releaseStaleLock();
   const int next = ::open(port->name().c_str(), O_RDWR | O_NOCTTY);
   ASSERT_GE(next, 0);
   int exclusive = 1;

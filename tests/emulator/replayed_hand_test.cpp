@@ -11,7 +11,7 @@ namespace palpate::replayed_hand_test {
 namespace {
 
 std::vector<std::uint16_t> scanOf(ReplayedHand& hand) {
-  std::vector<std::uint16_t> counts(hand.hand().layout->numPlaces());
+  std::vector<std::uint16_t> counts(hand.hand().layout->numCells());
   hand.scan(counts);
   return counts;
 }

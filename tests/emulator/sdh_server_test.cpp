@@ -301,8 +301,8 @@ TEST_F(SdhServerTest, VelocityControllersNeedPowerAndMoveAtOnce) {
 
 TEST_F(SdhServerTest, ThinksForAWhilePerCommand) {
   SdhServerOptions options;
-  options.leastThinkUs = 2000.0;
-  options.mostThinkUs = 3000.0;
+  options.minResponseDelayUs = 2000.0;
+  options.maxResponseDelayUs = 3000.0;
   options.requestByteUs = 100.0;
   SdhServer slow(hand, options);
   const std::string twice = "ver\r\nver\r\n";
@@ -336,7 +336,7 @@ TEST_F(SdhServerTest, SurvivesAMillionRandomBytes) {
     said += takeText().size();
   }
   EXPECT_GT(said, 0u);
-  server.quiet();
+  server.onReceiveTimeout();
   say(" \r\n");
   EXPECT_EQ(line("ver"), "VER=0.0.3.3\r\n");
   EXPECT_EQ(status(octets("84 03 00 A3 28")), 0);
@@ -344,12 +344,12 @@ TEST_F(SdhServerTest, SurvivesAMillionRandomBytes) {
 
 TEST_F(SdhServerTest, GivesUpHalfARecordWhenItIsQuietButNotHalfALine) {
   send(octets("83 03 00"));
-  EXPECT_TRUE(server.expectsMore());
-  server.quiet();
-  EXPECT_FALSE(server.expectsMore());
+  EXPECT_TRUE(server.hasPartialRequest());
+  server.onReceiveTimeout();
+  EXPECT_FALSE(server.hasPartialRequest());
   EXPECT_EQ(line("ver"), "VER=0.0.3.3\r\n");
   say("ve");
-  server.quiet();
+  server.onReceiveTimeout();
   EXPECT_EQ(line("r"), "VER=0.0.3.3\r\n");
 }
 
@@ -392,7 +392,7 @@ TEST_F(SdhServerTest, RefusesOptionsThatNoControllerHas) {
     EXPECT_THROW(SdhServer(hand, options), std::invalid_argument);
   }
   options = {};
-  options.leastThinkUs = 10.0;
+  options.minResponseDelayUs = 10.0;
   EXPECT_THROW(SdhServer(hand, options), std::invalid_argument);
 }
 

@@ -121,7 +121,7 @@ TEST_F(SensorModelTest, TheMaximumOfAMatrixLiesOnItsNoiseLine) {
       for (std::size_t m = 0; m < 6; ++m) {
         const auto from = counts.begin() + static_cast<std::ptrdiff_t>(sdh2().layout->offset(m));
         sum[m] += *std::max_element(
-            from, from + static_cast<std::ptrdiff_t>(sdh2().layout->matrix(m).numPlaces()));
+            from, from + static_cast<std::ptrdiff_t>(sdh2().layout->matrix(m).numCells()));
       }
     }
     for (std::size_t m = 0; m < 6; ++m) {
@@ -144,11 +144,11 @@ TEST_F(SensorModelTest, AStepIsAnsweredAsSecondOrderLagWithCreep) {
                            (c.lag1S - c.lag2S));
     EXPECT_GE(sensor.responseKpa(20), lag - 1e-9) << t;
     EXPECT_LE(sensor.responseKpa(20),
-              lag * (1.0 + c.creepShare * (1.0 - std::exp(-t / c.creepS))) + 0.2)
+              lag * (1.0 + c.creepFraction * (1.0 - std::exp(-t / c.creepS))) + 0.2)
         << t;
   }
   settle(100.0);
-  EXPECT_NEAR(sensor.responseKpa(20), 100.0 * (1.0 + c.creepShare), 1e-6);
+  EXPECT_NEAR(sensor.responseKpa(20), 100.0 * (1.0 + c.creepFraction), 1e-6);
   EXPECT_EQ(sensor.responseKpa(21), 0.0);
   pressure[20] = 0.0;
   settle(1000.0);
@@ -160,7 +160,7 @@ TEST_F(SensorModelTest, AStepIsAnsweredAsSecondOrderLagWithCreep) {
 // drift.
 class Stamp {
  public:
-  Stamp() { without_.creepShare = 0.0; }
+  Stamp() { without_.creepFraction = 0.0; }
 
   // Mean over nine places of the stamp between the taxels.
   double signal(double kpa, double sensitivity, double motorDegC, double handDegC) {
@@ -171,7 +171,7 @@ class Stamp {
       sensor.settings()[1].sensitivity = sensitivity;
       std::vector<double> pressure(kPlaces, 0.0);
       press(pressure, kpa, 2.0 + (i % 3) / 3.0, 8.5 + (i / 3) / 3.0);
-      spreadPressure(*sdh2().layout, without_.spreadShare, pressure);
+      spreadPressure(*sdh2().layout, without_.neighbourFraction, pressure);
       sensor.advance(pressure, 60.0);
       std::vector<std::uint16_t> counts(kPlaces);
       sensor.scan(std::vector<double>(6, motorDegC), handDegC, counts);
@@ -267,7 +267,7 @@ TEST_F(SensorModelTest, AReleasedContactIsGoneWithinThreeFrames) {
   settle();
   pressure[20] = 40.0;
   settle(0.5);
-  EXPECT_NEAR(sensor.responseKpa(20), 40.0 * (1.0 + sdh2Sensor().creepShare), 0.01);
+  EXPECT_NEAR(sensor.responseKpa(20), 40.0 * (1.0 + sdh2Sensor().creepFraction), 0.01);
 }
 
 TEST_F(SensorModelTest, SpreadingKeepsTheSumAndStaysOnTaxels) {
@@ -282,7 +282,7 @@ TEST_F(SensorModelTest, SpreadingKeepsTheSumAndStaysOnTaxels) {
   const auto sumOf = [&](std::size_t m) {
     const auto from = pressure.begin() + static_cast<std::ptrdiff_t>(sdh2().layout->offset(m));
     return std::accumulate(
-        from, from + static_cast<std::ptrdiff_t>(sdh2().layout->matrix(m).numPlaces()), 0.0);
+        from, from + static_cast<std::ptrdiff_t>(sdh2().layout->matrix(m).numCells()), 0.0);
   };
   std::vector<double> sums;
   for (std::size_t m = 0; m < 6; ++m) sums.push_back(sumOf(m));

@@ -79,7 +79,7 @@ TEST(SimulatedRecording, PadsOfAnEmptyHandTouchEachOther) {
 TEST(SimulatedRecording, ThePadsTruthIsContactWithoutSlip) {
   PhysicalHand hand(emptyPinch(), {});
   hand.advanceTo(9.0);
-  std::vector<std::uint16_t> counts(sdh2().layout->numPlaces());
+  std::vector<std::uint16_t> counts(sdh2().layout->numCells());
   hand.scan(counts);
   const auto truth = hand.truth();
   EXPECT_TRUE(truth[1].contact);

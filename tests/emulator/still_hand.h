@@ -11,11 +11,11 @@ namespace palpate::testing {
 class StillHand final : public HandModel {
  public:
   explicit StillHand(std::vector<double> startDeg = std::vector<double>(7, 0.0))
-      : values(sdh2().layout->numPlaces()), joints_(sdh2(), std::move(startDeg)) {
+      : values(sdh2().layout->numCells()), joints_(sdh2(), std::move(startDeg)) {
     for (std::size_t m = 0; m < sdh2().layout->numMatrices(); ++m) {
       MatrixSetting setting;
       setting.thresholdCounts = setting.factoryThresholdCounts = m % 2 == 0 ? 150 : 300;
-      setting.dynamicMask.assign(sdh2().layout->matrix(m).numPlaces(), 1);
+      setting.dynamicMask.assign(sdh2().layout->matrix(m).numCells(), 1);
       settings_.push_back(setting);
     }
   }

@@ -30,9 +30,9 @@ TEST(FilterCatalog, HasThePromisedNamesKeysAndDefaults) {
   };
   for (const auto& [name, options] : promised) {
     const FilterKind& kind = filterKind(name);
-    for (const auto& [key, fallback] : options) {
+    for (const auto& [key, defaultValue] : options) {
       ASSERT_NE(kind.option(key), nullptr) << name << " " << key;
-      EXPECT_EQ(kind.option(key)->fallback, fallback) << name << " " << key;
+      EXPECT_EQ(kind.option(key)->defaultValue, defaultValue) << name << " " << key;
     }
   }
   EXPECT_TRUE(filterKind("gaussian").option("sigma")->automatic());
@@ -53,8 +53,8 @@ TEST(FilterCatalog, EveryFilterSaysWhatItIs) {
       EXPECT_FALSE(option.purpose.empty()) << kind.name << " " << option.key;
       EXPECT_LT(option.minimum, option.maximum) << kind.name << " " << option.key;
       if (!option.automatic()) {
-        EXPECT_GE(option.fallback, option.minimum) << kind.name << " " << option.key;
-        EXPECT_LE(option.fallback, option.maximum) << kind.name << " " << option.key;
+        EXPECT_GE(option.defaultValue, option.minimum) << kind.name << " " << option.key;
+        EXPECT_LE(option.defaultValue, option.maximum) << kind.name << " " << option.key;
       }
     }
     EXPECT_NO_THROW(FilterStep{.name = kind.name}.validate()) << kind.name;

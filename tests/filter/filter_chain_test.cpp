@@ -180,7 +180,7 @@ TEST(FilterChain, TimeStartsAnewWhenAskedAndWithOtherMasks) {
   for (const bool masks : {false, true}) {
     if (masks) {
       std::vector<MatrixLayout> other = sdh2().layout->matrices();
-      other[0].dynamicMask.assign(other[0].numPlaces(), 0);
+      other[0].dynamicMask.assign(other[0].numCells(), 0);
       const auto layout = std::make_shared<const SensorLayout>(other);
       for (TactileFrame& frame : second) frame.layout = layout;
     }
@@ -203,7 +203,7 @@ TEST(FilterChain, RefusesAMatrixThatIsNotThere) {
   TactileFrame frame(sdh2().layout);
   EXPECT_THROW(chain.push(frame), std::invalid_argument);
   Recipe bad;
-  bad.steps.push_back({.name = "median", .given = {{"size", 4}}});
+  bad.steps.push_back({.name = "median", .explicitOptions = {{"size", 4}}});
   EXPECT_THROW(FilterChain(bad, out), std::invalid_argument);
 }
 
@@ -255,11 +255,11 @@ TEST(FilterLatency, CountsFramesUntilHalfOfAStepIsThere) {
 }
 
 TEST(FilterMemory, IsTheSumOfTheWindows) {
-  EXPECT_EQ(memoryFrames(recipeOf("median")), 0u);
-  EXPECT_EQ(memoryFrames(recipeOf("median3d | running-mean")), 6u);
-  EXPECT_EQ(memoryFrames(recipeOf("median | rts")), std::nullopt);
-  EXPECT_EQ(memoryFrames(recipeOf("(rts)")), 0u);
-  EXPECT_GE(memoryFrames(recipeOf("kalman")).value(), 60u);  // 0.729844^66 = 1e-9
+  EXPECT_EQ(filterLengthFrames(recipeOf("median")), 0u);
+  EXPECT_EQ(filterLengthFrames(recipeOf("median3d | running-mean")), 6u);
+  EXPECT_EQ(filterLengthFrames(recipeOf("median | rts")), std::nullopt);
+  EXPECT_EQ(filterLengthFrames(recipeOf("(rts)")), 0u);
+  EXPECT_GE(filterLengthFrames(recipeOf("kalman")).value(), 60u);  // 0.729844^66 = 1e-9
 }
 
 }  // namespace

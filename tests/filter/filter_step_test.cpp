@@ -100,15 +100,15 @@ INSTANTIATE_TEST_SUITE_P(
                       Bad{"median:matrices=-1", "joined by +"}));
 
 TEST(FilterStep, ValuesSetByHandAreCheckedToo) {
-  FilterStep step{.name = "median", .given = {{"size", 4.0}}};
+  FilterStep step{.name = "median", .explicitOptions = {{"size", 4.0}}};
   EXPECT_THROW(step.validate(), std::invalid_argument);
-  step.given = {{"width", 3.0}};
+  step.explicitOptions = {{"width", 3.0}};
   EXPECT_THROW(step.validate(), std::invalid_argument);
-  step.given = {{"size", 5.0}};
+  step.explicitOptions = {{"size", 5.0}};
   EXPECT_NO_THROW(step.validate());
   EXPECT_THROW(step.value("sigma"), std::invalid_argument);
-  EXPECT_EQ(step.valueOr0("sigma"), 0.0);
-  step = {.name = "gaussian", .given = {{"sigma", std::nan("")}}};  // automatic
+  EXPECT_EQ(step.valueOrZero("sigma"), 0.0);
+  step = {.name = "gaussian", .explicitOptions = {{"sigma", std::nan("")}}};  // automatic
   EXPECT_NO_THROW(step.validate());
 }
 

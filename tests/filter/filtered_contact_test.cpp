@@ -117,7 +117,7 @@ TEST(FilteredContact, NoContactOutlivesTheRecordedOneAndTheTailIsStillThere) {
   // A taxel is pressed with 1000 counts for 10 frames, then let go.
   ProfileBuilder builder(sdh2().layout);
   for (int i = 0; i < 40; ++i) {
-    std::vector<float> values(sdh2().layout->numPlaces(), 0.0F);
+    std::vector<float> values(sdh2().layout->numCells(), 0.0F);
     if (i >= 10 && i < 20) values[40] = 1000.0F;
     builder.addFrame(31'546 * i + 1, values);
   }

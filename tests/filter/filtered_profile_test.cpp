@@ -160,7 +160,7 @@ TEST(FilteredProfile, AFrameThatCannotBeReadSaysSoAndTheOthersGoOn) {
 TEST(FilteredProfile, OneFrameAndNoneAreRecordingsToo) {
   for (const std::size_t count : {0u, 1u, 2u}) {
     ProfileBuilder builder(sdh2().layout);
-    std::vector<float> values(sdh2().layout->numPlaces(), 0.0F);
+    std::vector<float> values(sdh2().layout->numCells(), 0.0F);
     for (std::size_t i = 0; i < count; ++i) {
       values[40] = 100.0F;
       builder.addFrame(static_cast<std::int64_t>(1000 * i + 1), values);

@@ -36,7 +36,7 @@ class GhostingTest : public ::testing::Test {
                            std::shared_ptr<const SensorLayout> layout = twoMatrices()) {
     ProfileBuilder builder(layout);
     for (std::size_t i = 0; i < frames; ++i) {
-      std::vector<float> all(layout->numPlaces(), 0.0F);
+      std::vector<float> all(layout->numCells(), 0.0F);
       for (const Value& value : values)
         if (value.frame == i) all[value.place] = value.counts;
       builder.addFrame(static_cast<std::int64_t>(i) * kIntervalUs, all);
@@ -44,15 +44,15 @@ class GhostingTest : public ::testing::Test {
     return builder.finish({});
   }
   // The taxel is touched in the frames `from`..`to`, both inclusive.
-  static void touch(std::vector<TouchMask>& truth,
+  static void touch(std::vector<CellTruthMask>& truth,
                     std::size_t place,
                     std::size_t from,
                     std::size_t to,
                     Touch how = Touch::kTouched) {
     for (std::size_t i = from; i <= to; ++i) truth.at(i).at(place) = how;
   }
-  static std::vector<TouchMask> untouched(std::size_t frames) {
-    return std::vector<TouchMask>(frames, TouchMask(2 * kPlaces, Touch::kNothing));
+  static std::vector<CellTruthMask> untouched(std::size_t frames) {
+    return std::vector<CellTruthMask>(frames, CellTruthMask(2 * kPlaces, Touch::kNothing));
   }
   static Recipe recipe(const std::string& text) { return parseRecipe(std::array{text}); }
 };
@@ -82,10 +82,10 @@ TEST_F(GhostingTest, LoneTaxelsGoAndALiftedMatrixStays) {
   const MatrixGhosting total = report.total();
   expectCounts(total.falseTaxels, 23, 20);
   expectCounts(total.framesWithFalse, 4, 1);
-  EXPECT_DOUBLE_EQ(total.falseTaxels.shareRemoved(), 3.0 / 23.0);
-  EXPECT_DOUBLE_EQ(total.scattered.shareRemoved(), 1.0);
+  EXPECT_DOUBLE_EQ(total.falseTaxels.fractionRemoved(), 3.0 / 23.0);
+  EXPECT_DOUBLE_EQ(total.scattered.fractionRemoved(), 1.0);
   EXPECT_TRUE(report.contacts.empty());
-  EXPECT_TRUE(std::isnan(report.touched.shareRemoved()));
+  EXPECT_TRUE(std::isnan(report.touched.fractionRemoved()));
   EXPECT_EQ(report.latencyFrames, 0);
   EXPECT_GT(report.costUs, 0.0);
 }
@@ -98,7 +98,7 @@ TEST_F(GhostingTest, AQuarterOfTheTaxelsIsNotAWholeMatrix) {
   expectCounts(measureGhosting(profile, {}).matrices[0].framesWhole, 1, 1);
   expectCounts(measureGhosting(profile, {}).matrices[0].scattered, 5, 5);
   expectCounts(
-      measureGhosting(profile, {}, {}, {.wholeMatrixShare = 0.3}).total().framesWhole, 0, 0);
+      measureGhosting(profile, {}, {}, {.wholeMatrixFraction = 0.3}).total().framesWhole, 0, 0);
 }
 
 // A minimum over two frames shows a contact a frame later, with the value that was before.
@@ -112,7 +112,7 @@ TEST_F(GhostingTest, ContactsComeLaterAndShortOnesAreHidden) {
   EXPECT_EQ(report.latencyFrames, 1);
   expectCounts(report.framesWithFalse, 0, 0);
   expectCounts(report.touched, 5, 3);
-  EXPECT_DOUBLE_EQ(report.touched.shareRemoved(), 0.4);
+  EXPECT_DOUBLE_EQ(report.touched.fractionRemoved(), 0.4);
   EXPECT_DOUBLE_EQ(report.touchedSumBefore, 140.0);
   EXPECT_DOUBLE_EQ(report.touchedSumAfter, 60.0);
   ASSERT_EQ(report.contacts.size(), 2u);
@@ -140,7 +140,7 @@ TEST_F(GhostingTest, WhatStaysBehindAContactIsFalse) {
   const Profile profile = profileOf(9, {{3, 7, 30.0F}, {4, 7, 30.0F}});
   const GhostingReport report = measureGhosting(profile, recipe("running-mean:window=3"), truth);
   expectCounts(report.matrices[0].falseTaxels, 0, 2);
-  EXPECT_TRUE(std::isnan(report.matrices[0].falseTaxels.shareRemoved()));
+  EXPECT_TRUE(std::isnan(report.matrices[0].falseTaxels.fractionRemoved()));
   expectCounts(report.touched, 2, 2);
   EXPECT_EQ(report.contacts.at(0).delayFrames(), 0);
   // A mean over three frames is 10, 20, then 20, 10 counts.
@@ -180,7 +180,7 @@ TEST_F(GhostingTest, AContactMayNeedSeveralTaxels) {
   const Profile profile = profileOf(
       6, {{1, 7, 5.0F}, {2, 7, 5.0F}, {3, 7, 5.0F}, {3, 8, 5.0F}, {4, 7, 5.0F}, {4, 8, 5.0F}});
   const auto contacts = [&](int least) {
-    return measureGhosting(profile, recipe("temporal-min:window=2"), truth, {.leastTaxels = least})
+    return measureGhosting(profile, recipe("temporal-min:window=2"), truth, {.minTaxels = least})
         .contacts;
   };
   EXPECT_EQ(contacts(1).at(0).firstBefore, 1u);
@@ -264,14 +264,14 @@ TEST_F(GhostingTest, RefusesWhatMakesNoSense) {
   const Profile profile = profileOf(2, {});
   const auto truth = untouched(2);
   EXPECT_THROW(measureGhosting(profile, {}, untouched(3)), std::invalid_argument);
-  EXPECT_THROW(measureGhosting(profile, {}, std::vector<TouchMask>(2, TouchMask(3))),
+  EXPECT_THROW(measureGhosting(profile, {}, std::vector<CellTruthMask>(2, CellTruthMask(3))),
                std::invalid_argument);
-  EXPECT_THROW(measureGhosting(profile, {}, truth, {.leastTaxels = 0}), std::invalid_argument);
+  EXPECT_THROW(measureGhosting(profile, {}, truth, {.minTaxels = 0}), std::invalid_argument);
   EXPECT_THROW(measureGhosting(profile, {}, truth, {.activeAboveCounts = -1.0}),
                std::invalid_argument);
   EXPECT_THROW(measureGhosting(profile, {}, truth, {.activeAboveCounts = std::nan("")}),
                std::invalid_argument);
-  EXPECT_THROW(measureGhosting(profile, {}, truth, {.wholeMatrixShare = 1.5}),
+  EXPECT_THROW(measureGhosting(profile, {}, truth, {.wholeMatrixFraction = 1.5}),
                std::invalid_argument);
   EXPECT_THROW(measureGhosting(profile, recipe("median:matrices=2"), truth), std::invalid_argument);
   EXPECT_THROW(measureGhosting(profile, {}, {}, {}, [](double) { return false; }), Cancelled);

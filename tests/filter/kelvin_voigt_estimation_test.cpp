@@ -83,7 +83,7 @@ TEST(KelvinVoigtEstimation, LikelihoodNeverFallsWhateverIsGiven) {
   choices.push_back({.mass = 1.0, .forceNoise = 1e6, .measurementNoise = 1.0});
   for (std::size_t i = 0; i < choices.size(); ++i) {
     SCOPED_TRACE(i);
-    choices[i].mostRounds = 60;
+    choices[i].maxRounds = 60;
     choices[i].tolerance = 0.0;
     const auto estimate = estimateKelvinVoigt(series.timeS, series.values, choices[i]);
     expectNeverFalls(estimate);
@@ -106,7 +106,7 @@ TEST(KelvinVoigtEstimation, FindsTheModelThatMadeALongSeries) {
   for (const bool even : {true, false}) {
     const Series series = simulated(truth, 8000, 4, even);
     const auto estimate =
-        estimateKelvinVoigt(series.timeS, series.values, {.tolerance = 1e-8, .mostRounds = 1000});
+        estimateKelvinVoigt(series.timeS, series.values, {.tolerance = 1e-8, .maxRounds = 1000});
     expectNeverFalls(estimate);
     EXPECT_EQ(estimate.end, KelvinVoigtEnd::kConverged);
     EXPECT_EQ(estimate.model.mass, 1.0);
@@ -124,7 +124,7 @@ TEST(KelvinVoigtEstimation, FindsTheModelThatMadeALongSeries) {
 TEST(KelvinVoigtEstimation, EndsWhereTheLikelihoodIsFlat) {
   const Series series = simulated(swinging(), 600, 9);
   const auto estimate =
-      estimateKelvinVoigt(series.timeS, series.values, {.tolerance = 1e-11, .mostRounds = 5000});
+      estimateKelvinVoigt(series.timeS, series.values, {.tolerance = 1e-11, .maxRounds = 5000});
   ASSERT_EQ(estimate.end, KelvinVoigtEnd::kConverged);
   const auto likelihood = [&](const KelvinVoigtModel& model) {
     return kelvinVoigtSmoothed(series.timeS, series.values, model).logLikelihood;
@@ -232,13 +232,13 @@ TEST(KelvinVoigtEstimation, RefusesWhatHasNoMeaningAndCanBeCancelled) {
   EXPECT_THROW(with({.forceNoise = 0.0}), std::invalid_argument);
   EXPECT_THROW(with({.measurementNoise = -3.0}), std::invalid_argument);
   EXPECT_THROW(with({.tolerance = -1.0}), std::invalid_argument);
-  EXPECT_THROW(with({.mostRounds = 0}), std::invalid_argument);
+  EXPECT_THROW(with({.maxRounds = 0}), std::invalid_argument);
   EXPECT_THROW(estimateKelvinVoigt(series.timeS, std::vector<double>(3)), std::invalid_argument);
   EXPECT_THROW(
       estimateKelvinVoigt(series.timeS, series.values, {}, {}, [](double) { return false; }),
       Cancelled);
-  EXPECT_EQ(with({.tolerance = 0.0, .mostRounds = 3}).rounds(), 3u);
-  EXPECT_EQ(with({.tolerance = 0.0, .mostRounds = 3}).end, KelvinVoigtEnd::kMostRounds);
+  EXPECT_EQ(with({.tolerance = 0.0, .maxRounds = 3}).rounds(), 3u);
+  EXPECT_EQ(with({.tolerance = 0.0, .maxRounds = 3}).end, KelvinVoigtEnd::kMaxRounds);
 }
 
 }  // namespace

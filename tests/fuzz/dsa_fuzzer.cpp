@@ -12,7 +12,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/recording/dsa_reader.h"
-#include "palpate/recording/dsa_salvage.h"
+#include "palpate/recording/dsa_recovery.h"
 
 namespace {
 
@@ -35,7 +35,7 @@ void requireSane(const Profile& profile) {
   palpate::TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     profile.readFrame(i, frame);
-    require(frame.values.size() == profile.layout().numPlaces());
+    require(frame.values.size() == profile.layout().numCells());
     for (const float value : frame.values) require(std::isfinite(value) && value >= 0.0F);
     require(i == 0 || profile.frameTimeUs(i) > profile.frameTimeUs(i - 1));
   }
@@ -82,7 +82,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto bytes = std::as_bytes(std::span(data, size));
   const std::optional<Profile> profile = readOrRefuse(bytes);
   try {
-    const palpate::DsaSalvage saved = palpate::salvageDsaBytes(bytes, "input", {}, smallOptions());
+    const palpate::DsaRecovery saved =
+        palpate::recoverDsaProfileBytes(bytes, "input", {}, smallOptions());
     if (saved.profile) requireSane(*saved.profile);
   } catch (const palpate::FormatError&) {
     require(!profile);

@@ -79,13 +79,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto bytes = std::as_bytes(std::span(data, size));
   const auto packets = packetsIn(bytes, 4096);
   require(packets == packetsIn(bytes, 1));
-  std::vector<float> counts(sdh2().layout->numPlaces());
+  std::vector<float> counts(sdh2().layout->numCells());
   DsaClock clock;
   const auto frameIn = [&](std::span<const std::byte> payload) {
     const auto frame = decodeDsaFrame(payload, *sdh2().layout, true, counts);
     if (!frame) return;
     for (const float value : counts) require(value >= 0.0F && value <= 4095.0F);
-    clock.judge(frame->stampMs, 0);
+    clock.checkStamp(frame->stampMs, 0);
   };
   for (const auto& payload : packets) frameIn(payload);
   frameIn(bytes);  // without framing: the checksum would keep most inputs away

@@ -65,8 +65,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       require(setting.thresholdCounts >= 0 && setting.thresholdCounts <= 4095);
     }
   }
-  server.quiet();
-  require(!server.expectsMore());
+  server.onReceiveTimeout();
+  require(!server.hasPartialRequest());
   server.take();
   const Octets query = palpate::testing::tactilePacket(0x01, {});
   server.receive(std::as_bytes(std::span(query)), nowUs);

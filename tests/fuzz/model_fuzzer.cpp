@@ -25,10 +25,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(jsonOf(trainedModelFrom(Json::parse(written))).text(-1) == written);
     const Eigen::MatrixXd grasps =
         Eigen::MatrixXd::Constant(2, static_cast<Eigen::Index>(model.features.size()), 1.5);
-    for (const Verdict& verdict : classifyRows(model, grasps, model.offset, false)) {
-      require(verdict.ranking.size() == model.classes.size());
-      require(verdict.label >= Verdict::kUnknown &&
-              verdict.label < static_cast<int>(model.classes.size()));
+    for (const Prediction& prediction : classifyRows(model, grasps, model.offset, false)) {
+      require(prediction.ranking.size() == model.classes.size());
+      require(prediction.label >= Prediction::kUnknown &&
+              prediction.label < static_cast<int>(model.classes.size()));
     }
   } catch (const Error&) {
   }

@@ -11,7 +11,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/recording/palpate_reader.h"
-#include "palpate/recording/palpate_salvage.h"
+#include "palpate/recording/palpate_recovery.h"
 #include "palpate/recording/second_summary.h"
 
 namespace {
@@ -65,7 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const palpate::FormatError&) {
   } catch (const palpate::FileError&) {
   }
-  const palpate::PalpateSalvage salvage = palpate::salvagePalpate(path);
+  const palpate::PalpateRecovery salvage = palpate::recoverPalpateProfile(path);
   if (salvage.profile) requireSane(*salvage.profile);
   require(salvage.frames >= frames);
   std::filesystem::remove(path);

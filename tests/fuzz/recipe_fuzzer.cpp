@@ -27,7 +27,7 @@ class Finite final : public FrameSink {
 };
 
 void run(const Recipe& recipe) {
-  require(recipe.steps.size() <= Recipe::kMostSteps);
+  require(recipe.steps.size() <= Recipe::kMaxSteps);
   recipe.validate();
   require(recipeFromJson(Json::parse(recipeJson(recipe).text())) == recipe);
   const auto layout = std::make_shared<const SensorLayout>(

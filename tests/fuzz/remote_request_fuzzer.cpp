@@ -23,7 +23,7 @@ std::vector<std::string> linesOf(std::string_view text, std::size_t piece) {
     cutter.push(text.substr(at, piece));
     while (const auto line = cutter.next())
       lines.push_back(line->tooLong ? "too long" : line->text);
-    require(cutter.pendingBytes() <= kMostRequestBytes + piece);
+    require(cutter.pendingBytes() <= kMaxRequestBytes + piece);
   }
   return lines;
 }

@@ -72,7 +72,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // Motions end, and those that wait behind them.
   for (int i = 0; i < 20'000 && server.nextUs(); ++i) server.advance(nowUs = *server.nextUs());
   require(!server.nextUs());
-  server.quiet();
+  server.onReceiveTimeout();
   server.receive(std::as_bytes(std::span("\r\n", 2)), nowUs);
   for (int i = 0; i < 20'000 && server.nextUs(); ++i) server.advance(nowUs = *server.nextUs());
   taken(server);

@@ -14,14 +14,14 @@ TEST(DatagramSender, WhatIsSentArrivesWhole) {
   UdpReceiver receiver;
   ASSERT_NE(receiver.port(), 0);
   DatagramSender sender(receiver.port());
-  const std::string large(DatagramSender::kMostBytes, 'x');
+  const std::string large(DatagramSender::kMaxBytes, 'x');
   EXPECT_TRUE(sender.send("{\"a\":1}"));
   EXPECT_TRUE(sender.send(large));
   EXPECT_EQ(receiver.receive(), "{\"a\":1}");
   EXPECT_EQ(receiver.receive(), large);
   EXPECT_EQ(sender.stats().sent, 2u);
   EXPECT_EQ(sender.stats().dropped, 0u);
-  EXPECT_TRUE(sender.stats().heard);
+  EXPECT_TRUE(sender.stats().delivered);
 }
 
 TEST(DatagramSender, WithoutAListenerItIsSaidAndNothingWaits) {
@@ -35,7 +35,7 @@ TEST(DatagramSender, WithoutAListenerItIsSaidAndNothingWaits) {
   constexpr int kDatagrams = 1000;
   for (int i = 0; i < kDatagrams; ++i) {
     sender.send("x");
-    ASSERT_FALSE(sender.stats().heard) << i;
+    ASSERT_FALSE(sender.stats().delivered) << i;
   }
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
   EXPECT_EQ(sender.stats().sent + sender.stats().dropped, 1000u);
@@ -57,7 +57,7 @@ TEST(DatagramSender, AReceiverThatDoesNotReadHoldsNothingUp) {
 TEST(DatagramSender, WhatIsTooLongIsDropped) {
   UdpReceiver receiver;
   DatagramSender sender(receiver.port());
-  EXPECT_FALSE(sender.send(std::string(DatagramSender::kMostBytes + 1, 'x')));
+  EXPECT_FALSE(sender.send(std::string(DatagramSender::kMaxBytes + 1, 'x')));
   EXPECT_EQ(sender.stats().dropped, 1u);
   EXPECT_TRUE(sender.send("next"));
   EXPECT_EQ(receiver.receive(), "next");

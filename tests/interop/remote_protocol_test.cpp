@@ -41,7 +41,7 @@ TEST(ReadRequest, WhatIsNoRequestIsSaid) {
   EXPECT_EQ(refusal("label a\x1b[31mb"), "malformed");
   EXPECT_EQ(refusal(std::string_view("label a\0b", 9)), "malformed");
   EXPECT_EQ(refusal("label \xff\xfe"), "malformed");
-  EXPECT_EQ(refusal(std::string(kMostRequestBytes + 1, 'a')), "too_long");
+  EXPECT_EQ(refusal(std::string(kMaxRequestBytes + 1, 'a')), "too_long");
   // What a stranger wrote comes back shortened.
   EXPECT_LT(readRequest(std::string(4000, 'y')).refusal.message.size(), 200u);
 }
@@ -68,7 +68,7 @@ TEST(RequestLines, AFarTooLongLineCostsNoMemoryAndHidesNoOther) {
     EXPECT_FALSE(lines.next());
     most = std::max(most, lines.pendingBytes());
   }
-  EXPECT_LE(most, kMostRequestBytes + 4096);
+  EXPECT_LE(most, kMaxRequestBytes + 4096);
   lines.push("tail\nstatus\n");
   const auto first = lines.next();
   ASSERT_TRUE(first);
@@ -80,7 +80,7 @@ TEST(RequestLines, AFarTooLongLineCostsNoMemoryAndHidesNoOther) {
 TEST(RequestLines, TheLongestLineThatIsAllowed) {
   for (const char* end : {"\n", "\r\n"}) {
     RequestLines lines;
-    const std::string longest(kMostRequestBytes, 'x');
+    const std::string longest(kMaxRequestBytes, 'x');
     for (const char c : longest + end) lines.push(std::string_view(&c, 1));
     const auto line = lines.next();
     ASSERT_TRUE(line);
@@ -88,7 +88,7 @@ TEST(RequestLines, TheLongestLineThatIsAllowed) {
     EXPECT_EQ(line->text, longest);
   }
   RequestLines lines;
-  lines.push(std::string(kMostRequestBytes + 1, 'x') + "\n");
+  lines.push(std::string(kMaxRequestBytes + 1, 'x') + "\n");
   EXPECT_TRUE(lines.next()->tooLong);
 }
 

@@ -28,7 +28,7 @@ class RemoteRecorderTest : public ::testing::Test {
  protected:
   RemoteRecorderTest() {
     EmulatedHandOptions options;
-    options.rate = EmulationRate::kHz;
+    options.rate = EmulationRate::kFixed;
     options.hz = 100.0;
     hand_ = std::make_unique<EmulatedHand>(std::make_unique<NumberedHand>(), options);
     LiveHandOptions ports;

@@ -141,7 +141,7 @@ TEST_F(RemoteServerTest, NothingElseIsTakenAway) {
   EXPECT_EQ(readFile(socket()), "precious");
   EXPECT_THROW(RemoteServer(folder_ / "no" / "s", target_), FileError);
   EXPECT_THROW(RemoteServer(folder_ / std::string(200, 'x'), target_), FileError);
-  EXPECT_THROW(RemoteServer(folder_ / "t", target_, {.mostClients = 0}), std::invalid_argument);
+  EXPECT_THROW(RemoteServer(folder_ / "t", target_, {.maxClients = 0}), std::invalid_argument);
 }
 
 TEST_F(RemoteServerTest, OnlyTheOneWhoAskedWaitsForAnAnswer) {
@@ -217,7 +217,7 @@ TEST_F(RemoteServerTest, AClientThatOnlyEndsSendingGetsItsAnswer) {
 }
 
 TEST_F(RemoteServerTest, TooManyClientsAreToldSo) {
-  serve({.mostClients = 3});
+  serve({.maxClients = 3});
   std::list<RawClient> clients;
   for (int i = 0; i < 3; ++i) {
     clients.emplace_back(socket());
@@ -227,14 +227,14 @@ TEST_F(RemoteServerTest, TooManyClientsAreToldSo) {
   RawClient fourth(socket());
   EXPECT_EQ(Json::parse(fourth.line().value()).at("error").asString(), "busy");
   EXPECT_TRUE(fourth.ended());
-  EXPECT_EQ(server_->stats().turnedAway, 1u);
+  EXPECT_EQ(server_->stats().rejectedClients, 1u);
   clients.pop_front();
   ASSERT_TRUE(soon([&] { return server_->stats().clients == 2; }));
   EXPECT_TRUE(ask("status").at("ok").asBool());
 }
 
 TEST_F(RemoteServerTest, TheOneSilentForLongestMakesRoom) {
-  serve({.mostClients = 2, .idleS = 0.0});
+  serve({.maxClients = 2, .idleS = 0.0});
   RawClient old(socket());
   old.send("status\n");
   ASSERT_TRUE(old.line());
@@ -286,7 +286,7 @@ TEST_F(RemoteServerTest, NoiseIsSurvivedAndNothingLeaks) {
   EXPECT_TRUE(ask("status").at("ok").asBool());
   const ProcessFacts before = leastProcessFacts();
   std::mt19937 random(11);
-  const auto heard = [&] { return server_->stats().accepted + server_->stats().turnedAway; };
+  const auto heard = [&] { return server_->stats().accepted + server_->stats().rejectedClients; };
   const std::uint64_t heardBefore = heard();
   for (std::uint64_t i = 0; i < 300; ++i) {
     // No more than can wait at the door.

@@ -61,9 +61,9 @@ TEST(SignalJson, WhatIsNotKnownHasNoKey) {
 TEST(SignalJson, SaysSlipForceAndTheHand) {
   LiveResults results = sampleResults();
   results.slip.resize(6);
-  SlipVerdict& slip = results.slip[1];
+  SlipDetection& slip = results.slip[1];
   slip.state = SlipState::kSlip;
-  slip.lamp = SlipLamp::kSlipping;
+  slip.lamp = SlipIndicator::kSlipping;
   slip.slipping = true;
   slip.confidence = 0.75;
   slip.pMoved = 0.9375;

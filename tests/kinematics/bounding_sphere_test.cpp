@@ -58,7 +58,7 @@ double bruteForceRadius(const Points& points) {
 }
 
 void expectSmallest(const Points& points, const std::string& what) {
-  const auto sphere = boundingSphere(points);
+  const auto sphere = smallestEnclosingSphere(points);
   ASSERT_TRUE(sphere.has_value()) << what;
   const double scale = 1.0 + sphere->radiusMm;
   EXPECT_NEAR(sphere->radiusMm, bruteForceRadius(points), 1e-9 * scale) << what;
@@ -66,32 +66,34 @@ void expectSmallest(const Points& points, const std::string& what) {
 }
 
 TEST(BoundingSphere, OfNoPointIsNothingAndOfOneIsThePoint) {
-  EXPECT_FALSE(boundingSphere({}).has_value());
-  const auto one = boundingSphere({Vector3d(1, -2, 3)});
+  EXPECT_FALSE(smallestEnclosingSphere({}).has_value());
+  const auto one = smallestEnclosingSphere({Vector3d(1, -2, 3)});
   EXPECT_EQ(one->centreMm, Vector3d(1, -2, 3));
   EXPECT_EQ(one->radiusMm, 0.0);
-  const auto same = boundingSphere(Points(9, Vector3d(1, -2, 3)));
+  const auto same = smallestEnclosingSphere(Points(9, Vector3d(1, -2, 3)));
   EXPECT_EQ(same->centreMm, Vector3d(1, -2, 3));
   EXPECT_EQ(same->radiusMm, 0.0);
 }
 
 TEST(BoundingSphere, OfKnownBodies) {
-  const auto two = boundingSphere({Vector3d(0, 0, 0), Vector3d(0, 6, 8)});
+  const auto two = smallestEnclosingSphere({Vector3d(0, 0, 0), Vector3d(0, 6, 8)});
   EXPECT_NEAR(two->radiusMm, 5.0, 1e-14);
   EXPECT_LT((two->centreMm - Vector3d(0, 3, 4)).norm(), 1e-14);
   // An obtuse triangle: the longest side alone.
-  const auto obtuse = boundingSphere({Vector3d(0, 0, 0), Vector3d(10, 0, 0), Vector3d(5, 1, 0)});
+  const auto obtuse =
+      smallestEnclosingSphere({Vector3d(0, 0, 0), Vector3d(10, 0, 0), Vector3d(5, 1, 0)});
   EXPECT_NEAR(obtuse->radiusMm, 5.0, 1e-14);
   // A regular triangle of 66 mm: its corners are 66 / sqrt 3 from the middle.
   const double h = 33.0 * std::sqrt(3.0);
-  const auto triangle = boundingSphere({Vector3d(0, 0, 1), Vector3d(66, 0, 1), Vector3d(33, h, 1)});
+  const auto triangle =
+      smallestEnclosingSphere({Vector3d(0, 0, 1), Vector3d(66, 0, 1), Vector3d(33, h, 1)});
   EXPECT_NEAR(triangle->radiusMm, 66.0 / std::sqrt(3.0), 1e-12);
   // A cube's corners, edge 2.
   Points cube;
   for (const double x : {-1, 1})
     for (const double y : {-1, 1})
       for (const double z : {-1, 1}) cube.emplace_back(x + 100, y - 50, z + 7);
-  const auto around = boundingSphere(cube);
+  const auto around = smallestEnclosingSphere(cube);
   EXPECT_NEAR(around->radiusMm, std::sqrt(3.0), 1e-13);
   EXPECT_LT((around->centreMm - Vector3d(100, -50, 7)).norm(), 1e-12);
 }
@@ -152,7 +154,7 @@ TEST_F(BoundingSphereOfRandomPoints, HoldsForEveryPartOfAMatrix) {
       for (int x = x0; x <= x1; ++x)
         if (upTo(9) > 0) points.push_back(pose.positionMm(matrix, y, x));
     if (points.empty()) continue;
-    const auto sphere = boundingSphere(points);
+    const auto sphere = smallestEnclosingSphere(points);
     double longest = 0.0;
     for (const Vector3d& a : points)
       for (const Vector3d& b : points) longest = std::max(longest, (a - b).norm());
@@ -171,7 +173,7 @@ TEST(BoundingSphere, RefusesWhatIsNoNumber) {
     for (int i = 0; i < 3; ++i) {
       Points points(4, Vector3d(1, 2, 3));
       points[2][i] = bad;
-      EXPECT_THROW(boundingSphere(points), std::invalid_argument);
+      EXPECT_THROW(smallestEnclosingSphere(points), std::invalid_argument);
     }
 }
 

@@ -135,7 +135,7 @@ TEST(HandGeometry, JointLinesAreWhatTheAnglesTurnAbout) {
         const SensorSurface& surface = geometry.description().surfaces[m];
         const Vector3d at = pose.positionMm(m, 3, 1);
         Vector3d expected = Vector3d::Zero();
-        for (const JointLine& line : pose.jointLines())
+        for (const JointAxis& line : pose.jointAxes())
           if (line.axis == axis && line.finger == surface.finger && line.link <= surface.link)
             expected += line.direction.cross(at - line.originMm);
         const Vector3d moved =

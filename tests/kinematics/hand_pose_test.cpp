@@ -153,8 +153,8 @@ TEST(HandPose, AnotherHandIsAnotherTable) {
   EXPECT_LT((pose.positionMm(0, 2, 1) - Vector3d(2, 90, 32.5)).norm(), 1e-12);
   EXPECT_LT((pose.normal(0, 1, 1) - Vector3d(-1, 0, 0)).norm(), 1e-12);
   EXPECT_LT((pose.cornerMm(0, 0, 0) - Vector3d(2, 102.5, 25)).norm(), 1e-12);
-  ASSERT_EQ(pose.jointLines().size(), 1u);
-  EXPECT_EQ(pose.jointLines()[0].originMm, finger.baseMm);
+  ASSERT_EQ(pose.jointAxes().size(), 1u);
+  EXPECT_EQ(pose.jointAxes()[0].originMm, finger.baseMm);
 }
 
 TEST(HandPose, WrongQuestionsAreRefused) {

@@ -69,7 +69,7 @@ TEST(ObjectSize, OfARigidObjectAllShrinkingIsTheFoams) {
   const HandGeometry geometry;
   const Profile profile = profileOf(grasp(50.0, 0.0, 0.8));
   const ObjectSizeReport report = objectSize(profile, geometry, 0, profile.numFrames() - 1);
-  ASSERT_TRUE(report.valid) << report.trouble;
+  ASSERT_TRUE(report.valid) << report.problem;
   EXPECT_EQ(report.pads, std::make_pair(std::size_t{1}, std::size_t{5}));
   EXPECT_EQ(report.startFrame, 10u);
   EXPECT_EQ(report.samples.size(), 50u);
@@ -137,7 +137,7 @@ TEST(ObjectSize, WhatIsMissingIsSaid) {
     const ObjectSizeReport report =
         objectSize(profile, geometry, 0, profile.numFrames() - 1, options);
     EXPECT_FALSE(report.valid);
-    return report.trouble;
+    return report.problem;
   };
   EXPECT_EQ(troubleOf(profileOf(grasp(50.0, 0.0, 0.8), false)), "no joint angles");
   EXPECT_EQ(troubleOf(profileOf({{50.0}, {49.0}})), "no two fingers touch");
@@ -186,7 +186,7 @@ TEST(ObjectSize, FramesWithoutUsableAnglesAreCounted) {
   const Profile damaged(whole.info(), whole.hand(), std::make_shared<DamagedAngles>(whole));
   const HandGeometry geometry;
   const ObjectSizeReport report = objectSize(damaged, geometry, 0, 49);
-  ASSERT_TRUE(report.valid) << report.trouble;
+  ASSERT_TRUE(report.valid) << report.problem;
   EXPECT_EQ(report.unusableFrames, 14u);
   EXPECT_EQ(report.samples.size(), 36u);
   EXPECT_NEAR(report.diameterMm, 50.0, 1e-9);
@@ -203,7 +203,7 @@ TEST(ObjectSize, WrongQuestionsAreRefused) {
   options.pads = {1, 6};
   EXPECT_THROW(objectSize(profile, geometry, 0, 49, options), std::invalid_argument);
   options = {};
-  options.plateauPart = 0.4;
+  options.plateauFraction = 0.4;
   EXPECT_THROW(options.validate(), std::invalid_argument);
   options = {};
   options.foamMm = -1.0;
@@ -243,7 +243,7 @@ TEST(ObjectSize, TellsFoamFromRigidBallsInRealGrasps) {
   const auto ball = [&](const char* name) {
     const auto reports = sizesIn(*folder / "grasps_by_class" / name);
     EXPECT_GE(reports.size(), 9u);
-    for (const ObjectSizeReport& report : reports) EXPECT_TRUE(report.valid) << report.trouble;
+    for (const ObjectSizeReport& report : reports) EXPECT_TRUE(report.valid) << report.problem;
     return reports;
   };
   const auto hockey = ball("hockey_ball"), foam = ball("foam_ball");

@@ -42,7 +42,7 @@ class StampedHand final : public HandModel {
  private:
   StillHand still_;
   SensorModel sensor_{sdh2(), sdh2Sensor(), 77};
-  const std::vector<double> none_ = std::vector<double>(sdh2().layout->numPlaces(), 0.0);
+  const std::vector<double> none_ = std::vector<double>(sdh2().layout->numCells(), 0.0);
   const std::vector<double> loaded_;
   double restS_ = 0.0;
 };
@@ -77,7 +77,7 @@ TEST(EmulatedPressureLive, AKnownPressureIsShownWithinItsBand) {
       steady += shown->matrices[kMatrix].compensated ? 1 : 0;
     }
     return steady > 30;
-  })) << pressure.trouble();
+  })) << pressure.problem();
   const MatrixPressure& contact = shown->matrices[kMatrix];
   EXPECT_TRUE(contact.inRange);
   EXPECT_TRUE(contact.temperatureKnown);

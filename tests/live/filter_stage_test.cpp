@@ -96,7 +96,7 @@ TEST(FilterStage, ARecipeMayChangeOnTheWay) {
   EXPECT_EQ(at(42).frame->values, profile.frame(42).values);
   EXPECT_TRUE(stage.costsUs().empty());
   Recipe bad;
-  bad.steps.push_back({.name = "median", .given = {{"size", 4}}});
+  bad.steps.push_back({.name = "median", .explicitOptions = {{"size", 4}}});
   EXPECT_THROW(stage.setRecipe(bad), std::invalid_argument);
 }
 

@@ -32,7 +32,7 @@ TEST(TaxelPeak, OfAnUntouchedSensorIsZero) {
 }
 
 TEST(TaxelPeak, SeesEveryTaxel) {
-  for (std::size_t place = 0; place < sdh2().layout->numPlaces(); ++place) {
+  for (std::size_t place = 0; place < sdh2().layout->numCells(); ++place) {
     TactileFrame frame(sdh2().layout);
     frame.values[place] = 7.0F;
     ASSERT_EQ(taxelPeak(frame).counts, 7.0F) << place;

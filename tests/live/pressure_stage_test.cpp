@@ -22,7 +22,7 @@ Profile grasps() { return synthesize({.durationS = 5.0, .grasps = 2, .noiseCount
 
 struct Seen {
   std::vector<std::shared_ptr<const PressureFrame>> pressures;
-  std::string trouble;
+  std::string problem;
   std::vector<std::string> assumptions;
 };
 
@@ -45,7 +45,7 @@ Seen seen(const Profile& profile,
   ChainOptions options;
   options.onResults = [&](const LiveResults& results) {
     result.pressures.push_back(results.pressure);
-    result.trouble = pressure.trouble();
+    result.problem = pressure.problem();
     result.assumptions = pressure.assumptions();
   };
   ProcessingChain(std::move(stages), options).runOver(profile, std::move(events));
@@ -115,12 +115,12 @@ TEST(PressureStage, FollowsSettingsThatChange) {
 TEST(PressureStage, SaysWhatIsWrongAndGoesOn) {
   const Profile profile = grasps();
   const Seen unknown = seen(profile, calibration(), [] { return std::vector<SensorSettings>{}; });
-  EXPECT_TRUE(unknown.trouble.empty());
+  EXPECT_TRUE(unknown.problem.empty());
   ASSERT_FALSE(unknown.assumptions.empty());
   const Seen bad = seen(profile, calibration(), []() -> std::vector<SensorSettings> {
     throw Error("sensor settings: 'sensitivity' isn't in (0..1]");
   });
-  EXPECT_EQ(bad.trouble, "sensor settings: 'sensitivity' isn't in (0..1]");
+  EXPECT_EQ(bad.problem, "sensor settings: 'sensitivity' isn't in (0..1]");
   for (const auto& pressure : bad.pressures) EXPECT_EQ(pressure, nullptr);
   const Seen damaged = seen(profile,
                             calibration(),
@@ -131,7 +131,7 @@ TEST(PressureStage, SaysWhatIsWrongAndGoesOn) {
                               std::nullopt,
                               "?",
                               "{\"matrices\":[{}]}"}});
-  EXPECT_FALSE(damaged.trouble.empty());
+  EXPECT_FALSE(damaged.problem.empty());
   EXPECT_NE(damaged.pressures.front(), nullptr);
   EXPECT_EQ(damaged.pressures.back(), nullptr);
   Calibration none = calibration();

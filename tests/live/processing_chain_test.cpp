@@ -78,7 +78,7 @@ std::vector<std::string> replayed(const Profile& profile, std::size_t waitingFra
     ++count;
   };
   ReplayOptions fast;
-  fast.pace = ReplayPace::kAsFastAsTaken;
+  fast.pace = ReplayPace::kUnpaced;
   CaptureSession session(std::make_unique<Replay>(profile, fast));
   ProcessingChain chain(signalsOnly(), options);
   chain.connect(session);

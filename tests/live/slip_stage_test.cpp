@@ -33,7 +33,7 @@ Profile slipOnce() {
 }
 
 struct Found {
-  std::vector<std::vector<SlipVerdict>> verdicts;
+  std::vector<std::vector<SlipDetection>> verdicts;
   std::vector<RecordingEvent> events;
 };
 
@@ -83,7 +83,7 @@ TEST(SlipStage, ShowsTheVectorOfEveryMatrixAndTellsOfSlip) {
 TEST(SlipStage, MatricesCanBeSwitchedOff) {
   const Found found = processed(slipOnce(), [](SlipStage& stage) { stage.setOn(3, false); });
   EXPECT_TRUE(found.events.empty());
-  EXPECT_EQ(found.verdicts[104][3].lamp, SlipLamp::kOff);
+  EXPECT_EQ(found.verdicts[104][3].lamp, SlipIndicator::kOff);
 }
 
 TEST(SlipStage, ReferenceIsTakenFromTheNextFrame) {

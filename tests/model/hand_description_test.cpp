@@ -8,7 +8,7 @@ namespace {
 TEST(HandDescription, Sdh2HasTheSensorsOfTheSurvey) {
   const HandDescription& hand = sdh2();
   ASSERT_EQ(hand.layout->numMatrices(), 6u);
-  EXPECT_EQ(hand.layout->numPlaces(), 486u);
+  EXPECT_EQ(hand.layout->numCells(), 486u);
   EXPECT_EQ(hand.layout->numTaxels(), 456u);
   for (std::size_t m = 0; m < 6; ++m) {
     const MatrixLayout& matrix = hand.layout->matrix(m);

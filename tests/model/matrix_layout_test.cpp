@@ -12,7 +12,7 @@ TEST(MatrixLayout, CountsPlacesTaxelsAndEnabledOnes) {
   MatrixLayout layout = MatrixLayout::full(2, 3, 3.4);
   layout.staticMask[0] = 0;
   layout.dynamicMask[5] = 0;
-  EXPECT_EQ(layout.numPlaces(), 6u);
+  EXPECT_EQ(layout.numCells(), 6u);
   EXPECT_EQ(layout.numTaxels(), 5u);
   EXPECT_EQ(layout.numEnabled(), 4u);
   EXPECT_FALSE(layout.exists(0, 0));
@@ -38,7 +38,7 @@ TEST(MatrixLayout, RefusesNonsense) {
 TEST(SensorLayout, PutsMatricesOneAfterTheOther) {
   const SensorLayout layout({MatrixLayout::full(2, 3, 3.4), MatrixLayout::full(4, 5, 1.0)});
   EXPECT_EQ(layout.numMatrices(), 2u);
-  EXPECT_EQ(layout.numPlaces(), 26u);
+  EXPECT_EQ(layout.numCells(), 26u);
   EXPECT_EQ(layout.offset(0), 0u);
   EXPECT_EQ(layout.offset(1), 6u);
   EXPECT_THROW(layout.offset(2), std::out_of_range);

@@ -12,8 +12,8 @@ TEST(SensorCharacteristics, OneOfEachMatrixWithItsPowerUpSettings) {
   for (std::size_t m = 0; m < 6; ++m) {
     EXPECT_EQ(sdh2Sensor().matrices[m].thresholdCounts, m % 2 == 0 ? 150 : 300);
     EXPECT_EQ(sdh2Sensor().matrices[m].sensitivity, 0.5);
-    for (const RaisedTaxel& taxel : sdh2Sensor().matrices[m].raised) {
-      EXPECT_LT(taxel.place, sdh2().layout->matrix(m).numPlaces());
+    for (const OffsetTaxel& taxel : sdh2Sensor().matrices[m].raised) {
+      EXPECT_LT(taxel.place, sdh2().layout->matrix(m).numCells());
       EXPECT_EQ(taxel.place % 6, 0u) << "the edge";
     }
     EXPECT_EQ(sdh2Sensor().matrices[m].raised.size(), m % 2 == 0 ? 7u : 0u);

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "house/source_tree.h"
+#include "project_rules/source_tree.h"
 #include "testing/program.h"
 #include "testing/testing.h"
 

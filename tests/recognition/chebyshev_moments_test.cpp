@@ -99,8 +99,8 @@ TEST(ChebyshevMoments, AllOfThemGiveThePictureBack) {
   double last = 1.0;
   for (const int order : {0, 2, 4, 8, 13}) {
     const ChebyshevPolynomials polynomials(14, order);
-    const double error =
-        pictureError(picture, pictureOf(chebyshevMoments(picture, polynomials), polynomials));
+    const double error = reconstructionError(
+        picture, reconstructImage(chebyshevMoments(picture, polynomials), polynomials));
     EXPECT_LT(error, last) << order;
     last = error;
     // Parseval: what is missing is the energy of the moments that are missing.
@@ -109,16 +109,18 @@ TEST(ChebyshevMoments, AllOfThemGiveThePictureBack) {
   }
   EXPECT_LT(last, 1e-6);
   const Eigen::MatrixXd nothing = Eigen::MatrixXd::Zero(3, 3);
-  EXPECT_EQ(pictureError(nothing, nothing), 0.0);
-  EXPECT_EQ(pictureError(nothing, nothing.array() + 1.0), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(reconstructionError(nothing, nothing), 0.0);
+  EXPECT_EQ(reconstructionError(nothing, nothing.array() + 1.0),
+            std::numeric_limits<double>::infinity());
 }
 
 TEST(ChebyshevMoments, InvariantsDoNotSeeShifts) {
   const ChebyshevPolynomials polynomials(20, 4);
   const Eigen::MatrixXd small = blob(9, 4.2, 3.7, 1.2, 0.6, 0.5);
-  for (const auto angle : {PictureAngle::kNone, PictureAngle::kStudy, PictureAngle::kResolved}) {
-    const auto here = chebyshevInvariants(inSquare(small, 20, 1, 2), polynomials, angle);
-    const auto there = chebyshevInvariants(inSquare(small, 20, 10, 7), polynomials, angle);
+  for (const auto angle :
+       {ImageOrientation::kNone, ImageOrientation::kStudy, ImageOrientation::kResolved}) {
+    const auto here = chebyshevInvariants(padToSquare(small, 20, 1, 2), polynomials, angle);
+    const auto there = chebyshevInvariants(padToSquare(small, 20, 10, 7), polynomials, angle);
     EXPECT_NEAR(there.centroidX, here.centroidX + 5.0, 1e-10);
     EXPECT_NEAR(there.centroidY, here.centroidY + 9.0, 1e-10);
     EXPECT_LT((here.moments - there.moments).norm(), 1e-9 * here.moments.norm());
@@ -128,22 +130,22 @@ TEST(ChebyshevMoments, InvariantsDoNotSeeShifts) {
 TEST(ChebyshevMoments, InvariantsDoNotSeeTurnsAndTheHalfTurnIsResolved) {
   const int size = 41;
   const ChebyshevPolynomials polynomials(size, 4);
-  const auto of = [&](double angleRad, PictureAngle how) {
+  const auto of = [&](double angleRad, ImageOrientation how) {
     return chebyshevInvariants(blob(size, 20, 20, 3.5, 2.0, angleRad), polynomials, how);
   };
-  const auto straight = of(0.0, PictureAngle::kResolved);
+  const auto straight = of(0.0, ImageOrientation::kResolved);
   EXPECT_NEAR(straight.angleRad, 0.0, 1e-6);
   for (const double angleRad : {0.3, 1.2, 2.0, 3.0, -0.7, -2.9}) {
-    const auto turned = of(angleRad, PictureAngle::kResolved);
+    const auto turned = of(angleRad, ImageOrientation::kResolved);
     ASSERT_TRUE(turned.angleDetermined);
     EXPECT_NEAR(turned.angleRad, angleRad, 2e-3);
     EXPECT_LT((turned.moments - straight.moments).norm(), 2e-3 * straight.moments.norm())
         << angleRad;
   }
   // atan knows neither which axis is the long one nor its direction.
-  EXPECT_NEAR(of(0.3, PictureAngle::kStudy).angleRad, 0.3, 2e-3);
-  EXPECT_NEAR(of(1.2, PictureAngle::kStudy).angleRad, 1.2 - std::numbers::pi / 2, 2e-3);
-  EXPECT_GT((of(3.0, PictureAngle::kStudy).moments - straight.moments).norm(),
+  EXPECT_NEAR(of(0.3, ImageOrientation::kStudy).angleRad, 0.3, 2e-3);
+  EXPECT_NEAR(of(1.2, ImageOrientation::kStudy).angleRad, 1.2 - std::numbers::pi / 2, 2e-3);
+  EXPECT_GT((of(3.0, ImageOrientation::kStudy).moments - straight.moments).norm(),
             0.05 * straight.moments.norm());
 }
 
@@ -151,7 +153,7 @@ TEST(ChebyshevMoments, InvariantsDoNotSeeTurnsAndTheHalfTurnIsResolved) {
 // (reference/grasp_features.md).
 TEST(ChebyshevMoments, SixOfTheStudysAreRedundant) {
   const auto found = chebyshevInvariants(
-      blob(14, 6.4, 5.8, 2.0, 1.0, 0.6), ChebyshevPolynomials(14, 4), PictureAngle::kStudy);
+      blob(14, 6.4, 5.8, 2.0, 1.0, 0.6), ChebyshevPolynomials(14, 4), ImageOrientation::kStudy);
   const Eigen::MatrixXd& moments = found.moments;
   EXPECT_NEAR(moments(0, 1) / moments(0, 0), -1.6124515, 1e-7);
   EXPECT_NEAR(moments(1, 0) / moments(0, 0), -1.6124515, 1e-7);
@@ -161,7 +163,7 @@ TEST(ChebyshevMoments, SixOfTheStudysAreRedundant) {
 TEST(ChebyshevMoments, WhatHasNoAxisSaysSo) {
   const ChebyshevPolynomials polynomials(14, 4);
   const Eigen::MatrixXd nothing = Eigen::MatrixXd::Zero(14, 14);
-  const auto empty = chebyshevInvariants(nothing, polynomials, PictureAngle::kStudy);
+  const auto empty = chebyshevInvariants(nothing, polynomials, ImageOrientation::kStudy);
   EXPECT_TRUE(empty.empty);
   EXPECT_EQ(empty.moments.norm(), 0.0);
   Eigen::MatrixXd square = nothing;
@@ -169,7 +171,7 @@ TEST(ChebyshevMoments, WhatHasNoAxisSaysSo) {
   Eigen::MatrixXd pixel = nothing;
   pixel(4, 5) = 1.0;
   for (const Eigen::MatrixXd& picture : {square, pixel})
-    for (const auto how : {PictureAngle::kStudy, PictureAngle::kResolved}) {
+    for (const auto how : {ImageOrientation::kStudy, ImageOrientation::kResolved}) {
       const auto found = chebyshevInvariants(picture, polynomials, how);
       EXPECT_FALSE(found.angleDetermined);
       EXPECT_EQ(found.angleRad, 0.0);
@@ -178,8 +180,8 @@ TEST(ChebyshevMoments, WhatHasNoAxisSaysSo) {
   // A bar has an axis, but no direction.
   Eigen::MatrixXd bar = nothing;
   bar.block(4, 5, 1, 4).setOnes();
-  EXPECT_TRUE(chebyshevInvariants(bar, polynomials, PictureAngle::kStudy).angleDetermined);
-  EXPECT_FALSE(chebyshevInvariants(bar, polynomials, PictureAngle::kResolved).angleDetermined);
+  EXPECT_TRUE(chebyshevInvariants(bar, polynomials, ImageOrientation::kStudy).angleDetermined);
+  EXPECT_FALSE(chebyshevInvariants(bar, polynomials, ImageOrientation::kResolved).angleDetermined);
 }
 
 TEST(ChebyshevMoments, WrongQuestionsAreRefused) {
@@ -191,10 +193,11 @@ TEST(ChebyshevMoments, WrongQuestionsAreRefused) {
   EXPECT_THROW(chebyshevMoments(Eigen::MatrixXd::Zero(13, 14), polynomials), std::invalid_argument);
   Eigen::MatrixXd bad = Eigen::MatrixXd::Zero(14, 14);
   bad(0, 0) = std::nan("");
-  EXPECT_THROW(chebyshevInvariants(bad, polynomials, PictureAngle::kNone), std::invalid_argument);
-  EXPECT_THROW(pictureOf(Eigen::MatrixXd::Zero(4, 4), polynomials), std::invalid_argument);
-  EXPECT_THROW(inSquare(Eigen::MatrixXd::Zero(13, 6), 14, 2, 4), std::invalid_argument);
-  EXPECT_THROW(pictureError(bad, Eigen::MatrixXd::Zero(2, 2)), std::invalid_argument);
+  EXPECT_THROW(chebyshevInvariants(bad, polynomials, ImageOrientation::kNone),
+               std::invalid_argument);
+  EXPECT_THROW(reconstructImage(Eigen::MatrixXd::Zero(4, 4), polynomials), std::invalid_argument);
+  EXPECT_THROW(padToSquare(Eigen::MatrixXd::Zero(13, 6), 14, 2, 4), std::invalid_argument);
+  EXPECT_THROW(reconstructionError(bad, Eigen::MatrixXd::Zero(2, 2)), std::invalid_argument);
 }
 
 Eigen::MatrixXd matrixOf(const Json& json) {
@@ -233,20 +236,20 @@ TEST(ChebyshevMoments, AgreeWithIndependentNumbers) {
     SCOPED_TRACE(one.at("name").asString());
     const int size = static_cast<int>(one.at("N").asInteger());
     const Json pad = one.at("pad");
-    const Eigen::MatrixXd picture = inSquare(matrixOf(one.at("frame")),
-                                             size,
-                                             static_cast<int>(pad.at("top").asInteger()),
-                                             static_cast<int>(pad.at("left").asInteger()));
+    const Eigen::MatrixXd picture = padToSquare(matrixOf(one.at("frame")),
+                                                size,
+                                                static_cast<int>(pad.at("top").asInteger()),
+                                                static_cast<int>(pad.at("left").asInteger()));
     const ChebyshevPolynomials to8(size, 8), to4(size, 4);
     expectNear(chebyshevMoments(picture, to8), matrixOf(one.at("T")), 1e-9);
-    const auto turned = chebyshevInvariants(picture, to4, PictureAngle::kStudy);
+    const auto turned = chebyshevInvariants(picture, to4, ImageOrientation::kStudy);
     if (turned.empty) {
       EXPECT_EQ(picture.norm(), 0.0);
       continue;
     }
     EXPECT_NEAR(turned.centroidX, one.at("centroid").at(std::size_t{0}).asDouble(), 1e-9);
     EXPECT_NEAR(turned.centroidY, one.at("centroid").at(std::size_t{1}).asDouble(), 1e-9);
-    expectNear(chebyshevInvariants(picture, to8, PictureAngle::kNone).moments,
+    expectNear(chebyshevInvariants(picture, to8, ImageOrientation::kNone).moments,
                matrixOf(one.at("T_translation")),
                3e-6,
                3e-6);

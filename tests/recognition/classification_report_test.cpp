@@ -19,7 +19,7 @@ TEST(ClassificationReport, WilsonIntervalsAreThePublishedOnes) {
               {0, 20, 0.0, 0.1611},
               {1, 29, 0.0061, 0.1718}};
   for (const auto& row : rows) {
-    const ShareInterval interval = wilsonInterval(row.r, row.n);
+    const BinomialInterval interval = wilsonInterval(row.r, row.n);
     EXPECT_NEAR(interval.low, row.low, 5e-5);
     EXPECT_NEAR(interval.high, row.high, 5e-5);
   }
@@ -39,14 +39,14 @@ ConfusionMatrix example() {
 
 TEST(ClassificationReport, FiguresOfClassesGoByTheirDefinition) {
   ConfusionMatrix confusion = example();
-  const auto figures = confusion.figures();
-  EXPECT_DOUBLE_EQ(figures[0].precision, 1.0);
-  EXPECT_DOUBLE_EQ(figures[0].recall, 6.0 / 8.0);
-  EXPECT_DOUBLE_EQ(figures[0].f, 2.0 * 0.75 / 1.75);
-  EXPECT_EQ(figures[0].support, 8u);
-  EXPECT_DOUBLE_EQ(figures[1].precision, 4.0 / 6.0);
-  EXPECT_EQ(figures[2].support, 0u);
-  EXPECT_EQ(figures[2].f, 0.0) << "no division by nothing";
+  const auto classMetrics = confusion.classMetrics();
+  EXPECT_DOUBLE_EQ(classMetrics[0].precision, 1.0);
+  EXPECT_DOUBLE_EQ(classMetrics[0].recall, 6.0 / 8.0);
+  EXPECT_DOUBLE_EQ(classMetrics[0].f, 2.0 * 0.75 / 1.75);
+  EXPECT_EQ(classMetrics[0].support, 8u);
+  EXPECT_DOUBLE_EQ(classMetrics[1].precision, 4.0 / 6.0);
+  EXPECT_EQ(classMetrics[2].support, 0u);
+  EXPECT_EQ(classMetrics[2].f, 0.0) << "no division by nothing";
   EXPECT_DOUBLE_EQ(confusion.accuracy(), 10.0 / 12.0);
   confusion.add(example());
   EXPECT_EQ(confusion.at(0, 1), 4u);
@@ -61,7 +61,7 @@ TEST(ClassificationReport, UnknownIsAColumnAndCountsAsWrong) {
   EXPECT_EQ(confusion.confusionJson().at("labels").size(), 3u);
   confusion.add(1, ConfusionMatrix::kUnknown);
   EXPECT_EQ(confusion.right(), 10u);
-  EXPECT_DOUBLE_EQ(confusion.figures()[1].recall, 0.8);
+  EXPECT_DOUBLE_EQ(confusion.classMetrics()[1].recall, 0.8);
   const Json json = confusion.confusionJson();
   EXPECT_EQ(json.at("labels").at(3).asString(), "unknown");
   EXPECT_EQ(json.at("counts").at(1).at(3).asInteger(), 1);
@@ -81,22 +81,22 @@ TEST(ClassificationReport, CoverageGoesFromTheSurestDown) {
 }
 
 TEST(ClassificationReport, SureNeedsEnoughAnswers) {
-  std::vector<ConfidentAnswer> answers(40, {0.9, true});
-  EXPECT_GT(sureThreshold(answers), 1.0) << "40 of 40 may still be 93 of 100";
+  std::vector<ScoredPrediction> answers(40, {0.9, true});
+  EXPECT_GT(confidenceThreshold(answers), 1.0) << "40 of 40 may still be 93 of 100";
   answers.resize(60, {0.9, true});
-  EXPECT_DOUBLE_EQ(sureThreshold(answers), 0.9);
+  EXPECT_DOUBLE_EQ(confidenceThreshold(answers), 0.9);
   for (int i = 0; i < 20; ++i) answers.push_back({0.6, i % 2 == 0});
-  EXPECT_DOUBLE_EQ(sureThreshold(answers), 0.9);
-  EXPECT_GT(sureThreshold({}), 1.0);
+  EXPECT_DOUBLE_EQ(confidenceThreshold(answers), 0.9);
+  EXPECT_GT(confidenceThreshold({}), 1.0);
 }
 
 TEST(ClassificationReport, CalibrationErrorIsTheMeanGap) {
-  std::vector<ConfidentAnswer> answers;
+  std::vector<ScoredPrediction> answers;
   for (int i = 0; i < 10; ++i) answers.push_back({0.85, i < 6});
-  EXPECT_NEAR(calibrationError(answers), 0.25, 1e-12);
+  EXPECT_NEAR(expectedCalibrationError(answers), 0.25, 1e-12);
   for (int i = 0; i < 10; ++i) answers.push_back({0.35, i < 3});
-  EXPECT_NEAR(calibrationError(answers), (0.25 + 0.05) / 2.0, 1e-12);
-  EXPECT_EQ(calibrationError({}), 0.0);
+  EXPECT_NEAR(expectedCalibrationError(answers), (0.25 + 0.05) / 2.0, 1e-12);
+  EXPECT_EQ(expectedCalibrationError({}), 0.0);
 }
 
 TEST(ClassificationReport, AurocCountsPairs) {

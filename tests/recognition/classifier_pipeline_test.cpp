@@ -70,7 +70,7 @@ TEST(ClassifierPipeline, WhatIsFarFromEverythingIsNovel) {
   const auto pipeline = ClassifierPipeline::of(train, options);
   Eigen::MatrixXd x(2, 3);
   x << 8.0, 0.0, 0.0, 40.0, -40.0, 40.0;
-  const Eigen::VectorXd novelty = pipeline.noveltyOf(x);
+  const Eigen::VectorXd novelty = pipeline.noveltyScores(x);
   EXPECT_LT(novelty[0], 15.0);
   EXPECT_GT(novelty[1], 300.0);
 }
@@ -86,7 +86,7 @@ TEST(ClassifierPipeline, ComesBackFromItsFileBitByBit) {
       const auto pipeline = ClassifierPipeline::of(train, options);
       const auto back = pipelineFrom(Json::parse(jsonOf(pipeline).text()));
       EXPECT_EQ(back.probabilities(test.x), pipeline.probabilities(test.x));
-      EXPECT_EQ(back.noveltyOf(test.x), pipeline.noveltyOf(test.x));
+      EXPECT_EQ(back.noveltyScores(test.x), pipeline.noveltyScores(test.x));
       EXPECT_EQ(back.scores(test.x), pipeline.scores(test.x));
     }
 }

@@ -63,9 +63,10 @@ TEST(CrossValidation, StrangersAreTold) {
   PipelineOptions options = ldaAndSvm(14);
   options.calibrationBlocks = 2;  // the distance doesn't depend on it
   std::vector<double> strange, known;
-  for (const ExaminedSample& one : crossValidate(all, options, leaveClassOutSplits(all.y)).examined)
+  for (const TestPrediction& one :
+       crossValidate(all, options, leaveClassOutSplits(all.y)).testPredictions)
     strange.push_back(one.novelty);
-  for (const ExaminedSample& one : crossValidate(all, options, blockSplits(all.y)).examined)
+  for (const TestPrediction& one : crossValidate(all, options, blockSplits(all.y)).testPredictions)
     known.push_back(one.novelty);
   EXPECT_GT(auroc(strange, known), 0.92);
 }
@@ -78,11 +79,11 @@ TEST(CrossValidation, DoesNotDependOnTheNumberOfThreads) {
   const auto one = crossValidate(samples, options, splits, 1);
   const auto four = crossValidate(samples, options, splits, 4);
   EXPECT_EQ(one.accuracies, four.accuracies);
-  ASSERT_EQ(one.examined.size(), four.examined.size());
-  for (std::size_t i = 0; i < one.examined.size(); ++i) {
-    EXPECT_EQ(one.examined[i].called, four.examined[i].called);
-    EXPECT_EQ(one.examined[i].confidence, four.examined[i].confidence);
-    EXPECT_EQ(one.examined[i].novelty, four.examined[i].novelty);
+  ASSERT_EQ(one.testPredictions.size(), four.testPredictions.size());
+  for (std::size_t i = 0; i < one.testPredictions.size(); ++i) {
+    EXPECT_EQ(one.testPredictions[i].called, four.testPredictions[i].called);
+    EXPECT_EQ(one.testPredictions[i].confidence, four.testPredictions[i].confidence);
+    EXPECT_EQ(one.testPredictions[i].novelty, four.testPredictions[i].novelty);
   }
 }
 
@@ -100,7 +101,7 @@ TEST(CrossValidation, CountsEverySampleThatExamines) {
   const SampleSet samples = clouds(3, 10, 3, 9.0, 2);
   const auto report = crossValidate(samples, {}, blockSplits(samples.y));
   EXPECT_EQ(report.confusion.total(), 30u);
-  EXPECT_EQ(report.examined.size(), 30u);
+  EXPECT_EQ(report.testPredictions.size(), 30u);
   EXPECT_EQ(report.accuracies.size(), 5u);
   EXPECT_EQ(report.top3, 1.0) << "of three classes the truth is always among three";
   EXPECT_DOUBLE_EQ(report.accuracyMean, report.confusion.accuracy()) << "splits of one size";

@@ -7,8 +7,8 @@
 
 #include "palpate/core/error.h"
 #include "palpate/emulator/simulated_recording.h"
-#include "palpate/recognition/day_features.h"
 #include "palpate/recognition/grasp_features.h"
+#include "palpate/recognition/plateau_features.h"
 
 #include "recognition/pinch_profile.h"
 #include "testing/testing.h"
@@ -32,7 +32,7 @@ Profile touches(int count, double gapMm, double stepMm = 0.0) {
 
 TEST(EmptyHand, WhatTheJointsSayWhileThePadsTouchIsTheZero) {
   const EmptyHandZero zero = emptyHandZero(touches(1, -3.0));
-  ASSERT_EQ(zero.trouble, "");
+  ASSERT_EQ(zero.problem, "");
   EXPECT_NEAR(zero.foamMm, 1.6, 1e-9) << "0.8 mm on each side";
   EXPECT_NEAR(zero.mm, -3.0 + 1.6, 1e-6);
   EXPECT_EQ(zero.touches, 1u);
@@ -49,7 +49,7 @@ TEST(EmptyHand, TheDifferenceOfTwoDaysIsTheOffset) {
   EXPECT_NEAR(offset.mm, -4.0, 1e-6);
   EXPECT_NEAR(offset.sdMm, std::hypot(0.25, 0.6), 1e-9)
       << "two times .25 / sqrt 2, and .15 of the 4 mm";
-  EXPECT_EQ(offset.origin, OffsetOrigin::kEmptyHand);
+  EXPECT_EQ(offset.origin, OffsetSource::kEmptyHand);
   EXPECT_TRUE(offset.trusted);
   // Pressed harder than in training, the foam's error comes in: half of .8 * 2 (sqrt 2 - 1).
   EmptyHandZero harder = emptyHandZero(touches(2, -5.0));
@@ -61,14 +61,14 @@ TEST(EmptyHand, TheDifferenceOfTwoDaysIsTheOffset) {
 }
 
 TEST(EmptyHand, WhatIsNoTouchIsSaid) {
-  EXPECT_EQ(emptyHandZero(touches(0, 0.0)).trouble,
+  EXPECT_EQ(emptyHandZero(touches(0, 0.0)).problem,
             "no touch: the pads never touch for more than 20 frames in a row");
-  EXPECT_EQ(emptyHandZero(touches(1, 30.0)).trouble,
+  EXPECT_EQ(emptyHandZero(touches(1, 30.0)).problem,
             "the pads seem to be 31.6 mm apart while they touch: the hand isn't empty, or its "
             "joints are far off");
-  EXPECT_EQ(emptyHandZero(pinchProfile({30, {0.0, 100.0F, 100.0F}}, false)).trouble,
+  EXPECT_EQ(emptyHandZero(pinchProfile({30, {0.0, 100.0F, 100.0F}}, false)).problem,
             "no joint angles");
-  EXPECT_NE(emptyHandZero(testing::otherSensorProfile(30)).trouble, "");
+  EXPECT_NE(emptyHandZero(testing::otherSensorProfile(30)).problem, "");
   EXPECT_THROW(emptyHandOffset(EmptyHandZero{}, emptyHandZero(touches(1, 0.0))),
                std::invalid_argument);
   EXPECT_THROW(emptyHandZero(touches(1, 0.0), sdh2PinchHand(), {}, [](double) { return false; }),
@@ -117,19 +117,19 @@ TEST(EmptyHand, OneTouchOfTheEmulatedHandTellsTheOffsetOfTheDay) {
     const Profile profile = simulateRecording(pinch, day);
     const auto grasps = findPinches(profile);
     EXPECT_EQ(grasps.size(), 1u);
-    return grasps.empty() ? 0.0 : dayFeatures(profile, grasps[0]).distanceMm;
+    return grasps.empty() ? 0.0 : plateauFeatures(profile, grasps[0]).distanceMm;
   };
   SimulatedRecordingOptions training;
   training.durationS = 9.0;
   const EmptyHandZero before = emptyHandZero(simulateRecording(empty, training));
-  ASSERT_EQ(before.trouble, "");
+  ASSERT_EQ(before.problem, "");
   const double trueMm = sizeOf(training);
   for (const double errorDeg : {-1.5, 0.8}) {
     SimulatedRecordingOptions today = training;
     today.hand.seed = 9;
     today.hand.zeroErrorDeg = {0, errorDeg, 0, 0, 0, errorDeg, 0};
     const EmptyHandZero zero = emptyHandZero(simulateRecording(empty, today));
-    ASSERT_EQ(zero.trouble, "");
+    ASSERT_EQ(zero.problem, "");
     const SessionOffset offset = emptyHandOffset(zero, before);
     const double offMm = sizeOf(today) - trueMm;
     EXPECT_GT(std::abs(offMm), 1.5) << "the day differs";

@@ -35,8 +35,8 @@ TEST(FeatureTable, ClassesAreTheNamesOfFolders) {
   saveGrasps(folder / "all/golf_ball/deeper/a.palpate", 1);
   saveGrasps(folder / "all/pen/a.dsa", 1);
   saveGrasps(folder / "all/alone.dsa", 1);
-  const FeatureTable table = gatherFeatures({folder / "all"});
-  EXPECT_EQ(table.troubles, std::vector<std::string>{});
+  const FeatureTable table = extractFeatures({folder / "all"});
+  EXPECT_EQ(table.problems, std::vector<std::string>{});
   EXPECT_EQ(table.numFiles, 4u);
   ASSERT_EQ(table.rows.size(), 5u);
   EXPECT_EQ(table.rows[0].className, "all");
@@ -51,8 +51,8 @@ TEST(FeatureTable, ClassesAreTheNamesOfFolders) {
   EXPECT_FALSE(table.column("nothing").has_value());
   EXPECT_EQ(table.sensor, sensorText(*sdh2().layout));
   // A file alone has no class; a folder of a class is its class.
-  EXPECT_EQ(gatherFeatures({folder / "all/pen/a.dsa"}).rows[0].className, "");
-  EXPECT_EQ(gatherFeatures({folder / "all/golf_ball/"}).classes(),
+  EXPECT_EQ(extractFeatures({folder / "all/pen/a.dsa"}).rows[0].className, "");
+  EXPECT_EQ(extractFeatures({folder / "all/golf_ball/"}).classes(),
             (std::vector<std::string>{"deeper", "golf ball"}));
 }
 
@@ -62,7 +62,7 @@ TEST(FeatureTable, DoesNotDependOnThreads) {
   const auto valuesWith = [&](std::size_t threads) {
     std::vector<std::vector<double>> values;
     for (const FeatureRow& row :
-         gatherFeatures({folder.path()}, {.set = FeatureSet::kStudy, .threads = threads}).rows)
+         extractFeatures({folder.path()}, {.set = FeatureSet::kStudy, .threads = threads}).rows)
       values.push_back(row.values);
     return values;
   };
@@ -76,33 +76,33 @@ TEST(FeatureTable, OneBadFileDoesNotStopTheOthers) {
   saveGrasps(folder / "x/empty.dsa", 0);
   saveGrasps(folder / "x/noangles.dsa", 1, false);
   testing::writeFile(folder / "x/bad.dsa", "no recording");
-  const FeatureTable table = gatherFeatures({folder / "x"});
+  const FeatureTable table = extractFeatures({folder / "x"});
   ASSERT_EQ(table.rows.size(), 1u);
   EXPECT_EQ(table.rows[0].file, folder / "x/good.dsa");
   EXPECT_EQ(table.numFiles, 4u);
   EXPECT_EQ(table.failedFiles, 1u);
   EXPECT_EQ(table.failedGrasps, 1u);
-  ASSERT_EQ(table.troubles.size(), 3u);
-  EXPECT_NE(table.troubles[0].find("bad.dsa"), std::string::npos);
-  EXPECT_NE(table.troubles[1].find("empty.dsa: no grasp"), std::string::npos);
-  EXPECT_NE(table.troubles[2].find("noangles.dsa: grasp 10..39: no joint angles"),
+  ASSERT_EQ(table.problems.size(), 3u);
+  EXPECT_NE(table.problems[0].find("bad.dsa"), std::string::npos);
+  EXPECT_NE(table.problems[1].find("empty.dsa: no grasp"), std::string::npos);
+  EXPECT_NE(table.problems[2].find("noangles.dsa: grasp 10..39: no joint angles"),
             std::string::npos);
 }
 
 TEST(FeatureTable, NothingThereIsSaid) {
   const TemporaryFolder folder;
-  EXPECT_THROW(gatherFeatures({folder / "missing"}), FileError);
+  EXPECT_THROW(extractFeatures({folder / "missing"}), FileError);
   fs::create_directories(folder / "hollow");
-  const FeatureTable table = gatherFeatures({folder / "hollow"});
+  const FeatureTable table = extractFeatures({folder / "hollow"});
   EXPECT_TRUE(table.rows.empty());
-  ASSERT_EQ(table.troubles.size(), 1u);
+  ASSERT_EQ(table.problems.size(), 1u);
   EXPECT_EQ(table.sensor, "");
 }
 
 TEST(FeatureTable, CanBeCancelled) {
   const TemporaryFolder folder;
   saveGrasps(folder / "x/a.dsa", 1);
-  EXPECT_THROW(gatherFeatures({folder / "x"}, {}, [](double) { return false; }), Cancelled);
+  EXPECT_THROW(extractFeatures({folder / "x"}, {}, [](double) { return false; }), Cancelled);
 }
 
 TEST(FeatureTable, NamesOfClasses) {

@@ -19,7 +19,7 @@ const std::vector<int> kSides = {0, 0, 1, 1};
 TEST(GaussianClassifier, MixesClassAndPooledVariance) {
   const double ridge = 1e-9;
   const auto fitted =
-      GaussianClassifier::of(kLine, kSides, 2, {.pooledShare = 0.25, .ridge = ridge});
+      GaussianClassifier::of(kLine, kSides, 2, {.pooledFraction = 0.25, .ridge = ridge});
   const double v0 = 0.75 * 2 + 0.25 * 5, v1 = 0.75 * 8 + 0.25 * 5;
   Eigen::MatrixXd x(1, 1);
   x << 3.0;
@@ -31,7 +31,7 @@ TEST(GaussianClassifier, MixesClassAndPooledVariance) {
 
 TEST(GaussianClassifier, AddsWhatOtherDaysAdd) {
   const auto fitted = GaussianClassifier::of(
-      kLine, kSides, 2, {.pooledShare = 1.0, .extraVariance = 0.5, .ridge = 1e-9});
+      kLine, kSides, 2, {.pooledFraction = 1.0, .extraVariance = 0.5, .ridge = 1e-9});
   Eigen::MatrixXd x(1, 1);
   x << 3.0;
   EXPECT_NEAR(fitted.nearestSquaredDistance(x)[0], 9.0 / (5.0 * 1.5), 1e-7);
@@ -40,7 +40,7 @@ TEST(GaussianClassifier, AddsWhatOtherDaysAdd) {
 // With one covariance the border of two classes is the plane that linear discriminant analysis
 // gives: halfway.
 TEST(GaussianClassifier, OneCovarianceIsTheLinearRule) {
-  const auto fitted = GaussianClassifier::of(kLine, kSides, 2, {.pooledShare = 1.0});
+  const auto fitted = GaussianClassifier::of(kLine, kSides, 2, {.pooledFraction = 1.0});
   Eigen::MatrixXd x(2, 1);
   x << 4.999, 5.001;
   const Eigen::MatrixXd density = fitted.logDensity(x);
@@ -53,8 +53,8 @@ TEST(GaussianClassifier, WeakensCorrelations) {
   samples.x.col(1) = samples.x.col(0) + 0.1 * samples.x.col(1);  // nearly one line
   Eigen::MatrixXd off(1, 2);
   off << 3.0, -3.0;
-  const auto whole = GaussianClassifier::of(samples.x, samples.y, 2, {.offDiagonal = 1.0});
-  const auto none = GaussianClassifier::of(samples.x, samples.y, 2, {.offDiagonal = 0.0});
+  const auto whole = GaussianClassifier::of(samples.x, samples.y, 2, {.correlationScale = 1.0});
+  const auto none = GaussianClassifier::of(samples.x, samples.y, 2, {.correlationScale = 0.0});
   EXPECT_GT(whole.nearestSquaredDistance(off)[0], 20.0 * none.nearestSquaredDistance(off)[0]);
 }
 
@@ -62,7 +62,7 @@ TEST(GaussianClassifier, AClassWithOneSampleTakesThePooledCovariance) {
   Eigen::MatrixXd x(4, 1);
   x << -1, 1, 50, 8;
   const auto fitted =
-      GaussianClassifier::of(x, {0, 0, 1, 3}, 5, {.pooledShare = 0.0, .ridge = 1e-9});
+      GaussianClassifier::of(x, {0, 0, 1, 3}, 5, {.pooledFraction = 0.0, .ridge = 1e-9});
   Eigen::MatrixXd at(1, 1);
   at << 52.0;
   EXPECT_NEAR(fitted.nearestSquaredDistance(at)[0], 4.0 / 2.0, 1e-7);
@@ -73,7 +73,7 @@ TEST(GaussianClassifier, AClassWithOneSampleTakesThePooledCovariance) {
 TEST(GaussianClassifier, RefusesBrokenContracts) {
   EXPECT_THROW(GaussianClassifier::of(kLine, kSides, 1), std::invalid_argument);
   EXPECT_THROW(GaussianClassifier::of(kLine, {0, 1, 2, 3}, 4), std::invalid_argument);
-  EXPECT_THROW(GaussianClassifier::of(kLine, kSides, 2, {.pooledShare = 1.1}),
+  EXPECT_THROW(GaussianClassifier::of(kLine, kSides, 2, {.pooledFraction = 1.1}),
                std::invalid_argument);
   EXPECT_THROW(GaussianClassifier::of(kLine, kSides, 2, {.ridge = 0.0}), std::invalid_argument);
 }

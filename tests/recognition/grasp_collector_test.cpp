@@ -44,7 +44,7 @@ TEST(GraspCollector, KeepsAGraspWithALittleBeforeAndAfterIt) {
   // It reads as the grasp of the whole recording does.
   const ChosenGrasp clip = graspOf(ended[0], FeatureSet::kBest);
   const ChosenGrasp whole = graspWithin(all, 0, all.numFrames() - 1, FeatureSet::kBest);
-  ASSERT_EQ(clip.features.trouble, "");
+  ASSERT_EQ(clip.features.problem, "");
   EXPECT_EQ(clip.features.values, whole.features.values);
   EXPECT_EQ(clip.timeUs, all.frameTimeUs(50));
   EXPECT_EQ(whole.features.begin, 50u);
@@ -52,7 +52,7 @@ TEST(GraspCollector, KeepsAGraspWithALittleBeforeAndAfterIt) {
 
 TEST(GraspCollector, KeepsNoMoreOfAContactThatNeverEnds) {
   GraspCollectorOptions options;
-  options.mostFrames = 100;
+  options.maxFrames = 100;
   GraspCollector collector(sdh2(), options);
   // Angles come three times as often as frames, as from a hand.
   const Profile held = pinchProfile(steps({{1, true}}));
@@ -104,7 +104,7 @@ TEST(GraspCollector, BridgesThreeFramesAndNoMore) {
   ended = collector.takeEnded();
   ASSERT_EQ(ended.size(), 2u);
   EXPECT_EQ(ended[0].numFrames(), 5u + 30u + 6u);
-  EXPECT_EQ(graspOf(ended[1], FeatureSet::kBest).features.trouble, "");
+  EXPECT_EQ(graspOf(ended[1], FeatureSet::kBest).features.problem, "");
 }
 
 TEST(GraspCollector, ATouchIsNoGrasp) {
@@ -141,11 +141,11 @@ TEST(GraspCollector, FramesThatDoNotFitAreLeftOut) {
   feed(held, collector);  // the same again: not later
   EXPECT_EQ(collector.now()->numFrames(), 40u);
   GraspCollectorOptions few;
-  few.mostFrames = 30;
+  few.maxFrames = 30;
   GraspCollector bounded(sdh2(), few);
   feed(held, bounded);
   EXPECT_EQ(bounded.now()->numFrames(), 30u);
-  few.mostFrames = 5;
+  few.maxFrames = 5;
   EXPECT_THROW(GraspCollector(sdh2(), few), std::invalid_argument);
 }
 
@@ -157,10 +157,10 @@ TEST(ChosenGrasp, IsTheLongestOneWithinTheFrames) {
   const ChosenGrasp part = graspWithin(all, 80, 149, FeatureSet::kBest);
   EXPECT_EQ(part.features.begin, 80u) << "cut to what was chosen";
   EXPECT_EQ(part.features.end, 129u);
-  EXPECT_NE(graspWithin(all, 0, 10, FeatureSet::kBest).features.trouble.find("no grasp"),
+  EXPECT_NE(graspWithin(all, 0, 10, FeatureSet::kBest).features.problem.find("no grasp"),
             std::string::npos);
-  EXPECT_NE(graspOf(testing::otherSensorProfile(30), FeatureSet::kBest).features.trouble, "");
-  EXPECT_EQ(graspOf(pinchProfile({}), FeatureSet::kBest).features.trouble, "no frame");
+  EXPECT_NE(graspOf(testing::otherSensorProfile(30), FeatureSet::kBest).features.problem, "");
+  EXPECT_EQ(graspOf(pinchProfile({}), FeatureSet::kBest).features.problem, "no frame");
   EXPECT_THROW(graspWithin(all, 0, 150, FeatureSet::kBest), std::out_of_range);
 }
 

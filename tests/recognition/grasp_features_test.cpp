@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/core/error.h"
-#include "palpate/recognition/day_features.h"
+#include "palpate/recognition/plateau_features.h"
 #include "palpate/recognition/study_features.h"
 
 #include "recognition/pinch_profile.h"
@@ -40,9 +40,10 @@ TEST(GraspFeatures, SetsHaveNames) {
   }
   EXPECT_FALSE(featureSetNamed("everything").has_value());
   EXPECT_EQ(featureNames(FeatureSet::kStudy), studyFeatureNames());
-  EXPECT_EQ(featureNames(FeatureSet::kBest), dayFeatureNames());
+  EXPECT_EQ(featureNames(FeatureSet::kBest), plateauFeatureNames());
   const auto session = featureNames(FeatureSet::kSession);
-  EXPECT_TRUE(std::equal(dayFeatureNames().begin(), dayFeatureNames().end(), session.begin()));
+  EXPECT_TRUE(
+      std::equal(plateauFeatureNames().begin(), plateauFeatureNames().end(), session.begin()));
   for (const char* angle : {"angle_1", "angle_2", "angle_5", "angle_6"})
     EXPECT_EQ(std::count(session.begin(), session.end(), angle), 1);
   EXPECT_NE(sessionSetWarning().find("remembers the pose"), std::string_view::npos);
@@ -52,13 +53,13 @@ TEST(GraspFeatures, EveryGraspOfARecordingHasARow) {
   const Profile profile = twoGrasps();
   for (const FeatureSet set : kSets) {
     const RecordingFeatures found = recordingFeatures(profile, set);
-    EXPECT_EQ(found.trouble, "");
+    EXPECT_EQ(found.problem, "");
     ASSERT_EQ(found.grasps.size(), 2u);
     EXPECT_EQ(found.grasps[0].begin, 10u);
     EXPECT_EQ(found.grasps[0].end, 39u);
     EXPECT_EQ(found.grasps[1].begin, 50u);
     for (const GraspFeatures& grasp : found.grasps) {
-      EXPECT_EQ(grasp.trouble, "");
+      EXPECT_EQ(grasp.problem, "");
       EXPECT_EQ(grasp.values.size(), featureNames(set).size());
       EXPECT_TRUE(std::all_of(
           grasp.values.begin(), grasp.values.end(), [](double v) { return std::isfinite(v); }));
@@ -83,14 +84,14 @@ TEST(GraspFeatures, OfASessionHoldTheAnglesAtRest) {
 TEST(GraspFeatures, WhatIsNoGraspIsSaid) {
   const std::vector<PinchStep> apart(60, {60.0});
   for (const FeatureSet set : kSets) {
-    EXPECT_EQ(recordingFeatures(pinchProfile(apart), set).trouble,
+    EXPECT_EQ(recordingFeatures(pinchProfile(apart), set).problem,
               "no grasp: matrices 1 and 5 never touch together for more than 20 frames in a row");
-    EXPECT_EQ(recordingFeatures(testing::otherSensorProfile(40), set).trouble,
+    EXPECT_EQ(recordingFeatures(testing::otherSensorProfile(40), set).problem,
               "a recording of another sensor: its matrices are not those of the hand");
     const auto without = recordingFeatures(pinchProfile({40, {50.0, 100.0F, 100.0F}}, false), set);
-    EXPECT_EQ(without.trouble, "");
+    EXPECT_EQ(without.problem, "");
     ASSERT_EQ(without.grasps.size(), 1u);
-    EXPECT_EQ(without.grasps[0].trouble, "no joint angles");
+    EXPECT_EQ(without.grasps[0].problem, "no joint angles");
     EXPECT_TRUE(without.grasps[0].values.empty());
   }
 }
@@ -99,7 +100,7 @@ TEST(GraspFeatures, PadsAreTheHands) {
   PinchHand swapped = sdh2PinchHand();
   swapped.pads = {1, 3};
   EXPECT_NE(
-      recordingFeatures(twoGrasps(), FeatureSet::kBest, swapped).trouble.find("matrices 1 and 3"),
+      recordingFeatures(twoGrasps(), FeatureSet::kBest, swapped).problem.find("matrices 1 and 3"),
       std::string::npos);
   EXPECT_EQ(featureNames(FeatureSet::kStudy, swapped)[3], "std_3");
 }

@@ -232,7 +232,7 @@ TEST(GraspSegments, RefusesATableOfAnotherSensor) {
 
 TEST(GraspSegments, RefusesBadOptionsAndCanBeCancelled) {
   const Profile profile = profileOf(times("b", 30));
-  EXPECT_THROW(findGrasps(profile, {.fewestFingers = 0}), std::invalid_argument);
+  EXPECT_THROW(findGrasps(profile, {.minFingers = 0}), std::invalid_argument);
   EXPECT_THROW(findGrasps(profile, {.moreThanS = std::nan("")}), std::invalid_argument);
   EXPECT_THROW(findGrasps(profile, {.rule = GraspRule::kStudy, .studyMatrices = {}}),
                std::invalid_argument);

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
-#include "palpate/recognition/day_features.h"
+#include "palpate/recognition/plateau_features.h"
 
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
@@ -57,11 +57,11 @@ TEST(ModelEvaluation, ReadsTheChoiceOfAnOffset) {
 TEST(ModelEvaluation, AFreshModelIsSureOnlyInItsSession) {
   const TrainedModel model = modelOf(ClassifierKind::kGauss);
   const SampleSet test = things(6, 4, 0.0, 2);
-  const SessionUse here = sessionFor(model, test.x, times(24, 101), {});
+  const SessionContext here = sessionFor(model, test.x, times(24, 101), {});
   EXPECT_TRUE(here.sameSession);
   EXPECT_TRUE(here.warnings.empty());
   EXPECT_EQ(here.offset.mm, 0.0);
-  const SessionUse later = sessionFor(model, test.x, times(24, 2000), {});
+  const SessionContext later = sessionFor(model, test.x, times(24, 2000), {});
   EXPECT_FALSE(later.sameSession);
   EXPECT_EQ(later.warnings.size(), 1u);
   const auto inside = evaluateModel(model, test, times(24, 101));
@@ -76,7 +76,7 @@ TEST(ModelEvaluation, AnAdaptationOfYesterdayIsNotTrustedToday) {
   model.adaptedFrom = {{"b.dsa", "00", "class 0", 6, 2000 * kHourUs, 2000 * kHourUs}};
   const SampleSet test = things(6, 4, 3.0, 2);
   EXPECT_TRUE(sessionFor(model, test.x, times(24, 2001), {}).offset.trusted);
-  const SessionUse later = sessionFor(model, test.x, times(24, 2100), {});
+  const SessionContext later = sessionFor(model, test.x, times(24, 2100), {});
   EXPECT_FALSE(later.offset.trusted);
   EXPECT_EQ(later.warnings.size(), 1u);
 }
@@ -84,11 +84,11 @@ TEST(ModelEvaluation, AnAdaptationOfYesterdayIsNotTrustedToday) {
 TEST(ModelEvaluation, ABatchIsTrustedFromTwoObjectsOn) {
   const TrainedModel model = modelOf(ClassifierKind::kGauss);
   const SampleSet test = things(6, 4, 3.0, 2);
-  const SessionUse all =
+  const SessionContext all =
       sessionFor(model, test.x, times(24, 2000), {OffsetChoice::Kind::kBatch, 0.0});
   EXPECT_NEAR(all.offset.mm, 3.0, 0.7);
   EXPECT_TRUE(all.offset.trusted);
-  const SessionUse one =
+  const SessionContext one =
       sessionFor(model, test.x.topRows(4), times(4, 2000), {OffsetChoice::Kind::kBatch, 0.0});
   EXPECT_FALSE(one.offset.trusted);
   EXPECT_EQ(one.warnings.size(), 1u);
@@ -119,7 +119,7 @@ TEST(ModelEvaluation, WhatAdaptsDoesNotCount) {
       << "the first in time of each class";
   EXPECT_EQ(evaluation.confusion.total(), 18u);
   EXPECT_GT(evaluation.confusion.accuracy(), 0.9);
-  EXPECT_EQ(evaluation.sessions.at(0).offset.origin, OffsetOrigin::kReferences);
+  EXPECT_EQ(evaluation.sessions.at(0).offset.origin, OffsetSource::kReferences);
   EXPECT_THROW(evaluateModel(model, test, times(24, 2000), {4, {}}), Error);
   EXPECT_THROW(evaluateModel(model, test, times(23, 2000)), std::invalid_argument);
 }
@@ -141,7 +141,7 @@ class OtherDay : public ::testing::Test {
   void SetUp() override {
     const auto folder = recordingsFolder();
     PALPATE_NEED(folder);
-    const FeatureTable september = gatherFeatures({*folder / "grasps_by_class"});
+    const FeatureTable september = extractFeatures({*folder / "grasps_by_class"});
     PipelineOptions options;
     options.classifier = ClassifierKind::kGauss;
     model_ = trainModel(samplesOf(september), FeatureSet::kBest, september.sensor, options);
@@ -152,7 +152,7 @@ class OtherDay : public ::testing::Test {
         {"pen thick", "classification_video/pen_thick.dsa"}};
     FeatureTable later;
     for (const auto& [name, file] : files) {
-      FeatureTable one = gatherFeatures({*folder / file});
+      FeatureTable one = extractFeatures({*folder / file});
       for (FeatureRow& row : one.rows) row.className = name;
       later.names = one.names;
       later.rows.insert(later.rows.end(), one.rows.begin(), one.rows.end());

@@ -38,7 +38,7 @@ TEST(PinchHand, WhatDoesNotFitIsRefused) {
   refused([](PinchHand& hand) { hand.otherPads = {{1, 9}}; });
   refused([](PinchHand& hand) { hand.secondPadGain = 0.0; });
   refused([](PinchHand& hand) { hand.fullScaleCounts = std::nan(""); });
-  refused([](PinchHand& hand) { hand.pictureSize = 12; });
+  refused([](PinchHand& hand) { hand.imageSize = 12; });
   refused([](PinchHand& hand) { hand.largestCounts = {1.0, -1.0}; });
   refused([](PinchHand& hand) { hand.gripAxes = {7}; });
   refused([](PinchHand& hand) { hand.studyGeometry = nullptr; });

@@ -74,18 +74,18 @@ TEST(SampleSplits, BlocksAreContiguousAndExamineEverySampleOnce) {
   const auto y = labels({11, 10});
   const auto splits = blockSplits(y, 5);
   ASSERT_EQ(splits.size(), 5u);
-  std::vector<std::size_t> examined;
+  std::vector<std::size_t> testPredictions;
   for (const SampleSplit& split : splits) {
     expectPartition(split, 21);
-    examined.insert(examined.end(), split.test.begin(), split.test.end());
+    testPredictions.insert(testPredictions.end(), split.test.begin(), split.test.end());
     // Of each class one run without holes.
     for (std::size_t i = 1; i < split.test.size(); ++i)
       EXPECT_TRUE(y[split.test[i]] != y[split.test[i - 1]] ||
                   split.test[i] == split.test[i - 1] + 1);
   }
-  std::sort(examined.begin(), examined.end());
-  EXPECT_EQ(examined.size(), 21u);
-  EXPECT_EQ(std::unique(examined.begin(), examined.end()), examined.end());
+  std::sort(testPredictions.begin(), testPredictions.end());
+  EXPECT_EQ(testPredictions.size(), 21u);
+  EXPECT_EQ(std::unique(testPredictions.begin(), testPredictions.end()), testPredictions.end());
 }
 
 TEST(SampleSplits, LeavesOneClassOut) {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/core/error.h"
-#include "palpate/recognition/day_features.h"
+#include "palpate/recognition/plateau_features.h"
 
 namespace palpate::session_offset_test {
 namespace {
@@ -34,7 +34,7 @@ class SizesWorld {
       for (int i = 0; i < each; ++i) x.row(row++) = grasp(object, offsetMm).transpose();
     return x;
   }
-  DayModel model() {
+  SessionAdaptiveClassifier model() {
     std::vector<std::string> names;
     std::vector<std::size_t> all;
     std::vector<int> y;
@@ -43,7 +43,7 @@ class SizesWorld {
       all.push_back(c);
       y.insert(y.end(), 20, static_cast<int>(c));
     }
-    return DayModel::learn(grasps(all, 20, 0.0), y, names, {"size_z", "shape"});
+    return SessionAdaptiveClassifier::learn(grasps(all, 20, 0.0), y, names, {"size_z", "shape"});
   }
 
  private:
@@ -71,17 +71,17 @@ TEST(SessionOffset, BeforeAnythingIsKnownItIsNormal) {
 
 TEST(SessionOffset, IsFoundFromUnlabelledGraspsOfSeveralObjects) {
   SizesWorld world({15, 28, 37, 52, 60, 75, 90});
-  const DayModel model = world.model();
+  const SessionAdaptiveClassifier model = world.model();
   for (const double truthMm : {-4.1, -1.0, 0.0, 3.3}) {
     const SessionOffset found = offsetFromBatch(model, world.grasps({0, 3, 5}, 6, truthMm));
     EXPECT_NEAR(found.mm, truthMm, 0.6) << truthMm;
     EXPECT_LT(found.sdMm, 0.6);
-    EXPECT_EQ(found.origin, OffsetOrigin::kBatch);
+    EXPECT_EQ(found.origin, OffsetSource::kBatch);
     EXPECT_EQ(found.grasps, 18u);
     EXPECT_EQ(found.objects, 3u);
     EXPECT_TRUE(found.trusted);
     const MatrixXd x = world.grasps({4}, 10, truthMm);
-    for (const DayVerdict& verdict : judgeAll(model, x, found)) {
+    for (const OpenSetPrediction& verdict : predictAll(model, x, found)) {
       EXPECT_EQ(verdict.ranking[0], 4u);
       EXPECT_TRUE(verdict.sure);
     }
@@ -91,23 +91,23 @@ TEST(SessionOffset, IsFoundFromUnlabelledGraspsOfSeveralObjects) {
 // Objects of the same shape, 3 mm apart: any of them can be any other on another day.
 TEST(SessionOffset, OneObjectIsNeverEnoughToBeSure) {
   SizesWorld world({30, 90, 91, 33, 92, 93, 36, 94, 95, 39});
-  const DayModel model = world.model();
+  const SessionAdaptiveClassifier model = world.model();
   const MatrixXd x = world.grasps({3}, 12, -3.0);
   const SessionOffset found = offsetFromBatch(model, x);
   EXPECT_LT(found.objects, 2u);
   EXPECT_FALSE(found.trusted);
-  for (const DayVerdict& verdict : judgeAll(model, x, found)) EXPECT_FALSE(verdict.sure);
+  for (const OpenSetPrediction& verdict : predictAll(model, x, found)) EXPECT_FALSE(verdict.sure);
   // Nor a labelled one.
   const SessionOffset labelled = offsetFromReferences(model, x, std::vector<int>(12, 3));
   EXPECT_NEAR(labelled.mm, -3.0, 0.5);
   EXPECT_EQ(labelled.objects, 1u);
   EXPECT_FALSE(labelled.trusted);
-  EXPECT_FALSE(judge(model, x.row(0).transpose(), labelled).sure);
+  EXPECT_FALSE(predict(model, x.row(0).transpose(), labelled).sure);
 }
 
 TEST(SessionOffset, LabelledGraspsOfTwoObjectsAreTrusted) {
   SizesWorld world({30, 45, 60, 75});
-  const DayModel model = world.model();
+  const SessionAdaptiveClassifier model = world.model();
   const SessionOffset found = offsetFromReferences(model, world.grasps({0, 2}, 1, 2.0), {0, 2});
   EXPECT_NEAR(found.mm, 2.0, 0.5);
   EXPECT_EQ(found.objects, 2u);
@@ -122,18 +122,18 @@ TEST(SessionOffset, LabelledGraspsOfTwoObjectsAreTrusted) {
 
 TEST(SessionOffset, WhatTheEmptyHandSaysIsKeptAndNarrowed) {
   SizesWorld world({15, 28, 37, 52, 60, 75, 90});
-  const DayModel model = world.model();
-  const SessionOffset zero = measuredOffset(-4.0, 0.6, OffsetOrigin::kEmptyHand);
+  const SessionAdaptiveClassifier model = world.model();
+  const SessionOffset zero = measuredOffset(-4.0, 0.6, OffsetSource::kEmptyHand);
   EXPECT_EQ(zero.mm, -4.0);
   EXPECT_TRUE(zero.trusted);
   const SessionOffset narrowed = offsetFromBatch(model, world.grasps({1}, 8, -4.2), zero);
-  EXPECT_EQ(narrowed.origin, OffsetOrigin::kEmptyHand);
+  EXPECT_EQ(narrowed.origin, OffsetSource::kEmptyHand);
   EXPECT_NEAR(narrowed.mm, -4.2, 0.5);
   EXPECT_LT(narrowed.sdMm, 0.6);
   EXPECT_TRUE(narrowed.trusted) << "one object, but the hand was measured";
-  EXPECT_FALSE(measuredOffset(-4.0, 2.0, OffsetOrigin::kEmptyHand).trusted);
+  EXPECT_FALSE(measuredOffset(-4.0, 2.0, OffsetSource::kEmptyHand).trusted);
   // Beyond the grid, and much finer than it.
-  const SessionOffset far = measuredOffset(20.0, 0.05, OffsetOrigin::kEmptyHand);
+  const SessionOffset far = measuredOffset(20.0, 0.05, OffsetSource::kEmptyHand);
   double mean = 0.0;
   for (std::size_t i = 0; i < far.gridMm.size(); ++i) mean += far.gridMm[i] * far.probability[i];
   EXPECT_NEAR(mean, 20.0, 1e-3);
@@ -141,7 +141,7 @@ TEST(SessionOffset, WhatTheEmptyHandSaysIsKeptAndNarrowed) {
 
 TEST(SessionOffset, AGivenOneIsNotChanged) {
   SizesWorld world({15, 28, 37});
-  const DayModel model = world.model();
+  const SessionAdaptiveClassifier model = world.model();
   const MatrixXd x = world.grasps({0, 1}, 5, 3.0);
   for (const SessionOffset& before : {givenOffset(1.0), noOffset()}) {
     const SessionOffset after = offsetFromBatch(model, x, before);
@@ -155,11 +155,11 @@ TEST(SessionOffset, AVerdictSumsOverWhatIsNotKnown) {
   // One class at 30, one at 33 mm, read 30: with offset 0 the first, with -3 the second, with +-3
   // mm both are likely.
   SizesWorld world({30, 90, 91, 33});
-  const DayModel model = world.model();
+  const SessionAdaptiveClassifier model = world.model();
   const VectorXd x{{sizeZ(30.0), 0.0}};
-  EXPECT_EQ(judge(model, x, givenOffset(0.0)).ranking[0], 0u);
-  EXPECT_EQ(judge(model, x, givenOffset(-3.0)).ranking[0], 3u);
-  const DayVerdict open = judge(model, x, unknownOffset());
+  EXPECT_EQ(predict(model, x, givenOffset(0.0)).ranking[0], 0u);
+  EXPECT_EQ(predict(model, x, givenOffset(-3.0)).ranking[0], 3u);
+  const OpenSetPrediction open = predict(model, x, unknownOffset());
   EXPECT_NEAR(open.probability.sum(), 1.0, 1e-12);
   EXPECT_GT(open.probability[0], 0.5);
   EXPECT_GT(open.probability[3], 0.2);
@@ -168,21 +168,21 @@ TEST(SessionOffset, AVerdictSumsOverWhatIsNotKnown) {
 
 TEST(SessionOffset, WhatFitsNoClassIsUnknown) {
   SizesWorld world({15, 28, 37, 52, 60, 75, 90});
-  const DayModel model = world.model();
-  const DayVerdict known = judge(model, world.grasp(2), givenOffset(0.0));
+  const SessionAdaptiveClassifier model = world.model();
+  const OpenSetPrediction known = predict(model, world.grasp(2), givenOffset(0.0));
   EXPECT_FALSE(known.unknown);
   EXPECT_TRUE(known.sure);
-  const DayVerdict between = judge(model, VectorXd{{sizeZ(44.0), 1.0}}, givenOffset(0.0));
-  EXPECT_LT(between.knownness, known.knownness);
+  const OpenSetPrediction between = predict(model, VectorXd{{sizeZ(44.0), 1.0}}, givenOffset(0.0));
+  EXPECT_LT(between.logLikelihoodRatio, known.logLikelihoodRatio);
   EXPECT_TRUE(between.unknown);
   EXPECT_FALSE(between.sure);
-  VerdictOptions generous;
-  generous.leastKnown = -1e6;
-  EXPECT_FALSE(judge(model, VectorXd{{sizeZ(44.0), 1.0}}, givenOffset(0.0), generous).unknown);
+  OpenSetOptions generous;
+  generous.minLogLikelihoodRatio = -1e6;
+  EXPECT_FALSE(predict(model, VectorXd{{sizeZ(44.0), 1.0}}, givenOffset(0.0), generous).unknown);
 }
 
 TEST(SessionOffset, IsSaidInOneLine) {
-  SessionOffset offset = measuredOffset(-3.44, 0.31, OffsetOrigin::kBatch);
+  SessionOffset offset = measuredOffset(-3.44, 0.31, OffsetSource::kBatch);
   offset.objects = 4;
   offset.trusted = true;
   EXPECT_EQ(offset.text(), "today the hand reads 3.4 mm small (+- 0.3 mm, from 4 objects)");
@@ -191,13 +191,13 @@ TEST(SessionOffset, IsSaidInOneLine) {
   EXPECT_EQ(offset.text(),
             "today the hand reads 3.4 mm small (+- 0.3 mm, from 1 object); too little is known by "
             "that to call a verdict sure");
-  offset = measuredOffset(0.04, 0.2, OffsetOrigin::kBatch);
+  offset = measuredOffset(0.04, 0.2, OffsetSource::kBatch);
   offset.objects = 5;
   EXPECT_EQ(offset.text(),
             "today the hand reads sizes as it did in training (+- 0.2 mm, from 5 objects); too "
             "little is known by that to call a verdict sure");
   EXPECT_EQ(givenOffset(2.0).text(), "today the hand reads 2.0 mm large (given)");
-  EXPECT_EQ(measuredOffset(1.0, 0.5, OffsetOrigin::kEmptyHand).text(),
+  EXPECT_EQ(measuredOffset(1.0, 0.5, OffsetSource::kEmptyHand).text(),
             "today the hand reads 1.0 mm large (+- 0.5 mm, from the empty hand)");
 }
 
@@ -220,18 +220,18 @@ TEST(SessionOffset, TravelsThroughAFile) {
 
 TEST(SessionOffset, WrongQuestionsAreRefused) {
   SizesWorld world({15, 28, 37});
-  const DayModel model = world.model();
+  const SessionAdaptiveClassifier model = world.model();
   EXPECT_THROW(givenOffset(std::nan("")), std::invalid_argument);
   EXPECT_THROW(givenOffset(1.0, -1.0), std::invalid_argument);
-  EXPECT_THROW(measuredOffset(1.0, 0.0, OffsetOrigin::kEmptyHand), std::invalid_argument);
+  EXPECT_THROW(measuredOffset(1.0, 0.0, OffsetSource::kEmptyHand), std::invalid_argument);
   EXPECT_THROW(offsetFromBatch(model, MatrixXd::Zero(1, 3)), std::invalid_argument);
   EXPECT_THROW(offsetFromReferences(model, MatrixXd::Zero(1, 2), {5}), std::invalid_argument);
   EXPECT_THROW(offsetFromReferences(model, MatrixXd::Zero(1, 2), {}), std::invalid_argument);
-  EXPECT_THROW(judge(model, VectorXd::Zero(2), SessionOffset{}), std::invalid_argument);
+  EXPECT_THROW(predict(model, VectorXd::Zero(2), SessionOffset{}), std::invalid_argument);
   SessionOffsetOptions options;
   options.stepMm = 0.0;
   EXPECT_THROW(options.validate(), std::invalid_argument);
-  VerdictOptions verdict;
+  OpenSetOptions verdict;
   verdict.sureProbability = 0.2;
   EXPECT_THROW(verdict.validate(), std::invalid_argument);
 }

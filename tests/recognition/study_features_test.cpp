@@ -24,7 +24,7 @@ using testing::PinchStep;
 std::map<std::string, double> named(const StudyFeatures& features) {
   std::map<std::string, double> values;
   const auto names = studyFeatureNames();
-  EXPECT_EQ(names.size(), features.values.size()) << features.trouble;
+  EXPECT_EQ(names.size(), features.values.size()) << features.problem;
   for (std::size_t i = 0; i < features.values.size(); ++i) values[names[i]] = features.values[i];
   return values;
 }
@@ -76,23 +76,23 @@ TEST(StudyFeatures, TheEndFrameIsOneOfTwo) {
 
 TEST(StudyFeatures, WhatIsMissingIsSaid) {
   const std::vector<PinchStep> good(30, {50.0, 1000.0F, 1000.0F});
-  const auto trouble = [](const Profile& profile, std::size_t end = 29) {
+  const auto problem = [](const Profile& profile, std::size_t end = 29) {
     const StudyFeatures features = studyFeatures(profile, {.begin = 0, .end = end, .fingers = {}});
     EXPECT_TRUE(features.values.empty());
-    return features.trouble;
+    return features.problem;
   };
-  EXPECT_EQ(trouble(pinchProfile(good, false)), "no joint angles");
-  EXPECT_EQ(trouble(pinchProfile(good), 19), "half a grasp: 20 frames, of at least 21");
+  EXPECT_EQ(problem(pinchProfile(good, false)), "no joint angles");
+  EXPECT_EQ(problem(pinchProfile(good), 19), "half a grasp: 20 frames, of at least 21");
   auto apart = good;
   apart[7].second = 0.0F;
-  EXPECT_EQ(trouble(pinchProfile(apart)), "matrix 5 doesn't touch in frame 7");
-  EXPECT_EQ(trouble(testing::otherSensorProfile(30)),
+  EXPECT_EQ(problem(pinchProfile(apart)), "matrix 5 doesn't touch in frame 7");
+  EXPECT_EQ(problem(testing::otherSensorProfile(30)),
             "a recording of another sensor: its matrices are not those of the hand");
-  EXPECT_EQ(trouble(testing::damagedProfile(pinchProfile(good), 12, -1)),
+  EXPECT_EQ(problem(testing::damagedProfile(pinchProfile(good), 12, -1)),
             "values that are no numbers in frame 12");
-  EXPECT_EQ(trouble(testing::damagedProfile(pinchProfile(good), -1, 12)),
+  EXPECT_EQ(problem(testing::damagedProfile(pinchProfile(good), -1, 12)),
             "joint angles that are missing or no numbers in frame 12");
-  EXPECT_THROW(trouble(pinchProfile(good), 30), std::out_of_range);
+  EXPECT_THROW(problem(pinchProfile(good), 30), std::out_of_range);
 }
 
 // 571 grasps, made by two programs that share nothing with this one.
@@ -130,7 +130,7 @@ TEST(StudyFeatures, AgreeWithIndependentNumbers) {
         std::to_string(free.otherEndFrame) + ";" + std::to_string(free.endFrame);
     ASSERT_TRUE(cells[6] == tie || cells[6] == tieOther) << tie << " for " << cells[6];
     const StudyFeatures ours = studyFeatures(profile, grasps[0], sdh2PinchHand(), end);
-    ASSERT_EQ(ours.trouble, "");
+    ASSERT_EQ(ours.problem, "");
     EXPECT_EQ(std::to_string(ours.initialFrame), cells[4]);
     for (std::size_t i = 0; i < 54; ++i) {
       const double expected = *parseDouble(cells[i + 8]);

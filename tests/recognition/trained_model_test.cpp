@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
-#include "palpate/recognition/day_features.h"
+#include "palpate/recognition/plateau_features.h"
 
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
@@ -39,7 +39,7 @@ TrainedModel modelOf(const SampleSet& samples, ClassifierKind kind) {
   return model;
 }
 
-double shareRight(const std::vector<Verdict>& verdicts, const std::vector<int>& y) {
+double shareRight(const std::vector<Prediction>& verdicts, const std::vector<int>& y) {
   double right = 0.0;
   for (std::size_t i = 0; i < y.size(); ++i) right += verdicts[i].label == y[i] ? 1.0 : 0.0;
   return right / static_cast<double>(y.size());
@@ -51,11 +51,12 @@ TEST(TrainedModel, IsSureInItsOwnSessionOnly) {
     const TrainedModel model = modelOf(train, kind);
     const auto here = classifyRows(model, test.x, noOffset(), true);
     EXPECT_GE(shareRight(here, test.y), 0.93) << "a few of a hundred known ones are called unknown";
-    EXPECT_GT(std::count_if(here.begin(), here.end(), [](const Verdict& v) { return v.sure; }), 50)
+    EXPECT_GT(std::count_if(here.begin(), here.end(), [](const Prediction& v) { return v.sure; }),
+              50)
         << classifierName(kind);
-    for (const Verdict& verdict : classifyRows(model, test.x, noOffset(), false))
+    for (const Prediction& verdict : classifyRows(model, test.x, noOffset(), false))
       EXPECT_FALSE(verdict.sure);
-    for (const Verdict& verdict : here) {
+    for (const Prediction& verdict : here) {
       EXPECT_EQ(verdict.ranking.size(), 5u);
       EXPECT_TRUE(std::is_sorted(verdict.p.rbegin(), verdict.p.rend()));
       EXPECT_EQ(verdict.confidence, verdict.p.front());
@@ -70,7 +71,7 @@ TEST(TrainedModel, CallsWhatItNeverFeltUnknown) {
   for (const ClassifierKind kind :
        {ClassifierKind::kGauss, ClassifierKind::kSvm, ClassifierKind::kQda}) {
     const auto verdict = classifyRows(modelOf(train, kind), strange, noOffset(), true).front();
-    EXPECT_EQ(verdict.label, Verdict::kUnknown) << classifierName(kind);
+    EXPECT_EQ(verdict.label, Prediction::kUnknown) << classifierName(kind);
     EXPECT_FALSE(verdict.sure);
     EXPECT_GE(verdict.ranking.size(), 3u)
         << "the likeliest of the known ones are told all the same";
@@ -94,7 +95,7 @@ TEST(TrainedModel, AdaptsByLabelledGrasps) {
   for (std::size_t c = 0; c < 3; ++c) first.push_back(10 * c);
   adaptModel(adapted, today.rows(first));
   EXPECT_NEAR(adapted.offset.mm, 5.0, 0.8);
-  EXPECT_EQ(adapted.offset.origin, OffsetOrigin::kReferences);
+  EXPECT_EQ(adapted.offset.origin, OffsetSource::kReferences);
   EXPECT_TRUE(adapted.offset.trusted);
   EXPECT_LT(shareRight(classifyRows(fresh, today.x, noOffset(), false), today.y), 0.8);
   EXPECT_GT(shareRight(classifyRows(adapted, today.x, adapted.offset, false), today.y), 0.95);
@@ -102,7 +103,7 @@ TEST(TrainedModel, AdaptsByLabelledGrasps) {
 
 TEST(TrainedModel, OneThatCantAdaptSaysSo) {
   TrainedModel model = modelOf(things(4, 8, 0.0, 1), ClassifierKind::kSvm);
-  EXPECT_FALSE(model.carriesOver());
+  EXPECT_FALSE(model.adaptsToSession());
   try {
     adaptModel(model, things(4, 2, 1.0, 2));
     FAIL();
@@ -119,7 +120,7 @@ TEST(TrainedModel, TooFewGraspsMakeAModelThatIsNeverSure) {
        {ClassifierKind::kGauss, ClassifierKind::kSvm, ClassifierKind::kLda}) {
     const TrainedModel model = modelOf(samples, kind);
     EXPECT_EQ(classifyRows(model, samples.x, noOffset(), true).size(), 6u);
-    EXPECT_GT(model.sureConfidence, 1.0) << classifierName(kind);
+    EXPECT_GT(model.minSureConfidence, 1.0) << classifierName(kind);
   }
 }
 
@@ -130,7 +131,7 @@ TEST(TrainedModel, ComesBackFromItsFile) {
        {ClassifierKind::kGauss, ClassifierKind::kSvm, ClassifierKind::kQda}) {
     TrainedModel model = modelOf(train, kind);
     model.programVersion = "1.2.3";
-    if (model.carriesOver()) adaptModel(model, things(4, 2, 2.0, 5));
+    if (model.adaptsToSession()) adaptModel(model, things(4, 2, 2.0, 5));
     model.adaptedFrom = model.inputs;
     const auto path = folder / (std::string(classifierName(kind)) + ".json");
     saveModel(model, path);
@@ -168,11 +169,11 @@ TEST(TrainedModel, AdaptsByTheTouchOfTheEmptyHand) {
   EXPECT_THROW(adaptToEmptyHand(model, zeroOf(4.0, 900 * kHourUs)), Error) << "none of training";
   model.trainingZero = zeroOf(-1.0, 100 * kHourUs);
   EmptyHandZero bad = zeroOf(4.0, 900 * kHourUs);
-  bad.trouble = "no touch";
+  bad.problem = "no touch";
   EXPECT_THROW(adaptToEmptyHand(model, bad), Error);
   adaptToEmptyHand(model, zeroOf(4.0, 900 * kHourUs));
   EXPECT_NEAR(model.offset.mm, 5.0, 1e-9);
-  EXPECT_EQ(model.offset.origin, OffsetOrigin::kEmptyHand);
+  EXPECT_EQ(model.offset.origin, OffsetSource::kEmptyHand);
   EXPECT_TRUE(model.offset.trusted);
   EXPECT_GT(shareRight(classifyRows(model, today.x, model.offset, true), today.y), 0.95);
   // It is of that day, and of no other, not even the day of training.
@@ -183,9 +184,9 @@ TEST(TrainedModel, AdaptsByTheTouchOfTheEmptyHand) {
   adaptModel(both, today.rows(std::vector<std::size_t>{0}), both.offset);
   EXPECT_LT(both.offset.sdMm, model.offset.sdMm);
   EXPECT_NEAR(both.offset.mm, 5.0, 0.8);
-  forgetToday(both);
-  EXPECT_EQ(both.offset.origin, OffsetOrigin::kNone);
-  EXPECT_FALSE(both.todayZero);
+  resetSession(both);
+  EXPECT_EQ(both.offset.origin, OffsetSource::kNone);
+  EXPECT_FALSE(both.sessionZero);
   EXPECT_TRUE(both.trainingZero) << "its own it keeps";
   EXPECT_TRUE(both.pipeline.day->data().today.empty());
   EXPECT_TRUE(both.sameSession(100 * kHourUs));
@@ -199,10 +200,10 @@ TEST(TrainedModel, ZerosTravelWithItAndModelsOfFormat1AreRead) {
   model.trainingZero = zeroOf(-1.0, 100 * kHourUs);
   adaptToEmptyHand(model, zeroOf(2.0, 900 * kHourUs));
   const TrainedModel back = trainedModelFrom(Json::parse(jsonOf(model).text()));
-  ASSERT_TRUE(back.trainingZero && back.todayZero);
+  ASSERT_TRUE(back.trainingZero && back.sessionZero);
   EXPECT_EQ(back.trainingZero->mm, -1.0);
-  EXPECT_EQ(back.todayZero->mm, 2.0);
-  EXPECT_EQ(back.todayZero->origin, "touch.dsa");
+  EXPECT_EQ(back.sessionZero->mm, 2.0);
+  EXPECT_EQ(back.sessionZero->origin, "touch.dsa");
   EXPECT_EQ(back.offset.mm, model.offset.mm);
   EXPECT_EQ(back.offset.gridMm, model.offset.gridMm);
   // Format 1 kept the zero of training among the options, if at all.
@@ -220,7 +221,7 @@ TEST(TrainedModel, ZerosTravelWithItAndModelsOfFormat1AreRead) {
   const TrainedModel read = trainedModelFrom(old);
   ASSERT_TRUE(read.trainingZero);
   EXPECT_EQ(read.trainingZero->mm, -2.0);
-  EXPECT_FALSE(read.todayZero);
+  EXPECT_FALSE(read.sessionZero);
   Json damaged = now;
   damaged.set("training_zero", Json::object().set("mm", -2.0));
   EXPECT_THROW(trainedModelFrom(damaged), Error);

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "palpate/core/error.h"
-#include "palpate/recognition/day_features.h"
 #include "palpate/recognition/feature_table.h"
 #include "palpate/recognition/model_evaluation.h"
+#include "palpate/recognition/plateau_features.h"
 
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
@@ -65,22 +65,22 @@ TEST(UnknownObjects, AnOffsetThatIsKnownTellsMoreThanOneThatIsNot) {
   const SampleSet training = things(0.0, 1), later = things(4.0, 2);
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < later.numSamples(); ++i) all.push_back(i);
-  const auto found = [&](StrangerOffset offset) {
+  const auto found = [&](UnknownClassOffset offset) {
     return unknownOnAnotherDay(training, later, {all}, offset).auroc;
   };
-  EXPECT_GT(found(StrangerOffset::kKnown), 0.9);
-  EXPECT_GT(found(StrangerOffset::kKnown), found(StrangerOffset::kUnknown) + 0.05);
+  EXPECT_GT(found(UnknownClassOffset::kKnown), 0.9);
+  EXPECT_GT(found(UnknownClassOffset::kKnown), found(UnknownClassOffset::kUnknown) + 0.05);
   SampleSet others = later;
   others.classes[0] = "another";
-  EXPECT_THROW(unknownOnAnotherDay(training, others, {all}, StrangerOffset::kKnown), Error);
-  EXPECT_THROW(unknownOnAnotherDay(training, later, {}, StrangerOffset::kKnown), Error);
+  EXPECT_THROW(unknownOnAnotherDay(training, others, {all}, UnknownClassOffset::kKnown), Error);
+  EXPECT_THROW(unknownOnAnotherDay(training, later, {}, UnknownClassOffset::kKnown), Error);
 }
 
 // The shared recordings, the features that were chosen to hold.
 TEST(UnknownObjects, OfTheSharedGraspsReachTheTargetOfTheDay) {
   const auto folder = recordingsFolder();
   PALPATE_NEED(folder);
-  const SampleSet samples = samplesOf(gatherFeatures({*folder / "grasps_by_class"}));
+  const SampleSet samples = samplesOf(extractFeatures({*folder / "grasps_by_class"}));
   PipelineOptions lda = with(ClassifierKind::kSvm);
   lda.components = 11;
   EXPECT_GE(unknownWithin(samples, lda).auroc, 0.97);

@@ -91,9 +91,9 @@ TEST(DsaReader, lineEndsAndIndentationMeanNothing) {
     windows += c;
   }
   expectExample(readText(windows));
-  std::string oneLine = exampleXml();
-  std::erase(oneLine, '\n');
-  expectExample(readText(oneLine));
+  std::string escapedLine = exampleXml();
+  std::erase(escapedLine, '\n');
+  expectExample(readText(escapedLine));
   expectExample(readText(replaced(exampleXml(), "42C80000", "\r\n\t42c8\r\n0000")));
   expectExample(readText(replaced(exampleXml(), "111 111", "\r\n 111\r\n\t111\r\n")));
 }
@@ -116,7 +116,7 @@ TEST(DsaReader, fractionalValuesMakeAFloatProfile) {
 TEST(DsaReader, readsOtherLayouts) {
   const Profile profile =
       readText(compressed(testing::framesXml(200, 200, {"C71C4000", "42C80000C71C3F00"})));
-  ASSERT_EQ(profile.layout().numPlaces(), 40000u);
+  ASSERT_EQ(profile.layout().numCells(), 40000u);
   ASSERT_EQ(profile.numFrames(), 2u);
   EXPECT_EQ(profile.frame(1).values[0], 100.0F);
   EXPECT_EQ(profile.frame(1).values[1], 0.0F);

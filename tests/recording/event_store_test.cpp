@@ -162,9 +162,9 @@ INSTANTIATE_TEST_SUITE_P(Forms, EventStore, ::testing::Values(".palpate", ".dsa"
 
 TEST(EventStoreKinds, onlyWhatAPersonSaysIsNoted) {
   for (const char* kind : {"label", "mark", "note", "recipe", "segment", "sensor_settings", "tare"})
-    EXPECT_TRUE(isNoted({0, 0, kind, {}, "", ""})) << kind;
+    EXPECT_TRUE(isUserEvent({0, 0, kind, {}, "", ""})) << kind;
   for (const char* kind : {"gap", "settings", "grasp", "motion", "link", "clock", "alarm", ""})
-    EXPECT_FALSE(isNoted({0, 0, kind, {}, "", ""})) << kind;
+    EXPECT_FALSE(isUserEvent({0, 0, kind, {}, "", ""})) << kind;
 }
 
 TEST(EventStoreState, aRecordingInProgressOrUnfinishedIsRefused) {

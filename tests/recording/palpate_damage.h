@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
-#include "palpate/recording/palpate_salvage.h"
+#include "palpate/recording/palpate_recovery.h"
 #include "palpate/recording/recording.h"
 
 #include "recording/palpate_samples.h"
@@ -129,7 +129,7 @@ class DamageRun {
  private:
   void check(const std::filesystem::path& path, const std::set<std::size_t>& expected) {
     std::set<std::size_t> found;
-    const PalpateSalvage salvage = salvagePalpate(path);
+    const PalpateRecovery salvage = recoverPalpateProfile(path);
     if (salvage.profile) found = framesOf(*salvage.profile);
     EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()))
         << "saved " << found.size() << " of " << expected.size() << " intact frames";

@@ -32,7 +32,7 @@ TEST(RealRecordings, allReadWithTheHandsLayoutAndWithinTheSurveysBounds) {
     EXPECT_EQ(profile.info().serial, "1D9B0057");
     EXPECT_EQ(profile.info().firmware, "105");
     EXPECT_EQ(profile.info().valueType, ValueType::kCounts);
-    ASSERT_EQ(profile.layout().numPlaces(), 486u);
+    ASSERT_EQ(profile.layout().numCells(), 486u);
     EXPECT_EQ(profile.layout().numTaxels(), 456u);
     for (std::size_t i = 0; i < 6; ++i)
       EXPECT_EQ(profile.layout().matrix(i).staticMask, sdh2().layout->matrix(i).staticMask);
@@ -136,7 +136,7 @@ TEST(RealRecordings, theMaskedRecordingHasItsMasks) {
       EXPECT_EQ(matrix.dynamicMask[9 * 6 + 2], 1);
       EXPECT_EQ(matrix.dynamicMask[9 * 6 + 3], 1);
     } else {
-      EXPECT_TRUE(on == 0 || on == static_cast<std::ptrdiff_t>(matrix.numPlaces()));
+      EXPECT_TRUE(on == 0 || on == static_cast<std::ptrdiff_t>(matrix.numCells()));
     }
   }
   EXPECT_GE(off, 1u);

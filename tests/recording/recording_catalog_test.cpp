@@ -61,7 +61,7 @@ TEST_F(RecordingCatalog, theSecondTimeNothingIsReadAndNothingIsDifferent) {
   EXPECT_EQ(first.listed, 4u);
   EXPECT_EQ(first.report.numRead, 4u);
   EXPECT_EQ(first.report.folders.size(), 2u);
-  EXPECT_EQ(first.report.cacheTrouble, "");
+  EXPECT_EQ(first.report.cacheProblem, "");
   ASSERT_EQ(first.details.size(), 4u);
   for (const RecordingDetails& details : first.details) {
     const RecordingDetails alone = readDetails(details.path);
@@ -142,10 +142,10 @@ TEST_F(RecordingCatalog, whereNothingCanBeKeptItIsSaidAndAllIsRead) {
   writeFile(folder / "file", "x");
   const Scan now = scan(recordings, folder / "file/cache");
   EXPECT_EQ(now.details.size(), 4u);
-  EXPECT_NE(now.report.cacheTrouble, "");
+  EXPECT_NE(now.report.cacheProblem, "");
   const Scan without = scan(recordings, {});
   EXPECT_EQ(without.details.size(), 4u);
-  EXPECT_EQ(without.report.cacheTrouble, "");
+  EXPECT_EQ(without.report.cacheProblem, "");
 }
 
 TEST_F(RecordingCatalog, whatWasReadBeforeACancelIsKept) {
@@ -176,7 +176,7 @@ TEST_F(RecordingCatalog, foldersOfNothingAndFoldersThatArentThere) {
   EXPECT_EQ(scan(folder / "empty", cache).details.size(), 0u);
   const Scan missing = scan(folder / "missing", cache);
   EXPECT_EQ(missing.details.size(), 0u);
-  EXPECT_EQ(missing.report.troubles.size(), 1u);
+  EXPECT_EQ(missing.report.problems.size(), 1u);
 }
 
 TEST_F(RecordingCatalog, thousandsOfFiles) {

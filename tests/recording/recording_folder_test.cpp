@@ -44,7 +44,7 @@ TEST(RecordingFolder, findsRecordingsByTheirNamesInAllFoldersBelow) {
             (std::vector<std::string>{"a.PALPATE", "b/c/y.palpate", "b/x.Dsa", "native", "z.dsa"}));
   EXPECT_EQ(namesOf(listing.folders, folder.path()),
             (std::vector<std::string>{".", "b", "b/c", "folder.dsa"}));
-  EXPECT_TRUE(listing.troubles.empty());
+  EXPECT_TRUE(listing.problems.empty());
 }
 
 TEST(RecordingFolder, linksInCirclesAreWalkedOnce) {
@@ -68,12 +68,12 @@ TEST(RecordingFolder, whatCantBeLookedIntoIsSaid) {
   const TemporaryFolder folder;
   const RecordingFolder missing = recordingsBelow(folder / "missing");
   EXPECT_TRUE(missing.files.empty());
-  ASSERT_EQ(missing.troubles.size(), 1u);
-  EXPECT_NE(missing.troubles[0].find("can't be looked into"), std::string::npos);
+  ASSERT_EQ(missing.problems.size(), 1u);
+  EXPECT_NE(missing.problems[0].find("can't be looked into"), std::string::npos);
   if (geteuid() == 0) return;  // root may look everywhere
   fs::create_directory(folder / "closed");
   fs::permissions(folder / "closed", fs::perms::none);
-  EXPECT_EQ(recordingsBelow(folder.path()).troubles.size(), 1u);
+  EXPECT_EQ(recordingsBelow(folder.path()).problems.size(), 1u);
   fs::permissions(folder / "closed", fs::perms::owner_all);
 }
 

@@ -51,7 +51,7 @@ TEST_F(AlignmentTest, StartsAndClockAreWhatTheyAre) {
   EXPECT_EQ(offsetBetween(a_, b_, Alignment::kStart), 0.0);
   EXPECT_NEAR(*offsetBetween(a_, b_, Alignment::kClock), 7.25, 1e-12);
   EXPECT_NEAR(*offsetBetween(b_, a_, Alignment::kClock), -7.25, 1e-12);
-  EXPECT_EQ(offsetBetween(a_, b_, Alignment::kByHand), std::nullopt);
+  EXPECT_EQ(offsetBetween(a_, b_, Alignment::kManual), std::nullopt);
 }
 
 TEST_F(AlignmentTest, WithoutContactOrFrameThereIsNoOffset) {

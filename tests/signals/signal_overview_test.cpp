@@ -83,7 +83,7 @@ TEST(SignalOverview, HasABoundWhateverTimeIsClaimed) {
   // Two frames, a hundred years apart: a bucket per second would be 3.2 billion of them in each
   // series.
   ProfileBuilder builder(sdh2().layout);
-  std::vector<float> values(sdh2().layout->numPlaces(), 0.0F);
+  std::vector<float> values(sdh2().layout->numCells(), 0.0F);
   values[5] = 70.0F;
   builder.addFrame(1, values);
   builder.addFrame(1 + 100LL * 365 * 86'400 * 1'000'000, values);

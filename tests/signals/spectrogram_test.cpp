@@ -56,15 +56,15 @@ TEST(Spectrogram, OfALongSeriesTakesFewerSegments) {
   EXPECT_NEAR(all.mean.strongestHz(), 12.5, 1e-9);
   // 513 bins: 4000 cells hold 7 segments.
   const auto few = spectrogramOf(
-      timeS, values, {.spectrum = {.window = 1024, .overlap = 1023}, .mostCells = 4000});
+      timeS, values, {.spectrum = {.window = 1024, .overlap = 1023}, .maxCells = 4000});
   EXPECT_LE(few.report.segments, 7u);
   EXPECT_GE(few.report.segments, 6u);
   // One segment that is larger than that.
   EXPECT_EQ(
-      spectrogramOf(timeS, values, {.spectrum = {.window = 16'384, .overlap = 0}, .mostCells = 10})
+      spectrogramOf(timeS, values, {.spectrum = {.window = 16'384, .overlap = 0}, .maxCells = 10})
           .report.segments,
       1u);
-  EXPECT_EQ(spectrogramOf(timeS, values, {.spectrum = {.mostSegments = 30}}).report.segments, 30u);
+  EXPECT_EQ(spectrogramOf(timeS, values, {.spectrum = {.maxSegments = 30}}).report.segments, 30u);
 }
 
 TEST(Spectrogram, OfTooLittleHasNoPart) {
@@ -77,10 +77,9 @@ TEST(Spectrogram, OfTooLittleHasNoPart) {
 TEST(Spectrogram, RefusesAndCanBeCancelled) {
   const auto timeS = evenTimes(200, 100.0);
   EXPECT_THROW(spectrogramOf(timeS, timeS, {.spectrum = {.window = 1}}), std::invalid_argument);
-  EXPECT_THROW(spectrogramOf(timeS, timeS, {.spectrum = {}, .mostSegments = 0}),
+  EXPECT_THROW(spectrogramOf(timeS, timeS, {.spectrum = {}, .maxSegments = 0}),
                std::invalid_argument);
-  EXPECT_THROW(spectrogramOf(timeS, timeS, {.spectrum = {}, .mostCells = 0}),
-               std::invalid_argument);
+  EXPECT_THROW(spectrogramOf(timeS, timeS, {.spectrum = {}, .maxCells = 0}), std::invalid_argument);
   EXPECT_THROW(spectrogramOf(timeS, timeS, {}, [](double) { return false; }), Cancelled);
 }
 

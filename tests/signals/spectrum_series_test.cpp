@@ -114,12 +114,12 @@ TEST(SpectrumSeries, FewerSegmentsAreReachedByALargerHop) {
   const auto timeS = evenTimes(5000, 100.0);
   const auto values = tone(timeS, 12.5, 3.0);
   EXPECT_EQ(planSpectra(timeS, values).segments, 4969u);
-  const auto few = spectraOf(timeS, values, {.mostSegments = 500});
+  const auto few = spectraOf(timeS, values, {.maxSegments = 500});
   EXPECT_EQ(few.report.hop, 10u) << "4968 / 10 + 1 = 497 fit, 4968 / 9 + 1 = 553 don't";
   EXPECT_EQ(few.segments.size(), 497u);
   EXPECT_NEAR(few.segments[1].timeS - few.segments[0].timeS, 0.1, 1e-9);
-  EXPECT_EQ(spectraOf(timeS, values, {.mostSegments = 1}).segments.size(), 1u);
-  EXPECT_EQ(planSpectra(timeS, values, {.mostSegments = 4969}).hop, 1u);
+  EXPECT_EQ(spectraOf(timeS, values, {.maxSegments = 1}).segments.size(), 1u);
+  EXPECT_EQ(planSpectra(timeS, values, {.maxSegments = 4969}).hop, 1u);
 }
 
 TEST(SpectrumSeries, RefusesWhatHasNoMeaning) {

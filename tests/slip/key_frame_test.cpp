@@ -65,7 +65,7 @@ TEST(KeyFrame, KnowsWhatItDoesNotKnow) {
   values(6, 3) = 300.0F;
   KeyFrame key(MatrixLayout::full(14, 6, 3.4));
   ASSERT_TRUE(key.set(viewOf(values)));
-  EXPECT_EQ(key.leastCounts(), 300.0F);
+  EXPECT_EQ(key.minCounts(), 300.0F);
   EXPECT_EQ(key.at(2.0F, 6.0F).unknown, 0.0F);
   EXPECT_EQ(key.at(1.0F, 6.0F).unknown, 1.0F);
   EXPECT_NEAR(key.at(1.0F, 6.0F).value, 0.4F * 300.0F, 0.1F);
@@ -82,9 +82,9 @@ TEST(KeyFrame, RoundContactsTellNoAngle) {
     contact.shape = shape;
     ASSERT_TRUE(key.set(viewOf(reading(slip, contact))));
     if (hasOrientation(shape))
-      EXPECT_GT(key.turning(), 0.1F) << nameOf(shape);
+      EXPECT_GT(key.rotationSensitivity(), 0.1F) << nameOf(shape);
     else
-      EXPECT_LT(key.turning(), 0.03F) << nameOf(shape);
+      EXPECT_LT(key.rotationSensitivity(), 0.03F) << nameOf(shape);
   }
 }
 

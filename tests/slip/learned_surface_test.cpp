@@ -119,7 +119,7 @@ TEST(LearnedSurface, NothingIsNoKey) {
   EXPECT_FALSE(registerFrame(surface, viewOf(nothing), {}, {}).converged);
   surface.learn(viewOf(nothing), {}, {});
   LearnedSurfaceOptions options;
-  options.forgetting = -1.0;
+  options.processNoiseRatio = -1.0;
   EXPECT_THROW(LearnedSurface(MatrixLayout::full(2, 2, 3.4), options), std::invalid_argument);
 }
 

@@ -83,7 +83,7 @@ TEST(RotationTracker, TooFewTaxelsTellNothing) {
   two.active = 2;
   EXPECT_FALSE(tracker.update(two, 0.0).reliable);
   RotationOptions options;
-  options.leastEccentricity = 1.5;
+  options.minEccentricity = 1.5;
   EXPECT_THROW(RotationTracker{options}, std::invalid_argument);
 }
 

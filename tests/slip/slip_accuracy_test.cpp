@@ -18,8 +18,8 @@ const MethodAccuracy& named(const std::vector<MethodAccuracy>& all, const std::s
   throw std::out_of_range(name);
 }
 
-MeasuredMethod onlyRegister() {
-  for (const MeasuredMethod& method : measuredMethods())
+BenchmarkedMethod onlyRegister() {
+  for (const BenchmarkedMethod& method : benchmarkedMethods())
     if (method.name == "register") return method;
   throw std::out_of_range("register");
 }
@@ -46,21 +46,21 @@ TEST(SlipAccuracy, RegisterIsNearTheBound) {
 
 TEST(SlipAccuracy, JudgesByTheTruth) {
   // One that always says (0.05, 0): wrong by that where nothing moves along x on average.
-  const MeasuredMethod fixed{"fixed", [](const MatrixLayout&) {
-                               return [](const ConstMatrixMap&) {
-                                 SlipMotion motion;
-                                 motion.x = 2.5;
-                                 motion.y = 6.5;
-                                 motion.valid = true;
-                                 motion.refValid = true;
-                                 motion.dx = 0.05;
-                                 return motion;
-                               };
-                             }};
+  const BenchmarkedMethod fixed{"fixed", [](const MatrixLayout&) {
+                                  return [](const ConstMatrixMap&) {
+                                    SlipMotion motion;
+                                    motion.x = 2.5;
+                                    motion.y = 6.5;
+                                    motion.valid = true;
+                                    motion.refValid = true;
+                                    motion.dx = 0.05;
+                                    return motion;
+                                  };
+                                }};
   // And one that never knows.
-  const MeasuredMethod silent{"silent", [](const MatrixLayout&) {
-                                return [](const ConstMatrixMap&) { return SlipMotion{}; };
-                              }};
+  const BenchmarkedMethod silent{"silent", [](const MatrixLayout&) {
+                                   return [](const ConstMatrixMap&) { return SlipMotion{}; };
+                                 }};
   SlipAccuracyOptions options;
   options.shapes = {SlipShape::kGaussian};
   options.trials = 4;
@@ -84,15 +84,15 @@ TEST(SlipAccuracy, IsReproducibleAndCanBeCancelled) {
   SlipAccuracyOptions options;
   options.trials = 1;
   options.shapes = {SlipShape::kBar};
-  const auto first = measureSlipAccuracy(measuredMethods(), options);
-  const auto second = measureSlipAccuracy(measuredMethods(), options);
+  const auto first = measureSlipAccuracy(benchmarkedMethods(), options);
+  const auto second = measureSlipAccuracy(benchmarkedMethods(), options);
   ASSERT_EQ(first.size(), slipMethods().size());
   for (std::size_t i = 0; i < first.size(); ++i)
     EXPECT_EQ(first[i].all.rmse, second[i].all.rmse) << first[i].name;
   options.seed = 2;
-  EXPECT_NE(named(measureSlipAccuracy(measuredMethods(), options), "centroid").all.rmse,
+  EXPECT_NE(named(measureSlipAccuracy(benchmarkedMethods(), options), "centroid").all.rmse,
             named(first, "centroid").all.rmse);
-  EXPECT_THROW(measureSlipAccuracy(measuredMethods(), options, [](double) { return false; }),
+  EXPECT_THROW(measureSlipAccuracy(benchmarkedMethods(), options, [](double) { return false; }),
                Cancelled);
   options.trials = 0;
   EXPECT_THROW(measureSlipAccuracy({}, options), std::invalid_argument);

@@ -22,15 +22,15 @@ struct Watch {
         detector(sensor.layout, options),
         values(MatrixValues::Zero(sensor.layout.rows, sensor.layout.columns)),
         stepUs(frameUs) {}
-  const SlipVerdict& read(const SyntheticContact& contact) {
+  const SlipDetection& read(const SyntheticContact& contact) {
     slip.read(contact, MatrixMap(values.data(), values.rows(), values.cols()));
     return next();
   }
-  const SlipVerdict& nothing() {
+  const SlipDetection& nothing() {
     values.setZero();
     return next();
   }
-  const SlipVerdict& next() {
+  const SlipDetection& next() {
     timeUs += stepUs;
     return detector.update(ConstMatrixMap(values.data(), values.rows(), values.cols()), timeUs);
   }
@@ -47,11 +47,11 @@ struct Watch {
 
 TEST(SlipDetector, IsReadyOnceAContactSettledAndStill) {
   Watch watch;
-  EXPECT_EQ(watch.nothing().lamp, SlipLamp::kNotComputable);
+  EXPECT_EQ(watch.nothing().lamp, SlipIndicator::kNotComputable);
   EXPECT_EQ(watch.read({}).state, SlipState::kInvalid);
   watch.rest(40);
-  const SlipVerdict& verdict = watch.detector.last();
-  EXPECT_EQ(verdict.lamp, SlipLamp::kReady);
+  const SlipDetection& verdict = watch.detector.last();
+  EXPECT_EQ(verdict.lamp, SlipIndicator::kReady);
   EXPECT_EQ(verdict.state, SlipState::kStill);
   EXPECT_GT(verdict.confidence, 0.8);
   EXPECT_TRUE(verdict.motion.refValid);
@@ -63,11 +63,11 @@ TEST(SlipDetector, FlagsSlipWithinThreeFramesAndHoldsIt) {
   watch.rest(40);
   int first = -1;
   for (int i = 1; i <= 8; ++i) {
-    const SlipVerdict& verdict = watch.read({.y = 6.5 + 0.2 * i});
+    const SlipDetection& verdict = watch.read({.y = 6.5 + 0.2 * i});
     if (verdict.slipping && first < 0) first = i;
     if (first > 0) {
       EXPECT_TRUE(verdict.slipping) << i;
-      EXPECT_EQ(verdict.lamp, SlipLamp::kSlipping);
+      EXPECT_EQ(verdict.lamp, SlipIndicator::kSlipping);
       EXPECT_EQ(verdict.state, SlipState::kSlip);
     }
   }
@@ -101,7 +101,7 @@ TEST(SlipDetector, CallsATiltALoadShiftNotSlip) {
   watch.rest(40, {.shape = SlipShape::kBar});
   std::set<SlipState> states;
   for (int i = 1; i <= 30; ++i) {
-    const SlipVerdict& verdict =
+    const SlipDetection& verdict =
         watch.read({.shape = SlipShape::kBar, .tiltY = 0.4 * std::min(1.0, i / 3.0)});
     states.insert(verdict.state);
     EXPECT_FALSE(verdict.slipping);
@@ -115,7 +115,7 @@ TEST(SlipDetector, CallsAShiftOfARisingLoadLoading) {
   watch.rest(40);
   std::set<SlipState> states;
   for (int i = 1; i <= 4; ++i) {  // 30 % per frame more, and 0.15 taxel
-    const SlipVerdict& verdict =
+    const SlipDetection& verdict =
         watch.read({.y = 6.5 + 0.15 * i, .peakCounts = 1500.0 * std::pow(1.2, i)});
     states.insert(verdict.state);
     EXPECT_FALSE(verdict.slipping);
@@ -126,8 +126,8 @@ TEST(SlipDetector, CallsAShiftOfARisingLoadLoading) {
 TEST(SlipDetector, ForgetsWhenContactIsLostAndRegained) {
   Watch watch;
   watch.rest(40);
-  EXPECT_EQ(watch.nothing().lamp, SlipLamp::kNotComputable);
-  const SlipVerdict& back = watch.read({.y = 9.0});
+  EXPECT_EQ(watch.nothing().lamp, SlipIndicator::kNotComputable);
+  const SlipDetection& back = watch.read({.y = 9.0});
   EXPECT_FALSE(back.motion.valid);
   EXPECT_FALSE(back.motion.refValid);
   EXPECT_FALSE(back.slipping);
@@ -140,11 +140,11 @@ TEST(SlipDetector, AGapIsNoSlip) {
   Watch watch;
   watch.rest(40);
   watch.timeUs += 147'000'000;
-  const SlipVerdict& verdict = watch.read({.y = 8.5});
+  const SlipDetection& verdict = watch.read({.y = 8.5});
   EXPECT_TRUE(verdict.motion.afterGap);
   EXPECT_FALSE(verdict.motion.valid);
   EXPECT_FALSE(verdict.slipping);
-  EXPECT_EQ(verdict.lamp, SlipLamp::kNotComputable);
+  EXPECT_EQ(verdict.lamp, SlipIndicator::kNotComputable);
 }
 
 // 6 taxels per second is slip at any rate: 0.02 per frame at 300 Hz; at 0.3 Hz, 0.2 per frame are.
@@ -153,7 +153,7 @@ TEST(SlipDetector, WatchesAtAnyRate) {
        {std::pair{0.3, 0.2}, {3.0, 0.2}, {31.7, 0.2}, {74.0, 0.081}, {300.0, 0.02}}) {
     Watch watch({}, static_cast<std::int64_t>(1e6 / rateHz));
     watch.rest(rateHz > 50.0 ? static_cast<int>(1.5 * rateHz) : 40);
-    EXPECT_EQ(watch.detector.last().lamp, SlipLamp::kReady) << rateHz;
+    EXPECT_EQ(watch.detector.last().lamp, SlipIndicator::kReady) << rateHz;
     int first = -1;
     for (int i = 1; i * step <= 2.0; ++i)
       if (watch.read({.y = 6.5 + step * i}).slipping && first < 0) first = i;
@@ -167,7 +167,7 @@ TEST(SlipDetector, KnowsNothingOfTooLittle) {
   for (int i = 0; i < 60; ++i) {
     watch.values.setZero();
     watch.values(i % 14, 2) = 2000.0F;  // a single taxel that jumps
-    const SlipVerdict& verdict = watch.next();
+    const SlipDetection& verdict = watch.next();
     EXPECT_FALSE(verdict.motion.valid);
     EXPECT_EQ(verdict.state, SlipState::kInvalid);
     EXPECT_FALSE(verdict.slipping);
@@ -180,7 +180,7 @@ TEST(SlipDetector, StandsSaturatedMaskedAndBrokenTaxels) {
   sensor.layout.dynamicMask[static_cast<std::size_t>(8 * 6 + 3)] = 0;
   Watch watch({}, kFrameUs, sensor);
   for (int i = 0; i < 60; ++i) {
-    const SlipVerdict& verdict = watch.read({.peakCounts = 9000.0});
+    const SlipDetection& verdict = watch.read({.peakCounts = 9000.0});
     EXPECT_FALSE(verdict.slipping) << i;
   }
   EXPECT_GT(watch.detector.last().motion.saturated, 0);
@@ -200,10 +200,10 @@ TEST(SlipDetector, SeveralBlobsMoveAsOne) {
 TEST(SlipDetector, SeesItTurn) {
   Watch watch;
   watch.rest(40, {.shape = SlipShape::kBar});
-  bool turning = false;
+  bool rotating = false;
   for (int i = 1; i <= 12; ++i)
-    turning |= watch.read({.shape = SlipShape::kBar, .angleDeg = 1.5 * i}).turning;
-  EXPECT_TRUE(turning);
+    rotating |= watch.read({.shape = SlipShape::kBar, .angleDeg = 1.5 * i}).rotating;
+  EXPECT_TRUE(rotating);
   EXPECT_NEAR(watch.detector.last().motion.rotation.refRotationDeg, 18.0, 2.0);
 }
 
@@ -211,7 +211,7 @@ TEST(SlipDetector, PlainThresholdsAreThoseOfTheStudy) {
   SlipDetectorOptions options;
   options.method = SlipMethod::kCentroid;
   options.reference = SlipReference::kFirst;
-  options.contestAlarm = false;
+  options.hypothesisAlarm = false;
   Watch watch(options);
   watch.rest(10);
   EXPECT_EQ(watch.detector.last().state, SlipState::kStill);
@@ -242,7 +242,7 @@ TEST(SlipDetector, SwitchedOffSaysNothing) {
   watch.detector.setOn(false);
   watch.rest(40);
   for (int i = 1; i <= 5; ++i) EXPECT_FALSE(watch.read({.y = 6.5 + 0.3 * i}).slipping);
-  EXPECT_EQ(watch.detector.last().lamp, SlipLamp::kOff);
+  EXPECT_EQ(watch.detector.last().lamp, SlipIndicator::kOff);
 }
 
 TEST(SlipDetector, RefusesOtherSizes) {

@@ -43,9 +43,9 @@ TEST(LabelSlips, GoesByTheRule) {
 
 TEST(SlipEvaluation, CountsHoursAlarmsAndDelays) {
   SlipEvaluation evaluation;
-  evaluation.addSlip(moving(0.2));
-  evaluation.addHold(moving(0.0));
-  evaluation.addHold(moving(0.2));  // said to hold, and slips: a false alarm
+  evaluation.addSlipRecording(moving(0.2));
+  evaluation.addNoSlipRecording(moving(0.0));
+  evaluation.addNoSlipRecording(moving(0.2));  // said to hold, and slips: a false alarm
   const SlipScore score = evaluation.score({}, false);
   EXPECT_EQ(score.slips, 1U);
   EXPECT_EQ(score.found, 1U);
@@ -64,7 +64,7 @@ TEST(SlipEvaluation, OfNothingIsEmpty) {
   const SlipEvaluationReport report = SlipEvaluation().report();
   for (const ScoredAlarm& alarm : report.alarms) {
     EXPECT_EQ(alarm.score.perHour(kAllContact), 0.0);
-    EXPECT_EQ(alarm.score.foundPart(), 0.0);
+    EXPECT_EQ(alarm.score.detectionRate(), 0.0);
   }
   EXPECT_EQ(slipGrid().size(), 72U);
 }

@@ -72,7 +72,7 @@ TEST(SlipGolden, AgreesOnEveryRow) {
     std::vector<RotationTracker> rotations(profile.layout().numMatrices());
     // Its reference may have two taxels, what is measured needs more.
     RotationOptions two;
-    two.fewestTaxels = 2;
+    two.minTaxels = 2;
     std::vector<RotationTracker> sinceReference(profile.layout().numMatrices(),
                                                 RotationTracker(two));
     for (const MatrixLayout& matrix : profile.layout().matrices())

@@ -108,12 +108,12 @@ TEST(SlipRule, CentroidAndRegistrationMustAgree) {
 TEST(SlipRule, AsksForTheWindowNearestToItsThreshold) {
   SlipRule rule;
   SlipEvidence evidence = shifted(kMiddleWindow, 0.7);
-  EXPECT_EQ(rule.asksFor(evidence), kMiddleWindow);
+  EXPECT_EQ(rule.windowToEvaluate(evidence), kMiddleWindow);
   evidence.windows[kShortWindow] = shifted(kShortWindow, 0.6).windows[kShortWindow];
-  EXPECT_EQ(rule.asksFor(evidence), kShortWindow);
-  EXPECT_FALSE(rule.asksFor(shifted(kMiddleWindow, 0.45)));  // 1.3 * 0.45 < 0.6
+  EXPECT_EQ(rule.windowToEvaluate(evidence), kShortWindow);
+  EXPECT_FALSE(rule.windowToEvaluate(shifted(kMiddleWindow, 0.45)));  // 1.3 * 0.45 < 0.6
   evidence.computable = false;
-  EXPECT_FALSE(rule.asksFor(evidence));
+  EXPECT_FALSE(rule.windowToEvaluate(evidence));
 }
 
 TEST(SlipRule, ThresholdsScaleWithSteps) {
@@ -131,12 +131,12 @@ TEST(SlipRule, TellsTurningWhereTheAngleIsKnown) {
   SlipEvidence evidence = shifted(kMiddleWindow, 0.1, 0.8);
   evidence.windows[kMiddleWindow].contest.motion.angleDeg = -7.5;
   evidence.windows[kMiddleWindow].contest.sdAngleDeg = 1.0;  // 7.5 - 2 > 5
-  EXPECT_FALSE(rule.decide(evidence).turning);
-  const RuleOutcome second = rule.decide(evidence);
-  EXPECT_TRUE(second.turning);
+  EXPECT_FALSE(rule.decide(evidence).rotating);
+  const SlipRuleResult second = rule.decide(evidence);
+  EXPECT_TRUE(second.rotating);
   EXPECT_FALSE(second.alarm);
   evidence.windows[kMiddleWindow].contest.sdAngleDeg = 1.5;
-  EXPECT_FALSE(rule.decide(evidence).turning);
+  EXPECT_FALSE(rule.decide(evidence).rotating);
 }
 
 TEST(SlipRule, RefusesThresholdsThatAreNone) {

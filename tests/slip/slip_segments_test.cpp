@@ -16,8 +16,8 @@
 namespace palpate::slip_segments_test {
 namespace {
 
-SlipVerdict verdictOf(bool slipping, double dx = 0.0) {
-  SlipVerdict verdict;
+SlipDetection verdictOf(bool slipping, double dx = 0.0) {
+  SlipDetection verdict;
   verdict.slipping = slipping;
   verdict.motion.active = 9;
   verdict.motion.valid = true;
@@ -45,7 +45,7 @@ TEST(SlipSegmenter, BridgesShortPausesAndAddsTheWay) {
 TEST(SlipSegmenter, LostContactEndsASegment) {
   SlipSegmenter segmenter(2, 5);
   segmenter.add(0, 0, {verdictOf(true), verdictOf(false)});
-  SlipVerdict lost;
+  SlipDetection lost;
   segmenter.add(1, 1, {lost, verdictOf(true)});
   segmenter.add(2, 2, {verdictOf(true), verdictOf(true)});
   const auto segments = segmenter.segments();
@@ -85,11 +85,11 @@ TEST(FindSlips, FindsTheSlipOfAProfile) {
 }
 
 TEST(PassSlip, TakesTheFrameThatIsGivenAsReference) {
-  SlipPassOptions options;
+  SlipRunOptions options;
   options.detector.reference = SlipReference::kGiven;
   options.referenceFrame = 45;
   double before = -1.0, at = -1.0, after = 0.0;
-  passSlip(slipping(), options, [&](std::size_t i, std::int64_t, const auto& verdicts) {
+  runSlipDetector(slipping(), options, [&](std::size_t i, std::int64_t, const auto& verdicts) {
     if (i == 44) before = verdicts[1].motion.refValid ? 1.0 : 0.0;
     if (i == 45) at = verdicts[1].motion.refDy;
     if (i == 89) after = verdicts[1].motion.refDy;
@@ -98,7 +98,7 @@ TEST(PassSlip, TakesTheFrameThatIsGivenAsReference) {
   EXPECT_EQ(at, 0.0);
   EXPECT_NEAR(after, 2.0, 0.1);
   options.referenceFrame = 90;
-  EXPECT_THROW(passSlip(slipping(), options, [](auto, auto, const auto&) {}),
+  EXPECT_THROW(runSlipDetector(slipping(), options, [](auto, auto, const auto&) {}),
                std::invalid_argument);
   EXPECT_THROW(findSlips(slipping(), {}, [](double) { return false; }), Cancelled);
 }

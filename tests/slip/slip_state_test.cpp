@@ -26,11 +26,11 @@ TEST(SlipState, IsFoundByItsWord) {
   EXPECT_FALSE(slipStateNamed("slipping"));
 }
 
-TEST(SlipLamp, HasFourFaces) {
-  EXPECT_EQ(nameOf(SlipLamp::kOff), "off");
-  EXPECT_EQ(nameOf(SlipLamp::kNotComputable), "not computable");
-  EXPECT_EQ(nameOf(SlipLamp::kReady), "ready");
-  EXPECT_EQ(nameOf(SlipLamp::kSlipping), "slipping");
+TEST(SlipIndicator, HasFourFaces) {
+  EXPECT_EQ(nameOf(SlipIndicator::kOff), "off");
+  EXPECT_EQ(nameOf(SlipIndicator::kNotComputable), "not computable");
+  EXPECT_EQ(nameOf(SlipIndicator::kReady), "ready");
+  EXPECT_EQ(nameOf(SlipIndicator::kSlipping), "slipping");
 }
 
 }  // namespace

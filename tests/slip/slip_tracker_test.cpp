@@ -14,7 +14,7 @@ using testing::viewOf;
 
 std::vector<SlipMethod> methods() {
   std::vector<SlipMethod> all(slipMethods().begin(), slipMethods().end());
-  std::erase(all, SlipMethod::kContest);
+  std::erase(all, SlipMethod::kHypotheses);
   return all;
 }
 
@@ -236,10 +236,10 @@ TEST(SlipTracker, TakesNoMemoryPerFrame) {
 
 TEST(SlipTracker, RefusesWhatItCantDo) {
   SlipTrackerOptions options;
-  options.method = SlipMethod::kContest;
+  options.method = SlipMethod::kHypotheses;
   EXPECT_THROW(SlipTracker(MatrixLayout::full(2, 2, 3.4), options), std::invalid_argument);
   options = {};
-  options.farthestTaxels = 0;
+  options.maxStepTaxels = 0;
   EXPECT_THROW(SlipTracker(MatrixLayout::full(2, 2, 3.4), options), std::invalid_argument);
   SlipTracker tracker = trackerOf(SlipMethod::kCentroid);
   const MatrixValues other = MatrixValues::Zero(13, 6);

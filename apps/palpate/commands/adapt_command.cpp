@@ -15,7 +15,8 @@ namespace {
 
 // What the model stored of another day is nothing of today's.
 void forgetAnotherDay(TrainedModel& model, std::int64_t todayUs) {
-  if (model.offset.origin != OffsetOrigin::kNone && !model.sameSession(todayUs)) forgetToday(model);
+  if (model.offset.origin != OffsetSource::kNone && !model.sameSession(todayUs))
+    resetSession(model);
 }
 
 // Returns what was left out of the grasps: an exit code.
@@ -23,7 +24,7 @@ int adaptByGrasps(const CommandLine& given,
                   const std::optional<EmptyHandZero>& zero,
                   TrainedModel& model,
                   Json& classes) {
-  FeatureTable table = gatherTable(given, {given.words()[1]}, model.set);
+  FeatureTable table = extractFeatureTable(given, {given.words()[1]}, model.set);
   requireFits(model, table);
   const std::size_t earlier = keepNewestSession(table);
   if (earlier > 0)
@@ -34,7 +35,7 @@ int adaptByGrasps(const CommandLine& given,
   const SampleSet today = samplesOf(table, model.classes);
   forgetAnotherDay(model, table.rows.front().timeUs);
   adaptModel(
-      model, today, model.offset.origin == OffsetOrigin::kNone ? unknownOffset() : model.offset);
+      model, today, model.offset.origin == OffsetSource::kNone ? unknownOffset() : model.offset);
   runInterruptibly(given, "hashing", [&](const Progress& progress) {
     std::vector<ModelInput> inputs = inputsOf(table, progress);
     std::move(inputs.begin(), inputs.end(), std::back_inserter(model.adaptedFrom));
@@ -48,7 +49,7 @@ int adaptByGrasps(const CommandLine& given,
 
 }  // namespace
 
-int adaptCommand(const Words& words) {
+int adaptCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate adapt MODEL.json [PATH] [--empty-hand-zero FILE] -o MODEL2.json",
        .purpose =
@@ -72,8 +73,8 @@ int adaptCommand(const Words& words) {
                    {"force", "", "replace MODEL2.json"},
                    {"json", "", "JSON is what it prints anyway"}},
        .example = "palpate adapt objects.json --empty-hand-zero touch.dsa -o objects_today.json",
-       .fewestWords = 1,
-       .mostWords = 2},
+       .minArguments = 1,
+       .maxArguments = 2},
       words);
   if (given.helpShown()) return kDone;
   const auto out = given.text("output");
@@ -97,7 +98,7 @@ int adaptCommand(const Words& words) {
   if (!model.offset.trusted) sayLine("nothing will be sure with it: " + model.offset.text());
   printObject(Json::object()
                   .set("model", *out)
-                  .set("session_offset", offsetJson(model.offset, model.todayZero))
+                  .set("session_offset", offsetJson(model.offset, model.sessionZero))
                   .set("text", model.offset.text())
                   .set("classes", std::move(classes)));
   return code;

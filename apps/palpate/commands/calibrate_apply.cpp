@@ -2,8 +2,8 @@
 #include <cstdio>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/one_line.h"
 #include "palpate/core/time.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
@@ -32,7 +32,7 @@ void calibrateApplyAppendRow(std::string& line,
     appendNumber(line, whole);
     line += ',';
   }
-  for (const double value : {p.gainCounts, p.kpa, p.sdKpa, p.forceN, p.sdForceN}) {
+  for (const double value : {p.staticResponseCounts, p.kpa, p.sdKpa, p.forceN, p.sdForceN}) {
     appendNumber(line, value);
     line += ',';
   }
@@ -57,7 +57,7 @@ void copyState(const Profile& profile, ProfileBuilder& builder) {
 
 }  // namespace
 
-int calibrateApply(const Words& words) {
+int calibrateApply(const Arguments& words) {
   std::vector<OptionSpec> options = calibrationOptions();
   options.push_back(
       {"output,o",
@@ -73,8 +73,8 @@ int calibrateApply(const Words& words) {
                   "rely on it.",
        .options = options,
        .example = "palpate calibrate apply grasp.palpate --calibration hand.json > force.csv",
-       .fewestWords = 1,
-       .mostWords = 1},
+       .minArguments = 1,
+       .maxArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const auto choice = calibrationGiven(given);
@@ -89,7 +89,7 @@ int calibrateApply(const Words& words) {
   CalibratedFrames frames(*choice, file, profile);
   if (!given.quiet())
     for (const std::string& sentence : frames.assumptions())
-      std::fprintf(stderr, "palpate: %s\n", oneLine(sentence).c_str());
+      std::fprintf(stderr, "palpate: %s\n", escapedLine(sentence).c_str());
   StandardOutput out;
   if (!outPath) out.write(kCalibrateApplyColumns);
   ProfileBuilder builder(profile.hand().layout);

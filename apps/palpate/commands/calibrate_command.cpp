@@ -19,7 +19,7 @@ namespace {
 struct Kind {
   const char* name;
   const char* summary;
-  int (*run)(const Words& words);
+  int (*run)(const Arguments& words);
 };
 
 constexpr std::array kKinds = {
@@ -47,7 +47,7 @@ void showKinds() {
 
 }  // namespace
 
-int calibrateCommand(const Words& words) {
+int calibrateCommand(const Arguments& words) {
   if (!words.empty() && (words[0] == "--help" || words[0] == "-h")) {
     showKinds();
     return kDone;

@@ -13,12 +13,12 @@
 
 namespace palpate::commands {
 
-int calibrateApply(const Words& words);
-int calibrateNoise(const Words& words);
-int calibratePressure(const Words& words);
-int calibrateSensitivity(const Words& words);
-int calibrateStep(const Words& words);
-int calibrateTare(const Words& words);
+int calibrateApply(const Arguments& words);
+int calibrateNoise(const Arguments& words);
+int calibratePressure(const Arguments& words);
+int calibrateSensitivity(const Arguments& words);
+int calibrateStep(const Arguments& words);
+int calibrateTare(const Arguments& words);
 
 // The matrix that --matrix names; throws UsageError where it is missing or negative.
 std::size_t matrixGiven(const CommandLine& given);

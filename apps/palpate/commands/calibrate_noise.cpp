@@ -10,7 +10,7 @@
 
 namespace palpate::commands {
 
-int calibrateNoise(const Words& words) {
+int calibrateNoise(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate calibrate noise FILE [-o N.xml|N.json]",
        .purpose = "Noise floor of a hand that nothing touches, recorded at threshold 0 while it "
@@ -26,8 +26,8 @@ int calibrateNoise(const Words& words) {
                     "write it there: .xml as the prior program reads it, else JSON"},
                    {"force", "", "replace OUT"}},
        .example = "palpate calibrate noise temperature-noise.dsa -o noise.xml",
-       .fewestWords = 1,
-       .mostWords = 1},
+       .minArguments = 1,
+       .maxArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const std::filesystem::path file = given.words().front();

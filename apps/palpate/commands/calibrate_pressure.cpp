@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "palpate/calibration/calibration.h"
-#include "palpate/calibration/pressure_gathering.h"
+#include "palpate/calibration/calibration_samples.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/hash.h"
-#include "palpate/core/one_line.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/calibrate_commands.h"
@@ -27,7 +27,7 @@ std::string textOf(const fs::path& path) {
 
 }  // namespace
 
-int calibratePressure(const Words& words) {
+int calibratePressure(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate calibrate pressure TABLE.csv [-o P.json]",
        .purpose = "Pressure from gain K and temperature T: P(K, T), and from the drift m: P(m, T) "
@@ -54,8 +54,8 @@ int calibratePressure(const Words& words) {
                    {"output,o", "P.json", "write it there"},
                    {"force", "", "replace P.json"}},
        .example = "palpate calibrate pressure weights.csv --area 110.25 -o hand.json",
-       .fewestWords = 1,
-       .mostWords = 1},
+       .minArguments = 1,
+       .maxArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const fs::path table = given.words().front();
@@ -63,21 +63,21 @@ int calibratePressure(const Words& words) {
   options.fit.loss = lossGiven(given);
   PressureModelOptions model;
   model.study = given.choice("choices", {"default", "study"}) == "study";
-  model.stampAreaMm2 = given.number("area", 0.0, 1e6).value_or(0.0);
+  model.indenterAreaMm2 = given.number("area", 0.0, 1e6).value_or(0.0);
   std::optional<NoiseFloor> noise;
   if (const auto path = given.text("noise")) noise = noiseFloorFrom(Json::parse(textOf(*path)));
-  GatherOptions gather;
+  CalibrationSampleOptions gather;
   gather.steps = options;
   if (given.has("matrix")) gather.matrix = matrixGiven(given);
   const std::vector<PressureTableRow> rows = readPressureTable(table);
-  GatheredSteps all;
+  CalibrationSteps all;
   {
     ProgressLine line("reading", given.quiet());
     const auto open = [&](const fs::path& file, const Progress& progress) {
       line.setLabel("reading " + file.string());
-      return GatheredSource{openRecording(file, progress), sha256OfFile(file)};
+      return CalibrationSource{openRecording(file, progress), sha256OfFile(file)};
     };
-    all = gatherSteps(rows, table.parent_path(), open, gather, line.callback());
+    all = collectCalibrationSteps(rows, table.parent_path(), open, gather, line.callback());
   }
   Calibration calibration = calibrationOf(all, model);
   calibration.settings = {given.number("sensitivity", 0.01, 1.0).value_or(1.0),
@@ -92,16 +92,16 @@ int calibratePressure(const Words& words) {
                             .set("table_sha256", sha256OfFile(table))
                             .set("choices", model.study ? "study" : "default")
                             .set("loss", given.text("loss").value_or("squares"))
-                            .set("area_mm2", model.stampAreaMm2);
+                            .set("area_mm2", model.indenterAreaMm2);
   std::size_t unused = 0;
   for (const PressureSample& sample : all.samples) {
     if (sample.used) continue;
     ++unused;
-    std::fprintf(
-        stderr,
-        "palpate: %s\n",
-        oneLine(sample.file + " is left out: " + (sample.notes.empty() ? "" : sample.notes.back()))
-            .c_str());
+    std::fprintf(stderr,
+                 "palpate: %s\n",
+                 escapedLine(sample.file +
+                             " is left out: " + (sample.notes.empty() ? "" : sample.notes.back()))
+                     .c_str());
   }
   if (unused == all.samples.size())
     throw FileError(table,

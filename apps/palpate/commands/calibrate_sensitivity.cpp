@@ -13,13 +13,13 @@
 namespace palpate::commands {
 namespace {
 
-constexpr std::size_t kMostSteps = 1000;
+constexpr std::size_t kMaxSteps = 1000;
 
 std::vector<double> sensitivitiesGiven(const CommandLine& given, std::size_t steps) {
   const auto text = given.text("sensitivities");
   if (!text) return {};
   const auto count = static_cast<std::size_t>(std::count(text->begin(), text->end(), ',')) + 1;
-  const std::vector<double> values = numbersOf(*text, "sensitivities", std::min(count, kMostSteps));
+  const std::vector<double> values = numbersOf(*text, "sensitivities", std::min(count, kMaxSteps));
   for (const double value : values)
     if (!(value > 0.0 && value <= 1.0))
       throw UsageError("--sensitivities must be above 0, at most 1");
@@ -31,7 +31,7 @@ std::vector<double> sensitivitiesGiven(const CommandLine& given, std::size_t ste
 
 }  // namespace
 
-int calibrateSensitivity(const Words& words) {
+int calibrateSensitivity(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate calibrate sensitivity FILE --matrix M [--sensitivities S1,S2,..]",
        .purpose = "Gain K against sensitivity: one load, put on again at several sensitivities in "
@@ -50,8 +50,8 @@ int calibrateSensitivity(const Words& words) {
                    {"output,o", "OUT.json", "write it there"},
                    {"force", "", "replace OUT.json"}},
        .example = "palpate calibrate sensitivity sensitivity_0.1-1.0.dsa --matrix 1",
-       .fewestWords = 1,
-       .mostWords = 1},
+       .minArguments = 1,
+       .maxArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const std::filesystem::path file = given.words().front();
@@ -73,7 +73,7 @@ int calibrateSensitivity(const Words& words) {
     SensitivityPoint point;
     point.sensitivity =
         named.empty() ? static_cast<double>(i + 1) / static_cast<double>(n) : named[i];
-    point.gainCounts = step.fit.parameters.gainCounts;
+    point.staticResponseCounts = step.fit.parameters.staticResponseCounts;
     point.used = step.fit.usable();
     for (const auto* notes : {&step.notes, &step.fit.notes})
       if (point.note.empty() && !notes->empty()) point.note = notes->front();

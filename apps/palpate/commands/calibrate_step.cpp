@@ -7,7 +7,7 @@
 
 namespace palpate::commands {
 
-int calibrateStep(const Words& words) {
+int calibrateStep(const Arguments& words) {
   const CommandLine given(
       {.synopsis =
            "palpate calibrate step FILE --matrix M [--loss squares|huber|cauchy] [-o OUT.json]",
@@ -29,8 +29,8 @@ int calibrateStep(const Words& words) {
                    {"output,o", "OUT.json", "write it there"},
                    {"force", "", "replace OUT.json"}},
        .example = "palpate calibrate step A1.dsa --matrix 1",
-       .fewestWords = 1,
-       .mostWords = 1},
+       .minArguments = 1,
+       .maxArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const std::filesystem::path file = given.words().front();
@@ -38,8 +38,8 @@ int calibrateStep(const Words& words) {
   StepReportOptions options;
   options.steps.signal = signalGiven(given);
   options.steps.aboveCounts = given.number("above", 0.0, 1e6).value_or(0.0);
-  options.steps.leastDurationS =
-      given.number("least", 0.0, 86'400.0).value_or(options.steps.leastDurationS);
+  options.steps.minDurationS =
+      given.number("least", 0.0, 86'400.0).value_or(options.steps.minDurationS);
   options.fit.loss = lossGiven(given);
   if (given.choice("damping", {"over", "any"}) == "any") options.fit.damping = StepDamping::kAny;
   ProgressLine progress("reading " + file.string(), given.quiet());

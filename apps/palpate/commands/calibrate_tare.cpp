@@ -33,7 +33,7 @@ RecordingEvent eventOf(const Tare& tare, const Profile& profile) {
 
 }  // namespace
 
-int calibrateTare(const Words& words) {
+int calibrateTare(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate calibrate tare FILE [--apply | --remove]",
        .purpose = "Finds the windows in which nothing touches a matrix, and what its taxels read "
@@ -52,8 +52,8 @@ int calibrateTare(const Words& words) {
                    {"output,o", "OUT.json", "write the JSON there"},
                    {"force", "", "replace OUT.json"}},
        .example = "palpate calibrate tare session.palpate --apply",
-       .fewestWords = 1,
-       .mostWords = 1},
+       .minArguments = 1,
+       .maxArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   if (given.has("apply") && given.has("remove"))
@@ -69,7 +69,7 @@ int calibrateTare(const Words& words) {
   }
   TareOptions options;
   options.windowS = given.number("window", 0.05, 3600.0).value_or(options.windowS);
-  options.mostRestCounts = given.number("most", 0.0, 4095.0).value_or(options.mostRestCounts);
+  options.maxRestCounts = given.number("most", 0.0, 4095.0).value_or(options.maxRestCounts);
   ProgressLine progress("reading " + file.string(), given.quiet());
   const Profile profile = openRecording(file, progress.callback());
   const Tare tare = findTare(profile, options, progress.callback());

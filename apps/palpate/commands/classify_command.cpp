@@ -15,12 +15,12 @@ namespace {
 
 void printTable(const TrainedModel& model,
                 const FeatureTable& table,
-                const std::vector<Verdict>& verdicts,
-                const SessionUse& use) {
+                const std::vector<Prediction>& verdicts,
+                const SessionContext& use) {
   StandardOutput out;
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const FeatureRow& row = table.rows[i];
-    const Verdict& verdict = verdicts[i];
+    const Prediction& verdict = verdicts[i];
     std::string line = row.file.string() + " " + std::to_string(row.begin) + "-" +
                        std::to_string(row.end) + ": " + labelOf(model, verdict.label) +
                        (verdict.sure ? " (sure)" : "") + ";";
@@ -29,10 +29,10 @@ void printTable(const TrainedModel& model,
               fixedText(verdict.p[k], 2);
     out.write(line + "\n");
   }
-  if (model.carriesOver()) {
-    const bool byZero = use.offset.origin == OffsetOrigin::kEmptyHand && model.todayZero;
+  if (model.adaptsToSession()) {
+    const bool byZero = use.offset.origin == OffsetSource::kEmptyHand && model.sessionZero;
     out.write(use.offset.text() +
-              (byZero ? "; zero of the empty hand: " + model.todayZero->text() : std::string()) +
+              (byZero ? "; zero of the empty hand: " + model.sessionZero->text() : std::string()) +
               "\n");
   }
   out.finish();
@@ -40,7 +40,7 @@ void printTable(const TrainedModel& model,
 
 }  // namespace
 
-int classifyCommand(const Words& words) {
+int classifyCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis =
            "palpate classify MODEL.json FILE... [--json] [--session-offset model|none|batch|MM]",
@@ -60,7 +60,7 @@ int classifyCommand(const Words& words) {
        .options = {{"json", "", "one JSON object"},
                    {"session-offset", "WHICH", "model (default), none, batch, or mm"}},
        .example = "palpate classify objects.json grasp.dsa --json --session-offset batch",
-       .fewestWords = 2},
+       .minArguments = 2},
       words);
   if (given.helpShown()) return kDone;
   OffsetChoice choice;
@@ -71,7 +71,7 @@ int classifyCommand(const Words& words) {
   }
   const TrainedModel model = loadModel(given.words().front());
   const FeatureTable table =
-      gatherTable(given, {given.words().begin() + 1, given.words().end()}, model.set);
+      extractFeatureTable(given, {given.words().begin() + 1, given.words().end()}, model.set);
   const auto [use, verdicts] = classifyTable(model, table, choice);
   for (const std::string& warning : use.warnings) sayLine(warning);
   if (!given.has("json")) {
@@ -80,13 +80,13 @@ int classifyCommand(const Words& words) {
   }
   Json grasps = Json::array();
   for (std::size_t i = 0; i < verdicts.size(); ++i)
-    grasps.push(verdictJson(model, table.rows[i], verdicts[i]));
+    grasps.push(predictionJson(model, table.rows[i], verdicts[i]));
   printObject(Json::object()
                   .set("grasps", std::move(grasps))
                   .set("session_offset",
                        offsetJson(use.offset,
                                   choice.kind == OffsetChoice::Kind::kModel
-                                      ? model.todayZero
+                                      ? model.sessionZero
                                       : std::optional<EmptyHandZero>()))
                   .set("warnings", jsonList(use.warnings)));
   return codeFor(table);

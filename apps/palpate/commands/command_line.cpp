@@ -11,8 +11,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/one_line.h"
 #include "palpate/core/time.h"
 
 namespace palpate::commands {
@@ -88,7 +88,7 @@ CommandLine::CommandLine(const CommandSpec& spec, const std::vector<std::string>
     if (word.empty()) throw UsageError("an empty file name");
     if (word == "-") throw UsageError("'-': a recording is read from a file, not from a stream");
   }
-  if (words_.size() < spec.fewestWords || words_.size() > spec.mostWords)
+  if (words_.size() < spec.minArguments || words_.size() > spec.maxArguments)
     throw UsageError("usage: " + spec.synopsis);
 }
 

@@ -31,8 +31,8 @@ struct CommandSpec {
   std::string purpose;              // a sentence or two
   std::vector<OptionSpec> options;  // besides --help and --quiet, which every command has
   std::string example;              // a command that works
-  std::size_t fewestWords = 0;      // besides options
-  std::size_t mostWords = SIZE_MAX;
+  std::size_t minArguments = 0;     // besides options
+  std::size_t maxArguments = SIZE_MAX;
 };
 
 // What the command was given.

@@ -11,7 +11,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "palpate/core/one_line.h"
+#include "palpate/core/escaped_line.h"
 
 #include "commands/command_line.h"
 
@@ -73,7 +73,7 @@ void refuseMistypedCommand(const std::string& word) {
   throw UsageError(message);
 }
 
-int dispatch(const Words& words) {
+int dispatch(const Arguments& words) {
   if (!words.empty()) {
     if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
       commandsShowHelp();
@@ -87,11 +87,11 @@ int dispatch(const Words& words) {
       if (words[0] == command.name) return command.run({words.begin() + 1, words.end()});
     refuseMistypedCommand(words[0]);
   }
-  return workbenchCommand(words);
+  return windowCommand(words);
 }
 
 int fail(int code, std::string_view message) {
-  std::fprintf(stderr, "palpate: %s\n", oneLine(message).c_str());
+  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
   return code;
 }
 
@@ -104,7 +104,7 @@ void fillClosedStreams() {
       ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-int runCaught(const Words& words) {
+int runCaught(const Arguments& words) {
   try {
     return dispatch(words);
   } catch (const UsageError& error) {

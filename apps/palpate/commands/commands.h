@@ -13,46 +13,46 @@ constexpr int kFailed = 1;      // one line on stderr: what, where, what to do
 constexpr int kWrongUsage = 2;  // one line on stderr
 constexpr int kPartlyDone = 3;  // damaged input, some of several files: says what and how much
 
-using Words = std::vector<std::string>;
+using Arguments = std::vector<std::string>;
 
 struct Command {
   const char* name;
-  const char* summary;             // one line of `palpate --help`
-  int (*run)(const Words& words);  // the words after the command's name
+  const char* summary;                 // one line of `palpate --help`
+  int (*run)(const Arguments& words);  // the words after the command's name
 };
 
 // One function per command, one file per command. They throw; run() turns that into exit codes.
-int adaptCommand(const Words& words);
-int calibrateCommand(const Words& words);
-int classifyCommand(const Words& words);
-int compareCommand(const Words& words);
-int contactCommand(const Words& words);
-int convertCommand(const Words& words);
-int demoCommand(const Words& words);
-int emulateCommand(const Words& words);
-int evaluateCommand(const Words& words);
-int featuresCommand(const Words& words);
-int filterCommand(const Words& words);
-int ghostsCommand(const Words& words);
-int graspCommand(const Words& words);
-int graspsCommand(const Words& words);
-int infoCommand(const Words& words);
-int kinematicsCommand(const Words& words);
-int portsCommand(const Words& words);
-int recordCommand(const Words& words);
-int recoverCommand(const Words& words);
-int remoteCommand(const Words& words);
-int renderCommand(const Words& words);
-int signalsCommand(const Words& words);
-int slipBenchmarkCommand(const Words& words);
-int slipCommand(const Words& words);
-int spectrumCommand(const Words& words);
-int streamCommand(const Words& words);
-int synthesizeCommand(const Words& words);
-int trainCommand(const Words& words);
-int verifyCommand(const Words& words);
+int adaptCommand(const Arguments& words);
+int calibrateCommand(const Arguments& words);
+int classifyCommand(const Arguments& words);
+int compareCommand(const Arguments& words);
+int contactCommand(const Arguments& words);
+int convertCommand(const Arguments& words);
+int demoCommand(const Arguments& words);
+int emulateCommand(const Arguments& words);
+int evaluateCommand(const Arguments& words);
+int featuresCommand(const Arguments& words);
+int filterCommand(const Arguments& words);
+int ghostsCommand(const Arguments& words);
+int graspCommand(const Arguments& words);
+int graspsCommand(const Arguments& words);
+int infoCommand(const Arguments& words);
+int kinematicsCommand(const Arguments& words);
+int portsCommand(const Arguments& words);
+int recordCommand(const Arguments& words);
+int recoverCommand(const Arguments& words);
+int remoteCommand(const Arguments& words);
+int renderCommand(const Arguments& words);
+int signalsCommand(const Arguments& words);
+int slipBenchmarkCommand(const Arguments& words);
+int slipCommand(const Arguments& words);
+int spectrumCommand(const Arguments& words);
+int streamCommand(const Arguments& words);
+int synthesizeCommand(const Arguments& words);
+int trainCommand(const Arguments& words);
+int verifyCommand(const Arguments& words);
 // The window: files to open, --demo, --screenshot.
-int workbenchCommand(const Words& words);
+int windowCommand(const Arguments& words);
 
 const std::vector<Command>& allCommands();
 // Runs the whole program; returns its exit code.

@@ -59,7 +59,7 @@ void compareAppendRow(std::string& line,
 
 }  // namespace
 
-int compareCommand(const Words& words) {
+int compareCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate compare A B [--align contact|start|clock] [--offset S]",
        .purpose =
@@ -74,8 +74,8 @@ int compareCommand(const Words& words) {
                     "contact (default): first contacts; start; clock: by host time"},
                    {"offset", "S", "instead: when B begins, in seconds from A's first frame"}},
        .example = "palpate compare run_1.dsa run_2.dsa > differences.csv",
-       .fewestWords = 2,
-       .mostWords = 2},
+       .minArguments = 2,
+       .maxArguments = 2},
       words);
   if (given.helpShown()) return kDone;
   const TimedProfile a = opened(given.words()[0], given.quiet());

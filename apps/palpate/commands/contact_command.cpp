@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/one_line.h"
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
 #include "palpate/kinematics/contact_geometry.h"
@@ -129,23 +129,23 @@ class PoseOfFrames {
   }
 
   // False: the recorded angles are no pose; then pose() is another one.
-  bool posed(std::int64_t hostUs, AngleTroubles& troubles) {
+  bool posed(std::int64_t hostUs, AngleTroubles& problems) {
     if (request_.anglesDeg) return true;
     const std::size_t sample = profile_.angleSampleAt(hostUs).value();
     if (sample_ != sample) {
       sample_ = sample;
       const std::vector<double> anglesDeg = profile_.angles(sample).deg;
       check_ = checkAngles(anglesDeg, sdh2().axes);
-      if (check_.state != AnglesState::kUnusable)
+      if (check_.state != AngleValidity::kUnusable)
         geometry_.pose(anglesDeg, pose_);
       else if (pose_.empty())
         geometry_.pose(std::vector<double>(geometry_.description().numAxes, 0.0), pose_);
     }
-    if (check_.state == AnglesState::kOutOfRange && troubles.outOfRange++ == 0)
-      troubles.firstOutOfRange = check_.trouble;
-    if (check_.state == AnglesState::kUnusable && troubles.unusable++ == 0)
-      troubles.firstUnusable = check_.trouble;
-    return check_.state != AnglesState::kUnusable;
+    if (check_.state == AngleValidity::kOutOfRange && problems.outOfRange++ == 0)
+      problems.firstOutOfRange = check_.problem;
+    if (check_.state == AngleValidity::kUnusable && problems.unusable++ == 0)
+      problems.firstUnusable = check_.problem;
+    return check_.state != AngleValidity::kUnusable;
   }
   const HandPose& pose() const { return pose_; }
 
@@ -170,7 +170,7 @@ AngleTroubles writeContact(StandardOutput& out,
   PoseOfFrames poses(profile, geometry, request);
   std::optional<CalibratedFrames> calibrated;
   if (request.calibration) calibrated.emplace(*request.calibration, file, profile);
-  AngleTroubles troubles;
+  AngleTroubles problems;
   TactileFrame frame;
   HandContact contact;
   std::string line;
@@ -178,10 +178,10 @@ AngleTroubles writeContact(StandardOutput& out,
     if (!progress(static_cast<double>(i - first) / static_cast<double>(last - first + 1)))
       throw Cancelled();
     profile.readFrame(i, frame);
-    const bool posed = poses.posed(frame.hostUs, troubles);
+    const bool posed = poses.posed(frame.hostUs, problems);
     contactOf(frame, poses.pose(), request.options, contact);
-    ++troubles.frames;
-    if (contact.numNotFinite > 0) ++troubles.notFinite;
+    ++problems.frames;
+    if (contact.numNotFinite > 0) ++problems.notFinite;
     const std::size_t rows = request.matrices ? contact.matrices.size() : 1;
     for (std::size_t m = 0; m < rows; ++m) {
       appendStart(line, i, frame.hostUs);
@@ -195,34 +195,34 @@ AngleTroubles writeContact(StandardOutput& out,
       out.write(line += lineEnd);
     }
   }
-  return troubles;
+  return problems;
 }
 
 // False when rows lack something for it.
-bool sayTroubles(const std::filesystem::path& file, const AngleTroubles& troubles, bool quiet) {
+bool sayTroubles(const std::filesystem::path& file, const AngleTroubles& problems, bool quiet) {
   const auto say = [&](std::size_t frames, const std::string& what) {
     std::fprintf(stderr,
                  "palpate: %s: %zu of %zu frames %s\n",
-                 oneLine(file.string()).c_str(),
+                 escapedLine(file.string()).c_str(),
                  frames,
-                 troubles.frames,
+                 problems.frames,
                  what.c_str());
   };
-  if (troubles.outOfRange > 0 && !quiet)
-    say(troubles.outOfRange,
-        "have joint angles that the hand can't take: " + troubles.firstOutOfRange);
-  if (troubles.notFinite > 0)
-    say(troubles.notFinite, "have values that are not numbers; these were left out");
-  if (troubles.unusable > 0)
-    say(troubles.unusable,
-        "have no usable joint angles, and no sphere: " + troubles.firstUnusable +
+  if (problems.outOfRange > 0 && !quiet)
+    say(problems.outOfRange,
+        "have joint angles that the hand can't take: " + problems.firstOutOfRange);
+  if (problems.notFinite > 0)
+    say(problems.notFinite, "have values that are not numbers; these were left out");
+  if (problems.unusable > 0)
+    say(problems.unusable,
+        "have no usable joint angles, and no sphere: " + problems.firstUnusable +
             "; --angles assumes some");
-  return troubles.unusable + troubles.notFinite == 0;
+  return problems.unusable + problems.notFinite == 0;
 }
 
 }  // namespace
 
-int contactCommand(const Words& words) {
+int contactCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate contact PATH... [--angles A0,..,A6] [--matrices | --size]",
        .purpose =
@@ -246,7 +246,7 @@ int contactCommand(const Words& words) {
             {"from", "N", "first frame, default 0"},
             {"to", "M", "last frame (inclusive), default the last one"}}),
        .example = "palpate contact foam_ball.dsa > contact.csv",
-       .fewestWords = 1},
+       .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   if (given.has("size")) return contactSizes(given);
@@ -281,15 +281,15 @@ int contactCommand(const Words& words) {
         headerWritten = true;
         const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";
         // What was written of a recording that fails on the way stays: whole rows, and it is said.
-        AngleTroubles troubles;
+        AngleTroubles problems;
         try {
-          troubles = writeContact(out, file, profile, geometry, request, range, lineEnd, progress);
+          problems = writeContact(out, file, profile, geometry, request, range, lineEnd, progress);
         } catch (const Error&) {
           out.finish();
           throw;
         }
         out.finish();
-        whole = sayTroubles(file, troubles, given.quiet()) && whole;
+        whole = sayTroubles(file, problems, given.quiet()) && whole;
       });
   return code == kDone && !whole ? kPartlyDone : code;
 }

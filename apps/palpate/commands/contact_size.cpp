@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/one_line.h"
 #include "palpate/core/text_table.h"
 #include "palpate/kinematics/object_size.h"
 #include "palpate/recognition/grasp_segments.h"
@@ -62,7 +62,7 @@ void sayContactSize(const std::filesystem::path& file,
                     const std::string& what) {
   std::fprintf(stderr,
                "palpate: %s: grasp %zu..%zu: %s\n",
-               oneLine(file.string()).c_str(),
+               escapedLine(file.string()).c_str(),
                grasp.begin,
                grasp.end,
                what.c_str());
@@ -103,7 +103,7 @@ int contactSizes(const CommandLine& given) {
                            grasp,
                            std::to_string(report.unusableFrames) +
                                " frames without usable joint angles are left out");
-          if (!report.valid) sayContactSize(file, grasp, "no size: " + report.trouble);
+          if (!report.valid) sayContactSize(file, grasp, "no size: " + report.problem);
           whole = whole && report.valid && report.unusableFrames == 0;
         }
         out.finish();  // each recording's rows as they come

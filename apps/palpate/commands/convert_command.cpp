@@ -4,7 +4,7 @@
 #include <set>
 
 #include "palpate/core/error.h"
-#include "palpate/core/one_line.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/recording/crop.h"
 #include "palpate/recording/recording.h"
 
@@ -33,7 +33,7 @@ std::string movedText(std::size_t stamps) {
 
 int convertOne(const CommandLine& given, const std::string& in, const std::string& out) {
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
-  formOf(out);
+  formatOf(out);
   requireOther(in, out);
   requireWritable(out, overwrite);
   const auto from = given.integer("from", 0, INT64_MAX);
@@ -60,7 +60,7 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   if (!given.quiet())
     std::printf("%s\n", (doneText(out, profile) + movedText(saved.movedStamps)).c_str());
   if (events.damaged == 0) return kDone;
-  std::fprintf(stderr, "palpate: %s\n", oneLine(damagedText(in, events.damaged)).c_str());
+  std::fprintf(stderr, "palpate: %s\n", escapedLine(damagedText(in, events.damaged)).c_str());
   return kPartlyDone;
 }
 
@@ -108,15 +108,15 @@ int convertFolder(const CommandLine& given,
         made.insert(out);
         FileOutcome outcome;
         if (!given.quiet())
-          outcome.said = oneLine(doneText(out, profile) + movedText(saved.movedStamps));
-        if (events.damaged > 0) outcome.trouble = damagedText(file.string(), events.damaged);
+          outcome.said = escapedLine(doneText(out, profile) + movedText(saved.movedStamps));
+        if (events.damaged > 0) outcome.problem = damagedText(file.string(), events.damaged);
         return outcome;
       });
 }
 
 }  // namespace
 
-int convertCommand(const Words& words) {
+int convertCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate convert IN OUT [--from N --to M] | FOLDER OUTFOLDER --to-form FORM",
        .purpose =
@@ -131,8 +131,8 @@ int convertCommand(const Words& words) {
                    {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz or jsonl"},
                    {"force", "", "replace OUT, or files in OUTFOLDER"}},
        .example = "palpate convert foam_ball.dsa grasp3.palpate --from 700 --to 1400",
-       .fewestWords = 2,
-       .mostWords = 2},
+       .minArguments = 2,
+       .maxArguments = 2},
       words);
   if (given.helpShown()) return kDone;
   const std::string& in = given.words()[0];

@@ -48,7 +48,7 @@ void sayWhatIsNext(const fs::path& folder, bool failed) {
 
 }  // namespace
 
-int demoCommand(const Words& words) {
+int demoCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate demo -o DIR",
        .purpose =
@@ -61,14 +61,14 @@ int demoCommand(const Words& words) {
            "figure. Ctrl-C\nends it, and leaves nothing.",
        .options = {{"output,o", "DIR", "folder to make, default palpate-demo"}},
        .example = "palpate demo -o tour",
-       .mostWords = 0},
+       .maxArguments = 0},
       words);
   if (given.helpShown()) return kDone;
   const fs::path folder = makeDemoFolder(given.text("output").value_or("palpate-demo"));
   Interruption interruption;  // before the first thread
   std::atomic<bool> interrupted = false;
-  const DemoGoOn goOn = [&] {
-    if (interruption.came(0)) interrupted = true;
+  const DemoContinue goOn = [&] {
+    if (interruption.waitForSignal(0)) interrupted = true;
     return !interrupted.load();
   };
   bool failed = false;

@@ -58,8 +58,8 @@ PullTimes pullTimesOf(const Scene& scene) {
 
 DemoGrasps::DemoGrasps(const std::filesystem::path& scenes,
                        const std::filesystem::path& folder,
-                       DemoGoOn goOn)
-    : slipFile_(folder / "slip.palpate"), goOn_(std::move(goOn)) {
+                       DemoContinue goOn)
+    : slipFile_(folder / "slip.palpate"), continue_(std::move(goOn)) {
   std::uint64_t placement = kFirstPlacement;
   for (const HeldThing& thing : kHeldThings) {
     Scene scene = variedScene(loadScene(thing.scene, scenes), {}, placement++);
@@ -80,8 +80,8 @@ void DemoGrasps::onEachHand(const std::function<void(std::size_t index)>& work) 
 std::string DemoGrasps::emulate() {
   for (std::size_t i = 0; i < scenes_.size(); ++i)
     hands_.push_back(std::make_unique<DemoHand>(
-        scenes_[i], i < held_.size() ? held_[i].object : "pen that slips", goOn_));
-  std::vector<DeviceFacts> facts(hands_.size());
+        scenes_[i], i < held_.size() ? held_[i].object : "pen that slips", continue_));
+  std::vector<DeviceInfo> facts(hands_.size());
   onEachHand([&](std::size_t i) {
     facts[i] = hands_[i]->connect();
     hands_[i]->startRecording(i < held_.size() ? held_[i].file : slipFile_);

@@ -36,7 +36,7 @@ class DemoGrasps {
   // recordings go.
   DemoGrasps(const std::filesystem::path& scenes,
              const std::filesystem::path& folder,
-             DemoGoOn goOn);
+             DemoContinue goOn);
 
   std::string emulate();
   std::string grasp();
@@ -59,7 +59,7 @@ class DemoGrasps {
   std::vector<KnownGrasp> held_;
   std::filesystem::path slipFile_;
   PullTimes pullTimes_;
-  DemoGoOn goOn_;
+  DemoContinue continue_;
   std::vector<std::unique_ptr<DemoHand>> hands_;
   std::vector<DemoGrip> grips_;
   std::vector<DemoTruthFrame> truth_;

@@ -70,10 +70,10 @@ bool isPositioning(int state) { return state == static_cast<int>(AxisState::kPos
 
 }  // namespace
 
-DemoHand::DemoHand(const Scene& scene, std::string object, DemoGoOn goOn)
+DemoHand::DemoHand(const Scene& scene, std::string object, DemoContinue goOn)
     : object_(std::move(object)),
       preshape_(scene.preshape),
-      goOn_(std::move(goOn)),
+      continue_(std::move(goOn)),
       truth_(std::make_shared<Truth>()),
       hand_(std::make_unique<EmulatedHand>(
           std::make_unique<PhysicalHand>(scene),
@@ -92,7 +92,7 @@ void DemoHand::await(const std::string& what,
                      const std::function<bool()>& condition) {
   const auto end = SteadyClock::now() + milliseconds(static_cast<std::int64_t>(limitS * kMsPerS));
   while (!condition()) {
-    if (!goOn_()) throw Cancelled();
+    if (!continue_()) throw Cancelled();
     if (SteadyClock::now() > end)
       throw Error(object_ + ": " + what + " did not happen within " + numberText(limitS) + " s");
     std::this_thread::sleep_for(kLook);
@@ -104,7 +104,7 @@ void DemoHand::pause(double seconds) {
   await("the end of a pause", seconds + 1.0, [end] { return SteadyClock::now() >= end; });
 }
 
-DeviceFacts DemoHand::connect() {
+DeviceInfo DemoHand::connect() {
   LiveHandOptions options;
   options.dsaPort = hand_->dsaPort();
   options.sdhPort = hand_->sdhPort();
@@ -184,7 +184,7 @@ std::vector<DemoTruthFrame> DemoHand::truth() const {
 std::string replayAndCompare(const Profile& profile) {
   ReplayComparison comparison(profile);
   ReplayOptions options;
-  options.pace = ReplayPace::kByHand;
+  options.pace = ReplayPace::kManual;
   Replay replay(profile, options);
   replay.start(comparison);
   constexpr std::int64_t kStepUs = 1'000'000;

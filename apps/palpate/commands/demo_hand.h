@@ -20,7 +20,7 @@
 namespace palpate::commands {
 
 // Whether the tour shall go on; asked in any thread by whoever waits.
-using DemoGoOn = std::function<bool()>;
+using DemoContinue = std::function<bool()>;
 
 // What the emulator says that the fingers held, at one moment.
 struct DemoGrip {
@@ -37,12 +37,12 @@ struct DemoRecorded {
 class DemoHand {
  public:
   // Switches the emulated hand on. `object`: what a person calls the thing it is to hold.
-  DemoHand(const Scene& scene, std::string object, DemoGoOn goOn);
+  DemoHand(const Scene& scene, std::string object, DemoContinue goOn);
   ~DemoHand();
 
   const std::string& object() const noexcept { return object_; }
   // Returns when frames and joint angles come.
-  DeviceFacts connect();
+  DeviceInfo connect();
   // Begins a recording; what came in the seconds before is in it.
   void startRecording(const std::filesystem::path& file);
   // Over its motion port: closes on the object, holds it, opens again. The scene must have no
@@ -66,7 +66,7 @@ class DemoHand {
 
   const std::string object_;
   const std::string preshape_;
-  const DemoGoOn goOn_;
+  const DemoContinue continue_;
   const std::shared_ptr<Truth> truth_;
   std::unique_ptr<EmulatedHand> hand_;
   std::unique_ptr<CaptureSession> session_;

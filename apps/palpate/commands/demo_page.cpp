@@ -101,7 +101,7 @@ std::string pageHands(const DemoFacts& facts) {
 
 std::string pageRecognitionRow(const AskedGrasp& asked) {
   const std::string rank = asked.rank ? std::to_string(*asked.rank) : "not taught";
-  std::string said = asked.trouble, sure, probability;
+  std::string said = asked.problem, sure, probability;
   if (asked.verdict) {
     said = asked.called;
     sure = asked.verdict->sure ? "sure" : "not sure";

@@ -6,7 +6,7 @@
 #include "commands/render_hand.h"
 #include "gui/desktop/application.h"
 #include "gui/picture/picture_export.h"
-#include "gui/shell/workbench.h"
+#include "gui/shell/run_window.h"
 
 namespace palpate::commands {
 namespace {
@@ -46,7 +46,7 @@ std::string DemoPictures::handPng(const Profile& profile, std::size_t frame) con
   paper.background = gui::colorsOf(page.theme).window;
   const auto paint = handPainter(HandRendering(), profile, {frame, frame}, page);
   return gui::pictureBytes(
-             gui::PictureForm::kPng,
+             gui::ImageFormat::kPng,
              [&](QPainter& painter) { paint(painter, frame); },
              paper,
              "picture.png")

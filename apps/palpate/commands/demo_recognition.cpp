@@ -16,7 +16,7 @@ constexpr int kProbabilityDecimals = 2;
 std::size_t lengthInFrames(const FeatureRow& row) { return row.end - row.begin; }
 
 void compareWithObject(const TrainedModel& model, AskedGrasp& asked) {
-  const Verdict& verdict = *asked.verdict;
+  const Prediction& verdict = *asked.verdict;
   asked.called = labelOf(model, verdict.label);
   for (std::size_t k = 0; k < verdict.ranking.size(); ++k) {
     if (labelOf(model, verdict.ranking[k]) != asked.known.object) continue;
@@ -28,7 +28,7 @@ void compareWithObject(const TrainedModel& model, AskedGrasp& asked) {
 // "the ball is called pen (0.93); at rank 2, 0.05"
 std::string wrongText(const AskedGrasp& asked) {
   std::string text = "the " + asked.known.object;
-  if (!asked.verdict) return text + " could not be asked about: " + asked.trouble;
+  if (!asked.verdict) return text + " could not be asked about: " + asked.problem;
   text += " is called " + asked.called;
   if (!asked.rank)
     return text + " (" + fixedText(asked.verdict->confidence, kProbabilityDecimals) + ")";
@@ -39,18 +39,18 @@ std::string wrongText(const AskedGrasp& asked) {
 }  // namespace
 
 bool AskedGrasp::right() const {
-  return verdict && (taught ? called == known.object : verdict->label == Verdict::kUnknown);
+  return verdict && (inTraining ? called == known.object : verdict->label == Prediction::kUnknown);
 }
 
-std::size_t DemoRecognition::numTaught() const {
+std::size_t DemoRecognition::numInTraining() const {
   return static_cast<std::size_t>(std::count_if(
-      grasps.begin(), grasps.end(), [](const AskedGrasp& asked) { return asked.taught; }));
+      grasps.begin(), grasps.end(), [](const AskedGrasp& asked) { return asked.inTraining; }));
 }
 
-std::size_t DemoRecognition::numRight(bool taught) const {
+std::size_t DemoRecognition::numRight(bool inTraining) const {
   return static_cast<std::size_t>(
       std::count_if(grasps.begin(), grasps.end(), [&](const AskedGrasp& asked) {
-        return asked.taught == taught && asked.right();
+        return asked.inTraining == inTraining && asked.right();
       }));
 }
 
@@ -59,16 +59,16 @@ DemoRecognition askModel(const TrainedModel& model,
                          const Progress& progress) {
   std::vector<std::filesystem::path> files;
   for (const KnownGrasp& known : grasps) files.push_back(known.file);
-  FeatureGatherOptions gathering;
+  FeatureExtractionOptions gathering;
   gathering.set = model.set;
-  FeatureTable table = gatherFeatures(files, gathering, progress);
+  FeatureTable table = extractFeatures(files, gathering, progress);
 
   DemoRecognition result;
   std::vector<FeatureRow> longest;
   for (const KnownGrasp& known : grasps) {
     AskedGrasp& asked = result.grasps.emplace_back();
     asked.known = known;
-    asked.taught =
+    asked.inTraining =
         std::find(model.classes.begin(), model.classes.end(), known.object) != model.classes.end();
     const FeatureRow* row = nullptr;
     for (const FeatureRow& each : table.rows)
@@ -79,10 +79,10 @@ DemoRecognition askModel(const TrainedModel& model,
       longest.push_back(*row);
       continue;
     }
-    asked.trouble = "no grasp was found in its recording";
+    asked.problem = "no grasp was found in its recording";
     const std::string prefix = known.file.string() + ": ";
-    for (const std::string& trouble : table.troubles)
-      if (trouble.starts_with(prefix)) asked.trouble = trouble.substr(prefix.size());
+    for (const std::string& problem : table.problems)
+      if (problem.starts_with(prefix)) asked.problem = problem.substr(prefix.size());
   }
   table.rows = std::move(longest);
   if (table.rows.empty()) return result;
@@ -91,7 +91,7 @@ DemoRecognition askModel(const TrainedModel& model,
   result.sessionOffset = offsetJson(use.offset);
   auto next = verdicts.begin();
   for (AskedGrasp& asked : result.grasps) {
-    if (!asked.trouble.empty()) continue;
+    if (!asked.problem.empty()) continue;
     asked.verdict = std::move(*next++);
     compareWithObject(model, asked);
   }
@@ -99,13 +99,13 @@ DemoRecognition askModel(const TrainedModel& model,
 }
 
 std::string demoRecognitionText(const DemoRecognition& recognition) {
-  const std::size_t taught = recognition.numTaught();
+  const std::size_t inTraining = recognition.numInTraining();
   std::string named, other;
   bool allSure = true;
   for (const AskedGrasp& asked : recognition.grasps) {
     if (!asked.right()) {
       other += "; wrong: " + wrongText(asked);
-    } else if (asked.taught) {
+    } else if (asked.inTraining) {
       named += (named.empty() ? " (" : ", ") + asked.known.object + " " +
                fixedText(asked.probability, kProbabilityDecimals);
       allSure = allSure && asked.verdict->sure;
@@ -113,8 +113,8 @@ std::string demoRecognitionText(const DemoRecognition& recognition) {
       other += "; the " + asked.known.object + ", which was never taught, is called unknown";
     }
   }
-  std::string text = std::to_string(recognition.numRight(true)) + " of " + std::to_string(taught) +
-                     " things named rightly";
+  std::string text = std::to_string(recognition.numRight(true)) + " of " +
+                     std::to_string(inTraining) + " things named rightly";
   if (!named.empty()) text += named + ")";
   if (recognition.numRight(true) > 0) text += allSure ? ", all surely" : ", not all surely";
   return text + other;
@@ -127,13 +127,13 @@ Json demoRecognitionJson(const DemoRecognition& recognition,
   for (const AskedGrasp& asked : recognition.grasps) {
     FeatureRow row = asked.row;
     row.file = asked.known.file.filename();
-    Json json = asked.verdict ? verdictJson(model, row, *asked.verdict)
+    Json json = asked.verdict ? predictionJson(model, row, *asked.verdict)
                               : Json::object()
                                     .set("file", row.file.string())
                                     .set("label", Json())
-                                    .set("trouble", asked.trouble);
+                                    .set("trouble", asked.problem);
     grasps.push(json.set("object", asked.known.object)
-                    .set("taught", asked.taught)
+                    .set("taught", asked.inTraining)
                     .set("rank", asked.rank ? Json(*asked.rank) : Json())
                     .set("probability", asked.rank ? Json(asked.probability) : Json())
                     .set("right", asked.right()));
@@ -141,7 +141,7 @@ Json demoRecognitionJson(const DemoRecognition& recognition,
   return Json::object()
       .set("model", modelName)
       .set("classes", jsonList(model.classes))
-      .set("taught", recognition.numTaught())
+      .set("taught", recognition.numInTraining())
       .set("right", recognition.numRight(true))
       .set("right_of_untaught", recognition.numRight(false))
       .set("grasps", grasps)

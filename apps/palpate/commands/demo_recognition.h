@@ -23,14 +23,14 @@ struct KnownGrasp {
 
 struct AskedGrasp {
   KnownGrasp known;
-  bool taught = false;             // whether the model knows the object
-  FeatureRow row;                  // of the longest grasp of the recording
-  std::optional<Verdict> verdict;  // nothing: there was none to ask about
-  std::string called;              // the verdict's label; empty without one
+  bool inTraining = false;            // whether the model knows the object
+  FeatureRow row;                     // of the longest grasp of the recording
+  std::optional<Prediction> verdict;  // nothing: there was none to ask about
+  std::string called;                 // the verdict's label; empty without one
   // of the object among the classes, from 1; nothing: not taught, or no verdict
   std::optional<std::size_t> rank;
   double probability = 0.0;  // of the object, were it one of the known ones
-  std::string trouble;       // why there is no verdict; else empty
+  std::string problem;       // why there is no verdict; else empty
 
   // Called by its name; of an object that was not taught: called unknown.
   bool right() const;
@@ -41,8 +41,8 @@ struct DemoRecognition {
   std::vector<std::string> warnings;
   Json sessionOffset;
 
-  std::size_t numTaught() const;
-  std::size_t numRight(bool taught) const;  // among those that were taught, or that were not
+  std::size_t numInTraining() const;
+  std::size_t numRight(bool inTraining) const;  // among those that were taught, or that were not
 };
 
 // The grasps count as one session of a hand whose joints were never referenced anew: session offset

@@ -19,7 +19,7 @@
 #include "commands/commands.h"
 #include "commands/demo_pictures.h"
 #include "commands/slip_rows.h"
-#include "gui/shell/workbench.h"
+#include "gui/shell/run_window.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
@@ -73,8 +73,8 @@ std::string bytesOfDemoFile(const fs::path& path) {
 
 }  // namespace
 
-DemoRun::DemoRun(fs::path folder, DemoGoOn goOn)
-    : folder_(std::move(folder)), goOn_(std::move(goOn)), tour_(goOn_) {}
+DemoRun::DemoRun(fs::path folder, DemoContinue goOn)
+    : folder_(std::move(folder)), continue_(std::move(goOn)), tour_(continue_) {}
 
 void DemoRun::next(const std::string& name,
                    const std::string& what,
@@ -89,7 +89,7 @@ void DemoRun::graspAndRecord() {
       "Seven emulated hands are switched on, each on two serial ports of its own, and connected "
       "as real ones are.",
       [&] {
-        grasps.emplace(dataFolder() / "scenes", folder_, goOn_);
+        grasps.emplace(dataFolder() / "scenes", folder_, continue_);
         return grasps->emulate();
       });
   const char* why = "a step before it failed";
@@ -154,7 +154,7 @@ std::string DemoRun::compareSlip() {
   {
     OutputFile out(folder_ / "slip.csv");
     out.write(std::string(kSlipColumns) + "\n");
-    SlipPassOptions pass;
+    SlipRunOptions pass;
     pass.detector = detectorOptions(series.options);
     forEachSlipRow(
         profile, pass, std::nullopt, [&](const std::string& row) { out.write(row + "\n"); });

@@ -18,7 +18,7 @@ namespace palpate::commands {
 // throw Cancelled when the tour shall not go on, report() FileError as well.
 class DemoRun {
  public:
-  DemoRun(std::filesystem::path folder, DemoGoOn goOn);
+  DemoRun(std::filesystem::path folder, DemoContinue goOn);
 
   void graspAndRecord();
   void lookAtTheBall();
@@ -39,7 +39,7 @@ class DemoRun {
   std::vector<DemoFile> files() const;
 
   const std::filesystem::path folder_;
-  const DemoGoOn goOn_;
+  const DemoContinue continue_;
   DemoTour tour_;
   DemoFacts facts_;
   bool recorded_ = false;

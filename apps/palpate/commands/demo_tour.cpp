@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
-#include "palpate/core/one_line.h"
+#include "palpate/core/escaped_line.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
@@ -23,7 +23,7 @@ fs::path makeDemoFolder(fs::path wanted) {
 }
 
 void DemoTour::say(DemoStep step) {
-  step.figure = oneLine(step.figure);
+  step.figure = escapedLine(step.figure);
   std::printf("%s: %s, %s\n", step.name.c_str(), step.outcome.c_str(), step.figure.c_str());
   std::fflush(stdout);
   steps_.push_back(std::move(step));
@@ -32,7 +32,7 @@ void DemoTour::say(DemoStep step) {
 void DemoTour::step(const std::string& name,
                     const std::string& what,
                     const std::function<std::string()>& work) {
-  if (!goOn_()) throw Cancelled();
+  if (!continue_()) throw Cancelled();
   try {
     say({name, what, "ok", work()});
   } catch (const Cancelled&) {
@@ -41,7 +41,7 @@ void DemoTour::step(const std::string& name,
     failed_ = true;
     say({name, what, "failed", error.what()});
   }
-  if (!goOn_()) throw Cancelled();
+  if (!continue_()) throw Cancelled();
 }
 
 void DemoTour::stepIf(bool ready,

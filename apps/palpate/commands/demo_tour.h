@@ -20,7 +20,7 @@ std::filesystem::path makeDemoFolder(std::filesystem::path wanted);
 // Prints "NAME: ok|skipped|failed, FIGURE" for each step.
 class DemoTour {
  public:
-  explicit DemoTour(DemoGoOn goOn) : goOn_(std::move(goOn)) {}
+  explicit DemoTour(DemoContinue goOn) : continue_(std::move(goOn)) {}
 
   // `work` returns the figure; what it throws makes the step failed. Throws Cancelled when the tour
   // shall not go on.
@@ -39,7 +39,7 @@ class DemoTour {
  private:
   void say(DemoStep step);
 
-  DemoGoOn goOn_;
+  DemoContinue continue_;
   std::vector<DemoStep> steps_;
   bool failed_ = false;
 };

@@ -48,8 +48,8 @@ struct DemoAlarm {
   double afterS = 0.0;         // behind the begin of the motion [s]; below 0: ahead of it
   double movedTaxels = 0.0;    // so far the object had gone then, by the emulator's mechanics
   double imprintTaxels = 0.0;  // how far the imprint was from its reference while it stood, at most
-  std::size_t furthestFrame = 0;   // in which that was
-  SlipLamp lamp = SlipLamp::kOff;  // in `frame`
+  std::size_t furthestFrame = 0;             // in which that was
+  SlipIndicator lamp = SlipIndicator::kOff;  // in `frame`
   SlipState state = SlipState::kInvalid;
 };
 

@@ -29,7 +29,7 @@ void setRate(const std::string& text, EmulatedHandOptions& options) {
     const auto hz = parseDouble(text);
     if (!hz || *hz < 0.1 || *hz > 1000.0)
       throw UsageError("--rate must be real, max or a number 0.1..1000, not '" + text + "'");
-    options.rate = EmulationRate::kHz;
+    options.rate = EmulationRate::kFixed;
     options.hz = *hz;
   }
 }
@@ -88,20 +88,20 @@ CommandSpec emulateSpec() {
                   {"sdh-firmware", "TEXT", "of the motion controller, default 0.0.3.3"},
                   {"force", "", "replace OUT.csv"}},
       .example = "palpate emulate --dsa /tmp/dsa --sdh /tmp/sdh --scene ball",
-      .mostWords = 0};
+      .maxArguments = 0};
 }
 
 // Until a signal comes. Throws what stopped the hand by itself.
 void waitForEnd(const EmulatedHand& hand, Interruption& interruption) {
   constexpr int kLookMs = 200;
-  while (!interruption.came(kLookMs))
+  while (!interruption.waitForSignal(kLookMs))
     if (const std::string failure = hand.counts().failure; !failure.empty())
       throw std::runtime_error("the emulated hand has stopped: " + failure);
 }
 
 }  // namespace
 
-int emulateCommand(const Words& words) {
+int emulateCommand(const Arguments& words) {
   const CommandLine given(emulateSpec(), words);
   if (given.helpShown()) return kDone;
   if (given.has("replay") && given.has("scene"))

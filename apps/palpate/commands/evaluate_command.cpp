@@ -47,11 +47,11 @@ Json coverageJson(const std::vector<CoveragePoint>& curve) {
 }
 
 void addConfidence(const SampleSet& samples, const ValidationReport& report, Json& json) {
-  std::vector<ConfidentAnswer> answers;
-  for (const ExaminedSample& one : report.examined)
+  std::vector<ScoredPrediction> answers;
+  for (const TestPrediction& one : report.testPredictions)
     answers.push_back({one.confidence, one.called == samples.y[one.sample]});
-  json.set("calibration_error", calibrationError(answers))
-      .set("sure_confidence", sureThreshold(answers))
+  json.set("calibration_error", expectedCalibrationError(answers))
+      .set("sure_confidence", confidenceThreshold(answers))
       .set("coverage", coverageJson(coverageCurve(answers)));
 }
 
@@ -99,22 +99,22 @@ Json unknownJson(const CommandLine& given,
                  FeatureSet set) {
   const auto later = given.text("later");
   FeatureTable other;
-  if (later) other = gatherTable(given, {*later}, set);
+  if (later) other = extractFeatureTable(given, {*later}, set);
   Json json;
   runInterruptibly(given, "unknown objects", [&](const Progress& progress) {
     json = jsonOf(unknownWithin(samples, options, kBlocks, progress));
     if (!later) return;
     const SampleSet day = samplesOf(other, samples.classes);
     const auto sessions = sessionsOf(timesOf(other));
-    const auto with = [&](StrangerOffset offset) {
+    const auto with = [&](UnknownClassOffset offset) {
       return jsonOf(unknownOnAnotherDay(samples, day, sessions, offset, progress));
     };
     json.set("another_day",
              Json::object()
                  .set("sessions", sessions.size())
-                 .set("offset_known", with(StrangerOffset::kKnown))
-                 .set("offset_from_batch", with(StrangerOffset::kBatch))
-                 .set("offset_unknown", with(StrangerOffset::kUnknown)));
+                 .set("offset_known", with(UnknownClassOffset::kKnown))
+                 .set("offset_from_batch", with(UnknownClassOffset::kBatch))
+                 .set("offset_unknown", with(UnknownClassOffset::kUnknown)));
   });
   return json;
 }
@@ -134,7 +134,7 @@ int crossValidation(const CommandLine& given) {
   if (given.has("later") && options.classifier != ClassifierKind::kGauss)
     throw UsageError("--later needs --classifier gauss, the one that knows another day's offset");
 
-  const FeatureTable table = gatherTable(given, {given.words().front()}, choice.set);
+  const FeatureTable table = extractFeatureTable(given, {given.words().front()}, choice.set);
   SampleSet samples = samplesOf(table);
   if (choice.part != StudyPart::kAll) samples = studyPart(samples, choice.part);
   sayNotes(given, choice.set, samples);
@@ -188,7 +188,7 @@ Json verdictsJson(const ModelEvaluation& evaluation,
                   .set("end", row.end)
                   .set("class", samples.classes[static_cast<std::size_t>(samples.y[one.sample])])
                   .set("label",
-                       label == Verdict::kUnknown
+                       label == Prediction::kUnknown
                            ? std::string("unknown")
                            : samples.classes[static_cast<std::size_t>(label)])
                   .set("confidence", one.verdict.confidence)
@@ -220,17 +220,17 @@ int withModel(const CommandLine& given) {
     throw UsageError(std::string("--session-offset: ") + error.what());
   }
   const TrainedModel model = loadModel(*given.text("model"));
-  const FeatureTable table = gatherTable(given, {given.words().front()}, model.set);
+  const FeatureTable table = extractFeatureTable(given, {given.words().front()}, model.set);
   requireFits(model, table);
   const SampleSet samples = samplesOf(table, model.classes);
   const ModelEvaluation evaluation = evaluateModel(model, samples, timesOf(table), options);
-  for (const SessionUse& session : evaluation.sessions)
+  for (const SessionContext& session : evaluation.sessions)
     for (const std::string& warning : session.warnings) sayLine(warning);
   Json json = jsonOf(evaluation);
-  std::vector<ConfidentAnswer> answers;
+  std::vector<ScoredPrediction> answers;
   for (const EvaluatedGrasp& one : evaluation.grasps)
     answers.push_back({one.verdict.confidence, one.verdict.label == samples.y[one.sample]});
-  json.set("calibration_error", calibrationError(answers))
+  json.set("calibration_error", expectedCalibrationError(answers))
       .set("coverage_curve", coverageJson(coverageCurve(answers)))
       .set("verdicts", verdictsJson(evaluation, table, samples));
   printObject(json);
@@ -239,7 +239,7 @@ int withModel(const CommandLine& given) {
 
 }  // namespace
 
-int evaluateCommand(const Words& words) {
+int evaluateCommand(const Arguments& words) {
   std::vector<OptionSpec> options = {
       {"set", "SET", "diameter, first4, moments, study, best (default) or session"},
       {"protocol", "P", "S (default): stratified shuffles; B: five contiguous blocks per class"},
@@ -276,8 +276,8 @@ int evaluateCommand(const Words& words) {
            "different sessions, each with an offset of its own.",
        .options = options,
        .example = "palpate evaluate recordings --set study --lda 14 --splits 50",
-       .fewestWords = 1,
-       .mostWords = 1},
+       .minArguments = 1,
+       .maxArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   if (given.has("model")) return withModel(given);

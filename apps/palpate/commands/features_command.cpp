@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/one_line.h"
 #include "palpate/core/text_table.h"
 #include "palpate/recognition/feature_table.h"
 
@@ -15,16 +15,16 @@ namespace palpate::commands {
 namespace {
 
 void sayFeatures(const std::string& message) {
-  std::fprintf(stderr, "palpate: %s\n", oneLine(message).c_str());
+  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
 }
 
-FeatureTable gather(const CommandLine& given, const FeatureGatherOptions& options) {
+FeatureTable gather(const CommandLine& given, const FeatureExtractionOptions& options) {
   Interruption interruption;
   ProgressLine line("features", given.quiet());
   const Progress show = line.callback();
-  return gatherFeatures(
+  return extractFeatures(
       {given.words().begin(), given.words().end()}, options, [&](double fraction) {
-        if (interruption.came(0)) return false;
+        if (interruption.waitForSignal(0)) return false;
         return !show || show(fraction);
       });
 }
@@ -42,7 +42,7 @@ std::vector<std::string> featuresCellsOf(const FeatureRow& row) {
 
 }  // namespace
 
-int featuresCommand(const Words& words) {
+int featuresCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate features PATH... [--set study|best|session]",
        .purpose =
@@ -60,17 +60,17 @@ int featuresCommand(const Words& words) {
            "and a recording without a grasp are\nsaid on standard error; then the exit code is 3.",
        .options = {{"set", "SET", "study, best (default) or session"}},
        .example = "palpate features recordings --set best > features.csv",
-       .fewestWords = 1},
+       .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  FeatureGatherOptions options;
+  FeatureExtractionOptions options;
   const auto set = given.choice("set", {"study", "best", "session"});
   if (set) options.set = *featureSetNamed(*set);
   const FeatureTable table = gather(given, options);
 
   if (options.set == FeatureSet::kSession && !given.quiet())
     sayFeatures(std::string(sessionSetWarning()));
-  for (const std::string& trouble : table.troubles) sayFeatures(trouble);
+  for (const std::string& problem : table.problems) sayFeatures(problem);
   if (table.rows.empty()) {
     sayFeatures("no grasp with features in " + std::to_string(table.numFiles) +
                 (table.numFiles == 1 ? " recording" : " recordings"));
@@ -82,7 +82,7 @@ int featuresCommand(const Words& words) {
   out.write(csvLine(header));
   for (const FeatureRow& row : table.rows) out.write(csvLine(featuresCellsOf(row)));
   out.finish();
-  return table.troubles.empty() ? kDone : kPartlyDone;
+  return table.problems.empty() ? kDone : kPartlyDone;
 }
 
 }  // namespace palpate::commands

@@ -1,8 +1,8 @@
 // palpate filter IN OUT: a recording seen through a chain of filters, as a recording.
 #include <cstdio>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/one_line.h"
 #include "palpate/filter/filter_chain.h"
 #include "palpate/recording/recording.h"
 
@@ -28,7 +28,7 @@ RecordingEvent filteredEvent(const Recipe& recipe, const Profile& profile) {
 
 }  // namespace
 
-int filterCommand(const Words& words) {
+int filterCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate filter IN OUT --filter SPEC.. | --recipe R.json | --list",
        .purpose =
@@ -47,7 +47,7 @@ int filterCommand(const Words& words) {
                    {"list", "", "list all filters with options, ranges and sources"},
                    {"force", "", "replace OUT and R.json"}},
        .example = "palpate filter foam_ball.dsa calm.palpate --filter median --filter kalman:q=0.1",
-       .mostWords = 2},
+       .maxArguments = 2},
       words);
   if (given.helpShown()) return kDone;
   if (given.has("list")) {
@@ -66,7 +66,7 @@ int filterCommand(const Words& words) {
   const std::string& in = given.words()[0];
   const std::string& out = given.words()[1];
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
-  formOf(out);
+  formatOf(out);
   requireOther(in, out);
   requireWritable(out, overwrite);
   const auto recipePath = given.text("save-recipe");
@@ -75,7 +75,7 @@ int filterCommand(const Words& words) {
   ProgressLine line("reading " + in, given.quiet());
   const Profile profile = openRecording(in, line.callback());
   line.setLabel("filtering " + in);
-  const Profile filtered = lookedAtThrough(recipe, profile, in, line.callback());
+  const Profile filtered = filteredBy(recipe, profile, in, line.callback());
   EventsReport events = readEvents(in);
   events.events.push_back(filteredEvent(recipe, profile));
   line.setLabel("writing " + out);
@@ -89,10 +89,11 @@ int filterCommand(const Words& words) {
                 recipeText(recipe).c_str(),
                 latencyText(recipe).c_str());
   if (events.damaged == 0) return kDone;
-  std::fprintf(stderr,
-               "palpate: %s\n",
-               oneLine(in + ": " + std::to_string(events.damaged) + " damaged events were left out")
-                   .c_str());
+  std::fprintf(
+      stderr,
+      "palpate: %s\n",
+      escapedLine(in + ": " + std::to_string(events.damaged) + " damaged events were left out")
+          .c_str());
   return kPartlyDone;
 }
 

@@ -23,8 +23,8 @@ std::string filterOptionsRangeOf(const FilterOption& option) {
 std::string fallbackOf(const FilterOption& option) {
   if (option.automatic()) return "auto";
   if (option.kind == FilterOption::Kind::kChoice)
-    return option.choices.at(static_cast<std::size_t>(option.fallback));
-  return numberText(option.fallback);
+    return option.choices.at(static_cast<std::size_t>(option.defaultValue));
+  return numberText(option.defaultValue);
 }
 
 std::string padded(std::string text, std::size_t width) {
@@ -69,10 +69,10 @@ Recipe recipeOf(const CommandLine& given) {
   return recipe;
 }
 
-Profile lookedAtThrough(const Recipe& recipe,
-                        const Profile& profile,
-                        const std::filesystem::path& file,
-                        const Progress& progress) {
+Profile filteredBy(const Recipe& recipe,
+                   const Profile& profile,
+                   const std::filesystem::path& file,
+                   const Progress& progress) {
   if (recipe.empty()) return profile;
   try {
     return filteredProfile(profile, recipe, {settingsTimesUs(readEvents(file).events)}, progress);
@@ -82,7 +82,7 @@ Profile lookedAtThrough(const Recipe& recipe,
 }
 
 std::optional<SignalKind> signalChosen(const CommandLine& given) {
-  Words known;
+  Arguments known;
   for (const SignalKind kind : kAllSignalKinds) known.emplace_back(signalName(kind));
   const auto name = given.choice("signal", known);
   return name ? signalKindNamed(*name) : std::nullopt;

@@ -23,10 +23,10 @@ std::vector<OptionSpec> withFilterOptions(std::vector<OptionSpec> options);
 Recipe recipeOf(const CommandLine& given);
 // The recording as it is where the recipe is empty. Events "settings" restart the filters over
 // time. Throws Error (a matrix that the recording hasn't; a file that can't be read), Cancelled.
-Profile lookedAtThrough(const Recipe& recipe,
-                        const Profile& profile,
-                        const std::filesystem::path& file,
-                        const Progress& progress = {});
+Profile filteredBy(const Recipe& recipe,
+                   const Profile& profile,
+                   const std::filesystem::path& file,
+                   const Progress& progress = {});
 
 // --signal NAME, a characteristic signal; nothing where it isn't given. Throws UsageError naming
 // all.

@@ -61,7 +61,7 @@ std::vector<double> numbersOf(const CommandLine& given,
                               const std::string& option,
                               double least,
                               double most,
-                              std::span<const double> fallback) {
+                              std::span<const double> defaultValue) {
   std::vector<double> numbers;
   for (const std::string& text : given.texts(option)) {
     const auto number = parseDouble(text);
@@ -70,14 +70,14 @@ std::vector<double> numbersOf(const CommandLine& given,
                        numberText(most) + ", not '" + text + "'");
     numbers.push_back(*number);
   }
-  if (numbers.empty()) numbers.assign(fallback.begin(), fallback.end());
+  if (numbers.empty()) numbers.assign(defaultValue.begin(), defaultValue.end());
   return numbers;
 }
 
-std::vector<TouchMask> touchOf(const NoisyContacts& made) {
-  std::vector<TouchMask> truth;
+std::vector<CellTruthMask> touchOf(const NoisyContacts& made) {
+  std::vector<CellTruthMask> truth;
   for (const std::vector<PlaceTruth>& frame : made.truth) {
-    TouchMask mask(frame.size(), Touch::kNothing);
+    CellTruthMask mask(frame.size(), Touch::kNothing);
     for (std::size_t i = 0; i < frame.size(); ++i) {
       if (frame[i] == PlaceTruth::kFaint) mask[i] = Touch::kFaint;
       if (frame[i] == PlaceTruth::kTouched) mask[i] = Touch::kTouched;
@@ -104,7 +104,7 @@ int emulated(const CommandLine& given,
       make.degC = degC;
       make.belowCounts = below;
       const NoisyContacts made = makeNoisyContacts(make);
-      const std::vector<TouchMask> truth = touchOf(made);
+      const std::vector<CellTruthMask> truth = touchOf(made);
       const GhostSource source{.degC = degC, .belowCounts = below, .contacts = made.contacts};
       for (const Recipe& recipe : recipes) {
         const auto report = measureGhosting(
@@ -139,7 +139,7 @@ Profile lookedAtOver(double belowCounts,
                                                   NoisyContactsOptions{}.noiseMultiple,
                                                   belowCounts));
       const std::size_t from = layout.offset(m);
-      for (std::size_t place = from; place < from + layout.matrix(m).numPlaces(); ++place)
+      for (std::size_t place = from; place < from + layout.matrix(m).numCells(); ++place)
         frame.values[place] = std::max(0.0F, frame.values[place] - threshold);
     }
     builder.addFrame(frame.hostUs, frame.values, frame.deviceMs);
@@ -183,7 +183,7 @@ int recorded(const CommandLine& given,
 
 }  // namespace
 
-int ghostsCommand(const Words& words) {
+int ghostsCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate ghosts [PATH...] [--filter SPEC]... [--recipe R.json] [--json]",
        .purpose =

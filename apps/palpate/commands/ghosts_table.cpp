@@ -77,20 +77,20 @@ std::vector<Figure> figuresOf(const GhostSource& source,
   std::vector<Figure> figures = {
       {"false_per_frame", per(total.falseTaxels.before, report.frames)},
       {"false_per_frame_after", per(total.falseTaxels.after, report.frames)},
-      {"false_removed", total.falseTaxels.shareRemoved()},
+      {"false_removed", total.falseTaxels.fractionRemoved()},
       {"scattered_per_frame", per(total.scattered.before, report.frames)},
       {"scattered_per_frame_after", per(total.scattered.after, report.frames)},
-      {"scattered_removed", total.scattered.shareRemoved()},
+      {"scattered_removed", total.scattered.fractionRemoved()},
       {"frames_false", per(report.framesWithFalse.before, report.frames)},
       {"frames_false_after", per(report.framesWithFalse.after, report.frames)},
       {"whole_matrix", per(total.framesWhole.before, matrixFrames)},
       {"whole_matrix_after", per(total.framesWhole.after, matrixFrames)},
   };
   if (emulated) {
-    figures.push_back({"touched_removed", report.touched.shareRemoved()});
+    figures.push_back({"touched_removed", report.touched.fractionRemoved()});
     for (const ContactSize size : kAllContactSizes)
-      figures.push_back(
-          {std::string(nameOf(size)) + "_removed", touchedOf(source, report, size).shareRemoved()});
+      figures.push_back({std::string(nameOf(size)) + "_removed",
+                         touchedOf(source, report, size).fractionRemoved()});
     figures.push_back(
         {"touched_sum_change", per(report.touchedSumAfter, report.touchedSumBefore) - 1.0});
     figures.push_back({"contacts", static_cast<double>(report.contacts.size()), 0});

@@ -7,9 +7,9 @@
 #include "palpate/capture/capture_session.h"
 #include "palpate/control/grasp_control.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/one_line.h"
 #include "palpate/core/time.h"
 #include "palpate/device/live_hand.h"
 #include "palpate/model/preshape.h"
@@ -56,7 +56,7 @@ CommandSpec graspSpec() {
       .example =
           "palpate grasp --sdh /dev/ttyUSB1 --dsa /dev/ttyUSB0 --preshape centrical "
           "--mode reactive",
-      .mostWords = 0};
+      .maxArguments = 0};
 }
 
 void holdingOf(const CommandLine& given, GraspRequest& request) {
@@ -65,11 +65,11 @@ void holdingOf(const CommandLine& given, GraspRequest& request) {
       throw UsageError("--" + std::string(option) + " belongs to --mode slip");
   constexpr double kGravity = 9.81;  // [m/s^2]
   HoldingOptions& holding = request.holding;
-  const int most = std::max(holding.mostLimitCounts, request.limitCounts);
-  holding.mostLimitCounts = static_cast<int>(
-      given.integer("most", request.limitCounts, kMostGraspLimitCounts).value_or(most));
+  const int most = std::max(holding.maxLimitCounts, request.limitCounts);
+  holding.maxLimitCounts = static_cast<int>(
+      given.integer("most", request.limitCounts, kMaxGraspLimitCounts).value_or(most));
   holding.holdS = given.number("hold", 0.1, 86'400.0).value_or(0.0);
-  holding.calmS = given.number("calm", 0.1, 86'400.0).value_or(holding.calmS);
+  holding.noSlipS = given.number("calm", 0.1, 86'400.0).value_or(holding.noSlipS);
   holding.loosen = given.has("loosen");
   holding.weightN = kGravity * given.number("object-mass", 0.001, 100.0).value_or(0.0);
   holding.newtonsPerCount = given.number("newtons-per-count", 1e-9, 1.0).value_or(0.0);
@@ -92,9 +92,9 @@ GraspRequest graspRequestOf(const CommandLine& given) {
     throw UsageError(error.what());
   }
   request.closeRatio = given.number("close", 0.0, 1.0).value_or(request.closeRatio);
-  request.velocityDegPerS = given.number("velocity", kSlowestGraspDegPerS, kFastestGraspDegPerS)
+  request.velocityDegPerS = given.number("velocity", kMinGraspDegPerS, kMaxGraspDegPerS)
                                 .value_or(request.velocityDegPerS);
-  const auto limit = given.integer("limit", kLeastGraspLimitCounts, kMostGraspLimitCounts);
+  const auto limit = given.integer("limit", kMinGraspLimitCounts, kMaxGraspLimitCounts);
   if (limit && !feels) throw UsageError("--limit belongs to --mode reactive and slip");
   request.limitCounts = static_cast<int>(limit.value_or(request.limitCounts));
   holdingOf(given, request);
@@ -112,7 +112,7 @@ class StateLines {
                 fixedText(seconds, 3).c_str(),
                 std::string(state).c_str(),
                 text.empty() ? "" : ": ",
-                oneLine(text).c_str());
+                escapedLine(text).c_str());
     std::fflush(stdout);
   }
 
@@ -133,13 +133,14 @@ void awaitHand(const GraspControl& control,
         request.mode == GraspMode::kPlain ? status.cannotMove : status.cannotReact;
     if (why.empty()) return;
     if (systemClock().monotonicUs() > endUs) throw Error("the hand can't grasp: " + why);
-    if (interruption.came(kGraspLookMs)) throw Error("interrupted before anything was moved");
+    if (interruption.waitForSignal(kGraspLookMs))
+      throw Error("interrupted before anything was moved");
   }
 }
 
 GraspReport follow(GraspControl& control, const StateLines& lines, Interruption& interruption) {
   while (true) {
-    if (interruption.came(kGraspLookMs)) control.stop();
+    if (interruption.waitForSignal(kGraspLookMs)) control.stop();
     for (const GraspChange& change : control.takeChanges()) {
       if (!change.report) {
         // What happened in a phase, or that it begins.
@@ -171,7 +172,7 @@ int exitCodeOf(const GraspReport& report) {
 
 }  // namespace
 
-int graspCommand(const Words& words) {
+int graspCommand(const Arguments& words) {
   const CommandLine given(graspSpec(), words);
   if (given.helpShown()) return kDone;
   const GraspRequest request = graspRequestOf(given);

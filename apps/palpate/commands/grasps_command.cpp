@@ -45,7 +45,7 @@ std::vector<std::string> graspsCellsOf(const Profile& profile, const GraspSegmen
 
 }  // namespace
 
-int graspsCommand(const Words& words) {
+int graspsCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate grasps PATH... [--rule general|study]",
        .purpose =
@@ -70,7 +70,7 @@ int graspsCommand(const Words& words) {
            "or last frame,\n  nor beside a gap): what is cut off was not seen to begin or to end",
        .options = {{"rule", "RULE", "general (default) or study"}},
        .example = "palpate grasps recordings --rule general > grasps.csv",
-       .fewestWords = 1},
+       .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   GraspSegmentOptions options;

@@ -35,7 +35,7 @@ std::optional<std::vector<double>> anglesOf(const CommandLine& given) {
   const auto& axes = sdh2().axes;
   std::vector<double> angles = numbersOf(*text, "angles", axes.size());
   const AnglesCheck check = checkAngles(angles, axes);
-  if (check.state != AnglesState::kFine) throw UsageError("--angles: " + check.trouble);
+  if (check.state != AngleValidity::kValid) throw UsageError("--angles: " + check.problem);
   return angles;
 }
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/one_line.h"
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
 #include "palpate/model/timing.h"
@@ -156,7 +156,7 @@ Json infoJsonOf(Json report,
 std::string row(const std::string& name, const std::string& value) {
   std::string line = name;
   line.resize(std::max<std::size_t>(18, line.size() + 1), ' ');
-  return line + oneLine(value) + "\n";
+  return line + escapedLine(value) + "\n";
 }
 
 std::string matricesText(const Profile& profile) {
@@ -323,7 +323,7 @@ int infoOfSeveral(const RecordingList& recordings, bool quiet, bool json) {
 
 }  // namespace
 
-int infoCommand(const Words& words) {
+int infoCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate info PATH... [--json]",
        .purpose =
@@ -339,7 +339,7 @@ int infoCommand(const Words& words) {
            "exit code 3, too.",
        .options = {{"json", "", "one JSON object; of several: with a list, recordings"}},
        .example = "palpate info foam_ball.dsa --json",
-       .fewestWords = 1},
+       .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const RecordingList recordings = recordingsIn(given.words());

@@ -32,7 +32,7 @@ void kinematicsAppendRow(std::string& out,
 
 }  // namespace
 
-int kinematicsCommand(const Words& words) {
+int kinematicsCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate kinematics --angles A0,..,A6 [--matrix M | --point M,X_MM,Y_MM]",
        .purpose =
@@ -45,7 +45,7 @@ int kinematicsCommand(const Words& words) {
                    {"point", "M,X_MM,Y_MM", "one point"},
                    fingertipOption()},
        .example = "palpate kinematics --angles 60,-20,40,-20,40,-20,40 --matrix 1",
-       .mostWords = 0},
+       .maxArguments = 0},
       words);
   if (given.helpShown()) return kDone;
   const auto angles = anglesOf(given);

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
-#include "palpate/core/one_line.h"
 #include "palpate/device/port_list.h"
 #include "palpate/device/port_probe.h"
 
@@ -88,15 +88,15 @@ std::string tableText(const std::vector<Row>& rows) {
   std::size_t nameWidth = 4;
   std::size_t byIdWidth = 10;
   for (const Row& row : rows) {
-    nameWidth = std::max(nameWidth, oneLine(row.info.name).size());
-    byIdWidth = std::max(byIdWidth, oneLine(byIdText(row)).size());
+    nameWidth = std::max(nameWidth, escapedLine(row.info.name).size());
+    byIdWidth = std::max(byIdWidth, escapedLine(byIdText(row)).size());
   }
   const auto line = [&](const std::string& name, const std::string& byId, const std::string& what) {
-    std::string text = oneLine(name);
+    std::string text = escapedLine(name);
     text.resize(nameWidth + 2, ' ');
-    text += oneLine(byId);
+    text += escapedLine(byId);
     text.resize(nameWidth + byIdWidth + 4, ' ');
-    return text + oneLine(what) + "\n";
+    return text + escapedLine(what) + "\n";
   };
   std::string text = line("port", "by-id name", "what answers");
   for (const Row& row : rows) text += line(row.info.name, byIdText(row), answerText(row));
@@ -122,8 +122,8 @@ std::string adviceText(const std::vector<Row>& rows) {
   const auto tactile = onlyPort(rows, PortAnswer::kTactile);
   const auto motion = onlyPort(rows, PortAnswer::kMotion);
   if (!tactile && !motion) return {};
-  return "connect with:" + (tactile ? " --dsa " + oneLine(*tactile) : "") +
-         (motion ? " --sdh " + oneLine(*motion) : "") + "\n";
+  return "connect with:" + (tactile ? " --dsa " + escapedLine(*tactile) : "") +
+         (motion ? " --sdh " + escapedLine(*motion) : "") + "\n";
 }
 
 std::string portsJsonText(const std::vector<Row>& rows) {
@@ -146,7 +146,7 @@ std::string portsJsonText(const std::vector<Row>& rows) {
 
 }  // namespace
 
-int portsCommand(const Words& words) {
+int portsCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate ports [PORT...] [--json] [--no-probe]",
        .purpose =

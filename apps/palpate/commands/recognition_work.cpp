@@ -6,10 +6,10 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/hash.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/one_line.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/calibrate_commands.h"
@@ -17,7 +17,7 @@
 namespace palpate::commands {
 
 void sayLine(const std::string& message) {
-  std::fprintf(stderr, "palpate: %s\n", oneLine(message).c_str());
+  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
 }
 
 void runInterruptibly(const CommandLine& given,
@@ -27,21 +27,21 @@ void runInterruptibly(const CommandLine& given,
   ProgressLine line(label, given.quiet());
   const Progress show = line.callback();
   work([&](double fraction) {
-    if (interruption.came(0)) return false;
+    if (interruption.waitForSignal(0)) return false;
     return !show || show(fraction);
   });
 }
 
-FeatureTable gatherTable(const CommandLine& given,
-                         const std::vector<std::filesystem::path>& paths,
-                         FeatureSet set) {
+FeatureTable extractFeatureTable(const CommandLine& given,
+                                 const std::vector<std::filesystem::path>& paths,
+                                 FeatureSet set) {
   FeatureTable table;
-  FeatureGatherOptions options;
+  FeatureExtractionOptions options;
   options.set = set;
   runInterruptibly(given, "features", [&](const Progress& progress) {
-    table = gatherFeatures(paths, options, progress);
+    table = extractFeatures(paths, options, progress);
   });
-  for (const std::string& trouble : table.troubles) sayLine(trouble);
+  for (const std::string& problem : table.problems) sayLine(problem);
   if (table.rows.empty())
     throw Error("no grasp with features in " + std::to_string(table.numFiles) +
                 (table.numFiles == 1 ? " recording" : " recordings") + ": nothing to work with");
@@ -62,7 +62,7 @@ std::optional<EmptyHandZero> zeroGiven(const CommandLine& given) {
     zero = emptyHandZero(openRecording(*path), sdh2PinchHand(), {}, progress);
     zero.sha256 = sha256OfFile(*path);
   });
-  if (!zero.trouble.empty()) throw FileError(*path, "no zero of the empty hand: " + zero.trouble);
+  if (!zero.problem.empty()) throw FileError(*path, "no zero of the empty hand: " + zero.problem);
   zero.origin = std::filesystem::path(*path).filename().string();
   if (!given.quiet()) sayLine("the empty hand's zero: " + zero.text());
   return zero;
@@ -82,7 +82,7 @@ Json offsetJson(const SessionOffset& offset, const std::optional<EmptyHandZero>&
   Json json = Json::object()
                   .set("mm", offset.mm)
                   .set("sd_mm", offset.sdMm)
-                  .set("origin", offsetOriginName(offset.origin))
+                  .set("origin", offsetSourceName(offset.origin))
                   .set("grasps", offset.grasps)
                   .set("objects", offset.objects)
                   .set("trusted", offset.trusted);
@@ -124,7 +124,7 @@ void takePipelineOptions(const CommandLine& given, PipelineOptions& options) {
     throw UsageError("gauss takes no --lda: choose --classifier svm, qda or lda");
 }
 
-int codeFor(const FeatureTable& table) { return table.troubles.empty() ? kDone : kPartlyDone; }
+int codeFor(const FeatureTable& table) { return table.problems.empty() ? kDone : kPartlyDone; }
 
 void printObject(const Json& json) {
   StandardOutput out;

@@ -32,9 +32,9 @@ void runInterruptibly(const CommandLine& given,
                       const std::function<void(const Progress&)>& work);
 
 // The features of recordings; says what troubles there were. Throws Error when no grasp is found.
-FeatureTable gatherTable(const CommandLine& given,
-                         const std::vector<std::filesystem::path>& paths,
-                         FeatureSet set);
+FeatureTable extractFeatureTable(const CommandLine& given,
+                                 const std::vector<std::filesystem::path>& paths,
+                                 FeatureSet set);
 // --empty-hand-zero: the zero of a recording in which the empty hand closes until its pads touch;
 // nothing: not asked for. Throws Error: there is no touch in it.
 std::optional<EmptyHandZero> zeroGiven(const CommandLine& given);

@@ -12,10 +12,10 @@
 #include "palpate/capture/capture_session.h"
 #include "palpate/capture/recording_name.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/one_line.h"
 #include "palpate/device/live_hand.h"
 
 #include "commands/command_line.h"
@@ -39,7 +39,8 @@ class StatusLine {
     if (!enabled_) return;
     for (const RecordingEvent& event : events) {
       wipe();
-      std::fprintf(stderr, "%s: %s\n", oneLine(event.kind).c_str(), oneLine(event.text).c_str());
+      std::fprintf(
+          stderr, "%s: %s\n", escapedLine(event.kind).c_str(), escapedLine(event.text).c_str());
     }
     const RecorderStatus& recorder = health.recorder;
     std::string line =
@@ -48,7 +49,7 @@ class StatusLine {
             : fixedText(recorder.recordedS, 1) + " s, " + std::to_string(recorder.frames) +
                   " frames, " + fixedText(health.frames.rateHz, 1) + "/s, " +
                   fixedText(static_cast<double>(recorder.bytesOnDisk) / 1e6, 1) + " MB";
-    if (!health.alarms.empty()) line += " | " + oneLine(health.alarms.front().text);
+    if (!health.alarms.empty()) line += " | " + escapedLine(health.alarms.front().text);
     std::fprintf(stderr, "\r\033[K%s", std::string(beginningOf(line, 118)).c_str());
     std::fflush(stderr);
     shown_ = true;
@@ -104,7 +105,7 @@ void recordUntilDone(CaptureSession& session,
   session.start();
   StatusLine status(quiet);
   for (int look = 0; session.recording(); ++look) {
-    if (interruption.came(kLookMs)) return;
+    if (interruption.waitForSignal(kLookMs)) return;
     const RecorderStatus recorder = session.recorderStatus();
     if (recorder.state == RecorderStatus::State::kWaiting && recorder.elapsedS >= firstFrameS &&
         !session.health().frames.ageMs)
@@ -164,7 +165,7 @@ std::string lineText(const RecordingReport& report, const DeviceStatus& device) 
 
 }  // namespace
 
-int recordCommand(const Words& words) {
+int recordCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis =
            "palpate record --dsa PORT [--sdh PORT] -o OUT.palpate [--duration S] [--remote] ..",
@@ -195,7 +196,7 @@ int recordCommand(const Words& words) {
                    {"calibration", "C.json", "with --to signals: pressures and forces, too"},
                    {"json", "", "report as JSON"}},
        .example = "palpate record --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1 -o grasp.palpate",
-       .mostWords = 0},
+       .maxArguments = 0},
       words);
   if (given.helpShown()) return kDone;
   const auto dsa = given.text("dsa");
@@ -226,7 +227,7 @@ int recordCommand(const Words& words) {
       given.has("json") ? recordJsonText(report, device) : lineText(report, device);
   if (given.has("json") || !given.quiet()) std::printf("%s\n", text.c_str());
   if (report.complete) return kDone;
-  std::fprintf(stderr, "palpate: %s\n", oneLine(report.message).c_str());
+  std::fprintf(stderr, "palpate: %s\n", escapedLine(report.message).c_str());
   return kPartlyDone;
 }
 

@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/interruption.h"
-#include "palpate/core/one_line.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_folder.h"
 
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 void sayRecordingList(const std::string& message) {
-  std::fprintf(stderr, "palpate: %s\n", oneLine(message).c_str());
+  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
 }
 
 std::string countText(std::size_t part, std::size_t whole) {
@@ -37,13 +37,13 @@ class ListRun {
   }
 
   int through(const FileWork& work) {
-    for (const std::string& trouble : list_.troubles) sayRecordingList(trouble);
+    for (const std::string& problem : list_.problems) sayRecordingList(problem);
     for (index_ = 0; index_ < list_.files.size(); ++index_) {
       if (interrupted()) return endInterrupted();
       const fs::path& file = list_.files[index_];
       line_.setLabel(list_.several ? countText(index_ + 1, list_.files.size()) + ": " +
-                                         oneLine(file.filename().string())
-                                   : oneLine(file.string()));
+                                         escapedLine(file.filename().string())
+                                   : escapedLine(file.string()));
       const std::optional<FileOutcome> outcome = tried(work);
       if (interrupted_) return endInterrupted();
       line_.wipe();
@@ -52,8 +52,8 @@ class ListRun {
         std::printf("%s\n", outcome->said.c_str());
         std::fflush(stdout);  // a line per file as it comes, also into a pipe
       }
-      if (outcome->trouble.empty()) continue;
-      sayRecordingList(outcome->trouble);
+      if (outcome->problem.empty()) continue;
+      sayRecordingList(outcome->problem);
       ++inPart_;
     }
     return end();
@@ -80,7 +80,7 @@ class ListRun {
 
  private:
   bool interrupted() {
-    if (!interrupted_ && interruption_) interrupted_ = interruption_->came(0);
+    if (!interrupted_ && interruption_) interrupted_ = interruption_->waitForSignal(0);
     return interrupted_;
   }
 
@@ -120,7 +120,7 @@ class ListRun {
     const std::size_t all = list_.files.size();
     if (failed_ > 1) sayRecordingList(countText(failed_, all) + " recordings failed");
     if (failed_ == all) return kFailed;
-    return failed_ + inPart_ + list_.troubles.size() > 0 ? kPartlyDone : kDone;
+    return failed_ + inPart_ + list_.problems.size() > 0 ? kPartlyDone : kDone;
   }
 
   int endInterrupted() {
@@ -149,7 +149,7 @@ Progress halfOf(const Progress& progress, double begin) {
 
 }  // namespace
 
-RecordingList recordingsIn(const Words& words) {
+RecordingList recordingsIn(const Arguments& words) {
   RecordingList list;
   list.several = words.size() > 1;
   for (const std::string& word : words) {
@@ -160,12 +160,12 @@ RecordingList recordingsIn(const Words& words) {
     }
     list.several = true;
     RecordingFolder folder = recordingsBelow(word);
-    if (folder.files.empty() && folder.troubles.empty()) {
+    if (folder.files.empty() && folder.problems.empty()) {
       const FileError error(word, "no recording (.palpate, .dsa) lies in this folder or below it");
-      folder.troubles.emplace_back(error.what());
+      folder.problems.emplace_back(error.what());
     }
     std::move(folder.files.begin(), folder.files.end(), std::back_inserter(list.files));
-    std::move(folder.troubles.begin(), folder.troubles.end(), std::back_inserter(list.troubles));
+    std::move(folder.problems.begin(), folder.problems.end(), std::back_inserter(list.problems));
   }
   return list;
 }
@@ -192,7 +192,7 @@ int forEachReadable(const RecordingList& list, bool quiet, const ReadableWork& w
     run.noteWarnings(file, recording.profile);
     run.leaveTheTerminal();
     work(file, recording, halfOf(progress, 0.5));
-    return FileOutcome{.trouble =
+    return FileOutcome{.problem =
                            recording.damage.empty() ? "" : file.string() + ": " + recording.damage};
   });
 }

@@ -21,18 +21,18 @@ struct RecordingList {
   // joined with the rest.
   std::vector<std::filesystem::path> files;
   // A line each: a folder that can't be looked into, a folder without recordings.
-  std::vector<std::string> troubles;
+  std::vector<std::string> problems;
   // More than one word, or a folder: one table over all, which names the files.
   bool several = false;
 };
 
 // Of folders what recordingsBelow() finds. Never throws for what it meets on the disk.
-RecordingList recordingsIn(const Words& words);
+RecordingList recordingsIn(const Arguments& words);
 
 // What came of one file.
 struct FileOutcome {
   std::string said = {};     // a line for standard output; empty: none
-  std::string trouble = {};  // done in part: why, for standard error; empty: all is well
+  std::string problem = {};  // done in part: why, for standard error; empty: all is well
 };
 // Throws Error when the file can't be done, Cancelled when the progress returns false.
 using FileWork = std::function<FileOutcome(const std::filesystem::path& file, const Progress&)>;

@@ -9,7 +9,7 @@
 
 namespace palpate::commands {
 
-int recoverCommand(const Words& words) {
+int recoverCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate recover IN OUT",
        .purpose =
@@ -19,8 +19,8 @@ int recoverCommand(const Words& words) {
            "is no OUT).",
        .options = {{"force", "", "replace OUT"}},
        .example = "palpate recover broken.dsa saved.palpate",
-       .fewestWords = 2,
-       .mostWords = 2},
+       .minArguments = 2,
+       .maxArguments = 2},
       words);
   if (given.helpShown()) return kDone;
   const std::string& in = given.words()[0];

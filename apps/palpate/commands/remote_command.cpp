@@ -4,8 +4,8 @@
 #include <string>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
-#include "palpate/core/one_line.h"
 #include "palpate/core/time.h"
 #include "palpate/interop/remote_client.h"
 #include "palpate/interop/remote_server.h"
@@ -33,7 +33,7 @@ bool isPart(const Json& answer) {
 
 }  // namespace
 
-int remoteCommand(const Words& words) {
+int remoteCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate remote [--socket PATH] REQUEST [TEXT]",
        .purpose = "Asks a palpate on this machine that was started with --remote (or where Remote "
@@ -48,7 +48,7 @@ int remoteCommand(const Words& words) {
        .options = {{"socket", "PATH", "where it listens; default $XDG_RUNTIME_DIR/palpate-remote"},
                    {"wait", "S", "give up without an answer after so many seconds, default 60"}},
        .example = "palpate remote start pen_{run}",
-       .fewestWords = 1},
+       .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const std::string request = remoteRequestOf(given);
@@ -58,12 +58,12 @@ int remoteCommand(const Words& words) {
   const std::string line =
       client.ask(request, std::chrono::milliseconds(static_cast<std::int64_t>(waitS * kMsPerS)));
   const Json answer = Json::parse(line);
-  std::printf("%s\n", oneLine(line).c_str());
+  std::printf("%s\n", escapedLine(line).c_str());
   const std::string message = answer.contains("message") ? answer.at("message").asString() : "";
   if (!answer.at("ok").asBool())
     throw Error("refused (" + answer.at("error").asString() + "): " + message);
   if (!isPart(answer)) return kDone;
-  std::fprintf(stderr, "palpate: %s\n", oneLine(message).c_str());
+  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
   return kPartlyDone;
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/one_line.h"
 #include "palpate/interop/remote_file.h"
 #include "palpate/interop/remote_recorder.h"
 #include "palpate/interop/remote_server.h"
@@ -44,12 +44,12 @@ void sayRemoteRecording(const RecordingReport& report, bool json) {
   if (json)
     line = answerLine(answer, "stop");
   else if (!answer.ok())
-    line = "nothing was recorded: " + oneLine(answer.message);
+    line = "nothing was recorded: " + escapedLine(answer.message);
   else
-    line = oneLine(report.paths.front().string()) + ": " + std::to_string(report.frames) +
+    line = escapedLine(report.paths.front().string()) + ": " + std::to_string(report.frames) +
            " frames in " + fixedText(report.durationS, 1) + " s, " +
            std::to_string(report.lost + report.refused) + " lost" +
-           (report.message.empty() ? "" : "; " + oneLine(report.message));
+           (report.message.empty() ? "" : "; " + escapedLine(report.message));
   std::printf("%s\n", line.c_str());
   std::fflush(stdout);
 }
@@ -84,9 +84,9 @@ int recordRemotely(const CommandLine& given,
   {
     RemoteRecorder recorder(session, std::move(options));
     const RemoteServer server(remoteSocketOf(given), recorder);
-    std::printf("remote=%s\n", oneLine(server.socket().string()).c_str());
+    std::printf("remote=%s\n", escapedLine(server.socket().string()).c_str());
     std::fflush(stdout);
-    while (!interruption.came(kRemoteRecordingLookMs)) {
+    while (!interruption.waitForSignal(kRemoteRecordingLookMs)) {
     }
   }
   session.stop();

@@ -181,7 +181,7 @@ int drawSeries(const CommandLine& given,
     const Progress show = progress.callback();
     report = gui::writePictureSeries(
         series, painterOf(given, profile, span, options), paper, overwrite, [&](double fraction) {
-          return !interruption.came(0) && (!show || show(fraction));
+          return !interruption.waitForSignal(0) && (!show || show(fraction));
         });
   }
   const std::string count = std::to_string(report.written) + " of " +
@@ -210,7 +210,7 @@ int drawOne(const CommandLine& given,
   const std::string out = *given.text("output");
   const std::size_t frame =
       chosenFrame(given.integer("frame", 0, INT64_MAX), given.words()[0], profile);
-  if (gui::pictureFormOf(out) == gui::PictureForm::kPng) options.pixelRatio = paper.scale();
+  if (gui::imageFormatOf(out) == gui::ImageFormat::kPng) options.pixelRatio = paper.scale();
   const auto paint = painterOf(given, profile, {frame, frame}, options);
   gui::writePicture(
       out, [&](QPainter& painter) { paint(painter, frame); }, paper, overwrite);
@@ -226,7 +226,7 @@ void checkUsage(const CommandLine& given, bool isSeries) {
         "render needs -o OUT.png, OUT.svg, OUT.pdf or OUT.mp4, or a folder for --from");
   const bool isMovie = isMovieName(*out);
   checkMovieUsage(given);
-  const bool isPicture = gui::pictureFormOf(*out).has_value();
+  const bool isPicture = gui::imageFormatOf(*out).has_value();
   if (isSeries && given.has("frame"))
     throw UsageError("--frame is one frame, --from and --to are many");
   if (isSeries && isPicture)
@@ -246,7 +246,7 @@ void checkUsage(const CommandLine& given, bool isSeries) {
 
 }  // namespace
 
-int renderCommand(const Words& words) {
+int renderCommand(const Arguments& words) {
   CommandSpec spec = {
       .synopsis =
           "palpate render FILE [--frame N | --from N --to M] -o OUT.{png,svg,pdf}|FOLDER|OUT.mp4",
@@ -283,8 +283,8 @@ int renderCommand(const Words& words) {
                   {"theme", "dark|light", "default light"},
                   {"force", "", "replace OUT"}},
       .example = "palpate render foam_ball.dsa --frame 2411 -o frame.svg --values",
-      .fewestWords = 1,
-      .mostWords = 1};
+      .minArguments = 1,
+      .maxArguments = 1};
   const auto ofHand = handViewOptions();
   spec.options.insert(spec.options.end(), ofHand.begin(), ofHand.end());
   const CommandLine given(spec, words);

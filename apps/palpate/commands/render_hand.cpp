@@ -6,9 +6,9 @@
 #include "palpate/core/error.h"
 
 #include "commands/hand_options.h"
-#include "gui/space/hand_drawing.h"
-#include "gui/space/hand_frame_painter.h"
-#include "gui/space/hand_picture.h"
+#include "gui/hand3d/hand_frame_painter.h"
+#include "gui/hand3d/hand_picture.h"
+#include "gui/hand3d/hand_scene_builder.h"
 
 namespace palpate::commands {
 namespace {
@@ -95,7 +95,7 @@ gui::FramePictures::Paint handPainter(const HandRendering& view,
   gui::HandPictureOptions options;
   options.page = page;
   options.look = view.look;
-  gui::HandDrawing drawing;
+  gui::HandSceneBuilder drawing;
   drawing.setHand(profile.hand());
   std::vector<Eigen::Vector3d> seen;
   for (std::size_t i = 0; i <= std::min(kLooks, span.count() - 1); ++i) {

@@ -7,9 +7,9 @@
 #include "palpate/model/profile.h"
 
 #include "commands/command_line.h"
+#include "gui/hand3d/hand_look.h"
 #include "gui/matrices/matrices_painter.h"
 #include "gui/picture/exported_view.h"
-#include "gui/space/hand_look.h"
 
 namespace palpate::commands {
 

@@ -19,7 +19,7 @@ namespace {
 MovieOptions chosenOptions(const CommandLine& given) {
   MovieOptions options;
   options.picturesPerS =
-      given.number("fps", MovieOptions::kLeastPicturesPerS, MovieOptions::kMostPicturesPerS)
+      given.number("fps", MovieOptions::kMinPicturesPerS, MovieOptions::kMaxPicturesPerS)
           .value_or(options.picturesPerS);
   options.speed = given.number("speed", Playback::kMinimumSpeed, Playback::kMaximumSpeed)
                       .value_or(options.speed);
@@ -36,7 +36,7 @@ void printMovie(const std::string& out, const gui::Movie& movie) {
   if (movie.timing.numGaps > 0)
     std::printf("; gaps shortened: %zu, by %s s",
                 movie.timing.numGaps,
-                fixedText(movie.timing.leftOutS, 1).c_str());
+                fixedText(movie.timing.shortenedS, 1).c_str());
   std::printf("\n");
 }
 
@@ -79,7 +79,7 @@ int drawMovie(const CommandLine& given,
     ProgressLine progress("drawing", given.quiet());
     const Progress show = progress.callback();
     const auto goOn = [&](double fraction) {
-      return !interruption.came(0) && (!show || show(fraction));
+      return !interruption.waitForSignal(0) && (!show || show(fraction));
     };
     movie = gui::plannedMovie(span, timeUs, chosenOptions(given), goOn);
     gui::writeMovie(out, movie, paint, paper, overwrite, goOn);

@@ -95,7 +95,7 @@ Recipe smoothOf(const CommandLine& given) {
 
 }  // namespace
 
-int signalsCommand(const Words& words) {
+int signalsCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate signals PATH... [--matrix M] [--filter SPEC..] [--smooth SPEC..]",
        .purpose = "Prints the characteristic signals of every matrix in every frame as CSV: mean, "
@@ -108,7 +108,7 @@ int signalsCommand(const Words& words) {
            {{"matrix", "M", "only this matrix (0, 1, ..)"},
             {"smooth", "SPEC", "then filter the signals themselves over time, as kalman:q=0.05"}}),
        .example = "palpate signals foam_ball.dsa --matrix 1 > curve.csv",
-       .fewestWords = 1},
+       .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const auto matrix = given.integer("matrix", 0, INT64_MAX);
@@ -121,7 +121,7 @@ int signalsCommand(const Words& words) {
       recordings,
       given.quiet(),
       [&](const std::filesystem::path& file, const Profile& unfiltered, const Progress& progress) {
-        const Profile profile = lookedAtThrough(recipe, unfiltered, file);
+        const Profile profile = filteredBy(recipe, unfiltered, file);
         std::optional<std::size_t> only;
         if (matrix) {
           only = static_cast<std::size_t>(*matrix);

@@ -23,7 +23,7 @@ Json slipAlarmsToJson(const SlipScore& score) {
       .set("hours_settled", score.matrixHours[kSettledContact])
       .set("slips", static_cast<std::int64_t>(score.slips))
       .set("found", static_cast<std::int64_t>(score.found))
-      .set("found_part", score.foundPart());
+      .set("found_part", score.detectionRate());
   if (const std::size_t n = score.delaysFrames.size(); n > 0)
     json.set("delay_median_frames", static_cast<std::int64_t>(score.delaysFrames[n / 2]))
         .set("delay_p90_frames", static_cast<std::int64_t>(score.delaysFrames[n * 9 / 10]));
@@ -44,9 +44,9 @@ Json slipAlarms(const std::filesystem::path& folder, bool quiet) {
         quiet,
         [&](const std::filesystem::path&, const Profile& profile, const Progress& progress) {
           if (slip)
-            evaluation.addSlip(profile, progress);
+            evaluation.addSlipRecording(profile, progress);
           else
-            evaluation.addHold(profile, progress);
+            evaluation.addNoSlipRecording(profile, progress);
         });
     if (code != kDone) throw Error(path.string() + ": not all recordings could be read");
   };
@@ -57,7 +57,7 @@ Json slipAlarms(const std::filesystem::path& folder, bool quiet) {
   for (const ScoredAlarm& alarm : report.alarms)
     alarms.set(alarm.name, slipAlarmsToJson(alarm.score));
   Json json = Json::object();
-  json.set("hold_recordings", static_cast<std::int64_t>(report.holdRecordings))
+  json.set("hold_recordings", static_cast<std::int64_t>(report.noSlipRecordings))
       .set("slip_recordings", static_cast<std::int64_t>(report.slipRecordings))
       .set("methods", alarms);
   return json;

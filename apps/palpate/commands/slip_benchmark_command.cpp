@@ -30,7 +30,7 @@ Json slipBenchmarkToJson(const SlipAccuracy& accuracy) {
 
 }  // namespace
 
-int slipBenchmarkCommand(const Words& words) {
+int slipBenchmarkCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate slip-benchmark [--noise SD] [--shape S].. [--seed N]",
        .purpose =
@@ -48,7 +48,7 @@ int slipBenchmarkCommand(const Words& words) {
                     "also scores alarms on real recordings: FOLDER/slip-detection slips, "
                     "FOLDER/grasps_by_class doesn't"}},
        .example = "palpate slip-benchmark --noise 20",
-       .mostWords = 0},
+       .maxArguments = 0},
       words);
   if (given.helpShown()) return kDone;
   SlipAccuracyOptions options;
@@ -69,7 +69,7 @@ int slipBenchmarkCommand(const Words& words) {
   std::vector<MethodAccuracy> results;
   {
     ProgressLine progress("measuring slip", given.quiet());
-    results = measureSlipAccuracy(measuredMethods(), options, progress.callback());
+    results = measureSlipAccuracy(benchmarkedMethods(), options, progress.callback());
   }
   Json methods = Json::object();
   for (const MethodAccuracy& result : results) {

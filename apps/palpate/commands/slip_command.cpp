@@ -22,7 +22,7 @@ constexpr const char* kSegmentColumns =
     "begin,end,begin_ms,end_ms,matrix,path_taxels,rotation_deg,confidence";
 
 struct SlipRequest {
-  SlipPassOptions pass;
+  SlipRunOptions pass;
   std::optional<std::int64_t> matrix;
 };
 
@@ -69,7 +69,7 @@ void readReference(const CommandLine& given, SlipRequest& request) {
   if (word == "first") {
     detector.reference = SlipReference::kFirst;
   } else if (word == "rest") {
-    detector.reference = SlipReference::kRest;
+    detector.reference = SlipReference::kWhenAtRest;
   } else if (const auto frame = parseInteger(word); frame && *frame >= 0) {
     detector.reference = SlipReference::kGiven;
     request.pass.referenceFrame = static_cast<std::size_t>(*frame);
@@ -84,7 +84,7 @@ SlipRequest slipRequestOf(const CommandLine& given) {
   std::vector<std::string> methods;
   for (const SlipMethod method : slipMethods()) methods.emplace_back(nameOf(method));
   if (const auto name = given.choice("method", methods)) detector.method = *slipMethodNamed(*name);
-  detector.contestAlarm = detector.method == SlipMethod::kContest;
+  detector.hypothesisAlarm = detector.method == SlipMethod::kHypotheses;
   readReference(given, request);
   request.matrix = given.integer("matrix", 0, INT32_MAX);
   SlipRuleOptions& rule = detector.rule;
@@ -109,7 +109,7 @@ void requireThere(const std::filesystem::path& file,
 
 }  // namespace
 
-int slipCommand(const Words& words) {
+int slipCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate slip PATH... [--method METHOD] [--reference first|rest|FRAME]",
        .purpose =
@@ -132,7 +132,7 @@ int slipCommand(const Words& words) {
                    {"rotation", "DEG", "threshold of turning [deg], default 5"},
                    {"segments", "", "a row per slip: frames, matrix, length of the way"}},
        .example = "palpate slip bottle.dsa --reference rest > slip.csv",
-       .fewestWords = 1},
+       .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const SlipRequest request = slipRequestOf(given);

@@ -8,7 +8,7 @@
 namespace palpate::commands {
 namespace {
 
-void appendVerdict(std::string& row, const SlipVerdict& verdict) {
+void appendVerdict(std::string& row, const SlipDetection& verdict) {
   const SlipMotion& motion = verdict.motion;
   const SlipRotation& rotation = motion.rotation;
   appendNumber(row, static_cast<std::int64_t>(motion.active));
@@ -44,15 +44,15 @@ void appendSlipCell(std::string& row, bool known, double value) {
 }
 
 void forEachSlipRow(const Profile& profile,
-                    const SlipPassOptions& pass,
+                    const SlipRunOptions& pass,
                     std::optional<std::int64_t> matrix,
                     const std::function<void(const std::string& row)>& sink,
                     const Progress& progress) {
   std::string row;
-  passSlip(
+  runSlipDetector(
       profile,
       pass,
-      [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipVerdict>& verdicts) {
+      [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& verdicts) {
         for (std::size_t m = 0; m < verdicts.size(); ++m) {
           if (verdicts[m].motion.active == 0) continue;
           if (matrix && *matrix != static_cast<std::int64_t>(m)) continue;

@@ -15,10 +15,10 @@ namespace palpate::commands {
 
 // Without line end.
 extern const char* const kSlipColumns;
-// Gives `sink` row after row, without line end; of one matrix, or of all. Throws as passSlip, and
-// what the sink throws.
+// Gives `sink` row after row, without line end; of one matrix, or of all. Throws as
+// runSlipDetector, and what the sink throws.
 void forEachSlipRow(const Profile& profile,
-                    const SlipPassOptions& pass,
+                    const SlipRunOptions& pass,
                     std::optional<std::int64_t> matrix,
                     const std::function<void(const std::string& row)>& sink,
                     const Progress& progress = {});

@@ -142,7 +142,7 @@ Json spectrumJsonOf(const SpectrumReport& report,
                     const SpectrumOptions& options,
                     const MeanSpectrum& mean,
                     double strongestTimeS) {
-  Json stretches = jsonList(report.stretches, [](const SpectrumStretch& stretch) {
+  Json stretches = jsonList(report.stretches, [](const GapFreeSpan& stretch) {
     return Json::object()
         .set("begin_s", stretch.beginS)
         .set("end_s", stretch.endS)
@@ -174,7 +174,7 @@ Json spectrumJsonOf(const SpectrumReport& report,
 
 std::string tooShort(const SpectrumReport& report, const SpectrumOptions& options) {
   std::size_t longest = 0;
-  for (const SpectrumStretch& stretch : report.stretches)
+  for (const GapFreeSpan& stretch : report.stretches)
     longest = std::max(longest, stretch.gridSamples);
   return "the longest stretch without a gap has " + std::to_string(longest) +
          " samples, a window takes " + std::to_string(options.window) + ": take a smaller --window";
@@ -182,7 +182,7 @@ std::string tooShort(const SpectrumReport& report, const SpectrumOptions& option
 
 }  // namespace
 
-int spectrumCommand(const Words& words) {
+int spectrumCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate spectrum FILE --matrix M --x X --y Y [--window 32] [--overlap 31] ..",
        .purpose =
@@ -209,8 +209,8 @@ int spectrumCommand(const Words& words) {
             {"to", "N", "last frame, inclusive"},
             {"json", "", "no spectra: rate, Nyquist, jitter, strongest line as JSON"}}),
        .example = "palpate spectrum roughness_test_rough.dsa --matrix 5 --x 2 --y 9 > spectra.csv",
-       .fewestWords = 1,
-       .mostWords = 1},
+       .minArguments = 1,
+       .maxArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const SpectrumOptions options = spectrumOptionsOf(given);
@@ -218,7 +218,7 @@ int spectrumCommand(const Words& words) {
   const std::string& file = given.words().front();
   ProgressLine line("reading " + file, given.quiet());
   const Profile profile =
-      lookedAtThrough(recipe, openRecording(file, line.callback()), file, line.callback());
+      filteredBy(recipe, openRecording(file, line.callback()), file, line.callback());
   const Series series = seriesOf(given, profile, line.callback());
   const SpectrumReport plan = planSpectra(series.timeS, series.values, options);
   if (plan.segments == 0) throw Error(file + ": " + tooShort(plan, options));

@@ -11,8 +11,8 @@
 
 #include "palpate/capture/replay.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/interruption.h"
-#include "palpate/core/one_line.h"
 #include "palpate/device/live_hand.h"
 #include "palpate/recording/recording.h"
 
@@ -76,7 +76,7 @@ CommandSpec streamSpec() {
                   {"calibration", "C.json", "pressures and forces, too"},
                   {"duration", "S", "stop after so many seconds"}},
       .example = "palpate stream --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1",
-      .mostWords = 1};
+      .maxArguments = 1};
 }
 
 // What can be read of a recording; `damage` says what is missing.
@@ -92,7 +92,7 @@ ReadableRecording streamedRecording(const CommandLine& given, std::string& damag
 // Says what was missing in the recording. Returns the exit code of work that is done otherwise.
 int endOf(const std::string& damage) {
   if (damage.empty()) return kDone;
-  std::fprintf(stderr, "palpate: %s\n", oneLine(damage).c_str());
+  std::fprintf(stderr, "palpate: %s\n", escapedLine(damage).c_str());
   return kPartlyDone;
 }
 
@@ -137,7 +137,7 @@ void runSession(const CommandLine& given,
   const std::int64_t beginUs = systemClock().monotonicUs();
   session.start();
   const auto* replay = dynamic_cast<const Replay*>(&session.device());
-  while (!interruption.came(kStreamLookMs)) {
+  while (!interruption.waitForSignal(kStreamLookMs)) {
     if (replay && replay->finished()) return;
     if (over()) return;
     if (static_cast<double>(systemClock().monotonicUs() - beginUs) >= durationS * 1e6) return;
@@ -186,7 +186,7 @@ int streamLinesOf(const CommandLine& given, StreamKind kind) {
   Interruption interruption;
   try {
     chain.runOver(profile, recording.events, [&](double) {
-      return !interruption.came(0) && !lines.failed();
+      return !interruption.waitForSignal(0) && !lines.failed();
     });
   } catch (const Cancelled&) {
     lines.finish();
@@ -233,7 +233,7 @@ int streamLines(const CommandLine& given, const std::vector<StreamTarget>& targe
 
 }  // namespace
 
-int streamCommand(const Words& words) {
+int streamCommand(const Arguments& words) {
   const CommandLine given(streamSpec(), words);
   if (given.helpShown()) return kDone;
   if (given.words().empty() != given.has("dsa"))

@@ -49,7 +49,7 @@ Profile fromOptions(const CommandLine& given) {
 
 }  // namespace
 
-int synthesizeCommand(const Words& words) {
+int synthesizeCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate synthesize -o OUT.dsa [--scene NAME] [--duration S] [--grasps N] "
                    "[--noise SD] ..",
@@ -75,7 +75,7 @@ int synthesizeCommand(const Words& words) {
                    {"days-later", "N", "of a scene: host time so many days later, default 0"},
                    {"force", "", "replace OUT.dsa"}},
        .example = "palpate synthesize -o grasps.dsa --grasps 4 --noise 8",
-       .mostWords = 0},
+       .maxArguments = 0},
       words);
   if (given.helpShown()) return kDone;
   const auto out = given.text("output");

@@ -43,7 +43,7 @@ Json reportOf(const TrainedModel& model,
       .set("model", out.string())
       .set("set", featureSetName(model.set))
       .set("classifier", classifierName(model.pipeline.classifier))
-      .set("carries_over_to_another_day", model.carriesOver())
+      .set("carries_over_to_another_day", model.adaptsToSession())
       .set("empty_hand_zero", model.trainingZero ? emptyHandZeroJson(*model.trainingZero) : Json())
       .set("classes", std::move(classes))
       .set("features", model.features.size())
@@ -54,7 +54,7 @@ Json reportOf(const TrainedModel& model,
 
 }  // namespace
 
-int trainCommand(const Words& words) {
+int trainCommand(const Arguments& words) {
   std::vector<OptionSpec> options = {{"output,o", "MODEL.json", "write the model there"},
                                      {"set", "SET", "best (default), study or session"},
                                      zeroOptionSpec(),
@@ -75,8 +75,8 @@ int trainCommand(const Words& words) {
            "takes that of another\nday instead of labelled grasps.",
        .options = options,
        .example = "palpate train recordings -o objects.json",
-       .fewestWords = 1,
-       .mostWords = 1},
+       .minArguments = 1,
+       .maxArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const auto out = given.text("output");
@@ -87,7 +87,7 @@ int trainCommand(const Words& words) {
   const ModelSearchOptions search = searchGiven(given, set);
   requireWritable(*out, overwrite);
 
-  const FeatureTable table = gatherTable(given, {given.words().front()}, set);
+  const FeatureTable table = extractFeatureTable(given, {given.words().front()}, set);
   const auto zero = zeroGiven(given);
   if (zero) requireSameDay(*zero, table);
   const SampleSet samples = samplesOf(table);

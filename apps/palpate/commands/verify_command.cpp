@@ -1,7 +1,7 @@
 // palpate verify PATH...: every byte checked, one line per file.
 #include <filesystem>
 
-#include "palpate/core/one_line.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/command_line.h"
@@ -43,7 +43,7 @@ int worse(int a, int b) {
 
 }  // namespace
 
-int verifyCommand(const Words& words) {
+int verifyCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate verify PATH...",
        .purpose = "Checks every byte of recordings; one line per file says sound, damaged (and how "
@@ -53,7 +53,7 @@ int verifyCommand(const Words& words) {
                   "code is all.",
        .options = {},
        .example = "palpate verify foam_ball.dsa hockey_ball.dsa",
-       .fewestWords = 1},
+       .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   int worst = kDone;
@@ -65,8 +65,8 @@ int verifyCommand(const Words& words) {
                          worst = worse(worst, exitCode(report.state));
                          FileOutcome outcome;
                          if (!given.quiet())
-                           outcome.said = oneLine(file.string()) + ": " + word(report.state) +
-                                          ": " + oneLine(report.message);
+                           outcome.said = escapedLine(file.string()) + ": " + word(report.state) +
+                                          ": " + escapedLine(report.message);
                          return outcome;
                        });
   return worse(worst, code);

@@ -12,8 +12,8 @@
 #include "commands/hand_options.h"
 #include "commands/picture_size.h"
 #include "commands/remote_recording.h"
-#include "gui/shell/workbench.h"
-#include "gui/space/gl_probe.h"
+#include "gui/hand3d/gl_probe.h"
+#include "gui/shell/run_window.h"
 
 namespace palpate::commands {
 namespace {
@@ -80,8 +80,8 @@ int probeOpenGl() {
 
 }  // namespace
 
-int workbenchCommand(const Words& words) {
-  if (words == Words{"--probe-opengl"}) return probeOpenGl();
+int windowCommand(const Arguments& words) {
+  if (words == Arguments{"--probe-opengl"}) return probeOpenGl();
   const CommandLine given(
       {.synopsis = "palpate [FILE...] | palpate --demo | palpate --screenshot OUT.png ..",
        .purpose = "Opens the window: on recordings, on a demonstration, or on its start page.",
@@ -128,7 +128,7 @@ int workbenchCommand(const Words& words) {
   std::optional<std::filesystem::path> remote;  // before the usual folder is a made-up one
   if (given.has("remote")) remote = remoteSocketOf(given);
   const RuntimeFolder runtime;
-  gui::WorkbenchOptions options;
+  gui::WindowOptions options;
   options.files.assign(given.words().begin(), given.words().end());
   options.demo = given.has("demo");
   options.dataFolder = dataFolder();
@@ -141,7 +141,7 @@ int workbenchCommand(const Words& words) {
   std::string name = "palpate";
   char* arguments[] = {name.data(), nullptr};
   int count = 1;
-  return gui::runWorkbench(count, arguments, options);
+  return gui::runWindow(count, arguments, options);
 }
 
 }  // namespace palpate::commands

@@ -10,12 +10,12 @@
 namespace palpate {
 
 struct DriftCompensationOptions {
-  double steadyS = 1.0;    // the lag is over so long after contact began [s]
-  double longestS = 30.0;  // creep was measured so long; later it counts as ended [s]
+  double steadyS = 1.0;        // the lag is over so long after contact began [s]
+  double maxDurationS = 30.0;  // creep was measured so long; later it counts as ended [s]
   // Relative change of the reading above which the load is taken as changed, if the change lasts at
-  // least flickerS: single frames change when a taxel at the edge becomes active or inactive.
-  double sameLoadShare = 0.15;
-  double flickerS = 0.1;  // [s]
+  // least debounceS: single frames change when a taxel at the edge becomes active or inactive.
+  double sameLoadFraction = 0.15;
+  double debounceS = 0.1;  // [s]
 };
 
 // Of one contact, frame by frame; not thread-safe.

@@ -19,7 +19,7 @@ namespace palpate {
 
 // MatrixPressure, small: hours are kept of it.
 struct MatrixForce {
-  float gainCounts = 0.0F;
+  float staticResponseCounts = 0.0F;
   float kpa = 0.0F, sdKpa = 0.0F;
   float forceN = 0.0F, sdForceN = 0.0F;
   std::uint16_t active = 0;  // taxels above 0

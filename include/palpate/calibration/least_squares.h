@@ -21,7 +21,7 @@ struct LeastSquaresProblem {
 };
 
 struct LeastSquaresOptions {
-  int mostIterations = 1000;  // >= 1
+  int maxIterations = 1000;  // >= 1
   // Ends where a step promises less than this share of the sum, or moves x by less than this share;
   // > 0.
   double tolerance = 1e-16;

@@ -17,12 +17,12 @@ namespace palpate {
 struct LoadingStepOptions {
   SignalKind signal = SignalKind::kFilteredMean;
   double aboveCounts = 0.0;       // loaded: the signal is above [its unit], >= 0
-  double leastDurationS = 1.0;    // shorter contacts are no steps [s], >= 0
-  std::size_t leastFrames = 20;   // nor such of fewer frames; >= 6
+  double minDurationS = 1.0;      // shorter contacts are no steps [s], >= 0
+  std::size_t minFrames = 20;     // nor such of fewer frames; >= 6
   std::size_t bridgedFrames = 3;  // an unloaded stretch of at most so many frames is flicker
   // The load is being taken away where the signal stays below this share of its level (median of
   // the second half) until it is 0; 0..1.
-  double releaseShare = 0.95;
+  double releaseFraction = 0.95;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -46,7 +46,7 @@ struct StepSignal {
   std::vector<int> activeTaxels;     // taxels above 0; empty: not known
   std::vector<int> saturatedTaxels;  // taxels at or above the sensor's saturation; empty: not known
   // taxels that became active or inactive since the frame before; empty: not known
-  std::vector<int> switchedTaxels;
+  std::vector<int> toggledTaxels;
 };
 // Of one matrix of a profile. Throws std::out_of_range (no such matrix), Cancelled.
 StepSignal stepSignal(const Profile& profile,

@@ -43,12 +43,12 @@ struct NoiseLine {
   double rmseTrue = 0.0;   // sqrt(sum of squared residuals of this line / (n - 2)) [counts]
   bool valid = false;      // slope, intercept and rmse were found
   std::vector<NoiseBin> bins;
-  std::size_t numFrames = 0;               // with a temperature
-  std::size_t numOutliers = 0;             // frames more than 6 rmseTrue above the line
-  double leastDegC = 0.0, mostDegC = 0.0;  // temperatures it was measured at
-  double meanDegC = 0.0;                   // of all frames
-  double spreadDegC2 = 0.0;                // Sxx: sum of (T - mean)^2 [deg C^2]
-  std::vector<std::string> notes;          // what is missing, and what holds all the same
+  std::size_t numFrames = 0;            // with a temperature
+  std::size_t numOutliers = 0;          // frames more than 6 rmseTrue above the line
+  double minDegC = 0.0, maxDegC = 0.0;  // temperatures it was measured at
+  double meanDegC = 0.0;                // of all frames
+  double spreadDegC2 = 0.0;             // Sxx: sum of (T - mean)^2 [deg C^2]
+  std::vector<std::string> notes;       // what is missing, and what holds all the same
 
   double at(double degC) const { return intercept + slope * degC; }
   // theta = intercept + slope T + 3 RMSE [counts], the threshold above which no noise shows.
@@ -56,7 +56,7 @@ struct NoiseLine {
   // Half width of the 95 % interval that a single frame falls into (prediction interval of the
   // study, with its misprint corrected) [counts]; NaN with fewer than three frames.
   double predictionHalfWidth(double degC) const;
-  bool covers(double degC) const noexcept { return degC >= leastDegC && degC <= mostDegC; }
+  bool covers(double degC) const noexcept { return degC >= minDegC && degC <= maxDegC; }
 };
 
 struct NoiseFloor {

@@ -30,19 +30,19 @@ TactileThresholds resetThresholds(const SensorCharacteristics& sensor);
 struct NoiseThresholdOptions {
   double sigmas = 3.0;       // above the line; 0..20
   double sensitivity = 1.0;  // of the mode; 0..1
-  int leastCounts = 0;       // never below
-  int mostCounts = 1000;     // never above; the limit of the guard as well
+  int minCounts = 0;         // never below
+  int maxCounts = 1000;      // never above; the limit of the guard as well
   // a threshold moves when the wanted one is so far above it (and twice that below); >= 1
   int hysteresisCounts = 3;
   // between two settings; a rising guard waits only guardWindowS [s], >= 0
-  double leastIntervalS = 10;
-  // Guard against a collapsing frame rate: if the rate stays below collapseShare of the usual rate
-  // for guardWindowS [s], all thresholds rise by guardStepCounts; after guardCalmS [s] above it
-  // they fall by the same amount.
-  double collapseShare = 0.6;  // 0..1
-  double guardWindowS = 1.0;   // > 0
-  double guardCalmS = 60.0;    // > 0
-  int guardStepCounts = 10;    // >= 1
+  double minIntervalS = 10;
+  // Guard against a collapsing frame rate: if the rate stays below rateCollapseFraction of the
+  // usual rate for guardWindowS [s], all thresholds rise by guardStepCounts; after guardCalmS [s]
+  // above it they fall by the same amount.
+  double rateCollapseFraction = 0.6;  // 0..1
+  double guardWindowS = 1.0;          // > 0
+  double guardCalmS = 60.0;           // > 0
+  int guardStepCounts = 10;           // >= 1
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -53,9 +53,9 @@ struct NoiseThresholdOptions {
 int noiseThreshold(const NoiseLine& line, double degC, const NoiseThresholdOptions& options = {});
 
 struct NoiseThresholdStatus {
-  bool guarding = false;  // thresholds are raised
-  int guardCounts = 0;    // by so much
-  bool atLimit = false;   // and can't rise further
+  bool guarding = false;      // thresholds are raised
+  int guardCounts = 0;        // by so much
+  bool guardAtLimit = false;  // and can't rise further
   // matrices outside the temperatures that their line was measured at
   std::vector<std::size_t> extrapolated;
   // matrices without a temperature or line: the reset value stands

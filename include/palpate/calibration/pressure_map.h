@@ -23,7 +23,7 @@ namespace palpate {
 struct MatrixPressure {
   int active = 0;  // taxels above 0
   // K that was used: the filtered mean, at the settings of the calibration, creep taken out
-  double gainCounts = 0.0;
+  double staticResponseCounts = 0.0;
   double kpa = 0.0;    // of the contact; 0 without one
   double sdKpa = 0.0;  // of one estimate
   double forceN = 0.0;

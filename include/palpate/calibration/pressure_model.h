@@ -21,8 +21,8 @@ struct PressureSample {
   std::string file;    // where it comes from; may be empty
   std::string sha256;  // of that file
   double pressureKpa = 0.0;
-  double gainCounts = 0.0;  // K
-  double driftPerS = 0.0;   // m
+  double staticResponseCounts = 0.0;  // K
+  double driftCountsPerS = 0.0;       // m
   // sensor nearest to the matrix, mean over the step
   std::optional<double> nearestDegC = std::nullopt;
   std::optional<double> studyDegC = std::nullopt;  // what the study took (step_report.h)
@@ -38,7 +38,7 @@ struct PressureModelOptions {
   double assumedSdDegC = 8.0;  // how far off that may be; > 0
   // Of the stamp [mm^2]; 0: not known. Rubber spreads a load: more taxels are active than it
   // covers.
-  double stampAreaMm2 = 0.0;
+  double indenterAreaMm2 = 0.0;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -59,15 +59,15 @@ struct PressureModel {
   PressureModelOptions options;
   // Ratio of the loaded area to the area of the active taxels, if the area of the stamp is
   // known; the rubber spreads a load over more taxels than it covers.
-  double areaShare = 1.0;
-  double areaShareSd = 0.0;  // from step to step
-  double steadyS = 0.0;      // after so long the lag is over [s]: median of the steps; 0: not known
+  double areaFraction = 1.0;
+  double areaFractionSd = 0.0;  // from step to step
+  double steadyS = 0.0;  // after so long the lag is over [s]: median of the steps; 0: not known
   std::vector<std::string> notes;
 
   bool valid() const noexcept { return gain.valid; }
   // Of a contact's K [counts]; without a temperature that of the options, and a wider band. NaN
   // where not valid.
-  PressureEstimate pressureAt(double gainCounts, std::optional<double> degC) const;
+  PressureEstimate pressureAt(double staticResponseCounts, std::optional<double> degC) const;
 };
 
 // Throws std::invalid_argument (options).

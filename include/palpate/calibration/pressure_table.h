@@ -21,7 +21,7 @@ struct PressureTableRow {
   std::filesystem::path file;
   double pressureKpa = 0.0;
   std::optional<double> temperatureC = std::nullopt;  // instead of what the recording says
-  std::string trouble = {};                           // why the row can't be used; empty: it can
+  std::string problem = {};                           // why the row can't be used; empty: it can
 };
 
 // Throws FormatError (no such columns, no row); what is wrong with one row stands in its `trouble`.

@@ -13,9 +13,9 @@
 namespace palpate {
 
 struct SensitivityPoint {
-  double sensitivity = 0.0;  // 0..1
-  double gainCounts = 0.0;   // K of the step
-  bool used = true;          // false: the step isn't sound
+  double sensitivity = 0.0;           // 0..1
+  double staticResponseCounts = 0.0;  // K of the step
+  bool used = true;                   // false: the step isn't sound
   std::string note = {};
 };
 

@@ -18,10 +18,10 @@ struct SensitivitySearchOptions {
   double resolution = 0.03;  // ends where less is to be won; > 0
   // a taxel at or above is saturated [counts]
   double saturationCounts = static_cast<double>(kSdh2SaturationCounts);
-  double headroom = 0.1;          // aim so far below saturation; 0..0.9
-  std::size_t framesToLook = 10;  // with contact, at one sensitivity; >= 1
+  double headroom = 0.1;            // aim so far below saturation; 0..0.9
+  std::size_t framesPerTrial = 10;  // with contact, at one sensitivity; >= 1
   // After this time with a low maximum [s], >= 0, the upper bound is dropped and tested again.
-  double loosenAfterS = 5.0;
+  double resetUpperBoundAfterS = 5.0;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -48,10 +48,10 @@ class SensitivitySearch {
   SensitivitySearchOptions options_;
   double thresholdCounts_;
   double sensitivity_;
-  double safe_ = 0.0;       // highest that didn't saturate; 0: none yet
-  double unsafe_ = 2.0;     // lowest that did; 2: none yet
-  double largest_ = 0.0;    // in this look [counts]
-  std::size_t frames_ = 0;  // of this look
+  double highestUnsaturated_ = 0.0;  // highest that didn't saturate; 0: none yet
+  double lowestSaturated_ = 2.0;     // lowest that did; 2: none yet
+  double largest_ = 0.0;             // in this look [counts]
+  std::size_t frames_ = 0;           // of this look
   bool settled_ = false;
   bool saturated_ = false;
   std::optional<double> lowSinceS_;

@@ -29,7 +29,7 @@ struct StepFitOptions {
   // is normal; 0 takes these.
   double lossScale = 0.0;
   StepDamping damping = StepDamping::kOverdamped;
-  int mostIterations = 60;  // of one search, >= 1
+  int maxIterations = 60;  // of one search, >= 1
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -38,8 +38,8 @@ struct StepFitOptions {
 struct StepFit {
   static constexpr double kNotFitted = std::numeric_limits<double>::quiet_NaN();
   // All NaN where nothing was fitted, as rmse and residualSd.
-  StepParameters parameters = {.gainCounts = kNotFitted,
-                               .driftPerS = kNotFitted,
+  StepParameters parameters = {.staticResponseCounts = kNotFitted,
+                               .driftCountsPerS = kNotFitted,
                                .timeConstantS = kNotFitted,
                                .damping = kNotFitted};
   std::size_t numSamples = 0;  // used
@@ -54,13 +54,13 @@ struct StepFit {
   bool identifiable = false;  // all four parameters are determined by the data
   // The lag has ended (phi >= 95 %) before the data end, so that K and m can be estimated
   // separately.
-  bool gainReached = false;
+  bool steadyStateReached = false;
   std::size_t numDownweighted = 0;  // robust losses: samples that count less than half
   int evaluations = 0;              // of the model, over all starts
   std::vector<std::string> notes;   // what is missing or doubtful, a sentence each
 
   bool usable() const noexcept {
-    return converged && gainReached;
+    return converged && steadyStateReached;
   }  // K and m may be calibrated with
   // Standard deviation of K, m, T1 or T2 (0..3).
   double sd(int parameter) const;

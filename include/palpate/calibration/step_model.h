@@ -12,12 +12,15 @@
 namespace palpate {
 
 struct StepParameters {
-  double gainCounts = 0.0;     // K: what the signal reaches, without the drift [counts]
-  double driftPerS = 0.0;      // m: creep afterwards [counts/s]
-  double timeConstantS = 1.0;  // T [s], > 0
-  double damping = 1.0;        // d, > 0
+  double staticResponseCounts = 0.0;  // K: what the signal reaches, without the drift [counts]
+  double driftCountsPerS = 0.0;       // m: creep afterwards [counts/s]
+  double timeConstantS = 1.0;         // T [s], > 0
+  double damping = 1.0;               // d, > 0
   // From the time constants of d >= 1 [s], in any order; both > 0.
-  static StepParameters ofTimes(double gainCounts, double driftPerS, double t1S, double t2S);
+  static StepParameters ofTimes(double staticResponseCounts,
+                                double driftCountsPerS,
+                                double t1S,
+                                double t2S);
   // T1 >= T2 [s]; both T where d is 1 within rounding, NaN where d < 1.
   double t1S() const;
   double t2S() const;
@@ -28,9 +31,9 @@ struct StepShape {
   double phi = 0.0;   // 0 at t = 0, 1 at infinity
   double rate = 0.0;  // d phi / dt [1/s]
   // d >= 1: d phi / d log T2 at fixed T1/T2; d < 1: d phi / d log T at fixed d
-  double byFirst = 0.0;
+  double derivativeByFirst = 0.0;
   // d >= 1: d phi / d log(T1/T2 - 1) at fixed T2; d < 1: d phi / d d at fixed T
-  double bySecond = 0.0;
+  double derivativeBySecond = 0.0;
 };
 // d >= 1, through its time constants; exact for T1 = T2 as well. t1S >= t2S > 0.
 StepShape overdampedShape(double tS, double t1S, double t2S);

@@ -33,7 +33,7 @@ struct FittedStep {
   std::optional<double> studyDegC;
   std::size_t saturatedFrames = 0;  // frames with a saturated taxel
   double activeAreaMm2 = 0.0;       // of the active taxels, mean of the second half [mm^2]
-  double switchedPerFrame = 0.0;    // taxels that come and go, per frame of the second half
+  double toggledPerFrame = 0.0;     // taxels that come and go, per frame of the second half
   std::vector<std::string> notes;   // of the step; those of the fit are in fit.notes
 
   // K and m may be calibrated with: the fit is usable, begin seen, and nothing saturated.

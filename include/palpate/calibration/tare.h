@@ -16,11 +16,11 @@
 namespace palpate {
 
 struct TareOptions {
-  double windowS = 1.0;         // a window is judged as a whole [s]; > 0
-  double mostRestCounts = 150;  // a matrix whose calmest window reads more is never unloaded; >= 0
+  double windowS = 1.0;        // a window is judged as a whole [s]; > 0
+  double maxRestCounts = 150;  // a matrix whose calmest window reads more is never unloaded; >= 0
   // windows within so much of the calmest one are unloaded as well; >= 0
   double sameRestCounts = 10;
-  double mostSdCounts = 6;  // of each taxel within a window; more: something moves; >= 0
+  double maxSdCounts = 6;  // of each taxel within a window; more: something moves; >= 0
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;

@@ -2,8 +2,8 @@
 // delivers to the recorder, to live processing and to the screen, without ever making the device
 // wait.
 //
-//   device's threads --> CaptureFeed --> recorder's thread --> disk
-//                   `--> CaptureFeed of each subscriber (live processing)
+//   device's threads --> CaptureQueue --> recorder's thread --> disk
+//                   `--> CaptureQueue of each subscriber (live processing)
 //                   `--> newest frame, angles, temperatures; events (the screen pulls them)
 //
 // Stamps are the device's; nothing is stamped anew. One controlling thread, any number of pullers.
@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include <palpate/capture/capture_feed.h>
+#include <palpate/capture/capture_queue.h>
 #include <palpate/capture/link_health.h>
 #include <palpate/capture/recorder.h>
 #include <palpate/core/latest_value.h>
@@ -70,11 +70,12 @@ class CaptureSession : private DeviceSink {
   void note(const RecordingEvent& event);
 
   LinkHealth health() const;
-  BeforeRun checkBeforeRun(const std::filesystem::path& folder) const;
+  PreflightCheck checkPreflight(const std::filesystem::path& folder) const;
 
   // A consumer of its own from now on; ends when the pointer is let go. `consumer` is named in
   // gaps.
-  std::shared_ptr<CaptureFeed> subscribe(std::string consumer, const FeedOptions& options = {});
+  std::shared_ptr<CaptureQueue> subscribe(std::string consumer,
+                                          const CaptureQueueOptions& options = {});
 
   // For the screen: what is newer than at the last call, null or nothing when there is nothing new.
   SharedFrame takeFrame();
@@ -103,7 +104,7 @@ class CaptureSession : private DeviceSink {
   const Clock& clock_;
   std::unique_ptr<Device> device_;
   Recorder recorder_;
-  LinkMeter meter_;
+  LinkMonitor meter_;
   const bool scansItself_;
   std::shared_ptr<const SensorLayout> expectedFor_;  // of the thread that delivers frames
   std::atomic<float> saturationCounts_;
@@ -117,7 +118,7 @@ class CaptureSession : private DeviceSink {
   std::optional<Temperatures> lastTemperatures_;
 
   std::mutex feedsMutex_;
-  std::vector<std::shared_ptr<CaptureFeed>> feeds_;
+  std::vector<std::shared_ptr<CaptureQueue>> feeds_;
   std::atomic<std::size_t> numFeeds_ = 0;
 };
 

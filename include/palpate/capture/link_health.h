@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include <palpate/capture/capture_feed.h>
+#include <palpate/capture/capture_queue.h>
 #include <palpate/capture/recorder.h>
 #include <palpate/device/device.h>
 #include <palpate/model/hand_state.h>
@@ -20,16 +20,16 @@
 namespace palpate {
 
 struct HealthOptions {
-  // Frames per second that are expected; nothing: what LinkMeter::expect() says, else the mean
+  // Frames per second that are expected; nothing: what LinkMonitor::expect() says, else the mean
   // since the start.
   std::optional<double> expectedRateHz;
-  double lowRateShare = 0.8;           // of the expected rate: below is low ..
+  double lowRateFraction = 0.8;        // of the expected rate: below is low ..
   double lowRateS = 2.0;               // .. when it lasts longer [s]
   double noDataS = 1.0;                // no frame for longer (and for 3 periods) is an alarm [s]
   double emptyRecordingS = 2.0;        // a recording without a frame after so long is empty [s]
   double lowDiskHours = 1.0;           // [h]
   double nominalBytesPerS = 18'000.0;  // until measured: an SDH-2 with angles writes 1.5 GB a day
-  double hottestDegC = 65.0;           // recorded hands reached 61 [deg C]
+  double maxTemperatureDegC = 65.0;    // recorded hands reached 61 [deg C]
 };
 
 // Frames per second that a DSACON32-M scans, by the number of its taxels that are enabled. Measured
@@ -43,9 +43,9 @@ double lineRateHz(double runs);
 std::size_t runsOf(const TactileFrame& frame);
 
 // Rates and saturation of the frames that came, by the clock of their arrival. Thread-safe.
-class LinkMeter {
+class LinkMonitor {
  public:
-  explicit LinkMeter(const HealthOptions& options = {}) : options_(options) {}
+  explicit LinkMonitor(const HealthOptions& options = {}) : options_(options) {}
 
   struct Reading {
     std::uint64_t frames = 0;
@@ -53,7 +53,7 @@ class LinkMeter {
     double meanRateHz = 0.0;  // since the first frame
     std::optional<double> ageMs;        // since the newest frame came [ms]; nothing: none came yet
     std::uint64_t saturatedFrames = 0;  // frames with a saturated taxel
-    double saturatedShare = 0.0;        // of the last 2 s, 0..1
+    double saturatedFraction = 0.0;     // of the last 2 s, 0..1
     double lowRateS = 0.0;              // for how long the rate has been low [s]
     double expectedRateHz = 0.0;        // what low is measured by; 0: not known yet
     // that the line carries of frames like those of the last 2 s; 0: not known
@@ -95,7 +95,7 @@ enum class AlarmKind {
   kWriteError,      // the disk is full or fails; capture goes on
   kSlowDisk,        // the disk keeps the recorder waiting
   kEmptyRecording,  // a recording was started, and no frame comes
-  kTooHot,          // a motor or a board is hotter than HealthOptions::hottestDegC
+  kTooHot,          // a motor or a board is hotter than HealthOptions::maxTemperatureDegC
 };
 struct Alarm {
   AlarmKind kind = AlarmKind::kNoData;
@@ -106,18 +106,18 @@ struct Alarm {
 struct LinkInputs {
   bool started = false;
   DeviceStatus device;
-  LinkMeter::Reading frames;
-  FeedStats queues;
+  LinkMonitor::Reading frames;
+  CaptureQueueStats queues;
   RecorderStatus recorder;
   std::optional<Temperatures> temperatures;  // the newest; nothing: none came yet
 };
 
 struct LinkHealth {
-  LinkMeter::Reading frames;
+  LinkMonitor::Reading frames;
   DeviceStatus device;
   std::uint64_t lost = 0;          // frames that were sent and never came whole
   std::uint64_t badChecksums = 0;  // of both ports
-  FeedStats queues;                // towards the recorder
+  CaptureQueueStats queues;        // towards the recorder
   double bytesPerS = 0.0;          // to disk, measured (or HealthOptions::nominalBytesPerS)
   std::optional<std::uint64_t> freeBytes;
   std::optional<double> diskHours;  // at this rate
@@ -130,7 +130,7 @@ LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options =
 std::string withoutPort(const PortStatus& port);
 
 // Result of the check before a run: ready or not, in one line.
-struct BeforeRun {
+struct PreflightCheck {
   bool ready = false;
   std::string text;
   std::optional<std::uint64_t> freeBytes;  // in the folder that was asked about
@@ -143,8 +143,8 @@ struct FolderState {
   bool writable = false;
   std::optional<std::uint64_t> freeBytes;
 };
-BeforeRun checkBeforeRun(const LinkInputs& inputs,
-                         const FolderState& folder,
-                         const HealthOptions& options = {});
+PreflightCheck checkPreflight(const LinkInputs& inputs,
+                              const FolderState& folder,
+                              const HealthOptions& options = {});
 
 }  // namespace palpate

@@ -13,26 +13,26 @@
 namespace palpate {
 
 struct MovieOptions {
-  static constexpr double kLeastPicturesPerS = 1.0;
-  static constexpr double kMostPicturesPerS = 120.0;
+  static constexpr double kMinPicturesPerS = 1.0;
+  static constexpr double kMaxPicturesPerS = 120.0;
 
   double picturesPerS = 30.0;  // 1..120
   double speed = 1.0;          // 1: as long as it took; Playback::kMinimumSpeed..kMaximumSpeed
 };
 
 // One frame, and how many pictures in a row show it.
-struct MovieShot {
+struct MovieFrame {
   std::size_t frame = 0;  // index into the stamps
   std::size_t numPictures = 1;
-  bool operator==(const MovieShot&) const = default;
+  bool operator==(const MovieFrame&) const = default;
 };
 
 struct MovieTiming {
-  std::vector<MovieShot> shots;  // ascending; frames that no picture shows are left out
+  std::vector<MovieFrame> shots;  // ascending; frames that no picture shows are left out
   std::size_t numPictures = 0;
   double seconds = 0.0;     // how long the movie is [s]
   std::size_t numGaps = 0;  // that were shortened
-  double leftOutS = 0.0;    // by how much, in the recording's time [s]
+  double shortenedS = 0.0;  // by how much, in the recording's time [s]
 };
 
 // The last frame is shown as long as the usual (median) interval. Gaps, longer than max(1 s, 5

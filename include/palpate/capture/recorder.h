@@ -19,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-#include <palpate/capture/capture_feed.h>
+#include <palpate/capture/capture_queue.h>
 #include <palpate/core/time.h>
 
 namespace palpate {
@@ -28,7 +28,7 @@ struct RecorderOptions {
   double preTriggerS = 2.0;        // what is kept from before a start [s], 0..60
   double commitIntervalMs = 50.0;  // oldest item not committed, at most [ms], 1..10000
   std::string vfs;                 // SQLite file system to write with; empty: the default one
-  FeedOptions feed;                // queues; wakeAtItems 1 means half of the tactile one
+  CaptureQueueOptions feed;        // queues; wakeAtItems 1 means half of the tactile one
   // Bytes left on the disk of a folder, nothing when unknown; empty: statvfs.
   std::function<std::optional<std::uint64_t>(const std::filesystem::path&)> freeBytes;
   // Told of every event that the recorder itself makes (gap, clock, alarm); on its thread.
@@ -121,11 +121,11 @@ class Recorder {
   // does it.
   void step();
 
-  // Where items go in; never waits (unless feed.waitForRoom). False: lost, and counted.
-  bool offer(CaptureItem item);
+  // Where items go in; never waits (unless feed.blockWhenFull). False: lost, and counted.
+  bool push(CaptureItem item);
   // Clears the stored pre-trigger data, because a new source begins. Throws std::logic_error while
   // the thread runs or a recording is made.
-  void forget();
+  void clearPreTrigger();
 
   // Asks for a recording. Throws FileError (exists, no such folder, not writable),
   // std::invalid_argument (not a .palpate, options), std::logic_error (records already).
@@ -135,7 +135,7 @@ class Recorder {
   RecordingReport stop();
   bool recording() const;  // from start() until stopped, by itself or by stop()
   RecorderStatus status() const;
-  FeedStats feedStats() const;
+  CaptureQueueStats queueStats() const;
 
   // Host time as stamps have it [us since 1970]: the clock's or, when stamps come from another time
   // (a replay), the newest stamp.

@@ -17,9 +17,9 @@
 namespace palpate {
 
 enum class ReplayPace {
-  kRecorded,       // by its stamps, times speed, on a thread of its own
-  kAsFastAsTaken,  // one after the other, on a thread of its own: for a sink that can wait
-  kByHand,         // by advance(), no thread
+  kRecorded,  // by its stamps, times speed, on a thread of its own
+  kUnpaced,   // one after the other, on a thread of its own: for a sink that can wait
+  kManual,    // by advance(), no thread
 };
 
 struct ReplayOptions {
@@ -39,7 +39,7 @@ class Replay : public Device {
   Replay& operator=(const Replay&) = delete;
 
   HandDescription hand() const override;
-  DeviceFacts facts() const override;
+  DeviceInfo facts() const override;
   // From the beginning. A sample that can't be read (the file is damaged) is counted as lost and
   // passed over; the first one is told by an event "alarm". At the end comes an event "link". What
   // else goes wrong in the delivering thread, in the sink too, ends the replay with an event
@@ -52,7 +52,7 @@ class Replay : public Device {
 
   // Throws std::invalid_argument outside 0.1..16. Safe at any time.
   void setSpeed(double factor);
-  // kByHand: delivers what comes in the next `recordedUs` of the recording's time [us, >= 0]. The
+  // kManual: delivers what comes in the next `recordedUs` of the recording's time [us, >= 0]. The
   // first item comes at 0. Throws std::logic_error: not started, another pace.
   void advance(std::int64_t recordedUs);
   // Everything was delivered.

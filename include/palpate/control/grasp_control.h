@@ -21,8 +21,8 @@
 #include <vector>
 
 #include <palpate/capture/capture_session.h>
-#include <palpate/control/grasp_machine.h>
 #include <palpate/control/grasp_request.h>
+#include <palpate/control/grasp_state_machine.h>
 #include <palpate/core/time.h>
 
 namespace palpate {
@@ -89,56 +89,58 @@ class GraspControl {
   std::vector<GraspChange> takeChanges();
 
  private:
-  struct Asked {
+  struct SentCommand {
     std::future<CommandAnswer> answer;
     bool isStop = false;
   };
   void loop(const std::stop_token& stop);
   // All of these under mutex_.
-  void round();
-  void guardedRound() noexcept;
+  void runCycle();
+  void runGuardedCycle() noexcept;
   void fault(const char* what) noexcept;
   void note(RecordingEvent event, bool ends = false);
-  void hear();         // frames
-  void heedAnswers();  // of the hand
-  void heedPorts();
+  void processFrames();  // frames
+  void pollReplies();    // of the hand
+  void checkLinks();
   void send();
   void report();
   void refused(const GraspRequest& request, const std::string& why);
-  void tell(GraspPhase phase, const std::string& text, std::optional<GraspReport> report = {});
+  void reportPhase(GraspPhase phase,
+                   const std::string& text,
+                   std::optional<GraspReport> report = {});
   static std::string motionProblem(const DeviceStatus& status);
   bool settingsPending() const;
 
   // Hands over to the session what is owed to it; without mutex_: a consumer of the session may be
   // in no hurry.
-  void deliver();
+  void deliverEvents();
   void deliverLoop(const std::stop_token& stop);
   void deliverHere();
 
   CaptureSession& session_;
   const Clock& clock_;
-  std::shared_ptr<CaptureFeed> feed_;
+  std::shared_ptr<CaptureQueue> feed_;
 
   mutable std::mutex mutex_;
-  GraspMachine machine_;
+  GraspStateMachine machine_;
   std::vector<CaptureItem> items_;
-  std::optional<Asked> asked_;                    // the newest command of the grasp
-  std::vector<std::future<CommandAnswer>> free_;  // of stops and relaxes outside of a grasp
+  std::optional<SentCommand> sentCommand_;               // the newest command of the grasp
+  std::vector<std::future<CommandAnswer>> stopResults_;  // of stops and relaxes outside of a grasp
   std::vector<std::shared_future<CommandAnswer>> settings_;
-  GraspPhase told_ = GraspPhase::kIdle;
+  GraspPhase reportedPhase_ = GraspPhase::kIdle;
   std::optional<GraspReport> last_;
   std::deque<GraspChange> changes_;
   std::optional<GraspReport> portGone_;  // see GraspStatus
   std::uint64_t stopsAsked_ = 0;
   std::string lastFault_;         // said, and not again for a while in this grasp
   std::int64_t lastFaultUs_ = 0;  // [monotonic us]
-  struct Owed {
+  struct PendingEvent {
     RecordingEvent event;
     bool ends = false;  // of a grasp
   };
-  std::deque<Owed> owed_;
-  std::size_t endsOwed_ = 0;  // ends that the session wasn't told yet
-  std::condition_variable_any owes_;
+  std::deque<PendingEvent> pendingEvents_;
+  std::size_t pendingEndEvents_ = 0;  // ends that the session wasn't told yet
+  std::condition_variable_any pendingEventsChanged_;
   std::jthread delivery_;
   std::jthread thread_;
 };

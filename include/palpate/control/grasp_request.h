@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include <palpate/control/felt_limit.h>
+#include <palpate/control/limit_feasibility.h>
 #include <palpate/device/device.h>
 #include <palpate/live/live_results.h>
 #include <palpate/model/hand_description.h>
@@ -24,23 +24,23 @@ enum class GraspMode {
 };
 std::string_view nameOf(GraspMode mode);  // "plain", "reactive", "slip"
 
-constexpr double kSlowestGraspDegPerS = 1.0;
-constexpr double kFastestGraspDegPerS = 100.0;
-constexpr int kLeastGraspLimitCounts = 3;
-constexpr int kMostGraspLimitCounts = static_cast<int>(kSdh2SaturationCounts) - kFeltMarginCounts;
-constexpr int kMostSlipLimitCounts = 2200;
+constexpr double kMinGraspDegPerS = 1.0;
+constexpr double kMaxGraspDegPerS = 100.0;
+constexpr int kMinGraspLimitCounts = 3;
+constexpr int kMaxGraspLimitCounts = static_cast<int>(kSdh2SaturationCounts) - kLimitMarginCounts;
+constexpr int kMaxSlipLimitCounts = 2200;
 
 // How a slip-aware grasp holds on.
 struct HoldingOptions {
   double holdS = 0.0;  // ends by itself after so long, the hand goes on holding [s], 0: when told;
                        // at most a day
-  double settleS = 0.5;                        // rest before the first references [s], 0..60
-  double restS = 0.05;                         // and after closing again [s], 0..60
-  int raiseCounts = 300;                       // the limit rises by so much at a slip, 1..3300 ..
-  int mostLimitCounts = kMostSlipLimitCounts;  // .. up to this, limitCounts..3300
+  double settleS = 0.5;                      // rest before the first references [s], 0..60
+  double restS = 0.05;                       // and after closing again [s], 0..60
+  int raiseCounts = 300;                     // the limit rises by so much at a slip, 1..3300 ..
+  int maxLimitCounts = kMaxSlipLimitCounts;  // .. up to this, limitCounts..3300
   // After so long without slip the limit falls again by as much as it rose, down to where it began
   // [s], > 0.
-  double calmS = 5.0;
+  double noSlipS = 5.0;
   // The hand may then open, slowly and watched, until no taxel is over the lower limit. Not unless
   // told: it is loaded.
   bool loosen = false;
@@ -73,13 +73,13 @@ struct GraspRequest {
 // beyond the range of an axis (a hand with less range than the SDH-2).
 MoveJoints motionTo(const GraspRequest& request, double closeRatio, const HandDescription& hand);
 // The highest limit that a grasp may go to; of a plain one its limit means nothing.
-int highestLimitOf(const GraspRequest& request);
+int maxLimitOf(const GraspRequest& request);
 // Matrices on fingers that it moves, which can't tell that limit: with one of them it is refused.
-// None for a plain grasp. Settings as in felt_limit.h. Throws std::invalid_argument for a preshape
-// that there isn't.
-std::vector<UnfeltLimit> unfeltLimits(const HandDescription& hand,
-                                      const std::vector<MatrixSettings>& settings,
-                                      const GraspRequest& request);
+// None for a plain grasp. Settings as in limit_feasibility.h. Throws std::invalid_argument for a
+// preshape that there isn't.
+std::vector<UnmeasurableLimit> unmeasurableLimits(const HandDescription& hand,
+                                                  const std::vector<MatrixSettings>& settings,
+                                                  const GraspRequest& request);
 // A plain motion to the open hand: it grasps nothing, and is called so nowhere.
 bool isOpening(const GraspRequest& request);
 // What is done, without how: "reactive grasp", "opening".
@@ -94,7 +94,7 @@ enum class GraspOutcome {
   kLimitReached,  // a taxel was over the limit: stopped
   kStopped,       // by the user
   kRelaxed,       // by the user: motors off
-  kStreamDead,    // no frames any more in a reactive grasp: stopped
+  kStreamLost,    // no frames any more in a reactive grasp: stopped
   kPortGone,      // the motion port is gone: see docs/safety.md for what the hand does
   kFailed,        // the hand refused, didn't answer, or didn't end: stopped
   kRefused,       // it never began: nothing was sent
@@ -113,10 +113,10 @@ struct GraspReport {
   std::vector<int> heldAxes;  // of kFinished: axes that something holds short of their target
   // Largest taxel in the 0.5 s after the stop of a grasp under tactile control: the rubber responds
   // with a delay, so the reading rises after the stop [counts]. Empty if it was not measured.
-  std::optional<TaxelPeak> reached = {};
+  std::optional<TaxelPeak> peakAfterStop = {};
   // kPortGone: longest time from endUs for which the running motion can continue without control
   // [s]; 0 if no motion was running and the hand holds its position.
-  std::optional<double> goesOnS = {};
+  std::optional<double> remainingMotionS = {};
   // Of a slip-aware grasp:
   bool held = false;    // it came to hold
   int limitCounts = 0;  // the last limit
@@ -130,12 +130,12 @@ struct GraspReport {
 RecordingEvent beginEvent(const GraspReport& report);
 RecordingEvent endEvent(const GraspReport& report);
 // What a slip-aware grasp did meanwhile, also as events "grasp".
-struct GraspNote {
+struct GraspStep {
   std::string action;  // "holding", "slip", "regrasp", "lower", "loosen", "friction", "at_limit"
   std::string text;    // one line for a person
   std::optional<std::size_t> matrix = {};
   int limitCounts = 0;
 };
-RecordingEvent noteEvent(const GraspReport& report, const GraspNote& note, std::int64_t hostUs);
+RecordingEvent noteEvent(const GraspReport& report, const GraspStep& note, std::int64_t hostUs);
 
 }  // namespace palpate

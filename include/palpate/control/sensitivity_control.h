@@ -49,10 +49,10 @@ class SensitivityControl {
 
   // Instead of what runs. Throw std::invalid_argument (options; noise lines of a hand with more
   // matrices).
-  void holdHigh(const NoiseFloor& floor, const NoiseThresholdOptions& options = {});
-  void seek(const SensitivitySearchOptions& options = {});
+  void beginHighSensitivity(const NoiseFloor& floor, const NoiseThresholdOptions& options = {});
+  void beginAdaptiveSensitivity(const SensitivitySearchOptions& options = {});
   // Ends a mode; what is set stays.
-  void letGo();
+  void endMode();
   // Ends a mode and brings the hand to what it has at power-up (0.5; SDH-2: 150 proximal, 300
   // distal).
   void reset();
@@ -62,11 +62,11 @@ class SensitivityControl {
 
  private:
   void begin(SensitivityMode mode, const std::string& text);
-  void hear();
-  void heard(const TactileFrame& frame);
-  void heedAnswers();
-  void makeHigh();
-  void bring();
+  void processFrames();
+  void onFrame(const TactileFrame& frame);
+  void pollReplies();
+  void startHighSensitivity();
+  void applyWantedSettings();
   double rateHz() const;
   double nowS() const;
 
@@ -74,7 +74,7 @@ class SensitivityControl {
   GraspControl& control_;
   const Clock& clock_;
   SensitivityStatus status_;
-  std::shared_ptr<CaptureFeed> feed_;  // null: no mode
+  std::shared_ptr<CaptureQueue> feed_;  // null: no mode
   std::vector<CaptureItem> items_;
   std::optional<NoiseFloor> floor_;
   NoiseThresholdOptions highOptions_;

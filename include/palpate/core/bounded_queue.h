@@ -35,7 +35,7 @@ class BoundedQueue {
   // Waits for room. False: the queue was closed and `item` not taken.
   bool push(T item) {
     std::unique_lock lock(mutex_);
-    room_.wait(lock, [&] { return closed_ || size_ < capacity_; });
+    notFull_.wait(lock, [&] { return closed_ || size_ < capacity_; });
     if (closed_) return false;
     put(std::move(item));
     return true;
@@ -56,7 +56,7 @@ class BoundedQueue {
   // Waits for an item. Empty: the queue was closed and all its items were handed out.
   std::optional<T> pop() {
     std::unique_lock lock(mutex_);
-    filled_.wait(lock, [&] { return closed_ || size_ > 0; });
+    notEmpty_.wait(lock, [&] { return closed_ || size_ > 0; });
     return take();
   }
 
@@ -70,8 +70,8 @@ class BoundedQueue {
   void close() {
     std::lock_guard lock(mutex_);
     closed_ = true;
-    room_.notify_all();
-    filled_.notify_all();
+    notFull_.notify_all();
+    notEmpty_.notify_all();
   }
 
   std::size_t size() const {
@@ -89,7 +89,7 @@ class BoundedQueue {
     ++size_;
     ++stats_.pushes;
     if (size_ > stats_.highWater) stats_.highWater = size_;
-    filled_.notify_one();
+    notEmpty_.notify_one();
   }
   std::optional<T> take() {
     if (size_ == 0) return std::nullopt;
@@ -97,14 +97,14 @@ class BoundedQueue {
     first_ = (first_ + 1) % capacity_;
     --size_;
     ++stats_.pops;
-    room_.notify_one();
+    notFull_.notify_one();
     return item;
   }
 
   const std::size_t capacity_;
   mutable std::mutex mutex_;
-  std::condition_variable room_;
-  std::condition_variable filled_;
+  std::condition_variable notFull_;
+  std::condition_variable notEmpty_;
   std::vector<std::optional<T>> ring_;
   std::size_t first_ = 0;
   std::size_t size_ = 0;

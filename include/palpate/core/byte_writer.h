@@ -9,10 +9,10 @@
 namespace palpate {
 
 // The `bytes` lowest bytes of `value`, 1..8.
-inline void appendLittle(std::vector<std::byte>& out, std::uint64_t value, int bytes) {
+inline void appendLittleEndian(std::vector<std::byte>& out, std::uint64_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> 8 * i & 0xFF));
 }
-inline void appendLittle(std::string& out, std::uint64_t value, int bytes) {
+inline void appendLittleEndian(std::string& out, std::uint64_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> 8 * i & 0xFF);
 }
 

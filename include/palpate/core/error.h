@@ -15,7 +15,7 @@ namespace palpate {
 // Base class of all failures of the environment. what() is one line for the user.
 class Error : public std::runtime_error {
  public:
-  // What would break or bend the line is escaped (core/one_line.h).
+  // What would break or bend the line is escaped (core/escaped_line.h).
   explicit Error(const std::string& message);
 };
 
@@ -50,7 +50,7 @@ enum class DeviceFault {
   kNotFound,      // no such port
   kNoPermission,  // the port may not be opened
   kBusy,          // another program holds the port
-  kGone,          // unplugged, hung up
+  kDisconnected,  // unplugged, hung up
   kSilent,        // no answer in time
   kRefused,       // the device answered with an error code
   kProtocol,      // the answer is not what the protocol says

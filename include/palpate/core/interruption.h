@@ -19,7 +19,7 @@ class Interruption {
   Interruption& operator=(const Interruption&) = delete;
 
   // Waits at most `withinMs` [ms] for a signal; returns true once for each signal that arrived.
-  bool came(int withinMs);
+  bool waitForSignal(int withinMs);
   // Can be read when one came: for a loop that waits for more than this.
   int descriptor() const noexcept;
 

@@ -8,9 +8,9 @@
 
 namespace palpate {
 
-// All bytes of a file. Never holds more than `mostBytes` + 1 of them in memory: a file that is
+// All bytes of a file. Never holds more than `byteLimit` + 1 of them in memory: a file that is
 // larger is not what it should be. Throws FileError (can't be opened, says why; is a folder; can't
-// be read), FormatError (larger than `mostBytes`).
-std::string readTextFile(const std::filesystem::path& path, std::uint64_t mostBytes);
+// be read), FormatError (larger than `byteLimit`).
+std::string readTextFile(const std::filesystem::path& path, std::uint64_t byteLimit);
 
 }  // namespace palpate

@@ -31,9 +31,9 @@ void writeTable(const TextTable& table,
                 Overwrite overwrite = Overwrite::kRefuse,
                 const Progress& progress = {});
 
-// Header and the first `mostRows` rows as CSV, or with tabs, as spreadsheets paste it (tabs and
+// Header and the first `maxRows` rows as CSV, or with tabs, as spreadsheets paste it (tabs and
 // line breaks in cells become blanks).
-std::string csvText(const TextTable& table, std::size_t mostRows);
-std::string tabbedText(const TextTable& table, std::size_t mostRows);
+std::string csvText(const TextTable& table, std::size_t maxRows);
+std::string tabbedText(const TextTable& table, std::size_t maxRows);
 
 }  // namespace palpate

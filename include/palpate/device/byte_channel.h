@@ -16,10 +16,10 @@ class ByteChannel {
   virtual ~ByteChannel() = default;
   // Waits until at least one byte is there, at most `timeout` (0: doesn't wait), and takes what is
   // there as far as it fits. Returns the number of bytes; 0: nothing came, or interrupt() was
-  // called. Throws DeviceError (kGone) when the other end is gone.
+  // called. Throws DeviceError (kDisconnected) when the other end is gone.
   virtual std::size_t read(std::span<std::byte> into, std::chrono::milliseconds timeout) = 0;
-  // Hands all bytes to the system, in one piece where it takes them so. Throws DeviceError (kGone;
-  // kSilent: the line took no byte for a second).
+  // Hands all bytes to the system, in one piece where it takes them so. Throws DeviceError
+  // (kDisconnected; kSilent: the line took no byte for a second).
   virtual void write(std::span<const std::byte> bytes) = 0;
   // Ends a read() that waits, or the next one, once. Safe from any thread.
   virtual void interrupt() noexcept = 0;

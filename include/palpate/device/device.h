@@ -126,7 +126,7 @@ struct MatrixSettings {
   int thresholdCounts = 0;
   bool operator==(const MatrixSettings&) const = default;
 };
-struct DeviceFacts {
+struct DeviceInfo {
   std::string serial;                    // tactile controller, "1D9B0057"
   std::string firmware;                  // tactile controller
   std::string motionFirmware;            // "0.0.3.3"
@@ -142,7 +142,7 @@ class Device {
   virtual ~Device() = default;  // stops
   // The hand it delivers. Changes only by a mask command or a reconnection.
   virtual HandDescription hand() const = 0;
-  virtual DeviceFacts facts() const = 0;
+  virtual DeviceInfo facts() const = 0;
   // Starts delivering to `sink`, which must outlive stop(). Throws std::logic_error when started. A
   // port that can't be opened doesn't throw here: it is looked for until stop(), status() says so.
   virtual void start(DeviceSink& sink) = 0;
@@ -155,7 +155,7 @@ class Device {
   virtual std::future<CommandAnswer> submit(DeviceCommand command) = 0;
   // A controller scans by itself, at a rate that its layout tells; the replay of a recording comes
   // as that came.
-  virtual bool scansItself() const { return false; }
+  virtual bool isFreeRunning() const { return false; }
   // Latest axis states (SDH-2: 0 idle, 1 positioning, 2 speed mode, 3 not initialised, 4, 5
   // blocked, 6 disabled, 7 limit reached); empty where unknown. Polled while a motion runs;
   // "positioning" from its command on until the hand was asked.

@@ -20,7 +20,7 @@
 
 namespace palpate {
 
-struct DsaMatrixFacts {
+struct DsaMatrixInfo {
   MatrixLayout layout;  // dynamic mask as read; all on where the controller doesn't tell
   std::vector<std::uint8_t> uniqueId;
   int hardwareRevision = 0;
@@ -33,7 +33,7 @@ struct DsaMatrixFacts {
   std::optional<int> thresholdCounts;  // nothing: firmware before 268 doesn't tell
 };
 
-struct DsaFacts {
+struct DsaControllerInfo {
   std::uint32_t serial = 0;  // of the controller
   int hardwareVersion = 0;   // BCD
   int firmwareVersion = 0;   // below 0x1000: release number; else one hex digit per part
@@ -43,7 +43,7 @@ struct DsaFacts {
   int sensorHardwareRevision = 0;
   std::uint32_t sensorSerial = 0;
   bool masksKnown = false;  // the controller told its masks
-  std::vector<DsaMatrixFacts> matrices;
+  std::vector<DsaMatrixInfo> matrices;
 
   // "2.9.0.0", or "268".
   std::string firmwareText() const;
@@ -62,7 +62,7 @@ struct DsaControllerOptions {
   bool runLength = true;                          // frames run-length coded; else raw
   bool readMasks = true;  // newer firmware only; asked once, not insisted on
   // Asked between waits: true ends open() and request loops early with DeviceError (kSilent).
-  std::function<bool()> giveUp;
+  std::function<bool()> isCancelled;
 };
 
 struct DsaControllerStats {
@@ -84,9 +84,9 @@ class DsaController {
 
   // Stops a stream left over, waits for silence, asks for everything. All throw DeviceError:
   // kSilent (no answer), kWrongDevice (a motion controller answers: ports swapped), kRefused (error
-  // code, with its meaning), kProtocol, kUnsupported (firmware too old), kGone.
-  const DsaFacts& open();
-  const DsaFacts& facts() const noexcept { return facts_; }
+  // code, with its meaning), kProtocol, kUnsupported (firmware too old), kDisconnected.
+  const DsaControllerInfo& open();
+  const DsaControllerInfo& facts() const noexcept { return facts_; }
 
   // Push mode: frames come as fast as the controller scans; it doesn't honour a rate.
   void startStream();
@@ -147,7 +147,7 @@ class DsaController {
   DsaPacketParser parser_;
   std::vector<std::byte> buffer_;
   std::deque<Answer> answers_;
-  DsaFacts facts_;
+  DsaControllerInfo facts_;
   bool streaming_ = false;
   bool paused_ = false;
   std::uint64_t framesTaken_ = 0;

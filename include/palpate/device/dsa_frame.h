@@ -21,7 +21,7 @@ struct DsaFrame {
   std::size_t packetBytes = 0;  // on the line, framing included [bytes]
 };
 
-// Decodes a payload into `counts` (layout.numPlaces() values, 0..4095). Nothing when the payload
+// Decodes a payload into `counts` (layout.numCells() values, 0..4095). Nothing when the payload
 // isn't a plausible frame: unknown flags, wrong size, runs of length 0, runs that don't add up, a
 // value over 12 bits, or (with `checkMask`) a count where the static mask says that no taxel
 // exists. Then `counts` is unspecified. Never throws for bad bytes; std::invalid_argument when
@@ -36,7 +36,7 @@ std::optional<DsaFrame> decodeDsaFrame(std::span<const std::byte> payload,
 // when the next one continues it, which is what a controller does that has started anew.
 class DsaClock {
  public:
-  enum class Verdict {
+  enum class FrameAcceptance {
     // deviceMs is good
     kAccept,
     // implausible so far: keep the frame
@@ -49,7 +49,7 @@ class DsaClock {
     kDropHeld,
   };
   // hostUs: when the frame came [us, monotonic].
-  Verdict judge(std::uint32_t stampMs, std::int64_t hostUs);
+  FrameAcceptance checkStamp(std::uint32_t stampMs, std::int64_t hostUs);
   // Unwrapped time of the frame judged last with kAccept, kRestarted or kDropHeld [ms]. After a
   // restart the count goes on behind the last frame, so that it never runs back.
   std::int64_t deviceMs() const noexcept { return deviceMs_; }

@@ -50,7 +50,7 @@ struct DsaPacketStats {
 struct DsaPacketOptions {
   // Places in a frame (SDH-2: 486): a frame's payload is 5 + 2 n bytes, n = 1..places. No candidate
   // that claims more is waited for, so a corrupt size costs at most that much waiting.
-  std::size_t numPlaces = 486;
+  std::size_t numCells = 486;
 };
 
 // Push parser; not thread-safe (one per port thread). Never throws on bad input: bad bytes are
@@ -65,7 +65,7 @@ class DsaPacketParser {
   // sink must not call push().
   void push(std::span<const std::byte> bytes, const Sink& sink);
   // The sensor turned out to have another number of places. Throws as the constructor does.
-  void setNumPlaces(std::size_t numPlaces);
+  void setNumPlaces(std::size_t numCells);
   const DsaPacketStats& stats() const noexcept { return stats_; }
   std::size_t pendingBytes() const noexcept { return pending_.size(); }
   // The line has been silent: the rest of what waits will not come. The search restarts one byte

@@ -33,13 +33,13 @@ class LiveHand : public Device {
   LiveHand& operator=(const LiveHand&) = delete;
 
   HandDescription hand() const override;
-  DeviceFacts facts() const override;
+  DeviceInfo facts() const override;
   void start(DeviceSink& sink) override;
   // A motion that this hand began is stopped first; axes keep their power.
   void stop() noexcept override;
   DeviceStatus status() const override;
   std::future<CommandAnswer> submit(DeviceCommand command) override;
-  bool scansItself() const override { return true; }
+  bool isFreeRunning() const override { return true; }
   std::vector<int> axisStates() const override;
 
  private:

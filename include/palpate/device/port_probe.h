@@ -15,14 +15,14 @@
 namespace palpate {
 
 enum class PortAnswer {
-  kNothing,       // silence
-  kMotion,        // the motion controller of an SDH-2
-  kTactile,       // a tactile controller DSACON32-M
-  kSomething,     // bytes come, but neither controller's
-  kBusy,          // another program holds the port: not asked
-  kNoPermission,  // may not be opened
-  kNotFound,      // no such port, or no connection
-  kGone,          // hung up while it was asked
+  kNothing,        // silence
+  kMotion,         // the motion controller of an SDH-2
+  kTactile,        // a tactile controller DSACON32-M
+  kUnknownDevice,  // bytes come, but neither controller's
+  kBusy,           // another program holds the port: not asked
+  kNoPermission,   // may not be opened
+  kNotFound,       // no such port, or no connection
+  kDisconnected,   // hung up while it was asked
 };
 
 struct PortProbe {
@@ -39,7 +39,7 @@ struct PortProbe {
 
 struct PortProbeOptions {
   std::function<std::unique_ptr<ByteChannel>(const std::string& port)> open;  // openChannel()
-  std::function<bool()> giveUp;  // asked every 20 ms; true: ends early with what is known
+  std::function<bool()> isCancelled;  // asked every 20 ms; true: ends early with what is known
 };
 
 // Opens the port and asks, at most 2.5 s (and the time to connect). First ` ver`, which a tactile

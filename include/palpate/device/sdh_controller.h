@@ -6,7 +6,7 @@
 // omission. `grip` and `selgrip` aren't here: the hand is deaf to a stop until they end. All calls
 // are bounded in time (5 s, a reference run 20 s) and throw DeviceError: kSilent (no answer),
 // kRefused (error code, with its meaning), kProtocol (answers arrive damaged), kUnsupported
-// (firmware too old), kGone; SdhInterrupted (see SdhControllerOptions::urgent).
+// (firmware too old), kDisconnected; SdhInterrupted (see SdhControllerOptions::urgent).
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ struct SdhControllerOptions {
   std::function<bool()> urgent;
 };
 
-struct SdhFacts {
+struct SdhControllerInfo {
   std::string firmware;  // "0.0.3.3"
   std::string date;      // of the firmware
   std::string soc;       // FPGA design
@@ -71,7 +71,7 @@ enum class SdhCurrent { kMotion, kGrip, kHold };          // ilim, igrip, ihold
 enum class SdhSoftLimit { kMinimum, kMaximum, kOffset };  // p_min, p_max, p_offset
 
 class SdhLink;
-struct SdhPatience;
+struct SdhRetryPolicy;
 struct SdhQuantity;
 
 class SdhController {
@@ -89,8 +89,8 @@ class SdhController {
   // Finds the controller and asks what it is. Besides the above: kWrongDevice (a tactile controller
   // sends here: ports swapped; or the hand has not seven axes). An idle tactile controller is
   // kSilent.
-  const SdhFacts& open();
-  const SdhFacts& facts() const noexcept { return facts_; }
+  const SdhControllerInfo& open();
+  const SdhControllerInfo& facts() const noexcept { return facts_; }
   SdhStats stats() const noexcept;
 
   // What the axes do.
@@ -153,20 +153,20 @@ class SdhController {
   // One vector command: all seven values in, all seven out. `values` empty: get.
   Values exchange(const SdhQuantity& quantity, const Values& values);
   Values withAxis(std::size_t axis, Values values, double value) const;
-  std::string word(const std::string& command, const SdhPatience& patience);
+  std::string word(const std::string& command, const SdhRetryPolicy& retryPolicy);
   // The number(s) of the answer NAME=.. or NAME(axis)=.. to a request.
   Values numbers(const std::string& request,
                  std::string_view name,
                  std::optional<int> axis,
                  const SdhQuantity& quantity,
                  std::size_t count,
-                 const SdhPatience& patience);
-  void readFacts();
+                 const SdhRetryPolicy& retryPolicy);
+  void readInfo();
   void needFirmware(const std::string& what, int a, int b, int c, int d) const;
   Values checkedVelocities(const Values& degPerS) const;
 
   std::unique_ptr<SdhLink> link_;
-  SdhFacts facts_;
+  SdhControllerInfo facts_;
   bool binary_ = false;  // records, not lines, where both exist
 };
 

@@ -56,8 +56,8 @@ class DsaServer {
   // Bytes of the client.
   void receive(std::span<const std::byte> bytes, std::int64_t nowUs);
   // The client has been silent for a while: a request that isn't complete by now never will be.
-  void quiet();
-  bool expectsMore() const noexcept { return !input_.empty(); }
+  void onReceiveTimeout();
+  bool hasPartialRequest() const noexcept { return !input_.empty(); }
   // Does what is due: noise of booting, at most one frame. `lineFreeUs`: when the line will have
   // sent all that was taken; a frame isn't scanned before.
   void advance(std::int64_t nowUs, std::int64_t lineFreeUs);
@@ -89,7 +89,7 @@ class DsaServer {
   void acquire(Payload payload);
   void readMask(Payload payload);
   void writeMask(Payload payload);
-  void describeInWords(Payload payload);
+  void sendDescriptorText(Payload payload);
   void setSensitivity(Payload payload);
   void getSensitivity(Payload payload);
   void setThreshold(Payload payload);

@@ -19,8 +19,8 @@
 namespace palpate {
 
 enum class EmulationRate {
-  kReal,  // bytes at 115200 baud, frames by scan time, commands with 2..3 ms of thinking
-  kHz,    // frames at a given rate, lines and commands without delay
+  kReal,   // bytes at 115200 baud, frames by scan time, commands with 2..3 ms of thinking
+  kFixed,  // frames at a given rate, lines and commands without delay
   // Frames as fast as the client takes them; the hand's time runs with the frames, each at its
   // nominal interval, and with the wall clock while nothing streams.
   kMax,
@@ -37,7 +37,7 @@ struct EmulatedHandOptions {
   std::string dsaPort = {};
   std::string sdhPort = {};
   EmulationRate rate = EmulationRate::kReal;
-  double hz = 31.7;  // with kHz: 0.01..1000
+  double hz = 31.7;  // with kFixed: 0.01..1000
   Faults faults = {};
   std::uint64_t seed = 1;     // of faults and think times
   DsaServerOptions dsa = {};  // frameHz and lineByteUs are set by `rate`
@@ -120,7 +120,7 @@ class EmulatedHand {
   // Silence: nothing leaves the hand, though it listens and acts.
   void mute(bool on);
   // So many random bytes on the chosen ports, as fast as the lines take them.
-  void babble(std::uint64_t bytes, bool dsa = true, bool sdh = true);
+  void sendRandomBytes(std::uint64_t bytes, bool dsa = true, bool sdh = true);
   // From now on (times of stalls and unplugs count from here). A `bootS` switches the hand off and
   // on.
   void setFaults(const Faults& faults);

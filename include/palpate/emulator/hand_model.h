@@ -44,7 +44,7 @@ class HandModel {
   virtual JointMotion& joints() = 0;
   virtual std::vector<MatrixSetting>& settings() = 0;  // one per matrix
   // What the tactile controller delivers now: threshold, masks and 12 bit applied. Size:
-  // numPlaces().
+  // numCells().
   virtual void scan(std::span<std::uint16_t> counts) = 0;
   virtual std::vector<double> temperatures() = 0;  // one per sensor [deg C]
   // Of the last scan, one per matrix; empty when nothing is known (a replay).

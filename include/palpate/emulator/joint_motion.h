@@ -76,7 +76,7 @@ class JointMotion {
   bool moving() const;
   // Number of motions begun and of motions stopped early. A caller that counts its own detects
   // motions by others.
-  std::uint64_t orders() const noexcept { return orders_; }
+  std::uint64_t motionCount() const noexcept { return motionCount_; }
 
  private:
   // A motion to a target: distance is covered in the motion's duration, by the profile.
@@ -93,12 +93,12 @@ class JointMotion {
                const std::vector<double>& most) const;
   void requireSize(const char* what, std::size_t size) const;
   // How long the axis would take alone [s]; 0 when it stands at its target or has no velocity.
-  double soloDuration(std::size_t axis) const;
+  double axisDuration(std::size_t axis) const;
   double covered(std::size_t axis, double timeS) const;  // [deg], unsigned
   double speedAt(std::size_t axis, double timeS) const;  // [deg/s], unsigned
   void advancePose(double dtS);
   void advanceVelocity(double dtS);
-  double freedom(std::size_t axis, double direction) const;  // 1: free, 0: held
+  double speedFactor(std::size_t axis, double direction) const;  // 1: free, 0: held
 
   std::vector<AxisDescription> axes_;
   std::vector<double> angleDeg_, velocityDegPerS_, referenceDegPerS_, targetDeg_,
@@ -107,7 +107,7 @@ class JointMotion {
   std::vector<double> resistsClockwise_, resistsCounterClockwise_;
   std::vector<AxisState> states_;
   std::vector<Path> paths_;
-  std::uint64_t orders_ = 0;
+  std::uint64_t motionCount_ = 0;
   double durationS_ = 0.0;  // of the motion; 0: none runs
   VelocityProfile motionProfile_ = VelocityProfile::kSinSquare;
   ControllerType controller_ = ControllerType::kPose;

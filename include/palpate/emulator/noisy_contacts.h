@@ -39,8 +39,8 @@ struct NoisyContactsOptions {
   double belowCounts = 0.0;  // and so many counts less, -100..100
   bool contacts = true;      // false: nothing touches anything
   // peak pressure of a contact, drawn from a logarithmic scale [kPa], > 0
-  double lightestKpa = 8.0;
-  double heaviestKpa = 60.0;
+  double minKpa = 8.0;
+  double maxKpa = 60.0;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;

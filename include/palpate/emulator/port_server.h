@@ -36,7 +36,7 @@ class PortServer {
   virtual void plug() = 0;
   // From time to time: a client that was killed leaves its claim on a tty behind, which is lifted
   // here.
-  virtual void tidy() noexcept {}
+  virtual void releaseStaleLock() noexcept {}
 };
 
 // A pseudo-terminal, raw before anybody opens it. `link`: a symbolic link to be made (empty: none),

@@ -36,14 +36,15 @@ struct SdhServerOptions {
   std::string serial = "48";
   // of binary records: on serial lines yes, over TCP no (records of 32 bytes)
   bool checksum = true;
-  double leastThinkUs = 0.0;   // time from a command to its answer, evenly between these two [us]
-  double mostThinkUs = 0.0;    // (a real one: 2000..3000)
-  double requestByteUs = 0.0;  // line time of each byte of a request [us]
-  double bootS = 0.0;          // deaf for so long after the start [s]
-  std::uint64_t seed = 1;      // of the think times
+  // time from a command to its answer, evenly between these two [us]
+  double minResponseDelayUs = 0.0;
+  double maxResponseDelayUs = 0.0;  // (a real one: 2000..3000)
+  double requestByteUs = 0.0;       // line time of each byte of a request [us]
+  double bootS = 0.0;               // deaf for so long after the start [s]
+  std::uint64_t seed = 1;           // of the think times
 };
 
-class SdhMotion;
+class SdhCommandProcessor;
 
 // Not thread-safe. Times [us] are the caller's, since the start of the hand, and never go back.
 class SdhServer {
@@ -57,9 +58,9 @@ class SdhServer {
   void receive(std::span<const std::byte> bytes, std::int64_t nowUs);
   // The client has been silent for a while: a binary record that isn't complete by now never will
   // be. Half a text line stays.
-  void quiet();
+  void onReceiveTimeout();
   // Whether quiet() would change anything.
-  bool expectsMore() const noexcept;
+  bool hasPartialRequest() const noexcept;
   // Carries out what is due.
   void advance(std::int64_t nowUs);
   // When advance() has something to do again; nothing: not before the client speaks.
@@ -95,7 +96,7 @@ class SdhServer {
 
   HandModel& model_;
   SdhServerOptions options_;
-  std::unique_ptr<SdhMotion> motion_;
+  std::unique_ptr<SdhCommandProcessor> motion_;
   std::mt19937_64 random_;
   std::deque<std::byte> input_;
   std::vector<LineMessage> output_;

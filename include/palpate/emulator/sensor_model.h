@@ -43,13 +43,13 @@ class SensorModel {
   std::vector<MatrixSetting> settings_;
   std::vector<double> first_, lagged_, creep_;  // per place [kPa]
   bool atRest_ = true;
-  std::vector<const RaisedTaxel*> raised_;  // per place, into characteristics_; nullptr: ordinary
+  std::vector<const OffsetTaxel*> raised_;  // per place, into characteristics_; nullptr: ordinary
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
 };
 
 // Spreads pressure over neighbours: each taxel passes `share` of its pressure on to each of its
-// four neighbours that exist. The sum over a matrix stays. Size: numPlaces().
+// four neighbours that exist. The sum over a matrix stays. Size: numCells().
 void spreadPressure(const SensorLayout& layout, double share, std::span<double> pressureKpa);
 
 // Bends a reading towards the saturation: linear up to 85 % of it, then approaching it

@@ -29,10 +29,10 @@ Profile simulateRecording(const Scene& scene,
 
 // How differently the same thing is presented from grasp to grasp: standard deviations, all >= 0.
 struct GraspVariation {
-  double positionMm = 2.0;     // of each object, along each axis of the base frame
-  double turnDeg = 3.0;        // of each object, about each axis
-  double velocityPart = 0.1;   // of the fingers' velocity
-  double stiffnessPart = 0.1;  // of the objects' surfaces
+  double positionMm = 2.0;           // of each object, along each axis of the base frame
+  double turnDeg = 3.0;              // of each object, about each axis
+  double velocitySdFraction = 0.1;   // of the fingers' velocity
+  double stiffnessSdFraction = 0.1;  // of the objects' surfaces
 
   void validate() const;
 };

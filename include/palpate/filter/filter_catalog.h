@@ -29,11 +29,11 @@ struct FilterOption {
   Kind kind = Kind::kInteger;
   double minimum = 0.0;
   double maximum = 1.0;
-  double fallback = 0.0;  // where it isn't given; NaN: automatic (`purpose` says how)
+  double defaultValue = 0.0;  // where it isn't given; NaN: automatic (`purpose` says how)
   std::vector<std::string> choices = {};
   std::string purpose;
 
-  bool automatic() const noexcept { return fallback != fallback; }
+  bool automatic() const noexcept { return defaultValue != defaultValue; }
 };
 
 struct FilterKind {

@@ -73,6 +73,6 @@ std::optional<int> latencyFrames(const Recipe& recipe);
 std::optional<int> latencyFrames(const FilterStep& step);
 // Largest number of earlier frames that influence an output frame (length of the impulse response);
 // empty: all of its gap-free span.
-std::optional<std::size_t> memoryFrames(const Recipe& recipe);
+std::optional<std::size_t> filterLengthFrames(const Recipe& recipe);
 
 }  // namespace palpate

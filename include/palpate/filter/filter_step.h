@@ -14,10 +14,11 @@
 namespace palpate {
 
 struct FilterStep {
-  std::string name;                                    // of a FilterKind
-  std::map<std::string, double, std::less<>> given{};  // what differs from the default, by key
-  std::vector<std::size_t> matrices{};                 // wire order, ascending; empty: all
-  bool enabled = true;  // off: it stands in the chain and does nothing
+  std::string name;  // of a FilterKind
+  std::map<std::string, double, std::less<>>
+      explicitOptions{};                // what differs from the default, by key
+  std::vector<std::size_t> matrices{};  // wire order, ascending; empty: all
+  bool enabled = true;                  // off: it stands in the chain and does nothing
 
   // Throws std::invalid_argument: unknown name or key (listing the known ones), a value out of
   // range, an even window, and what only fits together (order below window, search and patch).
@@ -28,7 +29,7 @@ struct FilterStep {
   int integer(std::string_view key) const { return static_cast<int>(value(key)); }
   bool flag(std::string_view key) const { return value(key) != 0.0; }
   // As value(); 0 where this kind of filter has no such key.
-  double valueOr0(std::string_view key) const;
+  double valueOrZero(std::string_view key) const;
   // Needs no later frame: can run live.
   bool causal() const;
   bool operator==(const FilterStep&) const = default;

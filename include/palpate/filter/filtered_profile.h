@@ -19,9 +19,9 @@ struct FilteredProfileOptions {
 };
 
 // Frames read in order go through the chain once. A frame out of order is computed from as many
-// frames before it as have a say in it (filter_chain.h, memoryFrames()); of recursive filters from
-// so many that what is left out is below 1e-9 of the value. A recipe that needs all frames of a
-// stretch at once is computed here, as a whole.
+// frames before it as have a say in it (filter_chain.h, filterLengthFrames()); of recursive filters
+// from so many that what is left out is below 1e-9 of the value. A recipe that needs all frames of
+// a stretch at once is computed here, as a whole.
 //
 // A frame of the source that can't be read throws when it is asked for, as it does there; filters
 // over time restart after it. Throws std::invalid_argument (recipe), Cancelled, Error (such a

@@ -21,18 +21,18 @@ enum class Touch : std::uint8_t {
   kFaint,    // pressed, but too little to be reported without noise: neither true nor false
   kTouched   // pressed, and reported without noise
 };
-using TouchMask = std::vector<Touch>;  // one per place of the layout
+using CellTruthMask = std::vector<Touch>;  // one per place of the layout
 
 struct GhostingOptions {
   // A contact begins when so many touched taxels of a matrix are active in one frame. > 0
-  int leastTaxels = 1;
+  int minTaxels = 1;
   // A value above it is active [counts]; what is filtered without mask keeps small remainders for
   // long. >= 0
   double activeAboveCounts = 0.0;
   // Fraction of a matrix' taxels, 0..1, above which false activations are counted separately: the
   // whole matrix is then above its threshold, and no spatial filter can separate them from a
   // contact.
-  double wholeMatrixShare = 0.25;
+  double wholeMatrixFraction = 0.25;
   // Moments at which counts begin to mean something else [us since 1970], ascending: filters over
   // time restart.
   std::vector<std::int64_t> restartsUs = {};
@@ -43,7 +43,7 @@ struct BeforeAfter {
   std::uint64_t before = 0;
   std::uint64_t after = 0;
   // Of those before, 0..1 (below 0: the recipe made more); NaN where there were none.
-  double shareRemoved() const noexcept;
+  double fractionRemoved() const noexcept;
 };
 
 struct MatrixGhosting {
@@ -51,11 +51,11 @@ struct MatrixGhosting {
   // of them, those in frames in which the matrix as it came was not lifted as a whole
   BeforeAfter scattered;
   BeforeAfter framesWithFalse;  // at least one false taxel
-  BeforeAfter framesWhole;      // more than wholeMatrixShare of the taxels are false
+  BeforeAfter framesWhole;      // more than wholeMatrixFraction of the taxels are false
 };
 
 // One contact with one matrix: consecutive frames with touched taxels, of which at least one shows
-// `leastTaxels`.
+// `minTaxels`.
 struct ContactGhosting {
   std::size_t matrix = 0;
   std::size_t begin = 0, end = 0;  // first frame with a touched taxel, and the one behind the last
@@ -88,7 +88,7 @@ struct GhostingReport {
 // (a frame that can't be read).
 GhostingReport measureGhosting(const Profile& profile,
                                const Recipe& recipe,
-                               std::span<const TouchMask> truth = {},
+                               std::span<const CellTruthMask> truth = {},
                                const GhostingOptions& options = {},
                                const Progress& progress = {});
 

@@ -36,7 +36,7 @@ struct KelvinVoigtEstimationOptions {
   std::optional<double> forceNoise = std::nullopt;
   std::optional<double> measurementNoise = std::nullopt;
   double tolerance = 1e-6;  // stop when a round raises the log-likelihood per value by less; >= 0
-  int mostRounds = 200;     // 1..100,000
+  int maxRounds = 200;      // 1..100,000
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -46,7 +46,7 @@ enum class KelvinVoigtEnd {
   // a round brought less than the tolerance
   kConverged,
   // more rounds might bring more
-  kMostRounds,
+  kMaxRounds,
   // fewer than 3 finite values in every stretch, or all of them equal: the model is the start
   kNothingToFit
 };

@@ -17,7 +17,7 @@
 namespace palpate {
 
 struct Recipe {
-  static constexpr std::size_t kMostSteps = 64;
+  static constexpr std::size_t kMaxSteps = 64;
   std::string name{};  // for people; may be empty
   std::vector<FilterStep> steps{};
 

@@ -13,7 +13,7 @@
 
 namespace palpate {
 
-inline constexpr int kLongestSavitzkyGolayWindow = 101;
+inline constexpr int kMaxSavitzkyGolayWindow = 101;
 
 // Weights, oldest sample first: value = sum weights[i] * sample[i] reproduces every polynomial up
 // to `order` (with derivative 0), or its derivative [per sample^derivative; times rate^derivative

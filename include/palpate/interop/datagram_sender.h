@@ -15,13 +15,13 @@ struct DatagramStats {
   std::uint64_t dropped = 0;
   // Whether the last two datagrams were accepted: the system reports a missing receiver only
   // with the next datagram.
-  bool heard = false;
+  bool delivered = false;
 };
 
 // Not thread-safe.
 class DatagramSender {
  public:
-  static constexpr std::size_t kMostBytes = 65'507;  // that UDP carries
+  static constexpr std::size_t kMaxBytes = 65'507;  // that UDP carries
 
   // Throws std::invalid_argument (port 0), DeviceError (the system has no socket left).
   explicit DatagramSender(std::uint16_t port);

@@ -39,8 +39,8 @@ void appendStreamed(std::string& out,
 class LiveStream {
  public:
   // Asked on the processing thread, four times a second while signals are sent; may be empty.
-  using AskLink = std::function<LinkHealth()>;
-  explicit LiveStream(AskLink askLink = {}) : askLink_(std::move(askLink)) {}
+  using LinkHealthQuery = std::function<LinkHealth()>;
+  explicit LiveStream(LinkHealthQuery askLink = {}) : askLink_(std::move(askLink)) {}
 
   // From the next frame on; counts begin anew. Throws std::invalid_argument (port 0), DeviceError.
   void switchOn(StreamKind kind, std::uint16_t port);
@@ -59,7 +59,7 @@ class LiveStream {
   };
   const LinkHealth* linkAt(std::int64_t hostUs);
 
-  const AskLink askLink_;
+  const LinkHealthQuery askLink_;
   mutable std::mutex mutex_;
   std::array<Stream, kAllStreamKinds.size()> streams_;
   std::optional<LinkHealth> link_;

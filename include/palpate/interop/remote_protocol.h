@@ -6,7 +6,7 @@
 //   answer:  {"ok":false,"command":"label","error":"not_recording","message":"nothing is being .."}
 //
 // A request is a verb and, behind blanks, its text up to the end of the line (LF, CR LF too):
-// UTF-8, at most kMostRequestBytes. docs/interop.md is the manual.
+// UTF-8, at most kMaxRequestBytes. docs/interop.md is the manual.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@
 
 namespace palpate {
 
-inline constexpr std::size_t kMostRequestBytes = 4096;  // without the line end
+inline constexpr std::size_t kMaxRequestBytes = 4096;  // without the line end
 
 struct RemoteRequest {
   enum class Verb {
@@ -61,7 +61,7 @@ struct ReadRequest {
 };
 ReadRequest readRequest(std::string_view line);
 
-// Cuts what comes from a client into lines. Holds kMostRequestBytes at most: of a longer line only
+// Cuts what comes from a client into lines. Holds kMaxRequestBytes at most: of a longer line only
 // its end is waited for.
 class RequestLines {
  public:

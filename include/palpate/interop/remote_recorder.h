@@ -10,7 +10,7 @@
 #include <string>
 
 #include <palpate/capture/capture_session.h>
-#include <palpate/interop/remote_facts.h>
+#include <palpate/interop/remote_fields.h>
 #include <palpate/interop/remote_protocol.h>
 
 namespace palpate {

@@ -20,7 +20,7 @@ namespace palpate {
 std::filesystem::path usualRemoteSocket();
 
 struct RemoteServerOptions {
-  std::size_t mostClients = 16;  // 1..1000
+  std::size_t maxClients = 16;  // 1..1000
   // A client that has been silent for so long makes room for a new one when there are too many [s].
   double idleS = 60.0;
   // Told of every request but "status" and how it ended; on the server's thread. May be empty.
@@ -28,11 +28,11 @@ struct RemoteServerOptions {
 };
 
 struct RemoteServerStats {
-  std::size_t clients = 0;       // now
-  std::uint64_t accepted = 0;    // clients, ever
-  std::uint64_t turnedAway = 0;  // too many, or another user
-  std::uint64_t requests = 0;    // carried out, or being so
-  std::uint64_t refused = 0;     // lines that were no request
+  std::size_t clients = 0;            // now
+  std::uint64_t accepted = 0;         // clients, ever
+  std::uint64_t rejectedClients = 0;  // too many, or another user
+  std::uint64_t requests = 0;         // carried out, or being so
+  std::uint64_t refused = 0;          // lines that were no request
 };
 
 class RemoteServer {

@@ -19,6 +19,6 @@ struct Sphere {
 // more than rounding, and the radius is proven (by the lower bound that the points on the sphere
 // give) to exceed the least by no more than 1e-10 of itself; on regular grids, too, where CGAL
 // alone is up to 80 % off. Throws std::invalid_argument: a coordinate that isn't finite.
-std::optional<Sphere> boundingSphere(const std::vector<Eigen::Vector3d>& pointsMm);
+std::optional<Sphere> smallestEnclosingSphere(const std::vector<Eigen::Vector3d>& pointsMm);
 
 }  // namespace palpate

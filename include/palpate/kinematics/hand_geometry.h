@@ -36,7 +36,7 @@ class HandGeometry {
     std::vector<double> columnsMm;  // Z of each column in the link's frame
   };
 
-  void turnLinks(const std::vector<double>& anglesDeg, HandPose& out) const;
+  void computeLinks(const std::vector<double>& anglesDeg, HandPose& out) const;
   void placeTaxels(std::size_t matrix,
                    const Eigen::Isometry3d& baseFromLink,
                    Eigen::Vector3d* positions,

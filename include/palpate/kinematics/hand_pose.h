@@ -19,7 +19,7 @@ namespace palpate {
 
 // A joint as a line in space: turning the axis by +1 degree turns all links of the finger from
 // `link` on by +1 degree about `direction`.
-struct JointLine {
+struct JointAxis {
   std::size_t axis = 0;
   std::size_t finger = 0;
   std::size_t link = 0;
@@ -65,7 +65,7 @@ class HandPose {
   Eigen::Matrix3d rotation(std::size_t matrix) const { return linkOf(matrix).linear(); }
   Eigen::Vector3d originMm(std::size_t matrix) const { return linkOf(matrix).translation(); }
   // All joints of all fingers (an axis that turns two fingers stands here twice).
-  const std::vector<JointLine>& jointLines() const noexcept { return jointLines_; }
+  const std::vector<JointAxis>& jointAxes() const noexcept { return jointLines_; }
 
  private:
   friend class HandGeometry;
@@ -75,7 +75,7 @@ class HandPose {
   const GeometryDescription* description_ = nullptr;
   std::vector<std::vector<Eigen::Isometry3d>> links_;  // base from link, per finger
   std::vector<Eigen::Vector3d> positionsMm_, normals_;
-  std::vector<JointLine> jointLines_;
+  std::vector<JointAxis> jointLines_;
 };
 
 }  // namespace palpate

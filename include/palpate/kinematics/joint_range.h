@@ -13,15 +13,15 @@ namespace palpate {
 // hand.
 constexpr double kJointRangeToleranceDeg = 1.0;
 
-enum class AnglesState {
-  kFine,
+enum class AngleValidity {
+  kValid,
   kOutOfRange,  // a pose can be computed, but no hand of this kind has it
   kUnusable     // wrong number of angles, or not finite
 };
 
 struct AnglesCheck {
-  AnglesState state = AnglesState::kFine;
-  std::string trouble;  // what is wrong with which axis; empty when fine
+  AngleValidity state = AngleValidity::kValid;
+  std::string problem;  // what is wrong with which axis; empty when fine
 };
 
 // Never throws for what the angles are.

@@ -34,7 +34,7 @@ struct ObjectSizeOptions {
   std::optional<std::pair<std::size_t, std::size_t>> pads = std::nullopt;
   // The plateau: frames whose load (five-frame mean; each pad counts alike) is at least this part
   // of the largest; 0.5..1.
-  double plateauPart = 0.9;
+  double plateauFraction = 0.9;
   double foamMm = 0.80;          // [mm] at a peak of 1000 counts, per pad, >= 0
   double foamRelativeSd = 0.24;  // from object to object, >= 0
   double noiseSdMm = 0.25;       // of the shrinkage of one grasp, >= 0
@@ -58,7 +58,7 @@ struct SizeSample {
 struct ObjectSizeReport {
   bool valid = false;
   // why not: no joint angles, fewer than two pads, pads that don't face each other
-  std::string trouble;
+  std::string problem;
   std::size_t unusableFrames = 0;  // without usable joint angles: left out
   std::pair<std::size_t, std::size_t> pads{0, 0};
   std::vector<SizeSample> samples;  // a row per frame that counts

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include <palpate/capture/capture_feed.h>
+#include <palpate/capture/capture_queue.h>
 #include <palpate/model/hand_state.h>
 #include <palpate/signals/characteristic_signals.h>
 #include <palpate/slip/slip_detector.h>
@@ -39,7 +39,7 @@ struct LiveResults {
   // Of the pressure stage, where a calibration is chosen; else null.
   std::shared_ptr<const PressureFrame> pressure;
   // Of the slip stage: one per matrix.
-  std::vector<SlipVerdict> slip;
+  std::vector<SlipDetection> slip;
 };
 
 }  // namespace palpate

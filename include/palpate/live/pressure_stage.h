@@ -31,7 +31,7 @@ class PressureStage final : public Stage {
   // What a reader must know of, a sentence each; empty without a calibration.
   std::vector<std::string> assumptions() const;
   // Why there are no pressures though a calibration is chosen; empty: nothing is wrong.
-  std::string trouble() const;
+  std::string problem() const;
 
   void reset() override;
   void onFrame(LiveResults& results, std::vector<RecordingEvent>& out) override;
@@ -46,8 +46,9 @@ class PressureStage final : public Stage {
   mutable std::mutex mutex_;
   std::unique_ptr<PressureMap> map_;  // null: no calibration
   bool settingsChanged_ = true;
-  std::string told_;  // JSON of the event that told the settings; empty: to be asked for
-  std::string trouble_;
+  // JSON of the event that told the settings; empty: to be asked for
+  std::string lastSettingsJson_;
+  std::string problem_;
 };
 
 }  // namespace palpate

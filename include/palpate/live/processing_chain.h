@@ -2,7 +2,7 @@
 // thread of its own. The newest results wait in a mailbox for the screen; what happened goes to a
 // sink of events.
 //
-//   CaptureSession --> CaptureFeed (bounded, counts) --> stages --> newest results, events
+//   CaptureSession --> CaptureQueue (bounded, counts) --> stages --> newest results, events
 //
 // Results depend on what came alone, not on when: the same items give the same results bit by bit,
 // live, replayed or offline (runOver()).
@@ -85,7 +85,7 @@ class ProcessingChain {
 
   const std::vector<std::unique_ptr<Stage>> stages_;
   const ChainOptions options_;
-  std::shared_ptr<CaptureFeed> feed_;
+  std::shared_ptr<CaptureQueue> feed_;
   std::vector<CaptureItem> items_;  // held back
   std::vector<RecordingEvent> found_;
   std::optional<JointAngles> angles_;

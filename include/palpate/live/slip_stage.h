@@ -46,25 +46,25 @@ class SlipStage final : public Stage {
     double pathTaxels = 0.0;
     double dx = 0.0, dy = 0.0, turnDeg = 0.0;
   };
-  struct Wish {
+  struct ReferenceRequest {
     std::optional<std::size_t> matrix;
     bool clear = false;
   };
-  void obey(const SensorLayout& layout);
-  void tell(std::size_t matrix,
-            const SlipVerdict& verdict,
-            std::int64_t hostUs,
-            std::vector<RecordingEvent>& out);
+  void applyReferenceRequests(const SensorLayout& layout);
+  void emitSlipEvents(std::size_t matrix,
+                      const SlipDetection& verdict,
+                      std::int64_t hostUs,
+                      std::vector<RecordingEvent>& out);
 
   std::vector<SlipDetector> detectors_;
   std::vector<std::optional<Slipping>> slipping_;
-  std::vector<Wish> due_;  // references for this frame
+  std::vector<ReferenceRequest> dueRequests_;  // references for this frame
   std::vector<double> jointsDeg_;
 
   mutable std::mutex mutex_;  // of what follows
   SlipDetectorOptions options_;
   bool changed_ = true;
-  std::vector<Wish> wishes_;
+  std::vector<ReferenceRequest> referenceRequests_;
   std::vector<bool> off_;
 };
 

@@ -28,7 +28,7 @@ struct MatrixLayout {
   // A full matrix without masked places.
   static MatrixLayout full(int rows, int columns, double pitchMm);
 
-  std::size_t numPlaces() const noexcept;     // rows * columns
+  std::size_t numCells() const noexcept;      // rows * columns
   std::size_t numTaxels() const noexcept;     // existing ones (static mask)
   std::size_t numEnabled() const noexcept;    // existing and scanned ones
   bool exists(int y, int x) const noexcept;   // in range and on in the static mask
@@ -54,8 +54,8 @@ class SensorLayout {
   std::size_t numMatrices() const noexcept { return matrices_.size(); }
   const MatrixLayout& matrix(std::size_t index) const { return matrices_.at(index); }
   const std::vector<MatrixLayout>& matrices() const noexcept { return matrices_; }
-  std::size_t numPlaces() const noexcept { return numPlaces_; }  // of all matrices (SDH-2: 486)
-  std::size_t numTaxels() const noexcept;                        // that exist (SDH-2: 456)
+  std::size_t numCells() const noexcept { return numPlaces_; }  // of all matrices (SDH-2: 486)
+  std::size_t numTaxels() const noexcept;                       // that exist (SDH-2: 456)
   // First place of a matrix in the sequence.
   std::size_t offset(std::size_t matrix) const { return offsets_.at(matrix); }
   bool operator==(const SensorLayout& other) const { return matrices_ == other.matrices_; }

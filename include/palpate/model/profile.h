@@ -36,7 +36,7 @@ class ProfileStorage {
   virtual ~ProfileStorage() = default;
   virtual std::size_t numFrames() const = 0;
   virtual std::int64_t frameTimeUs(std::size_t frame) const = 0;
-  // Writes layout.numPlaces() values and the device time.
+  // Writes layout.numCells() values and the device time.
   virtual void readFrame(std::size_t frame, TactileFrame& out) const = 0;
   virtual std::size_t numAngles() const = 0;
   virtual std::int64_t angleTimeUs(std::size_t sample) const = 0;

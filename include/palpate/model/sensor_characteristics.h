@@ -9,7 +9,7 @@ namespace palpate {
 
 // A taxel whose reading at rest and whose noise are larger than those of the other taxels of its
 // matrix.
-struct RaisedTaxel {
+struct OffsetTaxel {
   std::size_t place = 0;   // in the matrix, row by row
   double intercept = 0.0;  // reading at rest: a line over the temperature of its motor [counts]
   double slope = 0.0;      // [counts/deg C]
@@ -28,7 +28,7 @@ struct MatrixCharacteristics {
   double taxelSd = 0.0;        // [counts]
   double sharedSd = 0.0;       // [counts]
   // Edges of the proximal pads: they make the maximum.
-  std::vector<RaisedTaxel> raised;
+  std::vector<OffsetTaxel> raised;
 
   double restCounts(double degC) const { return restIntercept + restSlope * degC; }
 
@@ -55,11 +55,11 @@ struct SensorCharacteristics {
   double largestCounts = 4095.0;
   // Share of its pressure that a taxel passes on to each of its four neighbours, through the
   // rubber.
-  double spreadShare = 0.0;
+  double neighbourFraction = 0.0;
   // Step response: second order lag, then creep (share of the step, time); and how fast the surface
   // lets go.
   double lag1S = 0.0, lag2S = 0.0;
-  double creepShare = 0.0, creepS = 1.0;
+  double creepFraction = 0.0, creepS = 1.0;
   double releaseS = 0.0;
 
   // Counts per kPa of one taxel at sensitivity 1, well above the dead zone.
@@ -72,10 +72,10 @@ struct SensorCharacteristics {
 
 // The SDH-2's. Sources: noise of each taxel in the 65-minute recording at threshold 0, and the
 // lines of the maximum (study 3.4); the plane over 54 loading steps (3.3); countsPerMean,
-// thresholdKpa, spreadShare: fit of the 24 shared steps (K to 28..52 counts rms by where the stamp
-// stands between taxels, without bias; one taxel under it reads up to 2700 counts); lag: 63 % of a
-// robot's grasp within 0.19 s; creep: median drift of the steps, 2.9 % of K per second; release: a
-// pen's contact falls from 80 to 10 % in 60..90 ms; largest reading seen 3567.
+// thresholdKpa, neighbourFraction: fit of the 24 shared steps (K to 28..52 counts rms by where the
+// stamp stands between taxels, without bias; one taxel under it reads up to 2700 counts); lag: 63 %
+// of a robot's grasp within 0.19 s; creep: median drift of the steps, 2.9 % of K per second;
+// release: a pen's contact falls from 80 to 10 % in 60..90 ms; largest reading seen 3567.
 const SensorCharacteristics& sdh2Sensor();
 
 }  // namespace palpate

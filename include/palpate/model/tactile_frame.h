@@ -22,7 +22,7 @@ struct TactileFrame {
   std::shared_ptr<const SensorLayout> layout;
   std::optional<std::int64_t> deviceMs;  // controller's clock, unwrapped [ms]; absent in .dsa
   std::int64_t hostUs = 0;               // host time [us since 1970]
-  // layout->numPlaces() values. A taxel is active (touched) where its value is above 0; nothing
+  // layout->numCells() values. A taxel is active (touched) where its value is above 0; nothing
   // else says so. Counts as they came, or what filters made of them: then a taxel that was not
   // active as recorded has 0, because the tail that a filter over time leaves behind, and what a
   // filter over space gives to neighbours, is no contact.

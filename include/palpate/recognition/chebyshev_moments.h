@@ -38,7 +38,7 @@ class ChebyshevPolynomials {
 };
 
 // How the angle of a turned picture is found.
-enum class PictureAngle {
+enum class ImageOrientation {
   kNone,   // not turned: invariant to shifts only
   kStudy,  // 1/2 atan(2 mu11 / (mu20 - mu02)): -45..45 deg, the long axis may lie along x or y
   // The long axis along x: 1/2 atan2(2 mu11, mu20 - mu02), and of the two ways to lay it the one in
@@ -62,17 +62,17 @@ struct ChebyshevInvariants {
 Eigen::MatrixXd chebyshevMoments(const Eigen::MatrixXd& picture, const ChebyshevPolynomials& of);
 ChebyshevInvariants chebyshevInvariants(const Eigen::MatrixXd& picture,
                                         const ChebyshevPolynomials& of,
-                                        PictureAngle angle);
+                                        ImageOrientation angle);
 
 // The picture that moments describe: sum T_pq t_p(x) t_q(y). With order N-1 the original, with
 // fewer the best approximation in the sense of least squares.
-Eigen::MatrixXd pictureOf(const Eigen::MatrixXd& moments, const ChebyshevPolynomials& of);
+Eigen::MatrixXd reconstructImage(const Eigen::MatrixXd& moments, const ChebyshevPolynomials& of);
 // Root of sum (picture - approximation)^2 / sum picture^2: 0 none .. 1 nothing of it was found
 // (beyond: worse than that). 0 of two empty pictures, infinite of an empty one against another.
-double pictureError(const Eigen::MatrixXd& picture, const Eigen::MatrixXd& approximation);
+double reconstructionError(const Eigen::MatrixXd& picture, const Eigen::MatrixXd& approximation);
 
 // A picture laid into a square of `size` with so many empty rows above and columns to the left.
 // Throws std::invalid_argument when it doesn't fit.
-Eigen::MatrixXd inSquare(const Eigen::MatrixXd& picture, int size, int above, int left);
+Eigen::MatrixXd padToSquare(const Eigen::MatrixXd& picture, int size, int above, int left);
 
 }  // namespace palpate

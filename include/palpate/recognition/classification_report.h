@@ -13,16 +13,16 @@ namespace palpate {
 
 // Wilson's score interval of a share, by default at 95 % (Wilson 1927, J. American Statistical
 // Association 22): it stays inside 0..1 and holds for small numbers. 0..1 where there is no trial.
-struct ShareInterval {
+struct BinomialInterval {
   double low = 0.0;
   double high = 1.0;
 };
 // Throws std::invalid_argument when successes > trials.
-ShareInterval wilsonInterval(std::size_t successes,
-                             std::size_t trials,
-                             double z = 1.959963984540054);
+BinomialInterval wilsonInterval(std::size_t successes,
+                                std::size_t trials,
+                                double z = 1.959963984540054);
 
-struct ClassFigures {
+struct ClassMetrics {
   std::string name;
   double precision = 0.0;  // of those called so: right; 0 where none was
   double recall = 0.0;     // of those that are so: found; 0 where there is none
@@ -44,7 +44,7 @@ class ConfusionMatrix {
   std::size_t right() const noexcept { return right_; }
   double accuracy() const noexcept;  // 0 where nothing was counted
   const std::vector<std::string>& classes() const noexcept { return classes_; }
-  std::vector<ClassFigures> figures() const;
+  std::vector<ClassMetrics> classMetrics() const;
   // `classes` of figures (those with support or called), and `confusion` {labels,
   // counts[truth][called]} with the column "unknown" last where anything was called so.
   Json classesJson() const;
@@ -58,7 +58,7 @@ class ConfusionMatrix {
 };
 
 // One classified sample, for curves.
-struct ConfidentAnswer {
+struct ScoredPrediction {
   double confidence = 0.0;  // 0..1
   bool right = false;
 };
@@ -71,13 +71,13 @@ struct CoveragePoint {
   std::size_t answers = 0;
 };
 // At every distinct confidence, falling: the last point covers all.
-std::vector<CoveragePoint> coverageCurve(std::vector<ConfidentAnswer> answers);
+std::vector<CoveragePoint> coverageCurve(std::vector<ScoredPrediction> answers);
 // The lowest confidence from which on Wilson's lower bound at 90 % (one-sided 95 %) of the share
 // that is right reaches `target`, if any; more than 1 when none does: never sure.
-double sureThreshold(const std::vector<ConfidentAnswer>& answers, double target = 0.95);
+double confidenceThreshold(const std::vector<ScoredPrediction>& answers, double target = 0.95);
 // Expected calibration error: confidences in ten equal bins, |mean confidence - share right|
 // weighed by number.
-double calibrationError(std::span<const ConfidentAnswer> answers);
+double expectedCalibrationError(std::span<const ScoredPrediction> answers);
 
 // Area under the receiver operating characteristic: how often a value of `positive` exceeds one of
 // `negative` (ties half). NaN where either is empty.

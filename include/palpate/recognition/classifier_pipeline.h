@@ -11,11 +11,11 @@
 #include <Eigen/Core>
 
 #include <palpate/core/json.h>
-#include <palpate/recognition/day_model.h>
 #include <palpate/recognition/discriminant_analysis.h>
 #include <palpate/recognition/gaussian_classifier.h>
 #include <palpate/recognition/probability_calibration.h>
 #include <palpate/recognition/sample_set.h>
+#include <palpate/recognition/session_adaptive_classifier.h>
 #include <palpate/recognition/standardisation.h>
 #include <palpate/recognition/support_vector_machine.h>
 
@@ -23,8 +23,8 @@ namespace palpate {
 
 // svm: linear support vector machines, one against one. qda: one Gaussian distribution per class
 // (quadratic discriminant analysis). lda: Gaussian distributions with a common covariance matrix.
-// gauss: the session-adaptive classifier of day_model.h, on the original features without
-// discriminant analysis.
+// gauss: the session-adaptive classifier of session_adaptive_classifier.h, on the original features
+// without discriminant analysis.
 enum class ClassifierKind { kSvm, kQda, kLda, kGauss };
 std::string_view classifierName(ClassifierKind kind) noexcept;
 std::optional<ClassifierKind> classifierNamed(std::string_view name) noexcept;
@@ -49,7 +49,8 @@ struct ClassifierPipeline {
   std::optional<DiscriminantAnalysis> discriminant;
   SupportVectorMachine svm;     // of svm
   GaussianClassifier gaussian;  // of qda, lda
-  std::optional<DayModel> day;  // of gauss; nothing else of the pipeline is used then
+  std::optional<SessionAdaptiveClassifier>
+      day;  // of gauss; nothing else of the pipeline is used then
   bool calibrated = false;
   std::vector<Sigmoid> sigmoids;  // per pair of svm
   double exponent = 1.0;       // on the coupled probabilities of svm, the densities of the others
@@ -67,7 +68,7 @@ struct ClassifierPipeline {
   Eigen::MatrixXd probabilities(const Eigen::MatrixXd& x) const;
   // How far from everything that was learnt, per sample: squared Mahalanobis distance to the
   // nearest class; gauss: -knownness (session_offset.h).
-  Eigen::VectorXd noveltyOf(const Eigen::MatrixXd& x) const;
+  Eigen::VectorXd noveltyScores(const Eigen::MatrixXd& x) const;
   // Of each feature, summing to 1: how much the fitted planes or directions rest on it.
   Eigen::VectorXd featureWeights() const;
 };

@@ -15,7 +15,7 @@
 namespace palpate {
 
 // One sample that examined.
-struct ExaminedSample {
+struct TestPrediction {
   std::size_t sample = 0;
   std::size_t split = 0;
   int called = 0;           // class
@@ -26,12 +26,12 @@ struct ExaminedSample {
 
 struct ValidationReport {
   explicit ValidationReport(std::vector<std::string> classes) : confusion(std::move(classes)) {}
-  double accuracyMean = 0.0;             // over splits
-  double accuracySd = 0.0;               // of splits (n - 1); 0 with one
-  double top3 = 0.0;                     // share of all samples that examined
-  ConfusionMatrix confusion;             // over all splits
-  std::vector<double> accuracies;        // per split
-  std::vector<ExaminedSample> examined;  // split after split
+  double accuracyMean = 0.0;                    // over splits
+  double accuracySd = 0.0;                      // of splits (n - 1); 0 with one
+  double top3 = 0.0;                            // share of all samples that examined
+  ConfusionMatrix confusion;                    // over all splits
+  std::vector<double> accuracies;               // per split
+  std::vector<TestPrediction> testPredictions;  // split after split
 };
 
 // Throws Error (requireLearnable, also of a split), std::invalid_argument (options, a split without

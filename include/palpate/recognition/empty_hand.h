@@ -8,7 +8,7 @@
 // sqrt(peak2 / 1000)) [mm], peaks in counts (D and foam: kinematics/object_size.h). The foam model
 // is inaccurate for flat pads, but the error cancels in the difference of two contacts with the
 // same force. An error of the joint zeros moves touching pads and pads that are apart by different
-// amounts; transferPart is the resulting uncertainty.
+// amounts; transferSdFraction is the resulting uncertainty.
 #pragma once
 
 #include <cstddef>
@@ -33,10 +33,10 @@ struct EmptyHandOptions {
   // Standard deviation of an object's offset about the offset of the empty hand, as a fraction of
   // that offset, >= 0. In the emulated hand, objects of 12 to 76 mm had offsets that differ by up
   // to 25 % from it, on average by 15 %.
-  double transferPart = 0.15;
+  double transferSdFraction = 0.15;
   // Largest plausible zero [mm], > 0. A larger value means that an object lies between the
   // pads.
-  double mostMm = 12.0;
+  double maxZeroMm = 12.0;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -44,7 +44,7 @@ struct EmptyHandOptions {
 
 struct EmptyHandZero {
   // why there is none: no touch, no joint angles, something between the pads; else empty
-  std::string trouble;
+  std::string problem;
   double mm = 0.0;  // zero, mean of the touches
   // Standard error of the mean zero [mm], without the error of the foam model.
   double sdMm = 0.0;

@@ -40,7 +40,7 @@ struct FeatureTable {
   // rows.
   std::string sensor;
   // A line each: a file that can't be read, one without a grasp, a grasp without features, and why.
-  std::vector<std::string> troubles;
+  std::vector<std::string> problems;
   std::size_t numFiles = 0;      // recordings that were found
   std::size_t failedFiles = 0;   // of them, those that could not be read
   std::size_t failedGrasps = 0;  // grasps without features
@@ -66,7 +66,7 @@ std::string sensorText(const SensorLayout& layout);
 // "golf_ball": "golf ball".
 std::string classOfFolder(const std::filesystem::path& folder);
 
-struct FeatureGatherOptions {
+struct FeatureExtractionOptions {
   FeatureSet set = FeatureSet::kBest;
   PinchHand hand = sdh2PinchHand();
   // 0: as many as the machine runs at once; the table doesn't depend on it
@@ -75,8 +75,8 @@ struct FeatureGatherOptions {
 
 // Paths: folders (as above) and recordings. One bad file doesn't stop the others. Throws Cancelled;
 // FileError when a path isn't there.
-FeatureTable gatherFeatures(const std::vector<std::filesystem::path>& paths,
-                            const FeatureGatherOptions& options = {},
-                            const Progress& progress = {});
+FeatureTable extractFeatures(const std::vector<std::filesystem::path>& paths,
+                             const FeatureExtractionOptions& options = {},
+                             const Progress& progress = {});
 
 }  // namespace palpate

@@ -1,9 +1,11 @@
 // A Gaussian per class (regularised quadratic discriminant analysis; Friedman 1989, "Regularized
 // discriminant analysis", J. American Statistical Association 84). Classes are equally likely
 // beforehand.
-//   C_c = (1 - pooledShare) S_c + pooledShare S_w;  off-diagonal elements times offDiagonal;
+//   C_c = (1 - pooledFraction) S_c + pooledFraction S_w;  off-diagonal elements times
+//   correlationScale;
 //         + extraVariance diag(S_w);  + ridge
-// With pooledShare 1 it is the linear discriminant rule: the nearest mean in Mahalanobis distance.
+// With pooledFraction 1 it is the linear discriminant rule: the nearest mean in Mahalanobis
+// distance.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +16,10 @@
 namespace palpate {
 
 struct ClassGaussianOptions {
-  double pooledShare = 0.5;    // 0..1; a class with one sample takes S_w whole
-  double offDiagonal = 1.0;    // 0..1
-  double extraVariance = 0.0;  // >= 0, of the pooled variance: what other days add
-  double ridge = 1e-3;         // times the mean of the pooled variances; 1e-9 .. 1
+  double pooledFraction = 0.5;    // 0..1; a class with one sample takes S_w whole
+  double correlationScale = 1.0;  // 0..1
+  double extraVariance = 0.0;     // >= 0, of the pooled variance: what other days add
+  double ridge = 1e-3;            // times the mean of the pooled variances; 1e-9 .. 1
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;

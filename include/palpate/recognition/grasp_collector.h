@@ -1,7 +1,7 @@
 // Detects grasps in the frames of a running hand and returns each one, with some frames before and
 // after it, as a separate profile, as if that grasp alone had been recorded.
 //
-// A contact: at least `fewestFingers` different fingers with an active taxel (value > 0), up to
+// A contact: at least `minFingers` different fingers with an active taxel (value > 0), up to
 // `bridgedFrames` frames without bridged, as the rule `general` of grasp_segments.h has it; a gap
 // of the stream ends it. Only what came counts, no clock.
 #pragma once
@@ -22,12 +22,12 @@
 namespace palpate {
 
 struct GraspCollectorOptions {
-  std::size_t fewestFingers = 2;    // 1..8
+  std::size_t minFingers = 2;       // 1..8
   std::size_t moreThanFrames = 20;  // a contact that is shorter is no grasp
   std::size_t bridgedFrames = 3;
-  std::size_t framesBefore = 16;   // kept of what was before the contact
-  std::size_t framesAfter = 10;    // and after it, >= bridgedFrames
-  std::size_t mostFrames = 18000;  // of one contact; what comes later is not kept
+  std::size_t framesBefore = 16;  // kept of what was before the contact
+  std::size_t framesAfter = 10;   // and after it, >= bridgedFrames
+  std::size_t maxFrames = 18000;  // of one contact; what comes later is not kept
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;

@@ -1,7 +1,8 @@
 // Features of grasps: what recognition knows of one grasp, as a row of numbers with names.
 //
 //   study    the 54 features of the study (study_features.h), for comparison with it
-//   best     the features that are stable between sessions (day_features.h): contact geometry and
+//   best     the features that are stable between sessions (plateau_features.h): contact geometry
+//   and
 //            force on the load plateau
 //   session  the features of `best`, the joint angles at rest and simple statistics of both pads.
 //            The most accurate set within one session; not to be used in another one, because it
@@ -37,7 +38,7 @@ struct GraspFeatures {
   // frame with a quarter of the load, and the last one of the plateau.
   std::size_t initialFrame = 0, endFrame = 0;
   std::vector<double> values;  // finite, as featureNames(); empty with trouble
-  std::string trouble;         // why there are none, one line; else empty
+  std::string problem;         // why there are none, one line; else empty
   bool operator==(const GraspFeatures&) const = default;
 };
 
@@ -58,7 +59,7 @@ std::vector<GraspSegment> findPinches(const Profile& profile,
 // `trouble`.
 struct RecordingFeatures {
   std::vector<GraspFeatures> grasps;
-  std::string trouble;  // another hand; no grasp; else empty
+  std::string problem;  // another hand; no grasp; else empty
 };
 RecordingFeatures recordingFeatures(const Profile& profile,
                                     FeatureSet set,

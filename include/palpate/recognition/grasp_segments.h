@@ -23,7 +23,7 @@ enum class GraspRule { kGeneral, kStudy };
 
 struct GraspSegmentOptions {
   GraspRule rule = GraspRule::kGeneral;
-  std::size_t fewestFingers = 2;    // `general`; 1..8
+  std::size_t minFingers = 2;       // `general`; 1..8
   std::size_t moreThanFrames = 20;  // a grasp has more, from begin to end
   double moreThanS = 0.6;           // `general`: and lasts longer [s], >= 0
   std::size_t bridgedFrames = 3;    // `general`: at most so many without contact in a row

@@ -30,7 +30,7 @@ struct OffsetChoice {
 };
 
 // What a session is judged with.
-struct SessionUse {
+struct SessionContext {
   SessionOffset offset;
   bool sameSession = false;           // as the model's training, as far as times tell
   std::vector<std::string> warnings;  // a line each: why nothing will be sure
@@ -38,15 +38,15 @@ struct SessionUse {
 
 // x: the session's grasps, all of them; timesUs: host times of each. A classifier that doesn't
 // carry over has no offset: anything but model and none throws Error.
-SessionUse sessionFor(const TrainedModel& model,
-                      const Eigen::MatrixXd& x,
-                      const std::vector<std::int64_t>& timesUs,
-                      const OffsetChoice& choice);
+SessionContext sessionFor(const TrainedModel& model,
+                          const Eigen::MatrixXd& x,
+                          const std::vector<std::int64_t>& timesUs,
+                          const OffsetChoice& choice);
 
 // What a model says of every row of a table, all of one session.
 struct Classification {
-  SessionUse use;
-  std::vector<Verdict> verdicts;  // one per row
+  SessionContext use;
+  std::vector<Prediction> verdicts;  // one per row
 };
 // Throws Error: the table doesn't fit the model, or the model has no use for such an offset.
 Classification classifyTable(const TrainedModel& model,
@@ -67,7 +67,7 @@ struct EvaluationOptions {
 struct EvaluatedGrasp {
   std::size_t sample = 0;
   std::size_t session = 0;
-  Verdict verdict;
+  Prediction verdict;
 };
 
 struct ModelEvaluation {
@@ -75,7 +75,7 @@ struct ModelEvaluation {
   ConfusionMatrix confusion;           // of the model's classes; `unknown` counts as wrong
   std::vector<EvaluatedGrasp> grasps;  // that count, session after session
   std::vector<std::size_t> adapted;    // that taught
-  std::vector<SessionUse> sessions;
+  std::vector<SessionContext> sessions;
   std::size_t top3 = 0;  // the truth is among the three best
   std::size_t sure = 0, sureRight = 0;
 };
@@ -95,6 +95,6 @@ Json jsonOf(const ModelEvaluation& evaluation);
 std::string labelOf(const TrainedModel& model, int label);
 // file, begin, end, label, confidence, sure, novelty, top: [{label, p}], the best five (interfaces
 // of `palpate classify`).
-Json verdictJson(const TrainedModel& model, const FeatureRow& row, const Verdict& verdict);
+Json predictionJson(const TrainedModel& model, const FeatureRow& row, const Prediction& verdict);
 
 }  // namespace palpate

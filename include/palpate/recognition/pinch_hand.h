@@ -24,7 +24,7 @@ struct PinchHand {
   double fullScaleCounts = 4096.0;  // counts are divided by it in the study's features
   // Side length [pixels] of the square image that the study's features are computed from; the
   // pad's values are placed at the middle of its top edge.
-  int pictureSize = 1;
+  int imageSize = 1;
   std::array<double, 2> largestCounts{
       1.0, 1.0};  // seen on each pad: 1 mm of impression there (study), > 0
   // Geometry of the study, and the one in which a rigid object measures the same everywhere on the

@@ -14,14 +14,14 @@ struct SampleSplit {
   std::vector<std::size_t> test;
 };
 
-// S: stratified shuffles. Of every split ceil(testShare n) samples examine, shared among the
+// S: stratified shuffles. Of every split ceil(testFraction n) samples examine, shared among the
 // classes in proportion (largest remainders, equal ones by lot); a class with one sample only
 // teaches. The same for the same seed on every machine. Throws std::invalid_argument (no sample,
 // share not inside 0..1, nothing left on one side).
 std::vector<SampleSplit> stratifiedSplits(const std::vector<int>& y,
                                           std::size_t splits,
                                           std::uint64_t seed,
-                                          double testShare = 0.2);
+                                          double testFraction = 0.2);
 
 // B: split k of `blocks` examines the k-th of as many contiguous blocks of every class, in the
 // order of the samples (their order in time): what lies close together in time stays together.

@@ -18,11 +18,11 @@
 #include <Eigen/Core>
 
 #include <palpate/core/json.h>
-#include <palpate/recognition/day_model.h>
+#include <palpate/recognition/session_adaptive_classifier.h>
 
 namespace palpate {
 
-enum class OffsetOrigin {
+enum class OffsetSource {
   // The offset is assumed to be 0, as in the training session.
   kNone,
   // Nothing is known about this session: the prior distribution is used.
@@ -33,33 +33,33 @@ enum class OffsetOrigin {
   kReferences,  // from labelled grasps of today
   kEmptyHand,   // the pads of the empty hand touched (empty_hand.h)
 };
-std::string_view offsetOriginName(
+std::string_view offsetSourceName(
     // "none", "unknown", "given", "batch", "references", "empty_hand"
-    OffsetOrigin origin) noexcept;
+    OffsetSource origin) noexcept;
 
 struct SessionOffsetOptions {
-  double priorSdMm = 3.0;  // of the offset before anything is known, > 0
-  double reachMm = 8.0;    // the grid goes from -reach to reach, > 0
-  double stepMm = 0.25;    // > 0
+  double priorSdMm = 3.0;        // of the offset before anything is known, > 0
+  double gridHalfWidthMm = 8.0;  // the grid goes from -reach to reach, > 0
+  double stepMm = 0.25;          // > 0
   // Weight of the log likelihood of an unlabelled grasp, 0..1: grasps of one object are not
   // independent observations.
-  double batchWeight = 0.3;
+  double unlabelledWeight = 0.3;
   // Lower bound of an unlabelled grasp's relative log likelihood [nat], > 0, so that one
   // outlier cannot exclude an offset.
-  double floorNats = 12.0;
+  double logLikelihoodFloorNats = 12.0;
   // Labelled grasps of one object count as at most this many independent observations, > 0.
-  double mostReferences = 2.0;
+  double maxEffectiveReferences = 2.0;
   // An offset is trusted only if it was estimated from at least this many different objects.
-  std::size_t fewestObjects = 2;
+  std::size_t minObjects = 2;
   // Two objects are different if their sizes differ by more than this [mm], >= 0,
   double objectGapMm = 3.0;
   // or if the Mahalanobis distance of their other features, with the within-class covariance
   // matrix, exceeds this, > 0.
-  double objectDistance = 5.0;
+  double minShapeDistance = 5.0;
   // Each object must have been classified with at least this probability, 0..1,
   double objectProbability = 0.8;
   // and the standard deviation of the offset must not exceed this [mm], > 0.
-  double largestSdMm = 1.0;
+  double maxSdMm = 1.0;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -69,7 +69,7 @@ struct SessionOffset {
   double mm = 0.0;  // mean: measured D - true D
   // Standard deviation [mm]; 0: the value is assumed, or was entered as exact.
   double sdMm = 0.0;
-  OffsetOrigin origin = OffsetOrigin::kNone;
+  OffsetSource origin = OffsetSource::kNone;
   std::size_t grasps = 0;   // it rests on
   std::size_t objects = 0;  // different ones among them
   // Whether a classification with this offset may be reported as sure. Never true for kNone and
@@ -93,56 +93,56 @@ SessionOffset givenOffset(double mm, double sdMm = 0.0);
 // It is trusted if its standard deviation is small enough.
 SessionOffset measuredOffset(double mm,
                              double sdMm,
-                             OffsetOrigin origin,
+                             OffsetSource origin,
                              const SessionOffsetOptions& options = {});
 
 // Posterior distribution of the offset given grasps and the distribution `before`. x has one grasp
 // per row. Both throw std::invalid_argument (sizes, y). offsetFromBatch(): all grasps of the
 // session, without labels.
-SessionOffset offsetFromBatch(const DayModel& model,
+SessionOffset offsetFromBatch(const SessionAdaptiveClassifier& model,
                               const Eigen::MatrixXd& x,
                               const SessionOffset& before = unknownOffset(),
                               const SessionOffsetOptions& options = {});
 // offsetFromReferences(): labelled grasps, y is the class index of each row. Rigid objects give
 // more accurate offsets than soft ones.
-SessionOffset offsetFromReferences(const DayModel& model,
+SessionOffset offsetFromReferences(const SessionAdaptiveClassifier& model,
                                    const Eigen::MatrixXd& x,
                                    const std::vector<int>& y,
                                    const SessionOffset& before = unknownOffset(),
                                    const SessionOffsetOptions& options = {});
 
 // Classification of one grasp.
-struct DayVerdict {
+struct OpenSetPrediction {
   // Posterior probability of each known class; the values sum to 1.
   Eigen::VectorXd probability;
   std::vector<std::size_t> ranking;  // classes, best first
   // Log likelihood ratio [ln] of the best class against the background, marginalised over the
   // offset. Small values mean an unknown object; known objects are nearly always above
-  // VerdictOptions::leastKnown.
-  double knownness = 0.0;
+  // OpenSetOptions::minLogLikelihoodRatio.
+  double logLikelihoodRatio = 0.0;
   bool unknown = false;  // knownness is below
   // The best class is certain enough, it is known, and the offset can be trusted.
   bool sure = false;
 };
 
-struct VerdictOptions {
+struct OpenSetOptions {
   // Threshold [ln] of the ratio: 1 % of the known and 60 % of the unknown grasps are below it
   // (data: docs/recognition.md).
-  double leastKnown = 1.0;
+  double minLogLikelihoodRatio = 1.0;
   double sureProbability = 0.97;  // of the best class, 0.5..1
 
   void validate() const;
 };
 
-DayVerdict judge(const DayModel& model,
-                 const Eigen::VectorXd& x,
-                 const SessionOffset& offset,
-                 const VerdictOptions& options = {});
+OpenSetPrediction predict(const SessionAdaptiveClassifier& model,
+                          const Eigen::VectorXd& x,
+                          const SessionOffset& offset,
+                          const OpenSetOptions& options = {});
 // The same of each row.
-std::vector<DayVerdict> judgeAll(const DayModel& model,
-                                 const Eigen::MatrixXd& x,
-                                 const SessionOffset& offset,
-                                 const VerdictOptions& options = {});
+std::vector<OpenSetPrediction> predictAll(const SessionAdaptiveClassifier& model,
+                                          const Eigen::MatrixXd& x,
+                                          const SessionOffset& offset,
+                                          const OpenSetOptions& options = {});
 
 // {mm, sd_mm, origin, grasps, objects, trusted, grid_mm, probability}
 Json sessionOffsetJson(const SessionOffset& offset);

@@ -27,7 +27,7 @@ std::vector<std::string> studyFeatureNames(const PinchHand& hand = sdh2PinchHand
 
 struct StudyFeatures {
   // why there are none: no joint angles, no contact, too short, .. ; else empty
-  std::string trouble;
+  std::string problem;
   std::size_t initialFrame = 0;
   std::size_t endFrame = 0;
   std::size_t otherEndFrame = 0;  // the tied candidate

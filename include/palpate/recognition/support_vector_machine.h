@@ -18,7 +18,7 @@ struct SvmOptions {
   double c = 100.0;  // cost of a sample on the wrong side, > 0
   // how far the conditions of the optimum may be missed (LIBSVM's eps), > 0
   double tolerance = 1e-3;
-  int mostIterations = 100000;  // of one pair, >= 1; then it is taken as it is
+  int maxIterations = 100000;  // of one pair, >= 1; then it is taken as it is
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;

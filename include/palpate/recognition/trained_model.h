@@ -30,7 +30,7 @@ struct ModelInput {
 };
 
 // What a model says of one grasp.
-struct Verdict {
+struct Prediction {
   static constexpr int kUnknown = -1;
   // Class index, or kUnknown if the grasp belongs to no known class.
   int label = kUnknown;
@@ -54,19 +54,19 @@ struct TrainedModel {
   std::vector<std::string> features, classes;
   ClassifierPipeline pipeline;  // calibrated
   // For all classifiers except gauss: results with at least this confidence are sure (above 1:
-  // never); results with at least mostNovelty are unknown.
-  double sureConfidence = 2.0;
-  double mostNovelty = 0.0;
+  // never); results with at least maxNovelty are unknown.
+  double minSureConfidence = 2.0;
+  double maxNovelty = 0.0;
   // Session offset that `palpate adapt` stored; noOffset() in a model that was never adapted.
   SessionOffset offset = noOffset();
   // Of the empty hand: on the day of training, and on the day whose offset is stored.
-  std::optional<EmptyHandZero> trainingZero, todayZero;
+  std::optional<EmptyHandZero> trainingZero, sessionZero;
   std::vector<ModelInput> inputs, adaptedFrom;
   Json options = Json::object();     // of the command that made it
   Json validation = Json::object();  // how well it did on blocks of its own recordings
 
   // Whether the classifier models a session offset and can be adapted; true for gauss only.
-  bool carriesOver() const noexcept { return pipeline.day.has_value(); }
+  bool adaptsToSession() const noexcept { return pipeline.day.has_value(); }
   // Whether a time lies within half a day of the day its offset is of: that of what it learnt from,
   // or, once it is adapted, of what adapted it. The same session, as far as one can tell.
   bool sameSession(std::int64_t timeUs) const noexcept;
@@ -86,10 +86,10 @@ TrainedModel trainModel(const SampleSet& samples,
 // Verdicts on rows of features. `offset` is of no use to a classifier that doesn't carry over. Sure
 // with: an offset that can be trusted, or `sameSession` and no offset. Throws std::invalid_argument
 // (another number of features).
-std::vector<Verdict> classifyRows(const TrainedModel& model,
-                                  const Eigen::MatrixXd& x,
-                                  const SessionOffset& offset,
-                                  bool sameSession);
+std::vector<Prediction> classifyRows(const TrainedModel& model,
+                                     const Eigen::MatrixXd& x,
+                                     const SessionOffset& offset,
+                                     bool sameSession);
 
 // Throws Error naming what doesn't agree between a model and the features it is to judge: another
 // sensor, another set of features (of another version).
@@ -108,7 +108,7 @@ void adaptToEmptyHand(TrainedModel& model, const EmptyHandZero& today);
 
 // What it knew of another day than that of its training: offset, zero, components, where they came
 // from.
-void forgetToday(TrainedModel& model);
+void resetSession(TrainedModel& model);
 
 Json jsonOf(const TrainedModel& model);
 // Throws Error naming what is missing, damaged, or of a later format.

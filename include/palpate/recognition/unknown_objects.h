@@ -38,7 +38,7 @@ UnknownReport unknownWithin(const SampleSet& samples,
                             const Progress& progress = {});
 
 // Another session. How its offset is obtained:
-enum class StrangerOffset {
+enum class UnknownClassOffset {
   // Estimated from all grasps of the session with a classifier of all classes; this simulates a
   // zero adjustment of the empty hand.
   kKnown,
@@ -54,7 +54,7 @@ enum class StrangerOffset {
 UnknownReport unknownOnAnotherDay(const SampleSet& training,
                                   const SampleSet& later,
                                   const std::vector<std::vector<std::size_t>>& sessions,
-                                  StrangerOffset offset,
+                                  UnknownClassOffset offset,
                                   const Progress& progress = {});
 
 // {auroc, known_grasps, unknown_grasps, classes[{name, grasps, auroc}]}

@@ -20,7 +20,7 @@ namespace palpate {
 // grasp or another part, as a person sees it), "sensor_settings" (what a person says that the
 // sensor was set to: calibration/force_series.h), and "tare" (zeros to be taken off:
 // calibration/tare.h).
-bool isNoted(const RecordingEvent& event);
+bool isUserEvent(const RecordingEvent& event);
 
 struct SaveEventsOptions {
   std::string vfs;  // SQLite file system to write with; empty: the default one

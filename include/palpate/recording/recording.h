@@ -40,10 +40,10 @@ struct VerifyReport {
 VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& progress = {});
 
 // The forms a recording can be saved in.
-enum class RecordingForm { kDsa, kPalpate, kCsv, kNpz, kJsonLines };
+enum class RecordingFormat { kDsa, kPalpate, kCsv, kNpz, kJsonLines };
 // By the ending of a name: .dsa, .palpate, .csv, .npz, .jsonl, in small or capital letters. Throws
 // FileError naming them all.
-RecordingForm formOf(const std::filesystem::path& path);
+RecordingFormat formatOf(const std::filesystem::path& path);
 
 // What was noted or happened in a recording: the events of a .palpate, the sidecar
 // NAME.dsa.notes.json of a .dsa (none: no events). Throws FileError, FormatError.

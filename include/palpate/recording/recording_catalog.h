@@ -24,10 +24,10 @@ struct CatalogSink {
 struct CatalogReport {
   std::size_t numFiles = 0;
   std::size_t numRead = 0;                     // not from the cache
-  std::vector<std::string> troubles;           // a line for each folder that can't be looked into
+  std::vector<std::string> problems;           // a line for each folder that can't be looked into
   std::vector<std::filesystem::path> folders;  // that were looked into
   bool local = false;        // on a disk of this computer, which tells when something in it changes
-  std::string cacheTrouble;  // why nothing could be kept; empty: all is well
+  std::string cacheProblem;  // why nothing could be kept; empty: all is well
 };
 
 // Recordings as recordingsBelow() (recording/recording_folder.h) lists them. `cacheFolder` is made

@@ -12,7 +12,7 @@ namespace palpate {
 struct RecordingFolder {
   // sorted, each named as the folder given joined with the rest
   std::vector<std::filesystem::path> files;
-  std::vector<std::string> troubles;           // a line for each folder that can't be looked into
+  std::vector<std::string> problems;           // a line for each folder that can't be looked into
   std::vector<std::filesystem::path> folders;  // that were looked into, itself among them; sorted
 };
 

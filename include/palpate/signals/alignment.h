@@ -19,10 +19,10 @@ enum class Alignment {
   kContact,  // first lasting contacts on top of each other
   kStart,    // first frames on top of each other
   kClock,    // as they were, by host time
-  kByHand    // whatever offset somebody chose
+  kManual    // whatever offset somebody chose
 };
 inline constexpr std::array kAllAlignments = {
-    Alignment::kContact, Alignment::kStart, Alignment::kClock, Alignment::kByHand};
+    Alignment::kContact, Alignment::kStart, Alignment::kClock, Alignment::kManual};
 // "contact", "start", "clock", "hand": the word in settings and on the command line.
 std::string_view nameOf(Alignment alignment);
 std::optional<Alignment> alignmentFrom(std::string_view name);
@@ -42,7 +42,7 @@ TimedProfile timedProfile(const Profile& profile,
                           const FirstContactOptions& options = {},
                           const Progress& progress = {});
 
-// Where B's first frame lies [s]. Nothing: an empty profile, no contact in one of the two, kByHand.
+// Where B's first frame lies [s]. Nothing: an empty profile, no contact in one of the two, kManual.
 std::optional<double> offsetBetween(const TimedProfile& a,
                                     const TimedProfile& b,
                                     Alignment alignment);

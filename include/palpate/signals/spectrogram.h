@@ -12,12 +12,12 @@
 namespace palpate {
 
 struct SpectrogramOptions {
-  SpectrumOptions spectrum = {};      // its mostSegments counts, too, where it is above 0
-  std::size_t mostSegments = 20'000;  // wider than any screen; above 0
-  std::size_t mostCells = 4'000'000;  // segments times bins; above 0
+  SpectrumOptions spectrum = {};     // its maxSegments counts, too, where it is above 0
+  std::size_t maxSegments = 20'000;  // wider than any screen; above 0
+  std::size_t maxCells = 4'000'000;  // segments times bins; above 0
 
   // The spectra's options with the number of segments that fits; at least one.
-  SpectrumOptions fitted() const;
+  SpectrumOptions limitedToCells() const;
 };
 
 // The segments of one stretch without a gap: evenly spaced in time and in frequency.

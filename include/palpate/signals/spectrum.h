@@ -47,7 +47,7 @@ struct SpectrumOptions {
   GridRate gridRate = GridRate::kMean;
   // At most so many segments: the hop grows until they fit (beyond `window` samples between two are
   // in none). 0: no limit.
-  std::size_t mostSegments = 0;
+  std::size_t maxSegments = 0;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -55,7 +55,7 @@ struct SpectrumOptions {
 };
 
 // Samples without a gap between them.
-struct SpectrumStretch {
+struct GapFreeSpan {
   std::size_t first = 0;    // index of its first finite sample in the series
   std::size_t samples = 0;  // finite samples
   double beginS = 0.0;      // time of its first and last sample [s], as given
@@ -70,9 +70,9 @@ struct SpectrumReport {
   // of them NaN or infinite: left out, interpolated over unless that makes a gap
   std::size_t notFinite = 0;
   std::size_t inNoSegment = 0;  // finite samples of stretches shorter than a window
-  std::vector<SpectrumStretch> stretches;
+  std::vector<GapFreeSpan> stretches;
   std::size_t segments = 0;
-  // [samples of the grid] between segments; above window - overlap where mostSegments asked
+  // [samples of the grid] between segments; above window - overlap where maxSegments asked
   std::size_t hop = 1;
   double rateHz = 0.0;     // of the longest stretch; 0: fewer than two samples
   double nyquistHz = 0.0;  // half of it: nothing above can be seen

@@ -17,11 +17,11 @@ struct TaxelPlace {
   bool operator==(const TaxelPlace&) const = default;
 };
 
-// The enabled taxel with the largest sum of values over at most `mostFrames` frames, spread evenly
+// The enabled taxel with the largest sum of values over at most `maxFrames` frames, spread evenly
 // (the first of equals); nothing where none feels anything. Throws std::invalid_argument for no
 // frames to look at, Cancelled, FormatError where a block is damaged.
 std::optional<TaxelPlace> strongestTaxel(const Profile& profile,
-                                         std::size_t mostFrames = 4000,
+                                         std::size_t maxFrames = 4000,
                                          const Progress& progress = {});
 
 }  // namespace palpate

@@ -45,7 +45,7 @@ class KeyFrame {
   // Throws std::invalid_argument.
   explicit KeyFrame(const MatrixLayout& layout, const KeyFrameOptions& options = {});
 
-  // Takes a frame of this matrix; allocates nothing. False: fewer than `fewestTaxels` are active,
+  // Takes a frame of this matrix; allocates nothing. False: fewer than `minTaxels` are active,
   // there is no key then. Throws std::invalid_argument when the size is another one.
   bool set(const ConstMatrixMap& frame);
   void clear() noexcept { active_ = 0; }
@@ -58,13 +58,13 @@ class KeyFrame {
   double centerX() const noexcept { return centerX_; }  // centroid of the active taxels
   double centerY() const noexcept { return centerY_; }
   double sum() const noexcept { return sum_; }  // [counts]
-  float leastCounts() const noexcept {
+  float minCounts() const noexcept {
     return least_;
   }  // the smallest active value: at or above the threshold
   // Sensitivity to rotation: the fraction of the squared gradient that points around the centroid
   // instead of towards it, over the taxels with known neighbours. 0: a round contact, whose angle
   // cannot be estimated; at most 0.5 for a contact without structure.
-  float turning() const noexcept { return turning_; }
+  float rotationSensitivity() const noexcept { return rotationSensitivity_; }
   const MatrixLayout& layout() const noexcept { return layout_; }
   const KeyFrameOptions& options() const noexcept { return options_; }
   // The smoothed values, rows x columns, row by row.
@@ -77,12 +77,12 @@ class KeyFrame {
   // Coefficient of the spline at a taxel; beyond two places outside of the matrix the last one.
   float coefficient(int y, int x) const noexcept;
 
-  static constexpr int kFewestTaxels = 2;
+  static constexpr int kMinTaxels = 2;
 
  private:
   void fill();
   void interpolate() noexcept;
-  void lookForTurning() noexcept;
+  void computeRotationSensitivity() noexcept;
 
   MatrixLayout layout_;
   KeyFrameOptions options_;
@@ -97,7 +97,7 @@ class KeyFrame {
   double centerY_ = 0.0;
   double sum_ = 0.0;
   float least_ = 0.0F;
-  float turning_ = 0.0F;
+  float rotationSensitivity_ = 0.0F;
 };
 
 }  // namespace palpate

@@ -19,15 +19,15 @@ namespace palpate {
 
 struct LearnedSurfaceOptions {
   // Initial standard deviation [counts] per count of the second difference of the frame, >= 0.
-  double unsureOfBend = 0.03;
+  double curvatureSd = 0.03;
   // Initial standard deviation of a taxel below the threshold that is next to an active one, as
   // a fraction of the threshold, >= 0.
-  double unsureOfSilence = 0.5;
+  double belowThresholdSd = 0.5;
   // Initial standard deviation outside of the matrix, as a fraction of the largest count, > 0.
-  double unsureOutside = 0.3;
+  double outsideSd = 0.3;
   // Process noise: variance added per frame as a fraction of the measurement noise variance, >=
   // 0. It lets the surface follow a contact whose shape changes.
-  double forgetting = 0.001;
+  double processNoiseRatio = 0.001;
   KeyFrameOptions key = {};
 
   void validate() const;  // throws std::invalid_argument naming the field
@@ -60,9 +60,7 @@ class LearnedSurface {
              const RegistrationOptions& options) noexcept;
 
   const KeyFrame& start() const noexcept { return key_; }  // the frame it began with
-  float leastCounts() const noexcept {
-    return least_;
-  }  // smallest active value of all frames so far
+  float minCounts() const noexcept { return least_; }  // smallest active value of all frames so far
 
  private:
   KeyFrame key_;

@@ -22,7 +22,7 @@ struct RigidMotion {
 };
 
 struct RegistrationOptions {
-  int passes = 6;  // at most, 1..50
+  int maxIterations = 6;  // at most, 1..50
   double convergedTaxels =
       2e-4;                     // ends when a pass moves less, also the angle at the contact's edge
   double noiseCounts = 4.0;     // > 0
@@ -30,20 +30,21 @@ struct RegistrationOptions {
   double saturationCounts = static_cast<double>(kSdh2SaturationCounts);  // at or above: saturated
   // Prior standard deviation of the rotation from the start value [deg], > 0.
   double anglePriorDeg = 6.0;
-  double leastTurning = 0.06;  // KeyFrame::turning() below which the angle is held, 0..0.5
+  // KeyFrame::turning() below which the angle is held, 0..0.5
+  double minRotationSensitivity = 0.06;
   // Largest standard deviation [taxels], > 0, up to which a direction of motion counts as
   // observable. Along a less observable direction (a bar along its own axis) the motion is held at
   // its start value.
-  double untoldTaxels = 0.15;
-  double gainPrior = 0.7;      // sd of ln gain from the start, > 0
-  double leastOverlap = 0.25;  // of the key's load that must lie inside, 0..1
+  double maxDirectionSdTaxels = 0.15;
+  double gainPrior = 0.7;    // sd of ln gain from the start, > 0
+  double minOverlap = 0.25;  // of the key's load that must lie inside, 0..1
 
   void validate() const;  // throws std::invalid_argument naming the field
 };
 
 // Directions along which the motion cannot be estimated from this contact (degenerate directions;
 // Zhang, Kaess, Singh 2016).
-struct Untold {
+struct DegenerateDirections {
   // 0: the motion is fully observable, 1: not along (x, y), 2: not at all.
   int count = 0;
   double x = 0.0;  // unit vector
@@ -61,7 +62,7 @@ struct RegistrationResult {
   double sdX = 0.0;
   double sdY = 0.0;
   double sdAngleDeg = 0.0;
-  Untold untold;  // held at the start along these
+  DegenerateDirections degenerate;  // held at the start along these
 };
 
 // `frame`: of the key's matrix, as it came: it is smoothed as the key was, into `scratch` (rows x

@@ -13,9 +13,9 @@
 namespace palpate {
 
 struct RotationOptions {
-  double leastEccentricity = 0.6;  // the study's; 0..1
-  double mostRoundness = 0.9;      // 0..1
-  int fewestTaxels = 3;            // a frame needs more than two, 1..
+  double minEccentricity = 0.6;  // the study's; 0..1
+  double maxRoundness = 0.9;     // 0..1
+  int minTaxels = 3;             // a frame needs more than two, 1..
 
   void validate() const;  // throws std::invalid_argument naming the field
 };

@@ -17,15 +17,15 @@ class SensorSlipDetector {
 
   // The next frame, and the joint angles that belong to it (or none); one verdict per matrix, valid
   // until the next call. Throws std::invalid_argument (another layout).
-  const std::vector<SlipVerdict>& update(const TactileFrame& frame,
-                                         std::span<const double> jointsDeg = {});
+  const std::vector<SlipDetection>& update(const TactileFrame& frame,
+                                           std::span<const double> jointsDeg = {});
   // Of all matrices, as SlipDetector.
   void setReference();
   void clearReference();
   void reset();
   void setOn(bool on) noexcept;
 
-  const std::vector<SlipVerdict>& last() const noexcept { return verdicts_; }
+  const std::vector<SlipDetection>& last() const noexcept { return verdicts_; }
   bool slipping() const noexcept;  // any matrix
   SlipDetector& matrix(std::size_t index) { return detectors_.at(index); }
   const SlipDetector& matrix(std::size_t index) const { return detectors_.at(index); }
@@ -34,7 +34,7 @@ class SensorSlipDetector {
   void collect();
 
   std::vector<SlipDetector> detectors_;
-  std::vector<SlipVerdict> verdicts_;
+  std::vector<SlipDetection> verdicts_;
 };
 
 }  // namespace palpate

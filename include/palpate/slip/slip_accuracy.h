@@ -21,14 +21,14 @@
 namespace palpate {
 
 // One stream of frames of one matrix: gives the motion of each. The reference is the first.
-using SlipReader = std::function<SlipMotion(const ConstMatrixMap&)>;
+using SlipEstimator = std::function<SlipMotion(const ConstMatrixMap&)>;
 
-struct MeasuredMethod {
+struct BenchmarkedMethod {
   std::string name;
-  std::function<SlipReader(const MatrixLayout&)> begin;  // a new stream
+  std::function<SlipEstimator(const MatrixLayout&)> begin;  // a new stream
 };
 // All methods of SlipTracker, and contest. Others may be added to such a list.
-std::vector<MeasuredMethod> measuredMethods();
+std::vector<BenchmarkedMethod> benchmarkedMethods();
 
 struct SlipAccuracyOptions {
   double noiseSd = 5.0;                // [counts]
@@ -70,7 +70,7 @@ struct MethodAccuracy {
 };
 
 // The same options give the same figures, time apart. Throws Cancelled.
-std::vector<MethodAccuracy> measureSlipAccuracy(const std::vector<MeasuredMethod>& methods,
+std::vector<MethodAccuracy> measureSlipAccuracy(const std::vector<BenchmarkedMethod>& methods,
                                                 const SlipAccuracyOptions& options = {},
                                                 const Progress& progress = {});
 

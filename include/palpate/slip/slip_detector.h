@@ -2,11 +2,11 @@
 //
 // The motion is measured by one of the methods of SlipTracker, or by the method `contest`: the
 // motion of `register`, multiplied by the score P(moved) of the reference frame and the present
-// frame (contest.h), until slip is confirmed (P > 0.9 over 0.35 taxel in two frames, or an alarm).
-// From then on the unscaled motion is reported, until the next reference.
-// The alarm comes from the contest of three windows (slip_rule.h), whatever gives the vector; or,
-// plain, from thresholds on the vector: |step| > 0.20 or |since reference| > 1.0 taxel along an
-// axis, as the prior program had it.
+// frame (slip_hypotheses.h), until slip is confirmed (P > 0.9 over 0.35 taxel in two frames, or an
+// alarm). From then on the unscaled motion is reported, until the next reference. The alarm comes
+// from the contest of three windows (slip_rule.h), whatever gives the vector; or, plain, from
+// thresholds on the vector: |step| > 0.20 or |since reference| > 1.0 taxel along an axis, as the
+// prior program had it.
 #pragma once
 
 #include <cstddef>
@@ -25,30 +25,30 @@ enum class SlipReference {
   kFirst,  // the first frame with an active taxel, kept whatever comes
   // A new reference for each contact: the first frame in which it is at rest, and again when it is
   // at rest after a slip.
-  kRest,
+  kWhenAtRest,
   kGiven,  // none until setReference()
 };
 
 struct SlipDetectorOptions {
-  SlipMethod method = SlipMethod::kContest;
-  SlipReference reference = SlipReference::kRest;
-  bool contestAlarm = true;   // false: plain thresholds
-  SlipRuleOptions rule = {};  // its thresholds are the plain ones, too
+  SlipMethod method = SlipMethod::kHypotheses;
+  SlipReference reference = SlipReference::kWhenAtRest;
+  bool hypothesisAlarm = true;  // false: plain thresholds
+  SlipRuleOptions rule = {};    // its thresholds are the plain ones, too
   SlipWindowsOptions windows = {};
   SlipTrackerOptions tracker = {};  // `method` and `firstContactIsReference` are set from above
 
   void validate() const;  // throws std::invalid_argument naming the field
 };
 
-struct SlipVerdict {
+struct SlipDetection {
   SlipMotion motion;  // valid false: nothing is known of this frame's motion
-  SlipLamp lamp = SlipLamp::kNotComputable;
+  SlipIndicator lamp = SlipIndicator::kNotComputable;
   SlipState state = SlipState::kInvalid;
   // True from the alarm until the contact is at rest again; translation or, with the contest,
   // rotation.
   bool slipping = false;
   bool alarm = false;  // of this frame alone
-  bool turning = false;
+  bool rotating = false;
   // Motion score of the window that decides in this frame; empty if no comparison was needed or
   // possible. `residual` is the smaller residual of both hypotheses.
   std::optional<double> pMoved;
@@ -64,9 +64,9 @@ class SlipDetector {
 
   // The next frame; stamps ascending [us]. `jointsDeg`: the joint angles that belong to it, or
   // none. Throws std::invalid_argument for another size.
-  const SlipVerdict& update(const ConstMatrixMap& frame,
-                            std::int64_t timeUs,
-                            std::span<const double> jointsDeg = {});
+  const SlipDetection& update(const ConstMatrixMap& frame,
+                              std::int64_t timeUs,
+                              std::span<const double> jointsDeg = {});
   // The newest frame becomes the reference (without contact in it: the next one with contact).
   void setReference();
   void clearReference();
@@ -74,19 +74,19 @@ class SlipDetector {
   // While off, it reports nothing but keeps its state up to date.
   void setOn(bool on) noexcept { on_ = on; }
 
-  const SlipVerdict& last() const noexcept { return verdict_; }
+  const SlipDetection& last() const noexcept { return verdict_; }
   // Whether the shape of the contact at the reference tells motion from a tilt of the load, per
   // axis.
-  const ShapeCondition& condition() const noexcept { return condition_; }
+  const MotionSdInflation& condition() const noexcept { return condition_; }
   const SlipDetectorOptions& options() const noexcept { return options_; }
 
  private:
-  void weigh(const SlipMotion& moved);
-  void decideByContest(const SlipEvidence& evidence);
-  void decidePlainly();
-  void holdAlarm(bool raised, bool calm);
-  bool rests(const SlipEvidence& evidence) const;
-  bool keepReference();
+  void applyMotionScore(const SlipMotion& moved);
+  void decideByHypotheses(const SlipEvidence& evidence);
+  void decideByThresholds();
+  void latchAlarm(bool raised, bool calm);
+  bool isAtRest(const SlipEvidence& evidence) const;
+  bool updateReference();
 
   MatrixLayout layout_;
   SlipDetectorOptions options_;
@@ -94,9 +94,9 @@ class SlipDetector {
   SlipWindows windows_;
   SlipRule rule_;
   KeyFrame reference_;
-  ShapeCondition condition_;
-  SlipVerdict verdict_;
-  std::optional<ContestResult> referenceContest_;
+  MotionSdInflation condition_;
+  SlipDetection verdict_;
+  std::optional<SlipHypothesisResult> referenceHypotheses_;
   bool on_ = true;
   bool hasReference_ = false;
   bool wantsReference_ = false;
@@ -104,9 +104,9 @@ class SlipDetector {
   int certain_ = 0;       // frames in which P was sure
   bool latched_ = false;
   int calm_ = 0;
-  std::size_t looks_ = 0;
-  double lastWeighedX_ = 0.0, lastWeighedY_ = 0.0;
-  bool lastWeighed_ = false;
+  std::size_t rotationChecks_ = 0;
+  double lastScoredX_ = 0.0, lastScoredY_ = 0.0;
+  bool hasLastScored_ = false;
 };
 
 }  // namespace palpate

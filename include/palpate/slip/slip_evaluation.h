@@ -43,7 +43,7 @@ struct SlipScore {
   std::vector<int> delaysFrames;  // of those found, ascending
 
   double perHour(std::size_t kind) const;  // 0 without hours
-  double foundPart() const;                // 0 without slips
+  double detectionRate() const;            // 0 without slips
   void add(const SlipScore& other);
 };
 enum SlipContact : std::size_t { kAllContact, kSettledContact, kQuietContact };
@@ -54,7 +54,7 @@ struct ScoredAlarm {
 };
 
 struct SlipEvaluationReport {
-  std::size_t holdRecordings = 0;
+  std::size_t noSlipRecordings = 0;
   std::size_t slipRecordings = 0;
   // "centroid-step": the centroid moves over 0.20 per frame, over 3 frames. "centroid-windows":
   // over 0.3 in 3 or 0.5 in 10 frames, twice. "register-windows": the registration instead.
@@ -68,8 +68,8 @@ struct SlipEvaluationReport {
 class SlipEvaluation {
  public:
   explicit SlipEvaluation(const SlipWindowsOptions& options = {}) : options_(options) {}
-  void addHold(const Profile& profile, const Progress& progress = {});
-  void addSlip(const Profile& profile, const Progress& progress = {});
+  void addNoSlipRecording(const Profile& profile, const Progress& progress = {});
+  void addSlipRecording(const Profile& profile, const Progress& progress = {});
 
   // fold: -1 all, 0 or 1 a half: every second recording of holds; of slips the earlier or later
   // half of each recording's.
@@ -77,7 +77,7 @@ class SlipEvaluation {
   SlipEvaluationReport report() const;
 
  private:
-  struct Seen {
+  struct FrameEvidence {
     std::size_t frame = 0;
     std::size_t age = 0;  // frames of contact
     bool quiet = false;
@@ -87,7 +87,7 @@ class SlipEvaluation {
     bool slip = false;
     int fold = 0;
     double hoursPerFrame = 0.0;
-    std::vector<Seen> seen;
+    std::vector<FrameEvidence> seen;
     std::vector<SlipLabel> labels;
     std::vector<int> labelFolds;
   };

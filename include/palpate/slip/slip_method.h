@@ -16,7 +16,7 @@ enum class SlipMethod {
   kPhase,          // cross-power spectrum, not normalised, peak of the upsampled inverse transform
   kPhaseNormalized,  // the same of the normalised spectrum (phase alone)
   kRegister,         // rigid registration of a key frame
-  kContest,          // registration weighed against a load field that doesn't move
+  kHypotheses,       // registration weighed against a load field that doesn't move
 };
 
 // All of them, in this order.

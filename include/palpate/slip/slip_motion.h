@@ -32,10 +32,11 @@ struct SlipMotion {
   // register: overlap over the misfit).
   double confidence = 0.0;
   // register: directions in which the contact looks the same (a bar along its own axis). Motion
-  // along them cannot be measured and is given as 0. 0: none, 1: along (untoldX, untoldY), 2: all.
-  int untold = 0;
-  double untoldX = 0.0;
-  double untoldY = 0.0;
+  // along them cannot be measured and is given as 0. 0: none, 1: along (degenerateX, degenerateY),
+  // 2: all.
+  int degenerate = 0;
+  double degenerateX = 0.0;
+  double degenerateY = 0.0;
   double gain = 1.0;  // register: load against the key frame
 
   bool touched = false;   // first frame of a contact

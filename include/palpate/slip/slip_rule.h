@@ -18,7 +18,7 @@
 #include <cstddef>
 #include <optional>
 
-#include <palpate/slip/contest.h>
+#include <palpate/slip/slip_hypotheses.h>
 
 namespace palpate {
 
@@ -31,9 +31,9 @@ struct WindowEvidence {
   bool filled = false;     // its earlier frame is of this contact, without a gap between
   double centroidX = 0.0;  // shift of the centroid [taxels]
   double centroidY = 0.0;
-  double logLoadRatio = 0.0;  // ln(load now / load then)
-  double jointsDeg = 0.0;     // largest change of a joint angle; 0 where none are known
-  ContestResult contest;      // of the two frames, where asked for
+  double logLoadRatio = 0.0;     // ln(load now / load then)
+  double jointsDeg = 0.0;        // largest change of a joint angle; 0 where none are known
+  SlipHypothesisResult contest;  // of the two frames, where asked for
 };
 
 struct SlipEvidence {
@@ -50,29 +50,29 @@ struct SlipRuleOptions {
   double shortSteps = 1.75;
   double middleSteps = 3.0;
   double longReferences = 1.2;
-  double accumulatedReferences = 1.0;
+  double accumulatedThreshold = 1.0;
   // Allowances [taxels].
-  std::array<double, kSlipWindows> perLogRise = {1.5, 1.5, 1.0};
-  double perJointDeg = 0.1;
-  double rotationPerLog = 20.0;  // [deg]: of the load's change, up or down
+  std::array<double, kSlipWindows> allowancePerLogRise = {1.5, 1.5, 1.0};
+  double allowancePerJointDeg = 0.1;
+  double rotationAllowancePerLogChange = 20.0;  // [deg]: of the load's change, up or down
   // Age of the contact at a window's earlier frame, at least [frames].
   std::array<std::size_t, kSlipWindows> settled = {5, 10, 10};
   // A registered motion is rejected if it exceeds this many centroid shifts plus 0.3 taxel.
-  double furthest = 3.0;
+  double maxShiftRatio = 3.0;
 
   void validate() const;  // throws std::invalid_argument naming the field
 };
 
 // What the rule makes of one frame.
-struct RuleOutcome {
-  bool alarm = false;    // of translation
-  bool turning = false;  // alarm of rotation
+struct SlipRuleResult {
+  bool alarm = false;     // of translation
+  bool rotating = false;  // alarm of rotation
   // the window nearest to its threshold; nothing: none is filled
   std::optional<SlipWindow> leading;
   // Ratio of the largest possible motion of the leading window to its threshold, without and with
   // the allowance.
-  double reach = 0.0;
-  double allowedReach = 0.0;
+  double thresholdRatio = 0.0;
+  double allowedThresholdRatio = 0.0;
 };
 
 class SlipRule {
@@ -82,13 +82,13 @@ class SlipRule {
 
   // The window whose contest would decide something in this frame; nothing: no window can raise an
   // alarm.
-  std::optional<SlipWindow> asksFor(const SlipEvidence& evidence) const;
+  std::optional<SlipWindow> windowToEvaluate(const SlipEvidence& evidence) const;
   // Whether a comparison over the middle window could detect a rotation; it is then evaluated every
   // few frames even if no window requires it.
-  bool canTurn(const SlipEvidence& evidence) const;
-  // The next frame. Read are the contest of the window that asksFor() names, and for turning that
-  // of the middle window where it was made (two such looks in a row must agree).
-  RuleOutcome decide(const SlipEvidence& evidence);
+  bool mayDetectRotation(const SlipEvidence& evidence) const;
+  // The next frame. Read are the contest of the window that windowToEvaluate() names, and for
+  // turning that of the middle window where it was made (two such looks in a row must agree).
+  SlipRuleResult decide(const SlipEvidence& evidence);
   void reset() noexcept { pending_ = turnPending_ = false; }
 
   const SlipRuleOptions& options() const noexcept { return options_; }

@@ -14,7 +14,7 @@
 
 namespace palpate {
 
-struct SlipPassOptions {
+struct SlipRunOptions {
   SlipDetectorOptions detector;
   // With SlipReference::kGiven: the frame that becomes the reference.
   std::size_t referenceFrame = 0;
@@ -24,11 +24,11 @@ struct SlipPassOptions {
 // matrix. Joint angles of the profile are used if it has any. Throws Cancelled;
 // std::invalid_argument (options, reference frame not in the profile).
 using SlipSink = std::function<void(
-    std::size_t frame, std::int64_t timeUs, const std::vector<SlipVerdict>& verdicts)>;
-void passSlip(const Profile& profile,
-              const SlipPassOptions& options,
-              const SlipSink& sink,
-              const Progress& progress = {});
+    std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& verdicts)>;
+void runSlipDetector(const Profile& profile,
+                     const SlipRunOptions& options,
+                     const SlipSink& sink,
+                     const Progress& progress = {});
 
 struct SlipSegment {
   std::size_t begin = 0;  // frames, both inclusive
@@ -43,12 +43,12 @@ struct SlipSegment {
 };
 
 struct SlipSegmentOptions {
-  SlipPassOptions pass;
+  SlipRunOptions pass;
   // slipping spans of a matrix with at most so many frames between are one
   std::size_t bridgedFrames = 5;
 };
 
-// By begin, then matrix. Throws as passSlip.
+// By begin, then matrix. Throws as runSlipDetector.
 std::vector<SlipSegment> findSlips(const Profile& profile,
                                    const SlipSegmentOptions& options = {},
                                    const Progress& progress = {});
@@ -57,7 +57,7 @@ std::vector<SlipSegment> findSlips(const Profile& profile,
 class SlipSegmenter {
  public:
   SlipSegmenter(std::size_t numMatrices, std::size_t bridgedFrames = 5);
-  void add(std::size_t frame, std::int64_t timeUs, const std::vector<SlipVerdict>& verdicts);
+  void add(std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& verdicts);
   // All so far, those that still run among them.
   std::vector<SlipSegment> segments() const;
 

@@ -18,8 +18,8 @@
 namespace palpate {
 
 struct SlipSeriesOptions {
-  SlipMethod method = SlipMethod::kContest;
-  SlipReference reference = SlipReference::kRest;
+  SlipMethod method = SlipMethod::kHypotheses;
+  SlipReference reference = SlipReference::kWhenAtRest;
   // The frame that becomes the reference of every matrix, whatever else is asked for; before it
   // nothing is known of where contacts are since the reference.
   std::optional<std::size_t> referenceFrame = std::nullopt;
@@ -44,7 +44,7 @@ struct SlipSample {
   bool newReference = false;      // this frame became the reference
   bool slipping = false;
   SlipState state = SlipState::kInvalid;
-  SlipLamp lamp = SlipLamp::kOff;
+  SlipIndicator lamp = SlipIndicator::kOff;
   float x = 0.0F;  // centroid [taxels]
   float y = 0.0F;
   float dx = 0.0F;
@@ -65,7 +65,7 @@ struct SlipSample {
   float pMoved = -1.0F;                 // below 0: no contest was needed
   double shiftTaxels() const noexcept;  // |refDx, refDy|
 };
-SlipSample sampleOf(const SlipVerdict& verdict, std::size_t frame);
+SlipSample sampleOf(const SlipDetection& verdict, std::size_t frame);
 
 // What a contact did within a span of time.
 struct RecentSlip {
@@ -109,7 +109,7 @@ struct SlipSeries {
   std::size_t frameAt(double seconds) const noexcept;
 };
 
-// Throws as passSlip.
+// Throws as runSlipDetector.
 SlipSeries slipSeries(const Profile& profile,
                       const SlipSeriesOptions& options = {},
                       const Progress& progress = {});

@@ -18,20 +18,20 @@ enum class SlipState {
   kAmbiguous,  // 0.25 .. 0.75: the shape doesn't tell; or not confirmed yet
   kSlip,       // p_moved > 0.75, or an alarm
 };
-inline constexpr double kSurelyStill = 0.25;  // p_moved
-inline constexpr double kSurelyMoved = 0.75;
+inline constexpr double kMaxStillScore = 0.25;  // p_moved
+inline constexpr double kMinMotionScore = 0.75;
 
 // "invalid", "still", "loading", "load_shift", "ambiguous", "slip"
 std::string_view nameOf(SlipState state) noexcept;
 std::optional<SlipState> slipStateNamed(std::string_view name) noexcept;
 
-enum class SlipLamp {
+enum class SlipIndicator {
   kOff,            // switched off
   kNotComputable,  // no contact, too small a one, or it hasn't been touched long enough
   kReady,          // watches, and nothing slips
   kSlipping,
 };
 // "off", "not computable", "ready", "slipping"
-std::string_view nameOf(SlipLamp lamp) noexcept;
+std::string_view nameOf(SlipIndicator lamp) noexcept;
 
 }  // namespace palpate

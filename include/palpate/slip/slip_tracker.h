@@ -17,11 +17,11 @@
 namespace palpate {
 
 struct SlipTrackerOptions {
-  SlipMethod method = SlipMethod::kCentroid;  // not kContest
+  SlipMethod method = SlipMethod::kCentroid;  // not kHypotheses
   bool firstContactIsReference = true;        // else none until setReference()
   // A taxel at or above is saturated, > 0.
   double saturationCounts = static_cast<double>(kSdh2SaturationCounts);
-  int farthestTaxels = 4;  // ncc, phase: a step is looked for within, 1..8
+  int maxStepTaxels = 4;  // ncc, phase: a step is looked for within, 1..8
   RotationOptions rotation = {};
   RegistrationOptions registration = {.noiseCounts = 5.0, .relativeError = 0.001};
   LearnedSurfaceOptions surface = {};
@@ -53,8 +53,8 @@ class SlipTracker {
   const MatrixLayout& layout() const noexcept { return layout_; }
 
  private:
-  double unseenPart(const ConstMatrixMap& frame);
-  int fewestForReference() const noexcept;
+  double unseenFraction(const ConstMatrixMap& frame);
+  int minForReference() const noexcept;
 
   MatrixLayout layout_;
   SlipTrackerOptions options_;

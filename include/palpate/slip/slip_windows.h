@@ -19,9 +19,9 @@
 namespace palpate {
 
 struct SlipWindowsOptions {
-  ContestOptions contest;
-  int leastActive = 4;           // taxels, >= 2
-  double leastCounts = 400.0;    // load: sum of all taxels [counts], >= 0
+  SlipHypothesisOptions contest;
+  int minActiveTaxels = 4;       // taxels, >= 2
+  double minCounts = 400.0;      // load: sum of all taxels [counts], >= 0
   std::int64_t keepUs = 20'000;  // >= 0
 
   void validate() const;  // throws std::invalid_argument naming the field
@@ -39,7 +39,7 @@ class SlipWindows {
                           std::int64_t timeUs,
                           std::span<const double> jointsDeg = {});
   // Lets the two frames of a filled window compete. A window that isn't filled: nothing happens.
-  void compete(SlipWindow window);
+  void evaluateHypotheses(SlipWindow window);
   void reset();
 
   const SlipEvidence& evidence() const noexcept { return evidence_; }

@@ -67,7 +67,7 @@ void DsaDocument::useLayout(std::shared_ptr<const SensorLayout> layout) {
 
 void DsaDocument::startBuilder(std::shared_ptr<const SensorLayout> layout) {
   layout_ = std::move(layout);
-  values_.resize(layout_->numPlaces());
+  values_.resize(layout_->numCells());
   foreignPlaces_.clear();
   std::uint32_t place = 0;
   for (const MatrixLayout& matrix : layout_->matrices())

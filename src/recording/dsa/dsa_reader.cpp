@@ -9,7 +9,7 @@
 
 #include "recording/dsa/byte_source.h"
 #include "recording/dsa/dsa_document.h"
-#include "recording/dsa/dsa_text.h"
+#include "recording/dsa/dsa_xml_stream.h"
 
 namespace palpate {
 namespace {
@@ -20,7 +20,7 @@ constexpr std::uint64_t kDsaReaderMaxBlockBytes = 46u << 20;
 
 // Wrong data of a damaged bzip2 block comes out before the block's checksum: nonsense in the text
 // may be only the echo of that. Reads on to the end of the block; throws when it is damaged.
-void blameContainer(DsaText& text) {
+void blameContainer(DsaXmlStream& text) {
   if (!text.compressed()) return;
   for (std::uint64_t bytes = 0; bytes <= kDsaReaderMaxBlockBytes;) {
     const std::size_t size = text.next().size();
@@ -33,7 +33,7 @@ Profile readDocument(ByteSource& source,
                      const std::filesystem::path& path,
                      const Progress& progress,
                      const DsaReadOptions& options) {
-  DsaText text(source, path);
+  DsaXmlStream text(source, path);
   const std::uint64_t maxBytes = boundFor(options.freeBytes, options.maxRatio, source.numBytes());
   DsaDocument document(options, memoryBound(options, text.compressed(), source.numBytes()));
   XmlParser parser(document);

@@ -3,14 +3,14 @@
 
 #include "palpate/core/error.h"
 #include "palpate/recording/dsa_reader.h"
-#include "palpate/recording/dsa_salvage.h"
+#include "palpate/recording/dsa_recovery.h"
 
 #include "recording/message_text.h"
 
 namespace palpate {
 namespace {
 
-std::string describe(const DsaSalvage& saved) {
+std::string describe(const DsaRecovery& saved) {
   std::string text = counted(saved.frames, "frame") + ", " + counted(saved.angles, "angle sample") +
                      " and " + counted(saved.temperatures, "temperature sample") +
                      " can be read (palpate recover saves them)";
@@ -49,7 +49,7 @@ DsaVerifyReport verifyDsa(const std::filesystem::path& path,
     report.message = error.what();
   }
   try {
-    const DsaSalvage saved = salvageDsa(path, half(progress, 0.5), options);
+    const DsaRecovery saved = recoverDsaProfile(path, half(progress, 0.5), options);
     report.frames = saved.frames;
     report.angles = saved.angles;
     report.temperatures = saved.temperatures;

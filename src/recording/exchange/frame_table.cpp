@@ -22,9 +22,9 @@ TextTable taxelTable(const TactileFrame& frame, const std::string& index) {
       for (int x = 0; x < layout.columns; ++x)
         if (layout.enabled(y, x)) places.push_back({m, y, x, values(y, x)});
   }
-  const std::size_t numPlaces = places.size();
+  const std::size_t numCells = places.size();
   return {.header = {"frame", "time_ms", "matrix", "y", "x", "value"},
-          .numRows = numPlaces,
+          .numRows = numCells,
           .row = [places = std::move(places),
                   index,
                   timeMs = std::to_string(frame.hostUs / kUsPerMs)](std::size_t row) {

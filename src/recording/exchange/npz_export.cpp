@@ -7,7 +7,7 @@
 #include "palpate/core/time.h"
 #include "palpate/recording/table_export.h"
 
-#include "recording/event_notes.h"
+#include "recording/event_sidecar.h"
 #include "recording/exchange/zip_writer.h"
 
 namespace palpate {
@@ -61,7 +61,7 @@ class NpyArray {
 
  private:
   void put(std::uint64_t value, int bytes) {
-    appendLittle(buffer_, value, bytes);
+    appendLittleEndian(buffer_, value, bytes);
     if (buffer_.size() >= kNpzExportPieceBytes) flush();
   }
   void flush() {
@@ -194,7 +194,7 @@ void writeNpz(const Profile& profile,
   writeTimes(zip, "temperature_time_ms", profile.numTemperatures(), [&](std::size_t i) {
     return profile.temperatureTimeUs(i);
   });
-  NpyArray mask(zip, "static_mask", "|u1", 1, {profile.layout().numPlaces()});
+  NpyArray mask(zip, "static_mask", "|u1", 1, {profile.layout().numCells()});
   for (const MatrixLayout& matrix : profile.layout().matrices())
     for (auto on : matrix.staticMask) mask.u8(on);
   mask.end();

@@ -46,7 +46,7 @@ void appendTactileSensorJson(std::string& out, const TactileFrame& frame, std::u
     appendKey(out, R"(,"cells_x":)", matrix.columns);
     appendKey(out, R"(,"cells_y":)", matrix.rows);
     out += R"(,"tactile_array":[)";
-    for (std::size_t place = 0; place < matrix.numPlaces(); ++place) {
+    for (std::size_t place = 0; place < matrix.numCells(); ++place) {
       if (place > 0) out += ',';
       appendNumber(out, wholeCounts(*value++));
     }

@@ -17,11 +17,11 @@ constexpr std::uint16_t kDosDate = 0x0021;
 // Extra field 1: sizes and offset as 64-bit numbers.
 std::string zip64(std::uint64_t size, bool withOffset, std::uint64_t offset) {
   std::string extra;
-  appendLittle(extra, 1, 2);
-  appendLittle(extra, withOffset ? 24 : 16, 2);
-  appendLittle(extra, size, 8);
-  appendLittle(extra, size, 8);
-  if (withOffset) appendLittle(extra, offset, 8);
+  appendLittleEndian(extra, 1, 2);
+  appendLittleEndian(extra, withOffset ? 24 : 16, 2);
+  appendLittleEndian(extra, size, 8);
+  appendLittleEndian(extra, size, 8);
+  if (withOffset) appendLittleEndian(extra, offset, 8);
   return extra;
 }
 
@@ -36,17 +36,17 @@ void ZipWriter::begin(std::string_view name, std::uint64_t size) {
   entries_.push_back({std::string(name), size, position_});
   const std::string extra = zip64(size, false, 0);
   std::string head;
-  appendLittle(head, 0x04034B50, 4);
-  appendLittle(head, kZipWriterVersion, 2);
-  appendLittle(head, kChecksumFollows, 2);
-  appendLittle(head, 0, 2);  // stored
-  appendLittle(head, 0, 2);  // time
-  appendLittle(head, kDosDate, 2);
-  appendLittle(head, 0, 4);       // checksum
-  appendLittle(head, kMax32, 4);  // sizes stand in the extra field
-  appendLittle(head, kMax32, 4);
-  appendLittle(head, name.size(), 2);
-  appendLittle(head, extra.size(), 2);
+  appendLittleEndian(head, 0x04034B50, 4);
+  appendLittleEndian(head, kZipWriterVersion, 2);
+  appendLittleEndian(head, kChecksumFollows, 2);
+  appendLittleEndian(head, 0, 2);  // stored
+  appendLittleEndian(head, 0, 2);  // time
+  appendLittleEndian(head, kDosDate, 2);
+  appendLittleEndian(head, 0, 4);       // checksum
+  appendLittleEndian(head, kMax32, 4);  // sizes stand in the extra field
+  appendLittleEndian(head, kMax32, 4);
+  appendLittleEndian(head, name.size(), 2);
+  appendLittleEndian(head, extra.size(), 2);
   put(head + std::string(name) + extra);
 }
 
@@ -62,10 +62,10 @@ void ZipWriter::write(std::string_view bytes) {
 void ZipWriter::end() {
   const Entry& entry = entries_.back();
   std::string descriptor;
-  appendLittle(descriptor, 0x08074B50, 4);
-  appendLittle(descriptor, entry.crc, 4);
-  appendLittle(descriptor, entry.size, 8);
-  appendLittle(descriptor, entry.size, 8);
+  appendLittleEndian(descriptor, 0x08074B50, 4);
+  appendLittleEndian(descriptor, entry.crc, 4);
+  appendLittleEndian(descriptor, entry.size, 8);
+  appendLittleEndian(descriptor, entry.size, 8);
   put(descriptor);
 }
 
@@ -80,49 +80,49 @@ void ZipWriter::finish() {
   for (const Entry& entry : entries_) {
     const std::string extra = zip64(entry.size, true, entry.offset);
     std::string row;
-    appendLittle(row, 0x02014B50, 4);
-    appendLittle(row, kZipWriterVersion, 2);
-    appendLittle(row, kZipWriterVersion, 2);
-    appendLittle(row, kChecksumFollows, 2);
-    appendLittle(row, 0, 2);  // stored
-    appendLittle(row, 0, 2);  // time
-    appendLittle(row, kDosDate, 2);
-    appendLittle(row, entry.crc, 4);
-    appendLittle(row, kMax32, 4);
-    appendLittle(row, kMax32, 4);
-    appendLittle(row, entry.name.size(), 2);
-    appendLittle(row, extra.size(), 2);
-    appendLittle(row, 0, 2);  // comment
-    appendLittle(row, 0, 2);  // disk
-    appendLittle(row, 0, 2);  // attributes
-    appendLittle(row, 0, 4);
-    appendLittle(row, kMax32, 4);  // offset
+    appendLittleEndian(row, 0x02014B50, 4);
+    appendLittleEndian(row, kZipWriterVersion, 2);
+    appendLittleEndian(row, kZipWriterVersion, 2);
+    appendLittleEndian(row, kChecksumFollows, 2);
+    appendLittleEndian(row, 0, 2);  // stored
+    appendLittleEndian(row, 0, 2);  // time
+    appendLittleEndian(row, kDosDate, 2);
+    appendLittleEndian(row, entry.crc, 4);
+    appendLittleEndian(row, kMax32, 4);
+    appendLittleEndian(row, kMax32, 4);
+    appendLittleEndian(row, entry.name.size(), 2);
+    appendLittleEndian(row, extra.size(), 2);
+    appendLittleEndian(row, 0, 2);  // comment
+    appendLittleEndian(row, 0, 2);  // disk
+    appendLittleEndian(row, 0, 2);  // attributes
+    appendLittleEndian(row, 0, 4);
+    appendLittleEndian(row, kMax32, 4);  // offset
     put(row + entry.name + extra);
   }
   const std::uint64_t size = position_ - start;
   std::string end;
-  appendLittle(end, 0x06064B50, 4);  // zip64 end of central directory
-  appendLittle(end, 44, 8);
-  appendLittle(end, kZipWriterVersion, 2);
-  appendLittle(end, kZipWriterVersion, 2);
-  appendLittle(end, 0, 4);
-  appendLittle(end, 0, 4);
-  appendLittle(end, entries_.size(), 8);
-  appendLittle(end, entries_.size(), 8);
-  appendLittle(end, size, 8);
-  appendLittle(end, start, 8);
-  appendLittle(end, 0x07064B50, 4);  // its locator
-  appendLittle(end, 0, 4);
-  appendLittle(end, position_, 8);
-  appendLittle(end, 1, 4);
-  appendLittle(end, 0x06054B50, 4);  // end of central directory
-  appendLittle(end, 0, 2);
-  appendLittle(end, 0, 2);
-  appendLittle(end, 0xFFFF, 2);
-  appendLittle(end, 0xFFFF, 2);
-  appendLittle(end, kMax32, 4);
-  appendLittle(end, kMax32, 4);
-  appendLittle(end, 0, 2);
+  appendLittleEndian(end, 0x06064B50, 4);  // zip64 end of central directory
+  appendLittleEndian(end, 44, 8);
+  appendLittleEndian(end, kZipWriterVersion, 2);
+  appendLittleEndian(end, kZipWriterVersion, 2);
+  appendLittleEndian(end, 0, 4);
+  appendLittleEndian(end, 0, 4);
+  appendLittleEndian(end, entries_.size(), 8);
+  appendLittleEndian(end, entries_.size(), 8);
+  appendLittleEndian(end, size, 8);
+  appendLittleEndian(end, start, 8);
+  appendLittleEndian(end, 0x07064B50, 4);  // its locator
+  appendLittleEndian(end, 0, 4);
+  appendLittleEndian(end, position_, 8);
+  appendLittleEndian(end, 1, 4);
+  appendLittleEndian(end, 0x06054B50, 4);  // end of central directory
+  appendLittleEndian(end, 0, 2);
+  appendLittleEndian(end, 0, 2);
+  appendLittleEndian(end, 0xFFFF, 2);
+  appendLittleEndian(end, 0xFFFF, 2);
+  appendLittleEndian(end, kMax32, 4);
+  appendLittleEndian(end, kMax32, 4);
+  appendLittleEndian(end, 0, 2);
   put(end);
 }
 

@@ -1,5 +1,5 @@
 // A zip file without compression, of named pieces, with 64-bit sizes where they are needed. Private
-// to the room (NPZ files).
+// to this module (NPZ files).
 #pragma once
 
 #include <cstdint>

@@ -36,7 +36,7 @@ bool BlockStore::add(const Block& block) {
                    static_cast<std::uint32_t>(block.data.size()),
                    block.first,
                    begin});
-  stream.insert_or_assign(block.first, Place{block.n, block.t0Us, block.t1Us, id});
+  stream.insert_or_assign(block.first, StoredBlock{block.n, block.t0Us, block.t1Us, id});
   return isNew;
 }
 
@@ -46,7 +46,7 @@ bool BlockStore::empty() const {
 
 Block BlockStore::load(std::int64_t id) const {
   const Data& data = data_.at(static_cast<std::size_t>(id));
-  const Place& place = stream(data.stream).at(data.first);
+  const StoredBlock& place = stream(data.stream).at(data.first);
   Block block{data.stream, data.first, place.n, place.t0Us, place.t1Us, data.coding, {}};
   block.data.resize(data.size);
   if (data.begin < kMemoryBytes)

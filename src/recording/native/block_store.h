@@ -1,5 +1,5 @@
 // Intact blocks found while recovering: their index in memory, their data in memory up to a bound,
-// then in a nameless temporary file. Private to the room.
+// then in a nameless temporary file. Private to this module.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace palpate {
 
 class BlockStore {
  public:
-  struct Place {
+  struct StoredBlock {
     std::int64_t n = 0;
     std::int64_t t0Us = 0;
     std::int64_t t1Us = 0;
@@ -26,7 +26,7 @@ class BlockStore {
   // Throws Error where there is no room for a temporary file.
   bool add(const Block& block);
   // By the first item.
-  const std::map<std::int64_t, Place>& stream(Stream stream) const {
+  const std::map<std::int64_t, StoredBlock>& stream(Stream stream) const {
     return streams_[static_cast<std::size_t>(stream)];
   }
   bool empty() const;
@@ -41,7 +41,7 @@ class BlockStore {
     std::int64_t begin;  // in memory_, or behind kMemoryBytes: in the file
   };
 
-  std::array<std::map<std::int64_t, Place>, 3> streams_;
+  std::array<std::map<std::int64_t, StoredBlock>, 3> streams_;
   std::vector<Data> data_;  // by id
   std::vector<std::byte> memory_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{nullptr, &std::fclose};

@@ -1,5 +1,5 @@
 // Finds rows of the block table in the raw bytes of an SQLite file, without SQLite: for pages that
-// its b-trees no longer reach. Private to the room.
+// its b-trees no longer reach. Private to this module.
 #pragma once
 
 #include <cstddef>

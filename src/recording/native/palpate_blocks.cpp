@@ -51,7 +51,7 @@ void BlockPacker::addFrame(std::int64_t hostUs,
   // Values that don't repeat are shorter as they are than as runs of one.
   if (coding == FrameCoding::kFloats && item_.size() > 4 * values.size()) {
     item_.clear();
-    for (float value : values) appendLittle(item_, std::bit_cast<std::uint32_t>(value), 4);
+    for (float value : values) appendLittleEndian(item_, std::bit_cast<std::uint32_t>(value), 4);
     add(hostUs, deviceMs, BlockCoding::kPlainF32);
   } else {
     add(hostUs,
@@ -73,9 +73,9 @@ void BlockPacker::addSample(std::int64_t hostUs, std::span<const double> values)
   item_.clear();
   for (double value : values) {
     if (single)
-      appendLittle(item_, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
+      appendLittleEndian(item_, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
     else
-      appendLittle(item_, std::bit_cast<std::uint64_t>(value), 8);
+      appendLittleEndian(item_, std::bit_cast<std::uint64_t>(value), 8);
   }
   add(hostUs, std::nullopt, single ? BlockCoding::kPlainF32 : BlockCoding::kPlainF64);
 }
@@ -92,8 +92,8 @@ void BlockPacker::add(std::int64_t hostUs,
     block_.t0Us = hostUs;
     block_.coding = coding;
   }
-  appendLittle(block_.data, static_cast<std::uint64_t>(hostUs - block_.t0Us), 4);
-  appendLittle(block_.data, static_cast<std::uint64_t>(deviceMs.value_or(kNoDeviceTime)), 8);
+  appendLittleEndian(block_.data, static_cast<std::uint64_t>(hostUs - block_.t0Us), 4);
+  appendLittleEndian(block_.data, static_cast<std::uint64_t>(deviceMs.value_or(kNoDeviceTime)), 8);
   block_.data.insert(block_.data.end(), item_.begin(), item_.end());
   block_.t1Us = hostUs;
   ++block_.n;

@@ -1,5 +1,5 @@
 // A native recording as a whole, by one opening: an unfinished one is copied at each. Private to
-// the room.
+// this module.
 #pragma once
 
 #include <filesystem>

@@ -7,7 +7,7 @@
 #include "palpate/core/error.h"
 #include "palpate/recording/palpate_schema.h"
 
-#include "recording/native/palpate_access.h"
+#include "recording/native/palpate_connection.h"
 #include "recording/native/palpate_content.h"
 #include "recording/native/palpate_rows.h"
 #include "recording/native/palpate_storage.h"
@@ -35,7 +35,7 @@ class PalpateStorage final : public BlockStorage {
     access_.readBlocksOnly();
     readBlock_.emplace(access_.database().prepare(
         "SELECT stream, first, n, t0_us, t1_us, coding, crc32, data FROM block WHERE id=?"));
-    setWidth(Stream::kTactile, layout_.numPlaces());
+    setWidth(Stream::kTactile, layout_.numCells());
     for (Stream stream : {Stream::kAngles, Stream::kTemperatures}) {
       if (places(stream).empty()) continue;
       setWidth(stream, sampleWidth(load(places(stream).front().id)));
@@ -44,7 +44,7 @@ class PalpateStorage final : public BlockStorage {
   }
 
   const SensorLayout& layout() const { return layout_; }
-  PalpateAccess& access() { return access_; }
+  PalpateConnection& access() { return access_; }
 
  private:
   [[noreturn]] void throwMissing() const {
@@ -53,7 +53,7 @@ class PalpateStorage final : public BlockStorage {
 
   void addRow(const SqliteStatement& row) {
     const std::int64_t stream = row.integer(0);
-    const BlockPlace place{
+    const BlockEntry place{
         row.integer(1), row.integer(2), row.integer(3), row.integer(4), row.integer(5)};
     if (stream < 0 || stream > 2 || !add(static_cast<Stream>(stream), place)) throwMissing();
   }
@@ -108,13 +108,13 @@ class PalpateStorage final : public BlockStorage {
   }
 
   fs::path path_;
-  PalpateAccess access_;
+  PalpateConnection access_;
   SensorLayout layout_;
   std::optional<SqliteStatement> readBlock_;
 };
 
 // A finished recording says it; of others every block must be looked at.
-ValueType valueTypeOf(PalpateAccess& access) {
+ValueType valueTypeOf(PalpateConnection& access) {
   std::string text = access.meta()["value_type"];
   if (text.empty())
     text = access.database().integerOf(
@@ -125,7 +125,7 @@ ValueType valueTypeOf(PalpateAccess& access) {
 }
 
 Profile profileOf(std::shared_ptr<PalpateStorage> storage) {
-  PalpateAccess& access = storage->access();
+  PalpateConnection& access = storage->access();
   ProfileInfo info;
   info.format = "palpate";
   info.serial = access.meta()["serial"];
@@ -163,7 +163,7 @@ PalpateContent readPalpateContent(const fs::path& path, const Progress& progress
 }
 
 EventsReport readPalpateEvents(const fs::path& path) {
-  PalpateAccess access(path);
+  PalpateConnection access(path);
   return readEventRows(access.database());
 }
 

@@ -183,13 +183,13 @@ SensorLayout readLayout(SqliteDatabase& database) {
     matrix.rows = static_cast<int>(std::clamp<std::int64_t>(rows.integer(1), 0, 1'000'000));
     matrix.columns = static_cast<int>(std::clamp<std::int64_t>(rows.integer(2), 0, 1'000'000));
     matrix.pitchMm = rows.real(3);
-    places += matrix.numPlaces();
+    places += matrix.numCells();
     if (places > kMaxPlaces)
       throw FormatError(
           path,
           "a matrix is too large: more than " + std::to_string(kMaxPlaces) + " places in all");
-    matrix.staticMask = maskFrom(rows.text(4), matrix.numPlaces(), path);
-    matrix.dynamicMask = maskFrom(rows.text(5), matrix.numPlaces(), path);
+    matrix.staticMask = maskFrom(rows.text(4), matrix.numCells(), path);
+    matrix.dynamicMask = maskFrom(rows.text(5), matrix.numCells(), path);
     if (rows.integer(0) != static_cast<std::int64_t>(matrices.size()) ||
         rows.integer(7) != matrixCrc(static_cast<int>(matrices.size()), matrix, rows.text(6)))
       throw FormatError(path, "the layout of its matrices is damaged; try 'palpate recover'");

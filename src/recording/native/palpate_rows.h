@@ -1,4 +1,4 @@
-// Rows of a native recording's tables, with their checksums. Private to the room.
+// Rows of a native recording's tables, with their checksums. Private to this module.
 #pragma once
 
 #include <functional>

@@ -14,7 +14,7 @@ constexpr std::size_t kCachedBytes = 2u << 20;  // of blocks, per profile
 BlockStorage::BlockStorage(std::filesystem::path path, Loader loader)
     : path_(std::move(path)), loader_(std::move(loader)) {}
 
-bool BlockStorage::add(Stream stream, const BlockPlace& place) {
+bool BlockStorage::add(Stream stream, const BlockEntry& place) {
   Series& series = series_[static_cast<std::size_t>(stream)];
   if (place.n < 1 || place.n > static_cast<std::int64_t>(kMaxBlockBytes) ||
       place.first != static_cast<std::int64_t>(series.numItems) || place.t1Us < place.t0Us ||
@@ -59,7 +59,7 @@ Temperatures BlockStorage::temperatures(std::size_t sampleIndex) const {
   return {hostUs, std::move(values)};
 }
 
-const BlockPlace& BlockStorage::placeOf(Stream stream, std::size_t item) const {
+const BlockEntry& BlockStorage::placeOf(Stream stream, std::size_t item) const {
   const auto& places = of(stream).places;
   const auto after = std::upper_bound(places.begin(),
                                       places.end(),
@@ -78,7 +78,7 @@ const BlockStorage::OpenBlock* BlockStorage::lastWith(Stream stream, std::size_t
 BlockStorage::OpenItem BlockStorage::open(Stream stream, std::size_t item) const {
   std::shared_ptr<const OpenBlock>& last = last_[static_cast<std::size_t>(stream)];
   if (lastWith(stream, item)) return {last, item - last->first};
-  const BlockPlace& place = placeOf(stream, item);
+  const BlockEntry& place = placeOf(stream, item);
   const std::size_t within = item - static_cast<std::size_t>(place.first);
   const auto cached = cache_.find(place.id);
   if (cached != cache_.end()) {
@@ -110,7 +110,7 @@ BlockStorage::OpenItem BlockStorage::open(Stream stream, std::size_t item) const
 std::int64_t BlockStorage::timeUs(Stream stream, std::size_t item) const {
   const std::lock_guard lock(mutex_);
   if (const OpenBlock* last = lastWith(stream, item)) return last->index.hostUs[item - last->first];
-  const BlockPlace& place = placeOf(stream, item);
+  const BlockEntry& place = placeOf(stream, item);
   // First and last stamps stand in the index: searching by time opens one block, not twenty.
   if (static_cast<std::int64_t>(item) == place.first) return place.t0Us;
   if (static_cast<std::int64_t>(item) == place.first + place.n - 1) return place.t1Us;

@@ -1,5 +1,5 @@
 // The samples of a profile that lie in blocks somewhere: an index in memory, blocks read on demand.
-// Private to the room.
+// Private to this module.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@
 namespace palpate {
 
 // Where a block lies; all of a recording's are kept in memory.
-struct BlockPlace {
+struct BlockEntry {
   std::int64_t first = 0;  // in the profile
   std::int64_t n = 0;
   std::int64_t t0Us = 0;
@@ -37,11 +37,11 @@ class BlockStorage : public ProfileStorage {
 
   // Appends a place to a stream. False, and nothing is appended: it doesn't follow the ones before
   // it (in its index and its time), or makes no sense.
-  bool add(Stream stream, const BlockPlace& place);
+  bool add(Stream stream, const BlockEntry& place);
   // Values per item; must be set before items are read.
   void setWidth(Stream stream, std::size_t numValues);
   std::size_t width(Stream stream) const { return of(stream).numValues; }
-  const std::vector<BlockPlace>& places(Stream stream) const { return of(stream).places; }
+  const std::vector<BlockEntry>& places(Stream stream) const { return of(stream).places; }
 
   std::size_t numFrames() const override { return of(Stream::kTactile).numItems; }
   std::int64_t frameTimeUs(std::size_t frame) const override;
@@ -55,7 +55,7 @@ class BlockStorage : public ProfileStorage {
 
  private:
   struct Series {
-    std::vector<BlockPlace> places;
+    std::vector<BlockEntry> places;
     std::size_t numItems = 0;
     std::size_t numValues = 0;  // per item
   };
@@ -70,7 +70,7 @@ class BlockStorage : public ProfileStorage {
   };
 
   const Series& of(Stream stream) const { return series_[static_cast<std::size_t>(stream)]; }
-  const BlockPlace& placeOf(Stream stream, std::size_t item) const;
+  const BlockEntry& placeOf(Stream stream, std::size_t item) const;
   std::int64_t timeUs(Stream stream, std::size_t item) const;
   std::pair<std::int64_t, std::vector<double>> sample(Stream stream, std::size_t item) const;
   // The lock is held in these two.

@@ -30,7 +30,7 @@ void refuseExisting(const fs::path& path) {
 }
 
 void requireReadable(const SensorLayout& layout) {
-  if (layout.numMatrices() > kMaxMatrices || layout.numPlaces() > kMaxPlaces)
+  if (layout.numMatrices() > kMaxMatrices || layout.numCells() > kMaxPlaces)
     throw std::invalid_argument("PalpateWriter: at most " + std::to_string(kMaxMatrices) +
                                 " matrices with " + std::to_string(kMaxPlaces) + " places in all");
 }
@@ -215,8 +215,8 @@ PalpateWriter::~PalpateWriter() {
 }
 
 void PalpateWriter::addFrame(const TactileFrame& frame) {
-  if (frame.values.size() != impl_->layout->numPlaces())
-    throw std::invalid_argument("frame: expected " + std::to_string(impl_->layout->numPlaces()) +
+  if (frame.values.size() != impl_->layout->numCells())
+    throw std::invalid_argument("frame: expected " + std::to_string(impl_->layout->numCells()) +
                                 " values, got " + std::to_string(frame.values.size()));
   if (frame.allValues().size() != frame.values.size())
     throw std::invalid_argument("frame: another number of filtered values than of values");

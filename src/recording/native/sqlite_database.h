@@ -1,4 +1,4 @@
-// A thin, throwing hold on SQLite: connection, statement. Private to the room.
+// A thin, throwing hold on SQLite: connection, statement. Private to this module.
 #pragma once
 
 #include <cstddef>

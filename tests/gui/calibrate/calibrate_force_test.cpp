@@ -39,8 +39,8 @@ Calibration tenth() {
       calibration.samples.push_back({.file = "a.dsa",
                                      .sha256 = "",
                                      .pressureKpa = 0.1 * k + (i++ % 2 == 0 ? 0.01 : -0.01),
-                                     .gainCounts = k,
-                                     .driftPerS = 0.0,
+                                     .staticResponseCounts = k,
+                                     .driftCountsPerS = 0.0,
                                      .nearestDegC = t,
                                      .activeAreaMm2 = 100.0});
   calibration.pressure = fitPressureModel(calibration.samples, {});
@@ -74,13 +74,13 @@ TEST_F(CalibrateForceTest, APressureTableBecomesACalibration) {
   EXPECT_TRUE(cell("pressureSamples", 4, 6).startsWith("left out: "));
   // One temperature: no term with it.
   ASSERT_TRUE(made.pressure.valid());
-  EXPECT_NEAR(made.pressure.pressureAt(made.samples[1].gainCounts, 30.0).kpa, 40.0, 0.2);
+  EXPECT_NEAR(made.pressure.pressureAt(made.samples[1].staticResponseCounts, 30.0).kpa, 40.0, 0.2);
   // From above: the same model, told under the mouse.
   find<QCheckBox>("pressureAbove")->setChecked(true);
   const auto* surface = panel_->findChild<SurfaceChart*>();
   ASSERT_TRUE(surface->isVisible());
   for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();
-  const QPointF at(surface->xAxis->coordToPixel(made.samples[1].gainCounts),
+  const QPointF at(surface->xAxis->coordToPixel(made.samples[1].staticResponseCounts),
                    surface->yAxis->coordToPixel(30.0));
   EXPECT_TRUE(surface->valueAt(at).contains("30.0 °C: 40.")) << surface->valueAt(at).toStdString();
   EXPECT_EQ(surface->valueAt({-5.0, -5.0}), "");
@@ -89,13 +89,13 @@ TEST_F(CalibrateForceTest, APressureTableBecomesACalibration) {
   find<QDoubleSpinBox>("pressureArea")->setValue(50.0);
   settle();
   page.askForPlace = [&](const QString&) { return folder_ / "made.json"; };
-  QSignalSpy applied(&page, &PressurePage::applyAsked);
+  QSignalSpy applied(&page, &PressurePage::applyRequested);
   find<QPushButton>("pressureApply")->click();
   ASSERT_EQ(applied.size(), 1) << "saved first, then applied";
   EXPECT_EQ(applied[0][0].toString().toStdString(), (folder_ / "made.json").string());
   const Calibration read = loadCalibration(folder_ / "made.json");
   EXPECT_EQ(read.settings.thresholdCounts, 150.0);
-  EXPECT_EQ(read.pressure.options.stampAreaMm2, 50.0);
+  EXPECT_EQ(read.pressure.options.indenterAreaMm2, 50.0);
   EXPECT_EQ(read.samples.at(0).sha256.size(), 64u);
   EXPECT_EQ(read.options.at("table_sha256").asString().size(), 64u);
   const auto tables = page.tables();
@@ -117,7 +117,7 @@ TEST_F(CalibrateForceTest, ASavedCalibrationIsReadAsItIs) {
   EXPECT_EQ(sliceTemperatures(tenth().pressure, tenth().samples),
             (std::vector<double>{28.0, 36.0, 44.0}));
   // Applied without saving: it is on disk.
-  QSignalSpy applied(&panel_->pressure(), &PressurePage::applyAsked);
+  QSignalSpy applied(&panel_->pressure(), &PressurePage::applyRequested);
   find<QPushButton>("pressureApply")->click();
   EXPECT_EQ(applied.size(), 1);
   std::ofstream(folder_ / "bad.json") << "{}";
@@ -139,7 +139,7 @@ TEST_F(CalibrateForceTest, ForcesAreTheAppliedCalibrations) {
   const ForceSeries& found = *page.found();
   const std::size_t frame = found.frameAt(5.0);
   EXPECT_NEAR(cell("forceTable", 3, 3).toDouble(),
-              static_cast<double>(found.at(frame, 3).gainCounts) / 10.0,
+              static_cast<double>(found.at(frame, 3).staticResponseCounts) / 10.0,
               0.2);
   EXPECT_NEAR(cell("forceTable", 6, 4).toDouble(), cell("forceTable", 3, 4).toDouble(), 1e-9)
       << "the whole hand";
@@ -149,18 +149,18 @@ TEST_F(CalibrateForceTest, ForcesAreTheAppliedCalibrations) {
   EXPECT_TRUE(notes.contains("settings of the calibration")) << notes.toStdString();
   // The fields begin with the calibration's own; what is typed is taken.
   EXPECT_EQ(find<QDoubleSpinBox>("forceSensitivity")->value(), 1.0);
-  const float before = found.at(frame, 3).gainCounts;
+  const float before = found.at(frame, 3).staticResponseCounts;
   find<QDoubleSpinBox>("forceSensitivity")->setValue(0.5);
   settle();
-  EXPECT_NEAR(page.found()->at(frame, 3).gainCounts, 2.0F * before, 0.02F * before);
-  QSignalSpy keep(&page, &ForcePage::keepAsked);
+  EXPECT_NEAR(page.found()->at(frame, 3).staticResponseCounts, 2.0F * before, 0.02F * before);
+  QSignalSpy keep(&page, &ForcePage::keepRequested);
   find<QPushButton>("forceKeep")->click();
   ASSERT_EQ(keep.size(), 1);
   EXPECT_EQ(keep[0][0].toDouble(), 0.5);
   // As the recording has it.
   page.setKept({.settings = SensorSettings{1.0, 100.0, true}});
   settle();
-  EXPECT_NEAR(page.found()->at(frame, 3).gainCounts, before, 0.01F * before);
+  EXPECT_NEAR(page.found()->at(frame, 3).staticResponseCounts, before, 0.01F * before);
   const auto tables = page.tables();
   ASSERT_EQ(tables.size(), 1u);
   EXPECT_EQ(tables[0].make().numRows, 400u * 6u);

@@ -48,9 +48,9 @@ TEST_F(CalibratePanelTest, FindsTheStepsOfTheLoadedMatrix) {
   emit signal->activated(signal->currentIndex());
   settle();
   const auto& steps = page.found()->report.steps;
-  EXPECT_NEAR(steps[0].fit.parameters.gainCounts, 900.0, 1.0);
-  EXPECT_NEAR(steps[1].fit.parameters.gainCounts, 450.0, 1.0);
-  EXPECT_NEAR(steps[0].fit.parameters.driftPerS, kDrift, 0.2);
+  EXPECT_NEAR(steps[0].fit.parameters.staticResponseCounts, 900.0, 1.0);
+  EXPECT_NEAR(steps[1].fit.parameters.staticResponseCounts, 450.0, 1.0);
+  EXPECT_NEAR(steps[0].fit.parameters.driftCountsPerS, kDrift, 0.2);
   EXPECT_NEAR(steps[0].fit.parameters.t1S(), kT1, 0.02);
   EXPECT_NEAR(cell("stepTable", 0, 1).toDouble(), 900.0, 1.0);
   EXPECT_NEAR(cell("stepTable", 1, 0).toDouble(), 11.0, 0.05) << "when the second load came";
@@ -74,15 +74,15 @@ TEST_F(CalibratePanelTest, AChosenStepIsSaidAndDrawn) {
   const auto tangent = chart.graph(2)->data();
   ASSERT_EQ(tangent->size(), 2);
   EXPECT_NEAR((tangent->constEnd() - 1)->value,
-              page.found()->report.steps[1].fit.parameters.gainCounts,
+              page.found()->report.steps[1].fit.parameters.staticResponseCounts,
               1e-9);
-  QSignalSpy sought(&page, &StepPage::sought);
+  QSignalSpy seekRequested(&page, &StepPage::seekRequested);
   QTest::mouseClick(&chart,
                     Qt::LeftButton,
                     {},
                     {static_cast<int>(chart.xAxis->coordToPixel(2.0)), chart.height() / 3});
-  ASSERT_EQ(sought.size(), 1);
-  EXPECT_NEAR(sought[0][0].toDouble(), 13.0, 0.1);
+  ASSERT_EQ(seekRequested.size(), 1);
+  EXPECT_NEAR(seekRequested[0][0].toDouble(), 13.0, 0.1);
 }
 
 TEST_F(CalibratePanelTest, RobustFitsAreAskedFor) {
@@ -176,7 +176,7 @@ TEST_F(CalibratePanelTest, TheTareIsProposed) {
   EXPECT_EQ(cell("tareTable", 1, 3), "1");
   EXPECT_EQ(cell("tareTable", 4, 4), "never unloaded");
   EXPECT_EQ(cell("tareTable", 0, 3), "0");
-  QSignalSpy keep(&panel_->tare(), &TarePage::keepAsked);
+  QSignalSpy keep(&panel_->tare(), &TarePage::keepRequested);
   auto* button = find<QPushButton>("tareKeep");
   ASSERT_TRUE(button->isEnabled());
   button->click();

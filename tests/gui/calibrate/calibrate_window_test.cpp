@@ -8,8 +8,8 @@
 #include "gui/calibrate/force_page.h"
 #include "gui/calibrate/step_page.h"
 #include "gui/calibrate/tare_page.h"
+#include "gui/export/export_controller.h"
 #include "gui/export/export_feature.h"
-#include "gui/export/take_away.h"
 #include "gui/source/event_editor.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/timeline_chart.h"
@@ -31,7 +31,7 @@ class CalibrateWindowTest : public WindowTest {
   }
   std::size_t eventsOf(const std::string& kind) {
     std::size_t count = 0;
-    for (const RecordingEvent& event : window().bench().events.editor()->events())
+    for (const RecordingEvent& event : window().state().events.editor()->events())
       count += event.kind == kind;
     return count;
   }
@@ -64,12 +64,12 @@ TEST_F(CalibrateWindowTest, TheZeroIsAnEventThatCanBeUndone) {
   showIt("Tare");
   ASSERT_NE(panel().tare().found(), nullptr);
   EXPECT_EQ(eventsOf("tare"), 0u);
-  emit panel().tare().keepAsked();
+  emit panel().tare().keepRequested();
   EXPECT_EQ(eventsOf("tare"), 1u);
   EXPECT_TRUE(find<QPushButton>("tareRemove")->isVisible());
-  emit panel().tare().keepAsked();
+  emit panel().tare().keepRequested();
   EXPECT_EQ(eventsOf("tare"), 1u) << "instead of the first";
-  emit panel().tare().removeAsked();
+  emit panel().tare().removeRequested();
   EXPECT_EQ(eventsOf("tare"), 0u);
   press(Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(eventsOf("tare"), 1u);
@@ -78,15 +78,15 @@ TEST_F(CalibrateWindowTest, TheZeroIsAnEventThatCanBeUndone) {
 
 TEST_F(CalibrateWindowTest, TheSensorsSettingsAreKeptAsAnEvent) {
   showIt("Force");
-  emit panel().force().keepAsked(0.5, 150.0);
+  emit panel().force().keepRequested(0.5, 150.0);
   ASSERT_EQ(eventsOf("sensor_settings"), 1u);
-  for (const RecordingEvent& event : window().bench().events.editor()->events())
+  for (const RecordingEvent& event : window().state().events.editor()->events())
     if (event.kind == "sensor_settings") {
       EXPECT_EQ(event.text, "sensitivity 0.5, threshold 150");
       EXPECT_EQ(Json::parse(event.json).at("sensitivity").asDouble(), 0.5);
     }
-  EXPECT_NO_THROW(window().bench().events.editor()->save()) << "such events are a person's";
-  window().bench().events.editor()->undoStack().undo();
+  EXPECT_NO_THROW(window().state().events.editor()->save()) << "such events are a person's";
+  window().state().events.editor()->undoStack().undo();
   EXPECT_EQ(eventsOf("sensor_settings"), 0u);
 }
 
@@ -99,8 +99,8 @@ TEST_F(CalibrateWindowTest, AnAppliedCalibrationIsRememberedForTheHand) {
       calibration.samples.push_back({.file = "a",
                                      .sha256 = "",
                                      .pressureKpa = 0.1 * k + t / 100.0,
-                                     .gainCounts = k,
-                                     .driftPerS = 0.0,
+                                     .staticResponseCounts = k,
+                                     .driftCountsPerS = 0.0,
                                      .nearestDegC = t});
   calibration.pressure = fitPressureModel(calibration.samples, {});
   const QString path = QString::fromStdString((folder_ / "c.json").string());
@@ -121,11 +121,11 @@ TEST_F(CalibrateWindowTest, IsTakenAwayAsPictureAndTable) {
   request.view = "Calibrate";
   request.folder = QString::fromStdString(folder_.path().string());
   request.name = "c";
-  for (const ExportForm form : {ExportForm::kPng, ExportForm::kCsv}) {
+  for (const ExportFormat form : {ExportFormat::kPng, ExportFormat::kCsv}) {
     request.form = form;
-    window().feature<ExportFeature>().takeAway().write(request);
+    window().feature<ExportFeature>().exportController().write(request);
     ASSERT_TRUE(QTest::qWaitFor(
-        [&] { return !window().feature<ExportFeature>().takeAway().busy(); }, 20'000));
+        [&] { return !window().feature<ExportFeature>().exportController().busy(); }, 20'000));
     EXPECT_EQ(bannerText(), "");
   }
   EXPECT_EQ(QImage(QString::fromStdString((folder_ / "c.png").string())).pixelColor(1, 1),

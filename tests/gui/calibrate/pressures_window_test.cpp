@@ -9,7 +9,6 @@
 
 #include "calibration/sample_calibrations.h"
 #include "control/emulated_bench.h"
-#include "gui/bench/recipe_editor.h"
 #include "gui/calibrate/applied_calibration.h"
 #include "gui/calibrate/calibrate_panel.h"
 #include "gui/calibrate/force_page.h"
@@ -27,6 +26,7 @@
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_panel.h"
+#include "gui/window_state/recipe_editor.h"
 
 namespace palpate::gui::pressures_window_test {
 namespace {
@@ -77,7 +77,7 @@ TEST_F(PressuresWindowTest, AnAppliedOneTellsForcesOfEveryFrame) {
   start();
   open({"rich.dsa"});
   EXPECT_EQ(fact(), "hand.json");
-  const Profile& profile = window().bench().subject.behind()->profile;
+  const Profile& profile = window().state().displayed.behind()->profile;
   const ForceSeries series = forceSeries(profile, calibration());
   std::size_t strongest = 0;
   for (std::size_t i = 0; i < profile.numFrames(); ++i)
@@ -127,8 +127,8 @@ TEST_F(PressuresWindowTest, ALiveHandHasForcesToo) {
   saveCalibration(calibration(), folder_ / "hand.json", Overwrite::kReplace);
   apply("hand.json");
   start();
-  window().bench().connectTo(emulatedBall(true));
-  ASSERT_TRUE(await([&] { return window().bench().subject.isLive() && force(6) != "–"; }));
+  window().state().connectTo(emulatedBallConnection(true));
+  ASSERT_TRUE(await([&] { return window().state().displayed.isLive() && force(6) != "–"; }));
   EXPECT_TRUE(await([&] { return force(6).toDouble() > 0.5; })) << "the ball is grasped";
   EXPECT_TRUE(await([&] { return fact() == "hand.json"; }));
   showPage("Force");
@@ -143,12 +143,12 @@ TEST_F(PressuresWindowTest, NoiseLinesLeadToHighSensitivityAndAFilterAgainstGhos
   Connection connection;
   connection.kind = Connection::Kind::kEmulated;
   connection.scene = "empty";
-  window().bench().connectTo(connection);
+  window().state().connectTo(connection);
   ASSERT_TRUE(
-      await([&] { return window().bench().subject.isLive() && !window().bench().live.stale(); }));
+      await([&] { return window().state().displayed.isLive() && !window().state().live.stale(); }));
   emit find<CalibratePanel>("CalibratePanel")
       ->noise()
-      .applyAsked(testing::evenNoise(0.3, 40.0, 2.0));
+      .applyRequested(testing::evenNoise(0.3, 40.0, 2.0));
   window().feature<FilterFeature>().panel().editor().setRecipe(
       parseRecipe(std::vector<std::string>{"gaussian"}));
   EXPECT_FALSE(window().feature<FilterFeature>().panel().on());

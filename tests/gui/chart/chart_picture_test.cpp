@@ -31,7 +31,7 @@ class ChartPictureTest : public ::testing::Test {
   }
   std::string svg() {
     return pictureBytes(
-               PictureForm::kSvg,
+               ImageFormat::kSvg,
                [this](QPainter& painter) { paintChart(painter, look_, plot_, options_); },
                {.size = look_.size, .unitsPerInch = 144.0},
                "a.svg")

@@ -20,7 +20,7 @@
 #include "gui/compare/compare_panel.h"
 #include "gui/compare/compare_strip.h"
 #include "gui/compare/compare_view.h"
-#include "gui/export/take_away.h"
+#include "gui/export/export_controller.h"
 #include "gui/matrices/matrices_view.h"
 #include "gui/testing/sample_profiles.h"
 #include "gui/testing/window_fixture.h"
@@ -58,20 +58,20 @@ class CompareWindowFixture : public WindowTest {
   CompareWindowFixture() {
     window_.reset();
     window_ = std::make_unique<MainWindow>(
-        WindowSurroundings{.dataFolder = folder_.path(),
-                           .settingsPath = settingsFile(),
-                           .clock = &clock_,
-                           .read = [](const std::filesystem::path& path, const Progress&) {
-                             const std::string name = path.stem().string();
-                             if (name == "early") return grasped(60, 10, 500.0F);
-                             if (name == "late") return grasped(80, 30, 300.0F, 3'600'000);
-                             if (name == "third") return grasped(40, 5, 100.0F);
-                             if (name == "untouched") return grasped(20, 20, 0.0F);
-                             if (name == "one") return grasped(1, 0, 50.0F);
-                             if (name == "pad") return pad();
-                             if (name == "empty") return profileWithStamps({});
-                             return twentyFrames();
-                           }});
+        WindowEnvironment{.dataFolder = folder_.path(),
+                          .settingsPath = settingsFile(),
+                          .clock = &clock_,
+                          .read = [](const std::filesystem::path& path, const Progress&) {
+                            const std::string name = path.stem().string();
+                            if (name == "early") return grasped(60, 10, 500.0F);
+                            if (name == "late") return grasped(80, 30, 300.0F, 3'600'000);
+                            if (name == "third") return grasped(40, 5, 100.0F);
+                            if (name == "untouched") return grasped(20, 20, 0.0F);
+                            if (name == "one") return grasped(1, 0, 50.0F);
+                            if (name == "pad") return pad();
+                            if (name == "empty") return profileWithStamps({});
+                            return twentyFrames();
+                          }});
     window_->show();
     QApplication::setActiveWindow(window_.get());
     QCoreApplication::processEvents();
@@ -86,7 +86,7 @@ class CompareWindowFixture : public WindowTest {
     clock.start();
     do {
       QCoreApplication::processEvents(QEventLoop::AllEvents, 20);
-    } while (compare().hasPair() && window().bench().comparing.on() && !compare().complete() &&
+    } while (compare().hasPair() && window().state().comparison.on() && !compare().complete() &&
              clock.elapsed() < 10'000);
     QCoreApplication::processEvents();
   }

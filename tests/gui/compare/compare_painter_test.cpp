@@ -8,7 +8,7 @@
 
 #include <palpate/signals/frame_difference.h>
 
-#include "gui/look/difference_map.h"
+#include "gui/appearance/difference_map.h"
 #include "gui/testing/sample_profiles.h"
 
 namespace palpate::gui::compare_painter_test {

@@ -47,7 +47,7 @@ TEST_F(ComparePanelTest, AnOffsetByHandIsTypedOrDragged) {
   EXPECT_NEAR(field->value(), -1.0, 1e-6);
   field->setValue(0.25);
   settle();
-  EXPECT_EQ(compare().alignment(), Alignment::kByHand);
+  EXPECT_EQ(compare().alignment(), Alignment::kManual);
   EXPECT_EQ(find<QComboBox>("compareAlignment")->currentText(), "by hand");
   EXPECT_NEAR(*compare().offsetS(), 0.25, 1e-9);
   // B's bar, a tenth of the chart to the right.
@@ -124,7 +124,7 @@ TEST_F(ComparePanelTest, CurvesFollowSignalAndMatrix) {
   // 60 pairs (0, 0) x 10, (500 + k, 300 + k), k = 0..49: computed by hand from the sums.
   EXPECT_TRUE(figures.startsWith("correlation 0.999")) << figures.toStdString();
   choose("compareSignal", "active taxels");
-  EXPECT_EQ(window().bench().look.view().signal, PlottedSignal::kActive);
+  EXPECT_EQ(window().state().appearance.view().signal, PlottedSignal::kActive);
   EXPECT_NEAR(compare().chart().curves().curveA->values[20], 12.0, 1e-9);
   choose("compareMatrix", "finger 0 proximal");
   EXPECT_NEAR(compare().chart().curves().curveA->values[20], 0.0, 1e-9);

@@ -34,7 +34,7 @@ TEST_F(CompareWindowTest, SwappingKeepsTheMoment) {
   settle();
   EXPECT_EQ(name(compare().a()), "late");
   EXPECT_EQ(name(compare().b()), "early");
-  EXPECT_EQ(window().bench().subject.behind(), compare().a());
+  EXPECT_EQ(window().state().displayed.behind(), compare().a());
   EXPECT_NEAR(*compare().offsetS(), 1.0, 1e-9);
   EXPECT_EQ(playback().frame(), 40u);
   EXPECT_EQ(playback().numFrames(), 80u) << "what is played is A";
@@ -48,7 +48,7 @@ TEST_F(CompareWindowTest, AnOffsetByHandIsSwappedToo) {
   settle();
   QTest::mouseClick(find<QToolButton>("compareSwap"), Qt::LeftButton);
   settle();
-  EXPECT_EQ(compare().alignment(), Alignment::kByHand);
+  EXPECT_EQ(compare().alignment(), Alignment::kManual);
   EXPECT_NEAR(*compare().offsetS(), -0.4, 1e-9);
 }
 
@@ -60,7 +60,7 @@ TEST_F(CompareWindowTest, AAndBAreChosenAmongWhatIsOpen) {
   EXPECT_EQ(name(compare().b()), "third");
   choose("compareB", "late.dsa");
   choose("compareA", "third.dsa");
-  EXPECT_EQ(name(window().bench().subject.behind()), "third") << "A is what is shown and played";
+  EXPECT_EQ(name(window().state().displayed.behind()), "third") << "A is what is shown and played";
   EXPECT_EQ(name(compare().b()), "late");
   EXPECT_NEAR(*compare().offsetS(), 0.25 - 1.5, 1e-9);
   // The window shows another one: that is A.
@@ -84,7 +84,7 @@ TEST_F(CompareWindowTest, OneRecordingOffersToOpenAnotherOrItself) {
   EXPECT_TRUE(text->isVisible());
   EXPECT_TRUE(text->text().contains("Only early.dsa is open"));
   QString asked;
-  window().bench().questions.recordings = [&] {
+  window().state().prompts.recordings = [&] {
     asked = "yes";
     return QStringList{QString::fromStdString(file("late.dsa"))};
   };
@@ -107,19 +107,19 @@ TEST_F(CompareWindowTest, EscapeGoesBack) {
   open({"early.dsa", "late.dsa"});
   compareNow();
   press(Qt::Key_Escape);
-  EXPECT_FALSE(window().bench().comparing.on());
+  EXPECT_FALSE(window().state().comparison.on());
   EXPECT_FALSE(actions().at("compare")->isChecked());
 }
 
 TEST_F(CompareWindowTest, WithNothingOpenItAsksAndComparesWhatComes) {
-  window().bench().questions.recordings = [&] {
+  window().state().prompts.recordings = [&] {
     return QStringList{QString::fromStdString(file("early.dsa")),
                        QString::fromStdString(file("late.dsa"))};
   };
   press(Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
   waitUntilOpened();
   settle();
-  EXPECT_TRUE(window().bench().comparing.on());
+  EXPECT_TRUE(window().state().comparison.on());
   EXPECT_TRUE(compare().hasPair());
 }
 
@@ -127,9 +127,9 @@ TEST_F(CompareWindowTest, ClosingEverythingLeavesIt) {
   open({"early.dsa", "late.dsa"});
   compareNow();
   press(Qt::Key_W, Qt::ControlModifier);
-  EXPECT_TRUE(window().bench().comparing.on());
+  EXPECT_TRUE(window().state().comparison.on());
   press(Qt::Key_W, Qt::ControlModifier);
-  EXPECT_FALSE(window().bench().comparing.on());
+  EXPECT_FALSE(window().state().comparison.on());
   open({"early.dsa"});
   EXPECT_TRUE(dock("Timeline")->isVisible()) << "docks are as they were";
 }

@@ -44,7 +44,7 @@ TEST_F(ConnectDialogTest, EnterConnectsFromWhereverTheKeyboardIs) {
       {Connection::Kind::kPorts, "kindPorts"},
       {Connection::Kind::kPorts, "tactilePort"},
       {Connection::Kind::kEmulated, "scenes"},
-      {Connection::Kind::kEmulated, "sceneActs"},
+      {Connection::Kind::kEmulated, "sceneScriptRuns"},
       {Connection::Kind::kReplay, "recording"}};
   const QString recording = file("a.dsa", "x");
   for (const auto& [kind, name] : places) {
@@ -95,7 +95,7 @@ TEST_F(ConnectDialogTest, ScenesAreChosenByNameAndSayWhatTheyAre) {
   press(Qt::Key_Down);
   EXPECT_EQ(dialog_->connection().scene, "bottle");
   press(Qt::Key_B, Qt::AltModifier);
-  EXPECT_TRUE(await([&] { return dialog_->connection().sceneActs; }));
+  EXPECT_TRUE(await([&] { return dialog_->connection().sceneScriptRuns; }));
 }
 
 TEST_F(ConnectDialogTest, ASceneWithoutAScriptCannotAct) {
@@ -103,10 +103,10 @@ TEST_F(ConnectDialogTest, ASceneWithoutAScriptCannotAct) {
   testing::writeFile(folder_ / "busy.json", R"({"script": [{"at_s": 1, "grasp": {}}]})");
   scenesFolder_ = folder_.path();
   open({.scene = "still"});
-  EXPECT_FALSE(find<QCheckBox>("sceneActs")->isEnabled());
+  EXPECT_FALSE(find<QCheckBox>("sceneScriptRuns")->isEnabled());
   find<QListWidget>("scenes")->setCurrentRow(0);
   EXPECT_EQ(dialog_->connection().scene, "busy");
-  EXPECT_TRUE(find<QCheckBox>("sceneActs")->isEnabled());
+  EXPECT_TRUE(find<QCheckBox>("sceneScriptRuns")->isEnabled());
 }
 
 TEST_F(ConnectDialogTest, ABrokenSceneSaysWhatIsWrong) {
@@ -124,9 +124,9 @@ TEST_F(ConnectDialogTest, ABrokenSceneSaysWhatIsWrong) {
 
 TEST_F(ConnectDialogTest, ASceneOfOnesOwn) {
   const QString mine = file("mine.json", R"({"description": "My own"})");
-  open({.scene = mine, .sceneActs = true});
+  open({.scene = mine, .sceneScriptRuns = true});
   EXPECT_EQ(dialog_->connection().scene, mine);
-  EXPECT_TRUE(dialog_->connection().sceneActs);
+  EXPECT_TRUE(dialog_->connection().sceneScriptRuns);
   const QString other = file("other.json", "{}");
   dialog_->findChild<ScenePage*>()->askForScene = [&] { return other; };
   click("otherScene");
@@ -185,7 +185,7 @@ TEST_F(ConnectDialogTest, BeginsWithTheLastAndKeepsTheOtherKinds) {
                              .dsaPort = "tcp:a:1",
                              .sdhPort = "tcp:b:2",
                              .scene = "pen",
-                             .sceneActs = true,
+                             .sceneScriptRuns = true,
                              .recording = "/somewhere/a.dsa"};
     EXPECT_EQ(open(last).connection(), last);
   }

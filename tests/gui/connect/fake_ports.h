@@ -46,8 +46,8 @@ class FakePorts {
               const std::lock_guard lock(mutex_);
               return ports_;
             },
-            [this](const std::string& port, const std::function<bool()>& giveUp) {
-              return probe(port, giveUp);
+            [this](const std::string& port, const std::function<bool()>& isCancelled) {
+              return probe(port, isCancelled);
             }};
   }
   // Without an answer it is a port that doesn't exist.
@@ -89,11 +89,11 @@ class FakePorts {
   }
 
  private:
-  PortProbe probe(const std::string& port, const std::function<bool()>& giveUp) {
+  PortProbe probe(const std::string& port, const std::function<bool()>& isCancelled) {
     std::unique_lock lock(mutex_);
     asked_.push_back(port);
     mostOpen_ = std::max(mostOpen_, ++numOpen_);
-    while (hanging_.contains(port) && (hanging_[port] || !giveUp()))
+    while (hanging_.contains(port) && (hanging_[port] || !isCancelled()))
       changed_.wait_for(lock, std::chrono::milliseconds(5));
     --numOpen_;
     changed_.notify_all();

@@ -118,18 +118,18 @@ TEST(PortScan, OfOurOwnPortsEachIsJudgedByItself) {
   connection.sdhPort = "B";
   DeviceStatus status;
   status.motion.emplace();
-  EXPECT_TRUE(knownAnswers(connection, status).isEmpty()) << "none has answered yet";
+  EXPECT_TRUE(knownProbes(connection, status).isEmpty()) << "none has answered yet";
   // Both names lead to the motion controller.
   status.tactile.found = PortAnswer::kMotion;
   status.tactile.message = "A: the motion controller answers here: the two ports are swapped";
   status.motion->state = PortState::kStreaming;
-  auto known = knownAnswers(connection, status);
+  auto known = knownProbes(connection, status);
   EXPECT_EQ(known.value("A").answer, PortAnswer::kMotion);
   EXPECT_EQ(known.value("B").answer, PortAnswer::kMotion);
   EXPECT_EQ(known.value("B").message, "motion controller; this window is connected to it");
   // Of the other one nothing is known.
   status.motion->state = PortState::kConnecting;
-  known = knownAnswers(connection, status);
+  known = knownProbes(connection, status);
   EXPECT_TRUE(known.contains("A"));
   EXPECT_FALSE(known.contains("B"));
 }

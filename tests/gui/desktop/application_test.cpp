@@ -80,15 +80,15 @@ TEST_F(FailingWindow, SaysOnceWhatWasThrown) {
   auto* application = qobject_cast<GuardedApplication*>(QCoreApplication::instance());
   ASSERT_NE(application, nullptr);
   QSignalSpy failed(application, &GuardedApplication::failed);
-  const int lines = window().bench().log.rowCount();
+  const int lines = window().state().log.rowCount();
   Thrower thrower;
   for (int i = 0; i < 3; ++i) thrower.throwNow();
   QCoreApplication::processEvents();
   EXPECT_EQ(failuresAtEvents(), 3u);
   EXPECT_EQ(failed.count(), 1);
   EXPECT_TRUE(bannerText().contains("a bug in the window")) << bannerText().toStdString();
-  ASSERT_EQ(window().bench().log.rowCount(), lines + 1);
-  EXPECT_TRUE(window().bench().log.line(lines).text.contains("a bug in the window"));
+  ASSERT_EQ(window().state().log.rowCount(), lines + 1);
+  EXPECT_TRUE(window().state().log.line(lines).text.contains("a bug in the window"));
 }
 
 }  // namespace

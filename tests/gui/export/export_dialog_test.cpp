@@ -84,7 +84,7 @@ class ExportDialogTest : public ::testing::Test {
 };
 
 TEST_F(ExportDialogTest, AsksForWhatWasSuggested) {
-  request_.form = ExportForm::kPdf;
+  request_.form = ExportFormat::kPdf;
   request_.preset = 1;
   request_.sizeMm = {85.0, 50.0};
   request_.textPt = 6.5;
@@ -198,7 +198,7 @@ TEST_F(ExportDialogTest, AMovieIsOfManyFrames) {
   height->setCurrentIndex(height->findText("720 px high"));
   EXPECT_TRUE(summary().startsWith("1440 × 720 px")) << summary().toStdString();
   const ExportRequest asked = dialog_->request();
-  EXPECT_EQ(asked.form, ExportForm::kMovie);
+  EXPECT_EQ(asked.form, ExportFormat::kMovie);
   EXPECT_EQ(asked.frames, ExportFrames::kSelected);
   EXPECT_EQ(asked.movieSpeed, 0.5);
   EXPECT_EQ(asked.moviePicturesPerS, 50);
@@ -214,7 +214,7 @@ TEST_F(ExportDialogTest, AMovieIsOfManyFrames) {
 
 TEST_F(ExportDialogTest, ShortenedGapsOfAMovieAreSaid) {
   const testing::FakeFfmpeg fake;
-  request_.form = ExportForm::kMovie;
+  request_.form = ExportFormat::kMovie;
   const auto pictures = pictures_.framePictures;
   pictures_.framePictures = [pictures] {
     auto frames = pictures();
@@ -231,11 +231,11 @@ TEST_F(ExportDialogTest, ShortenedGapsOfAMovieAreSaid) {
 TEST_F(ExportDialogTest, WithoutFfmpegAMovieIsGreyAndSaysWhy) {
   const testing::FakeFfmpeg fake;
   qputenv("PALPATE_FFMPEG", "/no/such/ffmpeg");
-  request_.form = ExportForm::kMovie;
+  request_.form = ExportFormat::kMovie;
   open();
   EXPECT_FALSE(find<QToolButton>("exportFormMP4")->isEnabled());
   EXPECT_TRUE(find<QToolButton>("exportFormMP4")->toolTip().contains("/no/such/ffmpeg"));
-  EXPECT_EQ(dialog_->request().form, ExportForm::kPng);
+  EXPECT_EQ(dialog_->request().form, ExportFormat::kPng);
   EXPECT_TRUE(canExport());
 }
 
@@ -251,7 +251,7 @@ TEST_F(ExportDialogTest, AViewWithoutFramesHasNoMovie) {
 }
 
 TEST_F(ExportDialogTest, ATableIsShownByItsFirstRows) {
-  request_.form = ExportForm::kCsv;
+  request_.form = ExportFormat::kCsv;
   open();
   EXPECT_FALSE(find<QComboBox>("exportPreset")->isVisible());
   EXPECT_TRUE(summary().startsWith("3 rows · about 8 B")) << summary().toStdString();  // n, 0, 1, 2
@@ -266,7 +266,7 @@ TEST_F(ExportDialogTest, AViewWithoutPictureIsATable) {
   auto* view = find<QComboBox>("exportView");
   view->setCurrentIndex(view->findText("Rows"));
   EXPECT_FALSE(find<QToolButton>("exportFormPNG")->isEnabled());
-  EXPECT_EQ(dialog_->request().form, ExportForm::kCsv);
+  EXPECT_EQ(dialog_->request().form, ExportFormat::kCsv);
   EXPECT_EQ(find<QLineEdit>("exportName")->text(), "ball_rows");
 }
 

@@ -16,7 +16,7 @@ class ExportRequestTest : public ::testing::Test {
 TEST_F(ExportRequestTest, IsRememberedButNotThatFilesMayBeReplaced) {
   ExportRequest request;
   request.view = "Timeline";
-  request.form = ExportForm::kPdf;
+  request.form = ExportFormat::kPdf;
   request.preset = kOwnPreset;
   request.sizeMm = {100.5, 61.5};
   request.textPt = 6.5;
@@ -65,7 +65,7 @@ TEST_F(ExportRequestTest, PaperIsInHalfPoints) {
   const PictureLook look = lookOf(request, {900, 720});
   EXPECT_EQ(look.textUnits, 15);
   EXPECT_NEAR(look.pixelRatio, 600.0 / 144.0, 1e-12);
-  request.form = ExportForm::kPdf;
+  request.form = ExportFormat::kPdf;
   EXPECT_EQ(lookOf(request, {900, 720}).pixelRatio, 0.0);
 }
 
@@ -83,9 +83,9 @@ TEST_F(ExportRequestTest, WhereItGoes) {
   ExportRequest request;
   request.folder = "/f";
   request.name = "a.b";
-  request.form = ExportForm::kSvg;
+  request.form = ExportFormat::kSvg;
   EXPECT_EQ(pathOf(request), "/f/a.b.svg");
-  request.form = ExportForm::kPng;
+  request.form = ExportFormat::kPng;
   request.frames = ExportFrames::kAll;
   EXPECT_EQ(seriesOf(request, {3, 9}).path(9), "/f/a.b/a.b_00009.png");
   FramePictures pictures;
@@ -101,7 +101,7 @@ TEST_F(ExportRequestTest, WhereItGoes) {
 
 TEST_F(ExportRequestTest, AMovieIsSoHighWhateverThePaper) {
   ExportRequest request;
-  request.form = ExportForm::kMovie;
+  request.form = ExportFormat::kMovie;
   request.movieHeightPx = 720;
   request.dpi = 600;
   EXPECT_EQ(paperOf(request, {900, 600}).pixels(), QSize(1080, 720));
@@ -113,7 +113,7 @@ TEST_F(ExportRequestTest, AMovieIsSoHighWhateverThePaper) {
 
 TEST_F(ExportRequestTest, AMovieIsOneFileOfTheSelectedFramesElseOfAll) {
   ExportRequest request;
-  request.form = ExportForm::kMovie;
+  request.form = ExportFormat::kMovie;
   request.folder = "/f";
   request.name = "ball";
   FramePictures pictures;

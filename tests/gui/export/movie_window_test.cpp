@@ -1,8 +1,8 @@
 // A movie of what the real window shows.
 #include <string_view>
 
+#include "gui/export/export_controller.h"
 #include "gui/export/export_feature.h"
-#include "gui/export/take_away.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/widgets/status_strip.h"
 #include "testing/fake_ffmpeg.h"
@@ -15,12 +15,14 @@ using testing::FakeFfmpeg;
 class MovieWindowTest : public WindowTest {
  protected:
   MovieWindowTest() { open({"good.dsa"}); }
-  TakeAway& takeAway() { return window().feature<ExportFeature>().takeAway(); }
+  ExportController& exportController() {
+    return window().feature<ExportFeature>().exportController();
+  }
   QString notice() { return find<StatusStrip>("statusStrip")->status().notice; }
   ExportRequest request() {
     ExportRequest request;
     request.view = "Matrices";
-    request.form = ExportForm::kMovie;
+    request.form = ExportFormat::kMovie;
     request.frames = ExportFrames::kAll;
     request.folder = QString::fromStdString(folder_.path().string());
     request.name = "good";
@@ -28,7 +30,7 @@ class MovieWindowTest : public WindowTest {
     return request;
   }
   void wait() {
-    ASSERT_TRUE(QTest::qWaitFor([&] { return !takeAway().busy(); }, 20'000));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !exportController().busy(); }, 20'000));
   }
   bool isThere() const { return std::filesystem::exists(folder_ / "good.mp4"); }
 };
@@ -39,7 +41,7 @@ TEST_F(MovieWindowTest, TheHeatMapsAsTheyCame) {
   ExportRequest asked = request();
   asked.preset = kOwnPreset;
   asked.sizeMm = {100.0, 75.0};
-  takeAway().write(asked);
+  exportController().write(asked);
   wait();
   EXPECT_EQ(bannerText(), "");
   EXPECT_EQ(testing::readFile(folder_ / "good.mp4"), "whole");
@@ -58,7 +60,7 @@ TEST_F(MovieWindowTest, TheHeatMapsAsTheyCame) {
 
 TEST_F(MovieWindowTest, OnceMoreTakesTheNextFreeName) {
   const FakeFfmpeg fake;
-  takeAway().ask = [&](const ExportRequest&) { return request(); };
+  exportController().ask = [&](const ExportRequest&) { return request(); };
   press(Qt::Key_E, Qt::ControlModifier);
   wait();
   press(Qt::Key_E, Qt::ControlModifier | Qt::ShiftModifier);
@@ -69,7 +71,7 @@ TEST_F(MovieWindowTest, OnceMoreTakesTheNextFreeName) {
 
 TEST_F(MovieWindowTest, EscapeCancelsIt) {
   const FakeFfmpeg fake("sleep 1000");
-  takeAway().write(request());
+  exportController().write(request());
   ASSERT_TRUE(QTest::qWaitFor([&] { return fake.wasCalled(); }, 20'000));
   press(Qt::Key_Escape);
   wait();
@@ -80,7 +82,7 @@ TEST_F(MovieWindowTest, EscapeCancelsIt) {
 
 TEST_F(MovieWindowTest, ClosingTheWindowEndsIt) {
   const FakeFfmpeg fake("cat > /dev/null; sleep 1000");
-  takeAway().write(request());
+  exportController().write(request());
   ASSERT_TRUE(QTest::qWaitFor([&] { return fake.wasCalled(); }, 20'000));
   window_.reset();
   EXPECT_FALSE(isThere());
@@ -89,7 +91,7 @@ TEST_F(MovieWindowTest, ClosingTheWindowEndsIt) {
 
 TEST_F(MovieWindowTest, WhatFfmpegSaidIsOnTheBanner) {
   const FakeFfmpeg fake("cat > /dev/null; echo 'No space left on device' >&2; exit 1");
-  takeAway().write(request());
+  exportController().write(request());
   wait();
   EXPECT_TRUE(bannerText().contains("good.mp4")) << bannerText().toStdString();
   EXPECT_TRUE(bannerText().contains("No space left on device")) << bannerText().toStdString();
@@ -98,16 +100,16 @@ TEST_F(MovieWindowTest, WhatFfmpegSaidIsOnTheBanner) {
 
 TEST_F(MovieWindowTest, WhereFfmpegIsGoneAPictureIsSuggested) {
   const FakeFfmpeg fake;
-  takeAway().ask = [&](const ExportRequest&) { return request(); };
-  takeAway().exportNow();
+  exportController().ask = [&](const ExportRequest&) { return request(); };
+  exportController().exportNow();
   wait();
-  EXPECT_EQ(takeAway().suggestion().form, ExportForm::kMovie);
-  EXPECT_EQ(takeAway().suggestion().name, "good");
+  EXPECT_EQ(exportController().suggestion().form, ExportFormat::kMovie);
+  EXPECT_EQ(exportController().suggestion().name, "good");
   qputenv("PALPATE_FFMPEG", "/no/such/ffmpeg");
-  EXPECT_EQ(takeAway().suggestion().form, ExportForm::kPng);
+  EXPECT_EQ(exportController().suggestion().form, ExportFormat::kPng);
   ExportRequest again = request();
   again.name = "other";
-  takeAway().write(again);
+  exportController().write(again);
   wait();
   EXPECT_TRUE(bannerText().contains("/no/such/ffmpeg")) << bannerText().toStdString();
 }

@@ -32,17 +32,17 @@ class FilterWindowTest : public WindowTest {
   void reopen() {
     if (window_) window_->close();
     window_.reset();
-    window_ = std::make_unique<MainWindow>(WindowSurroundings{.dataFolder = folder_.path(),
-                                                              .settingsPath = settingsFile(),
-                                                              .clock = &clock_,
-                                                              .read = {}});
+    window_ = std::make_unique<MainWindow>(WindowEnvironment{.dataFolder = folder_.path(),
+                                                             .settingsPath = settingsFile(),
+                                                             .clock = &clock_,
+                                                             .read = {}});
     window_->show();
     QApplication::setActiveWindow(window_.get());
-    window_->bench().open({path_});
+    window_->state().open({path_});
     waitUntilOpened();
     window_->settle();
-    window_->bench().questions.unsaved = [](const QString&) {
-      return Questions::Unsaved::kDiscard;
+    window_->state().prompts.unsaved = [](const QString&) {
+      return UserPrompts::Unsaved::kDiscard;
     };
   }
   void setRecipe(const std::string& text) {
@@ -50,7 +50,7 @@ class FilterWindowTest : public WindowTest {
         parseRecipe(std::vector<std::string>{text}));
     window().settle();
   }
-  std::size_t loudest() { return window().bench().subject.behind()->table.frameOfLargestSum(); }
+  std::size_t loudest() { return window().state().displayed.behind()->table.frameOfLargestSum(); }
   const std::vector<float>& seen() { return window().findChild<MatricesPanel*>()->frame().values; }
   std::string path_;
 };
@@ -58,8 +58,8 @@ class FilterWindowTest : public WindowTest {
 TEST_F(FilterWindowTest, BeforeAndAfterOnOneKey) {
   const std::size_t frame = loudest();
   playback().seekFrame(frame);
-  const auto raw = window().bench().subject.behind()->profile.frame(frame).values;
-  const auto filtered = filteredProfile(window().bench().subject.behind()->profile,
+  const auto raw = window().state().displayed.behind()->profile.frame(frame).values;
+  const auto filtered = filteredProfile(window().state().displayed.behind()->profile,
                                         parseRecipe(std::vector<std::string>{"gaussian:size=5"}))
                             .frame(frame)
                             .values;
@@ -68,14 +68,14 @@ TEST_F(FilterWindowTest, BeforeAndAfterOnOneKey) {
   press(Qt::Key_A);
   window().settle();
   EXPECT_EQ(seen(), filtered);
-  EXPECT_TRUE(window().bench().filtering.applied());
+  EXPECT_TRUE(window().state().activeFilters.applied());
   EXPECT_TRUE(find<StatusStrip>("statusStrip")->status().state.contains("filtered"));
   // All that is shown is the same recording, filtered.
-  EXPECT_EQ(window().bench().subject.seen()->table.at(frame, 1).maximum,
+  EXPECT_EQ(window().state().displayed.seen()->table.at(frame, 1).maximum,
             *std::max_element(filtered.begin() + 84, filtered.begin() + 162));
   press(Qt::Key_A);
   EXPECT_EQ(seen(), raw);
-  EXPECT_FALSE(window().bench().filtering.applied());
+  EXPECT_FALSE(window().state().activeFilters.applied());
   press(Qt::Key_A);
   EXPECT_EQ(seen(), filtered);  // at once: it was made before
   EXPECT_EQ(playback().frame(), frame);
@@ -84,7 +84,7 @@ TEST_F(FilterWindowTest, BeforeAndAfterOnOneKey) {
 TEST_F(FilterWindowTest, TheMomentAndThePartOfTheTimelineStay) {
   TimelineChart& chart = window().feature<TimelineFeature>().panel().chart();
   playback().seekFrame(77);
-  chart.setSeen(1.0, 4.0);
+  chart.setVisibleRange(1.0, 4.0);
   chart.setSelection(TimeSpan{1.5, 2.0});
   press(Qt::Key_A);
   setRecipe("median | running-mean:centred=1");
@@ -102,15 +102,15 @@ TEST_F(FilterWindowTest, ChangesAreSeenAtOnce) {
   for (const char* text : {"box", "box:size=5", "kalman", "median | (box)", "rts"}) {
     setRecipe(text);
     EXPECT_EQ(seen(),
-              filteredProfile(window().bench().subject.behind()->profile,
+              filteredProfile(window().state().displayed.behind()->profile,
                               parseRecipe(std::vector<std::string>{text}))
                   .frame(frame)
                   .values)
         << text;
   }
   setRecipe("(box)");
-  EXPECT_EQ(seen(), window().bench().subject.behind()->profile.frame(frame).values);
-  EXPECT_FALSE(window().bench().filtering.applied());
+  EXPECT_EQ(seen(), window().state().displayed.behind()->profile.frame(frame).values);
+  EXPECT_FALSE(window().state().activeFilters.applied());
 }
 
 TEST_F(FilterWindowTest, SaturationIsLookedForInWhatWasRecorded) {
@@ -120,7 +120,7 @@ TEST_F(FilterWindowTest, SaturationIsLookedForInWhatWasRecorded) {
   frame.matrix(1)(7, 2) = 3560.0F;
   for (int i = 0; i < 10; ++i) builder.addFrame(1'000'000 + i * 30'000, frame.values);
   saveRecording(builder.finish({}), {}, folder_ / "saturated.palpate");
-  window().bench().open({folder_ / "saturated.palpate"});
+  window().state().open({folder_ / "saturated.palpate"});
   waitUntilOpened();
   press(Qt::Key_A);
   setRecipe("median");
@@ -132,9 +132,9 @@ TEST_F(FilterWindowTest, AChainForAnotherHandIsRefusedWithAWord) {
   press(Qt::Key_A);
   setRecipe("median:matrices=9");
   EXPECT_TRUE(find<QLabel>("filterTotals")->text().contains("no matrix 9"));
-  EXPECT_EQ(window().bench().subject.seen(), window().bench().subject.behind());
+  EXPECT_EQ(window().state().displayed.seen(), window().state().displayed.behind());
   setRecipe("median");
-  EXPECT_NE(window().bench().subject.seen(), window().bench().subject.behind());
+  EXPECT_NE(window().state().displayed.seen(), window().state().displayed.behind());
 }
 
 TEST_F(FilterWindowTest, TheRecipeIsKeptWithTheRecordingAndFoundAgain) {
@@ -151,7 +151,7 @@ TEST_F(FilterWindowTest, TheRecipeIsKeptWithTheRecordingAndFoundAgain) {
   reopen();
   EXPECT_EQ(recipeText(window().feature<FilterFeature>().panel().editor().recipe()),
             "median:masked=1 | kalman:q=0.2");
-  EXPECT_TRUE(window().bench().filtering.applied());
+  EXPECT_TRUE(window().state().activeFilters.applied());
   window().feature<FilterFeature>().panel().editor().undo();  // what was there before isn't lost
   EXPECT_EQ(recipeText(window().feature<FilterFeature>().panel().editor().recipe()), "box");
 }
@@ -163,7 +163,7 @@ TEST_F(FilterWindowTest, TheChainAndItsSwitchAreRemembered) {
   EXPECT_EQ(recipeText(window().feature<FilterFeature>().panel().editor().recipe()),
             "bilateral:sigma_value=99");
   EXPECT_TRUE(actions().at("filtered")->isChecked());
-  EXPECT_TRUE(window().bench().filtering.applied());
+  EXPECT_TRUE(window().state().activeFilters.applied());
 }
 
 TEST_F(FilterWindowTest, ALiveHandIsSeenThroughTheSameChain) {
@@ -171,9 +171,10 @@ TEST_F(FilterWindowTest, ALiveHandIsSeenThroughTheSameChain) {
   Connection connection;
   connection.kind = Connection::Kind::kReplay;
   connection.recording = QString::fromStdString(path_);
-  window().bench().connectTo(connection);
+  window().state().connectTo(connection);
   ASSERT_TRUE(QTest::qWaitFor(
-      [&] { return window().bench().subject.isLive() && !window().bench().live.stale(); }, 20'000));
+      [&] { return window().state().displayed.isLive() && !window().state().live.stale(); },
+      20'000));
   const auto alike = [&] {
     const TactileFrame& frame = window().findChild<MatricesPanel*>()->frame();
     if (frame.values.empty()) return false;
@@ -183,15 +184,15 @@ TEST_F(FilterWindowTest, ALiveHandIsSeenThroughTheSameChain) {
   };
   press(Qt::Key_A);
   EXPECT_TRUE(QTest::qWaitFor(alike, 20'000));
-  EXPECT_TRUE(window().bench().filtering.applied());
-  window().bench().live.end();
-  EXPECT_TRUE(QTest::qWaitFor([&] { return !window().bench().subject.isLive(); }, 20'000));
+  EXPECT_TRUE(window().state().activeFilters.applied());
+  window().state().live.end();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !window().state().displayed.isLive(); }, 20'000));
 }
 
 TEST_F(FilterWindowTest, ARecordingMadeThroughFiltersHoldsWhatCameAndTheRecipe) {
   setRecipe("median:size=5");
   window().feature<FilterFeature>().panel().setOn(true);
-  window().bench().questions.recording = [this](RecordingSettings settings, const QString&) {
+  window().state().prompts.recording = [this](RecordingSettings settings, const QString&) {
     settings.folder = QString::fromStdString((folder_ / "runs").string());
     settings.nameTemplate = "run";
     return std::optional(settings);
@@ -199,19 +200,19 @@ TEST_F(FilterWindowTest, ARecordingMadeThroughFiltersHoldsWhatCameAndTheRecipe) 
   Connection connection;
   connection.kind = Connection::Kind::kReplay;
   connection.recording = QString::fromStdString(path_);
-  window().bench().connectTo(connection);
+  window().state().connectTo(connection);
   const auto await = [](const auto& condition) { return QTest::qWaitFor(condition, 20'000); };
   ASSERT_TRUE(
-      await([&] { return window().bench().subject.isLive() && !window().bench().live.stale(); }));
+      await([&] { return window().state().displayed.isLive() && !window().state().live.stale(); }));
   actions().at("record")->trigger();
   ASSERT_TRUE(
-      await([&] { return window().bench().live.source()->session->recorderStatus().frames > 20; }));
+      await([&] { return window().state().live.source()->session->recorderStatus().frames > 20; }));
   actions().at("record")->trigger();
   const auto made = folder_ / "runs/run.palpate";
   ASSERT_TRUE(
-      await([&] { return !window().bench().live.recording() && std::filesystem::exists(made); }));
-  window().bench().live.end();
-  ASSERT_TRUE(await([&] { return !window().bench().subject.isLive(); }));
+      await([&] { return !window().state().live.recording() && std::filesystem::exists(made); }));
+  window().state().live.end();
+  ASSERT_TRUE(await([&] { return !window().state().displayed.isLive(); }));
   const auto events = readEvents(made).events;
   EXPECT_EQ(std::count_if(events.begin(),
                           events.end(),

@@ -156,7 +156,7 @@ TEST_F(HandDockTest, ASlipAwareGraspClosesUnderWatchAndIsStopped) {
   ASSERT_TRUE(request);
   EXPECT_EQ(request->mode, GraspMode::kSlip);
   EXPECT_EQ(request->limitCounts, 2500);
-  EXPECT_EQ(request->holding.mostLimitCounts, 2500) << "never below where it begins";
+  EXPECT_EQ(request->holding.maxLimitCounts, 2500) << "never below where it begins";
   EXPECT_FALSE(request->holding.loosen) << "a loaded hand isn't opened";
   EXPECT_TRUE(await([&] { return !isEnabled("slipAwareGrasp"); }));
   click("stopHand");

@@ -16,17 +16,17 @@ namespace palpate::gui {
 class StopInTheWindow {
  public:
   StopInTheWindow() {
-    WindowSurroundings surroundings;
-    surroundings.dataFolder = testing::dataFolder();
-    surroundings.settingsPath = QString::fromStdString((folder_ / "palpate.ini").string());
-    window_ = std::make_unique<MainWindow>(surroundings);
+    WindowEnvironment environment;
+    environment.dataFolder = testing::dataFolder();
+    environment.settingsPath = QString::fromStdString((folder_ / "palpate.ini").string());
+    window_ = std::make_unique<MainWindow>(environment);
     window_->show();
     Connection connection;
     connection.kind = Connection::Kind::kPorts;
     connection.dsaPort = QString::fromStdString(bench_.hand->dsaPort());
     connection.sdhPort = QString::fromStdString(bench_.hand->sdhPort());
-    window_->bench().connectTo(connection);
-    EXPECT_TRUE(await([&] { return window_->bench().subject.isLive() && canReact(); }));
+    window_->state().connectTo(connection);
+    EXPECT_TRUE(await([&] { return window_->state().displayed.isLive() && canReact(); }));
   }
   ~StopInTheWindow() {
     window_->close();
@@ -67,7 +67,7 @@ class StopInTheWindow {
   static bool await(const std::function<bool()>& condition) {
     return QTest::qWaitFor(condition, 20'000);
   }
-  GraspControl& control() { return *window_->bench().live.source()->control; }
+  GraspControl& control() { return *window_->state().live.source()->control; }
   bool canReact() { return control().status().cannotReact.empty(); }
 
   testing::TemporaryFolder folder_;

@@ -44,7 +44,7 @@ TEST_F(ManualKeysTest, ThePageOfKeysIsTheListOfF1) {
   }
   EXPECT_GT(told.size(), 80u);
   // There is no demonstration recording here, and its action is hidden.
-  told.insert("| Ctrl+D | " + plainText(*window().bench().actions.at("openDemo")).toStdString() +
+  told.insert("| Ctrl+D | " + plainText(*window().state().actions.at("openDemo")).toStdString() +
               " |");
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)

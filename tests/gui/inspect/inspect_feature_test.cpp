@@ -2,15 +2,15 @@
 // left.
 #include "gui/inspect/inspect_feature.h"
 
-#include "gui/bench/bench_fixture.h"
 #include "gui/inspect/inspect_panel.h"
+#include "gui/window_state/window_state_fixture.h"
 
 namespace palpate::gui::inspect_feature_test {
 namespace {
 
-class InspectFeatureTest : public BenchTest {
+class InspectFeatureTest : public WindowStateTest {
  protected:
-  InspectFeatureTest() : feature_(*bench_, &actionsOf_) {}
+  InspectFeatureTest() : feature_(*windowState_, &actionsOf_) {}
   MatrixTableModel& table() { return feature_.panel().table(); }
   InspectFeature feature_;
 };
@@ -20,20 +20,20 @@ TEST_F(InspectFeatureTest, TicksOfWhatIsConnectedOutliveALookAtARecording) {
   table().setPlotted(0, false);
   table().setPlotted(table().numMatrices(), true);
   const std::vector<bool> ticks = table().plotted();
-  bench_->subject.show(recording("a"));
+  windowState_->displayed.show(recording("a"));
   EXPECT_NE(table().plotted(), ticks) << "a recording has its own";
-  bench_->subject.showLive();
+  windowState_->displayed.showLive();
   EXPECT_EQ(table().plotted(), ticks);
-  EXPECT_EQ(bench_->selection.plotted(), ticks);
+  EXPECT_EQ(windowState_->selection.plotted(), ticks);
   disconnect();
   connectEmulated();
   EXPECT_NE(table().plotted(), ticks) << "another one was connected";
 }
 
 TEST_F(InspectFeatureTest, KeysOfRowsFollowTheTicks) {
-  bench_->subject.show(recording("a"));
+  windowState_->displayed.show(recording("a"));
   table().setPlotted(1, false);
-  const QList<QAction*>& plots = bench_->actions.all("plots");
+  const QList<QAction*>& plots = windowState_->actions.all("plots");
   EXPECT_FALSE(plots[1]->isChecked());
   plots[1]->trigger();
   EXPECT_TRUE(table().plotted()[1]);

@@ -166,7 +166,7 @@ TEST_F(LibraryTest, EveryColumnSorts) {
 
 TEST_F(LibraryTest, OpensByKeyAndByDoubleClick) {
   look();
-  QSignalSpy asked(panel_.get(), &LibraryPanel::openAsked);
+  QSignalSpy asked(panel_.get(), &LibraryPanel::openRequested);
   table()->setFocus();
   table()->selectRow(0);
   QTest::keyClick(table(), Qt::Key_Down);
@@ -190,7 +190,7 @@ TEST_F(LibraryTest, FromTheSearchIntoTheTableAndBack) {
   QTest::keyClicks(field, "cup");
   QTest::keyClick(field, Qt::Key_Return);
   EXPECT_TRUE(table()->hasFocus());
-  QSignalSpy asked(panel_.get(), &LibraryPanel::openAsked);
+  QSignalSpy asked(panel_.get(), &LibraryPanel::openRequested);
   QTest::keyClick(table(), Qt::Key_Return);
   ASSERT_EQ(asked.size(), 1);
   EXPECT_EQ(asked[0][0].toStringList(), QStringList{path("run_10.palpate")});

@@ -39,8 +39,8 @@ TEST_F(LibraryWindowTest, IsThereWithNothingOpenAndOpensByKeyboard) {
   QTest::keyClick(field, Qt::Key_Return);
   QTest::keyClick(table(), Qt::Key_Return);
   waitUntilOpened();
-  ASSERT_TRUE(window().bench().subject.behind());
-  EXPECT_EQ(window().bench().subject.behind()->path.filename(), "good2.dsa");
+  ASSERT_TRUE(window().state().displayed.behind());
+  EXPECT_EQ(window().state().displayed.behind()->path.filename(), "good2.dsa");
   EXPECT_TRUE(library().isVisible()) << "it stays when a recording is shown";
   toggle();
   EXPECT_FALSE(library().isVisible());
@@ -68,23 +68,23 @@ TEST_F(LibraryWindowTest, ComparesWithWhatIsShown) {
   const int row = table()->model()->index(0, 0).data().toString() == "good2.dsa" ? 0 : 1;
   table()->selectRow(row);
   QTest::keyClick(table(), Qt::Key_Return, Qt::ControlModifier);
-  EXPECT_FALSE(window().bench().opener.busy()) << "nothing is shown";
+  EXPECT_FALSE(window().state().opener.busy()) << "nothing is shown";
   open({"good1.dsa"});
   table()->selectRow(row);
   QTest::keyClick(table(), Qt::Key_Return, Qt::ControlModifier);
   waitUntilOpened();
-  EXPECT_TRUE(window().bench().comparing.on());
-  ASSERT_TRUE(window().bench().subject.behind());
-  EXPECT_EQ(window().bench().subject.behind()->path.filename(), "good1.dsa");
+  EXPECT_TRUE(window().state().comparison.on());
+  ASSERT_TRUE(window().state().displayed.behind());
+  EXPECT_EQ(window().state().displayed.behind()->path.filename(), "good1.dsa");
   ASSERT_TRUE(window().feature<CompareFeature>().panel().b());
   EXPECT_EQ(window().feature<CompareFeature>().panel().b()->path.filename(), "good2.dsa");
   // Open already, it is only shown.
   press(Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
-  EXPECT_FALSE(window().bench().comparing.on());
+  EXPECT_FALSE(window().state().comparison.on());
   const int reads = reads_;
   table()->selectRow(row);
   QTest::keyClick(table(), Qt::Key_Return, Qt::ControlModifier);
-  EXPECT_TRUE(window().bench().comparing.on());
+  EXPECT_TRUE(window().state().comparison.on());
   EXPECT_EQ(reads_, reads);
 }
 

@@ -121,12 +121,12 @@ TEST_F(LogTest, IsSavedAndSaysWhenItCantBe) {
 
 TEST_F(LogTest, KeepsTheLastTenThousandLines) {
   for (int i = 0; i < 25'000; ++i) log_.add(Severity::kInfo, QString::number(i));
-  EXPECT_LE(log_.rowCount(), ActivityLog::kMostLines);
-  EXPECT_GE(log_.rowCount(), ActivityLog::kMostLines - 500);
+  EXPECT_LE(log_.rowCount(), ActivityLog::kMaxLines);
+  EXPECT_GE(log_.rowCount(), ActivityLog::kMaxLines - 500);
   EXPECT_EQ(log_.line(log_.rowCount() - 1).text, "24999");
   EXPECT_EQ(log_.line(0).text, QString::number(25'000 - log_.rowCount()));
   log_.add(Severity::kInfo, QString(100'000, 'x'));
-  EXPECT_EQ(log_.line(log_.rowCount() - 1).text.size(), ActivityLog::kMostText);
+  EXPECT_EQ(log_.line(log_.rowCount() - 1).text.size(), ActivityLog::kMaxTextLength);
 }
 
 TEST_F(LogTest, StaysAtTheEndUnlessSomebodyReadsFurtherUp) {
@@ -145,7 +145,7 @@ TEST_F(LogTest, StaysAtTheEndUnlessSomebodyReadsFurtherUp) {
 class WindowLogTest : public WindowTest {
  protected:
   bool logHas(Severity severity, const QString& part) {
-    const ActivityLog& log = window().bench().log;
+    const ActivityLog& log = window().state().log;
     for (int row = 0; row < log.rowCount(); ++row)
       if (log.line(row).severity == severity && log.line(row).text.contains(part)) return true;
     return false;

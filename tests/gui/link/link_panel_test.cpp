@@ -62,12 +62,12 @@ TEST(LinkPanel, WarnsOfWhatIsWrong) {
 
 TEST(LinkPanel, OneLineBeforeARun) {
   LinkPanel panel;
-  const auto* line = panel.findChild<QLabel*>("beforeRun");
+  const auto* line = panel.findChild<QLabel*>("preflight");
   EXPECT_TRUE(line->text().contains("Ctrl+K"));
-  panel.showHealth(goodHealth(), BeforeRun{true, "ready: 31.7 frames/s", {}, {}});
+  panel.showHealth(goodHealth(), PreflightCheck{true, "ready: 31.7 frames/s", {}, {}});
   EXPECT_EQ(line->text(), "ready: 31.7 frames/s");
   EXPECT_TRUE(line->styleSheet().contains(colorsOf(Theme::kDark).accent.name()));
-  panel.showHealth(goodHealth(), BeforeRun{false, "not ready: no frame comes", {}, {}});
+  panel.showHealth(goodHealth(), PreflightCheck{false, "not ready: no frame comes", {}, {}});
   EXPECT_TRUE(line->styleSheet().contains(colorsOf(Theme::kDark).danger.name()));
   panel.clear();
   EXPECT_TRUE(line->text().contains("Ctrl+K"));

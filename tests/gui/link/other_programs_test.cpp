@@ -42,10 +42,10 @@ class OtherProgramsTest : public WindowTest {
     Connection connection;
     connection.kind = Connection::Kind::kEmulated;
     connection.scene = "ball";
-    window().bench().connectTo(connection);
-    ASSERT_TRUE(await([&] { return !live().stale() && window().bench().subject.isLive(); }));
+    window().state().connectTo(connection);
+    ASSERT_TRUE(await([&] { return !live().stale() && window().state().displayed.isLive(); }));
   }
-  LiveController& live() { return window().bench().live; }
+  LiveController& live() { return window().state().live; }
   std::string socket() const { return folder_ / "s"; }
   void switchRemoteOn() {
     actions().at("remoteControl")->setData(QString::fromStdString(socket()));

@@ -1,19 +1,20 @@
 // The heat maps over the bench: what is chosen and marked belongs to the matrices that are shown.
 #include "gui/matrices/matrices_feature.h"
 
-#include "gui/bench/bench_fixture.h"
 #include "gui/matrices/matrices_panel.h"
+#include "gui/window_state/window_state_fixture.h"
 
 namespace palpate::gui::matrices_feature_test {
 namespace {
 
-class MatricesFeatureTest : public BenchTest {
+class MatricesFeatureTest : public WindowStateTest {
  protected:
-  MatricesFeatureTest() : feature_(*bench_, &actionsOf_) {}
+  MatricesFeatureTest() : feature_(*windowState_, &actionsOf_) {}
   MatricesView& view() { return feature_.panel().view(); }
   TaxelSelection chosen() const {
-    TaxelSelection taxels(bench_->subject.hand()->layout ? *bench_->subject.hand()->layout
-                                                         : SensorLayout());
+    TaxelSelection taxels(windowState_->displayed.hand()->layout
+                              ? *windowState_->displayed.hand()->layout
+                              : SensorLayout());
     taxels.add(1, 7, 2, 8, 3);
     return taxels;
   }
@@ -21,39 +22,40 @@ class MatricesFeatureTest : public BenchTest {
 };
 
 TEST_F(MatricesFeatureTest, WhatIsChosenIsTheSameInViewAndModel) {
-  bench_->subject.show(recording("a"));
-  bench_->selection.setTaxels(chosen());
+  windowState_->displayed.show(recording("a"));
+  windowState_->selection.setTaxels(chosen());
   EXPECT_EQ(view().selection(), chosen());
   view().clearSelection();
-  EXPECT_TRUE(bench_->selection.taxels().empty());
+  EXPECT_TRUE(windowState_->selection.taxels().empty());
 }
 
 TEST_F(MatricesFeatureTest, WithoutAChoiceTheModelKnowsTheMatricesThatAreShown) {
   connectEmulated();
-  EXPECT_TRUE(
-      bench_->selection.taxels().sameSensor(TaxelSelection(*bench_->subject.hand()->layout)))
+  EXPECT_TRUE(windowState_->selection.taxels().sameSensor(
+      TaxelSelection(*windowState_->displayed.hand()->layout)))
       << "scanning all taxels of it is possible";
 }
 
 TEST_F(MatricesFeatureTest, NothingUnseenIsChosen) {
-  bench_->subject.show(recording("a"));
-  bench_->selection.setTaxels(chosen());
+  windowState_->displayed.show(recording("a"));
+  windowState_->selection.setTaxels(chosen());
   connectEmulated();
-  EXPECT_EQ(view().selection(), bench_->selection.taxels());
+  EXPECT_EQ(view().selection(), windowState_->selection.taxels());
 }
 
 TEST_F(MatricesFeatureTest, MatricesThatFeelNoLimitStayMarkedWhenOtherTaxelsAreScanned) {
   connectEmulated();
   const std::vector<QString> why{"", "its threshold is above the limit"};
-  bench_->overlays.setBlind(why);
+  windowState_->derivedResults.setBlind(why);
   EXPECT_EQ(view().blind(), why);
-  emit bench_->subject.handChanged();
+  emit windowState_->displayed.handChanged();
   EXPECT_EQ(view().blind(), why);
 }
 
 TEST_F(MatricesFeatureTest, ALivePictureWithoutAFrameSaysWhyFromTheStart) {
   QStringList notices;
-  QObject::connect(&bench_->subject, &Subject::shown, [&] { notices.append(view().notice()); });
+  QObject::connect(
+      &windowState_->displayed, &DisplayedSource::shown, [&] { notices.append(view().notice()); });
   connectEmulated();
   ASSERT_EQ(notices.size(), 1);
   EXPECT_TRUE(notices[0].startsWith("waiting for the first frame")) << notices[0].toStdString();
@@ -63,13 +65,13 @@ TEST_F(MatricesFeatureTest, ALivePictureWithoutAFrameSaysWhyFromTheStart) {
 // docs/live_window.md: "largest so far" never shrinks while connected.
 TEST_F(MatricesFeatureTest, TheLargestSoFarOutlivesALookAtARecording) {
   connectEmulated();
-  bench_->moment.hold(true);  // what comes besides is not shown
-  TactileFrame pressed(bench_->subject.hand()->layout);
+  windowState_->currentFrame.hold(true);  // what comes besides is not shown
+  TactileFrame pressed(windowState_->displayed.hand()->layout);
   pressed.matrix(1)(7, 2) = 3100.0F;
   feature_.panel().show(pressed);
   EXPECT_EQ(view().look().range.maximum, 3250.0);
-  bench_->subject.show(recording("a"));
-  bench_->subject.showLive();
+  windowState_->displayed.show(recording("a"));
+  windowState_->displayed.showLive();
   EXPECT_EQ(view().look().range.maximum, 3250.0);
   disconnect();
   connectEmulated();

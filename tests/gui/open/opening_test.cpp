@@ -31,8 +31,8 @@ namespace {
 class OpeningTest : public WindowTest {
  protected:
   std::string currentName() {
-    return window().bench().subject.behind()
-               ? window().bench().subject.behind()->path.filename().string()
+    return window().state().displayed.behind()
+               ? window().state().displayed.behind()->path.filename().string()
                : "";
   }
   bool onStartPage() { return window().findChild<StartPage*>()->isVisible(); }
@@ -77,18 +77,18 @@ TEST_F(OpeningTest, ShowsTheRecordingAtItsFirstFrame) {
 
 TEST_F(OpeningTest, ByTheDialog) {
   const std::string path = file("good.dsa");
-  window().bench().questions.recordings = [&] { return QStringList{QString::fromStdString(path)}; };
+  window().state().prompts.recordings = [&] { return QStringList{QString::fromStdString(path)}; };
   press(Qt::Key_O, Qt::ControlModifier);
   waitUntilOpened();
   EXPECT_EQ(currentName(), "good.dsa");
-  window().bench().questions.recordings = [] { return QStringList(); };
+  window().state().prompts.recordings = [] { return QStringList(); };
   press(Qt::Key_O, Qt::ControlModifier);
   EXPECT_EQ(currentName(), "good.dsa") << "cancelled";
 }
 
 TEST_F(OpeningTest, ByTheButtonOfTheStartPage) {
   const std::string path = file("good.dsa");
-  window().bench().questions.recordings = [&] { return QStringList{QString::fromStdString(path)}; };
+  window().state().prompts.recordings = [&] { return QStringList{QString::fromStdString(path)}; };
   QTest::mouseClick(find<QPushButton>("startOpen"), Qt::LeftButton);
   waitUntilOpened();
   EXPECT_EQ(currentName(), "good.dsa");
@@ -101,7 +101,7 @@ TEST_F(OpeningTest, ByDragAndDrop) {
   EXPECT_TRUE(drop({url("good2.dsa"), url("good3.dsa")}));
   waitUntilOpened();
   EXPECT_EQ(currentName(), "good2.dsa");
-  EXPECT_EQ(window().bench().recordings.all().size(), 3u);
+  EXPECT_EQ(window().state().recordings.all().size(), 3u);
 }
 
 TEST_F(OpeningTest, WhatIsNoLocalFileIsNotTaken) {
@@ -147,7 +147,7 @@ TEST_F(OpeningTest, TheSameFileAgainIsReadAgainButListedOnce) {
   playback().seekFrame(7);
   open({"good.dsa"});
   EXPECT_EQ(reads_, 2);
-  EXPECT_EQ(window().bench().recordings.all().size(), 1u);
+  EXPECT_EQ(window().state().recordings.all().size(), 1u);
   EXPECT_EQ(playback().frame(), 0u);
 }
 
@@ -182,27 +182,27 @@ TEST_F(OpeningTest, AmongSeveralTheBadOnesAreNamedAndTheFirstGoodIsShown) {
 
 TEST_F(OpeningTest, CancelLeavesWhatIsOpen) {
   open({"good.dsa"});
-  window().bench().open({file("slow.dsa"), file("good2.dsa")});
+  window().state().open({file("slow.dsa"), file("good2.dsa")});
   const QWidget* strip = find<QPushButton>("cancelOpening")->parentWidget();
   ASSERT_TRUE(QTest::qWaitFor([&] { return strip->isVisible(); }, 10'000));
   QTest::mouseClick(find<QPushButton>("cancelOpening"), Qt::LeftButton);
   waitUntilOpened();
   EXPECT_FALSE(strip->isVisible());
   EXPECT_EQ(currentName(), "good.dsa");
-  EXPECT_EQ(window().bench().recordings.all().size(), 1u);
+  EXPECT_EQ(window().state().recordings.all().size(), 1u);
   EXPECT_EQ(bannerText(), "");
   EXPECT_TRUE(find<StatusStrip>("statusStrip")->status().notice.contains("cancelled"));
 }
 
 TEST_F(OpeningTest, EscapeCancelsToo) {
-  window().bench().open({file("slow.dsa")});
+  window().state().open({file("slow.dsa")});
   press(Qt::Key_Escape);
   waitUntilOpened();
   EXPECT_TRUE(onStartPage());
 }
 
 TEST_F(OpeningTest, TheWindowClosesWhileItOpens) {
-  window().bench().open({file("slow.dsa")});
+  window().state().open({file("slow.dsa")});
   window().close();
   start();
   EXPECT_TRUE(onStartPage());
@@ -285,26 +285,26 @@ TEST_F(OpeningTest, TenRecentFilesFitIntoTheSmallestWindow) {
 
 TEST_F(OpeningTest, WhatIsAskedForWhileOthersOpenIsShownWhenItComes) {
   QStringList shown;
-  QObject::connect(&window().bench().subject, &Subject::shown, &window(), [&] {
+  QObject::connect(&window().state().displayed, &DisplayedSource::shown, &window(), [&] {
     shown.append(QString::fromStdString(currentName()));
   });
   bool asked = false;
-  QObject::connect(&window().bench().opener, &RecordingOpener::opened, &window(), [&] {
-    if (!std::exchange(asked, true)) window().bench().open({file("good3.dsa")});
+  QObject::connect(&window().state().opener, &RecordingOpener::opened, &window(), [&] {
+    if (!std::exchange(asked, true)) window().state().open({file("good3.dsa")});
   });
   open({"good1.dsa", "good2.dsa"});
   EXPECT_EQ(shown, QStringList({"good1.dsa", "good3.dsa"}));
-  EXPECT_EQ(window().bench().recordings.all().size(), 3u);
+  EXPECT_EQ(window().state().recordings.all().size(), 3u);
 }
 
 TEST_F(OpeningTest, WhatIsAskedForIsShownWhateverIsComparedMeanwhile) {
   open({"good1.dsa"});
-  window().bench().open({file("good2.dsa")});
+  window().state().open({file("good2.dsa")});
   emit window().feature<LibraryFeature>().panel().compareAsked(
       QString::fromStdString(file("good3.dsa")));
   waitUntilOpened();
   EXPECT_EQ(currentName(), "good2.dsa");
-  EXPECT_TRUE(window().bench().comparing.on());
+  EXPECT_TRUE(window().state().comparison.on());
   ASSERT_NE(window().feature<CompareFeature>().panel().b(), nullptr);
   EXPECT_EQ(window().feature<CompareFeature>().panel().b()->path.filename(), "good3.dsa");
 }
@@ -337,16 +337,16 @@ TEST(Demo, PlaysInALoopThatIsNotRemembered) {
   {
     MainWindow window({.dataFolder = testing::dataFolder(), .settingsPath = ini});
     window.show();
-    QSignalSpy finished(&window.bench().opener, &RecordingOpener::finished);
+    QSignalSpy finished(&window.state().opener, &RecordingOpener::finished);
     QTest::mouseClick(window.findChild<QPushButton*>("startDemo"), Qt::LeftButton);
     ASSERT_TRUE(finished.wait(30'000));
-    ASSERT_NE(window.bench().subject.behind(), nullptr);
-    EXPECT_TRUE(window.bench().playback.playing());
-    EXPECT_TRUE(window.bench().playback.loop());
+    ASSERT_NE(window.state().displayed.behind(), nullptr);
+    EXPECT_TRUE(window.state().playback.playing());
+    EXPECT_TRUE(window.state().playback.loop());
     window.close();
   }
   MainWindow again({.dataFolder = testing::dataFolder(), .settingsPath = ini});
-  EXPECT_FALSE(again.bench().playback.loop());
+  EXPECT_FALSE(again.state().playback.loop());
 }
 
 TEST(Demo, PlaysWhateverElseIsOpenedMeanwhile) {
@@ -354,13 +354,13 @@ TEST(Demo, PlaysWhateverElseIsOpenedMeanwhile) {
   MainWindow window({.dataFolder = testing::dataFolder(),
                      .settingsPath = QString::fromStdString((folder / "a.ini").string())});
   window.show();
-  QSignalSpy finished(&window.bench().opener, &RecordingOpener::finished);
-  window.bench().actions.at("openDemo")->trigger();
-  window.bench().open({folder / "nothing.dsa"});
+  QSignalSpy finished(&window.state().opener, &RecordingOpener::finished);
+  window.state().actions.at("openDemo")->trigger();
+  window.state().open({folder / "nothing.dsa"});
   ASSERT_TRUE(finished.wait(30'000));
-  ASSERT_NE(window.bench().subject.behind(), nullptr);
-  EXPECT_TRUE(window.bench().playback.playing());
-  EXPECT_TRUE(window.bench().playback.loop());
+  ASSERT_NE(window.state().displayed.behind(), nullptr);
+  EXPECT_TRUE(window.state().playback.playing());
+  EXPECT_TRUE(window.state().playback.loop());
 }
 
 TEST(RealRecording, OpensAndShowsTheFrameOfTheSketch) {
@@ -370,13 +370,13 @@ TEST(RealRecording, OpensAndShowsTheFrameOfTheSketch) {
   MainWindow window({.dataFolder = folder.path(),
                      .settingsPath = QString::fromStdString((folder / "a.ini").string())});
   window.show();
-  QSignalSpy finished(&window.bench().opener, &RecordingOpener::finished);
-  window.bench().open({*recordings / "grasps/foam_ball.dsa"});
+  QSignalSpy finished(&window.state().opener, &RecordingOpener::finished);
+  window.state().open({*recordings / "grasps/foam_ball.dsa"});
   ASSERT_TRUE(finished.wait(60'000));
-  window.bench().playback.seekFrame(2411);
+  window.state().playback.seekFrame(2411);
   // window.png: 36 active taxels of mean 500 and maximum 1013 in finger 0 distal; 24, 184, 338 in
   // finger 2 distal.
-  const OpenedRecording& recording = *window.bench().subject.behind();
+  const OpenedRecording& recording = *window.state().displayed.behind();
   EXPECT_EQ(recording.profile.numFrames(), 3289u);
   EXPECT_EQ(recording.at(2411, 1).active, 36);
   EXPECT_NEAR(recording.at(2411, 1).mean, 500, 0.5);
@@ -384,8 +384,8 @@ TEST(RealRecording, OpensAndShowsTheFrameOfTheSketch) {
   EXPECT_EQ(recording.at(2411, 5).active, 24);
   EXPECT_NEAR(recording.at(2411, 5).mean, 184, 0.5);
   EXPECT_EQ(recording.at(2411, 5).maximum, 338);
-  EXPECT_NEAR(window.bench().playback.positionS(), 76.15, 0.005);
-  EXPECT_NEAR(window.bench().playback.durationS(), 103.8, 0.05);
+  EXPECT_NEAR(window.state().playback.positionS(), 76.15, 0.005);
+  EXPECT_NEAR(window.state().playback.durationS(), 103.8, 0.05);
 }
 
 }  // namespace

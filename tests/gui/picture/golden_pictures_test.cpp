@@ -7,11 +7,11 @@
 #include <palpate/emulator/synthetic_profile.h>
 #include <palpate/recording/recording.h>
 
+#include "gui/hand3d/hand_panel.h"
+#include "gui/hand3d/space_feature.h"
 #include "gui/matrices/matrices_feature.h"
 #include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
-#include "gui/space/hand_panel.h"
-#include "gui/space/space_feature.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/event_rows.h"
 #include "gui/timeline/timeline_feature.h"
@@ -64,15 +64,15 @@ class GoldenPicturesTest : public WindowTest {
     const auto read = [](const std::filesystem::path&, const Progress&) {
       return synthesize({.durationS = 12.0, .grasps = 3});
     };
-    window_ = std::make_unique<MainWindow>(WindowSurroundings{.dataFolder = folder_.path(),
-                                                              .settingsPath = settingsFile(),
-                                                              .clock = &clock_,
-                                                              .read = read});
-    window_->bench().look.setTheme(theme);
+    window_ = std::make_unique<MainWindow>(WindowEnvironment{.dataFolder = folder_.path(),
+                                                             .settingsPath = settingsFile(),
+                                                             .clock = &clock_,
+                                                             .read = read});
+    window_->state().appearance.setTheme(theme);
     window_->setFixedSize(size);
     window_->show();
     open({"any.dsa"});
-    playback().seekFrame(window().bench().subject.behind()->table.frameOfLargestSum());
+    playback().seekFrame(window().state().displayed.behind()->table.frameOfLargestSum());
     window().feature<TimelineFeature>().panel().chart().setSelection(TimeSpan{4.0, 6.0});
     for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();
   }

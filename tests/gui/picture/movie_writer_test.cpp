@@ -27,11 +27,11 @@ class MovieWriterTest : public ::testing::Test {
       painter.fillRect(QRectF(0, 0, 100, 100), QColor(static_cast<int>(frame), 0, 0));
     };
   }
-  static Movie movie(std::vector<MovieShot> shots, std::size_t first = 0) {
+  static Movie movie(std::vector<MovieFrame> shots, std::size_t first = 0) {
     Movie movie{.frames = {first, first + shots.back().frame},
                 .timing = {.shots = std::move(shots)},
                 .picturesPerS = 25.0};
-    for (const MovieShot& shot : movie.timing.shots) movie.timing.numPictures += shot.numPictures;
+    for (const MovieFrame& shot : movie.timing.shots) movie.timing.numPictures += shot.numPictures;
     return movie;
   }
   std::string failure(Overwrite overwrite = Overwrite::kRefuse) {
@@ -188,7 +188,7 @@ TEST_F(MovieWriterTest, WithoutFfmpegItSaysWhatToDo) {
 TEST_F(MovieWriterTest, PlansByTheStampsOfTheSpan) {
   const auto timeUs = [](std::size_t frame) { return static_cast<std::int64_t>(frame) * 100'000; };
   const Movie planned = plannedMovie({10, 13}, timeUs, {.picturesPerS = 20.0});
-  EXPECT_EQ(planned.timing.shots, (std::vector<MovieShot>{{0, 2}, {1, 2}, {2, 2}, {3, 2}}));
+  EXPECT_EQ(planned.timing.shots, (std::vector<MovieFrame>{{0, 2}, {1, 2}, {2, 2}, {3, 2}}));
   EXPECT_EQ(planned.picturesPerS, 20.0);
   EXPECT_EQ(planned.frames, (FrameSpan{10, 13}));
   EXPECT_THROW(plannedMovie({10, 13}, timeUs, {}, [](double) { return false; }), Cancelled);

@@ -34,7 +34,7 @@ void writeMatricesPicture(const std::filesystem::path& path,
                           const HandDescription& hand,
                           MatricesPictureOptions options,
                           Overwrite overwrite = Overwrite::kRefuse) {
-  options.pixelRatio = pictureFormOf(path) == PictureForm::kPng ? 2.0 : 0.0;
+  options.pixelRatio = imageFormatOf(path) == ImageFormat::kPng ? 2.0 : 0.0;
   const PicturePaper paper = {.size = options.size,
                               .unitsPerInch = 96.0,
                               .dpi = 2.0 * 96.0,
@@ -48,11 +48,11 @@ void writeMatricesPicture(const std::filesystem::path& path,
 }
 
 TEST(PictureExport, TheEndingTellsTheForm) {
-  EXPECT_EQ(pictureFormOf("a/b.png"), PictureForm::kPng);
-  EXPECT_EQ(pictureFormOf("b.SVG"), PictureForm::kSvg);
-  EXPECT_EQ(pictureFormOf("b.x.pdf"), PictureForm::kPdf);
-  EXPECT_EQ(pictureFormOf("b.gif"), std::nullopt);
-  EXPECT_EQ(pictureFormOf("png"), std::nullopt);
+  EXPECT_EQ(imageFormatOf("a/b.png"), ImageFormat::kPng);
+  EXPECT_EQ(imageFormatOf("b.SVG"), ImageFormat::kSvg);
+  EXPECT_EQ(imageFormatOf("b.x.pdf"), ImageFormat::kPdf);
+  EXPECT_EQ(imageFormatOf("b.gif"), std::nullopt);
+  EXPECT_EQ(imageFormatOf("png"), std::nullopt);
 }
 
 TEST(PictureExport, PngHoldsThePictureAtTwiceItsSize) {

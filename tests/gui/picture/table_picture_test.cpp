@@ -17,7 +17,7 @@ TablePicture table(int rows) {
 
 std::string svg(const TablePicture& picture, const PictureLook& look) {
   return pictureBytes(
-             PictureForm::kSvg,
+             ImageFormat::kSvg,
              [&](QPainter& painter) { paintTable(painter, look, picture, QFont(), Theme::kDark); },
              {.size = look.size, .unitsPerInch = 144.0},
              "a.svg")

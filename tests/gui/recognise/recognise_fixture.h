@@ -65,10 +65,10 @@ class RecogniseWindowTest : public WindowTest {
   RecogniseWindowTest() {
     // Recordings are read as they are.
     window_.reset();
-    WindowSurroundings surroundings;
-    surroundings.dataFolder = testing::dataFolder();
-    surroundings.settingsPath = settingsFile();
-    window_ = std::make_unique<MainWindow>(surroundings);
+    WindowEnvironment environment;
+    environment.dataFolder = testing::dataFolder();
+    environment.settingsPath = settingsFile();
+    window_ = std::make_unique<MainWindow>(environment);
     window_->resize(1280, 800);
     window_->show();
   }
@@ -85,8 +85,8 @@ class RecogniseWindowTest : public WindowTest {
     return path.string();
   }
   void openIt(const std::string& path) {
-    QSignalSpy shown(&window().bench().subject, &Subject::shown);
-    window().bench().open({path});
+    QSignalSpy shown(&window().state().displayed, &DisplayedSource::shown);
+    window().state().open({path});
     ASSERT_TRUE(shown.wait(20'000));
   }
   // Grasps a scene by its script, asks while it is held, until it is named.
@@ -94,8 +94,8 @@ class RecogniseWindowTest : public WindowTest {
     Connection connection;
     connection.kind = Connection::Kind::kEmulated;
     connection.scene = QString::fromStdString(scene);
-    connection.sceneActs = true;
-    window().bench().connectTo(connection);
+    connection.sceneScriptRuns = true;
+    window().state().connectTo(connection);
     if (!dock()->isVisible()) window().docks().show("Recognise");
     const bool told = QTest::qWaitFor(
         [&] {
@@ -105,10 +105,10 @@ class RecogniseWindowTest : public WindowTest {
           return answer().sure || answer().kind == RecognitionAnswer::Kind::kUnknown;
         },
         30'000);
-    const QString name = told ? answer().name() : "not told: " + answer().spoken();
-    window().bench().live.end();
+    const QString name = told ? answer().name() : "not told: " + answer().accessibleText();
+    window().state().live.end();
     EXPECT_TRUE(QTest::qWaitFor(
-        [&] { return window().bench().live.state() == LiveController::State::kNone; }, 20'000));
+        [&] { return window().state().live.state() == LiveController::State::kNone; }, 20'000));
     return name;
   }
 };

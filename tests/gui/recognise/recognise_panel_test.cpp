@@ -10,8 +10,8 @@
 #include "gui/recognise/check_page.h"
 #include "gui/recognise/confusion_view.h"
 #include "gui/recognise/recognise_fixture.h"
-#include "gui/recognise/teach_page.h"
 #include "gui/recognise/today_page.h"
+#include "gui/recognise/training_page.h"
 #include "gui/widgets/figures_table.h"
 
 namespace palpate::gui::recognise_panel_test {
@@ -24,7 +24,7 @@ TEST_F(RecognisePanelTest, WithoutAModelItSaysSo) {
   settle();
   panel_->desk().ask({graspsOf("pen", 1), std::nullopt, "a pen"});
   settle();
-  EXPECT_EQ(panel_->desk().answer().kind, Kind::kTrouble);
+  EXPECT_EQ(panel_->desk().answer().kind, Kind::kProblem);
   EXPECT_TRUE(panel_->desk().answer().text.startsWith("No model is chosen."));
   EXPECT_EQ(find<QLabel>("recogniseModel")->text(), "no model");
   EXPECT_FALSE(find<QPushButton>("tell")->isEnabled());
@@ -37,7 +37,7 @@ TEST_F(RecognisePanelTest, NamesAGraspWithItsRunnersUp) {
   const RecognitionAnswer& answer = panel_->desk().answer();
   EXPECT_EQ(answer.kind, Kind::kNamed) << answer.text.toStdString();
   EXPECT_EQ(answer.name(), "pen");
-  EXPECT_EQ(answer.word(), "sure");
+  EXPECT_EQ(answer.confidenceWord(), "sure");
   ASSERT_EQ(answer.best.size(), 3u);
   EXPECT_GT(answer.best[0].p, 0.9);
   EXPECT_GE(answer.best[1].p, answer.best[2].p);
@@ -53,7 +53,7 @@ TEST_F(RecognisePanelTest, WhatCanNotBeJudgedIsSaid) {
   const auto troubleOf = [&](const RecogniseQuestion& question) {
     panel_->desk().ask(question);
     settle();
-    EXPECT_EQ(panel_->desk().answer().kind, Kind::kTrouble);
+    EXPECT_EQ(panel_->desk().answer().kind, Kind::kProblem);
     return panel_->desk().answer().text.toStdString();
   };
   EXPECT_NE(troubleOf({pen, std::pair<std::size_t, std::size_t>(0, 15), ""}).find("No grasp"),
@@ -73,14 +73,14 @@ TEST_F(RecognisePanelTest, WhatCanNotBeJudgedIsSaid) {
   panel_->desk().openModel(folder_ / "damaged.json");
   settle();
   EXPECT_NE(find<QLabel>("recogniseModel")->text().indexOf("can't be used"), -1);
-  EXPECT_EQ(panel_->desk().answer().kind, Kind::kTrouble);
+  EXPECT_EQ(panel_->desk().answer().kind, Kind::kProblem);
 }
 
 TEST_F(RecognisePanelTest, WhatWasHeldTooShortIsNotSaidOfAnEmptyHand) {
   panel_->desk().setEmulated(true);
   settle();
   panel_->desk().sayTrouble("Held too short yet: ask again in a second.", kHeldNow);
-  panel_->desk().letGo();
+  panel_->desk().contactEnded();
   EXPECT_EQ(panel_->desk().answer().kind, Kind::kNothing);
   EXPECT_EQ(find<AnswerView>("answerView")->answer().kind, Kind::kNothing);
   EXPECT_FALSE(panel_->desk().answer().text.contains("too short"));
@@ -89,18 +89,19 @@ TEST_F(RecognisePanelTest, WhatWasHeldTooShortIsNotSaidOfAnEmptyHand) {
 TEST_F(RecognisePanelTest, WhatIsToldAdaptsTheDay) {
   panel_->desk().setEmulated(true);
   settle();
-  panel_->desk().changeDay([](RecognitionDay& day) { day.choose({}); });
+  panel_->desk().changeDay([](RecognitionSession& day) { day.choose({}); });
   panel_->desk().ask({graspsOf("pen", 1), std::nullopt, ""});
   settle();
   find<QPushButton>("tell")->click();
-  EXPECT_EQ(panel_->desk().day()->numTold(), 1u);
-  EXPECT_EQ(panel_->desk().day()->offset().origin, OffsetOrigin::kReferences);
-  EXPECT_EQ(panel_->desk().answer().word(), "not sure") << "a single object makes nothing sure";
+  EXPECT_EQ(panel_->desk().day()->numLabelled(), 1u);
+  EXPECT_EQ(panel_->desk().day()->offset().origin, OffsetSource::kReferences);
+  EXPECT_EQ(panel_->desk().answer().confidenceWord(), "not sure")
+      << "a single object makes nothing sure";
   EXPECT_TRUE(panel_->desk().answer().unsure.contains("single object"));
   EXPECT_TRUE(find<QLabel>("todayOffset")->text().contains("1 named grasp, 1 object"));
   EXPECT_EQ(find<FiguresTable>("todayGrasps")->item(0, 3)->text(), "pen");
   find<QPushButton>("todayForget")->click();
-  EXPECT_EQ(panel_->desk().day()->numTold(), 0u);
+  EXPECT_EQ(panel_->desk().day()->numLabelled(), 0u);
 }
 
 TEST_F(RecognisePanelTest, ATypedOffsetIsTaken) {
@@ -113,7 +114,7 @@ TEST_F(RecognisePanelTest, ATypedOffsetIsTaken) {
   EXPECT_EQ(panel_->desk().answer().name(), "ball");
   source->setCurrentIndex(1);
   emit source->activated(1);
-  EXPECT_EQ(panel_->desk().day()->offset().origin, OffsetOrigin::kUnknown);
+  EXPECT_EQ(panel_->desk().day()->offset().origin, OffsetSource::kUnknown);
   EXPECT_FALSE(panel_->desk().answer().sure);
 }
 
@@ -178,26 +179,26 @@ TEST_F(RecognisePanelTest, CapturedGraspsGoIntoTheFolderAndOutAgain) {
   panel_->teach().take(ball);
   settle();
   ASSERT_EQ(panel_->teaching().clips().size(), 1u);
-  const TaughtClip& clip = panel_->teaching().clips()[0];
-  EXPECT_EQ(clip.state, TaughtClip::State::kAccepted) << clip.trouble.toStdString();
+  const TrainingClip& clip = panel_->teaching().clips()[0];
+  EXPECT_EQ(clip.state, TrainingClip::State::kAccepted) << clip.problem.toStdString();
   EXPECT_EQ(clip.path.parent_path(), folder_ / "mine" / "hard_ball");
   EXPECT_TRUE(std::filesystem::exists(clip.path));
   EXPECT_EQ(openRecording(clip.path).numFrames(), ball.numFrames());
   const auto kept = clip.path;
   find<QPushButton>("teachAct")->click();
-  EXPECT_EQ(clip.state, TaughtClip::State::kTakenOut);
+  EXPECT_EQ(clip.state, TrainingClip::State::kTakenOut);
   EXPECT_FALSE(std::filesystem::exists(kept));
   EXPECT_TRUE(std::filesystem::exists(clip.path)) << "nothing is deleted";
   EXPECT_EQ(find<QPushButton>("teachAct")->text(), "Put back");
   find<QPushButton>("teachAct")->click();
   settle();
-  EXPECT_EQ(clip.state, TaughtClip::State::kAccepted);
+  EXPECT_EQ(clip.state, TrainingClip::State::kAccepted);
   EXPECT_TRUE(std::filesystem::exists(kept));
   // What is no grasp waits.
   ProfileBuilder nothing(sdh2().layout);
   nothing.addFrame(1'400'000'000'000'000, emptyFrame().values);
   panel_->teach().take(nothing.finish({}));
-  EXPECT_EQ(panel_->teaching().clips()[1].state, TaughtClip::State::kWaiting);
+  EXPECT_EQ(panel_->teaching().clips()[1].state, TrainingClip::State::kWaiting);
   EXPECT_EQ(find<QPushButton>("teachAct")->text(), "Accept");
 }
 
@@ -210,7 +211,7 @@ TEST_F(RecognisePanelTest, APhotoIsFoundByItsName) {
   EXPECT_EQ(photoOf("foam ball", {folder_.path()}).filename(), "any.png");
   photo.save(QString::fromStdString((folder_ / "Foam_ball.jpg").string()));
   EXPECT_EQ(photoOf("foam ball", {{}, folder_.path()}).filename(), "Foam_ball.jpg");
-  PhotoShelf shelf;
+  PhotoCache shelf;
   shelf.setFolders({folder_.path()});
   EXPECT_EQ(shelf.photo("foam ball").size(), QSize(40, 20));
   EXPECT_TRUE(shelf.photo("pen").isNull());
@@ -229,7 +230,7 @@ TEST_F(RecognisePanelTest, ThePhotoOfTheFolderIsDrawn) {
   auto* view = find<AnswerView>("answerView");
   const QColor paint(255, 0, 255);  // of nothing else
   const auto painted = [&] {
-    panel_->desk().changeDay([](RecognitionDay& day) { day.choose({}); });
+    panel_->desk().changeDay([](RecognitionSession& day) { day.choose({}); });
     panel_->desk().ask({graspsOf("pen", 1), std::nullopt, ""});
     settle();
     EXPECT_EQ(panel_->desk().answer().name(), "pen");

@@ -39,10 +39,10 @@ TEST_F(RecogniseSlowTest, NothingMovesAfterAStopWhileTheZeroIsTaken) {
   Connection connection;
   connection.kind = Connection::Kind::kEmulated;
   connection.scene = "empty";
-  window().bench().connectTo(connection);
-  const auto status = [&] { return window().bench().live.source()->control->status(); };
+  window().state().connectTo(connection);
+  const auto status = [&] { return window().state().live.source()->control->status(); };
   ASSERT_TRUE(
-      await([&] { return window().bench().subject.isLive() && status().cannotReact.empty(); }));
+      await([&] { return window().state().displayed.isLive() && status().cannotReact.empty(); }));
   const auto ask = [&] { emit window().findChild<TodayPage*>()->zeroAsked(); };
   const auto closed = [&] {
     return status().phase == GraspPhase::kIdle && status().last &&
@@ -68,17 +68,17 @@ TEST_F(RecogniseSlowTest, TheZeroOfTheEmptyHandIsTakenAndUsed) {
   // 3 mm off today's.
   TrainedModel model = loadModel(testing::dataFolder() / "emulated_objects.json");
   ASSERT_TRUE(model.trainingZero);
-  forgetToday(model);
+  resetSession(model);
   model.trainingZero->mm -= 3.0;
   saveModel(model, folder_ / "own.json");
   Connection connection;
   connection.kind = Connection::Kind::kEmulated;
   connection.scene = "empty";
-  window().bench().connectTo(connection);
+  window().state().connectTo(connection);
   window().docks().show("Recognise");
-  const auto status = [&] { return window().bench().live.source()->control->status(); };
+  const auto status = [&] { return window().state().live.source()->control->status(); };
   ASSERT_TRUE(
-      await([&] { return window().bench().subject.isLive() && status().cannotReact.empty(); }));
+      await([&] { return window().state().displayed.isLive() && status().cannotReact.empty(); }));
   settle();
   panel().desk().openModel(folder_ / "own.json");
   settle();
@@ -95,7 +95,7 @@ TEST_F(RecogniseSlowTest, TheZeroOfTheEmptyHandIsTakenAndUsed) {
   EXPECT_TRUE(await(hear)) << (status().last ? status().last->text : "");
   ASSERT_TRUE(panel().desk().day()->hasZero()) << said;
   const SessionOffset& offset = panel().desk().day()->offset();
-  EXPECT_EQ(offset.origin, OffsetOrigin::kEmptyHand);
+  EXPECT_EQ(offset.origin, OffsetSource::kEmptyHand);
   EXPECT_TRUE(offset.trusted);
   EXPECT_NEAR(offset.mm, 3.0, 2.0 * offset.sdMm);
   EXPECT_LE(offset.sdMm, 1.0);
@@ -104,7 +104,7 @@ TEST_F(RecogniseSlowTest, TheZeroOfTheEmptyHandIsTakenAndUsed) {
   panel().desk().ask({graspsOf("pen", 1), std::nullopt, "a pen"});
   settle();
   EXPECT_TRUE(answer().offset.contains("empty hand")) << answer().offset.toStdString();
-  EXPECT_EQ(panel().desk().day()->adapted().todayZero->origin, "the connected hand");
+  EXPECT_EQ(panel().desk().day()->adapted().sessionZero->origin, "the connected hand");
 }
 
 // A series of a thing that the hand grasps again and again: each grasp becomes a clip by itself,
@@ -129,9 +129,9 @@ TEST_F(RecogniseSlowTest, ASeriesIsCapturedWhileTheHandGrasps) {
   Connection connection;
   connection.kind = Connection::Kind::kEmulated;
   connection.scene = QString::fromStdString((folder_ / "series.json").string());
-  connection.sceneActs = true;
-  window().bench().connectTo(connection);
-  ASSERT_TRUE(await([&] { return window().bench().subject.isLive(); }));
+  connection.sceneScriptRuns = true;
+  window().state().connectTo(connection);
+  ASSERT_TRUE(await([&] { return window().state().displayed.isLive(); }));
   panel().showPage("Teach");
   find<QLineEdit>("teachObject")->setText("thick pen");
   ASSERT_TRUE(await([&] { return find<QPushButton>("teachCapture")->isEnabled(); }));
@@ -141,12 +141,12 @@ TEST_F(RecogniseSlowTest, ASeriesIsCapturedWhileTheHandGrasps) {
   find<QPushButton>("teachCapture")->click();  // Stop
   settle();
   std::set<std::filesystem::path> files;
-  for (const TaughtClip& clip : clips) {
+  for (const TrainingClip& clip : clips) {
     EXPECT_EQ(clip.object, "thick pen");
     EXPECT_GT(clip.seconds, 2.0);
     EXPECT_GT(clip.quality, 0.0);
     EXPECT_LE(clip.quality, 1.0);
-    ASSERT_EQ(clip.state, TaughtClip::State::kAccepted) << clip.trouble.toStdString();
+    ASSERT_EQ(clip.state, TrainingClip::State::kAccepted) << clip.problem.toStdString();
     EXPECT_EQ(clip.path.parent_path(), folder / "thick_pen");
     files.insert(clip.path);
     // What lies there is one whole grasp.
@@ -160,8 +160,8 @@ TEST_F(RecogniseSlowTest, ASeriesIsCapturedWhileTheHandGrasps) {
   EXPECT_FALSE(std::filesystem::exists(newest)) << "undone,";
   EXPECT_TRUE(std::filesystem::exists(clips[1].path)) << "not deleted";
   EXPECT_TRUE(std::filesystem::exists(clips[0].path));
-  window().bench().live.end();
-  EXPECT_TRUE(await([&] { return window().bench().live.state() == LiveController::State::kNone; }));
+  window().state().live.end();
+  EXPECT_TRUE(await([&] { return window().state().live.state() == LiveController::State::kNone; }));
 }
 
 }  // namespace

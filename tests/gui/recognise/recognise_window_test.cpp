@@ -10,8 +10,8 @@
 #include "gui/recognise/answer_view.h"
 #include "gui/recognise/ask_page.h"
 #include "gui/recognise/check_page.h"
+#include "gui/recognise/presentation_window.h"
 #include "gui/recognise/recognise_fixture.h"
-#include "gui/recognise/show_window.h"
 #include "gui/timeline/event_rows.h"
 #include "gui/timeline/timeline_chart.h"
 #include "gui/timeline/timeline_feature.h"
@@ -43,14 +43,14 @@ TEST_F(RecogniseWindowTest, NamesTheSelectedGrasp) {
   ASSERT_TRUE(window().feature<TimelineFeature>().panel().chart().selection());
   press(Qt::Key_Q);
   settle();
-  EXPECT_EQ(answer().name(), "pen") << answer().spoken().toStdString();
+  EXPECT_EQ(answer().name(), "pen") << answer().accessibleText().toStdString();
   EXPECT_TRUE(answer().of.startsWith("pen.palpate, ")) << answer().of.toStdString();
 }
 
 TEST_F(RecogniseWindowTest, AnswersOnTheWholeScreen) {
   openIt(record("pen"));
   press(Qt::Key_Q, Qt::ShiftModifier);
-  auto* full = window().findChild<ShowWindow*>("showWindow");
+  auto* full = window().findChild<PresentationWindow*>("showWindow");
   ASSERT_NE(full, nullptr);
   EXPECT_TRUE(full->isFullScreen());
   panel().desk().useEmulatedModel();
@@ -61,7 +61,7 @@ TEST_F(RecogniseWindowTest, AnswersOnTheWholeScreen) {
   EXPECT_EQ(full->view().answer().name(), "pen");
   QTest::keyClick(full, Qt::Key_Escape);
   EXPECT_TRUE(QTest::qWaitFor(
-      [&] { return window().findChild<ShowWindow*>("showWindow") == nullptr; }, 5'000));
+      [&] { return window().findChild<PresentationWindow*>("showWindow") == nullptr; }, 5'000));
 }
 
 TEST_F(RecogniseWindowTest, AGraspOfTheCheckIsOpenedAndSelected) {
@@ -70,13 +70,14 @@ TEST_F(RecogniseWindowTest, AGraspOfTheCheckIsOpenedAndSelected) {
   emit panel().check().graspAsked(ball, 60, 200);
   ASSERT_TRUE(QTest::qWaitFor(
       [&] {
-        return window().bench().subject.behind() && window().bench().subject.behind()->path == ball;
+        return window().state().displayed.behind() &&
+               window().state().displayed.behind()->path == ball;
       },
       20'000));
   const auto& selection = window().feature<TimelineFeature>().panel().chart().selection();
   ASSERT_TRUE(selection);
-  EXPECT_NEAR(selection->fromS, window().bench().subject.behind()->timeAt(60), 1e-6);
-  EXPECT_NEAR(selection->toS, window().bench().subject.behind()->timeAt(200), 1e-6);
+  EXPECT_NEAR(selection->fromS, window().state().displayed.behind()->timeAt(60), 1e-6);
+  EXPECT_NEAR(selection->toS, window().state().displayed.behind()->timeAt(200), 1e-6);
 }
 
 TEST_F(RecogniseWindowTest, NamesWhatTheEmulatedHandHolds) { EXPECT_EQ(heldName("pen"), "pen"); }
@@ -88,12 +89,14 @@ class RecogniseLiveTest : public RecogniseWindowTest {
     Connection connection;
     connection.kind = Connection::Kind::kEmulated;
     connection.scene = "pen";
-    window().bench().connectTo(connection);
+    window().state().connectTo(connection);
     EXPECT_TRUE(QTest::qWaitFor(
-        [&] { return window().bench().subject.isLive() && control().status().cannotReact.empty(); },
+        [&] {
+          return window().state().displayed.isLive() && control().status().cannotReact.empty();
+        },
         20'000));
   }
-  GraspControl& control() { return *window().bench().live.source()->control; }
+  GraspControl& control() { return *window().state().live.source()->control; }
   void moveTo(double closeRatio) {
     GraspRequest request;
     request.preshape = "pinch-parallel";
@@ -114,7 +117,7 @@ TEST_F(RecogniseLiveTest, AskedByItselfWhileSomethingIsHeldItAnswers) {
   find<QCheckBox>("recogniseByItself")->setChecked(true);
   moveTo(1.0);
   EXPECT_TRUE(await([&] { return answer().name() == "pen" && answer().of == "held now"; }))
-      << answer().spoken().toStdString();
+      << answer().accessibleText().toStdString();
 }
 
 TEST_F(RecogniseLiveTest, ThatNothingIsHeldIsNotSaidAnyMoreWhenSomethingIs) {
@@ -134,7 +137,7 @@ TEST_F(RecogniseLiveTest, WhatWasLetGoWhileTheWindowWasBusyIsNotHeldNow) {
   byItself->setChecked(true);
   moveTo(1.0);
   ASSERT_TRUE(await([&] { return answer().of == kHeldNow && answer().name() == "pen"; }))
-      << answer().spoken().toStdString();
+      << answer().accessibleText().toStdString();
   byItself->setChecked(false);
   panel().desk().settle();
   const auto moveBeside = [&](double closeRatio) {
@@ -158,23 +161,24 @@ TEST_F(RecogniseLiveTest, WhatWasLetGoWhileTheWindowWasBusyIsNotHeldNow) {
 TEST_F(RecogniseLiveTest, TheShowNamesWhatIsHeldNowAndNothingThatWasLetGo) {
   moveTo(1.0);
   press(Qt::Key_Q, Qt::ShiftModifier);
-  auto* full = window().findChild<ShowWindow*>("showWindow");
+  auto* full = window().findChild<PresentationWindow*>("showWindow");
   ASSERT_NE(full, nullptr);
   ASSERT_TRUE(await([&] { return full->view().answer().name() == "pen"; }));
   moveTo(0.0);
   EXPECT_TRUE(await([&] {
     return full->view().answer().kind == RecognitionAnswer::Kind::kNothing &&
            full->view().answer().text == "Hold something.";
-  })) << full->view().answer().spoken().toStdString();
+  })) << full->view().answer().accessibleText().toStdString();
   // Asked for, the last grasp is named in the dock, which says so; an audience sees an empty hand.
   QTest::keyClick(full, Qt::Key_Q);
   ASSERT_TRUE(await([&] { return answer().name() == "pen" && answer().of == "the last grasp"; }));
   EXPECT_EQ(full->view().answer().name(), "");
   // A show that begins with an empty hand names nothing either.
   QTest::keyClick(full, Qt::Key_Escape);
-  ASSERT_TRUE(await([&] { return window().findChild<ShowWindow*>("showWindow") == nullptr; }));
+  ASSERT_TRUE(
+      await([&] { return window().findChild<PresentationWindow*>("showWindow") == nullptr; }));
   press(Qt::Key_Q, Qt::ShiftModifier);
-  full = window().findChild<ShowWindow*>("showWindow");
+  full = window().findChild<PresentationWindow*>("showWindow");
   ASSERT_NE(full, nullptr);
   EXPECT_EQ(full->view().answer().name(), "");
 }

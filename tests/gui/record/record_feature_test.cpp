@@ -1,15 +1,15 @@
 // Recording over the bench: what is offered when one has ended.
 #include "gui/record/record_feature.h"
 
-#include "gui/bench/bench_fixture.h"
 #include "gui/widgets/offer_strip.h"
+#include "gui/window_state/window_state_fixture.h"
 
 namespace palpate::gui::record_feature_test {
 namespace {
 
-class RecordFeatureTest : public BenchTest {
+class RecordFeatureTest : public WindowStateTest {
  protected:
-  RecordFeatureTest() : feature_(*bench_, &actionsOf_) {}
+  RecordFeatureTest() : feature_(*windowState_, &actionsOf_) {}
   QString offered() { return qobject_cast<OfferStrip*>(feature_.strips().front().widget)->text(); }
   void endRecording(std::int64_t gaps = 0) {
     RecordingReport report;
@@ -17,7 +17,7 @@ class RecordFeatureTest : public BenchTest {
     report.paths = {folder_ / "run_001.palpate"};
     report.frames = 412;
     report.complete = true;
-    emit bench_->live.recordingEnded(report);
+    emit windowState_->live.recordingEnded(report);
   }
   RecordFeature feature_;
 };
@@ -25,7 +25,7 @@ class RecordFeatureTest : public BenchTest {
 TEST_F(RecordFeatureTest, WhatWasRecordedIsOffered) {
   endRecording();
   EXPECT_TRUE(offered().startsWith("Recorded run_001.palpate")) << offered().toStdString();
-  EXPECT_TRUE(bench_->actions.at("openRecorded")->isEnabled());
+  EXPECT_TRUE(windowState_->actions.at("openRecorded")->isEnabled());
 }
 
 TEST_F(RecordFeatureTest, ThatNothingIsLostIsNotSaidBesideAGap) {
@@ -36,7 +36,7 @@ TEST_F(RecordFeatureTest, ThatNothingIsLostIsNotSaidBesideAGap) {
 }
 
 TEST_F(RecordFeatureTest, AWindowThatClosesOffersNothingAnyMore) {
-  bench_->messages.announce("Closing");
+  windowState_->messages.announce("Closing");
   endRecording();
   EXPECT_EQ(offered(), "Closing");
 }

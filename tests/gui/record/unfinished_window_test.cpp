@@ -28,7 +28,7 @@ class UnfinishedWindowTest : public WindowTest {
   }
   // Waits for the answer: how many there are.
   qsizetype look() {
-    QSignalSpy found(&window().feature<RecordFeature>().unfinished(), &UnfinishedFinder::found);
+    QSignalSpy found(&window().feature<RecordFeature>().unfinished(), &RecoveryFinder::found);
     window().feature<RecordFeature>().offerUnfinished();
     return found.wait(20'000) ? found[0][0].toStringList().size() : -1;
   }

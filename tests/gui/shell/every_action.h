@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "control/emulated_bench.h"
-#include "gui/recognise/show_window.h"
+#include "gui/recognise/presentation_window.h"
 #include "gui/shell/main_window.h"
 #include "testing/heartbeat.h"
 #include "testing/testing.h"
@@ -143,10 +143,10 @@ class PressedWindow {
   }
 
   MainWindow& window() { return *window_; }
-  auto& bench() { return bench_; }
+  auto& state() { return bench_; }
   testing::Heartbeat& heartbeat() { return heartbeat_; }
   GraspControl* control() {
-    LiveSource* source = window_->bench().live.source();
+    LiveSource* source = window_->state().live.source();
     return source ? source->control.get() : nullptr;
   }
 
@@ -154,13 +154,13 @@ class PressedWindow {
   bool bring(State state) {
     if (!window_->isVisible()) restart();
     if (bench_.unplugged_ && state != State::kUnplugged) replug();
-    auto* show = window_->findChild<ShowWindow*>();
+    auto* show = window_->findChild<PresentationWindow*>();
     if (show && state != State::kShow) {
       show->close();
-      if (!await([&] { return !window_->findChild<ShowWindow*>(); })) return false;
+      if (!await([&] { return !window_->findChild<PresentationWindow*>(); })) return false;
     }
-    const ActionBook& actions = window_->bench().actions;
-    if (window_->bench().comparing.on() && state != State::kCompare)
+    const ActionRegistry& actions = window_->state().actions;
+    if (window_->state().comparison.on() && state != State::kCompare)
       actions.at("compare")->trigger();
     switch (state) {
       case State::kNothing:
@@ -171,8 +171,8 @@ class PressedWindow {
         return disconnect() && openRecordings(2);
       case State::kCompare:
         if (!disconnect() || !openRecordings(2)) return false;
-        if (!window_->bench().comparing.on()) actions.at("compare")->trigger();
-        return await([&] { return window_->bench().comparing.on(); });
+        if (!window_->state().comparison.on()) actions.at("compare")->trigger();
+        return await([&] { return window_->state().comparison.on(); });
       case State::kLive:
         return idle() && endRecording();
       case State::kMoving:
@@ -181,21 +181,21 @@ class PressedWindow {
         return endRecording() && hold();
       case State::kRecordingLive:
         if (!idle()) return false;
-        if (!window_->bench().live.recording()) actions.at("record")->trigger();
-        return await([&] { return window_->bench().live.health().recorder.framesOnDisk > 0; });
+        if (!window_->state().live.recording()) actions.at("record")->trigger();
+        return await([&] { return window_->state().live.health().recorder.framesOnDisk > 0; });
       case State::kUnplugged:
         if (bench_.unplugged_) {
-          if (isOurs() && window_->bench().subject.isLive()) return true;
+          if (isOurs() && window_->state().displayed.isLive()) return true;
           replug();
         }
         if (!idle() || !endRecording()) return false;
         bench_.hand->unplug();
         bench_.unplugged_ = true;
-        return await([&] { return window_->bench().live.stale(); });
+        return await([&] { return window_->state().live.stale(); });
       case State::kShow:
         if (!idle()) return false;
         if (!show) actions.at("showMode")->trigger();
-        return window_->findChild<ShowWindow*>() != nullptr;
+        return window_->findChild<PresentationWindow*>() != nullptr;
     }
     return false;
   }
@@ -236,7 +236,7 @@ class PressedWindow {
               : !(what.action && what.action->isEnabled()) &&
                     !(what.button && what.button->isEnabled() && what.button->isVisible()))
       return std::nullopt;
-    auto* show = window_->findChild<ShowWindow*>();
+    auto* show = window_->findChild<PresentationWindow*>();
     QWidget* front = show ? static_cast<QWidget*>(show) : window_.get();
     QApplication::setActiveWindow(front);
     closer_.begin();
@@ -278,22 +278,22 @@ class PressedWindow {
 
   void restart() {
     end();
-    WindowSurroundings surroundings;
-    surroundings.dataFolder = folder_ / "data";
-    surroundings.settingsPath = QString::fromStdString((folder_ / "palpate.ini").string());
-    window_ = std::make_unique<MainWindow>(surroundings);
+    WindowEnvironment environment;
+    environment.dataFolder = folder_ / "data";
+    environment.settingsPath = QString::fromStdString((folder_ / "palpate.ini").string());
+    window_ = std::make_unique<MainWindow>(environment);
     window_->resize(1440, 900);
     window_->show();
     QApplication::setActiveWindow(window_.get());
     // Serial ports of this machine are nobody's here.
-    window_->bench().questions.connection = [](const Connection&) {
+    window_->state().prompts.connection = [](const Connection&) {
       return std::optional<Connection>();
     };
-    window_->bench().questions.endRecording = [] { return true; };
-    window_->bench().questions.unsaved = [](const QString&) {
-      return Questions::Unsaved::kDiscard;
+    window_->state().prompts.endRecording = [] { return true; };
+    window_->state().prompts.unsaved = [](const QString&) {
+      return UserPrompts::Unsaved::kDiscard;
     };
-    window_->bench().questions.recording = [this](RecordingSettings settings, const QString&) {
+    window_->state().prompts.recording = [this](RecordingSettings settings, const QString&) {
       settings.folder = QString::fromStdString((folder_ / "runs").string());
       return std::optional(settings);
     };
@@ -327,10 +327,10 @@ class PressedWindow {
   }
   void end() {
     if (!window_) return;
-    window_->bench().questions.unsaved = [](const QString&) {
-      return Questions::Unsaved::kDiscard;
+    window_->state().prompts.unsaved = [](const QString&) {
+      return UserPrompts::Unsaved::kDiscard;
     };
-    window_->bench().questions.endRecording = [] { return true; };
+    window_->state().prompts.endRecording = [] { return true; };
     window_->close();
     EXPECT_TRUE(await([&] { return !window_->isVisible(); }));
     window_.reset();
@@ -341,38 +341,38 @@ class PressedWindow {
       if (auto* dialog = qobject_cast<QDialog*>(each); dialog && dialog->isVisible())
         dialog->reject();
     // A window that is about to close closes.
-    if (window_->bench().live.state() == LiveController::State::kEnding)
-      await([&] { return window_->bench().live.state() != LiveController::State::kEnding; });
+    if (window_->state().live.state() == LiveController::State::kEnding)
+      await([&] { return window_->state().live.state() != LiveController::State::kEnding; });
     QCoreApplication::processEvents();
   }
   bool disconnect() {
-    if (window_->bench().live.state() == LiveController::State::kNone) return true;
-    window_->bench().live.end();
-    return await([&] { return window_->bench().live.state() == LiveController::State::kNone; });
+    if (window_->state().live.state() == LiveController::State::kNone) return true;
+    window_->state().live.end();
+    return await([&] { return window_->state().live.state() == LiveController::State::kNone; });
   }
   bool closeRecordings(std::size_t left) {
-    for (int i = 0; window_->bench().recordings.all().size() > left && i < 20; ++i)
-      window_->bench().actions.at("closeRecording")->trigger();
-    return window_->bench().recordings.all().size() <= left;
+    for (int i = 0; window_->state().recordings.all().size() > left && i < 20; ++i)
+      window_->state().actions.at("closeRecording")->trigger();
+    return window_->state().recordings.all().size() <= left;
   }
   bool openRecordings(std::size_t wanted) {
     std::vector<std::filesystem::path> files{folder_ / "a.dsa", folder_ / "b.dsa"};
     files.resize(wanted);
     const auto open = [&](const std::filesystem::path& file) {
-      return std::any_of(window_->bench().recordings.all().begin(),
-                         window_->bench().recordings.all().end(),
+      return std::any_of(window_->state().recordings.all().begin(),
+                         window_->state().recordings.all().end(),
                          [&](const auto& each) { return each->path == file; });
     };
     std::erase_if(files, open);
-    if (!files.empty()) window_->bench().open(files);
+    if (!files.empty()) window_->state().open(files);
     return await([&] {
-      return !window_->bench().opener.busy() && window_->bench().subject.behind() &&
-             window_->bench().recordings.all().size() >= wanted;
+      return !window_->state().opener.busy() && window_->state().displayed.behind() &&
+             window_->state().recordings.all().size() >= wanted;
     });
   }
   bool isOurs() const {
-    return window_->bench().live.source() &&
-           window_->bench().live.connection().dsaPort.toStdString() == bench_.hand->dsaPort();
+    return window_->state().live.source() &&
+           window_->state().live.connection().dsaPort.toStdString() == bench_.hand->dsaPort();
   }
   // Connected to our hand, shown, and nothing moves.
   bool idle() {
@@ -382,10 +382,10 @@ class PressedWindow {
       connection.kind = Connection::Kind::kPorts;
       connection.dsaPort = QString::fromStdString(bench_.hand->dsaPort());
       connection.sdhPort = QString::fromStdString(bench_.hand->sdhPort());
-      window_->bench().connectTo(connection);
+      window_->state().connectTo(connection);
       if (!await([&] { return isOurs(); })) return false;
     }
-    if (!window_->bench().subject.isLive()) window_->bench().actions.at("live")->trigger();
+    if (!window_->state().displayed.isLive()) window_->state().actions.at("live")->trigger();
     if (control()->status().phase != GraspPhase::kIdle) control()->stop();
     return await([&] {
       return control() && control()->status().phase == GraspPhase::kIdle &&
@@ -393,9 +393,9 @@ class PressedWindow {
     });
   }
   bool endRecording() {
-    if (!window_->bench().live.recording()) return true;
-    window_->bench().live.stopRecording();
-    return await([&] { return !window_->bench().live.recording(); });
+    if (!window_->state().live.recording()) return true;
+    window_->state().live.stopRecording();
+    return await([&] { return !window_->state().live.recording(); });
   }
   bool begin(GraspRequest request) {
     try {
@@ -406,7 +406,7 @@ class PressedWindow {
     }
   }
   bool move() {
-    if (isOurs() && !bench_.unplugged_ && window_->bench().subject.isLive() && bench_.handMoves())
+    if (isOurs() && !bench_.unplugged_ && window_->state().displayed.isLive() && bench_.handMoves())
       return true;
     for (const double ratio : {1.0, 0.0}) {
       if (!idle()) return false;
@@ -424,10 +424,10 @@ class PressedWindow {
   }
   bool holds() { return control() && control()->status().phase == GraspPhase::kHolding; }
   bool hold() {
-    if (isOurs() && window_->bench().subject.isLive() && holds()) return true;
+    if (isOurs() && window_->state().displayed.isLive() && holds()) return true;
     if (!idle()) return false;
     // Whatever was pressed before: the hand feels with all of its taxels, as it is delivered.
-    window_->bench().actions.at("scanAll")->trigger();
+    window_->state().actions.at("scanAll")->trigger();
     if (auto* reset = window_->findChild<QAbstractButton*>("resetSettings")) reset->click();
     if (!await([&] { return control()->status().cannotReact.empty(); })) return false;
     GraspRequest request;
@@ -473,10 +473,10 @@ inline std::size_t pressEverything(PressedWindow& pressed,
       slow.back().name = std::string(PressedWindow::nameOf(state)) + ": " + answered->name;
     }
     if (state != PressedWindow::State::kMoving || !pressed.window().isVisible() ||
-        !pressed.bench().handMoves())
+        !pressed.state().handMoves())
       continue;
     QTest::keyClick(&pressed.window(), Qt::Key_Escape);
-    if (!PressedWindow::await([&] { return !pressed.bench().handMoves(); })) {
+    if (!PressedWindow::await([&] { return !pressed.state().handMoves(); })) {
       ADD_FAILURE() << "Esc";
       return numAnswered;
     }

@@ -69,7 +69,7 @@ class Monkey {
       case 3:
         return type();
       case 4:
-        return pressed_.bench().unplugged() ? pressed_.replug() : pluck();
+        return pressed_.state().unplugged() ? pressed_.replug() : pluck();
       case 5:
         if (below(4) == 0) pressed_.bring(PressedWindow::kAllStates.at(below(10)));
         return;

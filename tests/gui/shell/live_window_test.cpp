@@ -15,15 +15,15 @@
 #include "control/emulated_bench.h"
 #include "gui/connect/connect_feature.h"
 #include "gui/hand/hand_dock.h"
+#include "gui/hand3d/hand_panel.h"
+#include "gui/hand3d/space_feature.h"
 #include "gui/inspect/inspect_panel.h"
 #include "gui/inspect/matrix_table.h"
 #include "gui/matrices/matrices_feature.h"
 #include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
-#include "gui/slip/slip_drawing.h"
 #include "gui/slip/slip_panel.h"
-#include "gui/space/hand_panel.h"
-#include "gui/space/space_feature.h"
+#include "gui/slip/slip_view.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/live_chart.h"
 #include "gui/timeline/timeline_chart.h"
@@ -44,7 +44,7 @@ class LiveWindowTest : public WindowTest {
   }
   void ready() {
     start();
-    window().bench().questions.recording = [this](RecordingSettings settings, const QString&) {
+    window().state().prompts.recording = [this](RecordingSettings settings, const QString&) {
       ++asked_;
       settings.folder = QString::fromStdString((folder_ / "runs").string());
       settings.nameTemplate = "{object}_{run}";
@@ -52,7 +52,7 @@ class LiveWindowTest : public WindowTest {
       settings.markLabels[2] = "slip";
       return std::optional(settings);
     };
-    window().bench().questions.endRecording = [this] {
+    window().state().prompts.endRecording = [this] {
       ++askedToEnd_;
       return mayEnd_;
     };
@@ -61,8 +61,8 @@ class LiveWindowTest : public WindowTest {
     return QTest::qWaitFor(condition, 20'000);
   }
   void connectTo(const Connection& connection) {
-    window().bench().connectTo(connection);
-    ASSERT_TRUE(await([&] { return !live().stale() && window().bench().subject.isLive(); }));
+    window().state().connectTo(connection);
+    ASSERT_TRUE(await([&] { return !live().stale() && window().state().displayed.isLive(); }));
   }
   void connectEmulated(const QString& scene = "ball") {
     Connection connection;
@@ -70,7 +70,7 @@ class LiveWindowTest : public WindowTest {
     connection.scene = scene;
     connectTo(connection);
   }
-  void connectBench() {
+  void connectEmulatedHand() {
     bench_ = std::make_unique<testing::EmulatedBench>(testing::handWith("ball"));
     Connection connection;
     connection.kind = Connection::Kind::kPorts;
@@ -79,7 +79,7 @@ class LiveWindowTest : public WindowTest {
     connectTo(connection);
     ASSERT_TRUE(await([&] { return live().source()->control->status().cannotReact.empty(); }));
   }
-  LiveController& live() { return window().bench().live; }
+  LiveController& live() { return window().state().live; }
   MatricesView& view() { return window().feature<MatricesFeature>().panel().view(); }
   LiveChart& chart() { return *window().findChild<LiveChart*>(); }
   QString offered() {
@@ -132,7 +132,7 @@ TEST_F(LiveWindowTest, NothingIsConnectedWithoutBeingAsked) {
 }
 
 TEST_F(LiveWindowTest, AReactiveGraspIsFeltSeenAndStopped) {
-  connectBench();
+  connectEmulatedHand();
   EXPECT_FALSE(bench_->handMoves()) << "connecting moves nothing";
   click("reactiveGrasp");
   ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
@@ -148,14 +148,14 @@ TEST_F(LiveWindowTest, AReactiveGraspIsFeltSeenAndStopped) {
 }
 
 TEST_F(LiveWindowTest, EscapeStopsTheHandWhateverIsShown) {
-  connectBench();
+  connectEmulatedHand();
   click("graspHand");
   ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
   open({"good.dsa"});
-  EXPECT_FALSE(window().bench().subject.isLive());
+  EXPECT_FALSE(window().state().displayed.isLive());
   press(Qt::Key_Escape);
   ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
-  EXPECT_NE(window().bench().subject.behind(), nullptr)
+  EXPECT_NE(window().state().displayed.behind(), nullptr)
       << "Escape stopped the hand and did nothing else";
 }
 
@@ -186,9 +186,9 @@ TEST_F(LiveWindowTest, RecordsWithMarksAndOpensWhatWasRecorded) {
   EXPECT_GT(profile.numAngles(), 0u);
 
   click("offerAccept");
-  EXPECT_TRUE(await([&] { return window().bench().opener.numWaiting() == 0 && reads_ > 0; }));
+  EXPECT_TRUE(await([&] { return window().state().opener.numWaiting() == 0 && reads_ > 0; }));
   press(Qt::Key_F6);
-  EXPECT_TRUE(window().bench().subject.isLive());
+  EXPECT_TRUE(window().state().displayed.isLive());
 }
 
 TEST_F(LiveWindowTest, ARecordingGoesOnWhileAnotherIsLookedAt) {
@@ -196,13 +196,13 @@ TEST_F(LiveWindowTest, ARecordingGoesOnWhileAnotherIsLookedAt) {
   press(Qt::Key_R, Qt::ControlModifier);
   ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 0; }));
   open({"good.dsa"});
-  EXPECT_FALSE(window().bench().subject.isLive());
+  EXPECT_FALSE(window().state().displayed.isLive());
   EXPECT_TRUE(actions().at("play")->isEnabled()) << "the space bar plays now";
   EXPECT_FALSE(actions().at("mark")->isEnabled());
   const auto before = live().health().recorder.framesOnDisk;
   ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > before + 5; }));
   press(Qt::Key_F6);
-  EXPECT_TRUE(window().bench().subject.isLive());
+  EXPECT_TRUE(window().state().displayed.isLive());
   EXPECT_TRUE(actions().at("mark")->isEnabled());
   press(Qt::Key_Space);
   ASSERT_TRUE(await([&] { return chart().numEvents() == 1; }));
@@ -210,13 +210,13 @@ TEST_F(LiveWindowTest, ARecordingGoesOnWhileAnotherIsLookedAt) {
   press(Qt::Key_F6);
   EXPECT_EQ(chart().numEvents(), 1u) << "marks stay in the chart";
   press(Qt::Key_W, Qt::ControlModifier);
-  EXPECT_EQ(window().bench().recordings.all().size(), 2u)
+  EXPECT_EQ(window().state().recordings.all().size(), 2u)
       << "none of them is shown: none is closed";
   press(Qt::Key_Tab, Qt::ControlModifier);
-  EXPECT_FALSE(window().bench().subject.isLive());
+  EXPECT_FALSE(window().state().displayed.isLive());
   for (int i = 0; i < 2; ++i) press(Qt::Key_W, Qt::ControlModifier);
-  EXPECT_TRUE(window().bench().recordings.all().empty());
-  EXPECT_TRUE(window().bench().subject.isLive()) << "recordings are closed, the hand stays";
+  EXPECT_TRUE(window().state().recordings.all().empty());
+  EXPECT_TRUE(window().state().displayed.isLive()) << "recordings are closed, the hand stays";
 }
 
 TEST_F(LiveWindowTest, ClosingAsksOnceAndFinishesTheRecording) {
@@ -238,12 +238,12 @@ TEST_F(LiveWindowTest, ClosingAsksOnceAndFinishesTheRecording) {
 
 TEST_F(LiveWindowTest, DiscardedLabelsStayWhenTheWindowStays) {
   open({"good.dsa"});
-  window().bench().questions.text = [](const QString&, const QString&) {
+  window().state().prompts.text = [](const QString&, const QString&) {
     return std::optional<QString>("touch");
   };
-  window().bench().questions.unsaved = [](const QString&) { return Questions::Unsaved::kDiscard; };
+  window().state().prompts.unsaved = [](const QString&) { return UserPrompts::Unsaved::kDiscard; };
   press(Qt::Key_B, Qt::ControlModifier);
-  ASSERT_TRUE(window().bench().events.editor()->unsaved());
+  ASSERT_TRUE(window().state().events.editor()->unsaved());
   connectEmulated("empty");
   press(Qt::Key_R, Qt::ControlModifier);
   ASSERT_TRUE(await([&] { return live().recording(); }));
@@ -252,9 +252,9 @@ TEST_F(LiveWindowTest, DiscardedLabelsStayWhenTheWindowStays) {
   EXPECT_EQ(askedToEnd_, 1);
   EXPECT_TRUE(window().isVisible());
   emit find<QComboBox>("recordingsBox")->activated(0);
-  ASSERT_FALSE(window().bench().subject.isLive());
-  EXPECT_TRUE(window().bench().events.editor()->unsaved());
-  EXPECT_EQ(window().bench().events.editor()->events().size(), 1u);
+  ASSERT_FALSE(window().state().displayed.isLive());
+  EXPECT_TRUE(window().state().events.editor()->unsaved());
+  EXPECT_EQ(window().state().events.editor()->events().size(), 1u);
   mayEnd_ = true;
 }
 
@@ -263,18 +263,18 @@ TEST_F(LiveWindowTest, ARecordingIsFoundWhereItWasLeftForTheHand) {
   playback().seekFrame(7);
   connectEmulated("empty");
   emit find<QComboBox>("recordingsBox")->activated(0);
-  ASSERT_FALSE(window().bench().subject.isLive());
+  ASSERT_FALSE(window().state().displayed.isLive());
   EXPECT_EQ(playback().frame(), 7u);
   playback().seekFrame(9);
   press(Qt::Key_F6);
-  ASSERT_TRUE(window().bench().subject.isLive());
+  ASSERT_TRUE(window().state().displayed.isLive());
   actions().at("disconnectHand")->trigger();
-  ASSERT_TRUE(await([&] { return !window().bench().subject.isLive(); }));
+  ASSERT_TRUE(await([&] { return !window().state().displayed.isLive(); }));
   EXPECT_EQ(playback().frame(), 9u);
 }
 
 TEST_F(LiveWindowTest, ClosingWhileTheHandMovesStopsIt) {
-  connectBench();
+  connectEmulatedHand();
   click("graspHand");
   ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
   window().close();
@@ -284,7 +284,7 @@ TEST_F(LiveWindowTest, ClosingWhileTheHandMovesStopsIt) {
 }
 
 TEST_F(LiveWindowTest, AskedToEndByASignalItStopsAndFinishesWithoutAsking) {
-  connectBench();
+  connectEmulatedHand();
   press(Qt::Key_R, Qt::ControlModifier);
   ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 5; }));
   click("graspHand");
@@ -299,7 +299,7 @@ TEST_F(LiveWindowTest, AskedToEndByASignalItStopsAndFinishesWithoutAsking) {
 }
 
 TEST_F(LiveWindowTest, AMotionPortThatGoesAwayInAGraspIsSaidAndStoppedOnReturn) {
-  connectBench();
+  connectEmulatedHand();
   click("graspHand");
   ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
   bench_->hand->unplug(false, true);
@@ -315,7 +315,7 @@ TEST_F(LiveWindowTest, AMotionPortThatGoesAwayInAGraspIsSaidAndStoppedOnReturn) 
 }
 
 TEST_F(LiveWindowTest, ATactileStreamThatDiesInAReactiveGraspStopsTheHand) {
-  connectBench();
+  connectEmulatedHand();
   click("reactiveGrasp");
   ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
   bench_->hand->mute(true);
@@ -327,7 +327,7 @@ TEST_F(LiveWindowTest, ATactileStreamThatDiesInAReactiveGraspStopsTheHand) {
 }
 
 TEST_F(LiveWindowTest, APulledPlugIsSaidAndTheHandIsFoundAgain) {
-  connectBench();
+  connectEmulatedHand();
   bench_->hand->unplug();
   ASSERT_TRUE(await([&] { return !view().notice().isEmpty(); }));
   ASSERT_TRUE(await(
@@ -358,9 +358,9 @@ QImage pictureOf(QWidget& widget) { return widget.grab().toImage(); }
 
 // L-M4
 TEST_F(LiveWindowTest, TheHandInSpaceIsMarkedWhenItsPictureIsOld) {
-  connectBench();
+  connectEmulatedHand();
   HandView& hand = window().feature<SpaceFeature>().panel().view();
-  ASSERT_TRUE(await([&] { return hand.isVisible() && hand.drawing().moment().frame; }));
+  ASSERT_TRUE(await([&] { return hand.isVisible() && hand.drawing().handState().frame; }));
   const QImage live = pictureOf(hand);
   bench_->hand->unplug();
   ASSERT_TRUE(await([&] { return !view().notice().isEmpty(); }));
@@ -376,7 +376,7 @@ TEST_F(LiveWindowTest, OfARecordingNothingIsHeld) {
   press(Qt::Key_P);
   ASSERT_TRUE(view().notice().contains("held"));
   open({"empty.dsa"});
-  EXPECT_FALSE(window().bench().subject.isLive());
+  EXPECT_FALSE(window().state().displayed.isLive());
   EXPECT_EQ(view().notice(), "");
 }
 
@@ -384,7 +384,7 @@ TEST_F(LiveWindowTest, OfARecordingNothingIsHeld) {
 TEST_F(LiveWindowTest, APictureThatIsHeldSaysSoInEveryView) {
   connectEmulated("empty");
   HandView& hand = window().feature<SpaceFeature>().panel().view();
-  ASSERT_TRUE(await([&] { return hand.drawing().moment().frame && view().paintedUs() > 0; }));
+  ASSERT_TRUE(await([&] { return hand.drawing().handState().frame && view().paintedUs() > 0; }));
   const auto corner = [](QWidget& widget) {
     const QImage whole = pictureOf(widget);
     return whole.copy(0, 0, whole.width(), whole.height() / 4);
@@ -405,15 +405,15 @@ TEST_F(LiveWindowTest, APictureThatIsHeldSaysSoInEveryView) {
 // L-M10
 TEST_F(LiveWindowTest, WhyNothingWasRecordedGoesAsSoonAsItRecords) {
   connectEmulated("empty");
-  const auto mended = window().bench().questions.recording;
-  window().bench().questions.recording = [&](RecordingSettings settings, const QString& button) {
+  const auto mended = window().state().prompts.recording;
+  window().state().prompts.recording = [&](RecordingSettings settings, const QString& button) {
     settings = *mended(settings, button);
     settings.folder = "/proc/no_such_folder";
     return std::optional(settings);
   };
   press(Qt::Key_R, Qt::ControlModifier);
   ASSERT_TRUE(await([&] { return bannerText().contains("Not recording"); }));
-  window().bench().questions.recording = mended;
+  window().state().prompts.recording = mended;
   press(Qt::Key_R, Qt::ControlModifier);
   ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 0; }));
   // The window looks after it some ten times a second.
@@ -484,7 +484,7 @@ TEST_F(LiveWindowTest, TheWheelTurnsAFieldThatHasTheFocus) {
 
 // L-M8
 TEST_F(LiveWindowTest, TheHandIsMovedByKeysOfItsMenu) {
-  connectBench();
+  connectEmulatedHand();
   const auto action = [&](const QString& text) -> QAction* {
     for (QAction* each : window().actions())
       if (plainText(*each) == text) return each;
@@ -510,7 +510,7 @@ TEST_F(LiveWindowTest, TheHandIsMovedByKeysOfItsMenu) {
 
 // L-M2
 TEST_F(LiveWindowTest, ABlindMatrixIsMarkedInTheHeatMaps) {
-  connectBench();
+  connectEmulatedHand();
   ASSERT_TRUE(await([&] { return view().paintedUs() > 0; }));
   const QImage seeing = pictureOf(view());
   live().source()->control->change(SetThreshold{1, 4095});
@@ -526,10 +526,10 @@ TEST_F(LiveWindowTest, ABlindMatrixIsMarkedInTheHeatMaps) {
 
 // L-M13: what the chart marks and the log says.
 TEST_F(LiveWindowTest, OpeningAndRefusalsAreNamedInTheLog) {
-  connectBench();
+  connectEmulatedHand();
   QStringList logged;
   QObject::connect(&live(),
-                   &LiveController::eventsCame,
+                   &LiveController::eventsReceived,
                    &window(),
                    [&](const std::vector<RecordingEvent>& came) {
                      for (const RecordingEvent& event : came)
@@ -550,7 +550,7 @@ TEST_F(LiveWindowTest, OpeningAndRefusalsAreNamedInTheLog) {
 }
 
 TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {
-  connectBench();
+  connectEmulatedHand();
   TaxelSelection chosen(*sdh2().layout);
   chosen.add(1, 5, 1, 8, 4);
   view().select(chosen);
@@ -582,11 +582,11 @@ TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {
 TEST_F(LiveWindowTest, DisconnectingComesBackToWhatWasOpen) {
   open({"good.dsa"});
   connectEmulated();
-  EXPECT_TRUE(window().bench().subject.isLive());
+  EXPECT_TRUE(window().state().displayed.isLive());
   press(Qt::Key_K, Qt::ControlModifier | Qt::ShiftModifier);
   ASSERT_TRUE(await([&] { return live().state() == State::kNone; }));
-  EXPECT_FALSE(window().bench().subject.isLive());
-  ASSERT_NE(window().bench().subject.behind(), nullptr);
+  EXPECT_FALSE(window().state().displayed.isLive());
+  ASSERT_NE(window().state().displayed.behind(), nullptr);
   EXPECT_TRUE(window().findChild<TimelineChart*>()->isVisible());
   EXPECT_TRUE(view().notice().isEmpty());
 }
@@ -594,7 +594,7 @@ TEST_F(LiveWindowTest, DisconnectingComesBackToWhatWasOpen) {
 TEST_F(LiveWindowTest, AConnectionThatFailsSaysWhyAndRemembersNothing) {
   Connection wrong;
   wrong.scene = "no_such_scene";
-  window().bench().connectTo(wrong);
+  window().state().connectTo(wrong);
   ASSERT_TRUE(await([&] { return bannerText().contains("no_such_scene"); }));
   EXPECT_EQ(live().state(), State::kNone);
   const QSettings settings(settingsFile(), QSettings::IniFormat);
@@ -614,7 +614,7 @@ TEST_F(LiveWindowTest, TheConnectButtonOffersScenesAndTheLastConnection) {
   EXPECT_TRUE(texts.contains("&Emulated hand"));
   EXPECT_TRUE(texts.contains("&Replay of a recording"));
   menu->actions().front()->trigger();
-  ASSERT_TRUE(await([&] { return window().bench().subject.isLive(); }));
+  ASSERT_TRUE(await([&] { return window().state().displayed.isLive(); }));
 }
 
 TEST_F(LiveWindowTest, AReplayThatEndsIsNoAlarm) {
@@ -626,17 +626,17 @@ TEST_F(LiveWindowTest, AReplayThatEndsIsNoAlarm) {
   Connection replay;
   replay.kind = Connection::Kind::kReplay;
   replay.recording = QString::fromStdString((folder_ / "runs/ball_001.palpate").string());
-  window().bench().connectTo(replay);
+  window().state().connectTo(replay);
   ASSERT_TRUE(await([&] { return live().source() && live().source()->finished(); }));
   ASSERT_TRUE(await([&] { return view().notice() == "the replay has ended"; }));
   // A second without a frame is an alarm elsewhere.
   ASSERT_TRUE(await([&] { return live().silentS() > 1.6; }));
-  live().look();
+  live().refreshHealth();
   EXPECT_FALSE(find<QWidget>("AlarmStrip")->isVisible());
 }
 
 TEST_F(LiveWindowTest, TheDemoGraspsByItself) {
-  window().bench().connectTo(emulatedBall(true));
+  window().state().connectTo(emulatedBallConnection(true));
   auto* table = window().findChild<MatrixTableModel*>();
   ASSERT_TRUE(await([&] {
     return table->numMatrices() > 0 &&

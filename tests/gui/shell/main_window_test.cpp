@@ -5,8 +5,8 @@
 #include <QSpinBox>
 #include <set>
 
+#include "gui/export/export_controller.h"
 #include "gui/export/export_feature.h"
-#include "gui/export/take_away.h"
 #include "gui/help/about_dialog.h"
 #include "gui/help/keys_dialog.h"
 #include "gui/matrices/matrices_view.h"
@@ -162,7 +162,7 @@ TEST_F(MainWindowTest, SignalsByKeyBoxAndMenu) {
   press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
   QCoreApplication::processEvents();
   press(Qt::Key_S);
-  EXPECT_EQ(window().bench().look.view().signal, PlottedSignal::kFilteredMean);
+  EXPECT_EQ(window().state().appearance.view().signal, PlottedSignal::kFilteredMean);
   EXPECT_EQ(timeline().yAxis->label(), "filtered mean in counts");
   emit find<QComboBox>("signalBox")->activated(6);
   EXPECT_EQ(timeline().yAxis->label(), "active area in mm²");
@@ -201,16 +201,16 @@ TEST_F(MainWindowTest, DigitsPlotMatrices) {
 }
 
 TEST_F(MainWindowTest, ThemeTogglesAndCanBeChosen) {
-  window().bench().look.setTheme(ThemeChoice::kDark);
+  window().state().appearance.setTheme(ThemeChoice::kDark);
   press(Qt::Key_T, Qt::ControlModifier);
-  EXPECT_EQ(window().bench().look.view().theme, ThemeChoice::kLight);
+  EXPECT_EQ(window().state().appearance.view().theme, ThemeChoice::kLight);
   EXPECT_EQ(look().theme, Theme::kLight);
   EXPECT_GT(qApp->palette().color(QPalette::Window).lightness(), 200);
   press(Qt::Key_T, Qt::ControlModifier);
   EXPECT_EQ(look().theme, Theme::kDark);
   EXPECT_LT(qApp->palette().color(QPalette::Window).lightness(), 60);
   actions().group("themes")->actions().at(0)->trigger();
-  EXPECT_EQ(window().bench().look.view().theme, ThemeChoice::kSystem);
+  EXPECT_EQ(window().state().appearance.view().theme, ThemeChoice::kSystem);
   EXPECT_EQ(look().theme, systemTheme());
 }
 
@@ -240,16 +240,17 @@ TEST_F(MainWindowTest, CopyPutsTheFrameOnTheClipboard) {
 
 TEST_F(MainWindowTest, ExportWritesThePictureThatWasAskedFor) {
   QString suggested;
-  window().feature<ExportFeature>().takeAway().ask = [&](const ExportRequest& suggestion) {
+  window().feature<ExportFeature>().exportController().ask = [&](const ExportRequest& suggestion) {
     suggested = suggestion.name + endingOf(suggestion.form);
     ExportRequest request = suggestion;
-    request.form = ExportForm::kSvg;
+    request.form = ExportFormat::kSvg;
     request.folder = QString::fromStdString(folder_.path().string());
     request.name = "frame";
     return request;
   };
   playback().seekFrame(7);
-  QSignalSpy written(&window().feature<ExportFeature>().takeAway(), &TakeAway::written);
+  QSignalSpy written(&window().feature<ExportFeature>().exportController(),
+                     &ExportController::written);
   press(Qt::Key_E, Qt::ControlModifier);
   ASSERT_TRUE(written.size() == 1 || written.wait(10'000));
   EXPECT_EQ(suggested, "good_frame_00007.png");
@@ -260,7 +261,7 @@ TEST_F(MainWindowTest, ExportWritesThePictureThatWasAskedFor) {
 }
 
 TEST_F(MainWindowTest, ExportThatFailsSaysWhy) {
-  window().feature<ExportFeature>().takeAway().ask = [&](const ExportRequest& suggestion) {
+  window().feature<ExportFeature>().exportController().ask = [&](const ExportRequest& suggestion) {
     ExportRequest request = suggestion;
     request.folder = QString::fromStdString((folder_ / "no" / "such").string());
     return request;
@@ -271,11 +272,11 @@ TEST_F(MainWindowTest, ExportThatFailsSaysWhy) {
 }
 
 TEST_F(MainWindowTest, ExportCancelledDoesNothing) {
-  window().feature<ExportFeature>().takeAway().ask = [](const ExportRequest&) {
+  window().feature<ExportFeature>().exportController().ask = [](const ExportRequest&) {
     return std::nullopt;
   };
   press(Qt::Key_E, Qt::ControlModifier);
-  window().feature<ExportFeature>().takeAway().waitForDone();
+  window().feature<ExportFeature>().exportController().waitForDone();
   EXPECT_EQ(bannerText(), "");
 }
 

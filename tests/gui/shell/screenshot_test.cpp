@@ -5,8 +5,8 @@
 
 #include <palpate/core/error.h>
 
-#include "gui/look/window_settings.h"
-#include "gui/shell/workbench.h"
+#include "gui/appearance/window_settings.h"
+#include "gui/shell/run_window.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::screenshot_test {

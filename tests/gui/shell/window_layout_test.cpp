@@ -16,13 +16,13 @@ class WindowLayoutTest : public WindowTest {
 
 TEST_F(WindowLayoutTest, LookSpeedAndLoopAreRemembered) {
   open({"good.dsa"});
-  window().bench().look.setTheme(ThemeChoice::kLight);
+  window().state().appearance.setTheme(ThemeChoice::kLight);
   for (const Qt::Key key :
        {Qt::Key_M, Qt::Key_R, Qt::Key_V, Qt::Key_I, Qt::Key_S, Qt::Key_L, Qt::Key_G, Qt::Key_Up})
     press(key);
   window().close();
   start();
-  const ViewSettings& view = window().bench().look.view();
+  const ViewSettings& view = window().state().appearance.view();
   EXPECT_EQ(view.theme, ThemeChoice::kLight);
   EXPECT_EQ(view.map, ColorMapName::kViridis);
   EXPECT_EQ(view.range, RangeMode::kFrame);

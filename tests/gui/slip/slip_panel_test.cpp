@@ -19,7 +19,7 @@
 #include "gui/slip/slip_chart.h"
 #include "gui/slip/slip_controls.h"
 #include "gui/slip/slip_fixture.h"
-#include "gui/slip/slip_lamp.h"
+#include "gui/slip/slip_indicator.h"
 #include "gui/widgets/figures_table.h"
 #include "testing/testing.h"
 
@@ -109,9 +109,10 @@ TEST_F(SlipPanelTest, ShowsWhatSlipsAndWhatRests) {
         .pixmap(16)
         .toImage();
   };
-  EXPECT_EQ(lamp(kMoving), lampIcon(LampLook::kSlipping, Theme::kDark).pixmap(16).toImage());
-  EXPECT_EQ(lamp(kStill), lampIcon(LampLook::kReady, Theme::kDark).pixmap(16).toImage());
-  EXPECT_EQ(lamp(0), lampIcon(LampLook::kOff, Theme::kDark).pixmap(16).toImage());
+  EXPECT_EQ(lamp(kMoving),
+            indicatorIcon(IndicatorLook::kSlipping, Theme::kDark).pixmap(16).toImage());
+  EXPECT_EQ(lamp(kStill), indicatorIcon(IndicatorLook::kReady, Theme::kDark).pixmap(16).toImage());
+  EXPECT_EQ(lamp(0), indicatorIcon(IndicatorLook::kOff, Theme::kDark).pixmap(16).toImage());
   goTo(2 * kRests + kMoves - 1);
   EXPECT_EQ(cell(kMoving, kVerdict), "still");
 }
@@ -245,13 +246,13 @@ TEST_F(SlipPanelTest, TablesAreThoseOfTheCommand) {
 
 TEST_F(SlipPanelTest, AClickInTheChartSeeks) {
   show(slip());
-  panel_->setSeen(0.0, 3.0);
-  QSignalSpy sought(panel_.get(), &SlipPanel::sought);
+  panel_->setVisibleRange(0.0, 3.0);
+  QSignalSpy seekRequested(panel_.get(), &SlipPanel::seekRequested);
   SlipChart& chart = panel_->chart();
   const int x = static_cast<int>(chart.xAxis->coordToPixel(1.5));
   QTest::mouseClick(&chart, Qt::LeftButton, {}, QPoint(x, chart.height() / 4));
-  ASSERT_EQ(sought.size(), 1);
-  EXPECT_NEAR(sought.front().front().toDouble(), 1.5, 0.02);
+  ASSERT_EQ(seekRequested.size(), 1);
+  EXPECT_NEAR(seekRequested.front().front().toDouble(), 1.5, 0.02);
 }
 
 TEST_F(SlipPanelTest, OfWhatIsLiveTheNewestIsShown) {
@@ -259,7 +260,7 @@ TEST_F(SlipPanelTest, OfWhatIsLiveTheNewestIsShown) {
   EXPECT_TRUE(panel_->emptyText().contains("Waiting"));
   panel_->setLiveHand(sdh2());
   SensorSlipDetector detector(*sdh2().layout,
-                              {.method = SlipMethod::kCentroid, .contestAlarm = false});
+                              {.method = SlipMethod::kCentroid, .hypothesisAlarm = false});
   const Profile profile = movingContact();
   for (std::size_t i = 0; i < kRests + 10; ++i) {
     const TactileFrame frame = profile.frame(i);

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <functional>
 
+#include "gui/export/export_controller.h"
 #include "gui/export/export_feature.h"
-#include "gui/export/take_away.h"
+#include "gui/hand3d/hand_panel.h"
+#include "gui/hand3d/space_feature.h"
 #include "gui/slip/slip_fixture.h"
 #include "gui/slip/slip_panel.h"
 #include "gui/source/connection.h"
-#include "gui/space/hand_panel.h"
-#include "gui/space/space_feature.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/event_rows.h"
 #include "gui/timeline/timeline_feature.h"
@@ -117,11 +117,11 @@ TEST_F(SlipWindowTest, IsTakenAwayAsPictureAndTable) {
   request.view = "Slip";
   request.folder = QString::fromStdString(folder_.path().string());
   request.name = "s";
-  for (const ExportForm form : {ExportForm::kPng, ExportForm::kCsv}) {
+  for (const ExportFormat form : {ExportFormat::kPng, ExportFormat::kCsv}) {
     request.form = form;
-    window().feature<ExportFeature>().takeAway().write(request);
+    window().feature<ExportFeature>().exportController().write(request);
     ASSERT_TRUE(QTest::qWaitFor(
-        [&] { return !window().feature<ExportFeature>().takeAway().busy(); }, 20'000));
+        [&] { return !window().feature<ExportFeature>().exportController().busy(); }, 20'000));
     EXPECT_EQ(bannerText(), "");
   }
   EXPECT_FALSE(QImage(QString::fromStdString((folder_ / "s.png").string())).isNull());
@@ -136,12 +136,12 @@ TEST_F(SlipWindowTest, OfAConnectedHandItTellsWhenItSlips) {
   Connection handle;
   handle.kind = Connection::Kind::kEmulated;
   handle.scene = "slipping_handle";
-  handle.sceneActs = true;
-  window().bench().connectTo(handle);
+  handle.sceneScriptRuns = true;
+  window().state().connectTo(handle);
   const auto await = [](const std::function<bool()>& condition) {
     return QTest::qWaitFor(condition, 40'000);
   };
-  ASSERT_TRUE(await([&] { return window().bench().live.framesCameYet(); }));
+  ASSERT_TRUE(await([&] { return window().state().live.hasReceivedFrames(); }));
   press(Qt::Key_S, Qt::ControlModifier | Qt::ShiftModifier);
   ASSERT_TRUE(await([&] { return panel().shown(); })) << panel().emptyText().toStdString();
   EXPECT_EQ(find<QComboBox>("slipMethod")->currentText(), "centroid");

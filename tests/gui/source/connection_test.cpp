@@ -28,7 +28,7 @@ TEST_F(ConnectionTest, AFirstStartOffersTheBall) {
   const Connection connection = reloaded();
   EXPECT_EQ(connection.kind, Connection::Kind::kEmulated);
   EXPECT_EQ(connection.scene, "ball");
-  EXPECT_FALSE(connection.sceneActs);
+  EXPECT_FALSE(connection.sceneScriptRuns);
   EXPECT_TRUE(problemOf(connection).isEmpty());
 }
 
@@ -39,7 +39,7 @@ TEST_F(ConnectionTest, ComesBackFromTheSettingsAsItWas) {
         .dsaPort = "/dev/serial/by-id/usb-FTDI, Ltd-if00",
         .sdhPort = "tcp:[::1]:13000",
         .scene = "/home/müller/my scene.json",
-        .sceneActs = true,
+        .sceneScriptRuns = true,
         .recording = "/data/a;b %1.palpate",
     };
     store(connection);

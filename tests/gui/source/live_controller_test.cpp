@@ -33,7 +33,7 @@ class LiveControllerTest : public ::testing::Test {
     return connection;
   }
   // A hand that the test can do harm to.
-  Connection bench() {
+  Connection state() {
     hand_ =
         std::make_unique<EmulatedHand>(testing::handWith("ball"),
                                        EmulatedHandOptions{.dsaPort = (folder_ / "dsa").string(),
@@ -58,18 +58,18 @@ class LiveControllerTest : public ::testing::Test {
 };
 
 TEST_F(LiveControllerTest, ConnectsToTheEmulatedHandAndEnds) {
-  const QSignalSpy came(&live_, &LiveController::came);
-  const QSignalSpy frames(&live_, &LiveController::frameCame);
-  const QSignalSpy results(&live_, &LiveController::resultsCame);
+  const QSignalSpy sourceOpened(&live_, &LiveController::sourceOpened);
+  const QSignalSpy frames(&live_, &LiveController::frameReceived);
+  const QSignalSpy results(&live_, &LiveController::resultsReceived);
   const QSignalSpy leaving(&live_, &LiveController::leaving);
   live_.connectTo(emulated("ball"));
   EXPECT_EQ(live_.state(), State::kConnecting);
   ASSERT_TRUE(await([&] { return frames.size() > 5 && results.size() > 5; }));
-  EXPECT_EQ(came.size(), 1);
+  EXPECT_EQ(sourceOpened.size(), 1);
   EXPECT_EQ(live_.state(), State::kConnected);
   EXPECT_FALSE(live_.stale());
-  ASSERT_TRUE(await([&] { return live_.beforeRun() && live_.beforeRun()->ready; }))
-      << (live_.beforeRun() ? live_.beforeRun()->text : "not checked");
+  ASSERT_TRUE(await([&] { return live_.preflight() && live_.preflight()->ready; }))
+      << (live_.preflight() ? live_.preflight()->text : "not checked");
   EXPECT_EQ(live_.health().frames.frames > 0, true);
   live_.end();
   EXPECT_EQ(live_.source(), nullptr);
@@ -92,12 +92,12 @@ TEST_F(LiveControllerTest, SaysWhatIsWrongWithAConnection) {
 }
 
 TEST_F(LiveControllerTest, TheLastOneAskedForIsTheOneConnected) {
-  const QSignalSpy came(&live_, &LiveController::came);
+  const QSignalSpy sourceOpened(&live_, &LiveController::sourceOpened);
   live_.connectTo(emulated("ball"));
   live_.connectTo(emulated("pen"));
   live_.connectTo(emulated("bottle"));
-  ASSERT_TRUE(await([&] { return live_.framesCameYet(); }));
-  EXPECT_EQ(came.size(), 1);
+  ASSERT_TRUE(await([&] { return live_.hasReceivedFrames(); }));
+  EXPECT_EQ(sourceOpened.size(), 1);
   EXPECT_EQ(live_.source()->connection.scene, "bottle");
   live_.connectTo(emulated("box"));
   live_.end();
@@ -112,16 +112,16 @@ TEST_F(LiveControllerTest, APortWithoutAHandIsLookedForUntilItComes) {
   nobody.sdhPort = QString::fromStdString((folder_ / "sdh").string());
   live_.connectTo(nobody);
   ASSERT_TRUE(await([&] { return live_.state() == State::kConnected; }));
-  ASSERT_TRUE(await([&] { return live_.beforeRun().has_value(); }));
-  EXPECT_FALSE(live_.beforeRun()->ready);
+  ASSERT_TRUE(await([&] { return live_.preflight().has_value(); }));
+  EXPECT_FALSE(live_.preflight()->ready);
   EXPECT_TRUE(live_.stale());
-  bench();
+  state();
   ASSERT_TRUE(await([&] { return !live_.stale(); })) << "it has come";
 }
 
 TEST_F(LiveControllerTest, RecordsMarksAndFinishes) {
   live_.connectTo(emulated("ball"));
-  ASSERT_TRUE(await([&] { return live_.framesCameYet(); }));
+  ASSERT_TRUE(await([&] { return live_.hasReceivedFrames(); }));
   QSignalSpy started(&live_, &LiveController::recordingStarted);
   live_.startRecording(recordTo("run.palpate"));
   EXPECT_TRUE(live_.recording());
@@ -147,7 +147,7 @@ TEST_F(LiveControllerTest, RecordsMarksAndFinishes) {
 
 TEST_F(LiveControllerTest, ARecordingThatCannotBeginSaysWhy) {
   live_.connectTo(emulated("empty"));
-  ASSERT_TRUE(await([&] { return live_.framesCameYet(); }));
+  ASSERT_TRUE(await([&] { return live_.hasReceivedFrames(); }));
   testing::writeFile(folder_ / "taken.palpate", "somebody's");
   QSignalSpy failed(&live_, &LiveController::recordingFailed);
   live_.startRecording(recordTo("taken.palpate"));
@@ -158,7 +158,7 @@ TEST_F(LiveControllerTest, ARecordingThatCannotBeginSaysWhy) {
 
 TEST_F(LiveControllerTest, ARecordingThatEndsByItselfIsTold) {
   live_.connectTo(emulated("empty"));
-  ASSERT_TRUE(await([&] { return live_.framesCameYet(); }));
+  ASSERT_TRUE(await([&] { return live_.hasReceivedFrames(); }));
   live_.startRecording([path = folder_ / "short.palpate"] {
     RecordingOptions options;
     options.path = path;
@@ -172,7 +172,7 @@ TEST_F(LiveControllerTest, ARecordingThatEndsByItselfIsTold) {
 
 TEST_F(LiveControllerTest, EndingFinishesTheRecording) {
   live_.connectTo(emulated("empty"));
-  ASSERT_TRUE(await([&] { return live_.framesCameYet(); }));
+  ASSERT_TRUE(await([&] { return live_.hasReceivedFrames(); }));
   live_.startRecording(recordTo("run.palpate"));
   ASSERT_TRUE(await([&] { return live_.health().recorder.framesOnDisk > 3; }));
   live_.end();
@@ -186,7 +186,7 @@ TEST_F(LiveControllerTest, GoneWithoutAWordItFinishesToo) {
   {
     LiveController other(testing::dataFolder());
     other.connectTo(emulated("empty"));
-    ASSERT_TRUE(await([&] { return other.framesCameYet(); }));
+    ASSERT_TRUE(await([&] { return other.hasReceivedFrames(); }));
     other.startRecording(recordTo("run.palpate"));
     ASSERT_TRUE(await([&] { return other.health().recorder.framesOnDisk > 3; }));
   }
@@ -194,7 +194,7 @@ TEST_F(LiveControllerTest, GoneWithoutAWordItFinishesToo) {
 }
 
 TEST_F(LiveControllerTest, SilenceMakesThePictureOldUntilFramesComeAgain) {
-  live_.connectTo(bench());
+  live_.connectTo(state());
   ASSERT_TRUE(await([&] { return !live_.stale(); }));
   hand_->mute(true);
   ASSERT_TRUE(await([&] { return live_.stale(); }));
@@ -205,7 +205,7 @@ TEST_F(LiveControllerTest, SilenceMakesThePictureOldUntilFramesComeAgain) {
 
 TEST_F(LiveControllerTest, ARecordingIsReplayedWithItsEvents) {
   live_.connectTo(emulated("empty"));
-  ASSERT_TRUE(await([&] { return live_.framesCameYet(); }));
+  ASSERT_TRUE(await([&] { return live_.hasReceivedFrames(); }));
   live_.startRecording(recordTo("run.palpate"));
   ASSERT_TRUE(await([&] { return live_.health().recorder.frames > 20; }));
   live_.stopRecording();
@@ -214,7 +214,7 @@ TEST_F(LiveControllerTest, ARecordingIsReplayedWithItsEvents) {
   replay.kind = Connection::Kind::kReplay;
   replay.recording = QString::fromStdString((folder_ / "run.palpate").string());
   live_.connectTo(replay);
-  ASSERT_TRUE(await([&] { return live_.source() && live_.framesCameYet(); }));
+  ASSERT_TRUE(await([&] { return live_.source() && live_.hasReceivedFrames(); }));
   EXPECT_EQ(live_.source()->control, nullptr) << "nobody moves a recording";
 }
 

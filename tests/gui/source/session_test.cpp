@@ -1,6 +1,6 @@
 #include "gui/source/session.h"
 
-#include "gui/open/session_keeper.h"
+#include "gui/open/session_storage.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_panel.h"
@@ -34,23 +34,23 @@ TEST_F(SessionTest, WhatMakesNoSenseIsLeftOut) {
   const Session session = loadSession(settings);
   ASSERT_EQ(session.files.size(), 1u);
   EXPECT_EQ(session.current, -1);
-  EXPECT_FALSE(session.files[0].leftAt.seen || session.files[0].leftAt.selection);
+  EXPECT_FALSE(session.files[0].viewPosition.seen || session.files[0].viewPosition.selection);
 }
 
 TEST_F(SessionTest, FilesCursorRangeAndSelectionComeBack) {
   open({"good1.dsa", "rich.dsa", "good2.dsa"});
   press(Qt::Key_Tab, Qt::ControlModifier);  // rich.dsa
-  ASSERT_EQ(window().bench().subject.behind()->path.filename(), "rich.dsa");
+  ASSERT_EQ(window().state().displayed.behind()->path.filename(), "rich.dsa");
   auto& chart = window().feature<TimelineFeature>().panel().chart();
   playback().seekFrame(50);
-  chart.setSeen(1.0, 2.5);
+  chart.setVisibleRange(1.0, 2.5);
   chart.setSelection(TimeSpan{1.2, 1.7});
   window().close();
   start();
-  restoreSession(window().bench());
+  restoreSession(window().state());
   waitUntilOpened();
-  ASSERT_EQ(window().bench().recordings.all().size(), 3u);
-  EXPECT_EQ(window().bench().subject.behind()->path.filename(), "rich.dsa");
+  ASSERT_EQ(window().state().recordings.all().size(), 3u);
+  EXPECT_EQ(window().state().displayed.behind()->path.filename(), "rich.dsa");
   EXPECT_EQ(playback().frame(), 50u);
   EXPECT_EQ(window().feature<TimelineFeature>().panel().chart().selection(), (TimeSpan{1.2, 1.7}));
   EXPECT_NEAR(window().feature<TimelineFeature>().panel().chart().seen().lower, 1.0, 1e-9);
@@ -74,9 +74,9 @@ TEST_F(SessionTest, WhatIsGoneIsSaid) {
   window().close();
   std::filesystem::remove(folder_ / "good1.dsa");
   start();
-  restoreSession(window().bench());
+  restoreSession(window().state());
   waitUntilOpened();
-  EXPECT_EQ(window().bench().recordings.all().size(), 1u);
+  EXPECT_EQ(window().state().recordings.all().size(), 1u);
   EXPECT_TRUE(bannerText().contains("good1.dsa")) << bannerText().toStdString();
 }
 

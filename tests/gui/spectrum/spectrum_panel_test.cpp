@@ -48,7 +48,7 @@ class SpectrumPanelTest : public ::testing::Test {
   void show(const OpenedRecordingPtr& recording) {
     panel_->show();
     panel_->setSource(recording, false);
-    if (recording) panel_->setSeen(0.0, recording->durationS());
+    if (recording) panel_->setVisibleRange(0.0, recording->durationS());
     panel_->settle();
     QCoreApplication::processEvents();
   }
@@ -215,7 +215,7 @@ TEST_F(SpectrumPanelTest, SaysWhatCannotBeRead) {
 
 TEST_F(SpectrumPanelTest, ComputesOnlyWhileItIsSeen) {
   panel_->setSource(tones(400), false);
-  panel_->setSeen(0.0, 8.0);
+  panel_->setVisibleRange(0.0, 8.0);
   EXPECT_FALSE(panel_->busy());
   panel_->show();
   EXPECT_TRUE(panel_->busy());
@@ -224,7 +224,7 @@ TEST_F(SpectrumPanelTest, ComputesOnlyWhileItIsSeen) {
   // Nothing is computed twice.
   panel_->hide();
   panel_->show();
-  panel_->setSeen(2.0, 3.0);
+  panel_->setVisibleRange(2.0, 3.0);
   panel_->settle();
   EXPECT_EQ(panel_->chart().answer().series->timeS.size(), 400u) << "short: all of it is there";
 }
@@ -252,12 +252,12 @@ TEST_F(SpectrumPanelTest, OfALongRecordingWhatIsSeenIsComputed) {
   EXPECT_EQ(spectra().report.hop, 2u);
   EXPECT_TRUE(panel_->chart().notes().contains("a segment every 2 samples"))
       << panel_->chart().notes().toStdString();
-  panel_->setSeen(100.0, 110.0);
+  panel_->setVisibleRange(100.0, 110.0);
   panel_->settle();
   EXPECT_EQ(spectra().report.hop, 1u) << "closer, every one";
   EXPECT_GE(panel_->chart().answer().series->timeS.front(), 99.9);
   EXPECT_LE(panel_->chart().answer().series->timeS.back(), 110.1);
-  panel_->setSeen(100.0, 100.2);
+  panel_->setVisibleRange(100.0, 100.2);
   panel_->settle();
   EXPECT_TRUE(panel_->emptyText().contains("see more of the recording"));
 }

@@ -2,8 +2,8 @@
 #include <QDockWidget>
 #include <QLabel>
 
+#include "gui/export/export_controller.h"
 #include "gui/export/export_feature.h"
-#include "gui/export/take_away.h"
 #include "gui/matrices/matrices_view.h"
 #include "gui/spectrum/spectrum_feature.h"
 #include "gui/spectrum/spectrum_panel.h"
@@ -25,7 +25,7 @@ class SpectrumWindowTest : public WindowTest {
     for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();
   }
   bool canBeTaken() {
-    for (const ExportedView* view : window().feature<ExportFeature>().takeAway().present())
+    for (const ExportedView* view : window().feature<ExportFeature>().exportController().present())
       if (view->name == "Spectrum") return true;
     return false;
   }
@@ -50,9 +50,9 @@ TEST_F(SpectrumWindowTest, SharesTimeAndCursorWithTheTimeline) {
     return panel().chart().xAxis->range() == timeline().seen();
   };
   EXPECT_TRUE(same());
-  timeline().setSeen(1.0, 2.5);
+  timeline().setVisibleRange(1.0, 2.5);
   EXPECT_TRUE(same());
-  emit panel().chart().zoomAsked(1.5, 2.0);
+  emit panel().chart().zoomRequested(1.5, 2.0);
   EXPECT_NEAR(timeline().seen().size(), 0.75, 1e-9);
   EXPECT_TRUE(same());
   emit panel().chart().fitAsked();
@@ -107,11 +107,11 @@ TEST_F(SpectrumWindowTest, IsTakenAwayAsPictureAndTable) {
   request.view = "Spectrum";
   request.folder = QString::fromStdString(folder_.path().string());
   request.name = "s";
-  for (const ExportForm form : {ExportForm::kPng, ExportForm::kSvg, ExportForm::kCsv}) {
+  for (const ExportFormat form : {ExportFormat::kPng, ExportFormat::kSvg, ExportFormat::kCsv}) {
     request.form = form;
-    window().feature<ExportFeature>().takeAway().write(request);
+    window().feature<ExportFeature>().exportController().write(request);
     ASSERT_TRUE(QTest::qWaitFor(
-        [&] { return !window().feature<ExportFeature>().takeAway().busy(); }, 20'000));
+        [&] { return !window().feature<ExportFeature>().exportController().busy(); }, 20'000));
     EXPECT_EQ(bannerText(), "");
   }
   const QImage image(QString::fromStdString((folder_ / "s.png").string()));
@@ -124,7 +124,7 @@ TEST_F(SpectrumWindowTest, IsTakenAwayAsPictureAndTable) {
   EXPECT_EQ(
       testing::readFile(folder_ / "s.csv").find("segment,time_s,frequency_hz,psd,magnitude\n"), 0u);
   EXPECT_EQ(panel().chart().xAxis->labelColor(),
-            colorsOf(resolved(window().bench().look.view().theme)).muted)
+            colorsOf(resolved(window().state().appearance.view().theme)).muted)
       << "the screen is as before";
 }
 

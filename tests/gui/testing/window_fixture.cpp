@@ -29,10 +29,10 @@ MainWindow& WindowTest::start() {
       if (!progress(0.5)) throw Cancelled();
     throw FormatError(path, "is not a recording: <b>no frames</b>", 17);
   };
-  window_ = std::make_unique<MainWindow>(WindowSurroundings{.dataFolder = folder_.path(),
-                                                            .settingsPath = settingsFile(),
-                                                            .clock = &clock_,
-                                                            .read = read});
+  window_ = std::make_unique<MainWindow>(WindowEnvironment{.dataFolder = folder_.path(),
+                                                           .settingsPath = settingsFile(),
+                                                           .clock = &clock_,
+                                                           .read = read});
   window_->show();
   QApplication::setActiveWindow(window_.get());
   QCoreApplication::processEvents();
@@ -52,13 +52,13 @@ std::string WindowTest::file(const std::string& name) {
 void WindowTest::open(const std::vector<std::string>& names) {
   std::vector<std::filesystem::path> paths;
   for (const std::string& name : names) paths.emplace_back(file(name));
-  window_->bench().open(paths);
+  window_->state().open(paths);
   waitUntilOpened();
 }
 
 void WindowTest::waitUntilOpened() {
-  QSignalSpy finished(&window_->bench().opener, &RecordingOpener::finished);
-  while (window_->bench().opener.busy())
+  QSignalSpy finished(&window_->state().opener, &RecordingOpener::finished);
+  while (window_->state().opener.busy())
     if (!finished.wait(10'000)) FAIL() << "opening doesn't end";
   QCoreApplication::processEvents();
 }

@@ -30,8 +30,8 @@ class WindowTest : public ::testing::Test {
   // Makes the window anew, as after a restart of the program.
   MainWindow& start();
   MainWindow& window() { return *window_; }
-  const ActionBook& actions() { return window_->bench().actions; }
-  PlaybackController& playback() { return window_->bench().playback; }
+  const ActionRegistry& actions() { return window_->state().actions; }
+  PlaybackController& playback() { return window_->state().playback; }
   // Makes an empty file, so that it exists; returns its path.
   std::string file(const std::string& name);
   // Opens by openFiles() and waits for the end of it.

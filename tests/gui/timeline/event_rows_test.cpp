@@ -122,7 +122,7 @@ TEST_F(EventRowsTest, ADoubleClickNamesEnterTakesEscapeLeaves) {
 }
 
 TEST_F(EventRowsTest, DeleteAsksForWhatCanBeDeleted) {
-  QSignalSpy removed(&rows_, &EventRows::removeAsked);
+  QSignalSpy removed(&rows_, &EventRows::removeRequested);
   rows_.setFocus();
   rows_.choose(2);
   QTest::keyClick(&rows_, Qt::Key_Delete);

@@ -7,7 +7,7 @@
 #include <palpate/recording/event_store.h>
 #include <palpate/recording/recording.h>
 
-#include "gui/export/take_away.h"
+#include "gui/export/export_controller.h"
 #include "gui/matrices/matrices_feature.h"
 #include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
@@ -30,20 +30,20 @@ class EventsWindowTest : public WindowTest {
   void reopen() {
     if (window_) window_->close();
     window_.reset();
-    window_ = std::make_unique<MainWindow>(WindowSurroundings{.dataFolder = folder_.path(),
-                                                              .settingsPath = settingsFile(),
-                                                              .clock = &clock_,
-                                                              .read = {}});
+    window_ = std::make_unique<MainWindow>(WindowEnvironment{.dataFolder = folder_.path(),
+                                                             .settingsPath = settingsFile(),
+                                                             .clock = &clock_,
+                                                             .read = {}});
     window_->show();
     QApplication::setActiveWindow(window_.get());
-    window_->bench().open({path_});
+    window_->state().open({path_});
     waitUntilOpened();
-    window_->bench().questions.text = [this](const QString&, const QString&) { return answer_; };
-    window_->bench().questions.cropped = [this](const QString& suggestion) {
+    window_->state().prompts.text = [this](const QString&, const QString&) { return answer_; };
+    window_->state().prompts.cropped = [this](const QString& suggestion) {
       suggested_ = suggestion;
       return QString::fromStdString((folder_ / cropName_).string());
     };
-    window_->bench().questions.unsaved = [this](const QString&) {
+    window_->state().prompts.unsaved = [this](const QString&) {
       ++asked_;
       return unsaved_;
     };
@@ -61,7 +61,7 @@ class EventsWindowTest : public WindowTest {
   std::optional<QString> answer_ = "touch";
   std::string cropName_ = "part.palpate";
   QString suggested_;
-  Questions::Unsaved unsaved_ = Questions::Unsaved::kSave;
+  UserPrompts::Unsaved unsaved_ = UserPrompts::Unsaved::kSave;
   int asked_ = 0;
 };
 
@@ -85,8 +85,8 @@ TEST_F(EventsWindowTest, TheThirdGraspIsFoundSelectedAndCropped) {
   for (std::size_t i = 0; i < part.numFrames(); ++i)
     ASSERT_EQ(part.frame(i).values, all.frame(first + i).values);
   waitUntilOpened();
-  EXPECT_EQ(window().bench().recordings.all().size(), 2u) << "the part is open, too";
-  EXPECT_EQ(window().bench().subject.behind()->path, path_) << "what is looked at stays";
+  EXPECT_EQ(window().state().recordings.all().size(), 2u) << "the part is open, too";
+  EXPECT_EQ(window().state().displayed.behind()->path, path_) << "what is looked at stays";
 }
 
 TEST_F(EventsWindowTest, ShiftNGoesBack) {
@@ -115,7 +115,7 @@ TEST_F(EventsWindowTest, LabelsAndNotesAreMadeUndoneAndSaved) {
   ASSERT_EQ(events.size(), 2u);
   EXPECT_EQ(events[0].kind, "label");
   EXPECT_EQ(events[0].text, "touch");
-  EXPECT_EQ(events[0].tUs, window().bench().subject.behind()->profile.frameTimeUs(0) + 2'000'000);
+  EXPECT_EQ(events[0].tUs, window().state().displayed.behind()->profile.frameTimeUs(0) + 2'000'000);
   EXPECT_EQ(events[1].kind, "note");
   EXPECT_EQ(events[1].t1Us - events[1].tUs, 1'000'000);
   EXPECT_EQ(verifyRecording(path_).state, VerifyReport::State::kSound);
@@ -129,7 +129,7 @@ TEST_F(EventsWindowTest, ACancelledOrEmptyTextMakesNothing) {
   answer_ = "";
   press(Qt::Key_B, Qt::ControlModifier);
   EXPECT_EQ(marksIn(EventLane::kLabels), 0);
-  EXPECT_FALSE(window().bench().events.editor()->unsaved());
+  EXPECT_FALSE(window().state().events.editor()->unsaved());
 }
 
 TEST_F(EventsWindowTest, AGraspIsCorrectedAndAllOthersAreKept) {
@@ -145,7 +145,7 @@ TEST_F(EventsWindowTest, AGraspIsCorrectedAndAllOthersAreKept) {
   press(Qt::Key_Z, Qt::ControlModifier);
   press(Qt::Key_Z, Qt::ControlModifier);
   EXPECT_FALSE(rows().marks()[0].event) << "undone in one go: found again";
-  EXPECT_FALSE(window().bench().events.editor()->unsaved());
+  EXPECT_FALSE(window().state().events.editor()->unsaved());
 }
 
 TEST_F(EventsWindowTest, GraspsAreAddedAndDeletedToTheLast) {
@@ -167,39 +167,39 @@ TEST_F(EventsWindowTest, GraspsAreAddedAndDeletedToTheLast) {
 
 TEST_F(EventsWindowTest, UnsavedWorkIsAskedAboutOnce) {
   press(Qt::Key_B, Qt::ControlModifier);
-  unsaved_ = Questions::Unsaved::kCancel;
+  unsaved_ = UserPrompts::Unsaved::kCancel;
   window().close();
   EXPECT_EQ(asked_, 1);
   EXPECT_TRUE(window().isVisible()) << "the user would rather go on";
   press(Qt::Key_W, Qt::ControlModifier);
   EXPECT_EQ(asked_, 2);
-  EXPECT_TRUE(window().bench().subject.behind());
-  unsaved_ = Questions::Unsaved::kDiscard;
+  EXPECT_TRUE(window().state().displayed.behind());
+  unsaved_ = UserPrompts::Unsaved::kDiscard;
   press(Qt::Key_W, Qt::ControlModifier);
-  EXPECT_FALSE(window().bench().subject.behind());
+  EXPECT_FALSE(window().state().displayed.behind());
   EXPECT_TRUE(readEvents(path_).events.empty());
 }
 
 TEST_F(EventsWindowTest, AFileIsReadAnewOnlyWhenItsLabelsAreSettled) {
   const auto openAgain = [this] {
-    window().bench().open({path_});
+    window().state().open({path_});
     waitUntilOpened();
   };
   press(Qt::Key_B, Qt::ControlModifier);
-  unsaved_ = Questions::Unsaved::kCancel;
+  unsaved_ = UserPrompts::Unsaved::kCancel;
   openAgain();
   EXPECT_EQ(asked_, 1);
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
-  EXPECT_TRUE(window().bench().events.editor()->unsaved());
-  unsaved_ = Questions::Unsaved::kSave;
+  EXPECT_TRUE(window().state().events.editor()->unsaved());
+  unsaved_ = UserPrompts::Unsaved::kSave;
   openAgain();
   EXPECT_EQ(asked_, 2);
   EXPECT_EQ(marksIn(EventLane::kLabels), 1) << "read from the file";
-  EXPECT_FALSE(window().bench().events.editor()->unsaved());
+  EXPECT_FALSE(window().state().events.editor()->unsaved());
   playback().seekSeconds(3.0);
   press(Qt::Key_B, Qt::ControlModifier);
   EXPECT_EQ(marksIn(EventLane::kLabels), 2);
-  unsaved_ = Questions::Unsaved::kDiscard;
+  unsaved_ = UserPrompts::Unsaved::kDiscard;
   openAgain();
   EXPECT_EQ(asked_, 3);
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
@@ -208,23 +208,23 @@ TEST_F(EventsWindowTest, AFileIsReadAnewOnlyWhenItsLabelsAreSettled) {
 }
 
 TEST_F(EventsWindowTest, LabelsMadeWhileTheirFileIsReadAnewStay) {
-  window().bench().open({path_});
+  window().state().open({path_});
   press(Qt::Key_B, Qt::ControlModifier);
   waitUntilOpened();
   EXPECT_EQ(asked_, 0);
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
-  EXPECT_TRUE(window().bench().events.editor()->unsaved());
+  EXPECT_TRUE(window().state().events.editor()->unsaved());
 }
 
 TEST_F(EventsWindowTest, DiscardedLabelsGoOnlyWhenTheirFileWasReadAnew) {
   press(Qt::Key_B, Qt::ControlModifier);
   std::filesystem::remove(path_);
-  unsaved_ = Questions::Unsaved::kDiscard;
-  window().bench().open({path_});
+  unsaved_ = UserPrompts::Unsaved::kDiscard;
+  window().state().open({path_});
   waitUntilOpened();
   EXPECT_FALSE(bannerText().isEmpty());
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
-  EXPECT_TRUE(window().bench().events.editor()->unsaved());
+  EXPECT_TRUE(window().state().events.editor()->unsaved());
 }
 
 TEST_F(EventsWindowTest, WhatCantBeSavedIsSaidAndStays) {
@@ -232,7 +232,7 @@ TEST_F(EventsWindowTest, WhatCantBeSavedIsSaidAndStays) {
   std::filesystem::remove(path_);  // deleted while it is open
   press(Qt::Key_S, Qt::ControlModifier);
   EXPECT_TRUE(bannerText().contains("not saved")) << bannerText().toStdString();
-  EXPECT_TRUE(window().bench().events.editor()->unsaved());
+  EXPECT_TRUE(window().state().events.editor()->unsaved());
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
   playback().seekFrame(100);
   EXPECT_EQ(playback().frame(), 100u) << "what is open can be looked at further";
@@ -255,7 +255,7 @@ TEST_F(EventsWindowTest, NothingIsCroppedOntoItself) {
   window().settle();
   EXPECT_FALSE(bannerText().isEmpty());
   EXPECT_EQ(openRecording(path_).numFrames(),
-            window().bench().subject.behind()->profile.numFrames());
+            window().state().displayed.behind()->profile.numFrames());
 }
 
 TEST_F(EventsWindowTest, TheLabelsOfAPartGoWithIt) {
@@ -271,7 +271,7 @@ TEST_F(EventsWindowTest, TheLabelsOfAPartGoWithIt) {
 
 TEST_F(EventsWindowTest, ChosenTaxelsAreACurveAndCanBeNamed) {
   const int before = chart().graphCount();
-  TaxelSelection taxels(window().bench().subject.behind()->profile.layout());
+  TaxelSelection taxels(window().state().displayed.behind()->profile.layout());
   taxels.add(1, 5, 2, 7, 3);
   window().feature<MatricesFeature>().panel().view().select(taxels);
   EXPECT_EQ(chart().graphCount(), before + 1);
@@ -285,7 +285,7 @@ TEST_F(EventsWindowTest, ChosenTaxelsAreACurveAndCanBeNamed) {
   ASSERT_TRUE(samples);
   const std::size_t frame = 60;
   EXPECT_DOUBLE_EQ(samples->values[frame],
-                   meanOf(window().bench().subject.behind()->profile.frame(frame), taxels));
+                   meanOf(window().state().displayed.behind()->profile.frame(frame), taxels));
   reopen();
   EXPECT_EQ(chart().curves().back().name, "tip") << "remembered";
 }

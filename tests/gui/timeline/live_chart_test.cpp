@@ -123,7 +123,7 @@ TEST_F(LiveChartTest, TheWheelChangesHowMuchIsSeen) {
   wheel(1);
   EXPECT_NEAR(chart_.windowS(), LiveChart::kUsualS / 1.25, 1e-9);
   wheel(-50);
-  EXPECT_DOUBLE_EQ(chart_.windowS(), LiveChart::kLongestS);
+  EXPECT_DOUBLE_EQ(chart_.windowS(), LiveChart::kMaxWindowS);
   wheel(100);
   EXPECT_DOUBLE_EQ(chart_.windowS(), LiveChart::kShortestS);
 }

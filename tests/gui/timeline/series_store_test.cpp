@@ -113,7 +113,7 @@ TEST_F(SeriesStoreTest, ZoomedInEverySampleIsShown) {
   store_.setRecording(recording);
   const SeriesChoice choice{Kind::kMatrix, 1, SignalKind::kMean};
   store_.setWanted({choice});
-  store_.setSeen(20.0, 30.0);
+  store_.setVisibleRange(20.0, 30.0);
   store_.waitUntilRead();
   const auto samples = store_.samples(choice);
   ASSERT_TRUE(samples);
@@ -159,7 +159,7 @@ TEST_F(SeriesStoreTest, OfManyMatricesOrPlacesFewerFramesAreLong) {
   const auto opened = [](std::vector<MatrixLayout> matrices, int frames) {
     const auto layout = std::make_shared<const SensorLayout>(std::move(matrices));
     ProfileBuilder builder(layout);
-    const std::vector<float> values(layout->numPlaces(), 7.0F);
+    const std::vector<float> values(layout->numCells(), 7.0F);
     for (int i = 0; i < frames; ++i) builder.addFrame(1 + i * 30'000LL, values);
     return makeOpenedRecording("none.palpate", builder.finish({}));
   };

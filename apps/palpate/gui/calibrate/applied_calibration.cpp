@@ -60,7 +60,7 @@ bool KeptWithRecording::operator==(const KeptWithRecording& other) const {
   const auto sameChange = [](const ReportedChange& a, const ReportedChange& b) {
     return a.fromUs == b.fromUs && a.json == b.json;
   };
-  return settings == other.settings && trouble == other.trouble &&
+  return settings == other.settings && problem == other.problem &&
          tare.has_value() == other.tare.has_value() && zeros(*this) == zeros(other) &&
          reportedSettings == other.reportedSettings &&
          std::equal(reportedChanges.begin(),
@@ -82,7 +82,7 @@ KeptWithRecording keptWith(const OpenedRecording& recording,
         kept.settings = sensorSettingsFrom(Json::parse(event.json));
       if (event.kind == "settings") kept.reportedChanges.push_back({event.t1Us, event.json});
     } catch (const Error& error) {
-      kept.trouble = "An event \"" + QString::fromStdString(event.kind) +
+      kept.problem = "An event \"" + QString::fromStdString(event.kind) +
                      "\" of the recording can't be used: " + error.what();
     }
   return kept;

@@ -31,7 +31,7 @@ NoiseFloor noiseFromFile(const QString& path);
 struct KeptWithRecording {
   std::optional<SensorSettings> settings = {};
   std::optional<Tare> tare = {};
-  QString trouble = {};  // an event that can't be used: why
+  QString problem = {};  // an event that can't be used: why
   std::string reportedSettings = {};
   std::vector<ReportedChange> reportedChanges = {};
   bool operator==(const KeptWithRecording& other) const;

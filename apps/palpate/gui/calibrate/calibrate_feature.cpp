@@ -22,133 +22,144 @@ constexpr int kCalibrateUsualWidth = 640;  // [px] its tables are read without s
 
 }  // namespace
 
-CalibrateFeature::CalibrateFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window), panel_(new CalibratePanel(bench.settings, window)) {
+CalibrateFeature::CalibrateFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window), panel_(new CalibratePanel(windowState.settings, window)) {
   dock_ = new Dock("Calibrate", panel_, &panel_->header(), window);
-  pressures_ = std::make_unique<Pressures>(bench, panel_->force());
-  connect(&bench.subject, &Subject::shown, this, &CalibrateFeature::takeSource);
-  connect(&bench.events, &EventDesk::changed, this, &CalibrateFeature::takeKept);
+  pressures_ = std::make_unique<Pressures>(windowState, panel_->force());
+  connect(&windowState.displayed, &DisplayedSource::shown, this, &CalibrateFeature::takeSource);
+  connect(&windowState.events, &EventController::changed, this, &CalibrateFeature::takeKept);
   followTheme(panel_);
-  connect(
-      &bench.playback, &PlaybackController::positionChanged, panel_, &CalibratePanel::setPosition);
-  connect(panel_, &CalibratePanel::said, &bench.messages, &Messages::flash);
+  connect(&windowState.playback,
+          &PlaybackController::positionChanged,
+          panel_,
+          &CalibratePanel::setPosition);
+  connect(panel_, &CalibratePanel::said, &windowState.messages, &Messages::flash);
   connectPages();
   connectNoise();
-  bench.events.addFound([this](const OpenedRecordingPtr& recording, std::vector<EventMark>& marks) {
-    const auto& found = panel_->steps().found();
-    if (found && panel_->steps().source() == recording) addSteps(found->report, *recording, marks);
-  });
-  bench.escape.add(Escape::Order::kComputation, [this] { return panel_->cancel(); });
+  windowState.events.addFound(
+      [this](const OpenedRecordingPtr& recording, std::vector<EventMark>& marks) {
+        const auto& found = panel_->steps().found();
+        if (found && panel_->steps().source() == recording)
+          addSteps(found->report, *recording, marks);
+      });
+  windowState.escapeHandler.add(EscapeHandler::Order::kComputation,
+                                [this] { return panel_->cancel(); });
 }
 
 void CalibrateFeature::connectPages() {
-  Bench& bench = this->bench();
-  PlaybackController& playback = bench.playback;
+  WindowState& windowState = state();
+  PlaybackController& playback = windowState.playback;
   connect(&panel_->steps(), &StepPage::spanChosen, this, &CalibrateFeature::zoomTo);
   connect(&panel_->tare(), &TarePage::spanChosen, this, &CalibrateFeature::zoomTo);
-  connect(&panel_->steps(), &StepPage::sought, &playback, &PlaybackController::seekSeconds);
-  connect(&panel_->force(), &ForcePage::sought, &playback, &PlaybackController::seekSeconds);
-  connect(&panel_->steps(), &StepPage::foundChanged, &bench.events, &EventDesk::renewMarks);
-  connect(&panel_->tare(), &TarePage::keepAsked, this, [this, &bench] {
-    const OpenedRecordingPtr recording = bench.subject.recorded();
-    if (!recording) return;
-    bench.events.keep(
-        kTareKind, tareEvent(*panel_->tare().found(), recording->profile), "the zero");
-    bench.messages.flash("the zero is kept with the recording: save with Ctrl+S");
-  });
-  connect(&panel_->tare(), &TarePage::removeAsked, this, [&bench] {
-    bench.events.keep(kTareKind, std::nullopt, "the zero");
-    bench.messages.flash("no zero is kept with the recording: save with Ctrl+S");
-  });
+  connect(&panel_->steps(), &StepPage::seekRequested, &playback, &PlaybackController::seekSeconds);
+  connect(&panel_->force(), &ForcePage::seekRequested, &playback, &PlaybackController::seekSeconds);
   connect(
-      &panel_->force(), &ForcePage::keepAsked, this, [&bench](double sensitivity, double counts) {
-        const OpenedRecordingPtr recording = bench.subject.recorded();
-        if (!recording) return;
-        RecordingEvent event;
-        event.tUs = event.t1Us = recording->profile.frameTimeUs(0);
-        event.kind = kSettingsKind;
-        event.text = "sensitivity " + numberText(sensitivity) + ", threshold " + numberText(counts);
-        event.json = jsonOf(SensorSettings{sensitivity, counts, true}).text(-1);
-        bench.events.keep(kSettingsKind, event, "the sensor's settings");
-        bench.messages.flash("the sensor's settings are kept with the recording: save with Ctrl+S");
-      });
+      &panel_->steps(), &StepPage::foundChanged, &windowState.events, &EventController::renewMarks);
+  connect(&panel_->tare(), &TarePage::keepRequested, this, [this, &windowState] {
+    const OpenedRecordingPtr recording = windowState.displayed.recorded();
+    if (!recording) return;
+    windowState.events.keep(
+        kTareKind, tareEvent(*panel_->tare().found(), recording->profile), "the zero");
+    windowState.messages.flash("the zero is kept with the recording: save with Ctrl+S");
+  });
+  connect(&panel_->tare(), &TarePage::removeRequested, this, [&windowState] {
+    windowState.events.keep(kTareKind, std::nullopt, "the zero");
+    windowState.messages.flash("no zero is kept with the recording: save with Ctrl+S");
+  });
+  connect(&panel_->force(),
+          &ForcePage::keepRequested,
+          this,
+          [&windowState](double sensitivity, double counts) {
+            const OpenedRecordingPtr recording = windowState.displayed.recorded();
+            if (!recording) return;
+            RecordingEvent event;
+            event.tUs = event.t1Us = recording->profile.frameTimeUs(0);
+            event.kind = kSettingsKind;
+            event.text =
+                "sensitivity " + numberText(sensitivity) + ", threshold " + numberText(counts);
+            event.json = jsonOf(SensorSettings{sensitivity, counts, true}).text(-1);
+            windowState.events.keep(kSettingsKind, event, "the sensor's settings");
+            windowState.messages.flash(
+                "the sensor's settings are kept with the recording: save with Ctrl+S");
+          });
   connect(&panel_->force(), &ForcePage::applied, pressures_.get(), &Pressures::reload);
-  connect(&panel_->pressure(), &PressurePage::applyAsked, this, &CalibrateFeature::apply);
+  connect(&panel_->pressure(), &PressurePage::applyRequested, this, &CalibrateFeature::apply);
 }
 
 void CalibrateFeature::connectNoise() {
-  Bench& bench = this->bench();
-  connect(&panel_->noise(), &NoisePage::applyAsked, this, [&bench](const NoiseFloor& floor) {
-    const HandDescription* hand = bench.subject.hand();
-    applyNoise(bench.settings, hand ? hand->name : sdh2().name, floor);
-    bench.messages.flash("noise lines applied: the dock Hand has \"High sensitivity\"");
-  });
-  bench.handRequests.noiseLines = [&bench](const std::string& hand) {
-    return appliedNoise(bench.settings, hand);
+  WindowState& windowState = state();
+  connect(
+      &panel_->noise(), &NoisePage::applyRequested, this, [&windowState](const NoiseFloor& floor) {
+        const HandDescription* hand = windowState.displayed.hand();
+        applyNoise(windowState.settings, hand ? hand->name : sdh2().name, floor);
+        windowState.messages.flash("noise lines applied: the dock Hand has \"High sensitivity\"");
+      });
+  windowState.handCommands.noiseLines = [&windowState](const std::string& hand) {
+    return appliedNoise(windowState.settings, hand);
   };
-  connect(&bench.handRequests,
-          &HandRequests::highSensitivityChanged,
+  connect(&windowState.handCommands,
+          &HandCommands::highSensitivityChanged,
           this,
           &CalibrateFeature::filterGhosts);
 }
 
 void CalibrateFeature::takeSource() {
-  const Subject& subject = bench().subject;
-  panel_->setSource(subject.behind(), subject.isLive());
-  panel_->setPosition(bench().playback.positionS());
+  const DisplayedSource& displayed = state().displayed;
+  panel_->setSource(displayed.behind(), displayed.isLive());
+  panel_->setPosition(state().playback.positionS());
   takeKept();
   pressures_->renew();
 }
 
 void CalibrateFeature::takeKept() {
-  const EventEditor* editor = bench().events.editor();
+  const EventEditor* editor = state().events.editor();
   const KeptWithRecording kept =
-      editor ? keptWith(*bench().subject.recorded(), editor->events()) : KeptWithRecording{};
-  panel_->tare().setKept(kept.tare || !kept.trouble.isEmpty());
+      editor ? keptWith(*state().displayed.recorded(), editor->events()) : KeptWithRecording{};
+  panel_->tare().setKept(kept.tare || !kept.problem.isEmpty());
   panel_->force().setKept(kept);
   pressures_->setKept(kept);
 }
 
 // To the hand of what is looked at, else to the one that the calibration was made of.
 void CalibrateFeature::apply(const QString& path) {
-  const OpenedRecordingPtr& recording = bench().subject.behind();
+  const OpenedRecordingPtr& recording = state().displayed.behind();
   const auto& made = panel_->pressure().shownCalibration();
   applyCalibration(
-      bench().settings, recording ? recording->profile.hand().name : made->calibration.hand, path);
+      state().settings, recording ? recording->profile.hand().name : made->calibration.hand, path);
   panel_->force().calibrationChanged();
   pressures_->reload();
-  bench().messages.flash("applied: " + QFileInfo(path).fileName());
+  state().messages.flash("applied: " + QFileInfo(path).fileName());
 }
 
 // Thresholds at the noise let ghosts through: a filter takes them away, as long as they are there.
 void CalibrateFeature::filterGhosts(bool on) {
-  Filtering& filtering = bench().filtering;
+  ActiveFilters& activeFilters = state().activeFilters;
   if (on) {
-    filtersBefore_ = Filters{filtering.recipe(), filtering.on()};
-    filtering.editor().setRecipe(highSensitivityRecipe());
-    filtering.setOn(true);
+    filtersBefore_ = Filters{activeFilters.recipe(), activeFilters.on()};
+    activeFilters.editor().setRecipe(highSensitivityRecipe());
+    activeFilters.setOn(true);
     return;
   }
   const auto before = std::exchange(filtersBefore_, std::nullopt);
   // Others were chosen meanwhile: these stay.
-  if (!before || !filtering.recipe().sameSteps(highSensitivityRecipe())) return;
-  filtering.editor().setRecipe(before->recipe);
-  filtering.setOn(before->on);
+  if (!before || !activeFilters.recipe().sameSteps(highSensitivityRecipe())) return;
+  activeFilters.editor().setRecipe(before->recipe);
+  activeFilters.setOn(before->on);
 }
 
 void CalibrateFeature::zoomTo(double fromS, double toS) {
-  bench().selection.setSpan(TimeSpan{fromS, toS});
-  bench().selection.showWithAir({fromS, toS});
-  bench().playback.seekSeconds(fromS);
+  state().selection.setSpan(TimeSpan{fromS, toS});
+  state().selection.showWithMargin({fromS, toS});
+  state().playback.seekSeconds(fromS);
 }
 
 void CalibrateFeature::settle() { panel_->settle(); }
 
-std::vector<DockOffer> CalibrateFeature::docks() {
+std::vector<DockSpec> CalibrateFeature::docks() {
   return {{.dock = dock_,
            .key = QKeySequence("Ctrl+Shift+N"),  // newtons
            .tab = 6,
-           .roomPx = kCalibrateUsualWidth}};
+           .preferredWidthPx = kCalibrateUsualWidth}};
 }
 
 std::vector<ExportedView> CalibrateFeature::views() {
@@ -156,9 +167,9 @@ std::vector<ExportedView> CalibrateFeature::views() {
   view.name = "Calibrate";
   view.widget = panel_;
   view.isThere = [this] { return panel_->page().shown(); };
-  view.fileName = [this] { return bench().recordingStem() + "_" + panel_->pageName().toLower(); };
+  view.fileName = [this] { return state().recordingStem() + "_" + panel_->pageName().toLower(); };
   view.paint = [this](QPainter& painter, const PictureLook& look) {
-    panel_->page().paint(painter, look, bench().pictureTitle());
+    panel_->page().paint(painter, look, state().pictureTitle());
   };
   view.tables = [this] { return panel_->page().tables(); };
   return {view};

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "gui/bench/feature.h"
 #include "gui/calibrate/applied_calibration.h"
 #include "gui/calibrate/pressures.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -18,10 +18,10 @@ class CalibratePanel;
 class CalibrateFeature : public Feature {
   Q_OBJECT
  public:
-  CalibrateFeature(Bench& bench, QWidget* window);
+  CalibrateFeature(WindowState& windowState, QWidget* window);
 
   CalibratePanel& panel() noexcept { return *panel_; }
-  std::vector<DockOffer> docks() override;
+  std::vector<DockSpec> docks() override;
   std::vector<ExportedView> views() override;
   void settle() override;
 

@@ -5,7 +5,7 @@
 
 #include <palpate/core/number_text.h>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 #include "gui/widgets/notes_label.h"
 
 namespace palpate::gui {
@@ -77,11 +77,11 @@ std::vector<Fact> calibrationFacts(const Calibration& calibration) {
                    figure(model.options.assumedDegC, 0) + " ± " +
                        figure(model.options.assumedSdDegC, 0) + " °C assumed"});
   facts.push_back({"share of the active area",
-                   model.options.stampAreaMm2 > 0.0
-                       ? figure(model.areaShare, 2) + " ± " + figure(model.areaShareSd, 2) +
-                             " (stamp of " + figure(model.options.stampAreaMm2, 2) + " mm²)"
+                   model.options.indenterAreaMm2 > 0.0
+                       ? figure(model.areaFraction, 2) + " ± " + figure(model.areaFractionSd, 2) +
+                             " (stamp of " + figure(model.options.indenterAreaMm2, 2) + " mm²)"
                        : QString("not known: each active taxel counts whole"),
-                   model.options.stampAreaMm2 <= 0.0});
+                   model.options.indenterAreaMm2 <= 0.0});
   if (model.steadyS > 0.0) facts.push_back({"steady after", figure(model.steadyS, 2) + " s"});
   facts.push_back({"sensor's settings",
                    "sensitivity " + figure(calibration.settings.sensitivity, 2) + ", threshold " +
@@ -126,9 +126,9 @@ TextTable sampleTable(const ShownCalibrationPtr& now) {
             const PressureSample& sample = now->calibration.samples[row];
             const PressureModel& model = now->calibration.pressure;
             const auto& degC = model.options.study ? sample.studyDegC : sample.nearestDegC;
-            const bool told = model.valid() && sample.gainCounts > 0.0;
+            const bool told = model.valid() && sample.staticResponseCounts > 0.0;
             const PressureEstimate estimate =
-                told ? model.pressureAt(sample.gainCounts, degC) : PressureEstimate{};
+                told ? model.pressureAt(sample.staticResponseCounts, degC) : PressureEstimate{};
             const auto given = [](bool there, double value) {
               return there ? numberText(value) : std::string();
             };
@@ -136,8 +136,8 @@ TextTable sampleTable(const ShownCalibrationPtr& now) {
                 sample.file,
                 sample.sha256,
                 numberText(sample.pressureKpa),
-                numberText(sample.gainCounts),
-                numberText(sample.driftPerS),
+                numberText(sample.staticResponseCounts),
+                numberText(sample.driftCountsPerS),
                 given(degC.has_value(), degC.value_or(0.0)),
                 given(told, estimate.kpa),
                 given(told, estimate.sdKpa),

@@ -9,7 +9,7 @@
 namespace palpate::gui {
 namespace {
 
-GatheredSource gatheredSource(const std::filesystem::path& file, const Progress& progress) {
+CalibrationSource gatheredSource(const std::filesystem::path& file, const Progress& progress) {
   return {openRecording(file, progress), sha256OfFile(file)};
 }
 
@@ -20,15 +20,15 @@ ShownCalibrationPtr calibrationFromTable(const std::filesystem::path& table,
                                          const ShownCalibrationPtr& before,
                                          const Progress& progress) {
   const PressureModelOptions& options = choices.model;
-  std::shared_ptr<const GatheredSteps> known;
+  std::shared_ptr<const CalibrationSteps> known;
   if (before && before->source == table && before->by.matrix == choices.matrix &&
       before->by.robust == choices.robust)
     known = before->gathered;
   if (!known) {
-    GatherOptions gather;
+    CalibrationSampleOptions gather;
     gather.matrix = choices.matrix;
     if (choices.robust) gather.steps.fit.loss = StepLoss::kHuber;
-    known = std::make_shared<const GatheredSteps>(gatherSteps(
+    known = std::make_shared<const CalibrationSteps>(collectCalibrationSteps(
         readPressureTable(table), table.parent_path(), gatheredSource, gather, progress));
   }
   if (known->numUnused() == known->samples.size()) {
@@ -50,7 +50,7 @@ ShownCalibrationPtr calibrationFromTable(const std::filesystem::path& table,
                             .set("table_sha256", sha256OfFile(table))
                             .set("choices", options.study ? "study" : "default")
                             .set("loss", choices.robust ? "huber" : "squares")
-                            .set("area_mm2", options.stampAreaMm2);
+                            .set("area_mm2", options.indenterAreaMm2);
   return made;
 }
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include <palpate/calibration/pressure_gathering.h>
+#include <palpate/calibration/calibration_samples.h>
 
 namespace palpate::gui {
 
@@ -19,8 +19,8 @@ struct CalibrationChoices {
 struct ShownCalibration {
   std::filesystem::path source;  // the table, or the file it was read from
   Calibration calibration;
-  std::shared_ptr<const GatheredSteps> gathered = {};  // null: read from a file
-  CalibrationChoices by = {};                          // of a table
+  std::shared_ptr<const CalibrationSteps> gathered = {};  // null: read from a file
+  CalibrationChoices by = {};                             // of a table
 };
 using ShownCalibrationPtr = std::shared_ptr<const ShownCalibration>;
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "gui/appearance/captions.h"
 #include "gui/chart/chart_picture.h"
 #include "gui/chart/chart_style.h"
-#include "gui/look/captions.h"
 
 namespace palpate::gui {
 namespace {
@@ -110,7 +110,7 @@ void ForceChart::style() {
   replot(QCustomPlot::rpQueuedReplot);
 }
 
-void ForceChart::setSeen(double fromS, double toS) {
+void ForceChart::setVisibleRange(double fromS, double toS) {
   if (!(toS > fromS)) return;
   xAxis->setRange(fromS, toS);
   replot(QCustomPlot::rpQueuedReplot);
@@ -140,11 +140,13 @@ void ForceChart::paint(QPainter& painter, const PictureLook& look, const QString
 }
 
 void ForceChart::mousePressEvent(QMouseEvent* event) {
-  if (event->button() == Qt::LeftButton) emit sought(xAxis->pixelToCoord(event->position().x()));
+  if (event->button() == Qt::LeftButton)
+    emit seekRequested(xAxis->pixelToCoord(event->position().x()));
 }
 
 void ForceChart::mouseMoveEvent(QMouseEvent* event) {
-  if (event->buttons() & Qt::LeftButton) emit sought(xAxis->pixelToCoord(event->position().x()));
+  if (event->buttons() & Qt::LeftButton)
+    emit seekRequested(xAxis->pixelToCoord(event->position().x()));
 }
 
 bool ForceChart::event(QEvent* event) {

@@ -7,8 +7,8 @@
 
 #include <palpate/calibration/force_series.h>
 
+#include "gui/appearance/theme.h"
 #include "gui/chart/plot.h"
-#include "gui/look/theme.h"
 #include "gui/picture/exported_view.h"
 
 namespace palpate::gui {
@@ -20,7 +20,7 @@ class ForceChart : public QCustomPlot {
 
   void setSeries(const std::shared_ptr<const ForceSeries>& series);
   void choose(std::size_t matrix, const QString& name);  // the number of matrices: the whole hand
-  void setSeen(double fromS, double toS);
+  void setVisibleRange(double fromS, double toS);
   void setPosition(double seconds);
   void setTheme(Theme theme);
   // As a picture of its own.
@@ -30,7 +30,7 @@ class ForceChart : public QCustomPlot {
   QSize minimumSizeHint() const override { return {220, 120}; }
 
  signals:
-  void sought(double seconds);
+  void seekRequested(double seconds);
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;

@@ -12,8 +12,8 @@
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/calibrate/force_chart.h"
-#include "gui/look/captions.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/notes_label.h"
 #include "gui/widgets/number_field.h"
@@ -46,7 +46,7 @@ std::vector<FigureCell> forcePageRowOf(const QString& name, const MatrixForce& f
   if (force.compensated) flags.append("creep taken out");
   return {{.text = name},
           {.text = QString::number(force.active)},
-          {.text = figure(static_cast<double>(force.gainCounts), 1)},
+          {.text = figure(static_cast<double>(force.staticResponseCounts), 1)},
           {.text = figure(static_cast<double>(force.kpa), 2),
            .detail = plusMinus(static_cast<double>(force.sdKpa))},
           {.text = figure(static_cast<double>(force.forceN), 2),
@@ -80,7 +80,7 @@ TextTable forceTable(const std::shared_ptr<const ForceSeries>& found) {
                                               std::to_string(row % found->numMatrices),
                                               std::to_string(force.active)};
             for (const float value :
-                 {force.gainCounts, force.kpa, force.sdKpa, force.forceN, force.sdForceN})
+                 {force.staticResponseCounts, force.kpa, force.sdKpa, force.forceN, force.sdForceN})
               cells.push_back(numberText(value));
             for (const bool flag : {force.inRange, force.temperatureKnown, force.saturated})
               cells.emplace_back(flag ? "1" : "0");
@@ -110,7 +110,7 @@ ForcePage::ForcePage(QSettings& settings, QWidget* parent)
         this, "Apply a calibration", {}, "Calibrations (*.json);;All files (*)");
   };
   connect(table_, &FiguresTable::rowChosen, this, &ForcePage::showChosen);
-  connect(chart_, &ForceChart::sought, this, &ForcePage::sought);
+  connect(chart_, &ForceChart::seekRequested, this, &ForcePage::seekRequested);
   showCalibration();
 }
 
@@ -161,7 +161,7 @@ void ForcePage::makeTop() {
   connect(choose_, &QPushButton::clicked, this, &ForcePage::chooseCalibration);
   connect(drop_, &QPushButton::clicked, this, [this] { applyThis({}); });
   connect(keep_, &QPushButton::clicked, this, [this] {
-    emit keepAsked(sensitivity_->value(), threshold_->value());
+    emit keepRequested(sensitivity_->value(), threshold_->value());
   });
   for (QDoubleSpinBox* each : {sensitivity_, threshold_})
     connect(each, &QDoubleSpinBox::valueChanged, this, [this] {
@@ -230,13 +230,13 @@ void ForcePage::showCalibration() {
   chart_->setVisible(!live());
 }
 
-QString ForcePage::whyNot() const {
-  if (QString why = ComputedPage::whyNot(); !why.isEmpty() && !live()) return why;
+QString ForcePage::emptyReason() const {
+  if (QString why = ComputedPage::emptyReason(); !why.isEmpty() && !live()) return why;
   if (live() && !liveHand_) return "Waiting for the hand.";
   if (appliedCalibration(settings_, handName()).isEmpty())
     return "No calibration is applied to this hand: its values are counts.\n\nMake one on the page "
            "Pressure, or choose one that was saved.";
-  return live() ? QString() : kept_.trouble;
+  return live() ? QString() : kept_.problem;
 }
 
 void ForcePage::compute() {

@@ -43,12 +43,12 @@ class ForcePage : public ComputedPage {
   std::function<QString()> askForCalibration;
 
  signals:
-  void keepAsked(double sensitivity, double thresholdCounts);  // with the recording
-  void applied();                                              // another calibration, or none
-  void sought(double seconds);
+  void keepRequested(double sensitivity, double thresholdCounts);  // with the recording
+  void applied();                                                  // another calibration, or none
+  void seekRequested(double seconds);
 
  protected:
-  QString whyNot() const override;
+  QString emptyReason() const override;
   void compute() override;
   void forget() override;
 

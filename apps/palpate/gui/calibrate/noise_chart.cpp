@@ -67,7 +67,7 @@ void NoiseChart::fill() {
     const NoiseLine& line = floor_.lines[i];
     const bool chosen = i == chosen_;
     const QColor color = matrixColor(line.matrix, theme_);
-    const double ends[] = {line.leastDegC, line.mostDegC};
+    const double ends[] = {line.minDegC, line.maxDegC};
     if (line.valid) {
       const auto draw = [&](double offset) {
         QCPGraph* made = addGraph();

@@ -7,8 +7,8 @@
 
 #include <palpate/calibration/noise_floor.h>
 
+#include "gui/appearance/theme.h"
 #include "gui/chart/plot.h"
-#include "gui/look/theme.h"
 #include "gui/picture/exported_view.h"
 
 namespace palpate::gui {

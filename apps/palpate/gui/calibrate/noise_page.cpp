@@ -14,9 +14,9 @@
 #include <palpate/core/number_text.h>
 #include <palpate/core/output_file.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/calibrate/applied_calibration.h"
 #include "gui/calibrate/noise_chart.h"
-#include "gui/look/captions.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/notes_label.h"
 #include "gui/widgets/number_field.h"
@@ -45,8 +45,8 @@ std::vector<FigureCell> noisePageRowOf(const NoiseLine& line, const QString& nam
     row.push_back({.text = figure(line.slope, 3)});
     row.push_back({.text = figure(line.intercept, 2)});
     row.push_back({.text = figure(line.rmse, 3), .detail = "true " + figure(line.rmseTrue, 2)});
-    row.push_back({.text = figure(line.leastDegC, 1) + "–" + figure(line.mostDegC, 1)});
-    row.push_back({.text = figure(line.threshold(line.mostDegC), 1)});
+    row.push_back({.text = figure(line.minDegC, 1) + "–" + figure(line.maxDegC, 1)});
+    row.push_back({.text = figure(line.threshold(line.maxDegC), 1)});
   } else {
     row.insert(row.end(), 5, none);
   }
@@ -64,29 +64,28 @@ std::vector<FigureCell> noisePageRowOf(const NoiseLine& line, const QString& nam
 std::string given(bool valid, double value) { return valid ? numberText(value) : std::string(); }
 
 TextTable lineTable(const std::shared_ptr<const FoundNoise>& found) {
-  return {
-      .header = {"matrix",
-                 "slope [counts/degC]",
-                 "intercept [counts]",
-                 "rmse [counts]",
-                 "rmse_true [counts]",
-                 "least_degC",
-                 "most_degC",
-                 "frames",
-                 "outliers",
-                 "notes"},
-      .numRows = found->floor.lines.size(),
-      .row = [found](std::size_t row) {
-        const NoiseLine& line = found->floor.lines[row];
-        std::vector<std::string> cells = {std::to_string(line.matrix)};
-        for (const double value :
-             {line.slope, line.intercept, line.rmse, line.rmseTrue, line.leastDegC, line.mostDegC})
-          cells.push_back(given(line.valid, value));
-        cells.push_back(std::to_string(line.numFrames));
-        cells.push_back(std::to_string(line.numOutliers));
-        cells.push_back(linesOf(line.notes).replace('\n', "; ").toStdString());
-        return cells;
-      }};
+  return {.header = {"matrix",
+                     "slope [counts/degC]",
+                     "intercept [counts]",
+                     "rmse [counts]",
+                     "rmse_true [counts]",
+                     "least_degC",
+                     "most_degC",
+                     "frames",
+                     "outliers",
+                     "notes"},
+          .numRows = found->floor.lines.size(),
+          .row = [found](std::size_t row) {
+            const NoiseLine& line = found->floor.lines[row];
+            std::vector<std::string> cells = {std::to_string(line.matrix)};
+            for (const double value :
+                 {line.slope, line.intercept, line.rmse, line.rmseTrue, line.minDegC, line.maxDegC})
+              cells.push_back(given(line.valid, value));
+            cells.push_back(std::to_string(line.numFrames));
+            cells.push_back(std::to_string(line.numOutliers));
+            cells.push_back(linesOf(line.notes).replace('\n', "; ").toStdString());
+            return cells;
+          }};
 }
 
 TextTable binTable(const std::shared_ptr<const FoundNoise>& found) {
@@ -162,12 +161,12 @@ NoisePage::NoisePage(QWidget* parent) : ComputedPage("noise", parent) {
     return QFileDialog::getOpenFileName(
         this, "Apply noise lines", {}, "Noise lines (*.json *.xml);;All files (*)");
   };
-  connect(apply_, &QPushButton::clicked, this, [this] { emit applyAsked(found_->floor); });
+  connect(apply_, &QPushButton::clicked, this, [this] { emit applyRequested(found_->floor); });
   connect(openLines, &QPushButton::clicked, this, [this] {
     const QString path = askForLines();
     if (path.isEmpty()) return;
     try {
-      emit applyAsked(noiseFromFile(path));
+      emit applyRequested(noiseFromFile(path));
     } catch (const Error& error) {
       emit said(error.what());
     }

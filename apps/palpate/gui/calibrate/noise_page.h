@@ -45,7 +45,7 @@ class NoisePage : public ComputedPage {
 
  signals:
   // High sensitivity of the hand shall go by these lines from now on.
-  void applyAsked(const palpate::NoiseFloor& floor);
+  void applyRequested(const palpate::NoiseFloor& floor);
 
  protected:
   void compute() override;

@@ -7,9 +7,9 @@
 
 #include <palpate/calibration/student_t.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/chart/chart_picture.h"
 #include "gui/chart/chart_style.h"
-#include "gui/look/captions.h"
 
 namespace palpate::gui {
 namespace {
@@ -124,8 +124,8 @@ void PressureChart::fill() {
   legend->setRowSpacing(-4);
   double mostK = 0.0, mostKpa = 0.0, leastK = std::numeric_limits<double>::max();
   for (const PressureSample& sample : samples_) {
-    mostK = std::max(mostK, sample.gainCounts);
-    if (sample.used) leastK = std::min(leastK, sample.gainCounts);
+    mostK = std::max(mostK, sample.staticResponseCounts);
+    if (sample.used) leastK = std::min(leastK, sample.staticResponseCounts);
     mostKpa = std::max(mostKpa, sample.pressureKpa);
   }
   if (leastK > mostK) leastK = 0.0;
@@ -165,14 +165,14 @@ void PressureChart::fill() {
     for (std::size_t i = 1; i < slices.size(); ++i)
       if (std::abs(slices[i] - degC) < std::abs(slices[nearest] - degC)) nearest = i;
     if (sample.used)
-      points[nearest]->addData(sample.gainCounts, sample.pressureKpa);
-    else if (sample.gainCounts > 0.0)
-      unused->addData(sample.gainCounts, sample.pressureKpa);
-    if (chosen_ != s || (!sample.used && sample.gainCounts <= 0.0)) continue;
+      points[nearest]->addData(sample.staticResponseCounts, sample.pressureKpa);
+    else if (sample.staticResponseCounts > 0.0)
+      unused->addData(sample.staticResponseCounts, sample.pressureKpa);
+    if (chosen_ != s || (!sample.used && sample.staticResponseCounts <= 0.0)) continue;
     QCPGraph* ring = scatter(colors.accent, QCPScatterStyle::ssCircle);
     ring->setScatterStyle(QCPScatterStyle(
         QCPScatterStyle::ssCircle, QPen(colors.accent, 2.0), Qt::NoBrush, kChosenSize));
-    ring->addData(sample.gainCounts, sample.pressureKpa);
+    ring->addData(sample.staticResponseCounts, sample.pressureKpa);
   }
   xAxis->setRange(fromK, toK);
   yAxis->setRange(0.0, (mostKpa > 0.0 ? mostKpa : 1.0) * kPressureChartHeadroom);

@@ -16,10 +16,10 @@
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/calibrate/calibration_facts.h"
 #include "gui/calibrate/pressure_chart.h"
 #include "gui/calibrate/surface_chart.h"
-#include "gui/look/captions.h"
 #include "gui/widgets/facts_view.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/notes_label.h"
@@ -47,18 +47,18 @@ std::vector<FigureCell> pressurePageRowOf(const PressureSample& sample,
   const QString name = QString::fromStdString(std::filesystem::path(sample.file).filename());
   const double degC = temperatureOf(sample, model.options);
   const bool known = (model.options.study ? sample.studyDegC : sample.nearestDegC).has_value();
-  const bool measured = sample.used || sample.gainCounts > 0.0;
+  const bool measured = sample.used || sample.staticResponseCounts > 0.0;
   const auto value = [&](double of, int decimals) {
     return measured ? figure(of, decimals) : QString("–");
   };
   QString off = "–";
   if (model.valid() && measured)
-    off = figure(model.gain.at(sample.gainCounts, degC).value - sample.pressureKpa, 2);
+    off = figure(model.gain.at(sample.staticResponseCounts, degC).value - sample.pressureKpa, 2);
   return {
       {.text = name, .tip = QString::fromStdString(sample.file + "\n" + sample.sha256)},
       {.text = figure(sample.pressureKpa, 2)},
-      {.text = value(sample.gainCounts, 1)},
-      {.text = value(sample.driftPerS, 2)},
+      {.text = value(sample.staticResponseCounts, 1)},
+      {.text = value(sample.driftCountsPerS, 2)},
       {.text = known ? figure(degC, 1) : QString("–"),
        .tip = known ? QString() : "not recorded: " + figure(degC, 0) + " °C assumed"},
       {.text = off},
@@ -231,7 +231,7 @@ void PressurePage::makeTop() {
 CalibrationChoices PressurePage::choices() const {
   CalibrationChoices choices;
   choices.model.study = study_->isChecked();
-  choices.model.stampAreaMm2 = area_->value();
+  choices.model.indenterAreaMm2 = area_->value();
   choices.settings = {sensitivity_->value(), threshold_->value(), true};
   choices.robust = robust_->isChecked();
   if (matrix_->currentIndex() > 0)
@@ -246,7 +246,7 @@ void PressurePage::open(const std::filesystem::path& path) {
   showOptions();
 }
 
-QString PressurePage::whyNot() const {
+QString PressurePage::emptyReason() const {
   if (!path_.empty()) return {};
   return "Open a table of recordings that were made under known pressures "
          "(file,pressure_kpa[,temperature_c]), or a calibration that was saved.";
@@ -300,7 +300,7 @@ void PressurePage::showOptions() {
   const Calibration& read = now_->calibration;
   const QSignalBlocker study(study_), area(area_), first(sensitivity_), second(threshold_);
   study_->setChecked(read.pressure.options.study);
-  area_->setValue(read.pressure.options.stampAreaMm2);
+  area_->setValue(read.pressure.options.indenterAreaMm2);
   sensitivity_->setValue(read.settings.sensitivity);
   threshold_->setValue(read.settings.thresholdCounts);
 }
@@ -326,7 +326,7 @@ void PressurePage::saveAs() {
 // What is applied must be on disk: it is read again the next day.
 void PressurePage::apply() {
   if (saved_.empty()) saveAs();
-  if (!saved_.empty()) emit applyAsked(QString::fromStdString(saved_.string()));
+  if (!saved_.empty()) emit applyRequested(QString::fromStdString(saved_.string()));
 }
 
 QStringList PressurePage::facts() const {

@@ -46,11 +46,11 @@ class PressurePage : public ComputedPage {
 
  signals:
   // This calibration (a file) shall tell the forces of the hand from now on.
-  void applyAsked(const QString& path);
+  void applyRequested(const QString& path);
 
  protected:
   bool ofRecording() const override { return false; }
-  QString whyNot() const override;
+  QString emptyReason() const override;
   void compute() override;
   void resizeEvent(QResizeEvent* event) override;
 

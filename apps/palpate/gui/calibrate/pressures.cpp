@@ -16,9 +16,10 @@ constexpr const char* kNone = "none: values are counts";
 
 }  // namespace
 
-Pressures::Pressures(Bench& bench, ForcePage& page) : bench_(bench), page_(page) {
-  connect(&bench.playback, &PlaybackController::positionChanged, this, &Pressures::showFrame);
-  connect(&bench.moment, &Moment::resultsCame, this, &Pressures::showLive);
+Pressures::Pressures(WindowState& windowState, ForcePage& page)
+    : windowState_(windowState), page_(page) {
+  connect(&windowState.playback, &PlaybackController::positionChanged, this, &Pressures::showFrame);
+  connect(&windowState.currentFrame, &CurrentFrame::resultsReceived, this, &Pressures::showLive);
 }
 
 void Pressures::setKept(const KeptWithRecording& kept) {
@@ -32,13 +33,13 @@ void Pressures::reload() {
 }
 
 void Pressures::renew() {
-  const Subject& subject = bench_.subject;
-  LiveSource* source = subject.source();
-  if (subject.isLive() && !source) return of_.reset();  // it is about to go
-  const std::string hand = subject.hand() ? subject.hand()->name : std::string();
-  const QString path = hand.empty() ? QString() : appliedCalibration(bench_.settings, hand);
+  const DisplayedSource& displayed = windowState_.displayed;
+  LiveSource* source = displayed.source();
+  if (displayed.isLive() && !source) return of_.reset();  // it is about to go
+  const std::string hand = displayed.hand() ? displayed.hand()->name : std::string();
+  const QString path = hand.empty() ? QString() : appliedCalibration(windowState_.settings, hand);
   Of now{source ? static_cast<const void*>(source->history.get())
-                : static_cast<const void*>(subject.behind().get()),
+                : static_cast<const void*>(displayed.behind().get()),
          path,
          source ? KeptWithRecording{} : kept_};
   if (of_ && *of_ == now) return;
@@ -48,28 +49,28 @@ void Pressures::renew() {
   try {
     if (source)
       renewLive(path);
-    else if (subject.isRecording() && !path.isEmpty())
+    else if (displayed.isRecording() && !path.isEmpty())
       renewRecording(path);
   } catch (const Error& error) {
     text = QString("can't be used: ") + error.what();
   } catch (const std::invalid_argument& error) {
     text = QString("can't be used: ") + error.what();
   }
-  bench_.overlays.setCalibration(text);
-  bench_.overlays.setPressure(nullptr);
+  windowState_.derivedResults.setCalibration(text);
+  windowState_.derivedResults.setPressure(nullptr);
   if (!source) showFrame();
 }
 
 void Pressures::renewLive(const QString& path) {
-  LiveSource& source = *bench_.subject.source();
+  LiveSource& source = *windowState_.displayed.source();
   source.pressure->setCalibration(std::nullopt);
-  page_.setLiveHand(*bench_.subject.hand());
+  page_.setLiveHand(*windowState_.displayed.hand());
   if (!path.isEmpty()) source.pressure->setCalibration(usableCalibration(path));
 }
 
 void Pressures::renewRecording(const QString& path) {
-  if (!kept_.trouble.isEmpty()) throw Error(kept_.trouble.toStdString());
-  reader_ = std::make_unique<PressureReader>(bench_.subject.behind()->profile,
+  if (!kept_.problem.isEmpty()) throw Error(kept_.problem.toStdString());
+  reader_ = std::make_unique<PressureReader>(windowState_.displayed.behind()->profile,
                                              usableCalibration(path),
                                              pressureOptions(kept_, std::nullopt),
                                              kept_.tare);
@@ -77,18 +78,18 @@ void Pressures::renewRecording(const QString& path) {
 
 // The frame of the recording at which the cursor stands.
 void Pressures::showFrame() {
-  if (!reader_ || !bench_.subject.hasFrames()) return;
+  if (!reader_ || !windowState_.displayed.hasFrames()) return;
   try {
-    bench_.overlays.setPressure(
-        std::make_shared<const PressureFrame>(reader_->at(bench_.playback.frame())));
+    windowState_.derivedResults.setPressure(
+        std::make_shared<const PressureFrame>(reader_->at(windowState_.playback.frame())));
   } catch (const Error&) {
-    bench_.overlays.setPressure(nullptr);  // said where the frame would be
+    windowState_.derivedResults.setPressure(nullptr);  // said where the frame would be
   }
 }
 
 void Pressures::showLive(const LiveResults& results) {
-  bench_.overlays.setPressure(results.pressure);
-  const LiveSource* source = bench_.subject.source();
+  windowState_.derivedResults.setPressure(results.pressure);
+  const LiveSource* source = windowState_.displayed.source();
   if (source && results.pressure && page_.isVisible())
     page_.showLive(*results.pressure, source->pressure->assumptions());
 }

@@ -8,8 +8,8 @@
 
 #include <palpate/calibration/pressure_reader.h>
 
-#include "gui/bench/bench.h"
 #include "gui/calibrate/applied_calibration.h"
+#include "gui/window_state/window_state.h"
 
 namespace palpate::gui {
 
@@ -19,7 +19,7 @@ class Pressures : public QObject {
   Q_OBJECT
  public:
   // Both must outlive it.
-  Pressures(Bench& bench, ForcePage& page);
+  Pressures(WindowState& windowState, ForcePage& page);
 
   // What the recording that is looked at says of its sensor.
   void setKept(const KeptWithRecording& kept);
@@ -34,7 +34,7 @@ class Pressures : public QObject {
   void showFrame();
   void showLive(const LiveResults& results);
 
-  Bench& bench_;
+  WindowState& windowState_;
   ForcePage& page_;
   KeptWithRecording kept_;
   std::unique_ptr<PressureReader> reader_;  // of the recording that is shown; null: no pressures

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/appearance/captions.h"
 #include "gui/chart/chart_picture.h"
 #include "gui/chart/chart_style.h"
-#include "gui/look/captions.h"
 
 namespace palpate::gui {
 namespace {
@@ -93,10 +93,10 @@ void StepChart::fill(const StepSignal& samples) {
       const double t = endS * share * share;
       fit.append({t, stepResponse(fitted, t)});
     }
-    high = std::max(high, fitted.gainCounts);
+    high = std::max(high, fitted.staticResponseCounts);
     if (std::isfinite(shape.inflectionS) && std::isfinite(shape.tangentAtGainS)) {
       tangent.append({std::max(0.0, shape.deadTimeS), 0.0});
-      tangent.append({shape.tangentAtGainS, fitted.gainCounts});
+      tangent.append({shape.tangentAtGainS, fitted.staticResponseCounts});
       inflection.append({shape.inflectionS, shape.inflectionCounts});
     }
   }
@@ -109,9 +109,9 @@ void StepChart::fill(const StepSignal& samples) {
   yAxis->setRange(0.0, (high > 0.0 ? high : 1.0) * kStepChartHeadroom);
   const double reach = most > 0.0 ? most * kStepChartHeadroom : 1.0;
   residual_->setRange(-reach, reach);
-  gain_->start->setCoords(0.0, fitted.gainCounts);
-  gain_->end->setCoords(endS, fitted.gainCounts);
-  gainName_->position->setCoords(endS, fitted.gainCounts);
+  gain_->start->setCoords(0.0, fitted.staticResponseCounts);
+  gain_->end->setCoords(endS, fitted.staticResponseCounts);
+  gainName_->position->setCoords(endS, fitted.staticResponseCounts);
   gainName_->setText("K");
   gain_->setVisible(step_.fit.converged);
   gainName_->setVisible(step_.fit.converged);
@@ -198,12 +198,12 @@ void StepChart::paint(QPainter& painter,
 
 void StepChart::mousePressEvent(QMouseEvent* event) {
   if (event->button() == Qt::LeftButton)
-    emit sought(beginS_ + xAxis->pixelToCoord(event->position().x()));
+    emit seekRequested(beginS_ + xAxis->pixelToCoord(event->position().x()));
 }
 
 void StepChart::mouseMoveEvent(QMouseEvent* event) {
   if (event->buttons() & Qt::LeftButton)
-    emit sought(beginS_ + xAxis->pixelToCoord(event->position().x()));
+    emit seekRequested(beginS_ + xAxis->pixelToCoord(event->position().x()));
 }
 
 void StepChart::resizeEvent(QResizeEvent* event) {

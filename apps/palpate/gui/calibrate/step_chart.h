@@ -6,9 +6,9 @@
 
 #include <palpate/calibration/step_report.h>
 
+#include "gui/appearance/plotted_signal.h"
+#include "gui/appearance/theme.h"
 #include "gui/chart/plot.h"
-#include "gui/look/plotted_signal.h"
-#include "gui/look/theme.h"
 #include "gui/picture/exported_view.h"
 
 namespace palpate::gui {
@@ -34,7 +34,7 @@ class StepChart : public QCustomPlot {
   QSize minimumSizeHint() const override { return {220, 170}; }
 
  signals:
-  void sought(double seconds);  // of the recording
+  void seekRequested(double seconds);  // of the recording
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;

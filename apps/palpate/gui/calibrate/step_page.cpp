@@ -11,11 +11,11 @@
 #include <array>
 #include <cmath>
 
-#include <palpate/calibration/pressure_gathering.h>
+#include <palpate/calibration/calibration_samples.h>
 #include <palpate/core/number_text.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/calibrate/step_chart.h"
-#include "gui/look/captions.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/notes_label.h"
 
@@ -61,7 +61,7 @@ FigureCell withInterval(double value, double interval) {
 QStringList flagsOf(const FittedStep& step) {
   QStringList flags;
   if (!step.fit.converged) flags.append("no fit");
-  if (step.fit.converged && !step.fit.gainReached) flags.append("cut off");
+  if (step.fit.converged && !step.fit.steadyStateReached) flags.append("cut off");
   if (step.saturatedFrames > 0) flags.append("saturated");
   if (!step.step.beginSeen) flags.append("begin not seen");
   if (step.fit.converged && !step.fit.identifiable) flags.append("T2 not told");
@@ -82,8 +82,8 @@ std::vector<FigureCell> stepPageRowOf(const FittedStep& step, const StepSignal& 
                  .tip = "frames " + QString::number(step.step.begin) + " to " +
                         QString::number(step.step.end)});
   if (fit.converged) {
-    row.push_back(withInterval(p.gainCounts, fit.interval95(0)));
-    row.push_back(withInterval(p.driftPerS, fit.interval95(1)));
+    row.push_back(withInterval(p.staticResponseCounts, fit.interval95(0)));
+    row.push_back(withInterval(p.driftCountsPerS, fit.interval95(1)));
     row.push_back(withInterval(p.t1S(), fit.interval95(2)));
     row.push_back(withInterval(p.t2S(), fit.interval95(3)));
     row.push_back(
@@ -102,41 +102,41 @@ std::vector<FigureCell> stepPageRowOf(const FittedStep& step, const StepSignal& 
 }
 
 TextTable stepTable(const std::shared_ptr<const FoundSteps>& found) {
-  return {
-      .header = {"step",          "begin_frame",  "end_frame",
-                 "begin_s",       "end_s",        "K [counts]",
-                 "K_95",          "m [counts/s]", "m_95",
-                 "T1 [s]",        "T1_95",        "T2 [s]",
-                 "T2_95",         "T [s]",        "d",
-                 "rmse [counts]", "degC",         "saturated_frames",
-                 "converged",     "identifiable", "gain_reached",
-                 "usable",        "notes"},
-      .numRows = found->report.steps.size(),
-      .row = [found](std::size_t index) {
-        const FittedStep& step = found->report.steps[index];
-        const StepFit& fit = step.fit;
-        const StepParameters& p = fit.parameters;
-        std::vector<std::string> cells = {std::to_string(index),
-                                          std::to_string(step.step.begin),
-                                          std::to_string(step.step.end),
-                                          numberText(found->signal.timeS[step.step.begin]),
-                                          numberText(found->signal.timeS[step.step.end])};
-        const std::array values = {p.gainCounts, p.driftPerS, p.t1S(), p.t2S()};
-        const auto number = [](double value) {
-          return std::isfinite(value) ? numberText(value) : std::string();
-        };
-        for (int i = 0; i < 4; ++i)
-          for (const double value : {values[static_cast<std::size_t>(i)], fit.interval95(i)})
-            cells.push_back(fit.converged ? number(value) : std::string());
-        for (const double value : {p.timeConstantS, p.damping, fit.rmse})
-          cells.push_back(fit.converged ? number(value) : std::string());
-        cells.push_back(step.nearestDegC ? numberText(*step.nearestDegC) : std::string());
-        cells.push_back(std::to_string(step.saturatedFrames));
-        for (const bool flag : {fit.converged, fit.identifiable, fit.gainReached, step.usable()})
-          cells.emplace_back(flag ? "1" : "0");
-        cells.push_back(notesOf(step).replace('\n', "; ").toStdString());
-        return cells;
-      }};
+  return {.header = {"step",          "begin_frame",  "end_frame",
+                     "begin_s",       "end_s",        "K [counts]",
+                     "K_95",          "m [counts/s]", "m_95",
+                     "T1 [s]",        "T1_95",        "T2 [s]",
+                     "T2_95",         "T [s]",        "d",
+                     "rmse [counts]", "degC",         "saturated_frames",
+                     "converged",     "identifiable", "gain_reached",
+                     "usable",        "notes"},
+          .numRows = found->report.steps.size(),
+          .row = [found](std::size_t index) {
+            const FittedStep& step = found->report.steps[index];
+            const StepFit& fit = step.fit;
+            const StepParameters& p = fit.parameters;
+            std::vector<std::string> cells = {std::to_string(index),
+                                              std::to_string(step.step.begin),
+                                              std::to_string(step.step.end),
+                                              numberText(found->signal.timeS[step.step.begin]),
+                                              numberText(found->signal.timeS[step.step.end])};
+            const std::array values = {p.staticResponseCounts, p.driftCountsPerS, p.t1S(), p.t2S()};
+            const auto number = [](double value) {
+              return std::isfinite(value) ? numberText(value) : std::string();
+            };
+            for (int i = 0; i < 4; ++i)
+              for (const double value : {values[static_cast<std::size_t>(i)], fit.interval95(i)})
+                cells.push_back(fit.converged ? number(value) : std::string());
+            for (const double value : {p.timeConstantS, p.damping, fit.rmse})
+              cells.push_back(fit.converged ? number(value) : std::string());
+            cells.push_back(step.nearestDegC ? numberText(*step.nearestDegC) : std::string());
+            cells.push_back(std::to_string(step.saturatedFrames));
+            for (const bool flag :
+                 {fit.converged, fit.identifiable, fit.steadyStateReached, step.usable()})
+              cells.emplace_back(flag ? "1" : "0");
+            cells.push_back(notesOf(step).replace('\n', "; ").toStdString());
+            return cells;
+          }};
 }
 
 TextTable sampleTable(const std::shared_ptr<const FoundSteps>& found, std::size_t index) {
@@ -209,7 +209,7 @@ StepPage::StepPage(QWidget* parent) : ComputedPage("steps", parent) {
     const LoadingStep& span = found_->report.steps[step].step;
     emit spanChosen(found_->signal.timeS[span.begin], found_->signal.timeS[span.end]);
   });
-  connect(chart_, &StepChart::sought, this, &StepPage::sought);
+  connect(chart_, &StepChart::seekRequested, this, &StepPage::seekRequested);
 }
 
 void StepPage::forget() {

@@ -7,7 +7,7 @@
 
 #include <palpate/calibration/step_report.h>
 
-#include "gui/look/plotted_signal.h"
+#include "gui/appearance/plotted_signal.h"
 #include "gui/widgets/computed_page.h"
 
 class QBoxLayout;
@@ -44,7 +44,7 @@ class StepPage : public ComputedPage {
  signals:
   // A row was chosen: its span in the recording [s].
   void spanChosen(double fromS, double toS);
-  void sought(double seconds);
+  void seekRequested(double seconds);
   void foundChanged();  // other steps than before, or none
 
  protected:

@@ -8,11 +8,11 @@
 
 #include <palpate/calibration/student_t.h>
 
+#include "gui/appearance/captions.h"
+#include "gui/appearance/color_map.h"
 #include "gui/calibrate/pressure_chart.h"
 #include "gui/chart/chart_picture.h"
 #include "gui/chart/chart_style.h"
-#include "gui/look/captions.h"
-#include "gui/look/color_map.h"
 
 namespace palpate::gui {
 namespace {
@@ -83,8 +83,8 @@ void SurfaceChart::fill() {
   for (const PressureSample& sample : samples_) {
     if (!sample.used) continue;
     const double degC = temperatureOf(sample, model_.options);
-    leastK = any ? std::min(leastK, sample.gainCounts) : sample.gainCounts;
-    mostK = any ? std::max(mostK, sample.gainCounts) : sample.gainCounts;
+    leastK = any ? std::min(leastK, sample.staticResponseCounts) : sample.staticResponseCounts;
+    mostK = any ? std::max(mostK, sample.staticResponseCounts) : sample.staticResponseCounts;
     leastT = any ? std::min(leastT, degC) : degC;
     mostT = any ? std::max(mostT, degC) : degC;
     any = true;
@@ -142,12 +142,12 @@ void SurfaceChart::addPoints() {
       {QCPScatterStyle::ssCross, QPen(colors.muted, 1.2), Qt::NoBrush, kSurfaceChartPointSize});
   for (std::size_t s = 0; s < samples_.size(); ++s) {
     const PressureSample& sample = samples_[s];
-    if (!(sample.gainCounts > 0.0)) continue;
+    if (!(sample.staticResponseCounts > 0.0)) continue;
     const double degC = temperatureOf(sample, model_.options);
-    (sample.used ? used : unused)->addData(sample.gainCounts, degC);
+    (sample.used ? used : unused)->addData(sample.staticResponseCounts, degC);
     if (chosen_ == s)
       scatter({QCPScatterStyle::ssCircle, QPen(colors.accent, 2.0), Qt::NoBrush, kChosenSize})
-          ->addData(sample.gainCounts, degC);
+          ->addData(sample.staticResponseCounts, degC);
   }
 }
 

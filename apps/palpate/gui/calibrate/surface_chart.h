@@ -8,8 +8,8 @@
 
 #include <palpate/calibration/pressure_model.h>
 
+#include "gui/appearance/theme.h"
 #include "gui/chart/plot.h"
-#include "gui/look/theme.h"
 #include "gui/picture/exported_view.h"
 
 namespace palpate::gui {

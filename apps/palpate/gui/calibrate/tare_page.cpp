@@ -8,7 +8,7 @@
 
 #include <palpate/core/number_text.h>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 #include "gui/picture/table_picture.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/notes_label.h"
@@ -148,8 +148,8 @@ TarePage::TarePage(QWidget* parent) : ComputedPage("tare", parent) {
   column->addWidget(table_, 1);
   column->addWidget(notes_);
   setContent(content);
-  connect(keep_, &QPushButton::clicked, this, &TarePage::keepAsked);
-  connect(remove_, &QPushButton::clicked, this, &TarePage::removeAsked);
+  connect(keep_, &QPushButton::clicked, this, &TarePage::keepRequested);
+  connect(remove_, &QPushButton::clicked, this, &TarePage::removeRequested);
   connect(table_, &FiguresTable::rowChosen, this, [this](int chosen) {
     const auto& windows = found_->matrices[static_cast<std::size_t>(chosen)].windows;
     if (windows.empty()) return;

@@ -34,8 +34,8 @@ class TarePage : public ComputedPage {
   const std::shared_ptr<const Tare>& found() const noexcept { return found_; }
 
  signals:
-  void keepAsked();  // what was found
-  void removeAsked();
+  void keepRequested();  // what was found
+  void removeRequested();
   void spanChosen(double fromS, double toS);  // the longest window of a matrix
 
  protected:

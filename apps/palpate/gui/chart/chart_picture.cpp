@@ -7,8 +7,8 @@
 #include <cmath>
 #include <functional>
 
+#include "gui/appearance/theme.h"
 #include "gui/chart/plot.h"
-#include "gui/look/theme.h"
 #include "gui/picture/picture_export.h"
 
 namespace palpate::gui {

@@ -6,8 +6,8 @@
 #include <QString>
 #include <cstddef>
 
-#include "gui/look/plotted_signal.h"
-#include "gui/look/theme.h"
+#include "gui/appearance/plotted_signal.h"
+#include "gui/appearance/theme.h"
 
 class QCPAxis;
 class QCPItemRect;

@@ -1,6 +1,6 @@
 #include "gui/chart/plotted_curve.h"
 
-#include "gui/look/plotted_signal.h"
+#include "gui/appearance/plotted_signal.h"
 
 namespace palpate::gui {
 namespace {

@@ -8,7 +8,7 @@
 #include <palpate/model/hand_description.h>
 #include <palpate/signals/profile_series.h>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 namespace palpate::gui {
 

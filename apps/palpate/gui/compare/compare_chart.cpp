@@ -9,8 +9,8 @@
 
 #include <palpate/signals/min_max_decimation.h>
 
+#include "gui/appearance/difference_map.h"
 #include "gui/chart/chart_style.h"
-#include "gui/look/difference_map.h"
 
 namespace palpate::gui {
 namespace {
@@ -144,7 +144,7 @@ void CompareChart::setPosition(double seconds) {
     const double span = range.size();
     const double from = seconds > range.upper ? seconds - kCompareChartPageRest * span
                                               : seconds - (1.0 - kCompareChartPageRest) * span;
-    setSeen(from, from + span);
+    setVisibleRange(from, from + span);
   }
   placeCursor();
 }
@@ -159,7 +159,7 @@ void CompareChart::placeCursor() {
   if (cursor_->isHidden() == inside) cursor_->setVisible(inside);
 }
 
-void CompareChart::setSeen(double from, double to) {
+void CompareChart::setVisibleRange(double from, double to) {
   const TimeSpan all = whole();
   const double span =
       std::clamp(to - from, kCompareChartShortestSeenS, std::min(all.lengthS(), kLongestSeenS));
@@ -171,7 +171,7 @@ void CompareChart::setSeen(double from, double to) {
 
 void CompareChart::fit() {
   const TimeSpan all = whole();
-  setSeen(all.fromS, all.toS);
+  setVisibleRange(all.fromS, all.toS);
 }
 
 void CompareChart::zoomAbout(double seconds, double factor) {
@@ -179,7 +179,7 @@ void CompareChart::zoomAbout(double seconds, double factor) {
   const double span =
       std::clamp(range.size() / factor, kCompareChartShortestSeenS, whole().lengthS());
   const double share = (seconds - range.lower) / range.size();
-  setSeen(seconds - share * span, seconds + (1.0 - share) * span);
+  setVisibleRange(seconds - share * span, seconds + (1.0 - share) * span);
 }
 
 void CompareChart::mousePressEvent(QMouseEvent* event) {
@@ -195,7 +195,7 @@ void CompareChart::mousePressEvent(QMouseEvent* event) {
     setCursor(Qt::SizeHorCursor);
   } else if (left) {
     drag_ = Drag::kSeek;
-    emit sought(secondsAt(event->position().x()));
+    emit seekRequested(secondsAt(event->position().x()));
   }
 }
 
@@ -204,10 +204,10 @@ void CompareChart::mouseMoveEvent(QMouseEvent* event) {
   const double moved = (event->position().x() - dragFromPixel_) * perPixel;
   switch (drag_) {
     case Drag::kSeek:
-      emit sought(secondsAt(event->position().x()));
+      emit seekRequested(secondsAt(event->position().x()));
       break;
     case Drag::kPan:
-      setSeen(dragFromRange_.lower - moved, dragFromRange_.upper - moved);
+      setVisibleRange(dragFromRange_.lower - moved, dragFromRange_.upper - moved);
       break;
     case Drag::kShift:
       emit shifted(dragFromOffsetS_ + moved);
@@ -235,7 +235,7 @@ void CompareChart::wheelEvent(QWheelEvent* event) {
     const QCPRange range = xAxis->range();
     const double moved =
         -(sideways != 0.0 ? sideways : notches) * kCompareChartPageRest * range.size();
-    setSeen(range.lower + moved, range.upper + moved);
+    setVisibleRange(range.lower + moved, range.upper + moved);
   } else {
     zoomAbout(secondsAt(event->position().x()), std::pow(kWheelZoom, notches));
   }

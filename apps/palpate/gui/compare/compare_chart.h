@@ -9,9 +9,9 @@
 #include <palpate/signals/alignment.h>
 #include <palpate/signals/profile_series.h>
 
+#include "gui/appearance/plotted_signal.h"
+#include "gui/appearance/theme.h"
 #include "gui/chart/plot.h"
-#include "gui/look/plotted_signal.h"
-#include "gui/look/theme.h"
 
 namespace palpate::gui {
 
@@ -50,7 +50,7 @@ class CompareChart : public QCustomPlot {
   QSize minimumSizeHint() const override { return {240, 90}; }
 
  signals:
-  void sought(double seconds);
+  void seekRequested(double seconds);
   void shifted(double offsetS);  // by the mouse
   void shiftEnded();
   void rangeChanged();  // what is seen, or where it lies on screen
@@ -68,7 +68,7 @@ class CompareChart : public QCustomPlot {
   enum class Drag { kNone, kSeek, kPan, kShift };
   void rebuild();
   void refill();
-  void setSeen(double from, double to);
+  void setVisibleRange(double from, double to);
   void placeCursor();
   QString valuesAt(double seconds) const;
 

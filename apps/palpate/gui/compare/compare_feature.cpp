@@ -12,83 +12,89 @@ constexpr const char* kAlignmentKey = "compare/alignment";
 
 }  // namespace
 
-CompareFeature::CompareFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window),
-      action_(bench.actions.make(
+CompareFeature::CompareFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window),
+      action_(windowState.actions.make(
           "compare", "View", "Com&pare two recordings…", {key("Ctrl+Shift+C")}, true)),
-      panel_(new ComparePanel(
-          action_, bench.actions.at("interpolated"), bench.actions.at("values"), window)) {
-  const std::string last = bench.settings.value(kAlignmentKey).toString().toStdString();
+      panel_(new ComparePanel(action_,
+                              windowState.actions.at("interpolated"),
+                              windowState.actions.at("values"),
+                              window)) {
+  const std::string last = windowState.settings.value(kAlignmentKey).toString().toStdString();
   if (const auto known = alignmentFrom(last))
-    if (*known != Alignment::kByHand) panel_->setAlignment(*known);
+    if (*known != Alignment::kManual) panel_->setAlignment(*known);
   connectPanel();
   connectBench();
 }
 
 void CompareFeature::connectPanel() {
-  Bench& bench = this->bench();
-  connect(panel_, &ComparePanel::sought, this, &CompareFeature::seek);
-  connect(panel_, &ComparePanel::aChosen, &bench.subject, &Subject::show);
+  WindowState& windowState = state();
+  connect(panel_, &ComparePanel::seekRequested, this, &CompareFeature::seek);
+  connect(panel_, &ComparePanel::aChosen, &windowState.displayed, &DisplayedSource::show);
   connect(panel_,
-          &ComparePanel::swapAsked,
+          &ComparePanel::swapRequested,
           this,
-          [this, &bench](const OpenedRecordingPtr& recording, double seconds) {
-            const bool playing = bench.playback.playing();
-            bench.subject.show(recording);
+          [this, &windowState](const OpenedRecordingPtr& recording, double seconds) {
+            const bool playing = windowState.playback.playing();
+            windowState.displayed.show(recording);
             seek(seconds);
-            if (playing) bench.playback.play();
+            if (playing) windowState.playback.play();
           });
-  connect(panel_, &ComparePanel::openAsked, this, [&bench] {
+  connect(panel_, &ComparePanel::openRequested, this, [&windowState] {
     // A stays: what is opened here is to be B.
-    bench.askAndOpen(bench.subject.behind() ? OpenRequest::Then::kList
-                                            : OpenRequest::Then::kShowFirst);
+    windowState.askAndOpen(windowState.displayed.behind() ? OpenRequest::Then::kList
+                                                          : OpenRequest::Then::kShowFirst);
   });
-  connect(panel_, &ComparePanel::signalChosen, this, [&bench](PlottedSignal signal) {
-    bench.look.change([&](ViewSettings& view) { view.signal = signal; });
+  connect(panel_, &ComparePanel::signalChosen, this, [&windowState](PlottedSignal signal) {
+    windowState.appearance.change([&](ViewSettings& view) { view.signal = signal; });
   });
-  connect(panel_, &ComparePanel::alignmentChanged, this, [this, &bench] {
-    if (panel_->alignment() != Alignment::kByHand)
-      bench.settings.setValue(kAlignmentKey,
-                              QString::fromStdString(std::string(nameOf(panel_->alignment()))));
+  connect(panel_, &ComparePanel::alignmentChanged, this, [this, &windowState] {
+    if (panel_->alignment() != Alignment::kManual)
+      windowState.settings.setValue(
+          kAlignmentKey, QString::fromStdString(std::string(nameOf(panel_->alignment()))));
   });
-  connect(panel_, &ComparePanel::hovered, &bench.messages, &Messages::hover);
+  connect(panel_, &ComparePanel::hovered, &windowState.messages, &Messages::hover);
 }
 
 void CompareFeature::connectBench() {
-  Bench& bench = this->bench();
+  WindowState& windowState = state();
   on(action_, [this](bool on) { show(on); });
-  const auto list = [this, &bench] {
-    panel_->setRecordings(bench.recordings.all(), bench.subject.behind());
+  const auto list = [this, &windowState] {
+    panel_->setRecordings(windowState.recordings.all(), windowState.displayed.behind());
   };
-  connect(&bench.comparing, &Comparing::bChosen, this, [this, list](const OpenedRecordingPtr& b) {
-    list();
-    panel_->setB(b);
-  });
-  connect(&bench.comparing, &Comparing::changed, this, [this, &bench](bool on) {
+  connect(&windowState.comparison,
+          &ComparisonMode::bChosen,
+          this,
+          [this, list](const OpenedRecordingPtr& b) {
+            list();
+            panel_->setB(b);
+          });
+  connect(&windowState.comparison, &ComparisonMode::changed, this, [this, &windowState](bool on) {
     action_->setChecked(on);
-    if (on) panel_->setTime(bench.playback.positionS());
+    if (on) panel_->setTime(windowState.playback.positionS());
     panel_->setActive(on);
   });
-  connect(&bench.playback, &PlaybackController::positionChanged, panel_, &ComparePanel::setTime);
-  connect(&bench.recordings, &OpenRecordings::arrived, this, list);
-  connect(&bench.subject, &Subject::changed, this, list);
-  connect(&bench.look, &ViewLook::changed, this, [this, &bench] {
-    panel_->setSettings(bench.look.view(), bench.look.theme());
+  connect(
+      &windowState.playback, &PlaybackController::positionChanged, panel_, &ComparePanel::setTime);
+  connect(&windowState.recordings, &OpenRecordings::arrived, this, list);
+  connect(&windowState.displayed, &DisplayedSource::changed, this, list);
+  connect(&windowState.appearance, &ViewAppearance::changed, this, [this, &windowState] {
+    panel_->setSettings(windowState.appearance.view(), windowState.appearance.theme());
   });
-  bench.escape.add(Escape::Order::kCompare, [&bench] {
-    if (!bench.comparing.on()) return false;
-    bench.comparing.set(false);
+  windowState.escapeHandler.add(EscapeHandler::Order::kCompare, [&windowState] {
+    if (!windowState.comparison.on()) return false;
+    windowState.comparison.set(false);
     return true;
   });
 }
 
 void CompareFeature::start() {
-  panel_->setRecordings(bench().recordings.all(), bench().subject.behind());
+  panel_->setRecordings(state().recordings.all(), state().displayed.behind());
 }
 
 // Where A has no frame any more B may still have one: then the playback waits at A's end.
 void CompareFeature::seek(double seconds) {
-  PlaybackController& playback = bench().playback;
+  PlaybackController& playback = state().playback;
   const double within = std::clamp(seconds, 0.0, playback.durationS());
   if (within != seconds) playback.pause();
   playback.seekSeconds(within);
@@ -96,25 +102,25 @@ void CompareFeature::seek(double seconds) {
 }
 
 void CompareFeature::show(bool on) {
-  if (!on || bench().subject.isRecording()) return bench().comparing.set(on);
+  if (!on || state().displayed.isRecording()) return state().comparison.set(on);
   // Nothing to compare yet: what is opened now will be.
   action_->setChecked(false);
-  bench().askAndOpen(OpenRequest::Then::kCompare);
+  state().askAndOpen(OpenRequest::Then::kCompare);
 }
 
-std::vector<CentreOffer> CompareFeature::centre() {
-  return {{CentreOffer::Where::kInstead, panel_}};
+std::vector<CentralViewSpec> CompareFeature::centre() {
+  return {{CentralViewSpec::Where::kInstead, panel_}};
 }
 
 std::vector<ExportedView> CompareFeature::views() {
-  Bench& bench = this->bench();
+  WindowState& windowState = state();
   ExportedView view;
   view.name = "Compare";
   view.rank = 3;
   view.widget = panel_;
-  view.isThere = [this, &bench] { return bench.comparing.on() && panel_->hasPair(); };
-  view.fileName = [this, &bench] {
-    return bench.recordingStem() + "_and_" +
+  view.isThere = [this, &windowState] { return windowState.comparison.on() && panel_->hasPair(); };
+  view.fileName = [this, &windowState] {
+    return windowState.recordingStem() + "_and_" +
            QString::fromStdString(panel_->b()->path.stem().string());
   };
   view.paint = [this](QPainter& painter, const PictureLook& look) { panel_->paint(painter, look); };

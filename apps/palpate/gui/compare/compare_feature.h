@@ -1,7 +1,7 @@
 // Two recordings instead of one. A is the recording that is looked at and played.
 #pragma once
 
-#include "gui/bench/feature.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -10,10 +10,10 @@ class ComparePanel;
 class CompareFeature : public Feature {
   Q_OBJECT
  public:
-  CompareFeature(Bench& bench, QWidget* window);
+  CompareFeature(WindowState& windowState, QWidget* window);
 
   ComparePanel& panel() noexcept { return *panel_; }
-  std::vector<CentreOffer> centre() override;
+  std::vector<CentralViewSpec> centre() override;
   std::vector<ExportedView> views() override;
   void start() override;
 

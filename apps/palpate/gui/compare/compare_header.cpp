@@ -11,7 +11,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "gui/look/difference_map.h"
+#include "gui/appearance/difference_map.h"
 
 namespace palpate::gui {
 namespace {
@@ -30,7 +30,7 @@ QString titleOf(Alignment alignment) {
       return "start of both";
     case Alignment::kClock:
       return "clock time";
-    case Alignment::kByHand:
+    case Alignment::kManual:
       return "by hand";
     case Alignment::kContact:
       break;
@@ -135,7 +135,7 @@ CompareHeader::CompareHeader(QAction* leave,
 
   connect(a_, &QComboBox::activated, this, [this](int index) { choose(a_, index, true); });
   connect(b_, &QComboBox::activated, this, [this](int index) { choose(b_, index, false); });
-  connect(swap_, &QToolButton::clicked, this, &CompareHeader::swapAsked);
+  connect(swap_, &QToolButton::clicked, this, &CompareHeader::swapRequested);
   connect(alignment_, &QComboBox::activated, this, [this](int index) {
     emit alignmentChosen(kAllAlignments[static_cast<std::size_t>(index)]);
   });
@@ -146,7 +146,7 @@ CompareHeader::CompareHeader(QAction* leave,
 void CompareHeader::choose(QComboBox* box, int index, bool isA) {
   if (index == box->count() - 1) {
     box->setCurrentIndex(isA ? chosenA_ : chosenB_);
-    emit openAsked();
+    emit openRequested();
   } else if (isA) {
     emit aChosen(index);
   } else {

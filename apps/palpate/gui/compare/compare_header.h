@@ -7,7 +7,7 @@
 
 #include <palpate/signals/alignment.h>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 class QAction;
 class QComboBox;
@@ -33,8 +33,8 @@ class CompareHeader : public QWidget {
  signals:
   void aChosen(int index);
   void bChosen(int index);
-  void openAsked();
-  void swapAsked();
+  void openRequested();
+  void swapRequested();
   void alignmentChosen(palpate::Alignment alignment);
   void offsetTyped(double offsetS);
 

@@ -4,7 +4,7 @@
 #include <QPainter>
 #include <algorithm>
 
-#include "gui/look/difference_map.h"
+#include "gui/appearance/difference_map.h"
 
 namespace palpate::gui {
 namespace {
@@ -158,7 +158,7 @@ void paintCompareValues(QPainter& painter,
     const MatricesGeometry& place = geometry.group(group);
     painter.save();
     paintTitle(painter, geometry.titleRect(group), group, content, own);
-    if (content.frame.values.size() == hands.of(group).layout->numPlaces())
+    if (content.frame.values.size() == hands.of(group).layout->numCells())
       for (std::size_t m = 0; m < place.numMatrices(); ++m)
         paintMatrixValues(
             painter, place, m, content.frame, hands.of(group), comparePainterRangeOf(own), own);

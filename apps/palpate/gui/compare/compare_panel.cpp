@@ -13,12 +13,12 @@
 
 #include <palpate/core/number_text.h>
 
+#include "gui/appearance/difference_map.h"
 #include "gui/chart/chart_picture.h"
 #include "gui/compare/compare_chart.h"
 #include "gui/compare/compare_header.h"
 #include "gui/compare/compare_strip.h"
 #include "gui/compare/compare_view.h"
-#include "gui/look/difference_map.h"
 
 namespace palpate::gui {
 namespace {
@@ -166,7 +166,7 @@ QWidget* ComparePanel::makeEmpty() {
 }
 
 void ComparePanel::connectParts() {
-  connect(header_, &CompareHeader::openAsked, this, &ComparePanel::askForAnother);
+  connect(header_, &CompareHeader::openRequested, this, &ComparePanel::askForAnother);
   connect(emptyOpen_, &QPushButton::clicked, this, &ComparePanel::askForAnother);
   connect(emptyItself_, &QPushButton::clicked, this, [this] { setB(a_); });
   connect(header_, &CompareHeader::aChosen, this, [this](int index) {
@@ -178,7 +178,7 @@ void ComparePanel::connectParts() {
   connect(header_, &CompareHeader::bChosen, this, [this](int index) {
     setB(recordings_.at(static_cast<std::size_t>(index)));
   });
-  connect(header_, &CompareHeader::swapAsked, this, &ComparePanel::swap);
+  connect(header_, &CompareHeader::swapRequested, this, &ComparePanel::swap);
   connect(header_, &CompareHeader::alignmentChosen, this, &ComparePanel::setAlignment);
   connect(header_, &CompareHeader::offsetTyped, this, &ComparePanel::setOffset);
   connect(&worker_, &CompareWorker::answered, this, &ComparePanel::take);
@@ -196,9 +196,9 @@ void ComparePanel::connectParts() {
       connect(strip_, &CompareStrip::shiftEnded, this, ended);
     }
   }
-  connect(chart_, &CompareChart::sought, this, [this](double seconds) {
+  connect(chart_, &CompareChart::seekRequested, this, [this](double seconds) {
     const TimeSpan all = chart_->whole();
-    emit sought(std::clamp(seconds, all.fromS, all.toS));
+    emit seekRequested(std::clamp(seconds, all.fromS, all.toS));
   });
   connect(signal_, &QComboBox::activated, this, [this](int index) {
     emit signalChosen(kAllPlottedSignals[static_cast<std::size_t>(index)]);
@@ -251,7 +251,7 @@ void ComparePanel::setB(const OpenedRecordingPtr& b) {
 
 void ComparePanel::askForAnother() {
   wantsNew_ = a_ != nullptr;
-  emit openAsked();
+  emit openRequested();
 }
 
 std::optional<TimeSpan> ComparePanel::common() const {
@@ -260,12 +260,12 @@ std::optional<TimeSpan> ComparePanel::common() const {
 }
 
 void ComparePanel::pairChanged() {
-  worker_.giveUp();
+  worker_.cancel();
   answer_ = {};
   comparison_.reset();
   asked_ = false;
   // An offset by hand is of two recordings: of others it means nothing.
-  if (alignment_ == Alignment::kByHand) alignment_ = Alignment::kContact;
+  if (alignment_ == Alignment::kManual) alignment_ = Alignment::kContact;
   header_->setAlignment(alignment_);
   header_->setOffset(std::nullopt);
   fillMatrices();
@@ -297,7 +297,7 @@ void ComparePanel::fillMatrices() {
 
 void ComparePanel::setActive(bool on) {
   active_ = on;
-  if (!on) return worker_.giveUp();
+  if (!on) return worker_.cancel();
   if (!answer_.complete) asked_ = false;
   if (!asked_) ask();
   showFrames();
@@ -344,7 +344,7 @@ std::optional<double> ComparePanel::offsetS() const {
 }
 
 void ComparePanel::setAlignment(Alignment alignment) {
-  if (alignment == Alignment::kByHand) handOffsetS_ = answer_.offsetS;
+  if (alignment == Alignment::kManual) handOffsetS_ = answer_.offsetS;
   alignment_ = alignment;
   header_->setAlignment(alignment);
   if (answer_.a && answer_.b) {
@@ -370,10 +370,10 @@ void ComparePanel::setOffset(double offsetS) {
 // Cheap: it is called for every movement of the mouse. Figures follow once it stands.
 void ComparePanel::moveTo(double offsetS, bool keepSeen) {
   if (!answer_.a || !answer_.b) return;
-  const bool changed = alignment_ != Alignment::kByHand;
-  worker_.giveUp();
+  const bool changed = alignment_ != Alignment::kManual;
+  worker_.cancel();
   handOffsetS_ = offsetS;
-  alignment_ = Alignment::kByHand;
+  alignment_ = Alignment::kManual;
   answer_.alignment = alignment_;
   answer_.offsetS = offsetS;
   answer_.figures.reset();
@@ -390,12 +390,12 @@ void ComparePanel::moveTo(double offsetS, bool keepSeen) {
 void ComparePanel::swap() {
   if (!hasPair() || a_ == b_) return;
   const double timeS = timeS_ - answer_.offsetS;
-  const bool byHand = alignment_ == Alignment::kByHand;
+  const bool byHand = alignment_ == Alignment::kManual;
   const double offsetS = -answer_.offsetS;
-  emit swapAsked(b_, timeS);
+  emit swapRequested(b_, timeS);
   if (!byHand) return;
   handOffsetS_ = offsetS;
-  alignment_ = Alignment::kByHand;
+  alignment_ = Alignment::kManual;
   header_->setAlignment(alignment_);
   ask();
 }

@@ -10,9 +10,9 @@
 #include <palpate/core/text_table.h>
 #include <palpate/signals/frame_difference.h>
 
+#include "gui/appearance/window_settings.h"
 #include "gui/compare/compare_painter.h"
 #include "gui/compare/compare_worker.h"
-#include "gui/look/window_settings.h"
 #include "gui/picture/exported_view.h"
 #include "gui/source/opened_recording.h"
 
@@ -76,11 +76,11 @@ class ComparePanel : public QWidget {
  signals:
   void aChosen(const palpate::gui::OpenedRecordingPtr& recording);
   // What was B is to be A, and the moment that is shown is this one of it [s].
-  void swapAsked(const palpate::gui::OpenedRecordingPtr& recording, double timeS);
-  void sought(double seconds);  // from A's first frame
+  void swapRequested(const palpate::gui::OpenedRecordingPtr& recording, double timeS);
+  void seekRequested(double seconds);  // from A's first frame
   void signalChosen(palpate::gui::PlottedSignal signal);
   void alignmentChanged();
-  void openAsked();
+  void openRequested();
   void hovered(const QString& text);
 
  private:

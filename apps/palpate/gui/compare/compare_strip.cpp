@@ -4,8 +4,8 @@
 #include <QPainter>
 #include <algorithm>
 
+#include "gui/appearance/difference_map.h"
 #include "gui/compare/compare_chart.h"
-#include "gui/look/difference_map.h"
 
 namespace palpate::gui {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <QWidget>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 namespace palpate::gui {
 

@@ -6,7 +6,7 @@
 #include <QToolTip>
 #include <cmath>
 
-#include "gui/look/difference_map.h"
+#include "gui/appearance/difference_map.h"
 
 namespace palpate::gui {
 namespace {
@@ -121,7 +121,7 @@ QString CompareView::valueText(CompareGroup group) const {
   const TactileFrame& frame = frames_[static_cast<std::size_t>(group)].frame;
   const bool enabled = hand.layout->matrix(hover_->matrix).enabled(hover_->y, hover_->x);
   if (!enabled) return group == CompareGroup::kDifference ? "not compared" : "not scanned";
-  if (frame.values.size() != hand.layout->numPlaces()) return "no frame";
+  if (frame.values.size() != hand.layout->numCells()) return "no frame";
   const auto value = static_cast<double>(frame.matrix(hover_->matrix)(hover_->y, hover_->x));
   const int decimals = value == std::round(value) ? 0 : 2;
   if (group == CompareGroup::kDifference) return signedText(value, decimals) + " counts";

@@ -54,7 +54,7 @@ ChosenOffset chosenOffset(const TimedProfile& a,
                           const TimedProfile& b,
                           Alignment alignment,
                           double handOffsetS) {
-  if (alignment == Alignment::kByHand) return {alignment, handOffsetS};
+  if (alignment == Alignment::kManual) return {alignment, handOffsetS};
   if (const auto offsetS = offsetBetween(a, b, alignment)) return {alignment, *offsetS};
   return {Alignment::kStart, 0.0};
 }
@@ -64,17 +64,17 @@ CompareWorker::CompareWorker(QObject* parent) : QObject(parent), kept_(std::make
 }
 
 CompareWorker::~CompareWorker() {
-  giveUp();
+  cancel();
   pool_.waitForDone();
 }
 
-void CompareWorker::giveUp() {
+void CompareWorker::cancel() {
   ++generation_;
   pool_.clear();
 }
 
 void CompareWorker::ask(const CompareQuestion& question) {
-  giveUp();
+  cancel();
   pool_.start([this, question, generation = generation_.load()] { work(question, generation); });
 }
 
@@ -95,8 +95,8 @@ std::shared_ptr<const Series> CompareWorker::curve(const OpenedRecordingPtr& rec
   if (!hasSeries(recording->profile, choice)) return nullptr;
   for (const auto& each : kept_->curves)
     if (each.of.lock() == recording && each.choice == choice) return each.series;
-  auto series =
-      std::make_shared<Series>(readSeries(recording->profile, choice, -kEverS, kEverS, progress));
+  auto series = std::make_shared<Series>(
+      readSeries(recording->profile, choice, -kEndOfTimeS, kEndOfTimeS, progress));
   kept_->curves.push_back({recording, choice, series});
   if (kept_->curves.size() > kCompareWorkerMostKept) kept_->curves.pop_front();
   return series;

@@ -21,7 +21,7 @@ struct CompareQuestion {
   OpenedRecordingPtr a;  // never null
   OpenedRecordingPtr b;
   Alignment alignment = Alignment::kContact;
-  double handOffsetS = 0.0;  // for kByHand
+  double handOffsetS = 0.0;  // for kManual
   SeriesChoice choice;       // of the curves
 };
 
@@ -61,7 +61,7 @@ class CompareWorker : public QObject {
 
   // Replaces what was asked before; answered() comes several times, the last one complete.
   void ask(const CompareQuestion& question);
-  void giveUp();
+  void cancel();
   void waitForDone() { pool_.waitForDone(); }
 
  signals:

@@ -1,10 +1,10 @@
 #include "gui/connect/connect_actions.h"
 
-#include "gui/look/icons.h"
+#include "gui/appearance/icons.h"
 
 namespace palpate::gui {
 
-ConnectActions::ConnectActions(ActionBook& book) {
+ConnectActions::ConnectActions(ActionRegistry& book) {
   connectHand = book.make("connectHand", "Hand", "&Connect…", {key("Ctrl+K")});
   tryEmulated = book.make("tryEmulated", "Hand", "Try the &emulated hand", {key("Ctrl+Shift+D")});
   disconnectHand = book.make("disconnectHand", "Hand", "&Disconnect", {key("Ctrl+Shift+K")});

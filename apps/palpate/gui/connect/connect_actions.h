@@ -5,12 +5,12 @@
 #include <QActionGroup>
 #include <QList>
 
-#include "gui/bench/action_book.h"
+#include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
 
 struct ConnectActions {
-  explicit ConnectActions(ActionBook& book);
+  explicit ConnectActions(ActionRegistry& book);
 
   QAction* connectHand = nullptr;
   QAction* tryEmulated = nullptr;

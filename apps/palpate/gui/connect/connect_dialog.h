@@ -6,8 +6,8 @@
 #include <array>
 #include <filesystem>
 
+#include "gui/appearance/theme.h"
 #include "gui/connect/port_scan.h"
-#include "gui/look/theme.h"
 #include "gui/source/connection.h"
 
 class QLabel;

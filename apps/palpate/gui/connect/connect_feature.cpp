@@ -5,34 +5,38 @@
 
 #include <palpate/emulator/scene.h>
 
+#include "gui/appearance/path_text.h"
 #include "gui/connect/connect_dialog.h"
-#include "gui/look/path_text.h"
 
 namespace palpate::gui {
 
-Connection emulatedBall(bool acts) {
+Connection emulatedBallConnection(bool runsScript) {
   Connection ball;
   ball.kind = Connection::Kind::kEmulated;
   ball.scene = "ball";
-  ball.sceneActs = acts;
+  ball.sceneScriptRuns = runsScript;
   return ball;
 }
 
-ConnectFeature::ConnectFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window), actions_(bench.actions) {
+ConnectFeature::ConnectFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window), actions_(windowState.actions) {
   addQuestions();
   connectActions();
-  LiveController& live = bench.live;
-  connect(&live, &LiveController::came, this, [&bench, &live] {
-    saveConnection(live.source()->connection, bench.settings);
+  LiveController& live = windowState.live;
+  connect(&live, &LiveController::sourceOpened, this, [&windowState, &live] {
+    saveConnection(live.source()->connection, windowState.settings);
   });
-  connect(&live, &LiveController::stateChanged, this, [&bench] { bench.enabling.refresh(); });
-  connect(&bench.moment, &Moment::firstFrameCame, this, [&bench] { bench.enabling.refresh(); });
-  connect(&bench.moment, &Moment::heldChanged, this, [this, &bench] {
-    actions_.hold->setChecked(bench.moment.held());
+  connect(&live, &LiveController::stateChanged, this, [&windowState] {
+    windowState.actionEnabler.refresh();
   });
-  connect(bench.menus.connections, &QMenu::aboutToShow, this, &ConnectFeature::fillMenu);
-  bench.escape.add(Escape::Order::kConnecting, [&live] {
+  connect(&windowState.currentFrame, &CurrentFrame::firstFrameReceived, this, [&windowState] {
+    windowState.actionEnabler.refresh();
+  });
+  connect(&windowState.currentFrame, &CurrentFrame::heldChanged, this, [this, &windowState] {
+    actions_.hold->setChecked(windowState.currentFrame.held());
+  });
+  connect(windowState.menus.connections, &QMenu::aboutToShow, this, &ConnectFeature::fillMenu);
+  windowState.escapeHandler.add(EscapeHandler::Order::kConnecting, [&live] {
     if (live.state() != LiveController::State::kConnecting) return false;
     live.end();
     return true;
@@ -40,28 +44,29 @@ ConnectFeature::ConnectFeature(Bench& bench, QWidget* window)
 }
 
 std::filesystem::path ConnectFeature::scenesFolder() const {
-  return bench().surroundings.dataFolder / "scenes";
+  return state().environment.dataFolder / "scenes";
 }
 
 void ConnectFeature::addQuestions() {
-  Bench& bench = this->bench();
-  bench.questions.connection = [this, &bench](const Connection& last) -> std::optional<Connection> {
+  WindowState& windowState = state();
+  windowState.prompts.connection =
+      [this, &windowState](const Connection& last) -> std::optional<Connection> {
     PortScan scan;
     // What is connected now answers us, not a probe.
-    const Connection& now = bench.live.connection();
-    if (bench.live.source() && now.kind == Connection::Kind::kPorts)
+    const Connection& now = windowState.live.connection();
+    if (windowState.live.source() && now.kind == Connection::Kind::kPorts)
       scan.setBusy({now.dsaPort, now.sdhPort},
-                   knownAnswers(now, bench.live.source()->session->device().status()));
+                   knownProbes(now, windowState.live.source()->session->device().status()));
     ConnectDialog dialog({.last = last,
                           .scenesFolder = scenesFolder(),
-                          .recentRecordings = bench.recent.paths(),
-                          .theme = bench.look.theme()},
+                          .recentRecordings = windowState.recent.paths(),
+                          .theme = windowState.appearance.theme()},
                          scan,
                          window());
     if (dialog.exec() != QDialog::Accepted) return std::nullopt;
     return dialog.connection();
   };
-  bench.questions.endRecording = [this] {
+  windowState.prompts.endRecording = [this] {
     return QMessageBox::question(window(),
                                  "Palpate",
                                  "A recording is running. Finish it and go on?",
@@ -71,44 +76,47 @@ void ConnectFeature::addQuestions() {
 }
 
 void ConnectFeature::connectActions() {
-  Bench& bench = this->bench();
+  WindowState& windowState = state();
   ConnectActions& actions = actions_;
-  on(actions.connectHand, [&bench] {
-    if (const auto wanted = bench.questions.connection(loadConnection(bench.settings)))
-      bench.connectTo(*wanted);
+  on(actions.connectHand, [&windowState] {
+    if (const auto wanted = windowState.prompts.connection(loadConnection(windowState.settings)))
+      windowState.connectTo(*wanted);
   });
-  on(actions.tryEmulated, [&bench] { bench.connectTo(emulatedBall(false)); });
-  on(actions.disconnectHand, [&bench] {
-    if (!bench.live.recording() || bench.questions.endRecording()) bench.live.end();
+  on(actions.tryEmulated, [&windowState] { windowState.connectTo(emulatedBallConnection(false)); });
+  on(actions.disconnectHand, [&windowState] {
+    if (!windowState.live.recording() || windowState.prompts.endRecording()) windowState.live.end();
   });
-  on(actions.live, [this, &bench] {
-    bench.subject.showLive();
-    bench.enabling.refresh();
-    actions_.live->setChecked(bench.subject.isLive());
+  on(actions.live, [this, &windowState] {
+    windowState.displayed.showLive();
+    windowState.actionEnabler.refresh();
+    actions_.live->setChecked(windowState.displayed.isLive());
   });
-  on(actions.hold, [&bench](bool held) { bench.moment.hold(held); });
-  connect(&bench.subject, &Subject::shown, this, [this, &bench] {
-    actions_.live->setChecked(bench.subject.isLive());
-    bench.enabling.refresh();
+  on(actions.hold, [&windowState](bool held) { windowState.currentFrame.hold(held); });
+  connect(&windowState.displayed, &DisplayedSource::shown, this, [this, &windowState] {
+    actions_.live->setChecked(windowState.displayed.isLive());
+    windowState.actionEnabler.refresh();
   });
-  bench.enabling.add({actions.disconnectHand},
-                     [&bench] { return bench.live.state() != LiveController::State::kNone; });
-  bench.enabling.add({actions.live}, [&bench] { return bench.live.source() != nullptr; });
-  bench.enabling.add({actions.hold}, [&bench] { return bench.subject.isLive(); });
+  windowState.actionEnabler.add({actions.disconnectHand}, [&windowState] {
+    return windowState.live.state() != LiveController::State::kNone;
+  });
+  windowState.actionEnabler.add({actions.live},
+                                [&windowState] { return windowState.live.source() != nullptr; });
+  windowState.actionEnabler.add({actions.hold},
+                                [&windowState] { return windowState.displayed.isLive(); });
 }
 
 // The last one first, then every scene, then what needs a dialogue.
 void ConnectFeature::fillMenu() {
-  Bench& bench = this->bench();
-  QMenu* menu = bench.menus.connections;
+  WindowState& windowState = state();
+  QMenu* menu = windowState.menus.connections;
   menu->clear();
-  const auto add = [this, &bench](QMenu* to, QString text, const Connection& connection) {
-    connect(
-        to->addAction(text.replace('&', "&&")), &QAction::triggered, this, [&bench, connection] {
-          bench.connectTo(connection);
-        });
+  const auto add = [this, &windowState](QMenu* to, QString text, const Connection& connection) {
+    connect(to->addAction(text.replace('&', "&&")),
+            &QAction::triggered,
+            this,
+            [&windowState, connection] { windowState.connectTo(connection); });
   };
-  const Connection last = loadConnection(bench.settings);
+  const Connection last = loadConnection(windowState.settings);
   if (problemOf(last).isEmpty()) add(menu, "Again: " + describe(last), last);
   menu->addAction(actions_.connectHand);
   menu->addSeparator();
@@ -126,9 +134,10 @@ void ConnectFeature::fillMenu() {
     connection.recording = path;
     add(replays, path.section('/', -1), connection);
   };
-  for (const QString& path : bench.recent.paths())
+  for (const QString& path : windowState.recent.paths())
     if (RecentFiles::exists(path)) replay(path);
-  if (bench.actions.at("openDemo")->isEnabled()) replay(pathText(bench.demoRecording()));
+  if (windowState.actions.at("openDemo")->isEnabled())
+    replay(pathText(windowState.demoRecording()));
   if (replays->isEmpty()) replays->addAction("no recent recording")->setEnabled(false);
   menu->addSeparator();
   menu->addAction(actions_.disconnectHand);

@@ -2,15 +2,15 @@
 // holding the picture.
 #pragma once
 
-#include "gui/bench/feature.h"
 #include "gui/connect/connect_actions.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
 class ConnectFeature : public Feature {
   Q_OBJECT
  public:
-  ConnectFeature(Bench& bench, QWidget* window);
+  ConnectFeature(WindowState& windowState, QWidget* window);
 
  private:
   void addQuestions();
@@ -22,6 +22,6 @@ class ConnectFeature : public Feature {
 };
 
 // An emulated hand before a ball; `acts`: it grasps by itself.
-Connection emulatedBall(bool acts);
+Connection emulatedBallConnection(bool runsScript);
 
 }  // namespace palpate::gui

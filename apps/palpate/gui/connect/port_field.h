@@ -7,8 +7,8 @@
 #include <QList>
 #include <QWidget>
 
+#include "gui/appearance/theme.h"
 #include "gui/connect/port_scan.h"
-#include "gui/look/theme.h"
 #include "gui/widgets/state_mark.h"
 
 namespace palpate::gui {

@@ -19,8 +19,8 @@ constexpr const char* kOurPort = "this window is connected to it";
 
 PortScan::Functions realFunctions() {
   return {[] { return listPorts(); },
-          [](const std::string& port, const std::function<bool()>& giveUp) {
-            return probePort(port, {.open = {}, .giveUp = giveUp});
+          [](const std::string& port, const std::function<bool()>& isCancelled) {
+            return probePort(port, {.open = {}, .isCancelled = isCancelled});
           }};
 }
 
@@ -87,7 +87,7 @@ struct PortScan::Round {
   }
 };
 
-QHash<QString, PortProbe> knownAnswers(const Connection& connection, const DeviceStatus& status) {
+QHash<QString, PortProbe> knownProbes(const Connection& connection, const DeviceStatus& status) {
   QHash<QString, PortProbe> known;
   const auto add = [&](const QString& name, const PortStatus& port, PortAnswer belongs) {
     if (name.isEmpty() || (!port.found && port.state != PortState::kStreaming)) return;

@@ -27,7 +27,7 @@ struct ScannedPort {
 
 // What our own connection has found behind its ports, each judged by itself; of one that doesn't
 // answer yet nothing.
-QHash<QString, PortProbe> knownAnswers(const Connection& connection, const DeviceStatus& status);
+QHash<QString, PortProbe> knownProbes(const Connection& connection, const DeviceStatus& status);
 
 // The device that a name of a port leads to; the name itself where that is no file.
 QString deviceOf(const QString& port);
@@ -38,8 +38,9 @@ class PortScan : public QObject {
   // listPorts() and probePort(); tests hand in their own. Both are called from other threads.
   struct Functions {
     std::function<std::vector<PortInfo>()> list;
-    // Has to return soon after `giveUp` says true.
-    std::function<PortProbe(const std::string& port, const std::function<bool()>& giveUp)> probe;
+    // Has to return soon after `isCancelled` says true.
+    std::function<PortProbe(const std::string& port, const std::function<bool()>& isCancelled)>
+        probe;
   };
 
   explicit PortScan(QObject* parent = nullptr);

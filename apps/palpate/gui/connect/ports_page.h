@@ -8,9 +8,9 @@
 #include <QWidget>
 #include <optional>
 
+#include "gui/appearance/theme.h"
 #include "gui/connect/port_field.h"
 #include "gui/connect/port_scan.h"
-#include "gui/look/theme.h"
 
 class QFrame;
 class QLabel;

@@ -7,7 +7,7 @@
 #include <QWidget>
 #include <functional>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 class QComboBox;
 class QLabel;

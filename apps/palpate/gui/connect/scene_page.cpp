@@ -37,7 +37,7 @@ ScenePage::ScenePage(const std::filesystem::path& folder, Theme theme, QWidget* 
   none_->setWordWrap(true);
   none_->setTextFormat(Qt::PlainText);
   acts_ = new QCheckBox("The scene moves the hand &by itself", this);
-  acts_->setObjectName("sceneActs");
+  acts_->setObjectName("sceneScriptRuns");
   auto* other = new QPushButton("&Other scene…", this);
   other->setObjectName("otherScene");
   other->setAutoDefault(false);
@@ -104,8 +104,8 @@ QString ScenePage::scene() const {
   return item ? item->data(kSceneRole).toString() : QString();
 }
 
-void ScenePage::setActs(bool acts) { acts_->setChecked(acts); }
-bool ScenePage::acts() const { return acts_->isChecked(); }
+void ScenePage::setActs(bool runsScript) { acts_->setChecked(runsScript); }
+bool ScenePage::runsScript() const { return acts_->isChecked(); }
 
 void ScenePage::showChosen() {
   const QListWidgetItem* item = list_->currentItem();

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 class QCheckBox;
 class QLabel;
@@ -25,8 +25,8 @@ class ScenePage : public QWidget {
   // A name in the folder, or the path of a scene.
   void setScene(const QString& scene);
   QString scene() const;
-  void setActs(bool acts);
-  bool acts() const;
+  void setActs(bool runsScript);
+  bool runsScript() const;
   // Why the scene can't be used, one line; empty: it can.
   QString problem() const { return problem_; }
 

@@ -43,15 +43,15 @@ void GuardedApplication::note(const char* what) noexcept {
   ++numFailures_;
   try {
     QMetaObject::invokeMethod(
-        this, [this, text = QString::fromUtf8(what)] { tell(text); }, Qt::QueuedConnection);
+        this, [this, text = QString::fromUtf8(what)] { showFailure(text); }, Qt::QueuedConnection);
   } catch (...) {
     qCritical("The window failed at an event, and goes on");  // there is no memory to say more
   }
 }
 
-void GuardedApplication::tell(const QString& what) {
-  if (told_.contains(what) || told_.size() >= kMostTold) return;
-  told_.insert(what);
+void GuardedApplication::showFailure(const QString& what) {
+  if (reportedFailures_.contains(what) || reportedFailures_.size() >= kMostTold) return;
+  reportedFailures_.insert(what);
   qCritical("The window failed at an event, and goes on: %s", qUtf8Printable(what));
   emit failed("Something in the window failed, and it goes on without: " + what +
               ". Save your work; if it happens again, start Palpate anew");
@@ -59,7 +59,7 @@ void GuardedApplication::tell(const QString& what) {
 
 void GuardedApplication::forgetFailures() {
   numFailures_ = 0;
-  told_.clear();
+  reportedFailures_.clear();
 }
 
 std::size_t failuresAtEvents() noexcept {

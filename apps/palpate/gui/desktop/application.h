@@ -27,10 +27,10 @@ class GuardedApplication : public QApplication {
 
  private:
   void note(const char* what) noexcept;
-  void tell(const QString& what);
+  void showFailure(const QString& what);
 
   std::atomic<std::size_t> numFailures_ = 0;
-  QSet<QString> told_;
+  QSet<QString> reportedFailures_;
 };
 
 // Of the application that is there; 0 when it is none of ours.

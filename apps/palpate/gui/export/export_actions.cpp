@@ -1,10 +1,10 @@
 #include "gui/export/export_actions.h"
 
-#include "gui/look/icons.h"
+#include "gui/appearance/icons.h"
 
 namespace palpate::gui {
 
-ExportActions::ExportActions(ActionBook& book) {
+ExportActions::ExportActions(ActionRegistry& book) {
   exportPicture = book.make("exportPicture", "File", "&Export…", {key("Ctrl+E")});
   exportAgain = book.make("exportAgain", "File", "Export as &last time", {key("Ctrl+Shift+E")});
   copyPicture = book.make("copyPicture", "File", "Cop&y", {key("Ctrl+C")});

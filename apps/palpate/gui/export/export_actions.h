@@ -5,12 +5,12 @@
 #include <QActionGroup>
 #include <QList>
 
-#include "gui/bench/action_book.h"
+#include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
 
 struct ExportActions {
-  explicit ExportActions(ActionBook& book);
+  explicit ExportActions(ActionRegistry& book);
 
   QAction* exportPicture = nullptr;
   QAction* exportAgain = nullptr;

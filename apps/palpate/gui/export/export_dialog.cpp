@@ -268,7 +268,7 @@ void ExportDialog::fillFrames() {
   const auto pictures = view().framePicturesNow();
   const QSignalBlocker blocked(frames_);
   frames_->clear();
-  if (form_->chosen() != ExportForm::kMovie)
+  if (form_->chosen() != ExportFormat::kMovie)
     frames_->addItem("the one shown", static_cast<int>(ExportFrames::kShown));
   if (pictures && pictures->selected) {
     const FrameSpan span = *pictures->selected;
@@ -321,18 +321,18 @@ ExportRequest ExportDialog::request() const {
 void ExportDialog::refresh() {
   if (filling_) return;
   const ExportRequest now = request();
-  const bool isPicture = now.form != ExportForm::kCsv;
+  const bool isPicture = now.form != ExportFormat::kCsv;
   const bool asOnScreen = now.preset == kScreenPreset;
   const auto show = [this](QWidget* field, bool on) {
     field->setVisible(on);
     if (QWidget* label = fields_->labelForField(field)) label->setVisible(on);
   };
-  show(frames_, now.isMovie() || (now.form == ExportForm::kPng && frames_->count() > 1));
+  show(frames_, now.isMovie() || (now.form == ExportFormat::kPng && frames_->count() > 1));
   show(table_, !isPicture);
   show(preset_, isPicture);
   show(size_, isPicture && !asOnScreen);
   show(text_, isPicture && !asOnScreen);
-  show(dpi_, now.form == ExportForm::kPng);
+  show(dpi_, now.form == ExportFormat::kPng);
   movie_->setVisible(now.isMovie());
   show(colors_, isPicture);
   show(titled_, isPicture);

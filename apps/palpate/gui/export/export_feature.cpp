@@ -4,32 +4,32 @@
 
 namespace palpate::gui {
 
-ExportFeature::ExportFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window),
-      actions_(bench.actions),
-      takeAway_(bench.settings, window),
+ExportFeature::ExportFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window),
+      actions_(windowState.actions),
+      exportController_(windowState.settings, window),
       strip_(new OpeningStrip(window, "Exporting", "exporting")) {
   ExportActions& actions = actions_;
-  on(actions.exportPicture, [this] { takeAway_.exportNow(); });
-  on(actions.exportAgain, [this] { takeAway_.repeatLast(); });
-  on(actions.copyPicture, [this] { takeAway_.copyPicture(); });
-  on(actions.copyTable, [this] { takeAway_.copyTable(); });
-  connect(&takeAway_, &TakeAway::started, strip_, &OpeningStrip::begin);
-  connect(&takeAway_, &TakeAway::progressed, strip_, &OpeningStrip::setProgress);
-  connect(&takeAway_, &TakeAway::finished, strip_, &OpeningStrip::end);
-  connect(strip_, &OpeningStrip::cancelRequested, &takeAway_, &TakeAway::cancel);
-  connect(&takeAway_, &TakeAway::said, &bench.messages, &Messages::flash);
-  connect(&takeAway_, &TakeAway::failed, &bench.messages, &Messages::fail);
-  bench.enabling.add(
+  on(actions.exportPicture, [this] { exportController_.exportNow(); });
+  on(actions.exportAgain, [this] { exportController_.repeatLast(); });
+  on(actions.copyPicture, [this] { exportController_.copyPicture(); });
+  on(actions.copyTable, [this] { exportController_.copyTable(); });
+  connect(&exportController_, &ExportController::started, strip_, &OpeningStrip::begin);
+  connect(&exportController_, &ExportController::progressed, strip_, &OpeningStrip::setProgress);
+  connect(&exportController_, &ExportController::finished, strip_, &OpeningStrip::end);
+  connect(strip_, &OpeningStrip::cancelRequested, &exportController_, &ExportController::cancel);
+  connect(&exportController_, &ExportController::said, &windowState.messages, &Messages::flash);
+  connect(&exportController_, &ExportController::failed, &windowState.messages, &Messages::fail);
+  windowState.actionEnabler.add(
       {actions.exportPicture, actions.exportAgain, actions.copyPicture, actions.copyTable},
-      [&bench] { return bench.moment.hasFrame(); });
-  bench.escape.add(Escape::Order::kExport, [this] {
-    if (!takeAway_.busy()) return false;
-    takeAway_.cancel();
+      [&windowState] { return windowState.currentFrame.hasFrame(); });
+  windowState.escapeHandler.add(EscapeHandler::Order::kExport, [this] {
+    if (!exportController_.busy()) return false;
+    exportController_.cancel();
     return true;
   });
 }
 
-std::vector<StripOffer> ExportFeature::strips() { return {{StripOffer::Order::kExport, strip_}}; }
+std::vector<BannerSpec> ExportFeature::strips() { return {{BannerSpec::Order::kExport, strip_}}; }
 
 }  // namespace palpate::gui

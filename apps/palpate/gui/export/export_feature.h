@@ -1,9 +1,9 @@
 // Takes what is seen away: pictures, tables and movies of the views that the features offer.
 #pragma once
 
-#include "gui/bench/feature.h"
 #include "gui/export/export_actions.h"
-#include "gui/export/take_away.h"
+#include "gui/export/export_controller.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -12,14 +12,14 @@ class OpeningStrip;
 class ExportFeature : public Feature {
   Q_OBJECT
  public:
-  ExportFeature(Bench& bench, QWidget* window);
+  ExportFeature(WindowState& windowState, QWidget* window);
 
-  TakeAway& takeAway() noexcept { return takeAway_; }
-  std::vector<StripOffer> strips() override;
+  ExportController& exportController() noexcept { return exportController_; }
+  std::vector<BannerSpec> strips() override;
 
  private:
   ExportActions actions_;
-  TakeAway takeAway_;
+  ExportController exportController_;
   OpeningStrip* strip_;
 };
 

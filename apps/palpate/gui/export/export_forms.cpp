@@ -10,9 +10,9 @@ namespace {
 constexpr int kHeight = 28;  // [px]
 
 // Why the view can't be made into one; empty: it can.
-QString whyNot(ExportForm form, const ExportedView& view) {
-  if (form == ExportForm::kMovie) return whyNoMovie(view);
-  if (form == ExportForm::kCsv)
+QString emptyReason(ExportFormat form, const ExportedView& view) {
+  if (form == ExportFormat::kMovie) return movieProblem(view);
+  if (form == ExportFormat::kCsv)
     return view.tablesNow().empty() ? "This view has no numbers" : QString();
   return view.paint ? QString() : "This view has no picture";
 }
@@ -23,7 +23,7 @@ ExportForms::ExportForms(QWidget* parent) : QWidget(parent), buttons_(new QButto
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(4);
-  for (const ExportForm each : kAllExportForms) {
+  for (const ExportFormat each : kAllExportForms) {
     auto* button = new QToolButton(this);
     button->setObjectName("exportForm" + nameOf(each));
     button->setText(nameOf(each));
@@ -34,27 +34,29 @@ ExportForms::ExportForms(QWidget* parent) : QWidget(parent), buttons_(new QButto
     buttons_->addButton(button, static_cast<int>(each));
     layout->addWidget(button);
   }
-  buttons_->button(static_cast<int>(ExportForm::kPng))->setChecked(true);
+  buttons_->button(static_cast<int>(ExportFormat::kPng))->setChecked(true);
   connect(buttons_, &QButtonGroup::idToggled, this, [this](int, bool on) {
     if (on) emit changed();
   });
 }
 
-ExportForm ExportForms::chosen() const { return static_cast<ExportForm>(buttons_->checkedId()); }
+ExportFormat ExportForms::chosen() const {
+  return static_cast<ExportFormat>(buttons_->checkedId());
+}
 
-void ExportForms::choose(ExportForm form) {
+void ExportForms::choose(ExportFormat form) {
   buttons_->button(static_cast<int>(form))->setChecked(true);
 }
 
 void ExportForms::use(const ExportedView& view) {
-  for (const ExportForm each : kAllExportForms) {
+  for (const ExportFormat each : kAllExportForms) {
     QAbstractButton* button = buttons_->button(static_cast<int>(each));
-    const QString reason = whyNot(each, view);
+    const QString reason = emptyReason(each, view);
     button->setEnabled(reason.isEmpty());
     button->setToolTip(reason.isEmpty() ? descriptionOf(each) : reason);
   }
   if (!buttons_->checkedButton()->isEnabled())
-    choose(view.paint ? ExportForm::kPng : ExportForm::kCsv);
+    choose(view.paint ? ExportFormat::kPng : ExportFormat::kCsv);
 }
 
 }  // namespace palpate::gui

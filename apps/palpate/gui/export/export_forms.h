@@ -16,8 +16,8 @@ class ExportForms : public QWidget {
  public:
   explicit ExportForms(QWidget* parent = nullptr);
 
-  ExportForm chosen() const;
-  void choose(ExportForm form);
+  ExportFormat chosen() const;
+  void choose(ExportFormat form);
   // Leaves a form that isn't possible for PNG, or CSV where there is no picture.
   void use(const ExportedView& view);
 

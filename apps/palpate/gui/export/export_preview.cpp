@@ -5,8 +5,8 @@
 #include <QPainter>
 #include <algorithm>
 
+#include "gui/appearance/captions.h"
 #include "gui/export/export_work.h"
-#include "gui/look/captions.h"
 #include "gui/picture/movie_writer.h"
 
 namespace palpate::gui {
@@ -34,7 +34,7 @@ ExportPreview::~ExportPreview() {
 
 void ExportPreview::show(const ExportedView& view, const ExportRequest& request) {
   request_ = request;
-  isTable_ = request.form == ExportForm::kCsv;
+  isTable_ = request.form == ExportFormat::kCsv;
   bytes_ = 0.0;
   numFiles_ = 1;
   movie_ = {};
@@ -84,9 +84,9 @@ void ExportPreview::measure() {
   if (request_.isMovie()) return measureMovie();
   worker_.start(
       [this, picture = picture_, paper = paper_, form = request_.form, now = generation_.load()] {
-        const PictureForm pictureForm = form == ExportForm::kSvg   ? PictureForm::kSvg
-                                        : form == ExportForm::kPdf ? PictureForm::kPdf
-                                                                   : PictureForm::kPng;
+        const ImageFormat pictureForm = form == ExportFormat::kSvg   ? ImageFormat::kSvg
+                                        : form == ExportFormat::kPdf ? ImageFormat::kPdf
+                                                                     : ImageFormat::kPng;
         double bytes = 0.0;
         try {
           bytes = static_cast<double>(pictureBytes(
@@ -154,7 +154,7 @@ QString ExportPreview::summary() const {
     parts << (numRows_ == 1 ? QString("1 row") : QString("%1 rows").arg(numRows_));
   } else {
     const QSizeF mm = paper_.sizeMm();
-    if (request_.form == ExportForm::kPng)
+    if (request_.form == ExportFormat::kPng)
       parts << QString("%1 × %2 px").arg(paper_.pixels().width()).arg(paper_.pixels().height());
     parts << figure(mm.width(), 1) + " × " + figure(mm.height(), 1) + " mm";
   }

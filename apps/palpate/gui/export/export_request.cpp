@@ -9,7 +9,7 @@
 
 #include <palpate/capture/recorder.h>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 #include "gui/picture/ffmpeg.h"
 
 namespace palpate::gui {
@@ -38,35 +38,35 @@ QString fileProblemOf(const ExportRequest& request) {
 
 }  // namespace
 
-QString nameOf(ExportForm form) {
+QString nameOf(ExportFormat form) {
   switch (form) {
-    case ExportForm::kSvg:
+    case ExportFormat::kSvg:
       return "SVG";
-    case ExportForm::kPdf:
+    case ExportFormat::kPdf:
       return "PDF";
-    case ExportForm::kCsv:
+    case ExportFormat::kCsv:
       return "CSV";
-    case ExportForm::kMovie:
+    case ExportFormat::kMovie:
       return "MP4";
-    case ExportForm::kPng:
+    case ExportFormat::kPng:
       break;
   }
   return "PNG";
 }
 
-QString endingOf(ExportForm form) { return "." + nameOf(form).toLower(); }
+QString endingOf(ExportFormat form) { return "." + nameOf(form).toLower(); }
 
-QString descriptionOf(ExportForm form) {
+QString descriptionOf(ExportFormat form) {
   switch (form) {
-    case ExportForm::kSvg:
+    case ExportFormat::kSvg:
       return "A drawing that can be edited";
-    case ExportForm::kPdf:
+    case ExportFormat::kPdf:
       return "A drawing with its fonts";
-    case ExportForm::kCsv:
+    case ExportFormat::kCsv:
       return "The numbers that are shown";
-    case ExportForm::kMovie:
+    case ExportFormat::kMovie:
       return "A movie of the frames, as they came";
-    case ExportForm::kPng:
+    case ExportFormat::kPng:
       break;
   }
   return "A picture made of pixels";
@@ -84,7 +84,7 @@ ExportRequest loadExportRequest(const QSettings& settings) {
   };
   request.view = value("view", "").toString();
   const QString form = value("form", "").toString();
-  for (const ExportForm each : kAllExportForms)
+  for (const ExportFormat each : kAllExportForms)
     if (nameOf(each) == form) request.form = each;
   const QString preset = value("size", "").toString();
   for (std::size_t i = 0; i < kPaperPresets.size(); ++i)
@@ -162,7 +162,7 @@ PictureLook lookOf(const ExportRequest& request, const QSizeF& sizeOnScreen) {
   if (request.preset != kScreenPreset)
     look.textUnits = static_cast<int>(std::lround(request.textPt * kUnitsPerPt));
   look.titled = request.titled;
-  const bool ofPixels = request.form == ExportForm::kPng || request.isMovie();
+  const bool ofPixels = request.form == ExportFormat::kPng || request.isMovie();
   look.pixelRatio = ofPixels ? paper.scale() : 0.0;
   return look;
 }
@@ -199,7 +199,7 @@ QString suggestedName(const ExportRequest& request, const ExportedView& view) {
   return pictures ? pictures->fileName : view.fileName();
 }
 
-QString whyNoMovie(const ExportedView& view) {
+QString movieProblem(const ExportedView& view) {
   const auto pictures = view.framePicturesNow();
   if (!pictures || !pictures->timeUs || pictures->numFrames == 0)
     return view.framePictures ? "A movie is of the frames of a recording"
@@ -216,8 +216,8 @@ QString problemOf(const ExportRequest& request, const ExportedView& view) {
   if (!folder.isDir()) return request.folder + " is no folder.";
   if (!folder.isWritable()) return "Nothing may be written into " + request.folder + ".";
   if (request.isMovie())
-    if (const QString reason = whyNoMovie(view); !reason.isEmpty()) return reason;
-  if (request.form == ExportForm::kPng || request.isMovie()) {
+    if (const QString reason = movieProblem(view); !reason.isEmpty()) return reason;
+  if (request.form == ExportFormat::kPng || request.isMovie()) {
     const QSize pixels = paperOf(request, view.sizeOnScreen()).pixels();
     if (std::max(pixels.width(), pixels.height()) > kMostPixels)
       return QString("%1 × %2 pixels are too many: choose %3.")

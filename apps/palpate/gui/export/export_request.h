@@ -16,12 +16,15 @@
 
 namespace palpate::gui {
 
-enum class ExportForm { kPng, kSvg, kPdf, kCsv, kMovie };
-inline constexpr std::array kAllExportForms = {
-    ExportForm::kPng, ExportForm::kSvg, ExportForm::kPdf, ExportForm::kMovie, ExportForm::kCsv};
-QString nameOf(ExportForm form);         // "PNG", "MP4"; also the key in the settings
-QString endingOf(ExportForm form);       // ".png"
-QString descriptionOf(ExportForm form);  // "A drawing that can be edited"
+enum class ExportFormat { kPng, kSvg, kPdf, kCsv, kMovie };
+inline constexpr std::array kAllExportForms = {ExportFormat::kPng,
+                                               ExportFormat::kSvg,
+                                               ExportFormat::kPdf,
+                                               ExportFormat::kMovie,
+                                               ExportFormat::kCsv};
+QString nameOf(ExportFormat form);         // "PNG", "MP4"; also the key in the settings
+QString endingOf(ExportFormat form);       // ".png"
+QString descriptionOf(ExportFormat form);  // "A drawing that can be edited"
 
 enum class ExportFrames { kShown, kSelected, kAll };
 
@@ -47,7 +50,7 @@ inline constexpr std::array kMovieHeights = {480, 720, 1080, 1440, 2160};  // [p
 
 struct ExportRequest {
   QString view;  // ExportedView::name
-  ExportForm form = ExportForm::kPng;
+  ExportFormat form = ExportFormat::kPng;
   int preset = kScreenPreset;  // index into kPaperPresets
   QSizeF sizeMm{120.0, 90.0};  // unless as on screen
   double textPt = 8.0;         // unless as on screen; in halves
@@ -65,9 +68,9 @@ struct ExportRequest {
   bool replace = false;        // files that are there already; never remembered
 
   bool isSeries() const noexcept {
-    return form == ExportForm::kPng && frames != ExportFrames::kShown;
+    return form == ExportFormat::kPng && frames != ExportFrames::kShown;
   }
-  bool isMovie() const noexcept { return form == ExportForm::kMovie; }
+  bool isMovie() const noexcept { return form == ExportFormat::kMovie; }
   // Of frames: selected or all ones.
   bool ofFrames() const noexcept { return isSeries() || isMovie(); }
   bool operator==(const ExportRequest&) const = default;
@@ -95,7 +98,7 @@ MovieOptions movieOptionsOf(const ExportRequest& request);
 QString suggestedName(const ExportRequest& request, const ExportedView& view);
 
 // Why there can't be a movie of the view now; empty: there can.
-QString whyNoMovie(const ExportedView& view);
+QString movieProblem(const ExportedView& view);
 // What stands in the way, in one line that says what to do; empty: nothing. Looks at the disk.
 QString problemOf(const ExportRequest& request, const ExportedView& view);
 // Whether so many bytes don't fit on its disk; empty: they do.

@@ -6,7 +6,7 @@
 
 #include <palpate/core/error.h>
 
-#include "gui/look/path_text.h"
+#include "gui/appearance/path_text.h"
 #include "gui/picture/movie_writer.h"
 #include "gui/picture/picture_series.h"
 
@@ -122,7 +122,7 @@ ExportWork prepareExport(const ExportedView& view, const ExportRequest& request)
   if (const QString problem = problemOf(request, view); !problem.isEmpty())
     return [problem](const Progress&) { return ExportReport{.path = {}, .failure = problem}; };
   ExportWork work;
-  if (request.form == ExportForm::kCsv) {
+  if (request.form == ExportFormat::kCsv) {
     work = tableWork(view, request, overwrite);
   } else if (request.isMovie()) {
     work = movieWork(view, request, overwrite);

@@ -17,44 +17,45 @@ QStringList matrixNamesOf(const HandDescription& hand) {
 
 }  // namespace
 
-FilterFeature::FilterFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window),
-      action_(
-          bench.actions.make("filtered", "View", "&Filtered, or as recorded", {key("A")}, true)),
-      panel_(new FilterPanel(bench.filtering.editor(), window)) {
+FilterFeature::FilterFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window),
+      action_(windowState.actions.make(
+          "filtered", "View", "&Filtered, or as recorded", {key("A")}, true)),
+      panel_(new FilterPanel(windowState.activeFilters.editor(), window)) {
   dock_ = new Dock("Filter", panel_, nullptr, window);
-  Filtering& filtering = bench.filtering;
+  ActiveFilters& activeFilters = windowState.activeFilters;
   action_->setToolTip("After the filters, or before (A)");
-  panel_->setOn(filtering.on());
-  action_->setChecked(filtering.on());
-  on(action_, [&filtering](bool on) { filtering.setOn(on); });
-  connect(panel_, &FilterPanel::onChanged, &filtering, &Filtering::setOn);
-  connect(&filtering, &Filtering::onChanged, this, [this](bool on) {
+  panel_->setOn(activeFilters.on());
+  action_->setChecked(activeFilters.on());
+  on(action_, [&activeFilters](bool on) { activeFilters.setOn(on); });
+  connect(panel_, &FilterPanel::onChanged, &activeFilters, &ActiveFilters::setOn);
+  connect(&activeFilters, &ActiveFilters::onChanged, this, [this](bool on) {
     panel_->setOn(on);
     action_->setChecked(on);
   });
-  connect(&filtering, &Filtering::sourceChanged, this, &FilterFeature::takeSource);
-  connect(&filtering, &Filtering::progressed, panel_, &FilterPanel::showProgress);
-  connect(&filtering, &Filtering::measured, panel_, &FilterPanel::showFigures);
-  connect(&filtering, &Filtering::failed, panel_, &FilterPanel::showFailure);
-  connect(panel_, &FilterPanel::told, &bench.messages, &Messages::flash);
-  connect(panel_, &FilterPanel::keepAsked, &filtering, &Filtering::keepWithRecording);
-  connect(&bench.live, &LiveController::looked, this, [this, &bench] {
-    if (bench.live.source() && !dock_->isHidden())
-      panel_->showFigures(bench.filtering.liveFigures());
+  connect(&activeFilters, &ActiveFilters::sourceChanged, this, &FilterFeature::takeSource);
+  connect(&activeFilters, &ActiveFilters::progressed, panel_, &FilterPanel::showProgress);
+  connect(&activeFilters, &ActiveFilters::measured, panel_, &FilterPanel::showFigures);
+  connect(&activeFilters, &ActiveFilters::failed, panel_, &FilterPanel::showFailure);
+  connect(panel_, &FilterPanel::told, &windowState.messages, &Messages::flash);
+  connect(panel_, &FilterPanel::keepRequested, &activeFilters, &ActiveFilters::keepWithRecording);
+  connect(&windowState.live, &LiveController::refreshed, this, [this, &windowState] {
+    if (windowState.live.source() && !dock_->isHidden())
+      panel_->showFigures(windowState.activeFilters.liveFigures());
   });
 }
 
 void FilterFeature::takeSource() {
-  const Subject& subject = bench().subject;
-  if (subject.isLive())
-    panel_->setSource(matrixNamesOf(*subject.hand()), bench().live.health().frames.rateHz, true);
-  else if (subject.isRecording())
-    panel_->setSource(matrixNamesOf(*subject.hand()), subject.behind()->timingNow().rateHz, false);
-  panel_->setKeepable(subject.isRecording());
+  const DisplayedSource& displayed = state().displayed;
+  if (displayed.isLive())
+    panel_->setSource(matrixNamesOf(*displayed.hand()), state().live.health().frames.rateHz, true);
+  else if (displayed.isRecording())
+    panel_->setSource(
+        matrixNamesOf(*displayed.hand()), displayed.behind()->timingNow().rateHz, false);
+  panel_->setKeepable(displayed.isRecording());
 }
 
-std::vector<DockOffer> FilterFeature::docks() {
+std::vector<DockSpec> FilterFeature::docks() {
   return {{.dock = dock_, .key = QKeySequence("Ctrl+Shift+F"), .tab = 2, .shownLive = true}};
 }
 

@@ -1,7 +1,7 @@
 // The dock Filter: the chain that what is shown is seen through.
 #pragma once
 
-#include "gui/bench/feature.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -10,11 +10,11 @@ class FilterPanel;
 class FilterFeature : public Feature {
   Q_OBJECT
  public:
-  FilterFeature(Bench& bench, QWidget* window);
+  FilterFeature(WindowState& windowState, QWidget* window);
 
   FilterPanel& panel() noexcept { return *panel_; }
-  std::vector<DockOffer> docks() override;
-  void settle() override { bench().filtering.wait(); }
+  std::vector<DockSpec> docks() override;
+  void settle() override { state().activeFilters.wait(); }
 
  private:
   void takeSource();

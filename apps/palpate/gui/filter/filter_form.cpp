@@ -15,7 +15,7 @@
 
 #include <palpate/core/number_text.h>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 
 namespace palpate::gui {
 namespace {

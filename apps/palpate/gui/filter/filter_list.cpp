@@ -6,7 +6,7 @@
 #include <QPainter>
 #include <QSignalBlocker>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 
 namespace palpate::gui {
 namespace {
@@ -136,7 +136,7 @@ void FilterList::dropEvent(QDropEvent* event) {
 void FilterList::keyPressEvent(QKeyEvent* event) {
   const auto at = chosen();
   if (at && (event->key() == Qt::Key_Delete || event->key() == Qt::Key_Backspace)) {
-    emit removeAsked(*at);
+    emit removeRequested(*at);
     return;
   }
   const int way = event->key() == Qt::Key_Up ? -1 : event->key() == Qt::Key_Down ? 1 : 0;

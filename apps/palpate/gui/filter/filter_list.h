@@ -24,7 +24,7 @@ class FilterList : public QTreeWidget {
   void stepChosen();
   void enabledChanged(std::size_t index, bool enabled);
   void moved(std::size_t from, std::size_t to);
-  void removeAsked(std::size_t index);
+  void removeRequested(std::size_t index);
 
  protected:
   void dropEvent(QDropEvent* event) override;

@@ -15,9 +15,9 @@
 
 #include <palpate/core/error.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/filter/filter_form.h"
 #include "gui/filter/filter_list.h"
-#include "gui/look/captions.h"
 
 namespace palpate::gui {
 namespace {
@@ -83,7 +83,7 @@ FilterPanel::FilterPanel(RecipeEditor& editor, QWidget* parent) : QWidget(parent
   connect(list_, &FilterList::stepChosen, this, &FilterPanel::showForm);
   connect(list_, &FilterList::enabledChanged, &editor_, &RecipeEditor::setEnabled);
   connect(list_, &FilterList::moved, &editor_, &RecipeEditor::move);
-  connect(list_, &FilterList::removeAsked, &editor_, &RecipeEditor::remove);
+  connect(list_, &FilterList::removeRequested, &editor_, &RecipeEditor::remove);
   connect(form_, &FilterForm::optionChosen, this, [this](const std::string& key, double value) {
     if (const auto at = list_->chosen()) editor_.setOption(*at, key, value);
   });
@@ -199,7 +199,7 @@ void FilterPanel::fillMoreMenu(QMenu& menu) {
   keep_ = menu.addAction("Keep it with the recording");
   keep_->setToolTip(
       "Whoever opens the recording finds the chain again; the frames stay as they are");
-  connect(keep_, &QAction::triggered, this, &FilterPanel::keepAsked);
+  connect(keep_, &QAction::triggered, this, &FilterPanel::keepRequested);
   menu.addSeparator();
   connect(menu.addAction("Remove all filters"), &QAction::triggered, this, [this] {
     editor_.setRecipe({});

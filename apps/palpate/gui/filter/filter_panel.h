@@ -7,8 +7,8 @@
 #include <functional>
 #include <optional>
 
-#include "gui/bench/recipe_editor.h"
 #include "gui/source/filter_worker.h"
+#include "gui/window_state/recipe_editor.h"
 
 class QCheckBox;
 class QLabel;
@@ -47,7 +47,7 @@ class FilterPanel : public QWidget {
 
  signals:
   void onChanged(bool on);
-  void keepAsked();  // with the recording
+  void keepRequested();  // with the recording
   void told(const QString& message);
 
  private:

@@ -57,23 +57,21 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
       "How far the hand closes: 0 open, 1 closed. A reactive grasp goes to 1 at most");
   close_->showValue(remembered(settings, kClose, 0.0, 1.0, usual.closeRatio));
   velocity_ = new ValueSlider(
-      "Velocity",
-      {kSlowestGraspDegPerS, kFastestGraspDegPerS, kFastestGraspDegPerS, 1.0, 0, "deg/s"},
-      this);
+      "Velocity", {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 1.0, 0, "deg/s"}, this);
   velocity_->setObjectName("velocity");
   velocity_->setToolTip("Of the joints; those that are slower go as fast as they can");
-  velocity_->showValue(remembered(
-      settings, kVelocity, kSlowestGraspDegPerS, kFastestGraspDegPerS, usual.velocityDegPerS));
+  velocity_->showValue(
+      remembered(settings, kVelocity, kMinGraspDegPerS, kMaxGraspDegPerS, usual.velocityDegPerS));
   limit_ = new ValueSlider(
       "Limit",
-      {kLeastGraspLimitCounts, kMostGraspLimitCounts, kMostGraspLimitCounts, 1.0, 0, "counts"},
+      {kMinGraspLimitCounts, kMaxGraspLimitCounts, kMaxGraspLimitCounts, 1.0, 0, "counts"},
       this);
   limit_->setObjectName("limit");
   limit_->setToolTip(
       "A reactive grasp stops at the first taxel above, a slip-aware one begins there; an SDH-2 "
       "is saturated from 3500 on");
-  limit_->showValue(remembered(
-      settings, kLimit, kLeastGraspLimitCounts, kMostGraspLimitCounts, usual.limitCounts));
+  limit_->showValue(
+      remembered(settings, kLimit, kMinGraspLimitCounts, kMaxGraspLimitCounts, usual.limitCounts));
 
   auto* form = new QFormLayout;
   form->setContentsMargins(0, 0, 0, 0);
@@ -145,7 +143,7 @@ GraspRequest GraspPanel::request(GraspMode mode) const {
   request.velocityDegPerS = velocity_->value();
   request.limitCounts = static_cast<int>(limit_->value());
   // A limit that is chosen above the usual highest one stays where it is.
-  request.holding.mostLimitCounts = std::max(request.holding.mostLimitCounts, request.limitCounts);
+  request.holding.maxLimitCounts = std::max(request.holding.maxLimitCounts, request.limitCounts);
   return request;
 }
 

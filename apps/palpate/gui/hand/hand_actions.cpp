@@ -2,7 +2,7 @@
 
 namespace palpate::gui {
 
-HandActions::HandActions(ActionBook& book) {
+HandActions::HandActions(ActionRegistry& book) {
   graspHand = book.make("graspHand", "Hand", "&Grasp", {key("Ctrl+Alt+G")});
   reactiveGrasp = book.make("reactiveGrasp", "Hand", "&Reactive grasp", {key("Ctrl+Alt+R")});
   slipAwareGrasp = book.make("slipAwareGrasp", "Hand", "Slip-&aware grasp", {key("Ctrl+Alt+S")});

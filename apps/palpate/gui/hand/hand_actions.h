@@ -5,12 +5,12 @@
 #include <QActionGroup>
 #include <QList>
 
-#include "gui/bench/action_book.h"
+#include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
 
 struct HandActions {
-  explicit HandActions(ActionBook& book);
+  explicit HandActions(ActionRegistry& book);
 
   QAction* graspHand = nullptr;
   QAction* reactiveGrasp = nullptr;

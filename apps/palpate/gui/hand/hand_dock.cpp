@@ -13,12 +13,12 @@
 #include <palpate/capture/link_health.h>
 #include <palpate/core/time.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/hand/grasp_panel.h"
 #include "gui/hand/hand_actions.h"
 #include "gui/hand/sensitivity_modes.h"
 #include "gui/hand/stop_key.h"
 #include "gui/hand/tactile_settings_panel.h"
-#include "gui/look/captions.h"
 #include "gui/widgets/facts_view.h"
 
 namespace palpate::gui {
@@ -31,8 +31,8 @@ constexpr const char* kStopTip =
     "Stops the hand now; the motors stay on and hold (Esc, wherever the keyboard is)";
 constexpr const char* kHandDockNothing = "–";
 
-FeedOptions smallFeed() {
-  FeedOptions options;
+CaptureQueueOptions smallFeed() {
+  CaptureQueueOptions options;
   options.tactileItems = 256;
   options.motionItems = 256;
   options.eventItems = 64;
@@ -74,7 +74,7 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   connect(grasp_, &GraspPanel::asked, this, &HandDock::asked);
   connect(tactile_, &TactileSettingsPanel::refused, this, refused);
   connect(sensitivity_, &SensitivityModes::refused, this, refused);
-  connect(tactile_, &TactileSettingsPanel::changedByHand, sensitivity_, &SensitivityModes::letGo);
+  connect(tactile_, &TactileSettingsPanel::changedByHand, sensitivity_, &SensitivityModes::endMode);
   timer_.setInterval(kHandDockRefreshMs);
   connect(&timer_, &QTimer::timeout, this, &HandDock::refresh);
   setHand(nullptr, nullptr);
@@ -196,13 +196,13 @@ void HandDock::refresh() {
   const GraspStatus status = control_ ? control_->status() : GraspStatus{};
   grasp_->showStatus(status);
   sensitivity_->refresh();
-  const DeviceFacts facts = session_ ? session_->device().facts() : DeviceFacts{};
+  const DeviceInfo facts = session_ ? session_->device().facts() : DeviceInfo{};
   showBlind(facts.matrices);
   tactile_->refresh(status, facts);
   showSamples();
   const bool gone = control_ && !status.cannotMove.empty();
   if (gone) goneUs_ = session_->nowUs();
-  for (FactsView* view : {angles_, temperatures_}) view->setOld(gone);
+  for (FactsView* view : {angles_, temperatures_}) view->setStale(gone);
   showState(status);
   showBound();
 }
@@ -234,17 +234,17 @@ void HandDock::showBlind(const std::vector<MatrixSettings>& settings) {
   GraspRequest judged = reactive;
   if (session_ && control_ && !settings.empty()) {
     const HandDescription hand = session_->device().hand();
-    std::vector<UnfeltLimit> unfelt = unfeltLimits(hand, settings, judged);
+    std::vector<UnmeasurableLimit> unfelt = unmeasurableLimits(hand, settings, judged);
     if (unfelt.empty()) {
       judged = grasp_->request(GraspMode::kSlip);
-      unfelt = unfeltLimits(hand, settings, judged);
+      unfelt = unmeasurableLimits(hand, settings, judged);
     }
-    for (const UnfeltLimit& each : unfelt) {
+    for (const UnmeasurableLimit& each : unfelt) {
       why.resize(std::max(why.size(), each.matrix + 1));
       why[each.matrix] = QString::fromStdString(each.why);
     }
   }
-  tactile_->showBlind(why, highestLimitOf(judged));
+  tactile_->showBlind(why, maxLimitOf(judged));
   if (why == blind_) return;
   blind_ = why;
   emit blindChanged(blind_);
@@ -272,12 +272,12 @@ void HandDock::showState(const GraspStatus& status) {
   if (!control_) return say("A recording is replayed: there is nothing to move.", false);
   if (status.phase != GraspPhase::kIdle) {
     if (status.request) said_.clear();  // else the end of one is just being told
-    return say(doing(status), false);
+    return say(phaseText(status), false);
   }
-  if (!status.cannotMove.empty()) return say(whyNotMoved(status), true);
+  if (!status.cannotMove.empty()) return say(motionBlockedReason(status), true);
   if (!said_.isEmpty()) return say(said_, true);
   if (!status.last) return say("Ready.", false);
-  if (const auto over = whatIsOver(*status.last, status)) return say(*over, false);
+  if (const auto over = lastGraspText(*status.last, status)) return say(*over, false);
   const QString text = QString::fromStdString(status.last->text);
   switch (status.last->outcome) {
     case GraspOutcome::kFinished:
@@ -290,7 +290,7 @@ void HandDock::showState(const GraspStatus& status) {
   }
 }
 
-QString HandDock::doing(const GraspStatus& status) const {
+QString HandDock::phaseText(const GraspStatus& status) const {
   const std::string_view name = nameOf(status.phase);
   const QString phase = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
   if (!status.request) return phase;
@@ -301,14 +301,14 @@ QString HandDock::doing(const GraspStatus& status) const {
   return phase + " · " + what;
 }
 
-QString HandDock::whyNotMoved(const GraspStatus& status) const {
+QString HandDock::motionBlockedReason(const GraspStatus& status) const {
   const QString why = QString::fromStdString(status.cannotMove);
   if (!status.portGone) return "The hand can't be moved: " + why;
   const QString gone = "The motion port is gone (" + why + "). ";
-  const double goesOnS = status.portGone->goesOnS.value_or(0.0);
-  if (goesOnS == 0.0) return gone + "The hand stands still, and the motors hold.";
+  const double remainingMotionS = status.portGone->remainingMotionS.value_or(0.0);
+  if (remainingMotionS == 0.0) return gone + "The hand stands still, and the motors hold.";
   const double leftS =
-      goesOnS - static_cast<double>(session_->nowUs() - status.portGone->endUs) / kUsPerS;
+      remainingMotionS - static_cast<double>(session_->nowUs() - status.portGone->endUs) / kUsPerS;
   if (leftS > 0.0)
     return gone + "The hand goes on to its target by itself, " + figure(std::ceil(leftS), 0) +
            " s at most: no stop reaches it.";
@@ -316,12 +316,12 @@ QString HandDock::whyNotMoved(const GraspStatus& status) const {
 }
 
 // Where the grasp was ended by what is no longer so.
-std::optional<QString> HandDock::whatIsOver(const GraspReport& report,
-                                            const GraspStatus& status) const {
+std::optional<QString> HandDock::lastGraspText(const GraspReport& report,
+                                               const GraspStatus& status) const {
   if (report.outcome == GraspOutcome::kPortGone)
     return "Ready. The motion port was gone during a motion, and is back.";
   if (goneUs_ && *goneUs_ > report.endUs) return "Ready. The motion port was gone, and is back.";
-  if (report.outcome == GraspOutcome::kStreamDead && status.cannotReact.empty())
+  if (report.outcome == GraspOutcome::kStreamLost && status.cannotReact.empty())
     return "Ready. The last grasp was stopped: no tactile frames came. Now they come.";
   return std::nullopt;
 }
@@ -345,7 +345,7 @@ void HandDock::showSamples() {
 }
 
 void HandDock::showTemperatures(const Temperatures& temperatures) {
-  const double hottest = HealthOptions{}.hottestDegC;
+  const double hottest = HealthOptions{}.maxTemperatureDegC;
   std::vector<Fact> facts = temperatures_->facts();
   QString hot;
   for (std::size_t i = 0; i < std::min(temperatures.degC.size(), facts.size()); ++i) {

@@ -15,7 +15,7 @@
 #include <palpate/capture/capture_session.h>
 #include <palpate/control/grasp_control.h>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 class QAction;
 class QLabel;
@@ -67,16 +67,16 @@ class HandDock : public QWidget {
   void showState(const GraspStatus& status);
   void showBound();
   void showBlind(const std::vector<MatrixSettings>& settings);
-  QString doing(const GraspStatus& status) const;
-  QString whyNotMoved(const GraspStatus& status) const;
-  std::optional<QString> whatIsOver(const GraspReport& report, const GraspStatus& status) const;
+  QString phaseText(const GraspStatus& status) const;
+  QString motionBlockedReason(const GraspStatus& status) const;
+  std::optional<QString> lastGraspText(const GraspReport& report, const GraspStatus& status) const;
   void showSamples();
   void showTemperatures(const Temperatures& temperatures);
 
   QScrollArea* body_ = nullptr;
   CaptureSession* session_ = nullptr;
   GraspControl* control_ = nullptr;
-  std::shared_ptr<CaptureFeed> feed_;
+  std::shared_ptr<CaptureQueue> feed_;
   std::vector<CaptureItem> items_;
   QLabel* state_;
   QLabel* heat_;

@@ -6,35 +6,35 @@
 
 namespace palpate::gui {
 
-HandFeature::HandFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window),
-      actions_(bench.actions),
-      panel_(new HandDock(bench.settings, window)) {
+HandFeature::HandFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window),
+      actions_(windowState.actions),
+      panel_(new HandDock(windowState.settings, window)) {
   dock_ = new Dock("Hand", panel_, nullptr, window);
   panel_->bind(actions_);
-  LiveController& live = bench.live;
-  connect(&live, &LiveController::came, this, [this, &live] {
+  LiveController& live = windowState.live;
+  connect(&live, &LiveController::sourceOpened, this, [this, &live] {
     panel_->setHand(live.source()->session.get(), live.source()->control.get());
   });
   connect(&live, &LiveController::leaving, this, [this] { panel_->setHand(nullptr, nullptr); });
-  connect(panel_, &HandDock::blindChanged, &bench.overlays, &Overlays::setBlind);
-  connect(panel_, &HandDock::stopPressed, &bench.handRequests, &HandRequests::asked);
-  connect(panel_, &HandDock::asked, &bench.handRequests, &HandRequests::asked);
+  connect(panel_, &HandDock::blindChanged, &windowState.derivedResults, &DerivedResults::setBlind);
+  connect(panel_, &HandDock::stopPressed, &windowState.handCommands, &HandCommands::asked);
+  connect(panel_, &HandDock::asked, &windowState.handCommands, &HandCommands::asked);
   followTheme(panel_);
   SensitivityModes& modes = panel_->sensitivity();
-  modes.noiseLines = [&bench](const std::string& hand) {
-    const auto& lines = bench.handRequests.noiseLines;
+  modes.noiseLines = [&windowState](const std::string& hand) {
+    const auto& lines = windowState.handCommands.noiseLines;
     return lines ? lines(hand) : std::optional<NoiseFloor>();
   };
   connect(&modes,
           &SensitivityModes::highChanged,
-          &bench.handRequests,
-          &HandRequests::highSensitivityChanged);
+          &windowState.handCommands,
+          &HandCommands::highSensitivityChanged);
 }
 
 HandFeature::~HandFeature() { panel_->setHand(nullptr, nullptr); }
 
-std::vector<DockOffer> HandFeature::docks() {
+std::vector<DockSpec> HandFeature::docks() {
   return {{.dock = dock_,
            .key = QKeySequence("Ctrl+H"),
            .liveArea = Qt::LeftDockWidgetArea,

@@ -1,8 +1,8 @@
 // The dock Hand, and which matrices of the connected hand can't feel the limit of its grasps.
 #pragma once
 
-#include "gui/bench/feature.h"
 #include "gui/hand/hand_actions.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -11,11 +11,11 @@ class HandDock;
 class HandFeature : public Feature {
   Q_OBJECT
  public:
-  HandFeature(Bench& bench, QWidget* window);
+  HandFeature(WindowState& windowState, QWidget* window);
   ~HandFeature() override;
 
   HandDock& panel() noexcept { return *panel_; }
-  std::vector<DockOffer> docks() override;
+  std::vector<DockSpec> docks() override;
 
  private:
   HandActions actions_;

@@ -6,7 +6,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 
 namespace palpate::gui {
 
@@ -86,15 +86,15 @@ void SensitivityModes::choose(SensitivityMode mode) {
   try {
     switch (mode) {
       case SensitivityMode::kManual:
-        control_->letGo();
+        control_->endMode();
         break;
       case SensitivityMode::kAdaptive:
-        control_->seek();
+        control_->beginAdaptiveSensitivity();
         break;
       case SensitivityMode::kHigh: {
         const auto lines = noiseLines(session_->device().hand().name);
         if (lines)
-          control_->holdHigh(*lines);
+          control_->beginHighSensitivity(*lines);
         else
           emit refused(
               "High sensitivity needs noise lines of this hand: dock Calibrate, page Noise, "
@@ -109,9 +109,9 @@ void SensitivityModes::choose(SensitivityMode mode) {
   showMode(control_->status().mode);
 }
 
-void SensitivityModes::letGo() {
+void SensitivityModes::endMode() {
   if (!control_ || control_->status().mode == SensitivityMode::kManual) return;
-  control_->letGo();
+  control_->endMode();
   showMode(SensitivityMode::kManual);
 }
 
@@ -131,7 +131,7 @@ QString SensitivityModes::describe(const SensitivityStatus& status) const {
   if (status.noise.guarding)
     text += " Raised by " + QString::number(status.noise.guardCounts) +
             " counts: noise slowed the stream" +
-            (status.noise.atLimit ? " (no more is possible)." : ".");
+            (status.noise.guardAtLimit ? " (no more is possible)." : ".");
   if (!status.noise.unknown.empty())
     text += " " + QString::number(status.noise.unknown.size()) +
             " matrices without a temperature or line keep the reset value.";

@@ -23,7 +23,7 @@ class SensitivityModes : public QWidget {
   // A round; shows how it goes. Several times a second.
   void refresh();
   // Somebody set a value: no mode holds it any more.
-  void letGo();
+  void endMode();
   SensitivityMode mode() const;
   QString statusText() const;
 

@@ -116,12 +116,12 @@ void TactileSettingsPanel::makeButtons() {
   row->addWidget(remove_);
   static_cast<QVBoxLayout*>(layout())->addLayout(row);
   connect(reset_, &QPushButton::clicked, this, [this] {
-    if (session_) bringTo(defaultTactileSettings(session_->device().hand()));
+    if (session_) applySettings(defaultTactileSettings(session_->device().hand()));
   });
   connect(names_, &QComboBox::activated, this, [this](int index) {
     if (index <= 0) return;
     if (const auto values = store_.load(serial(), names_->currentText()))
-      bringTo(*values);
+      applySettings(*values);
     else
       emit refused("the settings '" + names_->currentText() + "' can't be read");
   });
@@ -148,7 +148,7 @@ void TactileSettingsPanel::setHand(CaptureSession* session, GraspControl* contro
   listedFor_ = QString();
   listNames();
   refresh(control ? control->status() : GraspStatus{},
-          session ? session->device().facts() : DeviceFacts{});
+          session ? session->device().facts() : DeviceInfo{});
 }
 
 QString TactileSettingsPanel::serial() const {
@@ -172,7 +172,7 @@ void TactileSettingsPanel::send(const std::vector<DeviceCommand>& commands) {
   }
 }
 
-void TactileSettingsPanel::bringTo(const TactileSettings& to) {
+void TactileSettingsPanel::applySettings(const TactileSettings& to) {
   if (!session_) return;
   try {
     send(commandsBetween(session_->device().facts().matrices, to));
@@ -181,7 +181,7 @@ void TactileSettingsPanel::bringTo(const TactileSettings& to) {
   }
 }
 
-void TactileSettingsPanel::heedAnswers() {
+void TactileSettingsPanel::pollReplies() {
   const auto isReady = [](const auto& answer) {
     return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   };
@@ -196,8 +196,8 @@ void TactileSettingsPanel::heedAnswers() {
   std::erase_if(pending_, isReady);
 }
 
-void TactileSettingsPanel::refresh(const GraspStatus& status, const DeviceFacts& facts) {
-  heedAnswers();
+void TactileSettingsPanel::refresh(const GraspStatus& status, const DeviceInfo& facts) {
+  pollReplies();
   const TactileSettings& values = facts.matrices;
   QString why;
   if (!session_)

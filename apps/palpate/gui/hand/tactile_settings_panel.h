@@ -10,8 +10,8 @@
 #include <palpate/control/grasp_control.h>
 #include <palpate/control/tactile_settings.h>
 
+#include "gui/appearance/theme.h"
 #include "gui/hand/hand_settings_store.h"
-#include "gui/look/theme.h"
 
 class QComboBox;
 class QLabel;
@@ -29,7 +29,7 @@ class TactileSettingsPanel : public QWidget {
   // Null: no hand. Both must outlive this, or be taken away before.
   void setHand(CaptureSession* session, GraspControl* control);
   // Shows what the hand says, and whether it may be changed now. Now and then.
-  void refresh(const GraspStatus& status, const DeviceFacts& facts);
+  void refresh(const GraspStatus& status, const DeviceInfo& facts);
   void setTheme(Theme theme);
   // Marks the matrices that can't tell a limit [counts], as they are set: why, one text per matrix;
   // empty: it can.
@@ -51,10 +51,10 @@ class TactileSettingsPanel : public QWidget {
   QWidget* makeRow(int row, const QString& name);
   void makeButtons();
   void send(const std::vector<DeviceCommand>& commands);
-  void bringTo(const TactileSettings& to);
+  void applySettings(const TactileSettings& to);
   void showValues(const TactileSettings& values);
   void listNames();
-  void heedAnswers();
+  void pollReplies();
   QString serial() const;
 
   HandSettingsStore store_;

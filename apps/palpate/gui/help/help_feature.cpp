@@ -5,10 +5,10 @@
 
 namespace palpate::gui {
 
-HelpFeature::HelpFeature(Bench& bench, QWidget* window) : Feature(bench, window) {
-  QAction* keys = bench.actions.make("keys", "Help", "&Keys", {key("F1")});
-  QAction* about = bench.actions.make("about", "Help", "&About Palpate");
-  bench.actions.setIcon(keys, IconShape::kHelp);
+HelpFeature::HelpFeature(WindowState& windowState, QWidget* window) : Feature(windowState, window) {
+  QAction* keys = windowState.actions.make("keys", "Help", "&Keys", {key("F1")});
+  QAction* about = windowState.actions.make("about", "Help", "&About Palpate");
+  windowState.actions.setIcon(keys, IconShape::kHelp);
   on(keys, [window] {
     auto* dialog = new KeysDialog(window->actions(), window);
     dialog->setAttribute(Qt::WA_DeleteOnClose);

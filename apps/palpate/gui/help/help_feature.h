@@ -1,14 +1,14 @@
 // The list of keys, and what Palpate is.
 #pragma once
 
-#include "gui/bench/feature.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
 class HelpFeature : public Feature {
   Q_OBJECT
  public:
-  HelpFeature(Bench& bench, QWidget* window);
+  HelpFeature(WindowState& windowState, QWidget* window);
 };
 
 }  // namespace palpate::gui

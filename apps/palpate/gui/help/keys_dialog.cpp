@@ -8,7 +8,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "gui/bench/action_book.h"
+#include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
 namespace {

@@ -13,7 +13,7 @@ namespace {
 
 // What is known of the source besides its frames.
 std::vector<Fact> linkFacts(const LiveSource& source, const QString& calibration) {
-  const DeviceFacts device = source.session->device().facts();
+  const DeviceInfo device = source.session->device().facts();
   const QString hand = QString::fromStdString(source.session->device().hand().name);
   std::vector<Fact> facts{{"source", describe(source.connection)}, {"hand", hand}};
   const auto add = [&](const QString& name, const std::string& value) {
@@ -44,34 +44,44 @@ TablePicture shownTable(const MatrixTableModel& model,
 
 }  // namespace
 
-InspectFeature::InspectFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window), panel_(new InspectPanel(window)) {
+InspectFeature::InspectFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window), panel_(new InspectPanel(window)) {
   dock_ = new Dock("Inspect", panel_, nullptr, window);
-  panel_->setCalibration(bench.overlays.calibration());
+  panel_->setCalibration(windowState.derivedResults.calibration());
   MatrixTableModel& table = panel_->table();
-  Subject& subject = bench.subject;
-  connect(&subject, &Subject::seenChanged, this, &InspectFeature::takeSource);
-  connect(&subject, &Subject::handChanged, this, [this, &subject] {
-    panel_->renewHand(*subject.hand());
+  DisplayedSource& displayed = windowState.displayed;
+  connect(&displayed, &DisplayedSource::seenChanged, this, &InspectFeature::takeSource);
+  connect(&displayed, &DisplayedSource::handChanged, this, [this, &displayed] {
+    panel_->renewHand(*displayed.hand());
   });
-  connect(&subject, &Subject::moreKnown, panel_, &InspectPanel::renewFacts);
-  connect(&bench.moment, &Moment::frameChanged, this, [this, &bench] {
-    if (!bench.subject.isRecording()) return;
-    panel_->showFrame(bench.moment.index(), bench.moment.angles(), bench.moment.temperatures());
+  connect(&displayed, &DisplayedSource::moreKnown, panel_, &InspectPanel::renewFacts);
+  connect(&windowState.currentFrame, &CurrentFrame::frameChanged, this, [this, &windowState] {
+    if (!windowState.displayed.isRecording()) return;
+    panel_->showFrame(windowState.currentFrame.index(),
+                      windowState.currentFrame.angles(),
+                      windowState.currentFrame.temperatures());
   });
-  connect(&bench.moment, &Moment::resultsCame, panel_, &InspectPanel::showLive);
-  connect(&bench.moment, &Moment::oldChanged, this, [&bench, &table] {
-    if (bench.subject.isLive()) table.setOld(!bench.moment.old().notice.isEmpty());
+  connect(
+      &windowState.currentFrame, &CurrentFrame::resultsReceived, panel_, &InspectPanel::showLive);
+  connect(
+      &windowState.currentFrame, &CurrentFrame::staleNoticeChanged, this, [&windowState, &table] {
+        if (windowState.displayed.isLive())
+          table.setStale(!windowState.currentFrame.old().notice.isEmpty());
+      });
+  connect(&windowState.events, &EventController::changed, this, [this, &windowState] {
+    if (const EventEditor* editor = windowState.events.editor())
+      panel_->showEvents(editor->events());
   });
-  connect(&bench.events, &EventDesk::changed, this, [this, &bench] {
-    if (const EventEditor* editor = bench.events.editor()) panel_->showEvents(editor->events());
-  });
-  connect(&bench.overlays, &Overlays::calibrationChanged, this, [this, &bench] {
-    panel_->setCalibration(bench.overlays.calibration());
-  });
-  connect(&bench.overlays, &Overlays::pressureChanged, this, &InspectFeature::showForces);
-  connect(&bench.live, &LiveController::leaving, this, [this] { liveTicks_.clear(); });
-  connect(&bench.live, &LiveController::looked, this, &InspectFeature::showLinkFacts);
+  connect(
+      &windowState.derivedResults, &DerivedResults::calibrationChanged, this, [this, &windowState] {
+        panel_->setCalibration(windowState.derivedResults.calibration());
+      });
+  connect(&windowState.derivedResults,
+          &DerivedResults::pressureChanged,
+          this,
+          &InspectFeature::showForces);
+  connect(&windowState.live, &LiveController::leaving, this, [this] { liveTicks_.clear(); });
+  connect(&windowState.live, &LiveController::refreshed, this, &InspectFeature::showLinkFacts);
   followTheme(panel_);
   connect(&table, &MatrixTableModel::plottedChanged, this, &InspectFeature::showPlotted);
   makeActions();
@@ -84,8 +94,8 @@ InspectFeature::InspectFeature(Bench& bench, QWidget* window)
 }
 
 void InspectFeature::makeActions() {
-  ActionBook& book = bench().actions;
-  for (int i = 0; i < ActionBook::kMatricesWithKeys; ++i)
+  ActionRegistry& book = state().actions;
+  for (int i = 0; i < ActionRegistry::kMatricesWithKeys; ++i)
     plots_.append(book.add("plots",
                            "View",
                            "Plot matrix " + QString::number(i),
@@ -95,28 +105,28 @@ void InspectFeature::makeActions() {
 }
 
 void InspectFeature::takeSource() {
-  const Subject& subject = bench().subject;
-  if (subject.isLive()) {
+  const DisplayedSource& displayed = state().displayed;
+  if (displayed.isLive()) {
     // as they were left, before a recording was looked at
     const std::vector<bool> ticks = liveTicks_;
-    panel_->setHand(*subject.hand());
+    panel_->setHand(*displayed.hand());
     for (std::size_t row = 0; row < ticks.size(); ++row)
       panel_->table().setPlotted(row, ticks[row]);
   } else {
-    panel_->setRecording(subject.seen());
+    panel_->setRecording(displayed.seen());
   }
-  panel_->table().setOld(subject.isLive() && !bench().moment.old().notice.isEmpty());
+  panel_->table().setStale(displayed.isLive() && !state().currentFrame.old().notice.isEmpty());
   showPlotted();
   showLinkFacts();
 }
 
 void InspectFeature::showLinkFacts() {
-  if (const LiveSource* source = bench().subject.source())
-    panel_->setLiveFacts(linkFacts(*source, bench().overlays.calibration()));
+  if (const LiveSource* source = state().displayed.source())
+    panel_->setLiveFacts(linkFacts(*source, state().derivedResults.calibration()));
 }
 
 void InspectFeature::showForces() {
-  const auto& pressure = bench().overlays.pressure();
+  const auto& pressure = state().derivedResults.pressure();
   std::vector<MatrixTableModel::Force> rows;
   if (pressure) {
     for (const MatrixPressure& matrix : pressure->matrices)
@@ -130,8 +140,8 @@ void InspectFeature::showForces() {
 void InspectFeature::showPlotted() {
   const MatrixTableModel& table = panel_->table();
   const auto& plotted = table.plotted();
-  bench().selection.setPlotted(plotted);
-  if (bench().subject.isLive()) liveTicks_ = plotted;
+  state().selection.setPlotted(plotted);
+  if (state().displayed.isLive()) liveTicks_ = plotted;
   const auto last = plots_.size() - 1;
   for (qsizetype i = 0; i < last; ++i) {
     const auto row = static_cast<std::size_t>(i);
@@ -146,33 +156,35 @@ void InspectFeature::showPlotted() {
   plots_[last]->setChecked(!plotted.empty() && plotted.back());
 }
 
-std::vector<DockOffer> InspectFeature::docks() {
+std::vector<DockSpec> InspectFeature::docks() {
   return {
       {.dock = dock_, .key = QKeySequence("Ctrl+I"), .tab = 0, .shown = true, .shownLive = true}};
 }
 
 std::vector<ExportedView> InspectFeature::views() {
-  Bench& bench = this->bench();
+  WindowState& windowState = state();
   ExportedView view;
   view.name = "Inspect";
   view.rank = 1;
   view.widget = panel_;
-  view.isThere = [&bench] { return bench.moment.hasFrame(); };
-  view.fileName = [&bench] { return bench.frameStem() + "_signals"; };
+  view.isThere = [&windowState] { return windowState.currentFrame.hasFrame(); };
+  view.fileName = [&windowState] { return windowState.frameStem() + "_signals"; };
   view.size = [this] {
     constexpr double kRowHeight = 26.0;  // [px]
     return QSizeF(std::max(panel_->width(), 470), kRowHeight * (panel_->table().rowCount() + 3));
   };
-  view.paint = [this, &bench](QPainter& painter, const PictureLook& look) {
-    paintTable(painter,
-               look,
-               shownTable(panel_->table(), bench.pictureTitle(), bench.pictureCaption()),
-               panel_->font(),
-               bench.look.theme());
+  view.paint = [this, &windowState](QPainter& painter, const PictureLook& look) {
+    paintTable(
+        painter,
+        look,
+        shownTable(panel_->table(), windowState.pictureTitle(), windowState.pictureCaption()),
+        panel_->font(),
+        windowState.appearance.theme());
   };
-  view.tables = [&bench] {
+  view.tables = [&windowState] {
     return std::vector<ExportedTable>{
-        {"signals of the frame", [frame = bench.moment.frame(), hand = *bench.subject.hand()] {
+        {"signals of the frame",
+         [frame = windowState.currentFrame.frame(), hand = *windowState.displayed.hand()] {
            return signalTextTable(frame, hand);
          }}};
   };

@@ -2,7 +2,7 @@
 // plotted.
 #pragma once
 
-#include "gui/bench/feature.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -11,10 +11,10 @@ class InspectPanel;
 class InspectFeature : public Feature {
   Q_OBJECT
  public:
-  InspectFeature(Bench& bench, QWidget* window);
+  InspectFeature(WindowState& windowState, QWidget* window);
 
   InspectPanel& panel() noexcept { return *panel_; }
-  std::vector<DockOffer> docks() override;
+  std::vector<DockSpec> docks() override;
   std::vector<ExportedView> views() override;
 
  private:

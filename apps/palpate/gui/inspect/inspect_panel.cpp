@@ -7,7 +7,7 @@
 
 #include <palpate/core/time.h>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 
 namespace palpate::gui {
 namespace {

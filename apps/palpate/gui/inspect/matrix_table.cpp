@@ -6,7 +6,7 @@
 #include <QResizeEvent>
 #include <algorithm>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 
 namespace palpate::gui {
 namespace {
@@ -59,7 +59,7 @@ class TickDelegate : public QItemDelegate {
 
 void MatrixTableModel::setRecording(const OpenedRecordingPtr& recording) {
   beginResetModel();
-  old_ = false;
+  stale_ = false;
   recording_ = recording;
   shown_.clear();
   plotted_.clear();
@@ -118,9 +118,9 @@ void MatrixTableModel::showForces(const std::vector<Force>& forces, const QStrin
   if (rowCount() > 0) emit dataChanged(index(0, kForce), index(rowCount() - 1, kForce));
 }
 
-void MatrixTableModel::setOld(bool old) {
-  if (old == old_) return;
-  old_ = old;
+void MatrixTableModel::setStale(bool old) {
+  if (old == stale_) return;
+  stale_ = old;
   if (rowCount() > 0)
     emit dataChanged(index(0, kActive), index(rowCount() - 1, kArea), {Qt::ForegroundRole});
 }
@@ -199,10 +199,11 @@ QVariant MatrixTableModel::data(const QModelIndex& index, int role) const {
       if (index.column() == kName) return whole ? wholeColor(theme_) : matrixColor(row, theme_);
       return {};
     case Qt::ForegroundRole:
-      if (index.column() == kForce && row < forces_.size() && !forces_[row].inRange && !old_)
+      if (index.column() == kForce && row < forces_.size() && !forces_[row].inRange && !stale_)
         return colorsOf(theme_).warning;
-      return (shown_[row].active > 0 && !old_) || index.column() == kName ? colorsOf(theme_).text
-                                                                          : colorsOf(theme_).muted;
+      return (shown_[row].active > 0 && !stale_) || index.column() == kName
+                 ? colorsOf(theme_).text
+                 : colorsOf(theme_).muted;
     case Qt::ToolTipRole:
       if (index.column() == kName) return "Ticked rows are plotted in the timeline";
       if (index.column() == kForce) return forceText(row);

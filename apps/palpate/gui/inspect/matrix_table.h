@@ -9,7 +9,7 @@
 
 #include <palpate/model/hand_description.h>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 #include "gui/source/opened_recording.h"
 
 namespace palpate::gui {
@@ -40,7 +40,7 @@ class MatrixTableModel : public QAbstractTableModel {
   // tip.
   void showForces(const std::vector<Force>& forces, const QString& why);
   // What is shown is of before: greyed.
-  void setOld(bool old);
+  void setStale(bool old);
   std::size_t numMatrices() const noexcept { return shown_.empty() ? 0 : shown_.size() - 1; }
   const HandDescription& hand() const noexcept { return hand_; }
   void setTheme(Theme theme);
@@ -70,7 +70,7 @@ class MatrixTableModel : public QAbstractTableModel {
   std::vector<Force> forces_;                 // as shown_, or empty
   QString forceTip_;
   std::vector<bool> plotted_;
-  bool old_ = false;
+  bool stale_ = false;
   Theme theme_ = Theme::kDark;
 };
 

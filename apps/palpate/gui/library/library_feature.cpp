@@ -19,25 +19,28 @@ QString cacheFolderFor(const QSettings& settings) {
 
 }  // namespace
 
-LibraryFeature::LibraryFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window),
+LibraryFeature::LibraryFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window),
       panel_(new LibraryPanel(
-          bench.settings, cacheFolderFor(bench.settings), catalogRecordings, window)) {
+          windowState.settings, cacheFolderFor(windowState.settings), catalogRecordings, window)) {
   dock_ = new Dock("Library", panel_, nullptr, window);
-  connect(panel_, &LibraryPanel::openAsked, this, [&bench](const QStringList& paths) {
+  connect(panel_, &LibraryPanel::openRequested, this, [&windowState](const QStringList& paths) {
     std::vector<std::filesystem::path> files;
     for (const QString& path : paths) files.emplace_back(path.toStdString());
-    bench.open(files);
+    windowState.open(files);
   });
   connect(panel_, &LibraryPanel::compareAsked, this, [this](const QString& path) {
     compareWith(path.toStdString());
   });
-  panel_->comparable = [&bench] { return bench.subject.isRecording(); };
-  connect(panel_, &LibraryPanel::said, this, [&bench](const QString& message) {
-    bench.log.add(LogLine::Severity::kWarning, message);
+  panel_->comparable = [&windowState] { return windowState.displayed.isRecording(); };
+  connect(panel_, &LibraryPanel::said, this, [&windowState](const QString& message) {
+    windowState.log.add(LogLine::Severity::kWarning, message);
   });
   connect(
-      &bench.live, &LiveController::recordingEnded, this, [this](const RecordingReport& report) {
+      &windowState.live,
+      &LiveController::recordingEnded,
+      this,
+      [this](const RecordingReport& report) {
         if (panel_->folder().isEmpty() && !report.paths.empty())
           panel_->setFolder(QString::fromStdString(report.paths.front().parent_path().string()));
       });
@@ -46,13 +49,13 @@ LibraryFeature::LibraryFeature(Bench& bench, QWidget* window)
 
 // What is shown stays A.
 void LibraryFeature::compareWith(const std::filesystem::path& path) {
-  if (const OpenedRecordingPtr known = bench().recordings.at(path))
-    bench().comparing.with(known);
+  if (const OpenedRecordingPtr known = state().recordings.at(path))
+    state().comparison.with(known);
   else
-    bench().open({path}, OpenRequest::Then::kCompare);
+    state().open({path}, OpenRequest::Then::kCompare);
 }
 
-std::vector<DockOffer> LibraryFeature::docks() {
+std::vector<DockSpec> LibraryFeature::docks() {
   return {{.dock = dock_,
            .key = QKeySequence("Ctrl+Shift+L"),
            .area = Qt::LeftDockWidgetArea,

@@ -1,7 +1,7 @@
 // The dock Library: recordings of a folder. It stays as it is, whatever else is shown.
 #pragma once
 
-#include "gui/bench/feature.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -10,10 +10,10 @@ class LibraryPanel;
 class LibraryFeature : public Feature {
   Q_OBJECT
  public:
-  LibraryFeature(Bench& bench, QWidget* window);
+  LibraryFeature(WindowState& windowState, QWidget* window);
 
   LibraryPanel& panel() noexcept { return *panel_; }
-  std::vector<DockOffer> docks() override;
+  std::vector<DockSpec> docks() override;
 
  private:
   void compareWith(const std::filesystem::path& path);

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "gui/appearance/theme.h"
 #include "gui/library/library_scanner.h"
-#include "gui/look/theme.h"
 
 namespace palpate::gui {
 

@@ -16,8 +16,8 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "gui/appearance/icons.h"
 #include "gui/desktop/reveal_file.h"
-#include "gui/look/icons.h"
 #include "gui/widgets/empty_page.h"
 
 namespace palpate::gui {
@@ -113,7 +113,7 @@ void LibraryPanel::buildTable() {
   table_->sortByColumn(LibraryModel::kDate, Qt::DescendingOrder);
   table_->horizontalHeader()->restoreState(settings_.value(kHeaderKey).toByteArray());
   pages_->addWidget(table_);
-  connect(table_, &LibraryTable::openAsked, this, &LibraryPanel::openChosen);
+  connect(table_, &LibraryTable::openRequested, this, &LibraryPanel::openChosen);
   connect(table_, &QTableView::doubleClicked, this, &LibraryPanel::openChosen);
   connect(table_, &LibraryTable::searchAsked, this, &LibraryPanel::startSearch);
   connect(table_, &LibraryTable::compareAsked, this, [this] {
@@ -183,7 +183,7 @@ void LibraryPanel::connectScanner() {
   });
   connect(&scanner_, &LibraryScanner::cancelled, this, [this] { scanEnded(nullptr); });
   connect(&scanner_, &LibraryScanner::failed, this, [this](const QString& message) {
-    troubles_ = {message};
+    problems_ = {message};
     emit said(message);
     scanEnded(nullptr);
   });
@@ -194,7 +194,7 @@ void LibraryPanel::setFolder(const QString& folder) {
   settings_.setValue(kLibraryPanelFolderKey, folder_);
   if (!watcher_.directories().isEmpty()) watcher_.removePaths(watcher_.directories());
   model_->setFolder(folder_);
-  troubles_.clear();
+  problems_.clear();
   looked_ = false;
   stale_ = true;
   showFolder();
@@ -209,7 +209,7 @@ void LibraryPanel::refresh() {
   if (stale_) return scanner_.cancel();  // when it is seen again
   numListed_ = 0;
   numFound_ = 0;
-  troubles_.clear();
+  problems_.clear();
   bar_->setValue(0);
   model_->beginScan();
   scanner_.scan(folder_);
@@ -220,12 +220,12 @@ void LibraryPanel::scanEnded(const CatalogReport* report) {
   looked_ = true;
   if (report) {
     model_->endScan();
-    for (const std::string& trouble : report->troubles) {
-      troubles_.append(QString::fromStdString(trouble));
-      emit said(troubles_.last());
+    for (const std::string& problem : report->problems) {
+      problems_.append(QString::fromStdString(problem));
+      emit said(problems_.last());
     }
-    if (!report->cacheTrouble.empty())
-      emit said("Library: " + QString::fromStdString(report->cacheTrouble));
+    if (!report->cacheProblem.empty())
+      emit said("Library: " + QString::fromStdString(report->cacheProblem));
     QStringList folders;
     if (report->local)
       for (const auto& folder : report->folders)
@@ -269,8 +269,8 @@ void LibraryPanel::showState() {
   } else if (busy) {
     text = "Looking into the folder …";
     button.clear();
-  } else if (!troubles_.isEmpty()) {
-    text = troubles_.first();
+  } else if (!problems_.isEmpty()) {
+    text = problems_.first();
   } else if (looked_) {
     text = "No recordings (.palpate, .dsa) lie in this folder or below it.";
   }
@@ -292,10 +292,10 @@ void LibraryPanel::showSummary() {
                      ? QString("%1 of %2").arg(shown).arg(countText(all, "recording"))
                      : countText(all, "recording") + ", " + lengthText(model_->totalS()));
   if (selected > 1) parts.append(QString::number(selected) + " chosen");
-  if (!troubles_.isEmpty() && all > 0)
-    parts.append(countText(static_cast<int>(troubles_.size()), "folder") + " not readable");
+  if (!problems_.isEmpty() && all > 0)
+    parts.append(countText(static_cast<int>(problems_.size()), "folder") + " not readable");
   summary_->setText(parts.join(" · "));
-  summary_->setToolTip(troubles_.mid(0, 10).join('\n'));
+  summary_->setToolTip(problems_.mid(0, 10).join('\n'));
 }
 
 void LibraryPanel::chooseFolder() {
@@ -324,7 +324,7 @@ QStringList LibraryPanel::chosen() const {
 
 void LibraryPanel::openChosen() {
   const QStringList paths = chosen();
-  if (!paths.isEmpty()) emit openAsked(paths);
+  if (!paths.isEmpty()) emit openRequested(paths);
 }
 
 void LibraryPanel::showMenu(const QPoint& at) {

@@ -8,10 +8,10 @@
 #include <QWidget>
 #include <functional>
 
+#include "gui/appearance/theme.h"
 #include "gui/library/library_model.h"
 #include "gui/library/library_scanner.h"
 #include "gui/library/library_table.h"
-#include "gui/look/theme.h"
 
 class QLabel;
 class QLineEdit;
@@ -50,7 +50,7 @@ class LibraryPanel : public QWidget {
   QSize sizeHint() const override { return {460, 500}; }
 
  signals:
-  void openAsked(const QStringList& paths);
+  void openRequested(const QStringList& paths);
   void compareAsked(const QString& path);
   // A line to be kept: what couldn't be looked into.
   void said(const QString& message);
@@ -84,7 +84,7 @@ class LibraryPanel : public QWidget {
   QFileSystemWatcher watcher_;
   QTimer changed_;  // something in the folder: looked at when it is calm again
   QString folder_;
-  QStringList troubles_;
+  QStringList problems_;
   int numListed_ = 0;
   int numFound_ = 0;     // in the scan that runs
   bool stale_ = true;    // has to be looked into

@@ -44,7 +44,7 @@ struct LibraryScanner::Run {
     change();
     if (owner == nullptr || called) return;
     called = true;
-    QMetaObject::invokeMethod(owner, &LibraryScanner::heed, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(owner, &LibraryScanner::processScanResults, Qt::QueuedConnection);
   }
 };
 
@@ -53,13 +53,13 @@ LibraryScanner::LibraryScanner(const QString& cacheFolder, Catalog catalog, QObj
 
 LibraryScanner::~LibraryScanner() {
   const std::shared_ptr<Run> run = run_;
-  giveUp();
+  abandonScan();
   if (!run) return;
   std::unique_lock lock(run->mutex);
   run->ended.wait_for(lock, kPatience, [&] { return run->done; });
 }
 
-void LibraryScanner::giveUp() {
+void LibraryScanner::abandonScan() {
   const std::shared_ptr<Run> run = std::exchange(run_, nullptr);
   if (!run) return;
   run->cancelled = true;
@@ -69,7 +69,7 @@ void LibraryScanner::giveUp() {
 }
 
 void LibraryScanner::scan(const QString& folder) {
-  giveUp();
+  abandonScan();
   run_ = std::make_shared<Run>();
   run_->owner = this;
   std::thread(&LibraryScanner::work,
@@ -82,7 +82,7 @@ void LibraryScanner::scan(const QString& folder) {
 
 void LibraryScanner::cancel() {
   if (!run_) return;
-  giveUp();
+  abandonScan();
   emit cancelled();
 }
 
@@ -122,7 +122,7 @@ void LibraryScanner::work(const std::shared_ptr<Run>& run,
 }
 
 // A portion at a time: the window breathes in between.
-void LibraryScanner::heed() {
+void LibraryScanner::processScanResults() {
   const std::shared_ptr<Run> run = run_;
   if (!run) return;  // given up meanwhile
   std::optional<std::size_t> numFiles;
@@ -139,7 +139,8 @@ void LibraryScanner::heed() {
     run->entries.erase(run->entries.begin(), end);
     run->called = !run->entries.empty();
     ended = run->done && run->entries.empty();
-    if (run->called) QMetaObject::invokeMethod(this, &LibraryScanner::heed, Qt::QueuedConnection);
+    if (run->called)
+      QMetaObject::invokeMethod(this, &LibraryScanner::processScanResults, Qt::QueuedConnection);
   }
   if (numFiles) emit listed(static_cast<int>(*numFiles));
   if (fraction) emit progressed(*fraction);

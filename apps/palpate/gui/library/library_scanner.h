@@ -50,8 +50,8 @@ class LibraryScanner : public QObject {
 
  private:
   struct Run;  // shared with the thread
-  void giveUp();
-  void heed();
+  void abandonScan();
+  void processScanResults();
   static void work(const std::shared_ptr<Run>& run,
                    const Catalog& catalog,
                    const std::filesystem::path& folder,

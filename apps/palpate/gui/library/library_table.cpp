@@ -83,7 +83,7 @@ void LibraryTable::keyPressEvent(QKeyEvent* event) {
       if (control)
         emit compareAsked();
       else
-        emit openAsked();
+        emit openRequested();
       return;
     case Qt::Key_Slash:
       emit searchAsked();

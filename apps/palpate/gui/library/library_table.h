@@ -14,7 +14,7 @@ class LibraryTable : public QTableView {
   void copyRows();
 
  signals:
-  void openAsked();
+  void openRequested();
   void compareAsked();
   void searchAsked();
 

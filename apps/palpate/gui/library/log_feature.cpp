@@ -17,24 +17,26 @@ QString openedText(const OpenedRecording& recording) {
 
 }  // namespace
 
-LogFeature::LogFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window), panel_(new LogPanel(bench.log, window)) {
+LogFeature::LogFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window), panel_(new LogPanel(windowState.log, window)) {
   dock_ = new Dock("Log", panel_, nullptr, window);
-  connect(
-      &bench.opener, &RecordingOpener::opened, this, [&bench](const OpenedRecordingPtr& recording) {
-        bench.log.add(LogLine::Severity::kInfo, openedText(*recording));
-        for (const std::string& warning : recording->profile.info().warnings)
-          bench.log.add(LogLine::Severity::kWarning,
-                        fileNameOf(*recording) + ": " + QString::fromStdString(warning));
-      });
-  connect(panel_, &LogPanel::saved, this, [&bench](const QString& path) {
-    bench.messages.flash("written: " + path);
+  connect(&windowState.opener,
+          &RecordingOpener::opened,
+          this,
+          [&windowState](const OpenedRecordingPtr& recording) {
+            windowState.log.add(LogLine::Severity::kInfo, openedText(*recording));
+            for (const std::string& warning : recording->profile.info().warnings)
+              windowState.log.add(LogLine::Severity::kWarning,
+                                  fileNameOf(*recording) + ": " + QString::fromStdString(warning));
+          });
+  connect(panel_, &LogPanel::saved, this, [&windowState](const QString& path) {
+    windowState.messages.flash("written: " + path);
   });
-  connect(panel_, &LogPanel::failed, &bench.messages, &Messages::fail);
+  connect(panel_, &LogPanel::failed, &windowState.messages, &Messages::fail);
   followTheme(panel_);
 }
 
-std::vector<DockOffer> LogFeature::docks() {
+std::vector<DockSpec> LogFeature::docks() {
   return {{.dock = dock_, .key = QKeySequence("Ctrl+Shift+J"), .tab = 4, .everywhere = true}};
 }
 

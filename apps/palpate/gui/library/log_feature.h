@@ -1,7 +1,7 @@
 // The dock Log: what the window said today. It stays as it is, whatever else is shown.
 #pragma once
 
-#include "gui/bench/feature.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -10,9 +10,9 @@ class LogPanel;
 class LogFeature : public Feature {
   Q_OBJECT
  public:
-  LogFeature(Bench& bench, QWidget* window);
+  LogFeature(WindowState& windowState, QWidget* window);
 
-  std::vector<DockOffer> docks() override;
+  std::vector<DockSpec> docks() override;
 
  private:
   LogPanel* panel_;

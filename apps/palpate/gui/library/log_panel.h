@@ -7,8 +7,8 @@
 #include <QWidget>
 #include <functional>
 
-#include "gui/bench/activity_log.h"
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
+#include "gui/window_state/activity_log.h"
 
 class QComboBox;
 class QLineEdit;

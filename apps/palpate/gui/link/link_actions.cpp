@@ -2,7 +2,7 @@
 
 namespace palpate::gui {
 
-LinkActions::LinkActions(ActionBook& book) {
+LinkActions::LinkActions(ActionRegistry& book) {
   muteAlarms = book.make("muteAlarms", "Hand", "Alarms are &silent", {key("Ctrl+Shift+M")}, true);
   streamSignals = book.make("streamSignals", "Hand", "Stream signals to &PlotJuggler", {}, true);
   streamSignals->setToolTip("A datagram of JSON per frame, to this machine only");

@@ -5,12 +5,12 @@
 #include <QActionGroup>
 #include <QList>
 
-#include "gui/bench/action_book.h"
+#include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
 
 struct LinkActions {
-  explicit LinkActions(ActionBook& book);
+  explicit LinkActions(ActionRegistry& book);
 
   QAction* muteAlarms = nullptr;
   // other programs; off in a new window

@@ -13,18 +13,18 @@ constexpr const char* kMutedKey = "alarms/muted";
 
 }  // namespace
 
-LinkFeature::LinkFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window),
-      actions_(bench.actions),
+LinkFeature::LinkFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window),
+      actions_(windowState.actions),
       panel_(new LinkPanel(window)),
       alarms_(new MessageBanner(window, "AlarmStrip", "alarm")) {
   dock_ = new Dock("Link", panel_, nullptr, window);
   connectLog();
   connectAlarms();
   connectOthers();
-  connect(&bench.live, &LiveController::looked, this, &LinkFeature::look);
-  connect(&bench.live,
-          &LiveController::eventsCame,
+  connect(&windowState.live, &LiveController::refreshed, this, &LinkFeature::look);
+  connect(&windowState.live,
+          &LiveController::eventsReceived,
           this,
           [this](const std::vector<RecordingEvent>& events) {
             for (const RecordingEvent& event : events) panel_->addEvent(event);
@@ -35,65 +35,65 @@ LinkFeature::LinkFeature(Bench& bench, QWidget* window)
 
 // Behind the log: who listens is told that a hand is connected before what streams of it.
 void LinkFeature::connectOthers() {
-  Bench& bench = this->bench();
+  WindowState& windowState = state();
   others_ = std::make_unique<OtherPrograms>(
       OtherProgramsOptions{actions_,
-                           bench.live,
-                           bench.settings,
-                           [&bench] { return loadRecordingSettings(bench.settings); }},
+                           windowState.live,
+                           windowState.settings,
+                           [&windowState] { return loadRecordingSettings(windowState.settings); }},
       nullptr);
   connect(others_.get(), &OtherPrograms::changed, panel_, [this] {
     panel_->showOtherPrograms(others_->facts());
   });
   connect(others_.get(), &OtherPrograms::logged, panel_, &LinkPanel::log);
   connect(others_.get(), &OtherPrograms::failed, panel_, [this](const QString& why) {
-    this->bench().messages.fail(why);
+    this->state().messages.fail(why);
     panel_->log(why);
   });
   panel_->showOtherPrograms(others_->facts());
 }
 
 void LinkFeature::connectLog() {
-  LiveController& live = bench().live;
-  connect(&bench().messages, &Messages::linkLogged, panel_, &LinkPanel::log);
+  LiveController& live = state().live;
+  connect(&state().messages, &Messages::linkLogged, panel_, &LinkPanel::log);
   connect(panel_, &LinkPanel::logged, this, [this](const QString& line) {
     // What the banner has just said isn't said again.
-    ActivityLog& log = bench().log;
+    ActivityLog& log = state().log;
     const int last = log.rowCount() - 1;
     if (last >= 0 && line.contains(log.line(last).text)) return;
     log.add(line.startsWith("alarm") ? LogLine::Severity::kWarning : LogLine::Severity::kInfo,
             line);
   });
-  connect(&live, &LiveController::came, this, [this, &live] {
+  connect(&live, &LiveController::sourceOpened, this, [this, &live] {
     panel_->log("connected: " + describe(live.source()->connection));
   });
   connect(&live, &LiveController::failed, this, [this](const QString& message) {
-    bench().messages.fail(message);
+    state().messages.fail(message);
     panel_->log("not connected: " + message);
   });
   connect(&live, &LiveController::leaving, this, [this, &live] {
     panel_->clear();
-    bell_.hear({}, 0);
+    alarmNotifier_.updateAlarms({}, 0);
     panel_->log("disconnected: " + describe(live.connection()));
   });
 }
 
 void LinkFeature::connectAlarms() {
-  connect(&bell_, &AlarmBell::changed, this, [this](const QStringList& alarms) {
+  connect(&alarmNotifier_, &AlarmNotifier::changed, this, [this](const QStringList& alarms) {
     panel_->showAlarms(alarms);
     // Closed by the user it stays closed until something new is wrong.
     if (alarms.isEmpty() || alarmIsNew_ || !alarms_->isHidden()) alarms_->showAll(alarms);
     alarmIsNew_ = false;
   });
-  connect(&bell_, &AlarmBell::raised, this, [this](const QString& text) {
+  connect(&alarmNotifier_, &AlarmNotifier::raised, this, [this](const QString& text) {
     alarmIsNew_ = true;
     panel_->log("alarm: " + text);
     QApplication::alert(window());
   });
   connect(panel_, &LinkPanel::mutedChanged, this, &LinkFeature::mute);
   on(actions_.muteAlarms, [this](bool muted) { mute(muted); });
-  mute(bench().settings.value(kMutedKey, false).toBool());
-  bench().escape.add(Escape::Order::kAlarm, [this] {
+  mute(state().settings.value(kMutedKey, false).toBool());
+  state().escapeHandler.add(EscapeHandler::Order::kAlarm, [this] {
     if (alarms_->isHidden()) return false;
     alarms_->hide();
     return true;
@@ -101,27 +101,27 @@ void LinkFeature::connectAlarms() {
 }
 
 void LinkFeature::mute(bool muted) {
-  bell_.setMuted(muted);
+  alarmNotifier_.setMuted(muted);
   panel_->setMuted(muted);
   actions_.muteAlarms->setChecked(muted);
-  bench().settings.setValue(kMutedKey, muted);
+  state().settings.setValue(kMutedKey, muted);
 }
 
 // Four times a second.
 void LinkFeature::look() {
-  LiveController& live = bench().live;
+  LiveController& live = state().live;
   LiveSource* source = live.source();
   if (!source) return;
   const LinkHealth& health = live.health();
-  bell_.hear(source->finished() ? std::vector<Alarm>() : health.alarms,
-             systemClock().monotonicUs());
-  panel_->showHealth(health, live.beforeRun());
+  alarmNotifier_.updateAlarms(source->finished() ? std::vector<Alarm>() : health.alarms,
+                              systemClock().monotonicUs());
+  panel_->showHealth(health, live.preflight());
 }
 
-std::vector<DockOffer> LinkFeature::docks() {
+std::vector<DockSpec> LinkFeature::docks() {
   return {{.dock = dock_, .key = QKeySequence("Ctrl+J"), .tab = 1, .shownLive = true}};
 }
 
-std::vector<StripOffer> LinkFeature::strips() { return {{StripOffer::Order::kAlarm, alarms_}}; }
+std::vector<BannerSpec> LinkFeature::strips() { return {{BannerSpec::Order::kAlarm, alarms_}}; }
 
 }  // namespace palpate::gui

@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "gui/bench/feature.h"
-#include "gui/link/alarm_bell.h"
+#include "gui/link/alarm_notifier.h"
 #include "gui/link/link_actions.h"
 #include "gui/link/other_programs.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -16,10 +16,10 @@ class MessageBanner;
 class LinkFeature : public Feature {
   Q_OBJECT
  public:
-  LinkFeature(Bench& bench, QWidget* window);
+  LinkFeature(WindowState& windowState, QWidget* window);
 
-  std::vector<DockOffer> docks() override;
-  std::vector<StripOffer> strips() override;
+  std::vector<DockSpec> docks() override;
+  std::vector<BannerSpec> strips() override;
 
  private:
   void connectAlarms();
@@ -32,7 +32,7 @@ class LinkFeature : public Feature {
   LinkPanel* panel_;
   Dock* dock_;
   MessageBanner* alarms_;
-  AlarmBell bell_;
+  AlarmNotifier alarmNotifier_;
   bool alarmIsNew_ = false;  // since what is in the strip was closed
   std::unique_ptr<OtherPrograms> others_;
 };

@@ -9,7 +9,7 @@
 
 #include <palpate/core/time.h>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 
 namespace palpate::gui {
 namespace {
@@ -81,9 +81,9 @@ std::vector<Fact> factsOf(const LinkHealth& health) {
   facts.push_back({"suspect", count(tactile.suspect), tactile.suspect > 0});
   facts.push_back({"saturated",
                    count(health.frames.saturatedFrames) + " frames, " +
-                       figure(health.frames.saturatedShare * 100.0, 0) + " % now",
-                   health.frames.saturatedShare > 0.0});
-  const FeedStats::Port& queue = health.queues.tactile;
+                       figure(health.frames.saturatedFraction * 100.0, 0) + " % now",
+                   health.frames.saturatedFraction > 0.0});
+  const CaptureQueueStats::Port& queue = health.queues.tactile;
   facts.push_back({"queue",
                    QString::number(queue.depth) + " of " + QString::number(queue.capacity) +
                        ", most " + QString::number(queue.highWater),
@@ -107,7 +107,7 @@ std::vector<Fact> factsOf(const LinkHealth& health) {
 
 LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
   check_ = new QLabel(this);
-  check_->setObjectName("beforeRun");
+  check_->setObjectName("preflight");
   check_->setWordWrap(true);
   check_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   alarms_ = new QLabel(this);
@@ -175,7 +175,7 @@ void LinkPanel::clear() {
   showCheck();
 }
 
-void LinkPanel::showHealth(const LinkHealth& health, const std::optional<BeforeRun>& check) {
+void LinkPanel::showHealth(const LinkHealth& health, const std::optional<PreflightCheck>& check) {
   connected_ = true;
   recording_ = health.recorder.state != RecorderStatus::State::kIdle;
   lastCheck_ = check;

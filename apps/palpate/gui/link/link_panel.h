@@ -9,7 +9,7 @@
 #include <palpate/capture/link_health.h>
 #include <palpate/recording/recording_event.h>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 #include "gui/widgets/facts_view.h"
 
 class QCheckBox;
@@ -29,7 +29,7 @@ class LinkPanel : public QWidget {
   explicit LinkPanel(QWidget* parent = nullptr);
   // Nothing is connected; what was logged stays.
   void clear();
-  void showHealth(const LinkHealth& health, const std::optional<BeforeRun>& check);
+  void showHealth(const LinkHealth& health, const std::optional<PreflightCheck>& check);
   void showAlarms(const QStringList& alarms);
   // What is open to other programs; empty: nothing, and nothing of it is seen.
   void showOtherPrograms(std::vector<Fact> facts);
@@ -54,7 +54,7 @@ class LinkPanel : public QWidget {
   QLabel* othersHeading_;
   FactsView* others_;
   QPlainTextEdit* log_;
-  std::optional<BeforeRun> lastCheck_;
+  std::optional<PreflightCheck> lastCheck_;
   bool recording_ = false;
   bool connected_ = false;
   Theme theme_ = Theme::kDark;

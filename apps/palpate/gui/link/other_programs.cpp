@@ -29,9 +29,9 @@ OtherPrograms::OtherPrograms(const OtherProgramsOptions& options, QObject* paren
     });
   }
   connect(actions_.remoteControl, &QAction::toggled, this, &OtherPrograms::switchRemote);
-  connect(&live_, &LiveController::came, this, &OtherPrograms::useStreams);
+  connect(&live_, &LiveController::sourceOpened, this, &OtherPrograms::useStreams);
   connect(&live_, &LiveController::ended, this, &OtherPrograms::changed);
-  connect(&live_, &LiveController::looked, this, &OtherPrograms::changed);
+  connect(&live_, &LiveController::refreshed, this, &OtherPrograms::changed);
 }
 
 QAction* OtherPrograms::actionOf(StreamKind kind) const {
@@ -80,7 +80,7 @@ void OtherPrograms::switchRemote(bool on) {
     RemoteServerOptions options;
     options.onAnswer = [this](const RemoteRequest& request, const RemoteAnswer& answer) {
       QMetaObject::invokeMethod(
-          this, [this, request, answer] { tell(request, answer); }, Qt::QueuedConnection);
+          this, [this, request, answer] { logRequest(request, answer); }, Qt::QueuedConnection);
     };
     server_ = std::make_unique<RemoteServer>(
         named.isEmpty() ? usualRemoteSocket() : std::filesystem::path(named.toStdString()),
@@ -95,7 +95,7 @@ void OtherPrograms::switchRemote(bool on) {
   emit changed();
 }
 
-void OtherPrograms::tell(const RemoteRequest& request, const RemoteAnswer& answer) {
+void OtherPrograms::logRequest(const RemoteRequest& request, const RemoteAnswer& answer) {
   QString line =
       "remote control: " + QString::fromStdString(std::string(palpate::nameOf(request.verb)));
   if (!request.text.empty()) line += " " + QString::fromStdString(request.text);
@@ -116,8 +116,8 @@ std::vector<Fact> OtherPrograms::facts() const {
     else if (stats->sent + stats->dropped == 0)
       value += " · nothing sent yet";
     else
-      value += stats->heard ? " · " + QString::number(stats->sent) + " sent"
-                            : QString(" · nobody listens");
+      value += stats->delivered ? " · " + QString::number(stats->sent) + " sent"
+                                : QString(" · nobody listens");
     facts.push_back({otherProgramsNameOf(kind), value});
   }
   if (server_) {
@@ -130,7 +130,7 @@ std::vector<Fact> OtherPrograms::facts() const {
   return facts;
 }
 
-QString OtherPrograms::shortText(const ActionBook& actions) {
+QString OtherPrograms::shortText(const ActionRegistry& actions) {
   QStringList open;
   if (actions.at("streamSignals")->isChecked() || actions.at("streamTactile")->isChecked())
     open.append("streaming");

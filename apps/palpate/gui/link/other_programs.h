@@ -13,7 +13,7 @@
 #include <palpate/interop/remote_server.h>
 
 #include "gui/link/link_actions.h"
-#include "gui/link/remote_desk.h"
+#include "gui/link/remote_controller.h"
 #include "gui/source/live_controller.h"
 #include "gui/widgets/facts_view.h"
 
@@ -37,8 +37,8 @@ class OtherPrograms : public QObject {
   // What is open, row by row; empty: nothing is.
   std::vector<Fact> facts() const;
   // "streaming, remote control"; empty: nothing is open.
-  static QString shortText(const ActionBook& actions);
-  RemoteDesk& desk() noexcept { return desk_; }
+  static QString shortText(const ActionRegistry& actions);
+  RemoteController& desk() noexcept { return desk_; }
 
  signals:
   void changed();                       // facts() did
@@ -51,12 +51,12 @@ class OtherPrograms : public QObject {
   void useStreams();
   void switchStream(StreamKind kind, bool on);
   void switchRemote(bool on);
-  void tell(const RemoteRequest& request, const RemoteAnswer& answer);
+  void logRequest(const RemoteRequest& request, const RemoteAnswer& answer);
 
   const LinkActions& actions_;
   LiveController& live_;
   QSettings& settings_;
-  RemoteDesk desk_;
+  RemoteController desk_;
   std::unique_ptr<RemoteServer> server_;  // null: off
 };
 

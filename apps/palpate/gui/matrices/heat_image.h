@@ -6,7 +6,7 @@
 #include <palpate/model/matrix_layout.h>
 #include <palpate/model/tactile_frame.h>
 
-#include "gui/look/color_map.h"
+#include "gui/appearance/color_map.h"
 
 namespace palpate::gui {
 

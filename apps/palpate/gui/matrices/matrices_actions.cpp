@@ -1,12 +1,12 @@
 #include "gui/matrices/matrices_actions.h"
 
-#include "gui/look/color_map.h"
-#include "gui/look/icons.h"
-#include "gui/look/window_settings.h"
+#include "gui/appearance/color_map.h"
+#include "gui/appearance/icons.h"
+#include "gui/appearance/window_settings.h"
 
 namespace palpate::gui {
 
-MatricesActions::MatricesActions(ActionBook& book) {
+MatricesActions::MatricesActions(ActionRegistry& book) {
   interpolated = book.make("interpolated", "View", "&Smooth", {key("I")}, true);
   interpolated->setToolTip("Smooth between taxels (I)");
   values = book.make("values", "View", "&Values", {key("V")}, true);

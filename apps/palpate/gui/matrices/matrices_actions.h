@@ -5,12 +5,12 @@
 #include <QActionGroup>
 #include <QList>
 
-#include "gui/bench/action_book.h"
+#include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
 
 struct MatricesActions {
-  explicit MatricesActions(ActionBook& book);
+  explicit MatricesActions(ActionRegistry& book);
 
   QAction* interpolated = nullptr;
   QAction* values = nullptr;

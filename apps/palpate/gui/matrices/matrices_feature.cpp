@@ -5,58 +5,59 @@
 
 #include <palpate/recording/frame_table.h>
 
-#include "gui/look/next_choice.h"
+#include "gui/appearance/next_choice.h"
 #include "gui/matrices/matrices_frame_painter.h"
 #include "gui/matrices/matrices_painter.h"
 #include "gui/matrices/matrices_panel.h"
 
 namespace palpate::gui {
 
-MatricesFeature::MatricesFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window),
-      actions_(bench.actions),
+MatricesFeature::MatricesFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window),
+      actions_(windowState.actions),
       panel_(new MatricesPanel(actions_.interpolated, actions_.values, window)),
-      scan_(bench, actions_) {
-  Subject& subject = bench.subject;
-  connect(&subject, &Subject::seenChanged, this, &MatricesFeature::takeSource);
-  connect(&subject, &Subject::handChanged, this, [this] {
-    panel_->setHand(*this->bench().subject.hand());
-    panel_->view().setBlind(this->bench().overlays.blind());
-    this->bench().selection.setTaxels(panel_->view().selection());
+      scan_(windowState, actions_) {
+  DisplayedSource& displayed = windowState.displayed;
+  connect(&displayed, &DisplayedSource::seenChanged, this, &MatricesFeature::takeSource);
+  connect(&displayed, &DisplayedSource::handChanged, this, [this] {
+    panel_->setHand(*this->state().displayed.hand());
+    panel_->view().setBlind(this->state().derivedResults.blind());
+    this->state().selection.setTaxels(panel_->view().selection());
   });
-  connect(&subject, &Subject::moreKnown, panel_, &MatricesPanel::renewRange);
-  connect(&bench.moment, &Moment::frameChanged, this, [this] {
-    panel_->show(this->bench().moment.frame());
+  connect(&displayed, &DisplayedSource::moreKnown, panel_, &MatricesPanel::renewRange);
+  connect(&windowState.currentFrame, &CurrentFrame::frameChanged, this, [this] {
+    panel_->show(this->state().currentFrame.frame());
   });
-  connect(&bench.moment, &Moment::oldChanged, this, [this] {
-    panel_->view().setOld(this->bench().moment.old());
+  connect(&windowState.currentFrame, &CurrentFrame::staleNoticeChanged, this, [this] {
+    panel_->view().setStale(this->state().currentFrame.old());
   });
-  Overlays& overlays = bench.overlays;
-  connect(&overlays, &Overlays::pressureChanged, this, [this, &overlays] {
-    panel_->view().setPressure(overlays.pressure());
+  DerivedResults& derivedResults = windowState.derivedResults;
+  connect(&derivedResults, &DerivedResults::pressureChanged, this, [this, &derivedResults] {
+    panel_->view().setPressure(derivedResults.pressure());
   });
-  connect(&overlays, &Overlays::blindChanged, this, [this, &overlays] {
-    const std::vector<QString>& why = overlays.blind();
-    if (this->bench().subject.isLive() || why.empty()) panel_->view().setBlind(why);
+  connect(&derivedResults, &DerivedResults::blindChanged, this, [this, &derivedResults] {
+    const std::vector<QString>& why = derivedResults.blind();
+    if (this->state().displayed.isLive() || why.empty()) panel_->view().setBlind(why);
   });
-  connect(&bench.live, &LiveController::leaving, panel_, &MatricesPanel::forgetLargest);
+  connect(&windowState.live, &LiveController::leaving, panel_, &MatricesPanel::forgetLargest);
   connectLook();
   connectChosen();
 }
 
 void MatricesFeature::takeSource() {
-  const Subject& subject = bench().subject;
-  panel_->setRecording(subject.isRecording() ? subject.seen() : nullptr);
-  if (subject.isLive()) panel_->setHand(*subject.hand());
-  panel_->view().setBlind(subject.isLive() ? bench().overlays.blind() : std::vector<QString>());
-  panel_->view().setOld(bench().moment.old());
-  bench().selection.setTaxels(panel_->view().selection());  // of these matrices
+  const DisplayedSource& displayed = state().displayed;
+  panel_->setRecording(displayed.isRecording() ? displayed.seen() : nullptr);
+  if (displayed.isLive()) panel_->setHand(*displayed.hand());
+  panel_->view().setBlind(displayed.isLive() ? state().derivedResults.blind()
+                                             : std::vector<QString>());
+  panel_->view().setStale(state().currentFrame.old());
+  state().selection.setTaxels(panel_->view().selection());  // of these matrices
 }
 
 void MatricesFeature::connectLook() {
-  ViewLook& look = bench().look;
+  ViewAppearance& look = state().appearance;
   MatricesActions& actions = actions_;
-  connect(&look, &ViewLook::changed, this, [this, &look, &actions] {
+  connect(&look, &ViewAppearance::changed, this, [this, &look, &actions] {
     panel_->setSettings(look.view(), look.theme());
     actions.interpolated->setChecked(look.view().interpolated);
     actions.values->setChecked(look.view().values);
@@ -98,63 +99,66 @@ void MatricesFeature::connectLook() {
 
 void MatricesFeature::connectChosen() {
   MatricesView& view = panel_->view();
-  Selection& selection = bench().selection;
+  Selection& selection = state().selection;
   connect(&view, &MatricesView::selectionChanged, this, [&view, &selection] {
     selection.setTaxels(view.selection());
   });
   connect(&selection, &Selection::taxelsChanged, this, [&view, &selection] {
     if (!(view.selection() == selection.taxels())) view.select(selection.taxels());
   });
-  connect(&view, &MatricesView::hovered, &bench().messages, &Messages::hover);
-  connect(&view, &MatricesView::menuAsked, this, [this](const QPoint& at) {
-    bench().menus.scanned->popup(at);
+  connect(&view, &MatricesView::hovered, &state().messages, &Messages::hover);
+  connect(&view, &MatricesView::menuRequested, this, [this](const QPoint& at) {
+    state().menus.scanned->popup(at);
   });
-  bench().escape.add(Escape::Order::kTaxels, [&selection] {
+  state().escapeHandler.add(EscapeHandler::Order::kTaxels, [&selection] {
     if (selection.taxels().empty()) return false;
     selection.clearTaxels();
     return true;
   });
 }
 
-std::vector<CentreOffer> MatricesFeature::centre() {
-  return {{CentreOffer::Where::kBeside, panel_}};
+std::vector<CentralViewSpec> MatricesFeature::centre() {
+  return {{CentralViewSpec::Where::kBeside, panel_}};
 }
 
-MatricesPictureOptions pictureOptions(const Bench& bench, const MatricesPanel& panel) {
+MatricesPictureOptions pictureOptions(const WindowState& windowState, const MatricesPanel& panel) {
   MatricesPictureOptions options = panel.pictureOptions();
-  options.title = bench.pictureTitle();
-  options.caption = bench.pictureCaption();
+  options.title = windowState.pictureTitle();
+  options.caption = windowState.pictureCaption();
   return options;
 }
 
 std::vector<ExportedView> MatricesFeature::views() {
-  Bench& bench = this->bench();
+  WindowState& windowState = state();
   ExportedView view;
   view.name = "Matrices";
   view.widget = panel_;
-  view.isThere = [&bench] { return bench.moment.hasFrame() && !bench.comparing.on(); };
-  view.fileName = [&bench] { return bench.frameStem(); };
+  view.isThere = [&windowState] {
+    return windowState.currentFrame.hasFrame() && !windowState.comparison.on();
+  };
+  view.fileName = [&windowState] { return windowState.frameStem(); };
   view.size = [this] { return QSizeF(panel_->view().size()); };
-  view.paint = [this, &bench](QPainter& painter, const PictureLook& look) {
+  view.paint = [this, &windowState](QPainter& painter, const PictureLook& look) {
     paintMatricesPicture(painter,
                          QRectF(QPointF(), look.size),
-                         bench.moment.frame(),
-                         *bench.subject.hand(),
-                         fitted(pictureOptions(bench, *panel_), look));
+                         windowState.currentFrame.frame(),
+                         *windowState.displayed.hand(),
+                         fitted(pictureOptions(windowState, *panel_), look));
   };
-  view.tables = [&bench] {
-    const std::string frame =
-        bench.subject.isLive() ? std::string() : std::to_string(bench.playback.frame());
+  view.tables = [&windowState] {
+    const std::string frame = windowState.displayed.isLive()
+                                  ? std::string()
+                                  : std::to_string(windowState.playback.frame());
     return std::vector<ExportedTable>{
         {"taxels of the frame",
-         [shown = bench.moment.frame(), frame] { return taxelTable(shown, frame); }}};
+         [shown = windowState.currentFrame.frame(), frame] { return taxelTable(shown, frame); }}};
   };
-  view.framePictures = [this, &bench]() -> std::optional<FramePictures> {
-    std::optional<FramePictures> pictures = bench.framePictures({});
+  view.framePictures = [this, &windowState]() -> std::optional<FramePictures> {
+    std::optional<FramePictures> pictures = windowState.framePictures({});
     if (!pictures) return pictures;
-    const OpenedRecordingPtr recording = bench.subject.seen();
-    MatricesPictureOptions options = pictureOptions(bench, *panel_);
-    if (bench.look.view().range == RangeMode::kFrame)
+    const OpenedRecordingPtr recording = windowState.displayed.seen();
+    MatricesPictureOptions options = pictureOptions(windowState, *panel_);
+    if (windowState.appearance.view().range == RangeMode::kFrame)
       options.rangeMax = options.rangeMin = 0.0;  // of each
     pictures->painter = [recording, options](const PictureLook& look) {
       return matricesFramePainter(recording, fitted(options, look));

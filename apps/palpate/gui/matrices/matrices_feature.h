@@ -2,10 +2,10 @@
 // ones the hand scans.
 #pragma once
 
-#include "gui/bench/feature.h"
 #include "gui/matrices/matrices_actions.h"
 #include "gui/matrices/matrices_painter.h"
 #include "gui/matrices/scan_choice.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -14,10 +14,10 @@ class MatricesPanel;
 class MatricesFeature : public Feature {
   Q_OBJECT
  public:
-  MatricesFeature(Bench& bench, QWidget* window);
+  MatricesFeature(WindowState& windowState, QWidget* window);
 
   MatricesPanel& panel() noexcept { return *panel_; }
-  std::vector<CentreOffer> centre() override;
+  std::vector<CentralViewSpec> centre() override;
   std::vector<ExportedView> views() override;
 
  private:
@@ -31,6 +31,6 @@ class MatricesFeature : public Feature {
 };
 
 // Title, caption and look of a picture of what is shown.
-MatricesPictureOptions pictureOptions(const Bench& bench, const MatricesPanel& panel);
+MatricesPictureOptions pictureOptions(const WindowState& windowState, const MatricesPanel& panel);
 
 }  // namespace palpate::gui

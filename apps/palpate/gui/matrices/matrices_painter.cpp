@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "gui/look/difference_map.h"
+#include "gui/appearance/difference_map.h"
 #include "gui/matrices/heat_image.h"
 
 namespace palpate::gui {
@@ -255,7 +255,7 @@ void paintMatricesPicture(QPainter& painter,
                           const HandDescription& hand,
                           const MatricesPictureOptions& options) {
   if (!frame.layout || !hand.layout || !(*frame.layout == *hand.layout) ||
-      frame.values.size() != hand.layout->numPlaces())
+      frame.values.size() != hand.layout->numCells())
     throw std::invalid_argument("paintMatricesPicture: the frame is not of this hand");
   const MatricesGeometry geometry(area, hand, options);
   const ValueRange range = rangeOf(options, frame);

@@ -14,8 +14,8 @@
 #include <palpate/model/hand_description.h>
 #include <palpate/model/tactile_frame.h>
 
-#include "gui/look/color_map.h"
-#include "gui/look/theme.h"
+#include "gui/appearance/color_map.h"
+#include "gui/appearance/theme.h"
 
 class QPainter;
 

@@ -5,7 +5,7 @@
 #include <QWidget>
 #include <optional>
 
-#include "gui/look/window_settings.h"
+#include "gui/appearance/window_settings.h"
 #include "gui/matrices/matrices_view.h"
 #include "gui/source/opened_recording.h"
 

@@ -38,7 +38,7 @@ void MatricesView::setHand(const HandDescription& hand) {
 void MatricesView::clear() {
   hand_.reset();
   selection_ = {};
-  old_ = {};
+  stale_ = {};
   blind_.clear();
   paintedUs_ = 0;
   frame_.reset();
@@ -119,7 +119,7 @@ void MatricesView::paintEvent(QPaintEvent* event) {
   }
   paintBlind(painter);
   paintSelection(painter);
-  paintOldPicture(painter, rect(), old_, look_.theme);
+  paintStaleNotice(painter, rect(), stale_, look_.theme);
   if (!frame_ || frame_->hostUs == paintedUs_) return;
   paintedUs_ = frame_->hostUs;
   emit painted(paintedUs_);
@@ -171,9 +171,9 @@ void MatricesView::paintBlind(QPainter& painter) const {
   }
 }
 
-void MatricesView::setOld(const OldPicture& old) {
-  if (old == old_) return;
-  old_ = old;
+void MatricesView::setStale(const StaleNotice& old) {
+  if (old == stale_) return;
+  stale_ = old;
   update();
 }
 
@@ -213,7 +213,7 @@ void MatricesView::mousePressEvent(QMouseEvent* event) {
 void MatricesView::mouseReleaseEvent(QMouseEvent*) { pressed_.reset(); }
 
 void MatricesView::contextMenuEvent(QContextMenuEvent* event) {
-  if (hand_) emit menuAsked(event->globalPos());
+  if (hand_) emit menuRequested(event->globalPos());
 }
 
 void MatricesView::resizeEvent(QResizeEvent*) { renew(); }

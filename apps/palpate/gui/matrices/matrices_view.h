@@ -12,7 +12,7 @@
 #include <palpate/model/taxel_selection.h>
 
 #include "gui/matrices/matrices_painter.h"
-#include "gui/picture/old_picture.h"
+#include "gui/picture/stale_notice.h"
 
 namespace palpate {
 struct PressureFrame;
@@ -57,8 +57,8 @@ class MatricesView : public QWidget {
   void setBlind(const std::vector<QString>& why);
   const std::vector<QString>& blind() const noexcept { return blind_; }
   // Over an old picture, one that is held, too.
-  void setOld(const OldPicture& old);
-  const QString& notice() const noexcept { return old_.notice; }
+  void setStale(const StaleNotice& old);
+  const QString& notice() const noexcept { return stale_.notice; }
   // Of the newest frame that is wholly on screen [us since 1970]; 0: none yet.
   std::int64_t paintedUs() const noexcept { return paintedUs_; }
   QSize sizeHint() const override { return {560, 560}; }
@@ -67,7 +67,7 @@ class MatricesView : public QWidget {
  signals:
   void hovered(const QString& text);
   void selectionChanged();
-  void menuAsked(const QPoint& globalPosition);  // the right button
+  void menuRequested(const QPoint& globalPosition);  // the right button
   // The paint event that first shows a frame has ended.
   void painted(qint64 frameHostUs);
 
@@ -99,7 +99,7 @@ class MatricesView : public QWidget {
   TaxelSelection selection_;
   TaxelSelection selectedBefore_;      // what a drag adds to
   std::optional<TaxelPlace> pressed_;  // where the drag began
-  OldPicture old_;
+  StaleNotice stale_;
   std::vector<QString> blind_;
   std::int64_t paintedUs_ = 0;
 };

@@ -5,7 +5,8 @@
 
 namespace palpate::gui {
 
-ScanChoice::ScanChoice(Bench& bench, const MatricesActions& actions) : bench_(bench) {
+ScanChoice::ScanChoice(WindowState& windowState, const MatricesActions& actions)
+    : windowState_(windowState) {
   const auto on = [this](QAction* action, auto what) {
     connect(action, &QAction::triggered, this, what);
   };
@@ -13,37 +14,37 @@ ScanChoice::ScanChoice(Bench& bench, const MatricesActions& actions) : bench_(be
   on(actions.scanWithout, [this] { scan(MaskChoice::kWithout); });
   on(actions.scanAlso, [this] { scan(MaskChoice::kAlso); });
   on(actions.scanAll, [this] { scan(MaskChoice::kAll); });
-  on(actions.chooseNone, [this] { bench_.selection.clearTaxels(); });
-  connect(bench.menus.scanned, &QMenu::aboutToShow, this, [this, &actions] {
-    const LiveSource* source = bench_.subject.source();
+  on(actions.chooseNone, [this] { windowState_.selection.clearTaxels(); });
+  connect(windowState.menus.scanned, &QMenu::aboutToShow, this, [this, &actions] {
+    const LiveSource* source = windowState_.displayed.source();
     const bool live = source && source->control;
-    const bool chosen = !bench_.selection.taxels().empty();
+    const bool chosen = !windowState_.selection.taxels().empty();
     for (QAction* action : {actions.scanOnly, actions.scanWithout, actions.scanAlso})
       action->setEnabled(live && chosen);
     actions.scanAll->setEnabled(live);
     actions.chooseNone->setEnabled(chosen);
   });
   // Enabled again when the menu is gone: their keys must not depend on it.
-  connect(bench.menus.scanned, &QMenu::aboutToHide, this, [&actions] {
+  connect(windowState.menus.scanned, &QMenu::aboutToHide, this, [&actions] {
     actions.chooseNone->setEnabled(true);
   });
-  connect(&bench.live, &LiveController::looked, this, &ScanChoice::takeAnswers);
-  connect(&bench.live, &LiveController::leaving, this, [this] { answers_.clear(); });
+  connect(&windowState.live, &LiveController::refreshed, this, &ScanChoice::takeAnswers);
+  connect(&windowState.live, &LiveController::leaving, this, [this] { answers_.clear(); });
 }
 
 void ScanChoice::scan(MaskChoice choice) {
-  LiveSource* source = bench_.live.source();
+  LiveSource* source = windowState_.live.source();
   if (!source || !source->control) return;
   try {
-    const auto commands =
-        maskCommands(*source->session->device().hand().layout, bench_.selection.taxels(), choice);
+    const auto commands = maskCommands(
+        *source->session->device().hand().layout, windowState_.selection.taxels(), choice);
     for (const DeviceCommand& command : commands)
       answers_.push_back(source->control->change(command));
-    bench_.messages.flash(commands.empty()
-                              ? "these taxels are scanned already"
-                              : "which taxels are scanned is being changed: the stream pauses");
+    windowState_.messages.flash(
+        commands.empty() ? "these taxels are scanned already"
+                         : "which taxels are scanned is being changed: the stream pauses");
   } catch (const std::exception& error) {
-    bench_.messages.fail(error.what());
+    windowState_.messages.fail(error.what());
   }
 }
 
@@ -56,7 +57,8 @@ void ScanChoice::takeAnswers() {
     try {
       answer.get();
     } catch (const std::exception& error) {
-      bench_.messages.fail("Which taxels are scanned was not changed: " + QString(error.what()));
+      windowState_.messages.fail("Which taxels are scanned was not changed: " +
+                                 QString(error.what()));
     }
   }
   std::erase_if(answers_, isReady);

@@ -8,8 +8,8 @@
 #include <palpate/control/tactile_masks.h>
 #include <palpate/device/device.h>
 
-#include "gui/bench/bench.h"
 #include "gui/matrices/matrices_actions.h"
+#include "gui/window_state/window_state.h"
 
 namespace palpate::gui {
 
@@ -17,13 +17,13 @@ class ScanChoice : public QObject {
   Q_OBJECT
  public:
   // Both must outlive it.
-  ScanChoice(Bench& bench, const MatricesActions& actions);
+  ScanChoice(WindowState& windowState, const MatricesActions& actions);
 
  private:
   void scan(MaskChoice choice);
   void takeAnswers();
 
-  Bench& bench_;
+  WindowState& windowState_;
   std::vector<std::shared_future<CommandAnswer>> answers_;  // that the hand hasn't given yet
 };
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 
 namespace palpate::gui {
 namespace {
@@ -11,7 +11,7 @@ QString pressureText(const HandDescription& hand,
                      const TaxelPlace& place,
                      const PressureFrame* pressure) {
   const auto [m, y, x] = place;
-  if (!pressure || pressure->kpa.size() != hand.layout->numPlaces()) return {};
+  if (!pressure || pressure->kpa.size() != hand.layout->numCells()) return {};
   const std::size_t at =
       hand.layout->offset(m) + static_cast<std::size_t>(y * hand.layout->matrix(m).columns + x);
   return " · " + figure(static_cast<double>(pressure->kpa[at]), 1) + " kPa · " +

@@ -1,10 +1,10 @@
 #include "gui/open/open_actions.h"
 
-#include "gui/look/icons.h"
+#include "gui/appearance/icons.h"
 
 namespace palpate::gui {
 
-OpenActions::OpenActions(ActionBook& book) {
+OpenActions::OpenActions(ActionRegistry& book) {
   open = book.make("open", "File", "&Open…", {key("Ctrl+O")});
   openDemo = book.make("openDemo", "File", "Open the &demo recording", {key("Ctrl+D")});
   nextRecording = book.make("nextRecording", "File", "&Next open recording", {key("Ctrl+Tab")});

@@ -5,12 +5,12 @@
 #include <QActionGroup>
 #include <QList>
 
-#include "gui/bench/action_book.h"
+#include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
 
 struct OpenActions {
-  explicit OpenActions(ActionBook& book);
+  explicit OpenActions(ActionRegistry& book);
 
   QAction* open = nullptr;
   QAction* openDemo = nullptr;

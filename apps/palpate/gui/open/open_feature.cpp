@@ -8,8 +8,8 @@
 #include <QMimeData>
 #include <algorithm>
 
-#include "gui/look/path_text.h"
-#include "gui/open/session_keeper.h"
+#include "gui/appearance/path_text.h"
+#include "gui/open/session_storage.h"
 #include "gui/open/start_page.h"
 #include "gui/widgets/opening_strip.h"
 
@@ -29,25 +29,25 @@ QString nameAndDate(const OpenedRecording& recording) {
   return fileNameOf(recording) + " · " + QString::fromStdString(date);
 }
 
-bool hasDemo(const Bench& bench) {
+bool hasDemo(const WindowState& windowState) {
   std::error_code ignored;
-  return std::filesystem::exists(bench.demoRecording(), ignored);
+  return std::filesystem::exists(windowState.demoRecording(), ignored);
 }
 
 }  // namespace
 
-OpenFeature::OpenFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window),
-      actions_(bench.actions),
-      startPage_(new StartPage(bench.recent, hasDemo(bench), window)),
+OpenFeature::OpenFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window),
+      actions_(windowState.actions),
+      startPage_(new StartPage(windowState.recent, hasDemo(windowState), window)),
       strip_(new OpeningStrip(window)) {
   followTheme(startPage_);
-  actions_.openDemo->setVisible(hasDemo(bench));
-  actions_.openDemo->setEnabled(hasDemo(bench));
-  bench.questions.recordings = [&bench, window] {
+  actions_.openDemo->setVisible(hasDemo(windowState));
+  actions_.openDemo->setEnabled(hasDemo(windowState));
+  windowState.prompts.recordings = [&windowState, window] {
     return QFileDialog::getOpenFileNames(window,
                                          "Open recordings",
-                                         bench.recent.lastFolder(),
+                                         windowState.recent.lastFolder(),
                                          "Recordings (*.dsa *.palpate *.xml);;All files (*)");
   };
   connectOpener();
@@ -56,29 +56,34 @@ OpenFeature::OpenFeature(Bench& bench, QWidget* window)
 }
 
 void OpenFeature::connectOpener() {
-  Bench& bench = this->bench();
-  RecordingOpener& opener = bench.opener;
+  WindowState& windowState = state();
+  RecordingOpener& opener = windowState.opener;
   connect(&opener, &RecordingOpener::started, strip_, &OpeningStrip::begin);
   connect(&opener, &RecordingOpener::progressed, strip_, &OpeningStrip::setProgress);
   connect(&opener, &RecordingOpener::finished, strip_, &OpeningStrip::end);
-  connect(&opener, &RecordingOpener::failed, this, [&bench](const QString&, const QString& why) {
-    bench.messages.fail(why);
-  });
-  connect(&opener, &RecordingOpener::cancelled, this, [&bench](const QString& path) {
-    bench.messages.flash("opening " + QFileInfo(path).fileName() + " was cancelled");
+  connect(
+      &opener, &RecordingOpener::failed, this, [&windowState](const QString&, const QString& why) {
+        windowState.messages.fail(why);
+      });
+  connect(&opener, &RecordingOpener::cancelled, this, [&windowState](const QString& path) {
+    windowState.messages.flash("opening " + QFileInfo(path).fileName() + " was cancelled");
   });
   connect(strip_, &OpeningStrip::cancelRequested, &opener, &RecordingOpener::cancel);
-  connect(&bench.recordings, &OpenRecordings::arrived, this, &OpenFeature::take);
-  connect(&bench.recordings, &OpenRecordings::gone, this, [&bench](const OpenedRecordingPtr& gone) {
-    bench.subject.replace(gone, bench.recordings.at(gone->path));
-  });
-  connect(&bench.subject, &Subject::changed, this, [this, &bench] {
+  connect(&windowState.recordings, &OpenRecordings::arrived, this, &OpenFeature::take);
+  connect(&windowState.recordings,
+          &OpenRecordings::gone,
+          this,
+          [&windowState](const OpenedRecordingPtr& gone) {
+            windowState.displayed.replace(gone, windowState.recordings.at(gone->path));
+          });
+  connect(&windowState.displayed, &DisplayedSource::changed, this, [this, &windowState] {
     listRecordings();
-    const OpenedRecordingPtr recording = bench.subject.recorded();
+    const OpenedRecordingPtr recording = windowState.displayed.recorded();
     if (recording && recording->profile.numFrames() == 0)
-      bench.messages.fail(fileNameOf(*recording) + ": holds no frame; there is nothing to show");
+      windowState.messages.fail(fileNameOf(*recording) +
+                                ": holds no frame; there is nothing to show");
   });
-  bench.escape.add(Escape::Order::kOpening, [&opener] {
+  windowState.escapeHandler.add(EscapeHandler::Order::kOpening, [&opener] {
     if (!opener.busy()) return false;
     opener.cancel();
     return true;
@@ -86,31 +91,37 @@ void OpenFeature::connectOpener() {
 }
 
 void OpenFeature::connectActions() {
-  Bench& bench = this->bench();
+  WindowState& windowState = state();
   OpenActions& actions = actions_;
-  on(actions.open, [&bench] { bench.askAndOpen(); });
+  on(actions.open, [&windowState] { windowState.askAndOpen(); });
   on(actions.openDemo, [this] { openDemoRecording(); });
   on(actions.nextRecording, [this] { showNeighbour(1); });
   on(actions.previousRecording, [this] { showNeighbour(-1); });
   on(actions.closeRecording, [this] { closeCurrent(); });
-  connect(bench.menus.recent, &QMenu::aboutToShow, this, &OpenFeature::fillRecentMenu);
-  connect(bench.menus.recordings, &QComboBox::activated, this, [&bench](int index) {
-    bench.subject.show(bench.recordings.all().at(static_cast<std::size_t>(index)));
+  connect(windowState.menus.recent, &QMenu::aboutToShow, this, &OpenFeature::fillRecentMenu);
+  connect(windowState.menus.recordings, &QComboBox::activated, this, [&windowState](int index) {
+    windowState.displayed.show(windowState.recordings.all().at(static_cast<std::size_t>(index)));
   });
-  bench.enabling.add({actions.closeRecording}, [&bench] { return bench.subject.isRecording(); });
-  bench.enabling.add({actions.nextRecording, actions.previousRecording},
-                     [&bench] { return bench.recordings.all().size() > 1; });
+  windowState.actionEnabler.add({actions.closeRecording},
+                                [&windowState] { return windowState.displayed.isRecording(); });
+  windowState.actionEnabler.add({actions.nextRecording, actions.previousRecording},
+                                [&windowState] { return windowState.recordings.all().size() > 1; });
 }
 
 void OpenFeature::connectStartPage() {
-  Bench& bench = this->bench();
-  connect(startPage_, &StartPage::openAsked, actions_.open, &QAction::trigger);
+  WindowState& windowState = state();
+  connect(startPage_, &StartPage::openRequested, actions_.open, &QAction::trigger);
   connect(startPage_, &StartPage::demoAsked, actions_.openDemo, &QAction::trigger);
-  connect(startPage_, &StartPage::connectAsked, bench.actions.at("connectHand"), &QAction::trigger);
-  connect(
-      startPage_, &StartPage::emulatedAsked, bench.actions.at("tryEmulated"), &QAction::trigger);
-  connect(startPage_, &StartPage::fileChosen, this, [&bench](const QString& path) {
-    bench.open({path.toStdString()});
+  connect(startPage_,
+          &StartPage::connectAsked,
+          windowState.actions.at("connectHand"),
+          &QAction::trigger);
+  connect(startPage_,
+          &StartPage::emulatedAsked,
+          windowState.actions.at("tryEmulated"),
+          &QAction::trigger);
+  connect(startPage_, &StartPage::fileChosen, this, [&windowState](const QString& path) {
+    windowState.open({path.toStdString()});
   });
 }
 
@@ -121,51 +132,53 @@ void OpenFeature::start() {
 }
 
 void OpenFeature::openDemoRecording() {
-  bench().open({bench().demoRecording()}, OpenRequest::Then::kPlayInLoop);
+  state().open({state().demoRecording()}, OpenRequest::Then::kPlayInLoop);
 }
 
 void OpenFeature::take(const OpenedRecordingPtr& recording, const OpenArrival& arrival) {
   using Then = OpenRequest::Then;
-  Bench& bench = this->bench();
-  Subject& subject = bench.subject;
-  if (recording->path != bench.demoRecording()) bench.recent.add(pathText(recording->path));
+  WindowState& windowState = state();
+  DisplayedSource& displayed = windowState.displayed;
+  if (recording->path != windowState.demoRecording())
+    windowState.recent.add(pathText(recording->path));
   listRecordings();
   const bool compared = arrival.then == Then::kCompare;
   const bool first = arrival.place == 0 && arrival.then != Then::kList;
   // A file that was open and looked at, and was read anew, is looked at again; not behind what is
   // live.
-  const bool again = arrival.replaced && !subject.isLive() && !subject.behind();
-  const bool shown = again || (first && (!compared || !subject.isRecording()));
+  const bool again = arrival.replaced && !displayed.isLive() && !displayed.behind();
+  const bool shown = again || (first && (!compared || !displayed.isRecording()));
   if (shown)
-    subject.show(recording);
+    displayed.show(recording);
   else
-    bench.enabling.refresh();
+    windowState.actionEnabler.refresh();
   // With nothing to compare yet the first is A, and the next is compared with it.
-  if (compared && shown && bench.recordings.all().size() > 1) bench.comparing.set(true);
-  if (compared && !shown && subject.isRecording() &&
-      (first || (arrival.place == 1 && !bench.comparing.on())))
-    bench.comparing.with(recording);
+  if (compared && shown && windowState.recordings.all().size() > 1)
+    windowState.comparison.set(true);
+  if (compared && !shown && displayed.isRecording() &&
+      (first || (arrival.place == 1 && !windowState.comparison.on())))
+    windowState.comparison.with(recording);
   if (arrival.then != Then::kPlayInLoop || !first) return;
-  if (!bench.playback.loop()) bench.playback.setLoop(true);
-  bench.playback.play();
+  if (!windowState.playback.loop()) windowState.playback.setLoop(true);
+  windowState.playback.play();
 }
 
 void OpenFeature::listRecordings() {
-  QComboBox* box = bench().menus.recordings;
+  QComboBox* box = state().menus.recordings;
   box->clear();
-  const auto& all = bench().recordings.all();
+  const auto& all = state().recordings.all();
   for (const auto& each : all) box->addItem(nameAndDate(*each));
-  const auto at = std::find(all.begin(), all.end(), bench().subject.behind());
+  const auto at = std::find(all.begin(), all.end(), state().displayed.behind());
   if (at != all.end()) box->setCurrentIndex(static_cast<int>(at - all.begin()));
-  bench().menus.recordingsShown->setVisible(!all.empty());
+  state().menus.recordingsShown->setVisible(!all.empty());
 }
 
 void OpenFeature::fillRecentMenu() {
-  Bench& bench = this->bench();
-  QMenu* menu = bench.menus.recent;
+  WindowState& windowState = state();
+  QMenu* menu = windowState.menus.recent;
   menu->clear();
   bool anyMissing = false;
-  for (const QString& path : bench.recent.paths()) {
+  for (const QString& path : windowState.recent.paths()) {
     const bool exists = RecentFiles::exists(path);
     anyMissing = anyMissing || !exists;
     QString text = QFileInfo(path).fileName();
@@ -173,27 +186,29 @@ void OpenFeature::fillRecentMenu() {
     QAction* entry = menu->addAction(exists ? text : text + " (missing)");
     entry->setToolTip(path);
     entry->setEnabled(exists);
-    connect(entry, &QAction::triggered, this, [&bench, path] { bench.open({path.toStdString()}); });
+    connect(entry, &QAction::triggered, this, [&windowState, path] {
+      windowState.open({path.toStdString()});
+    });
   }
-  if (bench.recent.paths().isEmpty()) menu->addAction("nothing yet")->setEnabled(false);
+  if (windowState.recent.paths().isEmpty()) menu->addAction("nothing yet")->setEnabled(false);
   menu->addSeparator();
   QAction* forget = menu->addAction("Forget missing files");
   forget->setEnabled(anyMissing);
-  connect(forget, &QAction::triggered, &bench.recent, &RecentFiles::removeMissing);
+  connect(forget, &QAction::triggered, &windowState.recent, &RecentFiles::removeMissing);
   QAction* clear = menu->addAction("Forget all");
-  clear->setEnabled(!bench.recent.paths().isEmpty());
-  connect(clear, &QAction::triggered, &bench.recent, &RecentFiles::clear);
+  clear->setEnabled(!windowState.recent.paths().isEmpty());
+  connect(clear, &QAction::triggered, &windowState.recent, &RecentFiles::clear);
 }
 
 void OpenFeature::showNeighbour(int step) {
-  if (const auto next = bench().recordings.neighbour(bench().subject.behind(), step))
-    bench().subject.show(next);
+  if (const auto next = state().recordings.neighbour(state().displayed.behind(), step))
+    state().displayed.show(next);
 }
 
 void OpenFeature::closeCurrent() {
-  const OpenedRecordingPtr current = bench().subject.recorded();
-  if (current && bench().events.settle({current}))
-    bench().subject.show(bench().recordings.close(current));
+  const OpenedRecordingPtr current = state().displayed.recorded();
+  if (current && state().events.settle({current}))
+    state().displayed.show(state().recordings.close(current));
 }
 
 bool OpenFeature::eventFilter(QObject* watched, QEvent* event) {
@@ -215,16 +230,16 @@ bool OpenFeature::eventFilter(QObject* watched, QEvent* event) {
   const auto files = localFiles(*drop->mimeData());
   if (files.empty()) return false;
   drop->acceptProposedAction();
-  bench().open(files);
+  state().open(files);
   return true;
 }
 
-void OpenFeature::remember() { rememberSession(bench()); }
+void OpenFeature::remember() { rememberSession(state()); }
 
-std::vector<CentreOffer> OpenFeature::centre() {
-  return {{CentreOffer::Where::kStart, startPage_}};
+std::vector<CentralViewSpec> OpenFeature::centre() {
+  return {{CentralViewSpec::Where::kStart, startPage_}};
 }
 
-std::vector<StripOffer> OpenFeature::strips() { return {{StripOffer::Order::kOpening, strip_}}; }
+std::vector<BannerSpec> OpenFeature::strips() { return {{BannerSpec::Order::kOpening, strip_}}; }
 
 }  // namespace palpate::gui

@@ -1,8 +1,8 @@
 // Opening recordings: start page, menus, drag and drop, and what is done with each that arrives.
 #pragma once
 
-#include "gui/bench/feature.h"
 #include "gui/open/open_actions.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -12,10 +12,10 @@ class StartPage;
 class OpenFeature : public Feature {
   Q_OBJECT
  public:
-  OpenFeature(Bench& bench, QWidget* window);
+  OpenFeature(WindowState& windowState, QWidget* window);
 
-  std::vector<CentreOffer> centre() override;
-  std::vector<StripOffer> strips() override;
+  std::vector<CentralViewSpec> centre() override;
+  std::vector<BannerSpec> strips() override;
   void start() override;
   void remember() override;
 

@@ -10,7 +10,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include "gui/look/icons.h"
+#include "gui/appearance/icons.h"
 
 namespace palpate::gui {
 namespace {
@@ -90,7 +90,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   connect(button("Open a recording…", "startOpen", "(Ctrl+O)"),
           &QPushButton::clicked,
           this,
-          &StartPage::openAsked);
+          &StartPage::openRequested);
   if (withDemo)
     connect(button("Try the demo recording", "startDemo", "(Ctrl+D)"),
             &QPushButton::clicked,

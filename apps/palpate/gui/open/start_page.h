@@ -3,7 +3,7 @@
 
 #include <QWidget>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 #include "gui/source/recent_files.h"
 
 class QLabel;
@@ -21,7 +21,7 @@ class StartPage : public QWidget {
   void setTheme(Theme theme);
 
  signals:
-  void openAsked();
+  void openRequested();
   void demoAsked();  // the demo recording
   void connectAsked();
   void emulatedAsked();

@@ -1,5 +1,5 @@
 // A view that can be taken away: as a picture, as a table, as a picture of each frame. Whoever owns
-// the view says how; take_away.h does the rest.
+// the view says how; export_controller.h does the rest.
 #pragma once
 
 #include <QPointer>

@@ -85,7 +85,7 @@ void writeMovie(const fs::path& path,
       file.descriptor());
   const PicturePaper even = evenPaper(paper);
   std::size_t shown = 0;
-  for (const MovieShot& shot : movie.timing.shots) {
+  for (const MovieFrame& shot : movie.timing.shots) {
     if (!keepGoing()) throw Cancelled();
     const std::size_t frame = movie.frames.first + shot.frame;
     const QImage image = pictureImage([&](QPainter& painter) { paint(painter, frame); }, even);

@@ -71,14 +71,14 @@ QSize PicturePaper::pixels() const { return (size * scale()).toSize().expandedTo
 
 QSizeF PicturePaper::sizeMm() const { return size / unitsPerInch * kPictureExportMmPerInch; }
 
-std::optional<PictureForm> pictureFormOf(const std::filesystem::path& path) {
+std::optional<ImageFormat> imageFormatOf(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char letter) {
     return static_cast<char>(std::tolower(letter));
   });
-  if (ending == ".png") return PictureForm::kPng;
-  if (ending == ".svg") return PictureForm::kSvg;
-  if (ending == ".pdf") return PictureForm::kPdf;
+  if (ending == ".png") return ImageFormat::kPng;
+  if (ending == ".svg") return ImageFormat::kSvg;
+  if (ending == ".pdf") return ImageFormat::kPdf;
   return std::nullopt;
 }
 
@@ -109,16 +109,16 @@ QImage pictureImage(const PaintPicture& paint, const PicturePaper& paper) {
   return image;
 }
 
-QByteArray pictureBytes(PictureForm form,
+QByteArray pictureBytes(ImageFormat form,
                         const PaintPicture& paint,
                         const PicturePaper& paper,
                         const std::filesystem::path& path) {
   switch (form) {
-    case PictureForm::kSvg:
+    case ImageFormat::kSvg:
       return svgBytes(paint, paper);
-    case PictureForm::kPdf:
+    case ImageFormat::kPdf:
       return pdfBytes(paint, paper);
-    case PictureForm::kPng:
+    case ImageFormat::kPng:
       break;
   }
   return pngBytes(path, pictureImage(paint, paper));
@@ -128,7 +128,7 @@ void writePicture(const std::filesystem::path& path,
                   const PaintPicture& paint,
                   const PicturePaper& paper,
                   Overwrite overwrite) {
-  const auto form = pictureFormOf(path);
+  const auto form = imageFormatOf(path);
   if (!form) throw FileError(path, "a picture's name must end in .png, .svg or .pdf");
   requireWritable(path, overwrite);  // before the work, not after it
   writeBytes(path, pictureBytes(*form, paint, paper, path), overwrite);

@@ -17,10 +17,10 @@ class QPicture;
 
 namespace palpate::gui {
 
-enum class PictureForm { kPng, kSvg, kPdf };
+enum class ImageFormat { kPng, kSvg, kPdf };
 
 // By the ending, in small or capital letters; nothing for any other.
-std::optional<PictureForm> pictureFormOf(const std::filesystem::path& path);
+std::optional<ImageFormat> imageFormatOf(const std::filesystem::path& path);
 
 // What a picture is painted on.
 struct PicturePaper {
@@ -45,7 +45,7 @@ void replay(QPainter& painter, const QPicture& picture);
 // Needs a QGuiApplication (fonts); may run in any thread when `paint` may.
 QImage pictureImage(const PaintPicture& paint, const PicturePaper& paper);
 // The whole file. Throws FileError (which names `path`).
-QByteArray pictureBytes(PictureForm form,
+QByteArray pictureBytes(ImageFormat form,
                         const PaintPicture& paint,
                         const PicturePaper& paper,
                         const std::filesystem::path& path);

@@ -6,7 +6,7 @@
 #include <QStringList>
 #include <vector>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 #include "gui/picture/exported_view.h"
 
 class QFont;

@@ -1,11 +1,11 @@
 #include "gui/playback/playback_actions.h"
 
-#include "gui/look/icons.h"
+#include "gui/appearance/icons.h"
 #include "gui/source/playback_controller.h"
 
 namespace palpate::gui {
 
-PlaybackActions::PlaybackActions(ActionBook& book) {
+PlaybackActions::PlaybackActions(ActionRegistry& book) {
   play = book.make("play", "Playback", "&Play or pause", {key("Space")});
   stepBack = book.make("stepBack", "Playback", "Step &back", {key("Left")});
   stepForward = book.make("stepForward", "Playback", "Step &forward", {key("Right")});

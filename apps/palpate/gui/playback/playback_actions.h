@@ -5,12 +5,12 @@
 #include <QActionGroup>
 #include <QList>
 
-#include "gui/bench/action_book.h"
+#include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
 
 struct PlaybackActions {
-  explicit PlaybackActions(ActionBook& book);
+  explicit PlaybackActions(ActionRegistry& book);
 
   QAction* play = nullptr;
   QAction* stepBack = nullptr;

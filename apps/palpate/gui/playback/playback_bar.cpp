@@ -64,7 +64,7 @@ PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
 
   // In the playback's name: closing the window ends what is being typed, perhaps after the
   // playback.
-  connect(seekBar_, &SeekBar::sought, &playback_, [this](int frame) {
+  connect(seekBar_, &SeekBar::seekRequested, &playback_, [this](int frame) {
     playback_.seekFrame(static_cast<std::size_t>(frame));
   });
   connect(frame_, &QSpinBox::valueChanged, &playback_, [this](int frame) {

@@ -3,7 +3,7 @@
 
 #include <QWidget>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 #include "gui/source/playback_controller.h"
 
 class QLabel;

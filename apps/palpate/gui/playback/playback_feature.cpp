@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "gui/look/icons.h"
+#include "gui/appearance/icons.h"
 #include "gui/playback/playback_bar.h"
 
 namespace palpate::gui {
@@ -14,19 +14,21 @@ constexpr int kTenFrames = 10;
 
 }  // namespace
 
-PlaybackFeature::PlaybackFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window),
-      actions_(bench.actions),
-      bar_(new PlaybackBar(bench.playback, window)) {
+PlaybackFeature::PlaybackFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window),
+      actions_(windowState.actions),
+      bar_(new PlaybackBar(windowState.playback, window)) {
   connectActions();
-  connect(&bench.playback, &PlaybackController::stateChanged, this, &PlaybackFeature::showState);
+  connect(
+      &windowState.playback, &PlaybackController::stateChanged, this, &PlaybackFeature::showState);
   followTheme(bar_);
-  connect(&bench.look, &ViewLook::themeChanged, this, &PlaybackFeature::showState);
+  connect(
+      &windowState.appearance, &ViewAppearance::themeChanged, this, &PlaybackFeature::showState);
 }
 
 void PlaybackFeature::connectActions() {
   PlaybackActions& actions = actions_;
-  PlaybackController& playback = bench().playback;
+  PlaybackController& playback = state().playback;
   on(actions.play, [&playback] { playback.togglePlay(); });
   on(actions.stepBack, [&playback] { playback.step(-1); });
   on(actions.stepForward, [&playback] { playback.step(1); });
@@ -48,38 +50,38 @@ void PlaybackFeature::connectActions() {
   const auto useSpeed = [&playback](int index) {
     playback.setSpeed(PlaybackController::kSpeeds[index]);
   };
-  connect(bench().menus.speed, &QComboBox::activated, this, useSpeed);
+  connect(state().menus.speed, &QComboBox::activated, this, useSpeed);
   connect(actions.speeds, &QActionGroup::triggered, this, [useSpeed](const QAction* action) {
     useSpeed(action->data().toInt());
   });
-  bench().enabling.add({actions.play,
-                        actions.stepBack,
-                        actions.stepForward,
-                        actions.tenBack,
-                        actions.tenForward,
-                        actions.toStart,
-                        actions.toEnd,
-                        actions.goToFrame},
-                       [this] { return bench().subject.hasFrames(); });
+  state().actionEnabler.add({actions.play,
+                             actions.stepBack,
+                             actions.stepForward,
+                             actions.tenBack,
+                             actions.tenForward,
+                             actions.toStart,
+                             actions.toEnd,
+                             actions.goToFrame},
+                            [this] { return state().displayed.hasFrames(); });
 }
 
 void PlaybackFeature::start() {
-  const ViewSettings& view = bench().look.view();
+  const ViewSettings& view = state().appearance.view();
   userLoops_ = view.loop;
-  bench().playback.setSpeed(view.speed);
-  bench().playback.setLoop(view.loop);
-  bench().playback.setSkipGaps(view.skipGaps);
+  state().playback.setSpeed(view.speed);
+  state().playback.setLoop(view.loop);
+  state().playback.setSkipGaps(view.skipGaps);
 }
 
 void PlaybackFeature::remember() {
-  const PlaybackController& playback = bench().playback;
-  bench().look.remember(playback.speed(), userLoops_, playback.skipGaps());
+  const PlaybackController& playback = state().playback;
+  state().appearance.remember(playback.speed(), userLoops_, playback.skipGaps());
 }
 
 void PlaybackFeature::showState() {
   PlaybackActions& actions = actions_;
-  const PlaybackController& playback = bench().playback;
-  const Theme theme = bench().look.theme();
+  const PlaybackController& playback = state().playback;
+  const Theme theme = state().appearance.theme();
   const bool playing = playback.playing();
   actions.play->setIconText(playing ? " Pause" : " Play");
   actions.play->setIcon(makeIcon(playing ? IconShape::kPause : IconShape::kPlay, theme));
@@ -93,9 +95,11 @@ void PlaybackFeature::showState() {
   const auto index = static_cast<int>(at - std::begin(PlaybackController::kSpeeds));
   if (known && index < actions.speeds->actions().size())
     actions.speeds->actions().at(index)->setChecked(true);
-  bench().menus.speed->setCurrentIndex(known ? index : -1);
+  state().menus.speed->setCurrentIndex(known ? index : -1);
 }
 
-std::vector<CentreOffer> PlaybackFeature::centre() { return {{CentreOffer::Where::kBelow, bar_}}; }
+std::vector<CentralViewSpec> PlaybackFeature::centre() {
+  return {{CentralViewSpec::Where::kBelow, bar_}};
+}
 
 }  // namespace palpate::gui

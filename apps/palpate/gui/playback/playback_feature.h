@@ -1,8 +1,8 @@
 // Plays the recording that is looked at: the bar below the views, speeds, keys.
 #pragma once
 
-#include "gui/bench/feature.h"
 #include "gui/playback/playback_actions.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -11,9 +11,9 @@ class PlaybackBar;
 class PlaybackFeature : public Feature {
   Q_OBJECT
  public:
-  PlaybackFeature(Bench& bench, QWidget* window);
+  PlaybackFeature(WindowState& windowState, QWidget* window);
 
-  std::vector<CentreOffer> centre() override;
+  std::vector<CentralViewSpec> centre() override;
   void start() override;
   void remember() override;
 

@@ -44,7 +44,7 @@ int SeekBar::frameAt(double pixel) const {
 
 void SeekBar::seekTo(double pixel) {
   setValue(frameAt(pixel));
-  emit sought(value());
+  emit seekRequested(value());
 }
 
 void SeekBar::mousePressEvent(QMouseEvent* event) {
@@ -62,7 +62,7 @@ void SeekBar::mouseReleaseEvent(QMouseEvent*) { setSliderDown(false); }
 void SeekBar::wheelEvent(QWheelEvent* event) {
   const int step = event->angleDelta().y() > 0 ? -1 : 1;
   setValue(value() + step);
-  emit sought(value());
+  emit seekRequested(value());
   event->accept();
 }
 

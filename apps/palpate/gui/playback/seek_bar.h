@@ -3,7 +3,7 @@
 
 #include <QSlider>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 namespace palpate::gui {
 
@@ -18,7 +18,7 @@ class SeekBar : public QSlider {
 
  signals:
   // By mouse only; following the playback is no seek.
-  void sought(int frame);
+  void seekRequested(int frame);
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;

@@ -12,14 +12,14 @@ constexpr double kUnitsWide = 30.0;
 
 }  // namespace
 
-AnswerView::AnswerView(PhotoShelf& photos, double scale, QWidget* parent)
+AnswerView::AnswerView(PhotoCache& photos, double scale, QWidget* parent)
     : QWidget(parent), photos_(photos), scale_(scale) {
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
 }
 
 void AnswerView::setAnswer(const RecognitionAnswer& answer) {
   answer_ = answer;
-  setAccessibleName(answer.spoken());
+  setAccessibleName(answer.accessibleText());
   update();
 }
 

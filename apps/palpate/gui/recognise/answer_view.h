@@ -12,7 +12,7 @@ class AnswerView : public QWidget {
   Q_OBJECT
  public:
   // `scale`: of its text to that of the window; 0: as large as fits.
-  AnswerView(PhotoShelf& photos, double scale, QWidget* parent = nullptr);
+  AnswerView(PhotoCache& photos, double scale, QWidget* parent = nullptr);
   void setAnswer(const RecognitionAnswer& answer);
   const RecognitionAnswer& answer() const noexcept { return answer_; }
   void setTheme(Theme theme);
@@ -23,7 +23,7 @@ class AnswerView : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  PhotoShelf& photos_;
+  PhotoCache& photos_;
   const double scale_;
   RecognitionAnswer answer_;
   Theme theme_ = Theme::kDark;

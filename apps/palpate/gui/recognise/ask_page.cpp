@@ -18,7 +18,7 @@ constexpr double kButtonScale = 1.25;
 
 }  // namespace
 
-AskPage::AskPage(RecogniseDesk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
+AskPage::AskPage(RecognitionController& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
   setObjectName("askPage");
   model_ = new QLabel(this);
   model_->setObjectName("recogniseModel");
@@ -34,7 +34,7 @@ AskPage::AskPage(RecogniseDesk& desk, QWidget* parent) : QWidget(parent), desk_(
   connect(models_->addAction("The &emulated objects"),
           &QAction::triggered,
           &desk_,
-          &RecogniseDesk::useEmulatedModel);
+          &RecognitionController::useEmulatedModel);
   ask_ = new QPushButton(this);
   ask_->setObjectName("whatIsIt");
   ask_->setProperty("primary", true);
@@ -86,8 +86,8 @@ AskPage::AskPage(RecogniseDesk& desk, QWidget* parent) : QWidget(parent), desk_(
 
   connect(ask_, &QPushButton::clicked, this, &AskPage::asked);
   connect(show, &QPushButton::clicked, this, &AskPage::showAsked);
-  connect(&desk_, &RecogniseDesk::modelChanged, this, &AskPage::showModel);
-  connect(&desk_, &RecogniseDesk::answered, this, [this](const RecognitionAnswer& answer) {
+  connect(&desk_, &RecognitionController::modelChanged, this, &AskPage::showModel);
+  connect(&desk_, &RecognitionController::answered, this, [this](const RecognitionAnswer& answer) {
     view_->setAnswer(answer);
     showTelling();
   });
@@ -95,7 +95,7 @@ AskPage::AskPage(RecogniseDesk& desk, QWidget* parent) : QWidget(parent), desk_(
     const auto grasp = desk_.answer().grasp;
     if (!grasp) return;
     const int chosen = classes_->currentIndex();
-    desk_.changeDay([&](RecognitionDay& day) { day.tell(*grasp, chosen); });
+    desk_.changeDay([&](RecognitionSession& day) { day.setLabel(*grasp, chosen); });
     emit desk_.said("told: " + classes_->currentText());
   });
   askForModel = [this] {
@@ -126,10 +126,10 @@ void AskPage::showModel() {
   const auto count = model ? static_cast<int>(model->classes.size()) : 0;
   const QString file = QString::fromStdString(desk_.modelPath().filename().string());
   model_->setText(model ? file + " · " + QString::number(count) + " objects"
-                  : desk_.modelTrouble().isEmpty() ? QString("no model")
+                  : desk_.modelProblem().isEmpty() ? QString("no model")
                                                    : file + " can't be used");
   model_->setToolTip(model ? QString::fromStdString(desk_.modelPath().string())
-                           : desk_.modelTrouble());
+                           : desk_.modelProblem());
   classes_->clear();
   if (model)
     for (const std::string& name : model->classes) classes_->addItem(QString::fromStdString(name));
@@ -138,13 +138,14 @@ void AskPage::showModel() {
 
 void AskPage::showTelling() {
   const RecognitionAnswer& answer = desk_.answer();
-  const bool can = desk_.model() && desk_.model()->carriesOver() && answer.grasp &&
+  const bool can = desk_.model() && desk_.model()->adaptsToSession() && answer.grasp &&
                    *answer.grasp < desk_.day()->grasps().size();
   classes_->setEnabled(can);
   tell_->setEnabled(can);
   if (!can || answer.best.empty()) return;
-  const auto& told = desk_.day()->grasps()[*answer.grasp].told;
-  classes_->setCurrentIndex(told ? *told : classes_->findText(answer.best.front().name));
+  const auto& labelledClass = desk_.day()->grasps()[*answer.grasp].labelledClass;
+  classes_->setCurrentIndex(labelledClass ? *labelledClass
+                                          : classes_->findText(answer.best.front().name));
 }
 
 void AskPage::setTheme(Theme theme) { view_->setTheme(theme); }

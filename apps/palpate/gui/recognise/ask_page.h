@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "gui/look/theme.h"
-#include "gui/recognise/recognise_desk.h"
+#include "gui/appearance/theme.h"
+#include "gui/recognise/recognition_controller.h"
 
 class QCheckBox;
 class QComboBox;
@@ -22,7 +22,7 @@ class AnswerView;
 class AskPage : public QWidget {
   Q_OBJECT
  public:
-  explicit AskPage(RecogniseDesk& desk, QWidget* parent = nullptr);
+  explicit AskPage(RecognitionController& desk, QWidget* parent = nullptr);
   void setTheme(Theme theme);
   // What a hand is connected to that is shown; the button says what is asked about.
   void setLive(bool live, bool held);
@@ -40,7 +40,7 @@ class AskPage : public QWidget {
   void showModel();
   void showTelling();
 
-  RecogniseDesk& desk_;
+  RecognitionController& desk_;
   QLabel* model_;
   QMenu* models_;
   QPushButton* ask_;

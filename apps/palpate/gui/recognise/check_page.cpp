@@ -11,7 +11,7 @@
 
 #include <palpate/core/number_text.h>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 #include "gui/recognise/confusion_view.h"
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/figures_table.h"
@@ -38,7 +38,7 @@ QString name(const std::vector<std::string>& classes, int index) {
   return QString::fromStdString(classes[static_cast<std::size_t>(index)]);
 }
 
-TextTable confusionTable(const std::shared_ptr<const TeachingCheck>& check) {
+TextTable confusionTable(const std::shared_ptr<const TrainingValidation>& check) {
   const auto& classes = check->samples.classes;
   TextTable table{.header = {"was"}, .numRows = classes.size(), .row = {}};
   table.header.insert(table.header.end(), classes.begin(), classes.end());
@@ -53,12 +53,12 @@ TextTable confusionTable(const std::shared_ptr<const TeachingCheck>& check) {
   return table;
 }
 
-TextTable figureTable(const std::shared_ptr<const TeachingCheck>& check) {
-  const auto figures = check->report->confusion.figures();
+TextTable figureTable(const std::shared_ptr<const TrainingValidation>& check) {
+  const auto classMetrics = check->report->confusion.classMetrics();
   return {.header = {"object", "precision", "recall", "f", "support"},
-          .numRows = figures.size(),
-          .row = [figures](std::size_t row) {
-            const ClassFigures& one = figures[row];
+          .numRows = classMetrics.size(),
+          .row = [classMetrics](std::size_t row) {
+            const ClassMetrics& one = classMetrics[row];
             return std::vector<std::string>{one.name,
                                             numberText(one.precision),
                                             numberText(one.recall),
@@ -69,7 +69,7 @@ TextTable figureTable(const std::shared_ptr<const TeachingCheck>& check) {
 
 }  // namespace
 
-CheckPage::CheckPage(TeachingDesk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
+CheckPage::CheckPage(TrainingController& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
   setObjectName("checkPage");
   protocol_ = new QComboBox(this);
   protocol_->setObjectName("checkProtocol");
@@ -126,8 +126,8 @@ CheckPage::CheckPage(TeachingDesk& desk, QWidget* parent) : QWidget(parent), des
 
   connect(
       check_, &QPushButton::clicked, this, [this] { desk_.check(protocol_->currentIndex() == 0); });
-  connect(&desk_, &TeachingDesk::checkedChanged, this, &CheckPage::showCheck);
-  connect(&desk_, &TeachingDesk::folderChanged, this, &CheckPage::showCheck);
+  connect(&desk_, &TrainingController::checkedChanged, this, &CheckPage::showCheck);
+  connect(&desk_, &TrainingController::folderChanged, this, &CheckPage::showCheck);
   connect(&desk_.job(), &BackgroundJob::started, this, [this] { check_->setEnabled(false); });
   connect(&desk_.job(), &BackgroundJob::finished, this, [this] {
     check_->setEnabled(!desk_.folder().empty());
@@ -189,7 +189,7 @@ void CheckPage::showCheck() {
 
 void CheckPage::listObjects() {
   std::vector<std::vector<FigureCell>> rows;
-  for (const ClassFigures& one : desk_.checked()->report->confusion.figures())
+  for (const ClassMetrics& one : desk_.checked()->report->confusion.classMetrics())
     rows.push_back({{.text = QString::fromStdString(one.name)},
                     {.text = figure(one.precision, 2)},
                     {.text = figure(one.recall, 2), .warning = one.recall < 0.9},
@@ -205,10 +205,10 @@ void CheckPage::listObjects() {
 }
 
 void CheckPage::listCell(int truth, int called) {
-  const TeachingCheck& check = *desk_.checked();
+  const TrainingValidation& check = *desk_.checked();
   listed_.clear();
   std::vector<std::vector<FigureCell>> rows;
-  for (const ExaminedSample& one : check.report->examined) {
+  for (const TestPrediction& one : check.report->testPredictions) {
     if (check.samples.y[one.sample] != truth || one.called != called) continue;
     if (std::find(listed_.begin(), listed_.end(), one.sample) != listed_.end()) continue;
     listed_.push_back(one.sample);

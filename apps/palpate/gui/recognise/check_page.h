@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 #include "gui/picture/exported_view.h"
-#include "gui/recognise/teaching_desk.h"
+#include "gui/recognise/training_controller.h"
 
 class QComboBox;
 class QLabel;
@@ -24,7 +24,7 @@ class FiguresTable;
 class CheckPage : public QWidget {
   Q_OBJECT
  public:
-  explicit CheckPage(TeachingDesk& desk, QWidget* parent = nullptr);
+  explicit CheckPage(TrainingController& desk, QWidget* parent = nullptr);
   void setTheme(Theme theme);
   // The grasps that are listed now, rows of the table of features.
   const std::vector<std::size_t>& listed() const noexcept { return listed_; }
@@ -43,7 +43,7 @@ class CheckPage : public QWidget {
   void listCell(int truth, int called);
   void openGrasp(std::size_t row);  // of those that are listed
 
-  TeachingDesk& desk_;
+  TrainingController& desk_;
   QComboBox* protocol_;
   QPushButton* check_;
   QLabel* result_;

@@ -10,7 +10,7 @@
 
 #include <palpate/recognition/classification_report.h>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 namespace palpate::gui {
 

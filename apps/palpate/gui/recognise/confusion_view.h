@@ -9,7 +9,7 @@
 
 #include <palpate/recognition/classification_report.h>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 #include "gui/recognise/confusion_painter.h"
 
 namespace palpate::gui {

@@ -33,7 +33,7 @@ std::filesystem::path photoOf(const QString& name,
   return {};
 }
 
-void PhotoShelf::setFolders(std::vector<std::filesystem::path> folders) {
+void PhotoCache::setFolders(std::vector<std::filesystem::path> folders) {
   if (folders == folders_) {
     // What wasn't there may have come.
     std::erase_if(read_, [](const auto& one) { return one.second.isNull(); });
@@ -43,7 +43,7 @@ void PhotoShelf::setFolders(std::vector<std::filesystem::path> folders) {
   read_.clear();
 }
 
-const QPixmap& PhotoShelf::photo(const QString& name) {
+const QPixmap& PhotoCache::photo(const QString& name) {
   const auto known = read_.find(name);
   if (known != read_.end()) return known->second;
   QPixmap& photo = read_[name];

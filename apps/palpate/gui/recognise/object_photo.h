@@ -16,7 +16,7 @@ std::filesystem::path photoOf(const QString& name,
                               const std::vector<std::filesystem::path>& folders);
 
 // Reads each photo once, no larger than a screen needs it.
-class PhotoShelf {
+class PhotoCache {
  public:
   void setFolders(std::vector<std::filesystem::path> folders);
   // Null: there is none, or it can't be read.

@@ -2,10 +2,11 @@
 
 namespace palpate::gui {
 
-RecogniseActions::RecogniseActions(ActionBook& book) {
+RecogniseActions::RecogniseActions(ActionRegistry& book) {
   whatIsIt = book.make("whatIsIt", "Hand", "&What is it?", {key("Q")});
   whatIsIt->setToolTip("Recognises the selected grasp, or what is held (Q)");
-  showMode = book.make("showMode", "Hand", "The answer on the whole &screen", {key("Shift+Q")});
+  presentationMode =
+      book.make("showMode", "Hand", "The answer on the whole &screen", {key("Shift+Q")});
 }
 
 }  // namespace palpate::gui

@@ -5,17 +5,17 @@
 #include <QActionGroup>
 #include <QList>
 
-#include "gui/bench/action_book.h"
+#include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
 
 struct RecogniseActions {
-  explicit RecogniseActions(ActionBook& book);
+  explicit RecogniseActions(ActionRegistry& book);
 
   // recognition of the selection, or of what is held
   QAction* whatIsIt = nullptr;
   // its answer on the whole screen
-  QAction* showMode = nullptr;
+  QAction* presentationMode = nullptr;
 };
 
 }  // namespace palpate::gui

@@ -4,14 +4,14 @@
 #include <utility>
 #include <variant>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 #include "gui/recognise/answer_view.h"
 #include "gui/recognise/ask_page.h"
 #include "gui/recognise/check_page.h"
+#include "gui/recognise/presentation_window.h"
 #include "gui/recognise/recognise_panel.h"
-#include "gui/recognise/show_window.h"
-#include "gui/recognise/teach_page.h"
 #include "gui/recognise/today_page.h"
+#include "gui/recognise/training_page.h"
 #include "gui/widgets/dock.h"
 
 namespace palpate::gui {
@@ -26,59 +26,59 @@ constexpr double kAirS = 1.0;  // about a grasp that is shown
 
 }  // namespace
 
-RecogniseFeature::RecogniseFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window),
-      actions_(bench.actions),
-      panel_(new RecognisePanel(bench.settings, bench.surroundings.dataFolder, window)) {
+RecogniseFeature::RecogniseFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window),
+      actions_(windowState.actions),
+      panel_(new RecognisePanel(windowState.settings, windowState.environment.dataFolder, window)) {
   dock_ = new Dock("Recognise", panel_, &panel_->header(), window);
   connectAll();
 }
 
 RecogniseFeature::~RecogniseFeature() {
-  hearing_.stop();
+  liveTimer_.stop();
   feed_.reset();
   zeroRun_.reset();
   delete full_;
 }
 
 void RecogniseFeature::connectAll() {
-  Bench& bench = this->bench();
-  connect(panel_, &RecognisePanel::said, &bench.messages, &Messages::flash);
-  connect(panel_, &RecognisePanel::failed, &bench.messages, &Messages::fail);
+  WindowState& windowState = state();
+  connect(panel_, &RecognisePanel::said, &windowState.messages, &Messages::flash);
+  connect(panel_, &RecognisePanel::failed, &windowState.messages, &Messages::fail);
   connect(&panel_->today(), &TodayPage::zeroAsked, this, &RecogniseFeature::beginZero);
   // After a stop, or anything else that is asked of the hand, nothing of a zero moves it any more.
-  connect(&bench.handRequests, &HandRequests::asked, this, &RecogniseFeature::giveUpZero);
+  connect(&windowState.handCommands, &HandCommands::asked, this, &RecogniseFeature::cancelZero);
   connect(&panel_->check(), &CheckPage::graspAsked, this, &RecogniseFeature::showGrasp);
   panel_->teach().zeroNow = [this] { return zero_; };
   connect(&panel_->ask(), &AskPage::asked, this, &RecogniseFeature::ask);
   connect(&panel_->ask(), &AskPage::showAsked, this, &RecogniseFeature::showFull);
   on(actions_.whatIsIt, [this] {
-    if (!dock_->isVisible() && !full_) emit dockAsked(dock_);
+    if (!dock_->isVisible() && !full_) emit dockRequested(dock_);
     panel_->showPage("Ask");
     ask();
   });
-  on(actions_.showMode, [this] { showFull(); });
+  on(actions_.presentationMode, [this] { showFull(); });
   // However it is shown, its model is looked for.
   connect(dock_, &QDockWidget::visibilityChanged, this, [this](bool seen) {
     if (seen) renew();
   });
-  connect(&bench.subject, &Subject::shown, this, [this] {
+  connect(&windowState.displayed, &DisplayedSource::shown, this, [this] {
     renew();
     showWanted();
   });
-  connect(&bench.look, &ViewLook::themeChanged, this, &RecogniseFeature::renew);
-  connect(&bench.live, &LiveController::came, this, [this] { listen(true); });
-  connect(&bench.live, &LiveController::leaving, this, [this] { listen(false); });
-  connect(&hearing_, &QTimer::timeout, this, &RecogniseFeature::hear);
-  hearing_.setInterval(kHearingMs);
-  bench.escape.add(Escape::Order::kShow, [this] { return cancel(); });
+  connect(&windowState.appearance, &ViewAppearance::themeChanged, this, &RecogniseFeature::renew);
+  connect(&windowState.live, &LiveController::sourceOpened, this, [this] { listen(true); });
+  connect(&windowState.live, &LiveController::leaving, this, [this] { listen(false); });
+  connect(&liveTimer_, &QTimer::timeout, this, &RecogniseFeature::readLiveGrasps);
+  liveTimer_.setInterval(kHearingMs);
+  windowState.escapeHandler.add(EscapeHandler::Order::kShow, [this] { return cancel(); });
 }
 
 void RecogniseFeature::renew() {
-  panel_->setTheme(bench().look.theme());
+  panel_->setTheme(state().appearance.theme());
   if (!dock_->isVisible() && !full_) return;
-  const LiveSource* source = bench().live.source();
-  const LiveSource* shown = bench().subject.source();
+  const LiveSource* source = state().live.source();
+  const LiveSource* shown = state().displayed.source();
   if (full_) full_->setLive(shown != nullptr);
   panel_->desk().setEmulated(shown && shown->emulated);
   panel_->ask().setLive(shown != nullptr, collector_ && collector_->touched());
@@ -90,7 +90,7 @@ void RecogniseFeature::renew() {
 
 void RecogniseFeature::ask() {
   renew();
-  if (bench().subject.source())
+  if (state().displayed.source())
     askOfHand();
   else
     askOfRecording();
@@ -98,8 +98,8 @@ void RecogniseFeature::ask() {
 
 // The selection; else the grasp under the cursor; else the only one.
 void RecogniseFeature::askOfRecording() {
-  RecogniseDesk& desk = panel_->desk();
-  const OpenedRecordingPtr recording = bench().subject.recorded();
+  RecognitionController& desk = panel_->desk();
+  const OpenedRecordingPtr recording = state().displayed.recorded();
   if (!recording) return desk.sayTrouble("Open a recording, or connect a hand.");
   if (recording->profile.numFrames() == 0) return desk.sayTrouble("This recording holds no frame.");
   const QString name = QString::fromStdString(recording->path.filename().string());
@@ -110,9 +110,9 @@ void RecogniseFeature::askOfRecording() {
               frames,
               name + ", " + figure(fromS, 2) + " – " + figure(toS, 2) + " s"});
   };
-  if (const auto& span = bench().selection.span()) return question(span->fromS, span->toS);
-  const auto frame = static_cast<std::size_t>(bench().playback.frame());
-  const std::vector<GraspSegment>& grasps = bench().events.graspsOf(recording);
+  if (const auto& span = state().selection.span()) return question(span->fromS, span->toS);
+  const auto frame = static_cast<std::size_t>(state().playback.frame());
+  const std::vector<GraspSegment>& grasps = state().events.graspsOf(recording);
   const auto at = std::find_if(grasps.begin(), grasps.end(), [&](const GraspSegment& grasp) {
     return frame >= grasp.begin && frame <= grasp.end;
   });
@@ -128,7 +128,7 @@ void RecogniseFeature::askOfRecording() {
 // What is held now; else the last grasp.
 void RecogniseFeature::askOfHand() {
   takeItems();
-  RecogniseDesk& desk = panel_->desk();
+  RecognitionController& desk = panel_->desk();
   if (!collector_) return desk.sayTrouble("No hand is connected.");
   sinceAsked_ = 0;
   if (auto held = collector_->now()) return desk.ask({std::move(*held), std::nullopt, kHeldNow});
@@ -139,22 +139,22 @@ void RecogniseFeature::askOfHand() {
 }
 
 void RecogniseFeature::listen(bool on) {
-  hearing_.stop();
+  liveTimer_.stop();
   feed_.reset();
   collector_.reset();
   lastGrasp_.reset();
   zeroRun_.reset();
   zero_.reset();
-  panel_->desk().letGo();
+  panel_->desk().contactEnded();
   if (!on) panel_->teach().setLive(false);
-  LiveSource* source = bench().live.source();
+  LiveSource* source = state().live.source();
   if (!on || !source) return;
-  FeedOptions options;
+  CaptureQueueOptions options;
   options.tactileItems = options.motionItems = kWaitingItems;
   feed_ = source->session->subscribe("recognition", options);
   collector_ = std::make_unique<GraspCollector>(source->session->device().hand());
-  if (source->control) zeroRun_ = std::make_unique<EmptyHandRun>(*source->control);
-  hearing_.start();
+  if (source->control) zeroRun_ = std::make_unique<EmptyHandCycle>(*source->control);
+  liveTimer_.start();
 }
 
 void RecogniseFeature::takeItems() {
@@ -171,18 +171,18 @@ void RecogniseFeature::takeItems() {
   items_.clear();
   std::vector<Profile> ended = collector_->takeEnded();
   // Also when something else is held by now.
-  if (held && (!collector_->touched() || !ended.empty())) panel_->desk().letGo();
+  if (held && (!collector_->touched() || !ended.empty())) panel_->desk().contactEnded();
   if (!held && collector_->touched()) panel_->desk().touchBegins();
   for (Profile& grasp : ended) takeEnded(std::move(grasp));
 }
 
-void RecogniseFeature::hear() {
+void RecogniseFeature::readLiveGrasps() {
   if (!feed_) return;
   takeItems();
   goOnWithZero();
   ++sinceAsked_;
-  if (full_) full_->setLive(bench().subject.isLive());
-  if (!bench().subject.isLive() || (!dock_->isVisible() && !full_)) return;
+  if (full_) full_->setLive(state().displayed.isLive());
+  if (!state().displayed.isLive() || (!dock_->isVisible() && !full_)) return;
   panel_->ask().setLive(true, collector_->touched());
   if ((panel_->ask().byItself() || full_) && sinceAsked_ >= kAskAgainRounds &&
       collector_->touchedS() >= kSteadyS && !panel_->desk().busy())
@@ -194,9 +194,9 @@ void RecogniseFeature::showFull() {
     full_->close();
     return;
   }
-  full_ = new ShowWindow(
-      panel_->desk(), bench().subject.source() != nullptr, bench().look.theme(), window());
-  connect(full_, &ShowWindow::asked, this, &RecogniseFeature::ask);
+  full_ = new PresentationWindow(
+      panel_->desk(), state().displayed.source() != nullptr, state().appearance.theme(), window());
+  connect(full_, &PresentationWindow::asked, this, &RecogniseFeature::ask);
   full_->showFullScreen();
   renew();
 }
@@ -207,65 +207,65 @@ void RecogniseFeature::takeEnded(Profile grasp) {
     lastGrasp_ = std::move(grasp);
     return;
   }
-  if (const auto trouble = zeroRun_->padsLetGo()) return sayNoZero(*trouble);
+  if (const auto problem = zeroRun_->onPadsReleased()) return sayNoZero(*problem);
   EmptyHandZero zero = emptyHandZero(grasp);
   zero.origin = "the connected hand";
-  if (!zero.trouble.empty()) return sayNoZero(zero.trouble);
+  if (!zero.problem.empty()) return sayNoZero(zero.problem);
   zero_ = zero;
-  bench().messages.flash("the empty hand reads " + figure(zero.mm, 1) + " ± " +
+  state().messages.flash("the empty hand reads " + figure(zero.mm, 1) + " ± " +
                          figure(zero.sdMm, 1) + " mm");
-  panel_->desk().changeDay([&](RecognitionDay& day) { day.setZero(zero); });
+  panel_->desk().changeDay([&](RecognitionSession& day) { day.setZero(zero); });
 }
 
 void RecogniseFeature::beginZero() {
-  LiveSource* source = bench().live.source();
+  LiveSource* source = state().live.source();
   if (!source || !zeroRun_) return;
   if (collector_->touched())
-    return bench().messages.flash("the hand isn't empty: something touches it");
+    return state().messages.flash("the hand isn't empty: something touches it");
   try {
     zeroRun_->begin(source->session->nowUs());
   } catch (const std::exception& error) {
-    bench().messages.flash(error.what());
+    state().messages.flash(error.what());
   }
 }
 
-void RecogniseFeature::giveUpZero() {
+void RecogniseFeature::cancelZero() {
   if (!zeroRun_ || !zeroRun_->active()) return;
-  zeroRun_->giveUp();
+  zeroRun_->cancel();
   sayNoZero("given up");
 }
 
 void RecogniseFeature::sayNoZero(const std::string& why) {
-  bench().messages.flash("no zero: " + QString::fromStdString(why));
+  state().messages.flash("no zero: " + QString::fromStdString(why));
 }
 
 void RecogniseFeature::goOnWithZero() {
-  LiveSource* source = bench().live.source();
+  LiveSource* source = state().live.source();
   if (!source || !zeroRun_) return;
   panel_->today().setZeroPossible(QString::fromStdString(source->control->status().cannotReact),
                                   zeroRun_->active());
-  if (const auto trouble = zeroRun_->step(source->session->nowUs())) sayNoZero(*trouble);
+  if (const auto problem = zeroRun_->step(source->session->nowUs())) sayNoZero(*problem);
 }
 
 void RecogniseFeature::showGrasp(const std::filesystem::path& file,
                                  std::size_t begin,
                                  std::size_t end) {
   wanted_ = Wanted{file, begin, end};
-  const OpenedRecordingPtr open = bench().recordings.at(file);
-  if (!open) return bench().open({file});
-  if (open == bench().subject.recorded()) return showWanted();
-  bench().subject.show(open);
+  const OpenedRecordingPtr open = state().recordings.at(file);
+  if (!open) return state().open({file});
+  if (open == state().displayed.recorded()) return showWanted();
+  state().displayed.show(open);
 }
 
 void RecogniseFeature::showWanted() {
-  const OpenedRecordingPtr recording = bench().subject.recorded();
+  const OpenedRecordingPtr recording = state().displayed.recorded();
   if (!wanted_ || !recording || recording->path != wanted_->file) return;
   const Wanted wanted = *std::exchange(wanted_, std::nullopt);
   if (wanted.end >= recording->profile.numFrames()) return;  // another one by now
   const TimeSpan span{recording->timeAt(wanted.begin), recording->timeAt(wanted.end)};
-  bench().selection.showWithAir({span.fromS - kAirS, span.toS + kAirS});
-  bench().selection.setSpan(span);
-  bench().playback.seekSeconds(span.fromS);
+  state().selection.showWithMargin({span.fromS - kAirS, span.toS + kAirS});
+  state().selection.setSpan(span);
+  state().playback.seekSeconds(span.fromS);
 }
 
 bool RecogniseFeature::cancel() {
@@ -274,17 +274,17 @@ bool RecogniseFeature::cancel() {
     return true;
   }
   // The key stops the hand, too.
-  giveUpZero();
+  cancelZero();
   return panel_->cancel();
 }
 
 void RecogniseFeature::settle() { panel_->settle(); }
 
-std::vector<DockOffer> RecogniseFeature::docks() {
+std::vector<DockSpec> RecogniseFeature::docks() {
   return {{.dock = dock_,
            .key = QKeySequence("Ctrl+Shift+I"),
            .tab = 5,
-           .roomPx = kRecogniseUsualWidth}};
+           .preferredWidthPx = kRecogniseUsualWidth}};
 }
 
 std::vector<ExportedView> RecogniseFeature::views() {
@@ -305,7 +305,7 @@ std::vector<ExportedView> RecogniseFeature::views() {
                 QRectF(QPointF(0, 0), look.size).adjusted(24, 24, -24, -24),
                 answer,
                 panel_->desk().photos().photo(answer.name()),
-                look.forPrint ? Theme::kLight : bench().look.theme(),
+                look.forPrint ? Theme::kLight : state().appearance.theme(),
                 look.textUnits > 0 ? look.textUnits : 16);
   };
   return {view};

@@ -9,26 +9,26 @@
 #include <optional>
 #include <vector>
 
-#include <palpate/control/empty_hand_run.h>
+#include <palpate/control/empty_hand_cycle.h>
 #include <palpate/recognition/empty_hand.h>
 #include <palpate/recognition/grasp_collector.h>
 
-#include "gui/bench/feature.h"
 #include "gui/recognise/recognise_actions.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
 class RecognisePanel;
-class ShowWindow;
+class PresentationWindow;
 
 class RecogniseFeature : public Feature {
   Q_OBJECT
  public:
-  RecogniseFeature(Bench& bench, QWidget* window);
+  RecogniseFeature(WindowState& windowState, QWidget* window);
   ~RecogniseFeature() override;
 
   RecognisePanel& panel() noexcept { return *panel_; }
-  std::vector<DockOffer> docks() override;
+  std::vector<DockSpec> docks() override;
   std::vector<ExportedView> views() override;
   void settle() override;
 
@@ -42,13 +42,13 @@ class RecogniseFeature : public Feature {
   // Takes in what has come from the hand since the last time; asks nothing.
   void takeItems();
   // A round: takes in what has come, goes on with a zero, and asks by itself where that is wanted.
-  void hear();
+  void readLiveGrasps();
   void showFull();
   void takeEnded(Profile grasp);
   // The zero of the empty hand: close until the pads touch, hold, open.
   void beginZero();
   void goOnWithZero();
-  void giveUpZero();
+  void cancelZero();
   void sayNoZero(const std::string& why);
   // A grasp of a recording that may have to be opened first.
   void showGrasp(const std::filesystem::path& file, std::size_t begin, std::size_t end);
@@ -58,16 +58,16 @@ class RecogniseFeature : public Feature {
   RecogniseActions actions_;
   RecognisePanel* panel_;
   Dock* dock_;
-  QPointer<ShowWindow> full_;
+  QPointer<PresentationWindow> full_;
   // Of what is connected.
-  std::shared_ptr<CaptureFeed> feed_;
+  std::shared_ptr<CaptureQueue> feed_;
   std::unique_ptr<GraspCollector> collector_;
   std::vector<CaptureItem> items_;
   std::optional<Profile> lastGrasp_;
-  QTimer hearing_;
-  int sinceAsked_ = 0;                     // rounds
-  std::unique_ptr<EmptyHandRun> zeroRun_;  // null: what is connected can't be moved
-  std::optional<EmptyHandZero> zero_;      // of today
+  QTimer liveTimer_;
+  int sinceAsked_ = 0;                       // rounds
+  std::unique_ptr<EmptyHandCycle> zeroRun_;  // null: what is connected can't be moved
+  std::optional<EmptyHandZero> zero_;        // of today
   struct Wanted {
     std::filesystem::path file;
     std::size_t begin = 0, end = 0;

@@ -5,8 +5,8 @@
 
 #include "gui/recognise/ask_page.h"
 #include "gui/recognise/check_page.h"
-#include "gui/recognise/teach_page.h"
 #include "gui/recognise/today_page.h"
+#include "gui/recognise/training_page.h"
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {
@@ -16,11 +16,11 @@ RecognisePanel::RecognisePanel(QSettings& settings,
                                QWidget* parent)
     : PagedPanel(settings, "recognise", parent) {
   setObjectName("RecognisePanel");
-  desk_ = new RecogniseDesk(settings, dataFolder, this);
-  teaching_ = new TeachingDesk(settings, this);
+  desk_ = new RecognitionController(settings, dataFolder, this);
+  teaching_ = new TrainingController(settings, this);
   ask_ = new AskPage(*desk_, &pages());
   today_ = new TodayPage(*desk_, &pages());
-  teach_ = new TeachPage(*teaching_, &pages());
+  teach_ = new TrainingPage(*teaching_, &pages());
   check_ = new CheckPage(*teaching_, &pages());
   strip_ = new OpeningStrip(this, "Working on", "recognise");
   addPage(ask_, "Ask", "What is in the hand");
@@ -36,15 +36,15 @@ RecognisePanel::RecognisePanel(QSettings& settings,
   connect(&job, &BackgroundJob::started, strip_, &OpeningStrip::begin);
   connect(&job, &BackgroundJob::progressed, strip_, &OpeningStrip::setProgress);
   connect(&job, &BackgroundJob::finished, strip_, &OpeningStrip::end);
-  connect(strip_, &OpeningStrip::cancelRequested, teaching_, &TeachingDesk::cancel);
-  connect(desk_, &RecogniseDesk::said, this, &RecognisePanel::said);
-  connect(teaching_, &TeachingDesk::said, this, &RecognisePanel::said);
-  connect(teaching_, &TeachingDesk::failed, this, &RecognisePanel::failed);
-  connect(teaching_, &TeachingDesk::folderChanged, this, [this] {
+  connect(strip_, &OpeningStrip::cancelRequested, teaching_, &TrainingController::cancel);
+  connect(desk_, &RecognitionController::said, this, &RecognisePanel::said);
+  connect(teaching_, &TrainingController::said, this, &RecognisePanel::said);
+  connect(teaching_, &TrainingController::failed, this, &RecognisePanel::failed);
+  connect(teaching_, &TrainingController::folderChanged, this, [this] {
     desk_->setPhotoFolder(teaching_->folder());
   });
   connect(teaching_,
-          &TeachingDesk::trained,
+          &TrainingController::trained,
           this,
           [this](const TrainedModel& model, const QString& path) {
             desk_->takeModel(model, path.toStdString());

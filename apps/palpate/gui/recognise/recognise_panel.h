@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "gui/look/theme.h"
-#include "gui/recognise/recognise_desk.h"
-#include "gui/recognise/teaching_desk.h"
+#include "gui/appearance/theme.h"
+#include "gui/recognise/recognition_controller.h"
+#include "gui/recognise/training_controller.h"
 #include "gui/widgets/paged_panel.h"
 
 namespace palpate::gui {
@@ -15,7 +15,7 @@ namespace palpate::gui {
 class AskPage;
 class CheckPage;
 class OpeningStrip;
-class TeachPage;
+class TrainingPage;
 class TodayPage;
 
 class RecognisePanel : public PagedPanel {
@@ -26,11 +26,11 @@ class RecognisePanel : public PagedPanel {
                  QWidget* parent = nullptr);
   void setTheme(Theme theme);
 
-  RecogniseDesk& desk() noexcept { return *desk_; }
-  TeachingDesk& teaching() noexcept { return *teaching_; }
+  RecognitionController& desk() noexcept { return *desk_; }
+  TrainingController& teaching() noexcept { return *teaching_; }
   AskPage& ask() noexcept { return *ask_; }
   TodayPage& today() noexcept { return *today_; }
-  TeachPage& teach() noexcept { return *teach_; }
+  TrainingPage& teach() noexcept { return *teach_; }
   CheckPage& check() noexcept { return *check_; }
   bool cancel();
   void settle();
@@ -45,12 +45,12 @@ class RecognisePanel : public PagedPanel {
 
  private:
   std::optional<Theme> theme_;
-  RecogniseDesk* desk_;
-  TeachingDesk* teaching_;
+  RecognitionController* desk_;
+  TrainingController* teaching_;
   OpeningStrip* strip_;
   AskPage* ask_;
   TodayPage* today_;
-  TeachPage* teach_;
+  TrainingPage* teach_;
   CheckPage* check_;
 };
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 
 namespace palpate::gui {
 namespace {
@@ -79,23 +79,23 @@ QString RecognitionAnswer::name() const {
   return kind == Kind::kNamed && !best.empty() ? best.front().name : QString();
 }
 
-QString RecognitionAnswer::word() const {
+QString RecognitionAnswer::confidenceWord() const {
   if (kind == Kind::kUnknown) return "unknown";
   if (kind != Kind::kNamed) return {};
   return sure ? "sure" : "not sure";
 }
 
-QString RecognitionAnswer::spoken() const {
-  if (kind == Kind::kNothing || kind == Kind::kTrouble) return text;
+QString RecognitionAnswer::accessibleText() const {
+  if (kind == Kind::kNothing || kind == Kind::kProblem) return text;
   if (kind == Kind::kUnknown)
     return "unknown" + (best.empty() ? QString() : "; most like " + best.front().name);
-  return name() + ", " + percent(best.front().p) + ", " + word();
+  return name() + ", " + percent(best.front().p) + ", " + confidenceWord();
 }
 
-RecognitionAnswer answerOf(const TrainedModel& model, const Verdict& verdict) {
+RecognitionAnswer answerOf(const TrainedModel& model, const Prediction& verdict) {
   RecognitionAnswer answer;
-  answer.kind = verdict.label == Verdict::kUnknown ? RecognitionAnswer::Kind::kUnknown
-                                                   : RecognitionAnswer::Kind::kNamed;
+  answer.kind = verdict.label == Prediction::kUnknown ? RecognitionAnswer::Kind::kUnknown
+                                                      : RecognitionAnswer::Kind::kNamed;
   answer.sure = verdict.sure;
   for (std::size_t k = 0; k < std::min(kBest, verdict.ranking.size()); ++k)
     answer.best.push_back(
@@ -108,22 +108,22 @@ QString offsetText(const SessionOffset& offset, bool emulated) {
   if (emulated) return "session offset 0 mm: the emulated hand has none";
   const QString value = figure(offset.mm, 1) + " mm";
   switch (offset.origin) {
-    case OffsetOrigin::kNone:
+    case OffsetSource::kNone:
       return "session offset 0 mm, assumed: as on the day of training";
-    case OffsetOrigin::kUnknown:
+    case OffsetSource::kUnknown:
       return "session offset not known: all are weighed";
-    case OffsetOrigin::kGiven:
+    case OffsetSource::kGiven:
       return "session offset " + value + ", typed";
-    case OffsetOrigin::kBatch:
-    case OffsetOrigin::kReferences:
-    case OffsetOrigin::kEmptyHand:
+    case OffsetSource::kBatch:
+    case OffsetSource::kReferences:
+    case OffsetSource::kEmptyHand:
       break;
   }
   const QString origin =
-      offset.origin == OffsetOrigin::kEmptyHand
+      offset.origin == OffsetSource::kEmptyHand
           ? QString("the empty hand")
           : QString::number(offset.grasps) +
-                (offset.origin == OffsetOrigin::kReferences ? " named" : " unnamed") +
+                (offset.origin == OffsetSource::kReferences ? " named" : " unnamed") +
                 (offset.grasps == 1 ? " grasp" : " grasps") + ", " +
                 QString::number(offset.objects) + (offset.objects == 1 ? " object" : " objects");
   return "session offset " + value + " ± " + figure(offset.sdMm, 1) + " mm, from " + origin;
@@ -147,12 +147,12 @@ void paintAnswer(QPainter& painter,
     room.setRight(room.right() - side - unit);
   }
   if (!told) {
-    const QFont font = fontOf(painter, answer.kind == Kind::kTrouble ? 1.15 * unit : unit);
+    const QFont font = fontOf(painter, answer.kind == Kind::kProblem ? 1.15 * unit : unit);
     const double y = paintWords(painter,
                                 room,
                                 answer.text,
                                 font,
-                                answer.kind == Kind::kTrouble ? colors.text : colors.muted);
+                                answer.kind == Kind::kProblem ? colors.text : colors.muted);
     paintWords(painter,
                QRectF(room.left(), y + 0.6 * unit, room.width(), room.height()),
                answer.of,
@@ -191,7 +191,8 @@ void paintAnswer(QPainter& painter,
     y += 1.4 * unit;
     painter.setFont(bold);
     painter.setPen(color);
-    painter.drawText(QRectF(room.left(), y, room.width(), 1.4 * unit), left, answer.word());
+    painter.drawText(
+        QRectF(room.left(), y, room.width(), 1.4 * unit), left, answer.confidenceWord());
     y += 1.9 * unit;
   } else {
     y = paintWords(painter,

@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include <palpate/recognition/recognition_day.h>
+#include <palpate/recognition/recognition_session.h>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 class QPainter;
 
@@ -22,14 +22,14 @@ inline constexpr const char* kHeldNow = "held now";
 inline constexpr const char* kLastGrasp = "the last grasp";
 
 struct RecognitionAnswer {
-  enum class Kind { kNothing, kTrouble, kNamed, kUnknown };
+  enum class Kind { kNothing, kProblem, kNamed, kUnknown };
   struct Place {
     QString name;
     double p = 0.0;
   };
 
   Kind kind = Kind::kNothing;
-  QString text;       // of kTrouble: why there is no name; of kNothing: what to do
+  QString text;       // of kProblem: why there is no name; of kNothing: what to do
   bool sure = false;  // right 95 times in 100
   // of kNamed, kUnknown: up to three, best first; the first one is what it is called
   std::vector<Place> best;
@@ -41,13 +41,13 @@ struct RecognitionAnswer {
   // "foam ball", "unknown"; empty without an answer.
   QString name() const;
   // "sure", "not sure", "unknown"; empty without an answer.
-  QString word() const;
+  QString confidenceWord() const;
   // For those who hear it: "foam ball, 97 %, sure".
-  QString spoken() const;
+  QString accessibleText() const;
 };
 
 // Of a verdict with a model.
-RecognitionAnswer answerOf(const TrainedModel& model, const Verdict& verdict);
+RecognitionAnswer answerOf(const TrainedModel& model, const Prediction& verdict);
 // What a person reads of an offset; `emulated`: the hand has none.
 QString offsetText(const SessionOffset& offset, bool emulated);
 

@@ -11,7 +11,7 @@
 #include <palpate/core/error.h>
 #include <palpate/core/time.h>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/number_field.h"
 
@@ -32,7 +32,7 @@ std::vector<FigureColumn> todayPageColumns() {
 
 }  // namespace
 
-TodayPage::TodayPage(RecogniseDesk& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
+TodayPage::TodayPage(RecognitionController& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
   setObjectName("todayPage");
   offset_ = new QLabel(this);
   offset_->setObjectName("todayOffset");
@@ -84,7 +84,7 @@ TodayPage::TodayPage(RecogniseDesk& desk, QWidget* parent) : QWidget(parent), de
   connect(typed_, &QDoubleSpinBox::valueChanged, this, &TodayPage::choose);
   connect(zero_, &QPushButton::clicked, this, &TodayPage::zeroAsked);
   connect(forget_, &QPushButton::clicked, this, [this] {
-    desk_.changeDay([](RecognitionDay& day) { day.forget(); });
+    desk_.changeDay([](RecognitionSession& day) { day.reset(); });
   });
   connect(save_, &QPushButton::clicked, this, [this] {
     const auto& from = desk_.modelPath();
@@ -104,14 +104,14 @@ TodayPage::TodayPage(RecogniseDesk& desk, QWidget* parent) : QWidget(parent), de
     if (!path.isEmpty() && !path.endsWith(".json")) path += ".json";
     return std::filesystem::path(path.toStdString());
   };
-  connect(&desk_, &RecogniseDesk::dayChanged, this, &TodayPage::showDay);
+  connect(&desk_, &RecognitionController::dayChanged, this, &TodayPage::showDay);
   showDay();
 }
 
 void TodayPage::choose() {
   const TodayPageKind kind = kKinds[static_cast<std::size_t>(source_->currentIndex())];
   typed_->setEnabled(kind == TodayPageKind::kGiven);
-  desk_.changeDay([&](RecognitionDay& day) { day.choose({kind, typed_->value()}); });
+  desk_.changeDay([&](RecognitionSession& day) { day.choose({kind, typed_->value()}); });
 }
 
 void TodayPage::setZeroPossible(const QString& why, bool closing) {
@@ -122,8 +122,8 @@ void TodayPage::setZeroPossible(const QString& why, bool closing) {
 }
 
 void TodayPage::showDay() {
-  RecognitionDay* day = desk_.day();
-  const bool can = day && day->model().carriesOver();
+  RecognitionSession* day = desk_.day();
+  const bool can = day && day->model().adaptsToSession();
   for (QWidget* each : std::initializer_list<QWidget*>{source_, typed_, forget_, save_})
     each->setEnabled(can);
   zero_->setEnabled(can && why_.isEmpty() && !closing_);
@@ -157,14 +157,15 @@ void TodayPage::showDay() {
   const auto& grasps = day->grasps();
   for (auto grasp = grasps.rbegin(); grasp != grasps.rend(); ++grasp) {
     const RecognitionAnswer answer =
-        answerOf(day->model(), day->judge(grasp->values, grasp->timeUs));
+        answerOf(day->model(), day->predict(grasp->values, grasp->timeUs));
     rows.push_back(
         {{.text = QString::fromStdString(utcText(grasp->timeUs)).mid(11, 8)},
-         {.text = answer.name(), .tip = answer.spoken(), .warning = !answer.sure},
+         {.text = answer.name(), .tip = answer.accessibleText(), .warning = !answer.sure},
          {.text = figure(answer.best.front().p, 2)},
-         {.text = grasp->told ? QString::fromStdString(
-                                    day->model().classes[static_cast<std::size_t>(*grasp->told)])
-                              : QString("–")}});
+         {.text = grasp->labelledClass
+                      ? QString::fromStdString(
+                            day->model().classes[static_cast<std::size_t>(*grasp->labelledClass)])
+                      : QString("–")}});
   }
   grasps_->setRows(rows);
 }

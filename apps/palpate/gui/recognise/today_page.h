@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "gui/look/theme.h"
-#include "gui/recognise/recognise_desk.h"
+#include "gui/appearance/theme.h"
+#include "gui/recognise/recognition_controller.h"
 
 class QComboBox;
 class QDoubleSpinBox;
@@ -21,7 +21,7 @@ class FiguresTable;
 class TodayPage : public QWidget {
   Q_OBJECT
  public:
-  explicit TodayPage(RecogniseDesk& desk, QWidget* parent = nullptr);
+  explicit TodayPage(RecognitionController& desk, QWidget* parent = nullptr);
   void setTheme(Theme theme);
   // Why the hand can't be closed now; empty: it can. `closing`: it is being done.
   void setZeroPossible(const QString& why, bool closing);
@@ -35,7 +35,7 @@ class TodayPage : public QWidget {
   void showDay();
   void choose();
 
-  RecogniseDesk& desk_;
+  RecognitionController& desk_;
   QLabel* offset_;
   QLabel* unsure_;
   QComboBox* source_;

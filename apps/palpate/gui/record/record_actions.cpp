@@ -7,7 +7,7 @@ constexpr int kDigits = 10;
 
 }  // namespace
 
-RecordActions::RecordActions(ActionBook& book) {
+RecordActions::RecordActions(ActionRegistry& book) {
   record = book.make("record", "Hand", "&Record", {key("Ctrl+R")});
   recordingSettings =
       book.make("recordingSettings", "Hand", "Recording &names and marks…", {key("Ctrl+N")});

@@ -5,12 +5,12 @@
 #include <QActionGroup>
 #include <QList>
 
-#include "gui/bench/action_book.h"
+#include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
 
 struct RecordActions {
-  explicit RecordActions(ActionBook& book);
+  explicit RecordActions(ActionRegistry& book);
 
   QAction* record = nullptr;
   QAction* recordingSettings = nullptr;

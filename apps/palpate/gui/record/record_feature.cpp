@@ -2,8 +2,8 @@
 
 #include <QTimer>
 
-#include "gui/look/captions.h"
-#include "gui/look/icons.h"
+#include "gui/appearance/captions.h"
+#include "gui/appearance/icons.h"
 #include "gui/record/recording_dialog.h"
 #include "gui/widgets/offer_strip.h"
 
@@ -44,13 +44,14 @@ QString summaryOf(const RecordingReport& report) {
 
 }  // namespace
 
-RecordFeature::RecordFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window),
-      actions_(bench.actions),
+RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window),
+      actions_(windowState.actions),
       offer_(new OfferStrip(window)),
-      unfinished_(bench.settings) {
-  bench.questions.recording = [window](const RecordingSettings& last,
-                                       const QString& button) -> std::optional<RecordingSettings> {
+      unfinished_(windowState.settings) {
+  windowState.prompts.recording = [window](
+                                      const RecordingSettings& last,
+                                      const QString& button) -> std::optional<RecordingSettings> {
     RecordingDialog dialog(last, button, window);
     if (dialog.exec() != QDialog::Accepted) return std::nullopt;
     return dialog.settings();
@@ -58,13 +59,13 @@ RecordFeature::RecordFeature(Bench& bench, QWidget* window)
   connectActions();
   connectRecorder();
   connectUnfinished();
-  use(loadRecordingSettings(bench.settings));
-  connect(&bench.messages, &Messages::announced, this, [this](const QString& text) {
+  use(loadRecordingSettings(windowState.settings));
+  connect(&windowState.messages, &Messages::announced, this, [this](const QString& text) {
     offering_ = false;
     offer_->say(text);
   });
   followTheme(offer_);
-  connect(&bench.look, &ViewLook::themeChanged, this, [this] {
+  connect(&windowState.appearance, &ViewAppearance::themeChanged, this, [this] {
     actions_.record->setIcon({});  // in the colours of before
     showState();
   });
@@ -74,10 +75,10 @@ void RecordFeature::connectActions() {
   RecordActions& actions = actions_;
   on(actions.record, [this] { toggle(); });
   on(actions.recordingSettings, [this] {
-    if (const auto wanted = bench().questions.recording(settings_, "Keep")) use(*wanted);
+    if (const auto wanted = state().prompts.recording(settings_, "Keep")) use(*wanted);
   });
   actions.openRecorded->setEnabled(false);
-  on(actions.openRecorded, [this] { bench().open(lastRecorded_); });
+  on(actions.openRecorded, [this] { state().open(lastRecorded_); });
   on(actions.mark, [this] { mark({}, std::nullopt); });
   for (qsizetype digit = 0; digit < actions.labels.size(); ++digit)
     on(actions.labels[digit], [this, digit] {
@@ -85,31 +86,31 @@ void RecordFeature::connectActions() {
       const auto key = static_cast<int>(digit);
       mark(label.isEmpty() ? "mark " + QString::number(key) : label, key);
     });
-  bench().enabling.add({actions.record}, [this] { return bench().live.source() != nullptr; });
+  state().actionEnabler.add({actions.record}, [this] { return state().live.source() != nullptr; });
   // The space bar and the digits: marks while live is shown, playback else.
-  bench().enabling.add(actions.labels + QList<QAction*>{actions.mark},
-                       [this] { return bench().subject.isLive(); });
+  state().actionEnabler.add(actions.labels + QList<QAction*>{actions.mark},
+                            [this] { return state().displayed.isLive(); });
 }
 
 void RecordFeature::connectRecorder() {
-  LiveController& live = bench().live;
+  LiveController& live = state().live;
   connect(&live, &LiveController::recordingStarted, this, [this] {
-    bench().messages.withdraw(kRecordingTopic);
-    bench().messages.logLink("recording begins");
+    state().messages.withdraw(kRecordingTopic);
+    state().messages.logLink("recording begins");
     showState();
   });
   connect(&live, &LiveController::recordingFailed, this, [this](const QString& message) {
-    bench().messages.failAbout(kRecordingTopic, "Not recording: " + message);
-    bench().messages.logLink("not recording: " + message);
+    state().messages.failAbout(kRecordingTopic, "Not recording: " + message);
+    state().messages.logLink("not recording: " + message);
     showState();
   });
   connect(&live, &LiveController::recordingEnded, this, &RecordFeature::offer);
-  connect(&live, &LiveController::looked, this, &RecordFeature::showState);
+  connect(&live, &LiveController::refreshed, this, &RecordFeature::showState);
   connect(&live, &LiveController::stateChanged, this, &RecordFeature::showState);
 }
 
 void RecordFeature::connectUnfinished() {
-  connect(&unfinished_, &UnfinishedFinder::found, this, [this](const QStringList& paths) {
+  connect(&unfinished_, &RecoveryFinder::found, this, [this](const QStringList& paths) {
     // What was just recorded is more urgent.
     if (paths.isEmpty() || !offer_->isHidden()) return;
     constexpr qsizetype kMostNames = 3;
@@ -129,21 +130,21 @@ void RecordFeature::connectUnfinished() {
         },
         [this, paths] { unfinished_.ignore(paths); });
   });
-  connect(&unfinished_, &UnfinishedFinder::progressed, this, [this](double fraction) {
+  connect(&unfinished_, &RecoveryFinder::progressed, this, [this](double fraction) {
     offer_->say("Recovering … " + figure(100.0 * fraction, 0) + " %");
   });
   connect(&unfinished_,
-          &UnfinishedFinder::recovered,
+          &RecoveryFinder::recovered,
           this,
           [this](const QString& path, const QString& message, const QString& saved) {
             recovered_.emplace_back(saved.toStdString());
-            bench().messages.logLink("recovered " + path.section('/', -1) + ": " + message);
+            state().messages.logLink("recovered " + path.section('/', -1) + ": " + message);
           });
-  connect(&unfinished_,
-          &UnfinishedFinder::failed,
-          this,
-          [this](const QString&, const QString& message) { bench().messages.fail(message); });
-  connect(&unfinished_, &UnfinishedFinder::finished, this, [this] {
+  connect(
+      &unfinished_, &RecoveryFinder::failed, this, [this](const QString&, const QString& message) {
+        state().messages.fail(message);
+      });
+  connect(&unfinished_, &RecoveryFinder::finished, this, [this] {
     offer_->dismiss();
     if (recovered_.empty()) return;
     const auto count = recovered_.size();
@@ -151,7 +152,7 @@ void RecordFeature::connectUnfinished() {
         count == 1 ? "Recovered " + QString::fromStdString(recovered_.front().filename().string())
                    : QString("Recovered %1 recordings").arg(count),
         "Open",
-        [this, paths = recovered_] { bench().open(paths); });
+        [this, paths = recovered_] { state().open(paths); });
   });
 }
 
@@ -159,14 +160,14 @@ void RecordFeature::offerUnfinished() { unfinished_.look(settings_.folder); }
 
 // The window comes first.
 void RecordFeature::start() {
-  if (bench().surroundings.offerUnfinished)
+  if (state().environment.offerUnfinished)
     QTimer::singleShot(0, this, &RecordFeature::offerUnfinished);
 }
 
 void RecordFeature::use(const RecordingSettings& settings) {
   settings_ = settings;
-  saveRecordingSettings(settings_, bench().settings);
-  bench().live.setFolder(settings_.folder.toStdString());
+  saveRecordingSettings(settings_, state().settings);
+  state().live.setFolder(settings_.folder.toStdString());
   const QList<QAction*>& labels = actions_.labels;
   for (qsizetype digit = 0; digit < labels.size(); ++digit) {
     const QString& label = settings_.markLabels.at(static_cast<std::size_t>(digit));
@@ -176,10 +177,10 @@ void RecordFeature::use(const RecordingSettings& settings) {
 }
 
 void RecordFeature::toggle() {
-  LiveController& live = bench().live;
+  LiveController& live = state().live;
   if (live.recording()) return live.stopRecording();
   if (settings_.askEachTime) {
-    const auto wanted = bench().questions.recording(settings_, "Start recording");
+    const auto wanted = state().prompts.recording(settings_, "Start recording");
     if (!wanted) return;
     use(*wanted);
   }
@@ -191,27 +192,27 @@ void RecordFeature::toggle() {
 }
 
 void RecordFeature::mark(const QString& label, std::optional<int> digit) {
-  LiveController& live = bench().live;
+  LiveController& live = state().live;
   live.mark(label, digit);
-  bench().messages.flash((label.isEmpty() ? QString("marked") : "marked: " + label) +
+  state().messages.flash((label.isEmpty() ? QString("marked") : "marked: " + label) +
                          (live.recording() ? "" : " (nothing is being recorded)"));
 }
 
 // What the button says: how long, and how much is on disk.
 void RecordFeature::showState() {
   QAction* action = actions_.record;
-  const bool on = bench().live.source() && bench().live.recording();
+  const bool on = state().live.source() && state().live.recording();
   if (on != action->property(kRecordingProperty).toBool() || action->icon().isNull()) {
     action->setProperty(kRecordingProperty, on);
     action->setIcon(
-        makeIcon(on ? IconShape::kStopRecording : IconShape::kRecord, bench().look.theme()));
+        makeIcon(on ? IconShape::kStopRecording : IconShape::kRecord, state().appearance.theme()));
     action->setText(on ? "Stop &recording" : "&Record");
     action->setToolTip(on ? "Stop and finish the recording (Ctrl+R)"
                           : "Record what comes, with the two seconds before (Ctrl+R)");
   }
   QString text = " Record";
   if (on) {
-    const RecorderStatus& recorder = bench().live.health().recorder;
+    const RecorderStatus& recorder = state().live.health().recorder;
     text = recorder.state == RecorderStatus::State::kRecording
                ? " " + clockText(recorder.elapsedS) + " · " + megabytes(recorder.bytesOnDisk)
                : QString(" waiting for a frame");
@@ -220,7 +221,7 @@ void RecordFeature::showState() {
 }
 
 void RecordFeature::offer(const RecordingReport& report) {
-  Messages& messages = bench().messages;
+  Messages& messages = state().messages;
   showState();
   if (report.paths.empty()) {
     const QString why = report.message.empty() ? QString("no frame came while it ran")
@@ -237,9 +238,9 @@ void RecordFeature::offer(const RecordingReport& report) {
     messages.fail(QString::fromStdString(report.paths.front().filename().string()) +
                   ": something is missing: " + QString::fromStdString(report.message));
   if (!offering_) return;
-  offer_->offer("Recorded " + summary, "Open", [this] { bench().open(lastRecorded_); });
+  offer_->offer("Recorded " + summary, "Open", [this] { state().open(lastRecorded_); });
 }
 
-std::vector<StripOffer> RecordFeature::strips() { return {{StripOffer::Order::kOffer, offer_}}; }
+std::vector<BannerSpec> RecordFeature::strips() { return {{BannerSpec::Order::kOffer, offer_}}; }
 
 }  // namespace palpate::gui

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "gui/bench/feature.h"
 #include "gui/record/record_actions.h"
-#include "gui/record/unfinished_finder.h"
+#include "gui/record/recovery_finder.h"
 #include "gui/source/recording_settings.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -18,12 +18,12 @@ class OfferStrip;
 class RecordFeature : public Feature {
   Q_OBJECT
  public:
-  RecordFeature(Bench& bench, QWidget* window);
+  RecordFeature(WindowState& windowState, QWidget* window);
 
-  UnfinishedFinder& unfinished() noexcept { return unfinished_; }
+  RecoveryFinder& unfinished() noexcept { return unfinished_; }
   // Looks for recordings that were never finished, and offers to recover them.
   void offerUnfinished();
-  std::vector<StripOffer> strips() override;
+  std::vector<BannerSpec> strips() override;
   void start() override;
 
  private:
@@ -41,7 +41,7 @@ class RecordFeature : public Feature {
   bool offering_ = true;  // false: something that ends the window was announced
   RecordingSettings settings_;
   std::vector<std::filesystem::path> lastRecorded_;  // parts
-  UnfinishedFinder unfinished_;
+  RecoveryFinder unfinished_;
   std::vector<std::filesystem::path> recovered_;  // files of the recovery that runs
 };
 

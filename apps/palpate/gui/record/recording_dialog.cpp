@@ -16,7 +16,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "gui/record/marks_by_key.h"
+#include "gui/record/key_labels.h"
 #include "gui/widgets/elided_text.h"
 
 namespace palpate::gui {
@@ -93,7 +93,7 @@ RecordingDialog::RecordingDialog(const RecordingSettings& settings,
   middle->setSpacing(12);
   middle->addWidget(makeFields(), 1);
   middle->addWidget(makePreview());
-  marks_ = new MarksByKey(this);
+  marks_ = new KeyLabels(this);
   middle->addWidget(marks_);
   auto* whole = new QVBoxLayout(this);
   whole->setContentsMargins(0, 0, 0, 0);
@@ -103,7 +103,7 @@ RecordingDialog::RecordingDialog(const RecordingSettings& settings,
   fill(settings);
   for (QLineEdit* field : {operator_, object_, template_, folder_})
     connect(field, &QLineEdit::textChanged, this, &RecordingDialog::refresh);
-  connect(marks_, &MarksByKey::folded, this, &RecordingDialog::fitMarks);
+  connect(marks_, &KeyLabels::folded, this, &RecordingDialog::fitMarks);
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, &RecordingDialog::refresh);
   timer->start(kRecordingDialogRefreshMs);
@@ -111,10 +111,10 @@ RecordingDialog::RecordingDialog(const RecordingSettings& settings,
   resize(kRecordingDialogWidth, sizeHint().height());
 }
 
-QLineEdit* RecordingDialog::makeField(const char* name, int mostLetters) {
+QLineEdit* RecordingDialog::makeField(const char* name, int maxLetters) {
   auto* field = new QLineEdit(this);
   field->setObjectName(name);
-  field->setMaxLength(mostLetters);
+  field->setMaxLength(maxLetters);
   return field;
 }
 

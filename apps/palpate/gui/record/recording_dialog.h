@@ -19,7 +19,7 @@ class QPushButton;
 
 namespace palpate::gui {
 
-class MarksByKey;
+class KeyLabels;
 
 class RecordingDialog : public QDialog {
   Q_OBJECT
@@ -51,7 +51,7 @@ class RecordingDialog : public QDialog {
   QWidget* makePreview();
   QWidget* makeFoot(const QString& okText);
   QMenu* makePlaceholders();
-  QLineEdit* makeField(const char* name, int mostLetters);
+  QLineEdit* makeField(const char* name, int maxLetters);
   void fill(const RecordingSettings& settings);
   void insert(const QString& placeholder);
   void browse();
@@ -70,7 +70,7 @@ class RecordingDialog : public QDialog {
   QLabel* name_ = nullptr;
   QLabel* place_ = nullptr;
   QLabel* problem_ = nullptr;
-  MarksByKey* marks_ = nullptr;
+  KeyLabels* marks_ = nullptr;
   QCheckBox* ask_ = nullptr;
   QPushButton* ok_ = nullptr;
   NextRecording next_;

@@ -6,6 +6,7 @@
 #include "gui/export/export_feature.h"
 #include "gui/filter/filter_feature.h"
 #include "gui/hand/hand_feature.h"
+#include "gui/hand3d/space_feature.h"
 #include "gui/help/help_feature.h"
 #include "gui/inspect/inspect_feature.h"
 #include "gui/library/library_feature.h"
@@ -17,13 +18,12 @@
 #include "gui/recognise/recognise_feature.h"
 #include "gui/record/record_feature.h"
 #include "gui/slip/slip_feature.h"
-#include "gui/space/space_feature.h"
 #include "gui/spectrum/spectrum_feature.h"
 #include "gui/timeline/timeline_feature.h"
 
 namespace palpate::gui {
 
-std::vector<std::unique_ptr<Feature>> allFeatures(Bench& bench, QWidget* window) {
+std::vector<std::unique_ptr<Feature>> allFeatures(WindowState& windowState, QWidget* window) {
   std::vector<std::unique_ptr<Feature>> all;
   const auto add = [&all](auto feature) -> auto& {
     auto& made = *feature;
@@ -31,26 +31,26 @@ std::vector<std::unique_ptr<Feature>> allFeatures(Bench& bench, QWidget* window)
     return made;
   };
   // What stands in the middle comes first: the key Tab goes through it in this order.
-  add(std::make_unique<OpenFeature>(bench, window));
-  auto& matrices = add(std::make_unique<MatricesFeature>(bench, window));
-  add(std::make_unique<SpaceFeature>(bench, window, matrices.panel()));
-  add(std::make_unique<PlaybackFeature>(bench, window));
-  add(std::make_unique<CompareFeature>(bench, window));
-  add(std::make_unique<InspectFeature>(bench, window));
-  add(std::make_unique<TimelineFeature>(bench, window));
-  add(std::make_unique<HandFeature>(bench, window));
-  add(std::make_unique<LinkFeature>(bench, window));
-  add(std::make_unique<FilterFeature>(bench, window));
-  add(std::make_unique<SpectrumFeature>(bench, window));
-  add(std::make_unique<CalibrateFeature>(bench, window));
-  add(std::make_unique<SlipFeature>(bench, window));
-  add(std::make_unique<LibraryFeature>(bench, window));
-  add(std::make_unique<LogFeature>(bench, window));
-  add(std::make_unique<RecogniseFeature>(bench, window));
-  add(std::make_unique<ConnectFeature>(bench, window));
-  add(std::make_unique<RecordFeature>(bench, window));
-  add(std::make_unique<ExportFeature>(bench, window));
-  add(std::make_unique<HelpFeature>(bench, window));
+  add(std::make_unique<OpenFeature>(windowState, window));
+  auto& matrices = add(std::make_unique<MatricesFeature>(windowState, window));
+  add(std::make_unique<SpaceFeature>(windowState, window, matrices.panel()));
+  add(std::make_unique<PlaybackFeature>(windowState, window));
+  add(std::make_unique<CompareFeature>(windowState, window));
+  add(std::make_unique<InspectFeature>(windowState, window));
+  add(std::make_unique<TimelineFeature>(windowState, window));
+  add(std::make_unique<HandFeature>(windowState, window));
+  add(std::make_unique<LinkFeature>(windowState, window));
+  add(std::make_unique<FilterFeature>(windowState, window));
+  add(std::make_unique<SpectrumFeature>(windowState, window));
+  add(std::make_unique<CalibrateFeature>(windowState, window));
+  add(std::make_unique<SlipFeature>(windowState, window));
+  add(std::make_unique<LibraryFeature>(windowState, window));
+  add(std::make_unique<LogFeature>(windowState, window));
+  add(std::make_unique<RecogniseFeature>(windowState, window));
+  add(std::make_unique<ConnectFeature>(windowState, window));
+  add(std::make_unique<RecordFeature>(windowState, window));
+  add(std::make_unique<ExportFeature>(windowState, window));
+  add(std::make_unique<HelpFeature>(windowState, window));
   return all;
 }
 

@@ -7,7 +7,7 @@
 
 #include "gui/desktop/application.h"
 #include "gui/export/export_feature.h"
-#include "gui/shell/centre.h"
+#include "gui/shell/central_widget.h"
 #include "gui/shell/features.h"
 #include "gui/shell/status_report.h"
 #include "gui/widgets/dock.h"
@@ -23,46 +23,47 @@ constexpr int kCompactBelow = 1340;  // [px] of width: buttons lose their text
 
 }  // namespace
 
-MainWindow::MainWindow(const WindowSurroundings& surroundings)
-    : bench_(std::make_unique<Bench>(surroundings, this)),
-      actions_(bench_->actions),
+MainWindow::MainWindow(const WindowEnvironment& environment)
+    : windowState_(std::make_unique<WindowState>(environment, this)),
+      actions_(windowState_->actions),
       menus_(std::make_unique<WindowMenus>(*this)),
-      docks_(std::make_unique<DockYard>(*this, bench_->settings)),
-      centre_(new Centre(bench_->settings, this)),
+      docks_(std::make_unique<DockArrangement>(*this, windowState_->settings)),
+      centre_(new CentralWidget(windowState_->settings, this)),
       banner_(new MessageBanner(centre_)) {
   setWindowTitle("Palpate");
   setMinimumSize(kSmallestWindow);
   setAcceptDrops(true);
   setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
   setCentralWidget(centre_);
-  bench_->menus = menus_->shared();
-  bench_->filtering.restore(surroundings.recipe);
+  windowState_->menus = menus_->shared();
+  windowState_->activeFilters.restore(environment.recipe);
   auto* strip = new StatusStrip(this);
   strip->setObjectName("statusStrip");
   statusBar()->setSizeGripEnabled(false);
   statusBar()->setContentsMargins(0, 0, 0, 0);
   statusBar()->addWidget(strip, 1);
-  status_ = std::make_unique<StatusReport>(*bench_, *strip, *menus_);
+  status_ = std::make_unique<StatusReport>(*windowState_, *strip, *menus_);
   connectPlace();
   connectActions();
   connectMessages();
   addFeatures();
-  bench_->subject.follow();  // the dock Hand and its Stop know of a hand before the window changes
+  // the dock Hand and its Stop know of a hand before the window changes
+  windowState_->displayed.follow();
   resize(kUsualWindow);
-  restoreGeometry(bench_->settings.value("window/geometry").toByteArray());
+  restoreGeometry(windowState_->settings.value("window/geometry").toByteArray());
   centre_->begin();
   docks_->begin();
-  emit bench_->look.themeChanged();
-  emit bench_->look.changed();
+  emit windowState_->appearance.themeChanged();
+  emit windowState_->appearance.changed();
   for (const auto& feature : features_) feature->start();
-  emit bench_->subject.shown();
+  emit windowState_->displayed.shown();
 }
 
 MainWindow::~MainWindow() {
   // What they show goes while all that it refers to is there.
-  bench_->enabling.clear();
-  bench_->escape.clear();
-  bench_->events.forgetFound();
+  windowState_->actionEnabler.clear();
+  windowState_->escapeHandler.clear();
+  windowState_->events.forgetFound();
   while (!features_.empty()) features_.pop_back();
   status_.reset();
   for (Dock* dock : findChildren<Dock*>()) delete dock;
@@ -70,40 +71,40 @@ MainWindow::~MainWindow() {
 }
 
 void MainWindow::addFeatures() {
-  features_ = allFeatures(*bench_, this);
-  std::vector<StripOffer> strips{{StripOffer::Order::kMessage, banner_}};
+  features_ = allFeatures(*windowState_, this);
+  std::vector<BannerSpec> strips{{BannerSpec::Order::kMessage, banner_}};
   for (const auto& feature : features_) {
-    for (const DockOffer& dock : feature->docks()) docks_->add(dock);
-    for (const CentreOffer& part : feature->centre()) centre_->add(part);
-    for (const StripOffer& strip : feature->strips()) strips.push_back(strip);
-    connect(feature.get(), &Feature::dockAsked, docks_.get(), [this](const Dock* dock) {
+    for (const DockSpec& dock : feature->docks()) docks_->add(dock);
+    for (const CentralViewSpec& part : feature->centre()) centre_->add(part);
+    for (const BannerSpec& strip : feature->strips()) strips.push_back(strip);
+    connect(feature.get(), &Feature::dockRequested, docks_.get(), [this](const Dock* dock) {
       docks_->show(dock->objectName());
     });
   }
   centre_->add(std::move(strips));
-  menus_->fill(bench_->actions, docks_->toggles());
-  bench_->menus = menus_->shared();
+  menus_->fill(windowState_->actions, docks_->toggles());
+  windowState_->menus = menus_->shared();
   std::vector<ExportedView> views;
   for (const auto& feature : features_)
     for (ExportedView& view : feature->views()) views.push_back(std::move(view));
   std::stable_sort(views.begin(), views.end(), [](const ExportedView& a, const ExportedView& b) {
     return a.rank < b.rank;
   });
-  for (ExportedView& view : views) feature<ExportFeature>().takeAway().add(std::move(view));
+  for (ExportedView& view : views) feature<ExportFeature>().exportController().add(std::move(view));
 }
 
 // Before the features hear of another source: their docks stand where they belong by then.
 void MainWindow::connectPlace() {
-  Subject& subject = bench_->subject;
-  connect(&subject, &Subject::changed, this, [this, &subject] {
-    if (!subject.isRecording()) bench_->comparing.set(false);
-    centre_->setPlace(subject.kind());  // first: the docks get what it leaves
-    docks_->setPlace(subject.kind());
-    menus_->setPlaybackShown(!subject.isLive());
+  DisplayedSource& displayed = windowState_->displayed;
+  connect(&displayed, &DisplayedSource::changed, this, [this, &displayed] {
+    if (!displayed.isRecording()) windowState_->comparison.set(false);
+    centre_->setPlace(displayed.kind());  // first: the docks get what it leaves
+    docks_->setPlace(displayed.kind());
+    menus_->setPlaybackShown(!displayed.isLive());
   });
-  connect(&subject, &Subject::shown, this, &MainWindow::showTitle);
-  connect(&bench_->events, &EventDesk::changed, this, &MainWindow::showTitle);
-  connect(&bench_->comparing, &Comparing::changed, this, [this](bool on) {
+  connect(&displayed, &DisplayedSource::shown, this, &MainWindow::showTitle);
+  connect(&windowState_->events, &EventController::changed, this, &MainWindow::showTitle);
+  connect(&windowState_->comparison, &ComparisonMode::changed, this, [this](bool on) {
     on ? docks_->hideAll() : docks_->bringBack();
     centre_->setComparing(on);
   });
@@ -111,9 +112,9 @@ void MainWindow::connectPlace() {
 
 void MainWindow::connectActions() {
   ShellActions& actions = actions_;
-  ViewLook& look = bench_->look;
+  ViewAppearance& look = windowState_->appearance;
   connect(actions.quit, &QAction::triggered, this, &QWidget::close);
-  connect(actions.resetLayout, &QAction::triggered, docks_.get(), &DockYard::reset);
+  connect(actions.resetLayout, &QAction::triggered, docks_.get(), &DockArrangement::reset);
   connect(actions.fullScreen, &QAction::triggered, this, &MainWindow::setFullScreen);
   connect(actions.nextTheme, &QAction::triggered, this, [&look] {
     look.setTheme(look.theme() == Theme::kDark ? ThemeChoice::kLight : ThemeChoice::kDark);
@@ -121,17 +122,17 @@ void MainWindow::connectActions() {
   connect(actions.themes, &QActionGroup::triggered, this, [&look](const QAction* action) {
     look.setTheme(kAllThemeChoices.at(action->data().toUInt()));
   });
-  connect(&look, &ViewLook::themeChanged, this, &MainWindow::showTheme);
-  connect(&look, &ViewLook::changed, this, [&actions, &look] {
+  connect(&look, &ViewAppearance::themeChanged, this, &MainWindow::showTheme);
+  connect(&look, &ViewAppearance::changed, this, [&actions, &look] {
     checkChoice(actions.themes, kAllThemeChoices, look.view().theme);
   });
-  Escape& escape = bench_->escape;
-  connect(actions.dismiss, &QAction::triggered, this, [&escape] { escape.press(); });
-  escape.add(Escape::Order::kAlarm, [this] {
+  EscapeHandler& escapeHandler = windowState_->escapeHandler;
+  connect(actions.dismiss, &QAction::triggered, this, [&escapeHandler] { escapeHandler.press(); });
+  escapeHandler.add(EscapeHandler::Order::kAlarm, [this] {
     if (QWidget* field = focusWidget()) field->clearFocus();
     return false;
   });
-  escape.add(Escape::Order::kFullScreen, [this] {
+  escapeHandler.add(EscapeHandler::Order::kFullScreen, [this] {
     if (!isFullScreen()) return false;
     setFullScreen(false);
     return true;
@@ -139,13 +140,13 @@ void MainWindow::connectActions() {
 }
 
 void MainWindow::connectMessages() {
-  Messages& messages = bench_->messages;
+  Messages& messages = windowState_->messages;
   connect(&messages, &Messages::failed, banner_, &MessageBanner::showAbout);
   connect(&messages, &Messages::withdrawn, banner_, &MessageBanner::withdraw);
   connect(&messages, &Messages::failuresDismissed, banner_, &MessageBanner::dismiss);
   if (const auto* application = qobject_cast<GuardedApplication*>(QCoreApplication::instance()))
     connect(application, &GuardedApplication::failed, &messages, &Messages::fail);
-  bench_->escape.add(Escape::Order::kMessage, [this] {
+  windowState_->escapeHandler.add(EscapeHandler::Order::kMessage, [this] {
     if (banner_->isHidden()) return false;
     banner_->dismiss();
     return true;
@@ -153,20 +154,20 @@ void MainWindow::connectMessages() {
 }
 
 void MainWindow::showTitle() {
-  const Subject& subject = bench_->subject;
-  if (const LiveSource* source = subject.source())
+  const DisplayedSource& displayed = windowState_->displayed;
+  if (const LiveSource* source = displayed.source())
     return setWindowTitle(describe(source->connection) + " – Palpate");
-  if (subject.isLive()) return;  // about to go
-  const OpenedRecordingPtr recording = subject.recorded();
+  if (displayed.isLive()) return;  // about to go
+  const OpenedRecordingPtr recording = displayed.recorded();
   if (!recording) return setWindowTitle("Palpate");
-  const QString star = bench_->events.hasUnsaved(recording) ? "*" : "";
+  const QString star = windowState_->events.hasUnsaved(recording) ? "*" : "";
   setWindowTitle(fileNameOf(*recording) + star + " – Palpate");
 }
 
 void MainWindow::showTheme() {
-  const Theme theme = bench_->look.theme();
+  const Theme theme = windowState_->appearance.theme();
   applyTheme(*qApp, theme);
-  bench_->actions.setTheme(theme);
+  windowState_->actions.setTheme(theme);
   banner_->setTheme(theme);
   docks_->setTheme(theme);
 }
@@ -177,39 +178,39 @@ void MainWindow::setFullScreen(bool on) {
 }
 
 void MainWindow::remember() {
-  bench_->comparing.set(false);  // its layout is not to be remembered
+  windowState_->comparison.set(false);  // its layout is not to be remembered
   for (const auto& feature : features_) feature->remember();
   centre_->remember();
   docks_->remember();
-  bench_->settings.setValue("window/geometry", saveGeometry());
-  bench_->settings.sync();
+  windowState_->settings.setValue("window/geometry", saveGeometry());
+  windowState_->settings.sync();
 }
 
 // What is connected is ended first, beside the window: a hand that moves is stopped, a recording
 // finished. Then it closes.
 void MainWindow::closeEvent(QCloseEvent* event) {
-  LiveController& live = bench_->live;
+  LiveController& live = windowState_->live;
   if (closing_) {
     if (live.state() != LiveController::State::kNone) return event->ignore();
-  } else if ((live.recording() && !bench_->questions.endRecording()) ||
-             !bench_->events.settle(bench_->recordings.all())) {
+  } else if ((live.recording() && !windowState_->prompts.endRecording()) ||
+             !windowState_->events.settle(windowState_->recordings.all())) {
     return event->ignore();  // all is asked before anything is given up
   }
   if (!closing_) remember();
-  bench_->events.discardAll();
-  bench_->opener.cancel();
+  windowState_->events.discardAll();
+  windowState_->opener.cancel();
   if (live.state() == LiveController::State::kNone) return event->accept();
   event->ignore();
   // Nothing else is shown any more.
-  disconnect(&live, &LiveController::ended, &bench_->subject, nullptr);
+  disconnect(&live, &LiveController::ended, &windowState_->displayed, nullptr);
   closing_ = connect(&live, &LiveController::ended, this, &QWidget::close);
-  bench_->messages.announce("Closing: the hand is let go, a recording is finished …");
+  windowState_->messages.announce("Closing: the hand is let go, a recording is finished …");
   live.end();
 }
 
 void MainWindow::endNow() {
-  bench_->questions.endRecording = [] { return true; };
-  bench_->questions.unsaved = [](const QString&) { return Questions::Unsaved::kSave; };
+  windowState_->prompts.endRecording = [] { return true; };
+  windowState_->prompts.unsaved = [](const QString&) { return UserPrompts::Unsaved::kSave; };
   if (QWidget* dialog = QApplication::activeModalWidget()) dialog->close();
   close();
 }
@@ -220,7 +221,7 @@ void MainWindow::settle() {
 
 void MainWindow::showEvent(QShowEvent* event) {
   QMainWindow::showEvent(event);
-  bench_->enabling.refresh();
+  windowState_->actionEnabler.refresh();
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event) {

@@ -7,26 +7,26 @@
 #include <stdexcept>
 #include <vector>
 
-#include "gui/bench/bench.h"
-#include "gui/bench/feature.h"
-#include "gui/shell/dock_yard.h"
+#include "gui/shell/dock_arrangement.h"
 #include "gui/shell/shell_actions.h"
 #include "gui/shell/window_menus.h"
+#include "gui/window_state/feature.h"
+#include "gui/window_state/window_state.h"
 
 namespace palpate::gui {
 
-class Centre;
+class CentralWidget;
 class MessageBanner;
 class StatusReport;
 
 class MainWindow : public QMainWindow {
   Q_OBJECT
  public:
-  explicit MainWindow(const WindowSurroundings& surroundings);
+  explicit MainWindow(const WindowEnvironment& environment);
   ~MainWindow() override;
 
-  Bench& bench() noexcept { return *bench_; }
-  DockYard& docks() noexcept { return *docks_; }
+  WindowState& state() noexcept { return *windowState_; }
+  DockArrangement& docks() noexcept { return *docks_; }
   // The one of this class.
   template <class Part>
   Part& feature() {
@@ -55,11 +55,11 @@ class MainWindow : public QMainWindow {
   void setFullScreen(bool on);
   void remember();
 
-  std::unique_ptr<Bench> bench_;
+  std::unique_ptr<WindowState> windowState_;
   ShellActions actions_;
   std::unique_ptr<WindowMenus> menus_;
-  std::unique_ptr<DockYard> docks_;
-  Centre* centre_;
+  std::unique_ptr<DockArrangement> docks_;
+  CentralWidget* centre_;
   MessageBanner* banner_;
   std::unique_ptr<StatusReport> status_;
   std::vector<std::unique_ptr<Feature>> features_;

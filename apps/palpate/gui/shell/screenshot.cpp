@@ -16,15 +16,15 @@
 #include "gui/connect/connect_feature.h"
 #include "gui/desktop/application.h"
 #include "gui/filter/filter_feature.h"
+#include "gui/hand3d/gl_probe.h"
+#include "gui/hand3d/hand_panel.h"
+#include "gui/hand3d/space_feature.h"
 #include "gui/picture/picture_export.h"
 #include "gui/recognise/recognise_feature.h"
 #include "gui/recognise/recognise_panel.h"
 #include "gui/shell/main_window.h"
-#include "gui/shell/workbench.h"
+#include "gui/shell/run_window.h"
 #include "gui/slip/slip_feature.h"
-#include "gui/space/gl_probe.h"
-#include "gui/space/hand_panel.h"
-#include "gui/space/space_feature.h"
 #include "gui/spectrum/spectrum_feature.h"
 #include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_panel.h"
@@ -36,14 +36,14 @@ namespace {
 void openAndWait(MainWindow& window, const ScreenshotOptions& options) {
   QEventLoop loop;
   QString failure;
-  QObject::connect(&window.bench().opener,
+  QObject::connect(&window.state().opener,
                    &RecordingOpener::failed,
                    &loop,
                    [&](const QString&, const QString& message) { failure = message; });
-  QObject::connect(&window.bench().opener, &RecordingOpener::finished, &loop, &QEventLoop::quit);
+  QObject::connect(&window.state().opener, &RecordingOpener::finished, &loop, &QEventLoop::quit);
   std::vector<std::filesystem::path> files = {*options.file};
   if (options.comparedWith) files.push_back(*options.comparedWith);
-  window.bench().open(files);
+  window.state().open(files);
   loop.exec();
   if (!failure.isEmpty()) throw Error(failure.toStdString());
 }
@@ -57,15 +57,15 @@ void runFor(double seconds) {
 void showCompare(MainWindow& window, const ScreenshotOptions& options) {
   constexpr double kLookS = 0.01;
   constexpr double kPatienceS = 60.0;
-  if (!window.bench().comparing.on()) window.bench().actions.at("compare")->trigger();
+  if (!window.state().comparison.on()) window.state().actions.at("compare")->trigger();
   for (double waitedS = 0.0;
        !window.feature<CompareFeature>().panel().complete() && waitedS < kPatienceS;
        waitedS += kLookS)
     runFor(kLookS);
   // Where the frame wasn't chosen: one that both have.
   const auto common = window.feature<CompareFeature>().panel().common();
-  if (!options.frame && common && window.bench().playback.positionS() > common->toS)
-    window.bench().playback.seekSeconds(common->toS);
+  if (!options.frame && common && window.state().playback.positionS() > common->toS)
+    window.state().playback.seekSeconds(common->toS);
 }
 
 // Connects, and waits for the first frame.
@@ -73,11 +73,11 @@ void runDemo(MainWindow& window) {
   constexpr double kPatienceS = 30.0;
   constexpr double kLookS = 0.02;
   QString failure;
-  const auto told = QObject::connect(&window.bench().live,
+  const auto told = QObject::connect(&window.state().live,
                                      &LiveController::failed,
                                      [&](const QString& message) { failure = message; });
-  window.bench().connectTo(emulatedBall(true));
-  for (double waitedS = 0.0; !window.bench().live.framesCameYet(); waitedS += kLookS) {
+  window.state().connectTo(emulatedBallConnection(true));
+  for (double waitedS = 0.0; !window.state().live.hasReceivedFrames(); waitedS += kLookS) {
     if (failure.isEmpty() && waitedS > kPatienceS) failure = "no frame of the emulated hand came";
     if (!failure.isEmpty()) throw Error(failure.toStdString());
     runFor(kLookS);
@@ -86,10 +86,10 @@ void runDemo(MainWindow& window) {
 }
 
 void goToFrame(MainWindow& window, const ScreenshotOptions& options) {
-  PlaybackController& playback = window.bench().playback;
+  PlaybackController& playback = window.state().playback;
   if (options.frame && *options.frame >= playback.numFrames())
     throw Error("no frame " + std::to_string(*options.frame) + ": " +
-                window.bench().subject.behind()->path.string() + " has frames 0.." +
+                window.state().displayed.behind()->path.string() + " has frames 0.." +
                 std::to_string(static_cast<long long>(playback.numFrames()) - 1));
   if (options.afterS > 0.0) {
     playback.play();
@@ -99,7 +99,7 @@ void goToFrame(MainWindow& window, const ScreenshotOptions& options) {
   if (options.frame)
     playback.seekFrame(*options.frame);
   else if (options.afterS <= 0.0)
-    playback.seekFrame(window.bench().subject.behind()->table.frameOfLargestSum());
+    playback.seekFrame(window.state().displayed.behind()->table.frameOfLargestSum());
 }
 
 // Of a demo --after counts while it runs; of a recording it was played before: then time for what
@@ -154,7 +154,8 @@ void showDocks(MainWindow& window, const ScreenshotOptions& options) {
     if (!window.docks().names().contains(name))
       throw Error("no dock '" + dock + "': there are " +
                   window.docks().names().join(", ").toStdString());
-    if (window.bench().subject.kind() != Subject::Kind::kNothing) window.docks().show(name);
+    if (window.state().displayed.kind() != DisplayedSource::Kind::kNothing)
+      window.docks().show(name);
     // "Calibrate/Noise": one of its pages.
     const QString page = QString::fromStdString(dock).section('/', 1);
     if (name == "Calibrate") showPage(window.feature<CalibrateFeature>().panel(), name, page);
@@ -181,9 +182,9 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
                      .read = {},
                      .assumedAnglesDeg = options.assumedAnglesDeg,
                      .recipe = options.recipe});
-  if (options.openGl && whyNoOpenGl().isEmpty())
+  if (options.openGl && openGlProblem().isEmpty())
     window.feature<SpaceFeature>().panel().view().useOpenGl();
-  window.bench().look.setTheme(theme);
+  window.state().appearance.setTheme(theme);
   window.setFixedSize(options.size);
   window.show();
   if (options.file) {
@@ -198,8 +199,8 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   settle(window);
   if (image.isNull()) image = window.grab().toImage();
   // Nobody is there to be asked; a recording that was opened stays as it was.
-  window.bench().questions.endRecording = [] { return true; };
-  window.bench().questions.unsaved = [](const QString&) { return Questions::Unsaved::kDiscard; };
+  window.state().prompts.endRecording = [] { return true; };
+  window.state().prompts.unsaved = [](const QString&) { return UserPrompts::Unsaved::kDiscard; };
   window.close();
   writePng(options.out, image, options.force ? Overwrite::kReplace : Overwrite::kRefuse);
   return 0;

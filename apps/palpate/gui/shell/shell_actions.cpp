@@ -2,7 +2,7 @@
 
 namespace palpate::gui {
 
-ShellActions::ShellActions(ActionBook& book) {
+ShellActions::ShellActions(ActionRegistry& book) {
   quit = book.make("quit", "File", "&Quit", {key("Ctrl+Q")});
   nextTheme = book.make("nextTheme", "View", "Dark or light", {key("Ctrl+T")});
   fullScreen = book.make("fullScreen", "View", "&Full screen", {key("F11")}, true);
@@ -11,7 +11,7 @@ ShellActions::ShellActions(ActionBook& book) {
                       "Help",
                       "Stop the hand; close the message, stop opening, leave full screen",
                       {key("Esc")});
-  keepOutOfMenus(*dismiss);
+  hideInMenus(*dismiss);
   themes = book.choices("themes", {"as the desktop", "dark", "light"});
 }
 

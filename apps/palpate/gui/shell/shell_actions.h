@@ -5,12 +5,12 @@
 #include <QActionGroup>
 #include <QList>
 
-#include "gui/bench/action_book.h"
+#include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
 
 struct ShellActions {
-  explicit ShellActions(ActionBook& book);
+  explicit ShellActions(ActionRegistry& book);
 
   QAction* quit = nullptr;
   QAction* nextTheme = nullptr;

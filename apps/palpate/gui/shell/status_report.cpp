@@ -5,39 +5,40 @@
 #include <palpate/capture/link_health.h>
 #include <palpate/core/number_text.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/link/other_programs.h"
-#include "gui/look/captions.h"
 #include "gui/widgets/status_strip.h"
 
 namespace palpate::gui {
 
-StatusReport::StatusReport(Bench& bench, StatusStrip& strip, WindowMenus& menus)
-    : bench_(bench), strip_(strip), menus_(menus) {
+StatusReport::StatusReport(WindowState& windowState, StatusStrip& strip, WindowMenus& menus)
+    : windowState_(windowState), strip_(strip), menus_(menus) {
   const auto report = [this] { this->report(); };
-  connect(&bench.messages, &Messages::changed, this, report);
-  connect(&bench.subject, &Subject::shown, this, report);
-  connect(&bench.playback, &PlaybackController::positionChanged, this, report);
-  connect(&bench.playback, &PlaybackController::stateChanged, this, report);
-  connect(&bench.opener, &RecordingOpener::started, this, report);
-  connect(&bench.opener, &RecordingOpener::finished, this, report);
-  connect(&bench.selection, &Selection::taxelsChanged, this, report);
-  connect(&bench.moment, &Moment::heldChanged, this, report);
-  connect(&bench.filtering, &Filtering::onChanged, this, report);
-  connect(&bench.live, &LiveController::stateChanged, this, [this] {
+  connect(&windowState.messages, &Messages::changed, this, report);
+  connect(&windowState.displayed, &DisplayedSource::shown, this, report);
+  connect(&windowState.playback, &PlaybackController::positionChanged, this, report);
+  connect(&windowState.playback, &PlaybackController::stateChanged, this, report);
+  connect(&windowState.opener, &RecordingOpener::started, this, report);
+  connect(&windowState.opener, &RecordingOpener::finished, this, report);
+  connect(&windowState.selection, &Selection::taxelsChanged, this, report);
+  connect(&windowState.currentFrame, &CurrentFrame::heldChanged, this, report);
+  connect(&windowState.activeFilters, &ActiveFilters::onChanged, this, report);
+  connect(&windowState.live, &LiveController::stateChanged, this, [this] {
     reportLink();
     this->report();
   });
-  connect(&bench.live, &LiveController::ended, this, &StatusReport::reportLink);
-  connect(&bench.live, &LiveController::looked, this, [this] {
+  connect(&windowState.live, &LiveController::ended, this, &StatusReport::reportLink);
+  connect(&windowState.live, &LiveController::refreshed, this, [this] {
     reportLink();
-    if (bench_.subject.isLive()) this->report();
+    if (windowState_.displayed.isLive()) this->report();
   });
-  connect(
-      &bench.look, &ViewLook::themeChanged, this, [this] { strip_.setTheme(bench_.look.theme()); });
+  connect(&windowState.appearance, &ViewAppearance::themeChanged, this, [this] {
+    strip_.setTheme(windowState_.appearance.theme());
+  });
 }
 
 void StatusReport::reportLink() {
-  LiveController& live = bench_.live;
+  LiveController& live = windowState_.live;
   const LiveSource* source = live.source();
   if (!source) {
     const bool connecting = live.state() == LiveController::State::kConnecting;
@@ -50,15 +51,15 @@ void StatusReport::reportLink() {
 }
 
 void StatusReport::report() {
-  if (bench_.subject.isLive()) return reportLive();
-  const PlaybackController& playback = bench_.playback;
+  if (windowState_.displayed.isLive()) return reportLive();
+  const PlaybackController& playback = windowState_.playback;
   Status now;
-  const bool opening = bench_.opener.busy();
-  const OpenedRecordingPtr recording = bench_.subject.recorded();
+  const bool opening = windowState_.opener.busy();
+  const OpenedRecordingPtr recording = windowState_.displayed.recorded();
   if (!recording) {
-    const QString& flashed = bench_.messages.flashed();
-    now.state = bench_.live.state() == LiveController::State::kConnecting
-                    ? "connecting: " + describe(bench_.live.connection())
+    const QString& flashed = windowState_.messages.flashed();
+    now.state = windowState_.live.state() == LiveController::State::kConnecting
+                    ? "connecting: " + describe(windowState_.live.connection())
                 : opening ? QString("opening a recording")
                           : QString("nothing open");
     now.notice =
@@ -71,14 +72,14 @@ void StatusReport::report() {
   now.lamp = inGap ? Status::Lamp::kWarning : playing ? Status::Lamp::kGood : Status::Lamp::kIdle;
   now.state = "playback · " + QString(playing ? "playing " : "paused ") +
               QString::number(playback.speed()) + "×" +
-              (bench_.filtering.applied() ? " · filtered" : "") +
+              (windowState_.activeFilters.applied() ? " · filtered" : "") +
               (opening ? " · opening another" : "");
   if (playback.hasFrames()) {
-    const OpenedRecordingPtr& seen = bench_.subject.seen();
+    const OpenedRecordingPtr& seen = windowState_.displayed.seen();
     const CharacteristicSignals all = seen->at(playback.frame(), seen->numMatrices());
     now.figures = {"active " + QString::number(all.active),
                    "max " + QString::number(all.maximum, 'f', 0),
-                   "saturated " + QString::number(bench_.moment.saturated())};
+                   "saturated " + QString::number(windowState_.currentFrame.saturated())};
     now.right = "frame " + QString::number(playback.frame()) + " of " +
                 QString::number(playback.numFrames()) + "   " +
                 QString::fromStdString(fixedText(playback.positionS(), 2)) + " s";
@@ -88,8 +89,8 @@ void StatusReport::report() {
 }
 
 void StatusReport::reportLive() {
-  LiveController& live = bench_.live;
-  const bool held = bench_.moment.held();
+  LiveController& live = windowState_.live;
+  const bool held = windowState_.currentFrame.held();
   const LinkHealth& health = live.health();
   const RecorderStatus& recorder = health.recorder;
   Status now;
@@ -97,7 +98,7 @@ void StatusReport::reportLive() {
   if (live.source() && live.source()->finished())
     now.state = "the replay has ended";
   else if (live.stale())
-    now.state = live.framesCameYet() ? "no data" : "waiting for data";
+    now.state = live.hasReceivedFrames() ? "no data" : "waiting for data";
   else if (recorder.state != RecorderStatus::State::kIdle)
     now.state =
         recorder.framesOnDisk >= recorder.frames
@@ -114,18 +115,18 @@ void StatusReport::reportLive() {
       "saturated " + QString::number(health.frames.saturatedFrames)};
   now.notice = notice();
   now.right = describe(live.connection());
-  if (const QString open = OtherPrograms::shortText(bench_.actions); !open.isEmpty())
+  if (const QString open = OtherPrograms::shortText(windowState_.actions); !open.isEmpty())
     now.right = open + " · " + now.right;
   strip_.setStatus(now);
 }
 
 QString StatusReport::notice() const {
-  if (!bench_.messages.flashed().isEmpty()) return bench_.messages.flashed();
-  if (!bench_.messages.hovered().isEmpty()) return bench_.messages.hovered();
+  if (!windowState_.messages.flashed().isEmpty()) return windowState_.messages.flashed();
+  if (!windowState_.messages.hovered().isEmpty()) return windowState_.messages.hovered();
   if (const QString chosen = chosenTaxels(); !chosen.isEmpty()) return chosen;
-  const OpenedRecordingPtr recording = bench_.subject.recorded();
+  const OpenedRecordingPtr recording = windowState_.displayed.recorded();
   if (!recording) return {};
-  if (const Gap* gap = recording->gapAt(bench_.playback.positionS()))
+  if (const Gap* gap = recording->gapAt(windowState_.playback.positionS()))
     return "gap of " + QString::number(gap->seconds, 'f', 1) + " s: nothing was recorded";
   const auto gaps = recording->timingNow().gaps.size();
   if (gaps == 1) return "1 gap";
@@ -133,11 +134,11 @@ QString StatusReport::notice() const {
 }
 
 QString StatusReport::chosenTaxels() const {
-  const TaxelSelection& chosen = bench_.selection.taxels();
+  const TaxelSelection& chosen = windowState_.selection.taxels();
   const std::size_t count = chosen.count();
   if (count == 0) return {};
   QString text = QString::number(count) + (count == 1 ? " taxel chosen" : " taxels chosen");
-  const TactileFrame& frame = bench_.moment.frame();
+  const TactileFrame& frame = windowState_.currentFrame.frame();
   if (frame.values.empty() || frame.layout->numMatrices() != chosen.numMatrices()) return text;
   double sum = 0.0, largest = 0.0;
   for (std::size_t m = 0; m < chosen.numMatrices(); ++m) {

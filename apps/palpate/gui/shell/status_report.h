@@ -4,8 +4,8 @@
 
 #include <QObject>
 
-#include "gui/bench/bench.h"
 #include "gui/shell/window_menus.h"
+#include "gui/window_state/window_state.h"
 
 namespace palpate::gui {
 
@@ -15,7 +15,7 @@ class StatusReport : public QObject {
   Q_OBJECT
  public:
   // All of them must outlive it.
-  StatusReport(Bench& bench, StatusStrip& strip, WindowMenus& menus);
+  StatusReport(WindowState& windowState, StatusStrip& strip, WindowMenus& menus);
 
  private:
   void report();
@@ -24,7 +24,7 @@ class StatusReport : public QObject {
   QString notice() const;
   QString chosenTaxels() const;
 
-  Bench& bench_;
+  WindowState& windowState_;
   StatusStrip& strip_;
   WindowMenus& menus_;
 };

@@ -9,7 +9,7 @@
 #include <QToolBar>
 #include <QToolButton>
 
-#include "gui/bench/action_book.h"
+#include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
 namespace {
@@ -34,7 +34,7 @@ WindowMenus::WindowMenus(QMainWindow& window) : window_(window) {
   menus_.recordings = new QComboBox(&window);
 }
 
-void WindowMenus::fill(const ActionBook& book, const QList<QAction*>& dockToggles) {
+void WindowMenus::fill(const ActionRegistry& book, const QList<QAction*>& dockToggles) {
   buildMenuBar(book, dockToggles);
   buildToolBar(book);
   addOthers(book);
@@ -45,15 +45,15 @@ void WindowMenus::fill(const ActionBook& book, const QList<QAction*>& dockToggle
 }
 
 // What no line below names stands at the end of the menu of its section.
-void WindowMenus::addOthers(const ActionBook& book) {
+void WindowMenus::addOthers(const ActionRegistry& book) {
   for (QAction* action : book.all())
-    if (action->associatedObjects().size() == 1 && !staysOutOfMenus(*action))
+    if (action->associatedObjects().size() == 1 && !isHiddenInMenus(*action))
       if (QMenu* menu = sections_.value(sectionOf(*action))) menu->addAction(action);
 }
 
 Menus WindowMenus::shared() const { return menus_; }
 
-void WindowMenus::buildMenuBar(const ActionBook& book, const QList<QAction*>& dockToggles) {
+void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>& dockToggles) {
   const auto at = [&book](const char* id) { return book.at(id); };
   const auto menu = [this](const QString& title) {
     QMenu* made = window_.menuBar()->addMenu(title);
@@ -172,7 +172,7 @@ void WindowMenus::buildMenuBar(const ActionBook& book, const QList<QAction*>& do
   help->addActions({at("keys"), at("about")});
 }
 
-void WindowMenus::buildToolBar(const ActionBook& book) {
+void WindowMenus::buildToolBar(const ActionRegistry& book) {
   const auto at = [&book](const char* id) { return book.at(id); };
   QToolBar* bar = window_.addToolBar("Toolbar");
   bar->setObjectName("Toolbar");
@@ -221,7 +221,7 @@ void WindowMenus::buildToolBar(const ActionBook& book) {
 }
 
 // What plays a recording, as one: while live is shown nothing of it is of use.
-QWidget* WindowMenus::makePlayback(QToolBar& bar, const ActionBook& book) {
+QWidget* WindowMenus::makePlayback(QToolBar& bar, const ActionRegistry& book) {
   const auto at = [&book](const char* id) { return book.at(id); };
   auto* group = new QWidget(&bar);
   auto* row = new QHBoxLayout(group);

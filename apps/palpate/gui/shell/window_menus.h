@@ -5,7 +5,7 @@
 #include <QMap>
 #include <QString>
 
-#include "gui/bench/menus.h"
+#include "gui/window_state/menus.h"
 
 class QAction;
 class QLabel;
@@ -17,7 +17,7 @@ class QWidget;
 
 namespace palpate::gui {
 
-class ActionBook;
+class ActionRegistry;
 
 class WindowMenus {
  public:
@@ -25,7 +25,7 @@ class WindowMenus {
 
   // Once all actions are made: in the order that is written down here; others at the end of the
   // menu of their section. `dockToggles`: what shows and hides the docks, in the menu View.
-  void fill(const ActionBook& book, const QList<QAction*>& dockToggles);
+  void fill(const ActionRegistry& book, const QList<QAction*>& dockToggles);
   // What features fill, or open elsewhere, too.
   Menus shared() const;
 
@@ -49,10 +49,10 @@ class WindowMenus {
 
   void styleRecord();
   void showRecording(bool on);  // the button turns red
-  void buildMenuBar(const ActionBook& book, const QList<QAction*>& dockToggles);
-  void buildToolBar(const ActionBook& book);
-  void addOthers(const ActionBook& book);
-  QWidget* makePlayback(QToolBar& bar, const ActionBook& book);
+  void buildMenuBar(const ActionRegistry& book, const QList<QAction*>& dockToggles);
+  void buildToolBar(const ActionRegistry& book);
+  void addOthers(const ActionRegistry& book);
+  QWidget* makePlayback(QToolBar& bar, const ActionRegistry& book);
 };
 
 }  // namespace palpate::gui

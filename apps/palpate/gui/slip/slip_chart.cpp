@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "gui/appearance/captions.h"
 #include "gui/chart/chart_picture.h"
 #include "gui/chart/chart_style.h"
-#include "gui/look/captions.h"
 
 namespace palpate::gui {
 namespace {
@@ -75,7 +75,7 @@ void SlipChart::setSeries(const SlipSeries* series, std::size_t matrix, const QS
   for (QCPItemRect* shade : shades_) removeItem(shade);
   shades_.clear();
   QVector<QCPGraphData> shift, turn;
-  mostTaxels_ = leastDeg_ = mostDeg_ = 0.0;
+  maxTaxels_ = minDeg_ = maxDeg_ = 0.0;
   if (series && matrix < series->matrices.size()) {
     options_ = series->options;
     const std::vector<SlipSample>& samples = series->matrices[matrix];
@@ -94,10 +94,10 @@ void SlipChart::setSeries(const SlipSeries* series, std::size_t matrix, const QS
       shift.append({t, sample.refValid ? sample.shiftTaxels() : kSlipChartNothing});
       const double deg = static_cast<double>(sample.refRotationDeg);
       turn.append({t, sample.refRotationValid ? deg : kSlipChartNothing});
-      if (sample.refValid) mostTaxels_ = std::max(mostTaxels_, sample.shiftTaxels());
+      if (sample.refValid) maxTaxels_ = std::max(maxTaxels_, sample.shiftTaxels());
       if (!sample.refRotationValid) continue;
-      leastDeg_ = std::min(leastDeg_, deg);
-      mostDeg_ = std::max(mostDeg_, deg);
+      minDeg_ = std::min(minDeg_, deg);
+      maxDeg_ = std::max(maxDeg_, deg);
     }
     for (const SlipSegment& slip : series->slips) {
       if (slip.matrix != matrix) continue;
@@ -122,10 +122,10 @@ void SlipChart::placeLimits() {
     limits_[i]->start->setCoords(0.0, values[i]);
     limits_[i]->end->setCoords(1.0, values[i]);
   }
-  yAxis->setRange(0.0, std::max(mostTaxels_, options_.referenceTaxels) * kSlipChartHeadroom);
+  yAxis->setRange(0.0, std::max(maxTaxels_, options_.referenceTaxels) * kSlipChartHeadroom);
   turns_->axis(QCPAxis::atLeft)
-      ->setRange(std::min(leastDeg_, -options_.rotationDeg) * kSlipChartHeadroom,
-                 std::max(mostDeg_, options_.rotationDeg) * kSlipChartHeadroom);
+      ->setRange(std::min(minDeg_, -options_.rotationDeg) * kSlipChartHeadroom,
+                 std::max(maxDeg_, options_.rotationDeg) * kSlipChartHeadroom);
 }
 
 void SlipChart::style() {
@@ -151,7 +151,7 @@ void SlipChart::style() {
   replot(QCustomPlot::rpQueuedReplot);
 }
 
-void SlipChart::setSeen(double fromS, double toS) {
+void SlipChart::setVisibleRange(double fromS, double toS) {
   if (!(toS > fromS)) return;
   for (QCPAxis* axis : {xAxis, turns_->axis(QCPAxis::atBottom)}) axis->setRange(fromS, toS);
   replot(QCustomPlot::rpQueuedReplot);
@@ -179,11 +179,13 @@ void SlipChart::paint(QPainter& painter, const PictureLook& look, const QString&
 }
 
 void SlipChart::mousePressEvent(QMouseEvent* event) {
-  if (event->button() == Qt::LeftButton) emit sought(xAxis->pixelToCoord(event->position().x()));
+  if (event->button() == Qt::LeftButton)
+    emit seekRequested(xAxis->pixelToCoord(event->position().x()));
 }
 
 void SlipChart::mouseMoveEvent(QMouseEvent* event) {
-  if (event->buttons() & Qt::LeftButton) emit sought(xAxis->pixelToCoord(event->position().x()));
+  if (event->buttons() & Qt::LeftButton)
+    emit seekRequested(xAxis->pixelToCoord(event->position().x()));
 }
 
 bool SlipChart::event(QEvent* event) {

@@ -8,8 +8,8 @@
 
 #include <palpate/slip/slip_series.h>
 
+#include "gui/appearance/theme.h"
 #include "gui/chart/plot.h"
-#include "gui/look/theme.h"
 #include "gui/picture/exported_view.h"
 
 namespace palpate::gui {
@@ -21,7 +21,7 @@ class SlipChart : public QCustomPlot {
 
   // Null: nothing.
   void setSeries(const SlipSeries* series, std::size_t matrix, const QString& name);
-  void setSeen(double fromS, double toS);
+  void setVisibleRange(double fromS, double toS);
   void setPosition(double seconds);
   void setTheme(Theme theme);
   void paint(QPainter& painter, const PictureLook& look, const QString& title);
@@ -32,7 +32,7 @@ class SlipChart : public QCustomPlot {
   QSize minimumSizeHint() const override { return {220, 150}; }
 
  signals:
-  void sought(double seconds);
+  void seekRequested(double seconds);
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;
@@ -52,7 +52,7 @@ class SlipChart : public QCustomPlot {
   std::size_t matrix_ = 0;
   QString name_;
   SlipSeriesOptions options_;
-  double mostTaxels_ = 0.0, leastDeg_ = 0.0, mostDeg_ = 0.0;
+  double maxTaxels_ = 0.0, minDeg_ = 0.0, maxDeg_ = 0.0;
   Theme theme_ = Theme::kDark;
   QWidget* cursor_;
   double positionS_ = 0.0;

@@ -19,7 +19,7 @@ constexpr const char* kReference = "slip/reference";
 constexpr const char* kStep = "slip/step_taxels";
 constexpr const char* kWhole = "slip/reference_taxels";
 constexpr const char* kRotation = "slip/rotation_deg";
-constexpr SlipMethod kUsualMethod = SlipMethod::kContest;
+constexpr SlipMethod kUsualMethod = SlipMethod::kHypotheses;
 constexpr SlipMethod kUsualLiveMethod = SlipMethod::kCentroid;
 enum ReferenceRow { kRestRow, kFirstRow, kFrameRow };
 
@@ -39,7 +39,7 @@ QString tipOf(SlipMethod method) {
       return "Phase of the cross-power spectrum alone";
     case SlipMethod::kRegister:
       return "Rigid registration of a key frame: no drift";
-    case SlipMethod::kContest:
+    case SlipMethod::kHypotheses:
       return "Registration weighed against a load that shifts without motion";
   }
   return {};
@@ -208,7 +208,7 @@ SlipSeriesOptions SlipControls::options() const {
   SlipSeriesOptions options;
   options.method = slipMethodNamed(method_->currentText().toStdString()).value_or(kUsualMethod);
   options.reference =
-      reference_->currentIndex() == kFirstRow ? SlipReference::kFirst : SlipReference::kRest;
+      reference_->currentIndex() == kFirstRow ? SlipReference::kFirst : SlipReference::kWhenAtRest;
   options.referenceFrame = frame_;
   options.stepTaxels = step_->value();
   options.referenceTaxels = whole_->value();

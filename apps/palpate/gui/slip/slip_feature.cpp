@@ -15,66 +15,73 @@ constexpr int kSlipUsualWidth = 620;  // [px] list and drawing stand beside each
 
 }  // namespace
 
-SlipFeature::SlipFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window),
-      reference_(
-          bench.actions.make("slipReference", "View", "Slip is measured &from here", {key("O")})),
-      panel_(new SlipPanel(bench.settings, window)) {
+SlipFeature::SlipFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window),
+      reference_(windowState.actions.make(
+          "slipReference", "View", "Slip is measured &from here", {key("O")})),
+      panel_(new SlipPanel(windowState.settings, window)) {
   dock_ = new Dock("Slip", panel_, nullptr, window);
   reference_->setToolTip("The frame that is shown becomes the reference of slip (O)");
   connectBench();
-  connect(panel_, &SlipPanel::said, &bench.messages, &Messages::flash);
-  connect(panel_, &SlipPanel::foundChanged, &bench.events, &EventDesk::renewMarks);
+  connect(panel_, &SlipPanel::said, &windowState.messages, &Messages::flash);
+  connect(panel_, &SlipPanel::foundChanged, &windowState.events, &EventController::renewMarks);
   connect(panel_, &SlipPanel::foundChanged, this, &SlipFeature::showArrows);
   connect(panel_, &SlipPanel::frameChanged, this, &SlipFeature::showArrows);
-  connect(panel_, &SlipPanel::sought, &bench.playback, &PlaybackController::seekSeconds);
+  connect(
+      panel_, &SlipPanel::seekRequested, &windowState.playback, &PlaybackController::seekSeconds);
   connect(panel_, &SlipPanel::liveOptionsChanged, this, &SlipFeature::setUpStage);
-  connect(panel_, &SlipPanel::liveReferenceAsked, this, [&bench] {
-    if (const LiveSource* source = bench.live.source()) source->slip->setReference();
-    bench.messages.flash("slip is measured from this frame on");
+  connect(panel_, &SlipPanel::liveReferenceAsked, this, [&windowState] {
+    if (const LiveSource* source = windowState.live.source()) source->slip->setReference();
+    windowState.messages.flash("slip is measured from this frame on");
   });
   on(reference_, [this] {
-    if (dock_->isHidden()) emit dockAsked(dock_);
+    if (dock_->isHidden()) emit dockRequested(dock_);
     panel_->setReference();
   });
-  bench.enabling.add({reference_}, [&bench] { return bench.moment.hasFrame(); });
-  bench.events.addFound([this](const OpenedRecordingPtr& recording, std::vector<EventMark>& marks) {
-    if (panel_->source() == recording && panel_->found())
-      addSlips(*panel_->found(), *recording, marks);
-  });
-  bench.escape.add(Escape::Order::kComputation, [this] { return panel_->cancel(); });
+  windowState.actionEnabler.add({reference_},
+                                [&windowState] { return windowState.currentFrame.hasFrame(); });
+  windowState.events.addFound(
+      [this](const OpenedRecordingPtr& recording, std::vector<EventMark>& marks) {
+        if (panel_->source() == recording && panel_->found())
+          addSlips(*panel_->found(), *recording, marks);
+      });
+  windowState.escapeHandler.add(EscapeHandler::Order::kComputation,
+                                [this] { return panel_->cancel(); });
 }
 
 void SlipFeature::connectBench() {
-  Bench& bench = this->bench();
-  connect(&bench.subject, &Subject::changed, this, &SlipFeature::takeSource);
-  connect(&bench.subject, &Subject::handChanged, this, [this, &bench] {
-    panel_->renewLiveHand(*bench.subject.hand());
+  WindowState& windowState = state();
+  connect(&windowState.displayed, &DisplayedSource::changed, this, &SlipFeature::takeSource);
+  connect(&windowState.displayed, &DisplayedSource::handChanged, this, [this, &windowState] {
+    panel_->renewLiveHand(*windowState.displayed.hand());
   });
-  connect(&bench.moment, &Moment::resultsCame, this, &SlipFeature::showLive);
-  connect(&bench.playback, &PlaybackController::positionChanged, panel_, &SlipPanel::setPosition);
-  connect(&bench.selection, &Selection::inSightChanged, this, [this, &bench] {
-    panel_->setSeen(bench.selection.inSight().fromS, bench.selection.inSight().toS);
+  connect(&windowState.currentFrame, &CurrentFrame::resultsReceived, this, &SlipFeature::showLive);
+  connect(
+      &windowState.playback, &PlaybackController::positionChanged, panel_, &SlipPanel::setPosition);
+  connect(&windowState.selection, &Selection::visibleSpanChanged, this, [this, &windowState] {
+    panel_->setVisibleRange(windowState.selection.visibleSpan().fromS,
+                            windowState.selection.visibleSpan().toS);
   });
-  connect(&bench.look, &ViewLook::changed, this, &SlipFeature::takeLook);
+  connect(&windowState.appearance, &ViewAppearance::changed, this, &SlipFeature::takeLook);
 }
 
 void SlipFeature::takeSource() {
-  const Subject& subject = bench().subject;
-  panel_->setSource(subject.behind(), subject.isLive());
-  if (subject.isLive()) return;
+  const DisplayedSource& displayed = state().displayed;
+  panel_->setSource(displayed.behind(), displayed.isLive());
+  if (displayed.isLive()) return;
   liveOf_ = nullptr;
-  panel_->setSeen(bench().selection.inSight().fromS, bench().selection.inSight().toS);
-  panel_->setPosition(bench().playback.positionS());
+  panel_->setVisibleRange(state().selection.visibleSpan().fromS,
+                          state().selection.visibleSpan().toS);
+  panel_->setPosition(state().playback.positionS());
 }
 
 void SlipFeature::takeLook() {
-  panel_->setTheme(bench().look.theme());
-  panel_->setMap(bench().look.view().map);
+  panel_->setTheme(state().appearance.theme());
+  panel_->setMap(state().appearance.view().map);
 }
 
 void SlipFeature::showLive(const LiveResults& results) {
-  const LiveSource* source = bench().live.source();
+  const LiveSource* source = state().live.source();
   if (!source || results.slip.empty()) return;
   if (liveOf_ != source->history.get()) {
     liveOf_ = source->history.get();
@@ -86,10 +93,10 @@ void SlipFeature::showLive(const LiveResults& results) {
 
 // The alarm of what is live is the contest's, whatever gives the vector.
 void SlipFeature::setUpStage() {
-  const LiveSource* source = bench().subject.source();
+  const LiveSource* source = state().displayed.source();
   if (!source) return;
   SlipDetectorOptions options = detectorOptions(panel_->controls().options());
-  options.contestAlarm = true;
+  options.hypothesisAlarm = true;
   source->slip->setOptions(options);
 }
 
@@ -110,14 +117,16 @@ void SlipFeature::showArrows() {
                      .turnDeg = recent.turnDeg,
                      .slipping = now->slipping});
   }
-  bench().overlays.setSlips(std::move(slips));
+  state().derivedResults.setSlips(std::move(slips));
 }
 
 void SlipFeature::settle() { panel_->settle(); }
 
-std::vector<DockOffer> SlipFeature::docks() {
-  return {
-      {.dock = dock_, .key = QKeySequence("Ctrl+Shift+S"), .tab = 7, .roomPx = kSlipUsualWidth}};
+std::vector<DockSpec> SlipFeature::docks() {
+  return {{.dock = dock_,
+           .key = QKeySequence("Ctrl+Shift+S"),
+           .tab = 7,
+           .preferredWidthPx = kSlipUsualWidth}};
 }
 
 std::vector<ExportedView> SlipFeature::views() {
@@ -125,9 +134,9 @@ std::vector<ExportedView> SlipFeature::views() {
   view.name = "Slip";
   view.widget = panel_;
   view.isThere = [this] { return panel_->shown(); };
-  view.fileName = [this] { return bench().recordingStem() + "_slip"; };
+  view.fileName = [this] { return state().recordingStem() + "_slip"; };
   view.paint = [this](QPainter& painter, const PictureLook& look) {
-    panel_->paint(painter, look, bench().pictureTitle());
+    panel_->paint(painter, look, state().pictureTitle());
   };
   view.tables = [this] { return panel_->tables(); };
   return {view};

@@ -2,7 +2,7 @@
 // space.
 #pragma once
 
-#include "gui/bench/feature.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -11,10 +11,10 @@ class SlipPanel;
 class SlipFeature : public Feature {
   Q_OBJECT
  public:
-  SlipFeature(Bench& bench, QWidget* window);
+  SlipFeature(WindowState& windowState, QWidget* window);
 
   SlipPanel& panel() noexcept { return *panel_; }
-  std::vector<DockOffer> docks() override;
+  std::vector<DockSpec> docks() override;
   std::vector<ExportedView> views() override;
   void settle() override;
 

@@ -10,10 +10,10 @@
 #include <palpate/core/error.h>
 #include <palpate/core/time.h>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 #include "gui/slip/slip_chart.h"
 #include "gui/slip/slip_controls.h"
-#include "gui/slip/slip_lamp.h"
+#include "gui/slip/slip_indicator.h"
 #include "gui/slip/slip_tables.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/notes_label.h"
@@ -46,7 +46,8 @@ bool knowsReference(const SlipSeries& series) {
 // Where nothing ever rests there is no reference: then motion is measured from the first contact.
 SlipSeries seriesOf(const Profile& profile, SlipSeriesOptions options, const Progress& progress) {
   SlipSeries series = slipSeries(profile, options, progress);
-  if (options.reference != SlipReference::kRest || options.referenceFrame || knowsReference(series))
+  if (options.reference != SlipReference::kWhenAtRest || options.referenceFrame ||
+      knowsReference(series))
     return series;
   options.reference = SlipReference::kFirst;
   return slipSeries(profile, options, progress);
@@ -79,7 +80,7 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : ComputedPage("slip"
   leftColumn->setSpacing(0);
   leftColumn->addWidget(list_);
   leftColumn->addWidget(notes_, 1);
-  drawing_ = new SlipDrawing(all);
+  drawing_ = new SlipView(all);
   chart_ = new SlipChart(all);
   auto* beside = new QSplitter(Qt::Horizontal, all);
   beside->setChildrenCollapsible(false);
@@ -98,7 +99,7 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : ComputedPage("slip"
     chosenByUser_ = true;
     choose(static_cast<std::size_t>(row));
   });
-  connect(chart_, &SlipChart::sought, this, &SlipPanel::sought);
+  connect(chart_, &SlipChart::seekRequested, this, &SlipPanel::seekRequested);
   connect(controls_, &SlipControls::changed, this, &SlipPanel::changed);
   connect(controls_, &SlipControls::referenceAsked, this, &SlipPanel::setReference);
 }
@@ -143,11 +144,11 @@ void SlipPanel::setReference() {
   changed();
 }
 
-QString SlipPanel::whyNot() const {
+QString SlipPanel::emptyReason() const {
   if (live()) return found() ? QString() : "Waiting for frames of what is connected.";
   if (!recording())
     return "Open a recording, or connect a hand (Ctrl+K), to see how its contacts move.";
-  return ComputedPage::whyNot();
+  return ComputedPage::emptyReason();
 }
 
 void SlipPanel::forget() {
@@ -217,8 +218,8 @@ void SlipPanel::showChosen() {
   chart_->setPosition(positionS_);
 }
 
-void SlipPanel::setSeen(double fromS, double toS) {
-  if (!live()) chart_->setSeen(fromS, toS);
+void SlipPanel::setVisibleRange(double fromS, double toS) {
+  if (!live()) chart_->setVisibleRange(fromS, toS);
 }
 
 void SlipPanel::setMap(ColorMapName map) { drawing_->setMap(map); }
@@ -259,13 +260,13 @@ void SlipPanel::showRows() {
   std::vector<std::vector<FigureCell>> rows;
   for (std::size_t m = 0; m < hand()->layout->numMatrices(); ++m) {
     const SlipSample* sample = sampleNow(m);
-    const LampLook lamp = lampOf(sample);
+    const IndicatorLook lamp = indicatorOf(sample);
     const double pitchMm = hand()->layout->matrix(m).pitchMm;
     const QString name = list_->width() < kShortNames
                              ? QString::fromStdString(hand()->matrices.at(m).shortName)
                              : nameOfMatrix(m);
     std::vector<FigureCell> row = {
-        {.text = name, .tip = nameOfMatrix(m), .icon = lampIcon(lamp, theme_)},
+        {.text = name, .tip = nameOfMatrix(m), .icon = indicatorIcon(lamp, theme_)},
         {.text = verdictOf(sample), .tip = meaningOf(sample)}};
     const auto add = [&](bool known, const QString& text, const QString& tip, bool warning) {
       row.push_back({.text = known ? text : QString("–"),
@@ -300,7 +301,7 @@ void SlipPanel::showRows() {
 void SlipPanel::showScene() {
   const SensorLayout& layout = *hand()->layout;
   if (chosen_ >= layout.numMatrices()) return;
-  SlipScene scene;
+  SlipViewData scene;
   scene.layout = layout.matrix(chosen_);
   scene.name = nameOfMatrix(chosen_);
   scene.stepTaxels = found()->options.stepTaxels;
@@ -350,7 +351,7 @@ void SlipPanel::renewLiveHand(const HandDescription& hand) {
   liveHand_ = hand;
 }
 
-void SlipPanel::showLive(const TactileFrame& frame, const std::vector<SlipVerdict>& verdicts) {
+void SlipPanel::showLive(const TactileFrame& frame, const std::vector<SlipDetection>& verdicts) {
   if (!live() || !liveHand_ || verdicts.size() != liveSeries_.matrices.size()) return;
   if (liveSeries_.timeS.empty()) liveSeries_.firstUs = frame.hostUs;
   if (liveSeries_.timeS.size() >= 2 * kMostLive) {
@@ -372,7 +373,7 @@ void SlipPanel::showLive(const TactileFrame& frame, const std::vector<SlipVerdic
   if (!shown()) showContent();
   positionS_ = liveSeries_.timeS.back();
   showChosen();
-  chart_->setSeen(std::max(0.0, positionS_ - kLiveSeenS), std::max(positionS_, kLiveSeenS));
+  chart_->setVisibleRange(std::max(0.0, positionS_ - kLiveSeenS), std::max(positionS_, kLiveSeenS));
   showFrame();
 }
 

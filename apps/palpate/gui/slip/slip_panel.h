@@ -9,8 +9,8 @@
 #include <set>
 #include <vector>
 
-#include "gui/look/color_map.h"
-#include "gui/slip/slip_drawing.h"
+#include "gui/appearance/color_map.h"
+#include "gui/slip/slip_view.h"
 #include "gui/widgets/computed_page.h"
 
 class QLabel;
@@ -29,7 +29,7 @@ class SlipPanel : public ComputedPage {
   void setPosition(double seconds) override;
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
-  void setSeen(double fromS, double toS);
+  void setVisibleRange(double fromS, double toS);
   void setMap(ColorMapName map);
 
   // Of the recording, or all that came live; null: nothing was computed.
@@ -39,7 +39,7 @@ class SlipPanel : public ComputedPage {
   std::size_t chosen() const noexcept { return chosen_; }
   void choose(std::size_t matrix);
   SlipControls& controls() noexcept { return *controls_; }
-  SlipDrawing& drawing() noexcept { return *drawing_; }
+  SlipView& drawing() noexcept { return *drawing_; }
   SlipChart& chart() noexcept { return *chart_; }
   // The frame that is shown becomes the reference; of what is live, the newest one.
   void setReference();
@@ -48,17 +48,17 @@ class SlipPanel : public ComputedPage {
   void setLiveHand(const HandDescription& hand);
   // Of the same hand other taxels are scanned: what came stays.
   void renewLiveHand(const HandDescription& hand);
-  void showLive(const TactileFrame& frame, const std::vector<SlipVerdict>& verdicts);
+  void showLive(const TactileFrame& frame, const std::vector<SlipDetection>& verdicts);
 
  signals:
   void foundChanged();  // also when there is nothing any more
   void frameChanged();  // another one is shown
-  void sought(double seconds);
+  void seekRequested(double seconds);
   void liveOptionsChanged();
   void liveReferenceAsked();
 
  protected:
-  QString whyNot() const override;
+  QString emptyReason() const override;
   void compute() override;
   void forget() override;
 
@@ -94,7 +94,7 @@ class SlipPanel : public ComputedPage {
   bool chosenByUser_ = false;
   SlipControls* controls_;
   FiguresTable* list_;
-  SlipDrawing* drawing_;
+  SlipView* drawing_;
   SlipChart* chart_;
   QLabel* notes_;
 };

@@ -74,7 +74,7 @@ Connection loadConnection(const QSettings& settings) {
   connection.dsaPort = settings.value(kDsaPort).toString();
   connection.sdhPort = settings.value(kSdhPort).toString();
   connection.scene = settings.value(kScene, connection.scene).toString();
-  connection.sceneActs = settings.value(kSceneActs, connection.sceneActs).toBool();
+  connection.sceneScriptRuns = settings.value(kSceneActs, connection.sceneScriptRuns).toBool();
   connection.recording = settings.value(kRecording).toString();
   return connection;
 }
@@ -84,7 +84,7 @@ void saveConnection(const Connection& connection, QSettings& settings) {
   settings.setValue(kDsaPort, connection.dsaPort);
   settings.setValue(kSdhPort, connection.sdhPort);
   settings.setValue(kScene, connection.scene);
-  settings.setValue(kSceneActs, connection.sceneActs);
+  settings.setValue(kSceneActs, connection.sceneScriptRuns);
   settings.setValue(kRecording, connection.recording);
 }
 

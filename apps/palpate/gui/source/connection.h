@@ -16,7 +16,7 @@ struct Connection {
   QString sdhPort = {};  // motion controller
   // kEmulated: a name in data/scenes, or the path of a scene.
   QString scene = "ball";
-  bool sceneActs = false;  // its script runs: the emulated hand grasps and lets go by itself
+  bool sceneScriptRuns = false;  // its script runs: the emulated hand grasps and lets go by itself
   // kReplay: path of the recording.
   QString recording = {};
   bool operator==(const Connection&) const = default;

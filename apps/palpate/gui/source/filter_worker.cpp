@@ -78,7 +78,7 @@ void FilterWorker::cancel() {
   busy_ = false;
 }
 
-void FilterWorker::tell(std::uint64_t generation, std::function<void()> what) {
+void FilterWorker::postResult(std::uint64_t generation, std::function<void()> what) {
   QMetaObject::invokeMethod(
       this,
       [this, generation, what = std::move(what)] {
@@ -95,19 +95,19 @@ void FilterWorker::start(const OpenedRecordingPtr& source, const Recipe& recipe)
     if (*stop) return;
     try {
       const OpenedRecordingPtr filtered = filteredRecording(source, recipe, [&](double fraction) {
-        tell(generation, [this, fraction] { emit progressed(fraction); });
+        postResult(generation, [this, fraction] { emit progressed(fraction); });
         return !*stop;
       });
-      tell(generation, [this, source, filtered] { emit made(source, filtered); });
+      postResult(generation, [this, source, filtered] { emit made(source, filtered); });
       const FilterFigures figures = figuresOf(*source, recipe);
-      tell(generation, [this, figures] {
+      postResult(generation, [this, figures] {
         busy_ = false;
         emit measured(figures);
       });
     } catch (const Cancelled&) {
     } catch (const std::exception& error) {
       const QString message = error.what();
-      tell(generation, [this, message] {
+      postResult(generation, [this, message] {
         busy_ = false;
         emit failed(message);
       });

@@ -51,7 +51,7 @@ class FilterWorker : public QObject {
   void failed(const QString& message);
 
  private:
-  void tell(std::uint64_t generation, std::function<void()> what);
+  void postResult(std::uint64_t generation, std::function<void()> what);
 
   QThreadPool pool_;
   std::shared_ptr<std::atomic<bool>> stop_;

@@ -29,7 +29,7 @@ LiveController::LiveController(std::filesystem::path dataFolder, QObject* parent
   refreshTimer_.setTimerType(Qt::PreciseTimer);
   lookTimer_.setInterval(kLiveControllerLookMs);
   connect(&refreshTimer_, &QTimer::timeout, this, &LiveController::refresh);
-  connect(&lookTimer_, &QTimer::timeout, this, &LiveController::look);
+  connect(&lookTimer_, &QTimer::timeout, this, &LiveController::refreshHealth);
 }
 
 LiveController::~LiveController() {
@@ -139,9 +139,9 @@ void LiveController::opened(std::shared_ptr<LiveSource> source,
   refreshTimer_.start();
   lookTimer_.start();
   setState(State::kConnected);
-  emit came();
+  emit sourceOpened();
   emit staleChanged(true);
-  look();
+  refreshHealth();
 }
 
 void LiveController::end() {
@@ -170,18 +170,18 @@ void LiveController::refresh() {
     stale_ = stale;
     emit staleChanged(stale);
   }
-  if (frame) emit frameCame(*frame);
+  if (frame) emit frameReceived(*frame);
   if (!source_) return;  // whoever was told may have ended it
-  if (const auto results = source_->chain->take()) emit resultsCame(*results);
+  if (const auto results = source_->chain->take()) emit resultsReceived(*results);
 }
 
-void LiveController::look() {
+void LiveController::refreshHealth() {
   if (!source_) return;
   health_ = source_->session->health();
   const auto events = source_->session->takeEvents();
   if (looks_++ % kLooksPerCheck == 0) check();
-  if (!events.empty()) emit eventsCame(events);
-  emit looked();
+  if (!events.empty()) emit eventsReceived(events);
+  emit refreshed();
   // It stopped by itself: a limit, or the end of its source.
   if (recording_ && !stopping_ && source_ && looks_ > 1 && !source_->session->recording())
     stopRecording();
@@ -191,7 +191,7 @@ void LiveController::check() {
   if (checking_) return;
   checking_ = true;
   checker_.start([this, folder = folder_, source = source_, generation = generation_]() mutable {
-    const BeforeRun result = source->session->checkBeforeRun(existingPartOf(folder));
+    const PreflightCheck result = source->session->checkPreflight(existingPartOf(folder));
     source.reset();
     QMetaObject::invokeMethod(
         this,
@@ -220,7 +220,7 @@ void LiveController::startRecording(std::function<RecordingOptions()> make) {
         [this, error, generation] {
           if (generation != generation_) return;
           if (error.isEmpty()) {
-            look();
+            refreshHealth();
             emit recordingStarted();
           } else {
             recording_ = false;
@@ -242,7 +242,7 @@ void LiveController::stopRecording() {
         [this, report, generation] {
           if (generation != generation_) return;  // release() tells of it
           recording_ = stopping_ = false;
-          look();
+          refreshHealth();
           emit stateChanged();
           emit recordingEnded(report);
         },

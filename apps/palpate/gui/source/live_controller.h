@@ -45,7 +45,7 @@ class LiveController : public QObject {
   // The newest frame is older than kStaleMs, or there is none.
   bool stale() const noexcept { return stale_; }
   double silentS() const;  // since the newest frame came, or since connecting [s]
-  bool framesCameYet() const noexcept { return framesCame_; }
+  bool hasReceivedFrames() const noexcept { return framesCame_; }
 
   // Asked for, waiting for a frame, running, or being finished.
   bool recording() const noexcept { return recording_; }
@@ -56,23 +56,23 @@ class LiveController : public QObject {
   void mark(const QString& text, std::optional<int> digit);
   // Where recordings will go: what the check before a run looks at.
   void setFolder(const std::filesystem::path& folder) { folder_ = folder; }
-  const std::optional<BeforeRun>& beforeRun() const noexcept { return beforeRun_; }
+  const std::optional<PreflightCheck>& preflight() const noexcept { return beforeRun_; }
 
   // What the timers do.
   void refresh();
-  void look();
+  void refreshHealth();
 
  signals:
   void stateChanged();
-  void came();     // source() is there
-  void leaving();  // source() is about to go: let go of it now
-  void ended();    // nothing is connected, and nothing is on its way
+  void sourceOpened();  // source() is there
+  void leaving();       // source() is about to go: let go of it now
+  void ended();         // nothing is connected, and nothing is on its way
   void failed(const QString& message);
-  void frameCame(const palpate::TactileFrame& frame);
-  void resultsCame(const palpate::LiveResults& results);
+  void frameReceived(const palpate::TactileFrame& frame);
+  void resultsReceived(const palpate::LiveResults& results);
   void staleChanged(bool stale);
-  void looked();
-  void eventsCame(const std::vector<palpate::RecordingEvent>& events);
+  void refreshed();
+  void eventsReceived(const std::vector<palpate::RecordingEvent>& events);
   void recordingStarted();  // frames go to disk, or will with the first one
   void recordingFailed(const QString& message);
   void recordingEnded(const palpate::RecordingReport& report);
@@ -99,7 +99,7 @@ class LiveController : public QObject {
   bool recording_ = false;
   bool stopping_ = false;
   std::filesystem::path folder_;
-  std::optional<BeforeRun> beforeRun_;
+  std::optional<PreflightCheck> beforeRun_;
   bool checking_ = false;
   int looks_ = 0;
   int pending_ = 0;      // work in the worker that ends or opens a source

@@ -16,7 +16,7 @@ namespace {
 std::unique_ptr<EmulatedHand> emulatedHand(const Connection& connection,
                                            const std::filesystem::path& dataFolder) {
   Scene scene = loadScene(connection.scene.toStdString(), dataFolder / "scenes");
-  if (!connection.sceneActs) scene.script.clear();
+  if (!connection.sceneScriptRuns) scene.script.clear();
   return std::make_unique<EmulatedHand>(std::make_unique<PhysicalHand>(scene));
 }
 

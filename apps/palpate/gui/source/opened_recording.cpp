@@ -73,7 +73,7 @@ bool isLongRecording(const Profile& profile, std::size_t longFrom) {
   return frames > 0 &&
          (frames >= longFrom ||
           frames * (profile.layout().numMatrices() + 1) >= OpenedRecording::kLongFromRows ||
-          frames * profile.layout().numPlaces() >= OpenedRecording::kLongFromPlaces);
+          frames * profile.layout().numCells() >= OpenedRecording::kLongFromPlaces);
 }
 
 void readThrough(OpenedRecording& opened, const Progress& progress) {

@@ -67,8 +67,8 @@ struct OpenedRecording {
 
 using OpenedRecordingPtr = std::shared_ptr<const OpenedRecording>;
 
-// Of readSeries(): -kEverS to kEverS is all of any recording [s].
-inline constexpr double kEverS = std::numeric_limits<double>::max();
+// Of readSeries(): -kEndOfTimeS to kEndOfTimeS is all of any recording [s].
+inline constexpr double kEndOfTimeS = std::numeric_limits<double>::max();
 
 // As the window calls it: without its folder.
 QString fileNameOf(const OpenedRecording& recording);

@@ -31,15 +31,15 @@ void store(QSettings& settings, const QString& key, const std::optional<TimeSpan
 Session loadSession(QSettings& settings) {
   Session session;
   const int wanted = settings.value(kCurrent, -1).toInt();
-  const int count = std::min(settings.beginReadArray(kFiles), Session::kMostFiles);
+  const int count = std::min(settings.beginReadArray(kFiles), Session::kMaxFiles);
   for (int i = 0; i < count; ++i) {
     settings.setArrayIndex(i);
     Session::File file;
     file.path = settings.value("path").toString();
     if (file.path.isEmpty()) continue;
-    file.leftAt.frame = settings.value("frame").toULongLong();
-    file.leftAt.seen = spanFrom(settings, "seen");
-    file.leftAt.selection = spanFrom(settings, "selection");
+    file.viewPosition.frame = settings.value("frame").toULongLong();
+    file.viewPosition.seen = spanFrom(settings, "seen");
+    file.viewPosition.selection = spanFrom(settings, "selection");
     if (i == wanted) session.current = static_cast<int>(session.files.size());
     session.files.push_back(std::move(file));
   }
@@ -50,15 +50,15 @@ Session loadSession(QSettings& settings) {
 void saveSession(const Session& session, QSettings& settings) {
   settings.remove(kFiles);
   settings.setValue(kCurrent, session.current);
-  const auto count = std::min(session.files.size(), static_cast<std::size_t>(Session::kMostFiles));
+  const auto count = std::min(session.files.size(), static_cast<std::size_t>(Session::kMaxFiles));
   settings.beginWriteArray(kFiles, static_cast<int>(count));
   for (std::size_t i = 0; i < count; ++i) {
     settings.setArrayIndex(static_cast<int>(i));
     const Session::File& file = session.files[i];
     settings.setValue("path", file.path);
-    settings.setValue("frame", static_cast<qulonglong>(file.leftAt.frame));
-    store(settings, "seen", file.leftAt.seen);
-    store(settings, "selection", file.leftAt.selection);
+    settings.setValue("frame", static_cast<qulonglong>(file.viewPosition.frame));
+    store(settings, "seen", file.viewPosition.seen);
+    store(settings, "selection", file.viewPosition.selection);
   }
   settings.endArray();
 }

@@ -7,25 +7,25 @@
 #include <optional>
 #include <vector>
 
-#include "gui/look/time_span.h"
+#include "gui/appearance/time_span.h"
 
 namespace palpate::gui {
 
 // Where a recording was left.
-struct LeftAt {
+struct ViewPosition {
   std::size_t frame = 0;
   std::optional<TimeSpan> seen;  // nothing: the whole
   std::optional<TimeSpan> selection;
-  bool operator==(const LeftAt&) const = default;
+  bool operator==(const ViewPosition&) const = default;
 };
 
 struct Session {
   struct File {
     QString path;
-    LeftAt leftAt;
+    ViewPosition viewPosition;
     bool operator==(const File&) const = default;
   };
-  static constexpr int kMostFiles = 50;
+  static constexpr int kMaxFiles = 50;
   std::vector<File> files;
   int current = -1;  // index; -1: none was shown
   bool operator==(const Session&) const = default;

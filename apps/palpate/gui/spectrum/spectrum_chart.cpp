@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/appearance/captions.h"
 #include "gui/chart/chart_picture.h"
 #include "gui/chart/chart_style.h"
-#include "gui/look/captions.h"
 
 namespace palpate::gui {
 namespace {
@@ -261,7 +261,7 @@ void SpectrumChart::writeNotes() {
   note_->setText(*fits);
 }
 
-void SpectrumChart::setSeen(double fromS, double toS) {
+void SpectrumChart::setVisibleRange(double fromS, double toS) {
   for (QCPAxis* axis : {xAxis, time_}) axis->setRange(fromS, toS);
   if (toS > kSpectrumChartLongestInS && !time_->ticker().dynamicCast<QCPAxisTickerTime>()) {
     const QSharedPointer<QCPAxisTickerTime> clock(new QCPAxisTickerTime);
@@ -348,11 +348,11 @@ void SpectrumChart::paint(QPainter& painter,
 void SpectrumChart::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
   seeking_ = true;
-  emit sought(secondsAt(event->position().x()));
+  emit seekRequested(secondsAt(event->position().x()));
 }
 
 void SpectrumChart::mouseMoveEvent(QMouseEvent* event) {
-  if (seeking_) emit sought(secondsAt(event->position().x()));
+  if (seeking_) emit seekRequested(secondsAt(event->position().x()));
 }
 
 void SpectrumChart::mouseReleaseEvent(QMouseEvent*) { seeking_ = false; }
@@ -368,7 +368,7 @@ void SpectrumChart::wheelEvent(QWheelEvent* event) {
     emit panAsked(-(sideways != 0.0 ? sideways : notches) * kSpectrumChartWheelPan *
                   xAxis->range().size());
   else
-    emit zoomAsked(secondsAt(event->position().x()), std::pow(kWheelZoom, notches));
+    emit zoomRequested(secondsAt(event->position().x()), std::pow(kWheelZoom, notches));
   event->accept();
 }
 

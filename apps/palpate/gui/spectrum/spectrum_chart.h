@@ -6,9 +6,9 @@
 #include <QString>
 #include <vector>
 
+#include "gui/appearance/color_map.h"
+#include "gui/appearance/theme.h"
 #include "gui/chart/plot.h"
-#include "gui/look/color_map.h"
-#include "gui/look/theme.h"
 #include "gui/picture/exported_view.h"
 #include "gui/spectrum/spectrum_worker.h"
 
@@ -33,7 +33,7 @@ class SpectrumChart : public QCustomPlot {
   void setScale(SpectrumScale scale);
   void setMap(ColorMapName map);
   void setTheme(Theme theme);
-  void setSeen(double fromS, double toS);
+  void setVisibleRange(double fromS, double toS);
   void setPosition(double seconds);
   // What the mouse is told at a place.
   QString valuesAt(const QPointF& at) const;
@@ -45,8 +45,8 @@ class SpectrumChart : public QCustomPlot {
   QSize minimumSizeHint() const override { return {260, 180}; }
 
  signals:
-  void sought(double seconds);
-  void zoomAsked(double seconds, double factor);
+  void seekRequested(double seconds);
+  void zoomRequested(double seconds, double factor);
   void panAsked(double seconds);
   void fitAsked();
 

@@ -10,57 +10,62 @@ constexpr double kShareOfHeight = 0.31;  // of the window's, when it is asked fo
 
 }  // namespace
 
-SpectrumFeature::SpectrumFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window), panel_(new SpectrumPanel(bench.settings, window)) {
+SpectrumFeature::SpectrumFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window), panel_(new SpectrumPanel(windowState.settings, window)) {
   dock_ = new Dock("Spectrum", panel_, &panel_->header(), window);
-  connect(&bench.subject, &Subject::shown, this, &SpectrumFeature::takeSource);
-  connect(&bench.selection, &Selection::taxelsChanged, this, &SpectrumFeature::takeTaxels);
-  connect(&bench.selection, &Selection::inSightChanged, this, &SpectrumFeature::takeSight);
-  connect(&bench.look, &ViewLook::changed, this, &SpectrumFeature::takeLook);
+  connect(&windowState.displayed, &DisplayedSource::shown, this, &SpectrumFeature::takeSource);
+  connect(&windowState.selection, &Selection::taxelsChanged, this, &SpectrumFeature::takeTaxels);
   connect(
-      &bench.playback, &PlaybackController::positionChanged, panel_, &SpectrumPanel::setPosition);
-  connect(panel_, &SpectrumPanel::said, &bench.messages, &Messages::flash);
+      &windowState.selection, &Selection::visibleSpanChanged, this, &SpectrumFeature::takeSight);
+  connect(&windowState.appearance, &ViewAppearance::changed, this, &SpectrumFeature::takeLook);
+  connect(&windowState.playback,
+          &PlaybackController::positionChanged,
+          panel_,
+          &SpectrumPanel::setPosition);
+  connect(panel_, &SpectrumPanel::said, &windowState.messages, &Messages::flash);
   connectChart();
-  bench.escape.add(Escape::Order::kComputation, [this] { return panel_->cancel(); });
+  windowState.escapeHandler.add(EscapeHandler::Order::kComputation,
+                                [this] { return panel_->cancel(); });
 }
 
 void SpectrumFeature::connectChart() {
-  Selection& selection = bench().selection;
+  Selection& selection = state().selection;
   SpectrumChart& chart = panel_->chart();
-  connect(&chart, &SpectrumChart::sought, &bench().playback, &PlaybackController::seekSeconds);
+  connect(
+      &chart, &SpectrumChart::seekRequested, &state().playback, &PlaybackController::seekSeconds);
   connect(&chart, &SpectrumChart::fitAsked, &selection, &Selection::showAll);
-  connect(&chart, &SpectrumChart::zoomAsked, &selection, &Selection::zoomAbout);
+  connect(&chart, &SpectrumChart::zoomRequested, &selection, &Selection::zoomAbout);
   connect(&chart, &SpectrumChart::panAsked, this, [&selection](double seconds) {
-    const TimeSpan seen = selection.inSight();
+    const TimeSpan seen = selection.visibleSpan();
     selection.show({seen.fromS + seconds, seen.toS + seconds});
   });
 }
 
 void SpectrumFeature::takeSource() {
-  panel_->setSource(bench().subject.seen(), bench().subject.isLive());
+  panel_->setSource(state().displayed.seen(), state().displayed.isLive());
   takeTaxels();
   takeLook();
   takeSight();
-  panel_->setPosition(bench().playback.positionS());
+  panel_->setPosition(state().playback.positionS());
 }
 
 void SpectrumFeature::takeTaxels() {
-  if (!bench().subject.isLive()) panel_->setTaxels(bench().selection.taxels());
+  if (!state().displayed.isLive()) panel_->setTaxels(state().selection.taxels());
 }
 
 void SpectrumFeature::takeSight() {
-  const TimeSpan& seen = bench().selection.inSight();
-  panel_->setSeen(seen.fromS, seen.toS);
+  const TimeSpan& seen = state().selection.visibleSpan();
+  panel_->setVisibleRange(seen.fromS, seen.toS);
 }
 
 void SpectrumFeature::takeLook() {
-  panel_->setMap(bench().look.view().map);
-  panel_->setTheme(bench().look.theme());
+  panel_->setMap(state().appearance.view().map);
+  panel_->setTheme(state().appearance.theme());
 }
 
 void SpectrumFeature::settle() { panel_->settle(); }
 
-std::vector<DockOffer> SpectrumFeature::docks() {
+std::vector<DockSpec> SpectrumFeature::docks() {
   return {{.dock = dock_,
            .key = QKeySequence("Ctrl+U"),
            .area = Qt::BottomDockWidgetArea,
@@ -74,10 +79,10 @@ std::vector<ExportedView> SpectrumFeature::views() {
   view.name = "Spectrum";
   view.widget = panel_;
   view.isThere = [this] { return panel_->shown(); };
-  view.fileName = [this] { return bench().recordingStem() + "_spectrum"; };
+  view.fileName = [this] { return state().recordingStem() + "_spectrum"; };
   view.size = [this] { return QSizeF(panel_->chart().size()); };
   view.paint = [this](QPainter& painter, const PictureLook& look) {
-    panel_->chart().paint(painter, look, bench().pictureTitle(), panel_->name());
+    panel_->chart().paint(painter, look, state().pictureTitle(), panel_->name());
   };
   view.tables = [this] { return panel_->tables(); };
   return {view};

@@ -2,7 +2,7 @@
 // axis of time.
 #pragma once
 
-#include "gui/bench/feature.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -11,10 +11,10 @@ class SpectrumPanel;
 class SpectrumFeature : public Feature {
   Q_OBJECT
  public:
-  SpectrumFeature(Bench& bench, QWidget* window);
+  SpectrumFeature(WindowState& windowState, QWidget* window);
 
   SpectrumPanel& panel() noexcept { return *panel_; }
-  std::vector<DockOffer> docks() override;
+  std::vector<DockSpec> docks() override;
   std::vector<ExportedView> views() override;
   void settle() override;
 

@@ -118,7 +118,7 @@ void SpectrumPanel::setSource(const OpenedRecordingPtr& recording, bool live) {
   live_ = live;
   taxels_ = {};
   asked_.reset();
-  worker_.giveUp();
+  worker_.cancel();
   name_.clear();
   header_->setName({});
   if (live)
@@ -137,11 +137,11 @@ void SpectrumPanel::setTaxels(const TaxelSelection& taxels) {
   ask();
 }
 
-void SpectrumPanel::setSeen(double fromS, double toS) {
+void SpectrumPanel::setVisibleRange(double fromS, double toS) {
   if (fromS == fromS_ && toS == toS_) return;
   fromS_ = fromS;
   toS_ = toS;
-  chart_->setSeen(fromS, toS);
+  chart_->setVisibleRange(fromS, toS);
   if (recording_ && isVisible()) later_.start();
 }
 
@@ -164,7 +164,7 @@ void SpectrumPanel::ask() {
 
 bool SpectrumPanel::cancel() {
   if (!worker_.busy()) return false;
-  worker_.giveUp();
+  worker_.cancel();
   say("Given up.", "Compute the spectra");
   emit said("computing spectra was cancelled");
   return true;
@@ -198,7 +198,7 @@ void SpectrumPanel::take(const SpectrumAnswer& answer) {
                                     : name_);
   if (answer.spectrogram->parts.empty()) {
     std::size_t longest = 0;
-    for (const SpectrumStretch& stretch : answer.spectrogram->report.stretches)
+    for (const GapFreeSpan& stretch : answer.spectrogram->report.stretches)
       longest = std::max(longest, stretch.gridSamples);
     return say("Too short: " + QString(answer.whole ? "the longest stretch" : "what is seen") +
                " without a gap has " + QString::number(longest) + " samples, a window takes " +
@@ -206,7 +206,7 @@ void SpectrumPanel::take(const SpectrumAnswer& answer) {
                (answer.whole ? "." : ", or see more of the recording."));
   }
   chart_->setAnswer(answer);
-  chart_->setSeen(fromS_, toS_);
+  chart_->setVisibleRange(fromS_, toS_);
   pages_->setCurrentWidget(chart_);
 }
 

@@ -31,7 +31,7 @@ class SpectrumPanel : public QWidget {
   // Null: none. `live`: what is connected is shown instead.
   void setSource(const OpenedRecordingPtr& recording, bool live);
   void setTaxels(const TaxelSelection& taxels);  // empty: none is chosen
-  void setSeen(double fromS, double toS);
+  void setVisibleRange(double fromS, double toS);
   void setPosition(double seconds);
   void setTheme(Theme theme);
   void setMap(ColorMapName map) { chart_->setMap(map); }

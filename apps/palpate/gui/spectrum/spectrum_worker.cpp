@@ -35,7 +35,8 @@ struct SpectrumWorker::Kept {
 bool fitsWhole(const SpectrumQuestion& question) {
   const SpectrumOptions& spectrum = question.options.spectrum;
   const auto hop = static_cast<std::size_t>(spectrum.window - spectrum.overlap);
-  return question.recording->profile.numFrames() / hop <= question.options.fitted().mostSegments;
+  return question.recording->profile.numFrames() / hop <=
+         question.options.limitedToCells().maxSegments;
 }
 
 SpectrumWorker::SpectrumWorker(QObject* parent) : QObject(parent), kept_(std::make_shared<Kept>()) {
@@ -48,7 +49,7 @@ SpectrumWorker::~SpectrumWorker() {
   pool_.waitForDone();
 }
 
-void SpectrumWorker::giveUp() {
+void SpectrumWorker::cancel() {
   ++generation_;
   pool_.clear();
   if (!busy_) return;
@@ -108,7 +109,7 @@ SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
   SpectrumAnswer answer{.taxels = question.taxels,
                         .strongest = question.taxels.empty(),
                         .whole = fitsWhole(question),
-                        .options = question.options.fitted()};
+                        .options = question.options.limitedToCells()};
   if (answer.strongest) {
     if (!kept_->looked) {
       kept_->strongest = TaxelSelection(profile.layout());
@@ -128,7 +129,7 @@ SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
   } else {
     if (!kept_->series || kept_->taxels != answer.taxels) {
       kept_->series =
-          std::make_shared<Series>(readSeries(profile, choice, -kEverS, kEverS, reading));
+          std::make_shared<Series>(readSeries(profile, choice, -kEndOfTimeS, kEndOfTimeS, reading));
       kept_->taxels = answer.taxels;
     }
     answer.series = kept_->series;

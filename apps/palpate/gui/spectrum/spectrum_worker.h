@@ -47,7 +47,7 @@ class SpectrumWorker : public QObject {
 
   // Replaces what was asked before.
   void ask(const SpectrumQuestion& question);
-  void giveUp();
+  void cancel();
   bool busy() const noexcept { return busy_; }
   void waitForDone() { pool_.waitForDone(); }
 

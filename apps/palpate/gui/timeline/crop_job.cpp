@@ -7,7 +7,7 @@
 #include <palpate/recording/crop.h>
 #include <palpate/recording/recording.h>
 
-#include "gui/look/path_text.h"
+#include "gui/appearance/path_text.h"
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {
@@ -17,9 +17,9 @@ constexpr const char* kCropFolder = "recent/crop_folder";
 
 }  // namespace
 
-CropJob::CropJob(Bench& bench, QAction& crop, QWidget* window)
-    : bench_(bench), strip_(new OpeningStrip(window, "Cropping", "working")) {
-  bench.questions.cropped = [window](const QString& suggestion) {
+CropJob::CropJob(WindowState& windowState, QAction& crop, QWidget* window)
+    : windowState_(windowState), strip_(new OpeningStrip(window, "Cropping", "working")) {
+  windowState.prompts.cropped = [window](const QString& suggestion) {
     return QFileDialog::getSaveFileName(
         window,
         "Crop to a new recording",
@@ -31,11 +31,11 @@ CropJob::CropJob(Bench& bench, QAction& crop, QWidget* window)
   connect(&job_, &BackgroundJob::progressed, strip_, &OpeningStrip::setProgress);
   connect(&job_, &BackgroundJob::finished, strip_, &OpeningStrip::end);
   connect(strip_, &OpeningStrip::cancelRequested, &job_, &BackgroundJob::cancel);
-  connect(&job_, &BackgroundJob::failed, &bench.messages, &Messages::fail);
+  connect(&job_, &BackgroundJob::failed, &windowState.messages, &Messages::fail);
   connect(&job_, &BackgroundJob::cancelled, this, [this](const QString& text) {
-    bench_.messages.flash(QFileInfo(text).fileName() + ": cancelled, nothing was written");
+    windowState_.messages.flash(QFileInfo(text).fileName() + ": cancelled, nothing was written");
   });
-  bench.escape.add(Escape::Order::kWork, [this] {
+  windowState.escapeHandler.add(EscapeHandler::Order::kWork, [this] {
     if (!job_.busy()) return false;
     job_.cancel();
     return true;
@@ -43,30 +43,31 @@ CropJob::CropJob(Bench& bench, QAction& crop, QWidget* window)
 }
 
 void CropJob::cropSelection() {
-  const OpenedRecordingPtr recording = bench_.subject.behind();
-  if (!recording || !bench_.selection.span())
-    return bench_.messages.flash("nothing is selected: drag in the timeline, or press [ and ]");
-  const auto frames = bench_.selectedFrames();
+  const OpenedRecordingPtr recording = windowState_.displayed.behind();
+  if (!recording || !windowState_.selection.span())
+    return windowState_.messages.flash(
+        "nothing is selected: drag in the timeline, or press [ and ]");
+  const auto frames = windowState_.selectedFrames();
   if (!frames)
-    return bench_.messages.fail("No frame lies in the selection: there is nothing to crop");
+    return windowState_.messages.fail("No frame lies in the selection: there is nothing to crop");
   const auto number = [](std::size_t frame) { return QString("%1").arg(frame, 6, 10, QChar('0')); };
   const QString here = QFileInfo(pathText(recording->path)).absolutePath();
-  const QString folder = bench_.settings.value(kCropFolder, here).toString();
+  const QString folder = windowState_.settings.value(kCropFolder, here).toString();
   const QString stem = QFileInfo(fileNameOf(*recording)).completeBaseName();
-  QString path = bench_.questions.cropped(folder + "/" + stem + "_" + number(frames->first) + "-" +
-                                          number(frames->last) + ".palpate");
+  QString path = windowState_.prompts.cropped(folder + "/" + stem + "_" + number(frames->first) +
+                                              "-" + number(frames->last) + ".palpate");
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += ".palpate";
-  bench_.settings.setValue(kCropFolder, QFileInfo(path).absolutePath());
+  windowState_.settings.setValue(kCropFolder, QFileInfo(path).absolutePath());
   start(path, frames->first, frames->last);
 }
 
 void CropJob::start(const QString& path, std::size_t first, std::size_t last) {
-  EventEditor* editor = bench_.events.editor();
+  EventEditor* editor = windowState_.events.editor();
   std::vector<RecordingEvent> noted = editor ? editor->events() : std::vector<RecordingEvent>();
   job_.start(
       path,
-      [recording = bench_.subject.behind(), first, last, path, noted = std::move(noted)](
+      [recording = windowState_.displayed.behind(), first, last, path, noted = std::move(noted)](
           const Progress& progress) {
         const std::filesystem::path out = path.toStdString();
         requireOther(recording->path, out);
@@ -78,12 +79,13 @@ void CropJob::start(const QString& path, std::size_t first, std::size_t last) {
         saveRecording(part, eventsWithin(noted, part), out, Overwrite::kReplace, half(0.5));
       },
       [this, path, count = last - first + 1] {
-        bench_.messages.flash("written: " + path + " (" + QString::number(count) + " frames)");
-        bench_.recent.add(path);
+        windowState_.messages.flash("written: " + path + " (" + QString::number(count) +
+                                    " frames)");
+        windowState_.recent.add(path);
         emit written(path);
         const QString ending = QFileInfo(path).suffix().toLower();
         if (ending == "csv" || ending == "npz") return;
-        bench_.recordings.open({{path.toStdString()}, OpenRequest::Then::kList});
+        windowState_.recordings.open({{path.toStdString()}, OpenRequest::Then::kList});
       });
 }
 

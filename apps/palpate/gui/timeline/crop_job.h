@@ -4,8 +4,8 @@
 #include <QObject>
 #include <cstddef>
 
-#include "gui/bench/bench.h"
 #include "gui/source/background_job.h"
+#include "gui/window_state/window_state.h"
 
 namespace palpate::gui {
 
@@ -15,7 +15,7 @@ class CropJob : public QObject {
   Q_OBJECT
  public:
   // The bench must outlive it. `crop` asks for it.
-  CropJob(Bench& bench, QAction& crop, QWidget* window);
+  CropJob(WindowState& windowState, QAction& crop, QWidget* window);
 
   // Of the recording that is looked at: asks where to.
   void cropSelection();
@@ -29,7 +29,7 @@ class CropJob : public QObject {
  private:
   void start(const QString& path, std::size_t first, std::size_t last);
 
-  Bench& bench_;
+  WindowState& windowState_;
   OpeningStrip* strip_;
   BackgroundJob job_;
 };

@@ -5,8 +5,8 @@
 #include <QString>
 #include <cstddef>
 
-#include "gui/bench/bench.h"
 #include "gui/timeline/timeline_actions.h"
+#include "gui/window_state/window_state.h"
 
 namespace palpate::gui {
 
@@ -16,7 +16,10 @@ class EventEditing : public QObject {
   Q_OBJECT
  public:
   // All of them must outlive it.
-  EventEditing(Bench& bench, const TimelineActions& actions, EventRows& rows, QWidget* window);
+  EventEditing(WindowState& windowState,
+               const TimelineActions& actions,
+               EventRows& rows,
+               QWidget* window);
 
  private:
   void connectActions();
@@ -27,7 +30,7 @@ class EventEditing : public QObject {
   void show(std::size_t mark);
   void showUndo();
 
-  Bench& bench_;
+  WindowState& windowState_;
   const TimelineActions& actions_;
   EventRows& rows_;
 };

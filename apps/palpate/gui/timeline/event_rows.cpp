@@ -21,7 +21,7 @@ constexpr double kReach = 5.0;         // [px] beside an end that still take it
 constexpr double kTextRoom = 4.0;      // [px] before a text
 constexpr int kFieldWidth = 180;       // [px]
 constexpr int kLongestText = 2000;     // characters
-constexpr int kMostText = 300;         // [px] of a moment's name beside it
+constexpr int kMaxTextLength = 300;    // [px] of a moment's name beside it
 
 }  // namespace
 
@@ -134,7 +134,7 @@ void EventRows::paintMark(QPainter& painter, std::size_t index) const {
     return;
   }
   // The name of what is too short for it stands behind it, up to the next one.
-  double room = std::min<double>(right_ - bar.right(), kMostText) - kTextRoom;
+  double room = std::min<double>(right_ - bar.right(), kMaxTextLength) - kTextRoom;
   for (const EventMark& other : marks_)
     if (other.lane == mark.lane && other.fromS > mark.fromS)
       room = std::min(room, pixelOf(other.fromS) - bar.right() - 2 * kTextRoom);
@@ -262,7 +262,7 @@ void EventRows::mouseDoubleClickEvent(QMouseEvent* event) {
 void EventRows::contextMenuEvent(QContextMenuEvent* event) {
   const auto mark = markAt(event->pos());
   if (mark) choose(mark);
-  emit menuAsked(mark, event->globalPos());
+  emit menuRequested(mark, event->globalPos());
 }
 
 void EventRows::editText(std::size_t index) {
@@ -319,7 +319,7 @@ void EventRows::keyPressEvent(QKeyEvent* event) {
       return;
     case Qt::Key_Delete:
     case Qt::Key_Backspace:
-      if (chosen_ && marks_[*chosen_].editable) emit removeAsked(*chosen_);
+      if (chosen_ && marks_[*chosen_].editable) emit removeRequested(*chosen_);
       return;
     default:
       return QWidget::keyPressEvent(event);

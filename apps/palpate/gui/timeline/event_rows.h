@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "gui/bench/event_marks.h"
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
+#include "gui/window_state/event_marks.h"
 
 class QLineEdit;
 
@@ -42,8 +42,8 @@ class EventRows : public QWidget {
   void chosenChanged();
   void spanChanged(std::size_t mark, double fromS, double toS);  // at the end of a drag
   void textChanged(std::size_t mark, const QString& text);
-  void removeAsked(std::size_t mark);
-  void menuAsked(std::optional<std::size_t> mark, const QPoint& globalPosition);
+  void removeRequested(std::size_t mark);
+  void menuRequested(std::optional<std::size_t> mark, const QPoint& globalPosition);
 
  protected:
   void paintEvent(QPaintEvent* event) override;

@@ -9,7 +9,7 @@
 #include <palpate/core/time.h>
 
 #include "gui/chart/chart_style.h"
-#include "gui/picture/old_picture.h"
+#include "gui/picture/stale_notice.h"
 
 namespace palpate::gui {
 namespace {
@@ -85,7 +85,7 @@ void LiveChart::setTheme(Theme theme) {
 }
 
 void LiveChart::setWindowS(double seconds) {
-  const double wanted = std::clamp(seconds, kShortestS, kLongestS);
+  const double wanted = std::clamp(seconds, kShortestS, kMaxWindowS);
   if (wanted == windowS_) return;
   windowS_ = wanted;
   roll(nowS_);
@@ -101,7 +101,7 @@ void LiveChart::paintEvent(QPaintEvent* event) {
   QCustomPlot::paintEvent(event);
   if (!held_) return;
   QPainter painter(this);
-  paintOldPicture(painter, rect(), {kHeldText, true}, theme_);
+  paintStaleNotice(painter, rect(), {kHeldText, true}, theme_);
 }
 
 void LiveChart::rebuild() {
@@ -145,7 +145,7 @@ void LiveChart::refresh(double silentS) {
   if (samples.empty() && (silentS < kOldS || !originUs_)) return;
   const double newestS = originUs_ ? secondsOf(newestUs_) : 0.0;
   nowS_ = samples.empty() ? newestS + silentS : newestS;
-  forget(nowS_ - kLongestS);
+  forget(nowS_ - kMaxWindowS);
   roll(nowS_);
 }
 

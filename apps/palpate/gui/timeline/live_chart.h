@@ -10,16 +10,16 @@
 #include <palpate/live/signal_history.h>
 #include <palpate/recording/recording_event.h>
 
+#include "gui/appearance/plotted_signal.h"
+#include "gui/appearance/theme.h"
 #include "gui/chart/plot.h"
-#include "gui/look/plotted_signal.h"
-#include "gui/look/theme.h"
 
 namespace palpate::gui {
 
 class LiveChart : public QCustomPlot {
   Q_OBJECT
  public:
-  static constexpr double kShortestS = 2.0, kUsualS = 30.0, kLongestS = 300.0;
+  static constexpr double kShortestS = 2.0, kUsualS = 30.0, kMaxWindowS = 300.0;
 
   explicit LiveChart(QWidget* parent = nullptr);
 

@@ -99,7 +99,7 @@ std::shared_future<void> SeriesStore::lookAtFrames() {
     try {
       const std::size_t frames = profile.numFrames();
       const std::size_t spread =
-          std::clamp<std::size_t>(kMostLookedAt / profile.layout().numPlaces(), 1, kSpread);
+          std::clamp<std::size_t>(kMostLookedAt / profile.layout().numCells(), 1, kSpread);
       TactileFrame frame;
       for (std::size_t i = 0; i <= spread && !*stop; ++i) {
         profile.readFrame((frames - 1) * i / spread, frame);
@@ -234,7 +234,7 @@ void SeriesStore::beginLong(Entry& entry) {
   news_.start();
 }
 
-void SeriesStore::setSeen(double fromS, double toS) {
+void SeriesStore::setVisibleRange(double fromS, double toS) {
   fromS_ = fromS;
   toS_ = toS;
   askForExact();

@@ -31,7 +31,7 @@ class SeriesStore : public QObject {
   // What is plotted now; what the recording hasn't is left out. Others are forgotten.
   void setWanted(const std::vector<SeriesChoice>& wanted);
   // What is seen, from the first frame [s].
-  void setSeen(double fromS, double toS);
+  void setVisibleRange(double fromS, double toS);
 
   // Of what is there now; gaps of the recording break the line. Empty: nothing yet.
   std::vector<SeriesPoint> points(const SeriesChoice& choice,

@@ -8,7 +8,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "gui/look/captions.h"
+#include "gui/appearance/captions.h"
 
 namespace palpate::gui {
 namespace {
@@ -73,7 +73,7 @@ SignalTree::SignalTree(TaxelGroups& groups, QWidget* parent)
   column->setContentsMargins(6, 6, 6, 6);
   column->addWidget(tree_, 1);
   column->addWidget(group_);
-  connect(tree_, &QTreeWidget::itemChanged, this, &SignalTree::heed);
+  connect(tree_, &QTreeWidget::itemChanged, this, &SignalTree::onItemChanged);
   // A click anywhere on a line ticks it; on the box it has been ticked already.
   connect(group_, &QPushButton::clicked, this, [this] {
     hide();
@@ -162,7 +162,7 @@ void SignalTree::rebuild() {
   building_ = false;
 }
 
-void SignalTree::heed(QTreeWidgetItem* item) {
+void SignalTree::onItemChanged(QTreeWidgetItem* item) {
   if (building_) return;
   const bool on = item->checkState(0) == Qt::Checked;
   const int index = item->data(0, kIndex).toInt();

@@ -56,7 +56,7 @@ class SignalTree : public QFrame {
  private:
   void rebuild();
   QTreeWidgetItem* section(const QString& title);
-  void heed(QTreeWidgetItem* item);
+  void onItemChanged(QTreeWidgetItem* item);
 
   TaxelGroups& groups_;
   HandDescription hand_;

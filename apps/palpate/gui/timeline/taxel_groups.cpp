@@ -7,7 +7,7 @@ namespace {
 
 constexpr const char* kTaxelGroupsKey = "taxel_groups";
 
-QString tidy(const QString& name) { return name.simplified().left(TaxelGroups::kLongestName); }
+QString tidy(const QString& name) { return name.simplified().left(TaxelGroups::kMaxNameLength); }
 
 }  // namespace
 

@@ -15,7 +15,7 @@ class TaxelGroups : public QObject {
   Q_OBJECT
  public:
   static constexpr int kMost = 200;
-  static constexpr int kLongestName = 60;
+  static constexpr int kMaxNameLength = 60;
 
   explicit TaxelGroups(QSettings& settings, QObject* parent = nullptr);
 

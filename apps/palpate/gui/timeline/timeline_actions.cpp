@@ -1,10 +1,10 @@
 #include "gui/timeline/timeline_actions.h"
 
-#include "gui/look/plotted_signal.h"
+#include "gui/appearance/plotted_signal.h"
 
 namespace palpate::gui {
 
-TimelineActions::TimelineActions(ActionBook& book) {
+TimelineActions::TimelineActions(ActionRegistry& book) {
   saveEvents = book.make("saveEvents", "File", "&Save labels, notes and grasps", {key("Ctrl+S")});
   undo = book.make("undo", "Edit", "&Undo", {key("Ctrl+Z")});
   redo = book.make("redo", "Edit", "&Redo", {key("Ctrl+Shift+Z"), key("Ctrl+Y")});

@@ -5,12 +5,12 @@
 #include <QActionGroup>
 #include <QList>
 
-#include "gui/bench/action_book.h"
+#include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
 
 struct TimelineActions {
-  explicit TimelineActions(ActionBook& book);
+  explicit TimelineActions(ActionRegistry& book);
 
   QAction* saveEvents = nullptr;
   QAction* undo = nullptr;

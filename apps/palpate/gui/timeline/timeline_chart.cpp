@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gui/bench/selection.h"
 #include "gui/chart/chart_style.h"
+#include "gui/window_state/selection.h"
 
 namespace palpate::gui {
 namespace {
@@ -243,7 +243,7 @@ void TimelineChart::setPosition(double seconds) {
     const double span = range.size();
     const double from = seconds > range.upper ? seconds - kTimelineChartPageRest * span
                                               : seconds - (1.0 - kTimelineChartPageRest) * span;
-    setSeen(from, from + span);
+    setVisibleRange(from, from + span);
   }
   placeCursor();
 }
@@ -289,14 +289,14 @@ void TimelineChart::placeSelection() {
   }
 }
 
-void TimelineChart::setSeen(double from, double to) {
+void TimelineChart::setVisibleRange(double from, double to) {
   const double duration = durationS();
   const double span = std::clamp(to - from, std::min(Selection::kShortestS, duration), duration);
   const double start = std::clamp(from, 0.0, duration - span);
   xAxis->setRange(start, start + span);
   nameTime();
-  store_.setSeen(start, start + span);
-  before_.setSeen(start, start + span);
+  store_.setVisibleRange(start, start + span);
+  before_.setVisibleRange(start, start + span);
   refill();
 }
 
@@ -313,7 +313,7 @@ void TimelineChart::nameTime() {
                           : "time from the first frame in h:min:s");
 }
 
-void TimelineChart::fit() { setSeen(0.0, durationS()); }
+void TimelineChart::fit() { setVisibleRange(0.0, durationS()); }
 
 void TimelineChart::zoom(double factor) {
   zoomAbout(seen().contains(positionS_) && factor > 1.0 ? positionS_ : seen().center(), factor);
@@ -322,7 +322,7 @@ void TimelineChart::zoom(double factor) {
 void TimelineChart::showSpan(const TimeSpan& span) {
   const double air =
       std::max((span.toS - span.fromS) * kTimelineChartAir, Selection::kShortestS / 2);
-  setSeen(span.fromS - air, span.toS + air);
+  setVisibleRange(span.fromS - air, span.toS + air);
 }
 
 void TimelineChart::zoomAbout(double seconds, double factor) {
@@ -330,7 +330,7 @@ void TimelineChart::zoomAbout(double seconds, double factor) {
   const double span =
       std::clamp(range.size() / factor, std::min(Selection::kShortestS, durationS()), durationS());
   const double share = (seconds - range.lower) / range.size();
-  setSeen(seconds - share * span, seconds + (1.0 - share) * span);
+  setVisibleRange(seconds - share * span, seconds + (1.0 - share) * span);
 }
 
 TimelineChart::Drag TimelineChart::dragAt(const QPointF& at) const {
@@ -355,7 +355,7 @@ void TimelineChart::mousePressEvent(QMouseEvent* event) {
     setCursor(Qt::ClosedHandCursor);
   } else if (left) {
     drag_ = dragAt(pressedAt_);
-    if (drag_ == Drag::kScrub) emit sought(pressedS_);
+    if (drag_ == Drag::kScrub) emit seekRequested(pressedS_);
   }
 }
 
@@ -365,10 +365,10 @@ void TimelineChart::dragTo(const QPointF& at) {
     case Drag::kPan: {
       const double perPixel = panFrom_.size() / std::max(1, axisRect()->width());
       const double moved = (pressedAt_.x() - at.x()) * perPixel;
-      return setSeen(panFrom_.lower + moved, panFrom_.upper + moved);
+      return setVisibleRange(panFrom_.lower + moved, panFrom_.upper + moved);
     }
     case Drag::kScrub:
-      emit sought(seconds);
+      emit seekRequested(seconds);
       return;
     case Drag::kSelect:
       if (std::abs(at.x() - pressedAt_.x()) >= QApplication::startDragDistance() ||
@@ -406,7 +406,7 @@ void TimelineChart::mouseReleaseEvent(QMouseEvent* event) {
   if (drag_ == Drag::kSelect && still && recording_) {
     if (selection_ && (pressedS_ < selection_->fromS || pressedS_ > selection_->toS))
       setSelection(std::nullopt);
-    emit sought(pressedS_);
+    emit seekRequested(pressedS_);
   }
   drag_ = Drag::kNone;
   unsetCursor();
@@ -424,7 +424,7 @@ void TimelineChart::wheelEvent(QWheelEvent* event) {
     const QCPRange range = xAxis->range();
     const double moved =
         -(sideways != 0.0 ? sideways : notches) * kTimelineMouseWheelPan * range.size();
-    setSeen(range.lower + moved, range.upper + moved);
+    setVisibleRange(range.lower + moved, range.upper + moved);
   } else {
     zoomAbout(secondsAt(event->position().x()), std::pow(kWheelZoom, notches));
   }
@@ -432,7 +432,7 @@ void TimelineChart::wheelEvent(QWheelEvent* event) {
 }
 
 void TimelineChart::contextMenuEvent(QContextMenuEvent* event) {
-  if (recording_) emit menuAsked(event->globalPos());
+  if (recording_) emit menuRequested(event->globalPos());
 }
 
 void TimelineChart::resizeEvent(QResizeEvent* event) {

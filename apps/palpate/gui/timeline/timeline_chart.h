@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
+#include "gui/appearance/theme.h"
+#include "gui/appearance/time_span.h"
 #include "gui/chart/plot.h"
 #include "gui/chart/plotted_curve.h"
-#include "gui/look/theme.h"
-#include "gui/look/time_span.h"
 #include "gui/source/opened_recording.h"
 #include "gui/timeline/series_store.h"
 
@@ -39,7 +39,7 @@ class TimelineChart : public QCustomPlot {
   void zoom(double factor);  // about the cursor where it is seen, else the middle; above 1: closer
   void zoomAbout(double seconds, double factor);
   void showSpan(const TimeSpan& span);  // with a little air
-  void setSeen(double from, double to);
+  void setVisibleRange(double from, double to);
   QCPRange seen() const { return xAxis->range(); }
   double durationS() const;
   double secondsAt(double pixel) const { return xAxis->pixelToCoord(pixel); }
@@ -54,11 +54,11 @@ class TimelineChart : public QCustomPlot {
   QSize minimumSizeHint() const override { return {240, 90}; }
 
  signals:
-  void sought(double seconds);
+  void seekRequested(double seconds);
   void selectionChanged();
   // What is seen, or where its pixels lie, has changed.
   void seenChanged();
-  void menuAsked(const QPoint& globalPosition);
+  void menuRequested(const QPoint& globalPosition);
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;

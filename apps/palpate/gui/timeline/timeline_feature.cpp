@@ -4,9 +4,9 @@
 #include <QMenu>
 #include <QToolButton>
 
+#include "gui/appearance/captions.h"
+#include "gui/appearance/next_choice.h"
 #include "gui/chart/chart_picture.h"
-#include "gui/look/captions.h"
-#include "gui/look/next_choice.h"
 #include "gui/timeline/curve_table.h"
 #include "gui/timeline/live_chart.h"
 #include "gui/timeline/timeline_chart.h"
@@ -22,11 +22,11 @@ constexpr double kZoomStep = 1.5;
 
 }  // namespace
 
-TimelineFeature::TimelineFeature(Bench& bench, QWidget* window)
-    : Feature(bench, window),
-      actions_(bench.actions),
-      groups_(bench.settings),
-      extras_(loadPlottedExtras(bench.settings)) {
+TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window),
+      actions_(windowState.actions),
+      groups_(windowState.settings),
+      extras_(loadPlottedExtras(windowState.settings)) {
   TimelineActions& actions = actions_;
   header_ = new TimelineHeader(
       {actions.zoomSelection, actions.addLabel, actions.crop, actions.dropSelection}, window);
@@ -39,9 +39,9 @@ TimelineFeature::TimelineFeature(Bench& bench, QWidget* window)
   charts_->addWidget(panel_);
   charts_->addWidget(liveChart_);
   dock_ = new Dock("Timeline", charts_, header_, window);
-  crop_ = std::make_unique<CropJob>(bench, *actions_.crop, window);
-  bench.questions.text = [window](const QString& title,
-                                  const QString& text) -> std::optional<QString> {
+  crop_ = std::make_unique<CropJob>(windowState, *actions_.crop, window);
+  windowState.prompts.text = [window](const QString& title,
+                                      const QString& text) -> std::optional<QString> {
     bool good = false;
     const QString answer =
         QInputDialog::getText(window, title, title + ":", QLineEdit::Normal, text, &good);
@@ -52,33 +52,34 @@ TimelineFeature::TimelineFeature(Bench& bench, QWidget* window)
   connectSelection();
   connectActions();
   connectCurves();
-  editing_ = std::make_unique<EventEditing>(bench, actions_, panel_->rows(), window);
+  editing_ = std::make_unique<EventEditing>(windowState, actions_, panel_->rows(), window);
 }
 
 TimelineFeature::~TimelineFeature() { liveChart_->setHistory(nullptr, 0); }
 
 void TimelineFeature::connectSubject() {
-  Subject& subject = bench().subject;
-  connect(&subject, &Subject::changed, this, [this, &subject] {
-    charts_->setCurrentIndex(subject.isLive() ? 1 : 0);
+  DisplayedSource& displayed = state().displayed;
+  connect(&displayed, &DisplayedSource::changed, this, [this, &displayed] {
+    charts_->setCurrentIndex(displayed.isLive() ? 1 : 0);
   });
-  connect(&subject, &Subject::seenChanged, this, &TimelineFeature::takeSource);
-  connect(&subject, &Subject::shown, this, [this] {
+  connect(&displayed, &DisplayedSource::seenChanged, this, &TimelineFeature::takeSource);
+  connect(&displayed, &DisplayedSource::shown, this, [this] {
     showCurves();
     showReading();
     showSelection();
   });
   connect(
-      &bench().playback, &PlaybackController::positionChanged, chart_, &TimelineChart::setPosition);
-  connect(chart_, &TimelineChart::sought, &bench().playback, &PlaybackController::seekSeconds);
-  connect(chart_, &TimelineChart::menuAsked, this, [this](const QPoint& at) {
-    bench().menus.edit->popup(at);
+      &state().playback, &PlaybackController::positionChanged, chart_, &TimelineChart::setPosition);
+  connect(
+      chart_, &TimelineChart::seekRequested, &state().playback, &PlaybackController::seekSeconds);
+  connect(chart_, &TimelineChart::menuRequested, this, [this](const QPoint& at) {
+    state().menus.edit->popup(at);
   });
   connect(&chart_->store(), &SeriesStore::changed, this, &TimelineFeature::showReading);
-  ViewLook& look = bench().look;
+  ViewAppearance& look = state().appearance;
   followTheme(panel_);
   followTheme(liveChart_);
-  connect(&look, &ViewLook::changed, this, [this, &look] {
+  connect(&look, &ViewAppearance::changed, this, [this, &look] {
     header_->setSignal(look.view().signal);
     checkChoice(actions_.signalsPlotted, kAllPlottedSignals, look.view().signal);
     liveChart_->setSignal(look.view().signal);
@@ -98,50 +99,55 @@ void TimelineFeature::connectSubject() {
 }
 
 void TimelineFeature::takeSource() {
-  const Subject& subject = bench().subject;
-  const OpenedRecordingPtr& behind = subject.behind();
-  chart_->setRecording(subject.seen());
-  chart_->setBefore(subject.seen() != behind ? behind : nullptr);
+  const DisplayedSource& displayed = state().displayed;
+  const OpenedRecordingPtr& behind = displayed.behind();
+  chart_->setRecording(displayed.seen());
+  chart_->setBefore(displayed.seen() != behind ? behind : nullptr);
   const QCPRange seen = chart_->seen();
-  bench().selection.setInSight({seen.lower, seen.upper});
-  if (subject.isRecording())
+  state().selection.setVisibleSpan({seen.lower, seen.upper});
+  if (displayed.isRecording())
     signalTree_->setSource(behind->profile.hand(),
                            behind->profile.numAngles() > 0,
                            behind->profile.numTemperatures() > 0);
-  if (subject.isLive()) takeLive();
+  if (displayed.isLive()) takeLive();
 }
 
 void TimelineFeature::takeLive() {
-  const LiveSource* source = bench().subject.source();
+  const LiveSource* source = state().displayed.source();
   if (!source) return;
   if (source->history.get() != history_) {
     history_ = source->history.get();
-    liveChart_->setHistory(history_, bench().subject.hand()->layout->numMatrices());
+    liveChart_->setHistory(history_, state().displayed.hand()->layout->numMatrices());
   }
-  liveChart_->setPlotted(bench().selection.plotted());
+  liveChart_->setPlotted(state().selection.plotted());
 }
 
 void TimelineFeature::connectLive() {
-  LiveController& live = bench().live;
-  Moment& moment = bench().moment;
+  LiveController& live = state().live;
+  CurrentFrame& currentFrame = state().currentFrame;
   connect(&live, &LiveController::leaving, this, [this] {
     liveChart_->setHistory(nullptr, 0);
     history_ = nullptr;
   });
+  connect(&live,
+          &LiveController::eventsReceived,
+          this,
+          [this](const std::vector<RecordingEvent>& events) {
+            for (const RecordingEvent& event : events) liveChart_->addEvent(event);
+          });
   connect(
-      &live, &LiveController::eventsCame, this, [this](const std::vector<RecordingEvent>& events) {
-        for (const RecordingEvent& event : events) liveChart_->addEvent(event);
-      });
-  connect(&moment, &Moment::resultsCame, this, [this] { liveChart_->refresh(0.0); });
-  connect(
-      &moment, &Moment::heldChanged, this, [this, &moment] { liveChart_->setHeld(moment.held()); });
+      &currentFrame, &CurrentFrame::resultsReceived, this, [this] { liveChart_->refresh(0.0); });
+  connect(&currentFrame, &CurrentFrame::heldChanged, this, [this, &currentFrame] {
+    liveChart_->setHeld(currentFrame.held());
+  });
   // Nothing comes: the picture rolls on.
-  connect(&live, &LiveController::looked, this, [this, &live, &moment] {
-    const LiveSource* source = bench().subject.source();
-    if (source && live.stale() && !moment.held() && live.framesCameYet() && !source->finished())
+  connect(&live, &LiveController::refreshed, this, [this, &live, &currentFrame] {
+    const LiveSource* source = state().displayed.source();
+    if (source && live.stale() && !currentFrame.held() && live.hasReceivedFrames() &&
+        !source->finished())
       liveChart_->refresh(live.silentS());
   });
-  QSettings& settings = bench().settings;
+  QSettings& settings = state().settings;
   liveChart_->setWindowS(settings.value("live/window_s", LiveChart::kUsualS).toDouble());
   connect(liveChart_, &LiveChart::windowChanged, this, [&settings](double seconds) {
     settings.setValue("live/window_s", seconds);
@@ -149,7 +155,7 @@ void TimelineFeature::connectLive() {
 }
 
 void TimelineFeature::connectSelection() {
-  Selection& selection = bench().selection;
+  Selection& selection = state().selection;
   connect(chart_, &TimelineChart::selectionChanged, this, [this, &selection] {
     selection.setSpan(chart_->selection());
   });
@@ -161,24 +167,24 @@ void TimelineFeature::connectSelection() {
           qOverload<const QCPRange&>(&QCPAxis::rangeChanged),
           this,
           [&selection](const QCPRange& seen) {
-            selection.setInSight({seen.lower, seen.upper});
+            selection.setVisibleSpan({seen.lower, seen.upper});
           });
-  connect(&selection, &Selection::sightAsked, this, [this](const TimeSpan& span) {
-    chart_->setSeen(span.fromS, span.toS);
+  connect(&selection, &Selection::visibleSpanRequested, this, [this](const TimeSpan& span) {
+    chart_->setVisibleRange(span.fromS, span.toS);
   });
-  connect(&selection, &Selection::spanAsked, chart_, &TimelineChart::showSpan);
-  connect(&selection, &Selection::allAsked, chart_, &TimelineChart::fit);
-  connect(&selection, &Selection::zoomAsked, chart_, &TimelineChart::zoomAbout);
+  connect(&selection, &Selection::spanRequested, chart_, &TimelineChart::showSpan);
+  connect(&selection, &Selection::fullRangeRequested, chart_, &TimelineChart::fit);
+  connect(&selection, &Selection::zoomRequested, chart_, &TimelineChart::zoomAbout);
   connect(&selection, &Selection::plottedChanged, this, [this, &selection] {
-    if (bench().subject.isLive()) liveChart_->setPlotted(selection.plotted());
+    if (state().displayed.isLive()) liveChart_->setPlotted(selection.plotted());
     showCurves();
   });
   connect(&selection, &Selection::taxelsChanged, this, [this, &selection] {
     signalTree_->setNumChosen(selection.taxels().count());
     if (extras_.chosenTaxels) showCurves();
   });
-  bench().escape.add(Escape::Order::kSpan, [this, &selection] {
-    if (!selection.span() || bench().subject.isLive()) return false;
+  state().escapeHandler.add(EscapeHandler::Order::kSpan, [this, &selection] {
+    if (!selection.span() || state().displayed.isLive()) return false;
     selection.setSpan(std::nullopt);
     return true;
   });
@@ -186,16 +192,16 @@ void TimelineFeature::connectSelection() {
 
 void TimelineFeature::connectActions() {
   TimelineActions& actions = actions_;
-  Selection& selection = bench().selection;
+  Selection& selection = state().selection;
   on(actions.selectFrom, [this] { selectEnd(true); });
   on(actions.selectTo, [this] { selectEnd(false); });
   on(actions.selectAll, [&selection] { selection.setSpan(TimeSpan{0.0, selection.durationS()}); });
   on(actions.dropSelection, [&selection] { selection.setSpan(std::nullopt); });
   on(actions.zoomSelection, [&selection] {
-    if (selection.span()) selection.showWithAir(*selection.span());
+    if (selection.span()) selection.showWithMargin(*selection.span());
   });
   const auto zoom = [this](double factor) {
-    if (bench().subject.isLive())
+    if (state().displayed.isLive())
       liveChart_->setWindowS(liveChart_->windowS() / factor);
     else
       chart_->zoom(factor);
@@ -203,16 +209,16 @@ void TimelineFeature::connectActions() {
   on(actions.zoomIn, [zoom] { zoom(kZoomStep); });
   on(actions.zoomOut, [zoom] { zoom(1.0 / kZoomStep); });
   on(actions.fit, [this] {
-    bench().subject.isLive() ? liveChart_->setWindowS(LiveChart::kUsualS) : chart_->fit();
+    state().displayed.isLive() ? liveChart_->setWindowS(LiveChart::kUsualS) : chart_->fit();
   });
-  Enabling& enabling = bench().enabling;
-  const auto frames = [this] { return bench().subject.hasFrames(); };
-  enabling.add({actions.zoomIn, actions.zoomOut, actions.fit},
-               [this, frames] { return frames() || bench().subject.isLive(); });
-  enabling.add({actions.selectFrom, actions.selectTo, actions.selectAll, actions.chooseCurves},
-               frames);
-  enabling.add({actions.crop, actions.zoomSelection, actions.dropSelection},
-               [frames, &selection] { return frames() && selection.span().has_value(); });
+  ActionEnabler& actionEnabler = state().actionEnabler;
+  const auto frames = [this] { return state().displayed.hasFrames(); };
+  actionEnabler.add({actions.zoomIn, actions.zoomOut, actions.fit},
+                    [this, frames] { return frames() || state().displayed.isLive(); });
+  actionEnabler.add({actions.selectFrom, actions.selectTo, actions.selectAll, actions.chooseCurves},
+                    frames);
+  actionEnabler.add({actions.crop, actions.zoomSelection, actions.dropSelection},
+                    [frames, &selection] { return frames() && selection.span().has_value(); });
 }
 
 void TimelineFeature::connectCurves() {
@@ -230,18 +236,19 @@ void TimelineFeature::connectCurves() {
 
 std::vector<PlottedCurve> TimelineFeature::curves() const {
   std::vector<PlottedCurve> curves;
-  const HandDescription* hand = bench().subject.hand();
+  const HandDescription* hand = state().displayed.hand();
   if (!hand) return curves;
-  const Theme theme = bench().look.theme();
-  const std::vector<bool>& plotted = bench().selection.plotted();
+  const Theme theme = state().appearance.theme();
+  const std::vector<bool>& plotted = state().selection.plotted();
   for (std::size_t row = 0; row < plotted.size(); ++row)
-    if (plotted[row]) curves.push_back(matrixCurve(*hand, row, bench().look.view().signal, theme));
-  const OpenedRecordingPtr recording = bench().subject.recorded();
+    if (plotted[row])
+      curves.push_back(matrixCurve(*hand, row, state().appearance.view().signal, theme));
+  const OpenedRecordingPtr recording = state().displayed.recorded();
   if (!recording) return curves;
   const auto add = [&](PlottedCurve curve) {
     if (hasSeries(recording->profile, curve.choice)) curves.push_back(std::move(curve));
   };
-  const TaxelSelection& chosen = bench().selection.taxels();
+  const TaxelSelection& chosen = state().selection.taxels();
   if (extras_.chosenTaxels && !chosen.empty()) {
     const std::size_t count = chosen.count();
     add(taxelCurve(chosen,
@@ -263,28 +270,28 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
 }
 
 void TimelineFeature::showCurves() {
-  const bool live = bench().subject.isLive();
+  const bool live = state().displayed.isLive();
   const std::vector<PlottedCurve> now = curves();
-  header_->setCurves(now, bench().look.theme());
+  header_->setCurves(now, state().appearance.theme());
   header_->setPlain(live);
   if (!live) chart_->setCurves(now);
 }
 
 void TimelineFeature::showReading() {
-  const OpenedRecordingPtr recording = bench().subject.recorded();
-  if (bench().subject.isLive()) return;
+  const OpenedRecordingPtr recording = state().displayed.recorded();
+  if (state().displayed.isLive()) return;
   const double done = chart_->store().progress();
   header_->setReading(
       done < 1.0 ? "reading " + QString::number(static_cast<int>(done * 100.0)) + " %" : QString());
-  if (recording && recording->isLong() && done >= 1.0) bench().subject.tellMoreKnown();
+  if (recording && recording->isLong() && done >= 1.0) state().displayed.notifyMoreKnown();
 }
 
 void TimelineFeature::showSelection() {
-  if (bench().subject.isLive()) return;
+  if (state().displayed.isLive()) return;
   QString words;
-  const auto& span = bench().selection.span();
-  if (span && bench().subject.isRecording()) {
-    const auto frames = bench().selectedFrames();
+  const auto& span = state().selection.span();
+  if (span && state().displayed.isRecording()) {
+    const auto frames = state().selectedFrames();
     const std::size_t count = frames ? frames->count() : 0;
     words = figure(span->fromS, 2) + " – " + figure(span->toS, 2) + " s · " +
             (count == 0   ? QString("no frame")
@@ -292,13 +299,13 @@ void TimelineFeature::showSelection() {
                           : QString::number(count) + " frames");
   }
   header_->setSelection(words);
-  bench().enabling.refresh();
+  state().actionEnabler.refresh();
 }
 
 void TimelineFeature::selectEnd(bool begin) {
-  if (!bench().subject.hasFrames()) return;
-  Selection& selection = bench().selection;
-  const double now = bench().playback.positionS();
+  if (!state().displayed.hasFrames()) return;
+  Selection& selection = state().selection;
+  const double now = state().playback.positionS();
   const double end = selection.durationS();
   TimeSpan span = selection.span().value_or(begin ? TimeSpan{now, end} : TimeSpan{0.0, now});
   (begin ? span.fromS : span.toS) = now;
@@ -308,11 +315,11 @@ void TimelineFeature::selectEnd(bool begin) {
 }
 
 void TimelineFeature::nameChosenTaxels() {
-  const TaxelSelection chosen = bench().selection.taxels();
-  Messages& messages = bench().messages;
+  const TaxelSelection chosen = state().selection.taxels();
+  Messages& messages = state().messages;
   if (chosen.empty())
     return messages.flash("no taxel is chosen: click or drag over some of the matrices");
-  const auto name = bench().questions.text("Name of the taxels", "");
+  const auto name = state().prompts.text("Name of the taxels", "");
   if (!name) return;
   if (name->isEmpty()) return messages.flash("a group of taxels needs a name");
   if (!groups_.keep(*name, chosen))
@@ -323,7 +330,7 @@ void TimelineFeature::nameChosenTaxels() {
   messages.flash("kept: " + *name + ", " + QString::number(chosen.count()) + " taxels");
 }
 
-std::vector<DockOffer> TimelineFeature::docks() {
+std::vector<DockSpec> TimelineFeature::docks() {
   return {{.dock = dock_,
            .key = QKeySequence("Ctrl+L"),
            .area = Qt::BottomDockWidgetArea,
@@ -332,11 +339,11 @@ std::vector<DockOffer> TimelineFeature::docks() {
            .shownLive = true}};
 }
 
-std::vector<StripOffer> TimelineFeature::strips() {
-  return {{StripOffer::Order::kWork, &crop_->strip()}};
+std::vector<BannerSpec> TimelineFeature::strips() {
+  return {{BannerSpec::Order::kWork, &crop_->strip()}};
 }
 
-void TimelineFeature::remember() { savePlottedExtras(extras_, bench().settings); }
+void TimelineFeature::remember() { savePlottedExtras(extras_, state().settings); }
 
 void TimelineFeature::settle() {
   chart_->store().waitUntilRead();
@@ -345,32 +352,34 @@ void TimelineFeature::settle() {
 }
 
 std::vector<ExportedView> TimelineFeature::views() {
-  Bench& bench = this->bench();
+  WindowState& windowState = state();
   ExportedView view;
   view.name = "Timeline";
   view.widget = charts_;
-  view.isThere = [&bench] { return bench.moment.hasFrame(); };
-  view.fileName = [&bench] {
-    return bench.recordingStem() + "_" + nameOf(bench.look.view().signal).replace(' ', '_');
+  view.isThere = [&windowState] { return windowState.currentFrame.hasFrame(); };
+  view.fileName = [&windowState] {
+    return windowState.recordingStem() + "_" +
+           nameOf(windowState.appearance.view().signal).replace(' ', '_');
   };
-  view.paint = [this, &bench](QPainter& painter, const PictureLook& look) {
+  view.paint = [this, &windowState](QPainter& painter, const PictureLook& look) {
     ChartPictureOptions options;
-    options.title = bench.pictureTitle();
+    options.title = windowState.pictureTitle();
     for (const PlottedCurve& curve : curves()) options.legend.push_back({curve.name, curve.pen});
-    QCustomPlot* plot = bench.subject.isLive() ? static_cast<QCustomPlot*>(liveChart_) : chart_;
+    QCustomPlot* plot =
+        windowState.displayed.isLive() ? static_cast<QCustomPlot*>(liveChart_) : chart_;
     paintChart(painter, look, *plot, options);
   };
-  view.tables = [this, &bench] {
+  view.tables = [this, &windowState] {
     std::vector<ExportedTable> tables;
-    const OpenedRecordingPtr recording = bench.subject.recorded();
+    const OpenedRecordingPtr recording = windowState.displayed.recorded();
     if (!recording) return tables;
     const auto add = [&](const QString& name, const std::optional<FrameSpan>& span) {
       if (!span) return;
-      tables.push_back({name, [seen = bench.subject.seen(), now = curves(), span = *span] {
+      tables.push_back({name, [seen = windowState.displayed.seen(), now = curves(), span = *span] {
                           return curveTable(seen, now, span);
                         }});
     };
-    add("the selected range", bench.selectedFrames());
+    add("the selected range", windowState.selectedFrames());
     const QCPRange seen = chart_->seen();
     if (const auto frames = recording->framesWithin(seen.lower, seen.upper))
       add("what is seen", FrameSpan{frames->first, frames->second});

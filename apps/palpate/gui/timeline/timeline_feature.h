@@ -5,13 +5,13 @@
 #include <QStackedWidget>
 #include <memory>
 
-#include "gui/bench/feature.h"
 #include "gui/chart/plotted_curve.h"
 #include "gui/timeline/crop_job.h"
 #include "gui/timeline/event_editing.h"
 #include "gui/timeline/signal_tree.h"
 #include "gui/timeline/taxel_groups.h"
 #include "gui/timeline/timeline_actions.h"
+#include "gui/window_state/feature.h"
 
 namespace palpate::gui {
 
@@ -23,7 +23,7 @@ class TimelinePanel;
 class TimelineFeature : public Feature {
   Q_OBJECT
  public:
-  TimelineFeature(Bench& bench, QWidget* window);
+  TimelineFeature(WindowState& windowState, QWidget* window);
   ~TimelineFeature() override;
 
   TimelinePanel& panel() noexcept { return *panel_; }
@@ -31,9 +31,9 @@ class TimelineFeature : public Feature {
   SignalTree& signalTree() noexcept { return *signalTree_; }
   CropJob& cropJob() noexcept { return *crop_; }
 
-  std::vector<DockOffer> docks() override;
+  std::vector<DockSpec> docks() override;
   std::vector<ExportedView> views() override;
-  std::vector<StripOffer> strips() override;
+  std::vector<BannerSpec> strips() override;
   void remember() override;
   void settle() override;
 

@@ -6,9 +6,9 @@
 #include <QWidget>
 #include <vector>
 
+#include "gui/appearance/plotted_signal.h"
+#include "gui/appearance/theme.h"
 #include "gui/chart/plotted_curve.h"
-#include "gui/look/plotted_signal.h"
-#include "gui/look/theme.h"
 
 class QComboBox;
 class QHBoxLayout;

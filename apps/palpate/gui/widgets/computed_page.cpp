@@ -50,7 +50,7 @@ void ComputedPage::setSource(const OpenedRecordingPtr& recording, bool live) {
   if (ofRecording()) renew();
 }
 
-QString ComputedPage::whyNot() const {
+QString ComputedPage::emptyReason() const {
   if (live_) return "This is done with recordings. Record what is connected (Ctrl+R), and open it.";
   if (!recording_) return "Open a recording first.";
   if (recording_->profile.numFrames() == 0) return "This recording holds no frame.";
@@ -67,7 +67,7 @@ void ComputedPage::renew() {
 void ComputedPage::ask() {
   if (!stale_ || !isVisible()) return;
   stale_ = false;
-  const QString why = whyNot();
+  const QString why = emptyReason();
   if (!why.isEmpty()) return say(why);
   say("");
   compute();

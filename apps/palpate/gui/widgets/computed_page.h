@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 #include "gui/picture/exported_view.h"
 #include "gui/source/background_job.h"
 #include "gui/source/opened_recording.h"
@@ -64,7 +64,7 @@ class ComputedPage : public QWidget {
   virtual bool ofRecording() const { return true; }
   // Why there is nothing to ask about now; empty: there is. By default a recording with frames is
   // needed.
-  virtual QString whyNot() const;
+  virtual QString emptyReason() const;
   // Begins the work, by run().
   virtual void compute() = 0;
   // Another source came: forget the last one's results.

@@ -3,7 +3,7 @@
 
 #include <QDockWidget>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 class QToolButton;
 

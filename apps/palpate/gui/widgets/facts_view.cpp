@@ -30,9 +30,9 @@ void FactsView::setValue(std::size_t row, const QString& value) {
   update(0, static_cast<int>(row) * rowHeight(), width(), rowHeight());
 }
 
-void FactsView::setOld(bool old) {
-  if (old == old_) return;
-  old_ = old;
+void FactsView::setStale(bool old) {
+  if (old == stale_) return;
+  stale_ = old;
   update();
 }
 
@@ -68,7 +68,7 @@ void FactsView::paintEvent(QPaintEvent* event) {
     const Fact& fact = facts_[i];
     painter.setPen(colors.muted);
     painter.drawText(row, Qt::AlignLeft | Qt::AlignVCenter, fact.name);
-    painter.setPen(old_ ? colors.muted : fact.warning ? colors.warning : colors.text);
+    painter.setPen(stale_ ? colors.muted : fact.warning ? colors.warning : colors.text);
     const int used = fontMetrics().horizontalAdvance(fact.name) + kSpacing;
     const QRect right = row.adjusted(used, 0, 0, 0);
     painter.drawText(right,

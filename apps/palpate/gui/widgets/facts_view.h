@@ -6,7 +6,7 @@
 #include <QWidget>
 #include <vector>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 namespace palpate::gui {
 
@@ -24,8 +24,8 @@ class FactsView : public QWidget {
   void setValue(std::size_t row, const QString& value);
   const std::vector<Fact>& facts() const noexcept { return facts_; }
   // The values are those of before: nothing comes any more that would change them.
-  void setOld(bool old);
-  bool isOld() const noexcept { return old_; }
+  void setStale(bool old);
+  bool isOld() const noexcept { return stale_; }
   void setTheme(Theme theme);
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
@@ -39,7 +39,7 @@ class FactsView : public QWidget {
   int nameWidth() const;
 
   std::vector<Fact> facts_;
-  bool old_ = false;
+  bool stale_ = false;
   Theme theme_ = Theme::kDark;
 };
 

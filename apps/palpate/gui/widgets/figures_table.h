@@ -8,7 +8,7 @@
 
 #include <palpate/core/text_table.h>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 namespace palpate::gui {
 

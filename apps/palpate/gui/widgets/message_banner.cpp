@@ -4,7 +4,7 @@
 #include <QLabel>
 #include <QToolButton>
 
-#include "gui/look/icons.h"
+#include "gui/appearance/icons.h"
 
 namespace palpate::gui {
 namespace {

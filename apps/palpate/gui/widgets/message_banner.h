@@ -4,7 +4,7 @@
 #include <QList>
 #include <QWidget>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 class QLabel;
 class QToolButton;

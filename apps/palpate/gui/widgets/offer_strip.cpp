@@ -6,7 +6,7 @@
 #include <QToolButton>
 #include <utility>
 
-#include "gui/look/icons.h"
+#include "gui/appearance/icons.h"
 
 namespace palpate::gui {
 

@@ -5,7 +5,7 @@
 #include <QWidget>
 #include <functional>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 class QLabel;
 class QPushButton;

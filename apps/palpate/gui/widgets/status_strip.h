@@ -5,7 +5,7 @@
 #include <QStringList>
 #include <QWidget>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 namespace palpate::gui {
 

@@ -3,7 +3,7 @@
 
 #include <QStyledItemDelegate>
 
-#include "gui/look/theme.h"
+#include "gui/appearance/theme.h"
 
 namespace palpate::gui {
 

@@ -1,0 +1,45 @@
+// How the window looks, as it is remembered from one day to the next.
+#pragma once
+
+#include <QSettings>
+#include <QString>
+#include <array>
+
+#include "gui/appearance/color_map.h"
+#include "gui/appearance/plotted_signal.h"
+#include "gui/appearance/theme.h"
+
+namespace palpate::gui {
+
+// Where the colour range of the heat maps ends.
+enum class RangeMode {
+  kRecording,  // the largest value of the whole recording
+  kFrame,      // the largest value of the frame
+  kFullScale,  // what the converter can deliver
+  kManual
+};
+inline constexpr std::array kAllRangeModes = {
+    RangeMode::kRecording, RangeMode::kFrame, RangeMode::kFullScale, RangeMode::kManual};
+QString nameOf(RangeMode mode);  // "whole recording", ..; also the key in the settings
+
+struct ViewSettings {
+  ThemeChoice theme = ThemeChoice::kSystem;
+  ColorMapName map = ColorMapName::kInferno;
+  bool interpolated = false;
+  bool values = false;
+  RangeMode range = RangeMode::kRecording;
+  double manualMin = 0.0;  // [counts]
+  double manualMax = 1000.0;
+  PlottedSignal signal = PlottedSignal::kMean;
+  double speed = 1.0;
+  bool loop = false;
+  bool skipGaps = false;
+};
+
+// $XDG_CONFIG_HOME/palpate/palpate.ini
+QString settingsPath();
+// Values out of range are replaced by the defaults: a settings file never stops the program.
+ViewSettings loadViewSettings(const QSettings& settings);
+void saveViewSettings(const ViewSettings& view, QSettings& settings);
+
+}  // namespace palpate::gui

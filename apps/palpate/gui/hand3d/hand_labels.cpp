@@ -1,0 +1,87 @@
+// The words of a scene: beside the place they name, each where no other word is yet, with a rim in
+// the colour of the ground so that they are read on any surface.
+#include <QFontMetricsF>
+#include <QPainter>
+#include <QPainterPath>
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "gui/hand3d/hand_scene.h"
+
+namespace palpate::gui {
+
+namespace {
+
+constexpr double kGapPx = 6.0;  // between the place and its words
+constexpr double kRimPx = 3.0;
+
+struct Placed {
+  const SceneLabel* label;
+  HandCamera::Projected place;
+};
+
+// Right of the place, left, above, below.
+std::array<QRectF, 4> placesAround(const QPointF& at, const QSizeF& text) {
+  const double w = text.width(), h = text.height();
+  return {QRectF(at.x() + kGapPx, at.y() - 0.5 * h, w, h),
+          QRectF(at.x() - kGapPx - w, at.y() - 0.5 * h, w, h),
+          QRectF(at.x() - 0.5 * w, at.y() - kGapPx - h, w, h),
+          QRectF(at.x() - 0.5 * w, at.y() + kGapPx, w, h)};
+}
+
+QRectF movedInside(QRectF rect, const QRectF& picture) {
+  rect.moveLeft(std::max(picture.left(), std::min(rect.left(), picture.right() - rect.width())));
+  rect.moveTop(std::max(picture.top(), std::min(rect.top(), picture.bottom() - rect.height())));
+  return rect;
+}
+
+QRectF handLabelsFreePlace(const QPointF& at,
+                           const QSizeF& text,
+                           const QRectF& picture,
+                           const std::vector<QRectF>& taken) {
+  const auto places = placesAround(at, text);
+  for (const QRectF& place : places)
+    if (picture.contains(place) && std::none_of(taken.begin(), taken.end(), [&](const QRectF& r) {
+          return r.intersects(place);
+        }))
+      return place;
+  return movedInside(places.front(), picture);
+}
+
+}  // namespace
+
+void paintLabels(QPainter& painter,
+                 const HandScene& scene,
+                 const HandCamera& camera,
+                 const QSizeF& size) {
+  const QRectF picture(QPointF(0.0, 0.0), size);
+  std::vector<Placed> shown;
+  for (const SceneLabel& label : scene.labels) {
+    const auto place = camera.project(label.atMm, size);
+    if (place && picture.contains(place->at) && !label.text.isEmpty())
+      shown.push_back({.label = &label, .place = *place});
+  }
+  // The nearest first: it has the choice of places.
+  std::stable_sort(shown.begin(), shown.end(), [](const Placed& a, const Placed& b) {
+    return a.place.depthMm < b.place.depthMm;
+  });
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QFontMetricsF metrics(painter.font(), painter.device());
+  QColor rim = QColor::fromRgb(scene.background);
+  rim.setAlphaF(0.85F);
+  std::vector<QRectF> taken;
+  for (const Placed& word : shown) {
+    const QSizeF text(metrics.horizontalAdvance(word.label->text), metrics.height());
+    const QRectF at = handLabelsFreePlace(word.place.at, text, picture, taken);
+    taken.push_back(at);
+    QPainterPath path;
+    path.addText(at.topLeft() + QPointF(0.0, metrics.ascent()), painter.font(), word.label->text);
+    painter.strokePath(path, QPen(rim, kRimPx, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    painter.fillPath(path, word.label->color);
+  }
+  painter.restore();
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,274 @@
+#include "gui/hand3d/hand_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+namespace palpate::gui {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr double kSmoothBelow = 0.82;  // cosine between neighbouring faces that make one surface
+constexpr int kRound = 28;             // corners of a circle
+constexpr double kChamferMm = 2.0;
+constexpr double kBesideMm = 2.6;      // of the sensor's edge
+constexpr double kUnderMm = 0.6;       // the taxels lie so much above the body
+constexpr double kBackShare = 0.78;    // of the sensor's height: how deep a link is behind its axis
+constexpr double kKnuckleShare = 0.9;  // its radius, of the sensor's height
+constexpr double kPlainHeightMm = 14.0;  // of a link without a sensor
+constexpr double kPlainHalfWidthMm = 12.8;
+constexpr double kPalmAroundMm = 25.0;  // of the fingers' bases
+constexpr double kPalmDepthMm = 44.0;
+
+std::vector<Vector2d> circle(const Vector2d& centre, double radius) {
+  std::vector<Vector2d> outline;
+  for (int i = 0; i < kRound; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kRound;
+    outline.push_back(centre + radius * Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  return outline;
+}
+
+void appendTriangle(HandBody& body,
+                    const HandBody::Corner& a,
+                    const HandBody::Corner& b,
+                    const HandBody::Corner& c) {
+  body.triangles.push_back(a);
+  body.triangles.push_back(b);
+  body.triangles.push_back(c);
+}
+
+void appendFlat(
+    HandBody& body, const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
+  const Vector3f normal = (b - a).cross(c - a).normalized().cast<float>();
+  const auto corner = [&](const Vector3d& at) {
+    return HandBody::Corner{at.cast<float>(), normal};
+  };
+  appendTriangle(body, corner(a), corner(b), corner(c));
+  appendTriangle(body, corner(a), corner(c), corner(d));
+}
+
+// Moves every edge of a convex outline inwards.
+std::vector<Vector2d> inset(const std::vector<Vector2d>& outline, double by) {
+  std::vector<Vector2d> inner;
+  const std::size_t n = outline.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector2d before = (outline[i] - outline[(i + n - 1) % n]).normalized();
+    const Vector2d after = (outline[(i + 1) % n] - outline[i]).normalized();
+    const Vector2d inwards = Vector2d(-before.y() - after.y(), before.x() + after.x()).normalized();
+    const double cosine = std::max(0.5, inwards.dot(Vector2d(-after.y(), after.x())));
+    inner.push_back(outline[i] + inwards * (by / cosine));
+  }
+  return inner;
+}
+
+void turn(HandBody& body,
+          std::size_t firstCorner,
+          std::size_t firstEdge,
+          const Eigen::Isometry3d& to) {
+  const Eigen::Isometry3f move = to.cast<float>();
+  for (std::size_t i = firstCorner; i < body.triangles.size(); ++i) {
+    body.triangles[i].atMm = move * body.triangles[i].atMm;
+    body.triangles[i].normal = move.linear() * body.triangles[i].normal;
+  }
+  for (std::size_t i = firstEdge; i < body.edges.size(); ++i)
+    body.edges[i] = {move * body.edges[i].first, move * body.edges[i].second};
+}
+
+// Where the surface of a matrix runs in the frame of its link: from the palm to the tip.
+struct SurfaceLine {
+  std::vector<Vector2d> pointsMm;  // x along the link, y out of the surface
+  double halfWidthMm = 0.0;
+  double heightMm = 0.0;
+};
+
+SurfaceLine lineOf(const GeometryDescription& hand, const HandPose& pose, std::size_t matrix) {
+  const MatrixLayout& layout = hand.layout.matrix(matrix);
+  SurfaceLine line;
+  line.halfWidthMm = layout.pitchMm * layout.columns / 2.0 + kBesideMm;
+  line.heightMm = hand.surfaces[matrix].heightMm;
+  const double middleMm = layout.pitchMm * (layout.columns - 1) / 2.0;
+  for (double row = layout.rows - 0.2; row >= -0.5; row -= 0.5) {
+    const Vector3d at =
+        pose.rotation(matrix).transpose() *
+        (pose.pointMm(matrix, middleMm, row * layout.pitchMm) - pose.originMm(matrix));
+    line.pointsMm.emplace_back(at.x(), at.y() - kUnderMm);
+  }
+  return line;
+}
+
+// Seen from the side: joint at -lengthMm, the next joint or the tip at 0, the sensor's surface on
+// top.
+std::vector<Vector2d> linkOutline(const std::optional<SurfaceLine>& surface,
+                                  double lengthMm,
+                                  bool tip) {
+  const double heightMm = surface ? surface->heightMm : kPlainHeightMm;
+  const double backMm = -heightMm * kBackShare;
+  const double jointMm = heightMm * kKnuckleShare * 0.8;
+  std::vector<Vector2d> points = {{-lengthMm + jointMm * 0.6, -jointMm},
+                                  {-lengthMm + jointMm, backMm},
+                                  {-lengthMm + jointMm * 0.6, jointMm}};
+  if (surface) points.insert(points.end(), surface->pointsMm.begin(), surface->pointsMm.end());
+  if (!tip) {
+    points.insert(points.end(),
+                  {{-jointMm * 0.6, jointMm}, {-jointMm * 0.6, -jointMm}, {-jointMm, backMm}});
+    if (!surface)
+      points.insert(points.end(), {{-lengthMm + jointMm, heightMm}, {-jointMm, heightMm}});
+    return convexOutline(std::move(points));
+  }
+  // The tip is round from the end of the surface to the back.
+  const Vector2d from = surface ? surface->pointsMm.back() : Vector2d(-heightMm, heightMm);
+  const Vector2d to(std::min(-heightMm * 1.2, from.x() - heightMm * 0.6), backMm);
+  const Vector2d over(std::max(0.0, from.x()) + heightMm * 0.35, backMm * 0.8);
+  for (int i = 1; i <= 10; ++i) {
+    const double t = i / 10.0;
+    points.push_back((1.0 - t) * (1.0 - t) * from + 2.0 * t * (1.0 - t) * over + t * t * to);
+  }
+  return convexOutline(std::move(points));
+}
+
+HandBody palm(const GeometryDescription& hand) {
+  HandBody body{.role = HandBodyRole::kPalm, .link = {}, .triangles = {}, .edges = {}};
+  std::vector<Vector2d> points;
+  double topMm = 0.0;
+  for (const Finger& finger : hand.fingers) {
+    const auto around = circle(finger.baseMm.head<2>(), kPalmAroundMm);
+    points.insert(points.end(), around.begin(), around.end());
+    topMm = std::max(topMm, finger.baseMm.z());
+  }
+  appendExtrusion(
+      body, convexOutline(std::move(points)), topMm - kPalmDepthMm, topMm, 3.0 * kChamferMm);
+  return body;
+}
+
+}  // namespace
+
+std::vector<Vector2d> convexOutline(std::vector<Vector2d> points) {
+  std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  // Andrew's monotone chain.
+  std::vector<Vector2d> outline;
+  const auto add = [&outline](const Vector2d& point, std::size_t keep) {
+    while (outline.size() >= keep + 2) {
+      const Vector2d last = outline.back() - outline[outline.size() - 2];
+      const Vector2d next = point - outline.back();
+      if (last.x() * next.y() - last.y() * next.x() > 0.0) break;
+      outline.pop_back();
+    }
+    outline.push_back(point);
+  };
+  for (const Vector2d& point : points) add(point, 0);
+  const std::size_t lower = outline.size() - 1;
+  for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], lower);
+  outline.pop_back();
+  return outline;
+}
+
+void appendExtrusion(HandBody& body,
+                     const std::vector<Vector2d>& outline,
+                     double zMin,
+                     double zMax,
+                     double chamfer) {
+  const std::size_t n = outline.size();
+  if (n < 3) return;
+  const std::vector<Vector2d> inner = inset(outline, chamfer);
+  const auto at = [](const Vector2d& point, double z) { return Vector3d(point.x(), point.y(), z); };
+  std::vector<Vector2d> faceNormals;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector2d along = (outline[(i + 1) % n] - outline[i]).normalized();
+    faceNormals.emplace_back(along.y(), -along.x());
+  }
+  // The normal of face `i` at its corner shared with face `j`.
+  const auto normal = [&](std::size_t i, std::size_t j) {
+    const bool smooth = faceNormals[i].dot(faceNormals[j]) > kSmoothBelow;
+    const Vector2d both = smooth ? (faceNormals[i] + faceNormals[j]).normalized() : faceNormals[i];
+    return Vector3f(static_cast<float>(both.x()), static_cast<float>(both.y()), 0.0F);
+  };
+  const double low = zMin + chamfer, high = zMax - chamfer;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t next = (i + 1) % n, before = (i + n - 1) % n;
+    const Vector3f here = normal(i, before), there = normal(i, next);
+    const HandBody::Corner a{at(outline[i], low).cast<float>(), here};
+    const HandBody::Corner b{at(outline[next], low).cast<float>(), there};
+    const HandBody::Corner c{at(outline[next], high).cast<float>(), there};
+    const HandBody::Corner d{at(outline[i], high).cast<float>(), here};
+    appendTriangle(body, a, b, c);
+    appendTriangle(body, a, c, d);
+    appendFlat(body,
+               at(inner[i], zMin),
+               at(inner[next], zMin),
+               at(outline[next], low),
+               at(outline[i], low));
+    appendFlat(body,
+               at(outline[i], high),
+               at(outline[next], high),
+               at(inner[next], zMax),
+               at(inner[i], zMax));
+    body.edges.emplace_back(a.atMm, b.atMm);
+    body.edges.emplace_back(d.atMm, c.atMm);
+    if (faceNormals[i].dot(faceNormals[before]) <= kSmoothBelow)
+      body.edges.emplace_back(a.atMm, d.atMm);
+  }
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const auto cap = [&](std::size_t corner, double z, float out) {
+      return HandBody::Corner{at(inner[corner], z).cast<float>(), Vector3f(0.0F, 0.0F, out)};
+    };
+    appendTriangle(body, cap(0, zMax, 1.0F), cap(i, zMax, 1.0F), cap(i + 1, zMax, 1.0F));
+    appendTriangle(body, cap(0, zMin, -1.0F), cap(i + 1, zMin, -1.0F), cap(i, zMin, -1.0F));
+  }
+}
+
+std::vector<HandBody> handBodies(const HandGeometry& geometry) {
+  const GeometryDescription& hand = geometry.description();
+  const HandPose pose = geometry.pose(std::vector<double>(hand.numAxes, 0.0));
+  std::vector<HandBody> bodies;
+  if (!hand.fingers.empty()) bodies.push_back(palm(hand));
+  for (std::size_t f = 0; f < hand.fingers.size(); ++f) {
+    const std::vector<DhLink>& links = hand.fingers[f].links;
+    for (std::size_t l = 0; l < links.size(); ++l) {
+      std::optional<SurfaceLine> surface;
+      for (std::size_t m = 0; m < hand.surfaces.size() && !surface; ++m)
+        if (hand.surfaces[m].finger == f && hand.surfaces[m].link == l)
+          surface = lineOf(hand, pose, m);
+      const double halfWidthMm = surface ? surface->halfWidthMm : kPlainHalfWidthMm;
+      const double heightMm = surface ? surface->heightMm : kPlainHeightMm;
+      HandBody body{
+          .role = HandBodyRole::kLink, .finger = f, .link = l, .triangles = {}, .edges = {}};
+      if (links[l].rMm > 0.0) {
+        const bool tip = l + 1 == links.size();
+        appendExtrusion(
+            body, linkOutline(surface, links[l].rMm, tip), -halfWidthMm, halfWidthMm, kChamferMm);
+      } else if (links[l].dMm != 0.0) {
+        // A column from the origin before to this one, which is at 0 of this frame.
+        const double alpha = links[l].alphaDeg * std::numbers::pi / 180.0;
+        const Vector3d before(
+            0.0, -links[l].dMm * std::sin(alpha), -links[l].dMm * std::cos(alpha));
+        appendExtrusion(body, circle(Vector2d::Zero(), heightMm * 1.05), 0.0, before.norm(), 1.0);
+        Eigen::Isometry3d to = Eigen::Isometry3d::Identity();
+        to.linear() =
+            Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), before).toRotationMatrix();
+        turn(body, 0, 0, to);
+      }
+      if (!body.triangles.empty()) bodies.push_back(std::move(body));
+      if (l + 1 == links.size()) continue;
+      // The knuckle that turns the next link lies in this one's frame.
+      HandBody knuckle{
+          .role = HandBodyRole::kKnuckle, .finger = f, .link = l, .triangles = {}, .edges = {}};
+      const double wideMm = kPlainHalfWidthMm + 1.2;
+      appendExtrusion(
+          knuckle, circle(Vector2d::Zero(), heightMm * kKnuckleShare), -wideMm, wideMm, 1.2);
+      bodies.push_back(std::move(knuckle));
+    }
+  }
+  return bodies;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,172 @@
+#include "gui/hand3d/hand_panel.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QResizeEvent>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include <palpate/core/error.h>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kHandPanelControlHeight = 26;  // [px] of boxes beside buttons
+constexpr int kBoxesAbove = 400;             // [px] of width: room for the sphere's box
+
+template <class All, class Value>
+int handPanelIndexOf(const All& all, Value value) {
+  return static_cast<int>(std::find(all.begin(), all.end(), value) - all.begin());
+}
+
+// Of the hand at the ends of a recording and where it holds most.
+std::vector<Eigen::Vector3d> handPanelExtentOf(const OpenedRecording& recording,
+                                               const HandLook& look) {
+  std::vector<Eigen::Vector3d> points;
+  const Profile& profile = recording.profile;
+  if (profile.numFrames() == 0) return points;
+  HandSceneBuilder drawing;
+  drawing.setHand(profile.hand());
+  for (const std::size_t frame :
+       {std::size_t{0}, recording.table.frameOfLargestSum(), profile.numFrames() - 1}) {
+    try {
+      const auto angles = profile.anglesAtFrame(frame);
+      drawing.setMoment(profile.frame(frame), angles ? angles->deg : std::vector<double>());
+    } catch (const Error&) {
+      continue;  // damaged: whoever shows this frame says so
+    }
+    const auto now = drawing.extent(look);
+    points.insert(points.end(), now.begin(), now.end());
+  }
+  return points;
+}
+
+}  // namespace
+
+HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(parent) {
+  auto* header = new QWidget(this);
+  header->setObjectName("ViewHeader");
+  header->setAttribute(Qt::WA_StyledBackground);
+  const auto box = [header](const char* name, const char* tip) {
+    auto* made = new QComboBox(header);
+    made->setObjectName(name);
+    made->setFocusPolicy(Qt::NoFocus);  // it has a key
+    made->setToolTip(tip);
+    made->setMinimumHeight(kHandPanelControlHeight);
+    made->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    return made;
+  };
+  taxels_ = box("taxelShapeBox", "How taxels are drawn (T)");
+  for (const TaxelShape shape : kAllTaxelShapes) taxels_->addItem(nameOf(shape));
+  spheres_ = box("sphereBox", "The enclosing sphere (B)");
+  for (const SphereLook look : kAllSphereLooks) spheres_->addItem(nameOf(look));
+  matrix_ = box("onlyMatrixBox", "One matrix alone (Alt+1, Alt+2, ..; Alt+0: the whole hand)");
+  auto* more = new QToolButton(header);
+  more->setObjectName("handShowButton");
+  more->setText("Show");
+  more->setToolTip("What else is seen of the hand");
+  more->setPopupMode(QToolButton::InstantPopup);
+  more->setFocusPolicy(Qt::TabFocus);
+  auto* menu = new QMenu(more);
+  menu->addActions(shown);
+  more->setMenu(menu);
+
+  auto* row = new QHBoxLayout(header);
+  row->setContentsMargins(12, 4, 10, 4);
+  row->setSpacing(6);
+  row->addWidget(new QLabel("<b>Hand</b>", header));
+  row->addStretch(1);
+  row->addWidget(taxels_);
+  row->addWidget(spheres_);
+  row->addWidget(matrix_);
+  row->addWidget(more);
+
+  view_ = new HandView(this);
+  view_->setObjectName("handView");
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(header);
+  column->addWidget(view_, 1);
+
+  const auto chosen = [this](auto change) {
+    HandLook look = view_->look();
+    change(look);
+    emit lookChosen(look);
+  };
+  connect(taxels_, &QComboBox::activated, this, [chosen](int index) {
+    chosen(
+        [&](HandLook& look) { look.taxels = kAllTaxelShapes.at(static_cast<std::size_t>(index)); });
+  });
+  connect(spheres_, &QComboBox::activated, this, [chosen](int index) {
+    chosen(
+        [&](HandLook& look) { look.sphere = kAllSphereLooks.at(static_cast<std::size_t>(index)); });
+  });
+  connect(matrix_, &QComboBox::activated, this, [chosen](int index) {
+    chosen([&](HandLook& look) {
+      look.only.reset();
+      if (index > 0) look.only = static_cast<std::size_t>(index - 1);
+    });
+  });
+  setMinimumWidth(240);
+}
+
+void HandPanel::listMatrices(const HandDescription& hand) {
+  const QSignalBlocker blocked(matrix_);
+  matrix_->clear();
+  matrix_->addItem("whole hand");
+  for (const MatrixDescription& matrix : hand.matrices)
+    matrix_->addItem(QString::fromStdString(matrix.shortName));
+  HandLook look = view_->look();
+  if (look.only && *look.only >= hand.layout->numMatrices()) {
+    look.only.reset();
+    emit lookChosen(look);
+  }
+  matrix_->setCurrentIndex(look.only ? static_cast<int>(*look.only) + 1 : 0);
+}
+
+void HandPanel::setRecording(const OpenedRecordingPtr& recording) {
+  if (!recording) return view_->clear();
+  setHand(recording->profile.hand());
+  if (!recording->isLong()) view_->setExtent(handPanelExtentOf(*recording, view_->look()));
+}
+
+void HandPanel::setHand(const HandDescription& hand) {
+  view_->setHand(hand);
+  listMatrices(hand);
+}
+
+void HandPanel::show(const TactileFrame& frame, const std::vector<double>& anglesDeg) {
+  view_->setMoment(frame, anglesDeg);
+}
+
+void HandPanel::setColors(const MatricesLook& colors) {
+  HandLook look = view_->look();
+  look.map = colors.map;
+  look.range = colors.range;
+  look.theme = colors.theme;
+  view_->setLook(look);
+}
+
+void HandPanel::setLook(const HandLook& wanted) {
+  HandLook look = wanted;
+  look.map = view_->look().map;
+  look.range = view_->look().range;
+  look.theme = view_->look().theme;
+  view_->setLook(look);
+  taxels_->setCurrentIndex(handPanelIndexOf(kAllTaxelShapes, look.taxels));
+  spheres_->setCurrentIndex(handPanelIndexOf(kAllSphereLooks, look.sphere));
+  matrix_->setCurrentIndex(look.only ? static_cast<int>(*look.only) + 1 : 0);
+}
+
+void HandPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  spheres_->setVisible(event->size().width() >= kBoxesAbove);
+}
+
+}  // namespace palpate::gui

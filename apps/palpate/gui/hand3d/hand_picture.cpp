@@ -1,0 +1,173 @@
+#include "gui/hand3d/hand_picture.h"
+
+#include <QPainter>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <palpate/core/number_text.h>
+#include <palpate/kinematics/joint_range.h>
+
+#include "gui/hand3d/hand_raster.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kHandPictureMargin = 12.0;    // [px]
+constexpr double kHandPictureBarWidth = 12.0;  // of the colours
+constexpr double kHandPictureBarLabels = 44.0;
+constexpr double kHighestBar = 220.0;
+constexpr double kLowestPicture = 220.0;  // [px] below, there is no room for a bar
+constexpr double kScaleShare = 0.16;      // of the width, at most
+constexpr double kFine = 2.0;             // device pixels per unit
+constexpr double kVectorRatio = 2.5;      // dots per unit on paper
+
+// 1, 2, 5, 10, 20, .. mm, the longest that fits.
+double roundLength(double longestMm) {
+  const double power = std::pow(10.0, std::floor(std::log10(longestMm)));
+  for (const double step : {5.0, 2.0})
+    if (step * power <= longestMm) return step * power;
+  return power;
+}
+
+void paintScale(QPainter& painter, const QRectF& area, const HandPictureOptions& options) {
+  const double pxPerMm = options.camera.pxPerMm(area.height());
+  if (!(pxPerMm > 0.0) || !std::isfinite(pxPerMm)) return;
+  const double lengthMm = roundLength(area.width() * kScaleShare / pxPerMm);
+  const double length = lengthMm * pxPerMm;
+  const QPointF left(area.left() + kHandPictureMargin, area.bottom() - kHandPictureMargin);
+  painter.setPen(QPen(colorsOf(options.page.theme).muted, 1.5));
+  painter.drawLine(left, left + QPointF(length, 0.0));
+  for (const double at : {0.0, length})
+    painter.drawLine(left + QPointF(at, -4.0), left + QPointF(at, 0.0));
+  const QString text = QString::fromStdString(numberText(lengthMm)) + " mm";
+  painter.drawText(left + QPointF(length + 8.0, 2.0), text);
+}
+
+// How large the sphere is, where it is seen.
+double paintSphereText(QPainter& painter,
+                       const QRectF& area,
+                       double top,
+                       const HandSceneBuilder& drawing,
+                       const HandPictureOptions& options) {
+  const HandLook& look = options.look;
+  if (look.sphere == SphereLook::kNone || look.only || isFlat(drawing.effective(look).taxels))
+    return top;
+  const QString text = sphereText(drawing, look.sphereOf);
+  if (text.isEmpty()) return top;
+  const QFontMetricsF metrics(painter.font());
+  painter.setPen(colorsOf(options.page.theme).muted);
+  const QRectF line(area.left() + kHandPictureMargin,
+                    top,
+                    area.width() - 2.0 * kHandPictureMargin,
+                    metrics.height());
+  painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter, text);
+  return line.bottom() + 6.0;
+}
+
+void handPicturePaintNotice(QPainter& painter,
+                            const QRectF& area,
+                            double top,
+                            const HandPictureOptions& options) {
+  if (options.notice.isEmpty()) return;
+  const ThemeColors& colors = colorsOf(options.page.theme);
+  const QFontMetricsF metrics(painter.font());
+  const double widest = area.width() - 2.0 * kHandPictureMargin - 20.0;
+  QRectF box =
+      metrics.boundingRect(QRectF(area.left() + kHandPictureMargin + 10.0, top, widest, 200.0),
+                           Qt::AlignLeft | Qt::TextWordWrap,
+                           options.notice);
+  const QRectF around = box.adjusted(-10.0, -5.0, 10.0, 5.0).translated(0.0, 5.0);
+  painter.setPen(QPen(colors.warning, 1.0));
+  painter.setBrush(colors.panel);
+  painter.drawRoundedRect(around, 5.0, 5.0);
+  painter.setPen(colors.warning);
+  painter.drawText(box.translated(0.0, 5.0), Qt::AlignLeft | Qt::TextWordWrap, options.notice);
+}
+
+}  // namespace
+
+HandLook lookOf(const HandPictureOptions& options, const HandSceneBuilder& drawing) {
+  HandLook look = options.look;
+  look.map = options.page.map;
+  look.range = {options.page.rangeMin, options.page.rangeMax};
+  if (const auto& frame = drawing.handState().frame) look.range = rangeOf(options.page, *frame);
+  look.theme = options.page.theme;
+  return look;
+}
+
+void paintHandOverlay(QPainter& painter,
+                      const QRectF& area,
+                      const HandSceneBuilder& drawing,
+                      const HandScene& scene,
+                      const HandPictureOptions& options) {
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setFont(pictureFont(options.page));
+  painter.translate(area.topLeft());
+  paintLabels(painter, scene, options.camera, area.size());
+  painter.translate(-area.topLeft());
+  const QFontMetricsF metrics(painter.font());
+  double top = area.top() + kHandPictureMargin;
+  if (!options.page.title.isEmpty() || !options.page.caption.isEmpty()) {
+    const QRectF title(area.left() + kHandPictureMargin,
+                       top,
+                       area.width() - 2.0 * kHandPictureMargin,
+                       metrics.height());
+    paintTitle(painter, title, options.page);
+    top = title.bottom() + 8.0;
+  }
+  painter.setFont(pictureFont(options.page));
+  top = paintSphereText(painter, area, top, drawing, options);
+  handPicturePaintNotice(painter, area, top, options);
+  if (drawing.hasHand()) {
+    painter.setFont(pictureFont(options.page));
+    paintScale(painter, area, options);
+    if (options.page.colorBar && area.height() >= kLowestPicture) {
+      const double above = top + 2.5 * metrics.height();
+      const double height = std::min(kHighestBar, area.bottom() - above - 3.0 * kHandPictureMargin);
+      const QRectF bar(
+          area.right() - kHandPictureMargin - kHandPictureBarLabels - kHandPictureBarWidth,
+          above,
+          kHandPictureBarWidth,
+          height);
+      painter.setRenderHint(QPainter::Antialiasing, false);
+      paintColorBar(painter, bar, lookOf(options, drawing).range, options.page);
+    }
+  }
+  painter.restore();
+}
+
+void paintHandPicture(QPainter& painter,
+                      const QRectF& area,
+                      const HandSceneBuilder& drawing,
+                      const HandPictureOptions& options) {
+  HandScene scene;
+  drawing.fill(scene, lookOf(options, drawing), options.camera);
+  const double ratio = options.page.pixelRatio > 0.0 ? options.page.pixelRatio : kVectorRatio;
+  // Small pixels need fewer samples.
+  const RasterQuality quality = ratio >= kFine ? RasterQuality::kScreen : RasterQuality::kPicture;
+  painter.drawImage(area, rasterize(scene, options.camera, area.size(), ratio, quality));
+  paintHandOverlay(painter, area, drawing, scene, options);
+}
+
+QString sphereText(const HandSceneBuilder& drawing, SphereOf of) {
+  const HandContact& contact = drawing.handState().contact;
+  const auto& sphere = of == SphereOf::kTaxels ? contact.taxelSphere : contact.centroidSphere;
+  if (!sphere || !(sphere->radiusMm > 0.0)) return {};
+  return QString(of == SphereOf::kTaxels ? "enclosing sphere " : "sphere of centroids ") +
+         QString::number(2.0 * sphere->radiusMm, 'f', 1) + " mm";
+}
+
+QString poseNotice(const HandSceneBuilder& drawing, bool assumed) {
+  if (!drawing.hasHand()) return {};
+  if (!drawing.hasGeometry())
+    return "The geometry of this sensor isn't known: its matrices laid flat.";
+  if (!drawing.handState().frame) return {};
+  if (!drawing.posed()) return "No usable joint angles: the hand is shown at rest, without sizes.";
+  if (assumed) return "Joint angles as assumed, not recorded.";
+  const AnglesCheck check = checkAngles(drawing.handState().anglesDeg, drawing.hand().axes);
+  return QString::fromStdString(check.problem);
+}
+
+}  // namespace palpate::gui

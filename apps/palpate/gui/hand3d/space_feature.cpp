@@ -1,0 +1,247 @@
+#include "gui/hand3d/space_feature.h"
+
+#include <QMenu>
+#include <utility>
+
+#include "gui/appearance/next_choice.h"
+#include "gui/hand3d/hand_frame_painter.h"
+#include "gui/hand3d/hand_panel.h"
+#include "gui/matrices/matrices_feature.h"
+#include "gui/matrices/matrices_frame_painter.h"
+#include "gui/matrices/matrices_panel.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kTurnDeg = 10.0;    // by a key
+constexpr double kMoveShare = 0.06;  // of the view's height, by a key
+constexpr double kNearer = 1.2;
+
+HandPanel* makePanel(const SpaceActions& actions, QWidget* window) {
+  return new HandPanel({actions.normals,
+                        actions.contacts,
+                        actions.slipArrows,
+                        actions.sphereOfCentroids,
+                        actions.wire,
+                        actions.axes},
+                       window);
+}
+
+}  // namespace
+
+SpaceFeature::SpaceFeature(WindowState& windowState, QWidget* window, MatricesPanel& matrices)
+    : Feature(windowState, window),
+      actions_(windowState.actions),
+      matrices_(matrices),
+      panel_(makePanel(actions_, window)) {
+  panel_->view().setAssumedAngles(windowState.environment.assumedAnglesDeg);
+  connectMoment();
+  connectLook();
+  connectCamera();
+}
+
+void SpaceFeature::connectMoment() {
+  WindowState& windowState = state();
+  HandView& view = panel_->view();
+  connect(&windowState.displayed, &DisplayedSource::seenChanged, this, &SpaceFeature::takeSource);
+  connect(&windowState.displayed, &DisplayedSource::handChanged, this, [this] {
+    panel_->setHand(*this->state().displayed.hand());
+  });
+  connect(&windowState.currentFrame, &CurrentFrame::frameChanged, this, [this] {
+    if (!this->state().displayed.isLive()) showMoment();
+  });
+  connect(&windowState.currentFrame,
+          &CurrentFrame::resultsReceived,
+          this,
+          [this](const LiveResults& results) {
+            if (panel_->isHidden()) return;
+            panel_->show(*results.frame,
+                         results.angles ? results.angles->deg : std::vector<double>());
+          });
+  connect(
+      &windowState.currentFrame, &CurrentFrame::staleNoticeChanged, this, [&windowState, &view] {
+        view.setStale(windowState.currentFrame.old());
+      });
+  connect(
+      &windowState.derivedResults, &DerivedResults::pressureChanged, this, [&windowState, &view] {
+        view.setPressure(windowState.derivedResults.pressure());
+      });
+  connect(&windowState.derivedResults, &DerivedResults::slipsChanged, this, [&windowState, &view] {
+    view.setSlip(windowState.derivedResults.slips());
+  });
+  // One selection, one range of colours, one text of what is under the mouse.
+  connect(&matrices_, &MatricesPanel::lookChanged, panel_, &HandPanel::setColors);
+  connect(&windowState.selection, &Selection::taxelsChanged, this, [&windowState, &view] {
+    if (!(view.selection() == windowState.selection.taxels()))
+      view.select(windowState.selection.taxels());
+  });
+  connect(&view, &HandView::selectionChanged, this, [&windowState, &view] {
+    windowState.selection.setTaxels(view.selection());
+  });
+  connect(&view, &HandView::hovered, &windowState.messages, &Messages::hover);
+  connect(&view, &HandView::openGlFailed, this, [&windowState](const QString& why) {
+    windowState.messages.flash("the hand is drawn without OpenGL: " + why);
+  });
+}
+
+void SpaceFeature::takeSource() {
+  const DisplayedSource& displayed = state().displayed;
+  if (displayed.isLive())
+    panel_->setHand(*displayed.hand());
+  else
+    panel_->setRecording(displayed.seen());
+}
+
+void SpaceFeature::showMoment() {
+  const DisplayedSource& displayed = state().displayed;
+  if (panel_->isHidden() || !displayed.isRecording() || !state().currentFrame.hasFrame()) return;
+  if (state().currentFrame.damaged()) return;  // it stays as it was, and says so
+  const auto& angles = state().currentFrame.angles();
+  panel_->show(state().currentFrame.frame(), angles ? angles->deg : std::vector<double>());
+}
+
+void SpaceFeature::connectLook() {
+  SpaceActions& actions = actions_;
+  const auto tick = [this](QAction* action, bool HandLook::*part) {
+    on(action, [this, part](bool yes) { changeLook([=](HandLook& look) { look.*part = yes; }); });
+  };
+  tick(actions.normals, &HandLook::normals);
+  tick(actions.contacts, &HandLook::contacts);
+  tick(actions.wire, &HandLook::wire);
+  tick(actions.slipArrows, &HandLook::slip);
+  tick(actions.axes, &HandLook::axes);
+  on(actions.sphereOfCentroids, [this](bool yes) {
+    changeLook(
+        [=](HandLook& look) { look.sphereOf = yes ? SphereOf::kCentroids : SphereOf::kTaxels; });
+  });
+  on(actions.nextTaxelShape, [this] {
+    changeLook([](HandLook& look) { look.taxels = after(kAllTaxelShapes, look.taxels); });
+  });
+  on(actions.nextSphere, [this] {
+    changeLook([](HandLook& look) { look.sphere = after(kAllSphereLooks, look.sphere); });
+  });
+  for (qsizetype i = 0; i < actions.onlys.size(); ++i)
+    on(actions.onlys[i], [this, i] {
+      const HandDescription* hand = state().displayed.hand();
+      const auto matrix = static_cast<std::size_t>(i) - 1;
+      changeLook([&](HandLook& look) {
+        look.only.reset();
+        if (i > 0 && hand && matrix < hand->layout->numMatrices()) look.only = matrix;
+      });
+    });
+  connect(state().menus.only, &QMenu::aboutToShow, this, &SpaceFeature::showLook);
+  connect(panel_, &HandPanel::lookChosen, this, [this](const HandLook& look) {
+    changeLook([&](HandLook& now) { now = look; });
+  });
+  on(actions.matricesShown,
+     [this](bool shown) { showViews(shown, !shown || !panel_->isHidden()); });
+  on(actions.handShown, [this](bool shown) { showViews(!shown || !matrices_.isHidden(), shown); });
+}
+
+void SpaceFeature::connectCamera() {
+  SpaceActions& actions = actions_;
+  HandView& view = panel_->view();
+  on(actions.fitHand, [&view] { view.fit(); });
+  on(actions.resetHand, [&view] { view.resetCamera(); });
+  on(actions.nearer, [&view] { view.zoomBy(kNearer); });
+  on(actions.further, [&view] { view.zoomBy(1.0 / kNearer); });
+  constexpr std::pair<double, double> kWays[] = {{-1.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}};
+  for (qsizetype i = 0; i < 4; ++i) {
+    const auto [right, up] = kWays[i];
+    on(actions.orbits[i],
+       [&view, right = right, up = up] { view.orbitBy(right * kTurnDeg, up * kTurnDeg); });
+    on(actions.pans[i],
+       [&view, right = right, up = up] { view.panBy(right * kMoveShare, up * kMoveShare); });
+  }
+}
+
+void SpaceFeature::start() {
+  QSettings& settings = state().settings;
+  panel_->setLook(loadHandLook(settings));
+  panel_->setColors(matrices_.view().look());
+  showViews(settings.value("window/matrices_shown", true).toBool(),
+            settings.value("window/hand_shown", true).toBool());
+  showLook();
+}
+
+void SpaceFeature::remember() { saveHandLook(panel_->look(), state().settings); }
+
+void SpaceFeature::changeLook(const std::function<void(HandLook&)>& change) {
+  HandLook look = panel_->look();
+  change(look);
+  panel_->setLook(look);
+  showLook();
+}
+
+void SpaceFeature::showLook() {
+  SpaceActions& actions = actions_;
+  const HandLook& look = panel_->look();
+  actions.sphereOfCentroids->setChecked(look.sphereOf == SphereOf::kCentroids);
+  actions.normals->setChecked(look.normals);
+  actions.contacts->setChecked(look.contacts);
+  actions.wire->setChecked(look.wire);
+  actions.slipArrows->setChecked(look.slip);
+  actions.axes->setChecked(look.axes);
+  const HandDescription* hand = state().displayed.hand();
+  const std::size_t count = hand ? hand->layout->numMatrices() : 0;
+  for (qsizetype i = 0; i < actions.onlys.size(); ++i) {
+    QAction* action = actions.onlys[i];
+    const auto number = static_cast<std::size_t>(i);
+    action->setVisible(number <= count || count == 0);
+    if (i > 0 && number <= count)
+      action->setText(QString::fromStdString(hand->matrixName(number - 1)) + " alone");
+    action->setChecked(i == 0 ? !look.only : look.only == number - 1);
+  }
+}
+
+// One of the two is always there.
+void SpaceFeature::showViews(bool matrices, bool hand) {
+  if (!matrices && !hand) matrices = true;
+  matrices_.setVisible(matrices);
+  const bool late = hand && panel_->isHidden();
+  panel_->setVisible(hand);
+  panel_->view().setColorBar(!matrices);
+  actions_.matricesShown->setChecked(matrices);
+  actions_.handShown->setChecked(hand);
+  state().settings.setValue("window/matrices_shown", matrices);
+  state().settings.setValue("window/hand_shown", hand);
+  if (late) showMoment();
+}
+
+std::vector<CentralViewSpec> SpaceFeature::centre() {
+  return {{CentralViewSpec::Where::kBeside, panel_}};
+}
+
+std::vector<ExportedView> SpaceFeature::views() {
+  WindowState& windowState = state();
+  ExportedView view;
+  view.name = "Hand";
+  view.widget = panel_;
+  view.isThere = [this, &windowState] {
+    return windowState.currentFrame.hasFrame() && !windowState.comparison.on() &&
+           !panel_->isHidden();
+  };
+  view.fileName = [&windowState] { return windowState.frameStem() + "_hand"; };
+  view.size = [this] { return QSizeF(panel_->view().size()); };
+  view.paint = [this, &windowState](QPainter& painter, const PictureLook& look) {
+    const HandView& shown = panel_->view();
+    const MatricesPictureOptions page = fitted(pictureOptions(windowState, matrices_), look);
+    paintHandPicture(
+        painter, QRectF(QPointF(), look.size), shown.drawing(), shown.pictureOptions(page));
+  };
+  view.framePictures = [this, &windowState]() -> std::optional<FramePictures> {
+    std::optional<FramePictures> pictures = windowState.framePictures("_hand");
+    if (!pictures) return pictures;
+    const OpenedRecordingPtr recording = windowState.displayed.seen();
+    pictures->painter = [recording,
+                         options = pictureOptions(windowState, matrices_),
+                         shown = &panel_->view()](const PictureLook& look) {
+      return handFramePainter(
+          recording->profile, shown->pictureOptions(fitted(options, look)), shown->assumedAngles());
+    };
+    return pictures;
+  };
+  return {view};
+}
+
+}  // namespace palpate::gui

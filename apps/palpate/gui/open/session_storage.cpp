@@ -1,0 +1,46 @@
+#include "gui/open/session_storage.h"
+
+#include <QFileInfo>
+#include <algorithm>
+
+#include "gui/appearance/path_text.h"
+#include "gui/source/session.h"
+
+namespace palpate::gui {
+
+void rememberSession(WindowState& windowState) {
+  DisplayedSource& displayed = windowState.displayed;
+  displayed.saveViewPosition();
+  Session session;
+  for (const OpenedRecordingPtr& recording : windowState.recordings.all()) {
+    if (recording->path == windowState.demoRecording()) continue;
+    if (recording == displayed.behind()) session.current = static_cast<int>(session.files.size());
+    const ViewPosition* left = displayed.viewPosition(recording->path);
+    session.files.push_back(
+        {QFileInfo(pathText(recording->path)).absoluteFilePath(), left ? *left : ViewPosition()});
+  }
+  saveSession(session, windowState.settings);
+}
+
+void restoreSession(WindowState& windowState) {
+  const Session session = loadSession(windowState.settings);
+  std::vector<std::filesystem::path> files;
+  QStringList missing;
+  for (const Session::File& file : session.files) {
+    const std::filesystem::path path = file.path.toStdString();
+    if (!RecentFiles::exists(file.path)) {
+      missing.append(QFileInfo(file.path).fileName());
+      continue;
+    }
+    windowState.displayed.setLeftAt(path, file.viewPosition);
+    files.push_back(path);
+    // The first that can be opened is shown: that is the one that was.
+    if (session.current >= 0 && &file == &session.files[static_cast<std::size_t>(session.current)])
+      std::rotate(files.begin(), files.end() - 1, files.end());
+  }
+  windowState.open(files);
+  if (!missing.isEmpty())
+    windowState.messages.fail("Open last time, and not there any more: " + missing.join(", "));
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,244 @@
+#include "gui/recognise/recognition_controller.h"
+
+#include <QCoreApplication>
+#include <QEventLoop>
+
+#include <palpate/core/error.h>
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kModelKey = "recognise/model";
+constexpr const char* kEmulatedModelKey = "recognise/emulated_model";
+constexpr const char* kEmulatedModel = "emulated_objects.json";
+
+constexpr const char* kHowToAsk = "Choose a grasp in the timeline, or hold something: then ask.";
+constexpr const char* kNoModel =
+    "No model is chosen. Open one (Model), or teach objects on the page Teach.";
+
+}  // namespace
+
+RecognitionController::RecognitionController(QSettings& settings,
+                                             std::filesystem::path dataFolder,
+                                             QObject* parent)
+    : QObject(parent), settings_(settings), emulatedModel_(dataFolder / kEmulatedModel) {
+  answer_.text = kHowToAsk;
+  connect(&opening_, &BackgroundJob::failed, this, [this](const QString& message) {
+    setModel(std::nullopt, path_);
+    modelProblem_ = message;
+    emit modelChanged();
+    sayTrouble(message);
+  });
+  connect(&asking_, &BackgroundJob::failed, this, [this](const QString& message) {
+    sayTrouble(message);
+  });
+}
+
+const char* RecognitionController::settingsKey() const {
+  return emulated_ ? kEmulatedModelKey : kModelKey;
+}
+
+bool RecognitionController::isEmulatedModel() const {
+  std::error_code ignored;
+  return std::filesystem::equivalent(path_, emulatedModel_, ignored);
+}
+
+void RecognitionController::setEmulated(bool emulated) {
+  if (started_ && emulated == emulated_) return;
+  emulated_ = emulated;
+  started_ = true;
+  takeDefault();
+}
+
+void RecognitionController::takeDefault() {
+  std::error_code ignored;
+  std::filesystem::path path = settings_.value(settingsKey()).toString().toStdString();
+  if (path.empty() || !std::filesystem::exists(path, ignored))
+    path = emulated_ && std::filesystem::exists(emulatedModel_, ignored) ? emulatedModel_
+                                                                         : std::filesystem::path();
+  if (path == path_ && (day_ || path.empty())) return;
+  if (!path.empty()) return openModel(path);
+  path_.clear();
+  setModel(std::nullopt, {});
+}
+
+void RecognitionController::useEmulatedModel() { openModel(emulatedModel_); }
+
+void RecognitionController::openModel(const std::filesystem::path& path) {
+  path_ = path;
+  modelProblem_.clear();
+  auto read = std::make_shared<std::optional<TrainedModel>>();
+  opening_.cancel();
+  opening_.start(
+      "the model",
+      [read, path](const Progress&) { *read = loadModel(path); },
+      [this, read, path] {
+        if (path != path_) return;
+        settings_.setValue(settingsKey(), QString::fromStdString(path.string()));
+        setModel(std::move(*read), path);
+      });
+}
+
+void RecognitionController::takeModel(TrainedModel model, const std::filesystem::path& path) {
+  opening_.cancel();
+  settings_.setValue(settingsKey(), QString::fromStdString(path.string()));
+  setModel(std::move(model), path);
+}
+
+void RecognitionController::setModel(std::optional<TrainedModel> model,
+                                     const std::filesystem::path& path) {
+  path_ = path;
+  modelProblem_.clear();
+  day_ = model ? std::make_unique<RecognitionSession>(std::move(*model)) : nullptr;
+  // Its joints are never referenced anew.
+  if (day_ && emulated_ && isEmulatedModel() && day_->model().adaptsToSession())
+    day_->choose({OffsetChoice::Kind::kGiven, 0.0});
+  setPhotoFolder(photoFolder_);
+  last_.reset();
+  ++generation_;
+  // What the last model said is nothing of this one's.
+  answer_ = {};
+  answer_.text = kHowToAsk;
+  emit modelChanged();
+  emit dayChanged();
+  emit answered(answer_);
+  if (day_ && waiting_) ask(*std::exchange(waiting_, std::nullopt));
+}
+
+void RecognitionController::setPhotoFolder(const std::filesystem::path& folder) {
+  photoFolder_ = folder;
+  std::vector<std::filesystem::path> folders{path_.parent_path(), folder};
+  if (day_ && day_->model().options.at("path").isString())
+    folders.emplace_back(day_->model().options.at("path").asString());
+  photos_.setFolders(std::move(folders));
+}
+
+void RecognitionController::changeDay(const std::function<void(RecognitionSession&)>& change) {
+  if (!day_) return sayTrouble(kNoModel);
+  try {
+    change(*day_);
+  } catch (const std::exception& error) {
+    emit said(error.what());
+    return;
+  }
+  emit dayChanged();
+  if (last_) judge(last_->first, last_->second);
+}
+
+void RecognitionController::ask(const RecogniseQuestion& question) {
+  if (!day_) {
+    if (!opening_.busy()) return sayTrouble(modelProblem_.isEmpty() ? kNoModel : modelProblem_);
+    waiting_ = question;
+    return;
+  }
+  const std::string sensor = sensorText(question.profile.layout());
+  FeatureTable table;
+  table.set = day_->model().set;
+  table.names = featureNames(table.set);
+  table.sensor = sensor;
+  try {
+    requireFits(day_->model(), table);
+  } catch (const Error& error) {
+    return sayTrouble(error.what());
+  }
+  auto chosen = std::make_shared<ChosenGrasp>();
+  asking_.cancel();
+  asking_.start(
+      "the grasp",
+      [chosen, question, set = table.set](const Progress& progress) {
+        const std::size_t count = question.profile.numFrames();
+        *chosen = question.frames && count > 0
+                      ? graspWithin(question.profile,
+                                    question.frames->first,
+                                    question.frames->second,
+                                    set,
+                                    sdh2PinchHand(),
+                                    progress)
+                      : graspOf(question.profile, set, sdh2PinchHand(), progress);
+      },
+      [this, chosen, of = question.of, generation = ++generation_, contact = contact_] {
+        if (generation != generation_ || !day_) return;
+        if (chosen->features.problem.empty()) {
+          try {
+            day_->add(chosen->features.values, chosen->timeUs);
+            emit dayChanged();
+          } catch (const std::invalid_argument&) {
+            return;  // of the model before
+          }
+        }
+        judge(*chosen, of == kHeldNow && contact != contact_ ? QString(kLastGrasp) : of);
+      });
+}
+
+void RecognitionController::judge(const ChosenGrasp& chosen, const QString& of) {
+  last_ = {chosen, of};
+  if (!chosen.features.problem.empty()) {
+    RecognitionAnswer answer;
+    answer.kind = RecognitionAnswer::Kind::kProblem;
+    answer.text = QString::fromStdString(chosen.features.problem);
+    answer.text[0] = answer.text[0].toUpper();
+    answer.of = of;
+    return showAnswer(answer);
+  }
+  RecognitionAnswer answer =
+      answerOf(day_->model(), day_->predict(chosen.features.values, chosen.timeUs));
+  answer.of = of;
+  const bool none = emulated_ && isEmulatedModel() &&
+                    day_->offset().origin == OffsetSource::kGiven && day_->offset().mm == 0.0;
+  if (day_->model().adaptsToSession()) answer.offset = offsetText(day_->offset(), none);
+  answer.unsure = QString::fromStdString(day_->unsure());
+  const auto& grasps = day_->grasps();
+  for (std::size_t i = 0; i < grasps.size(); ++i)
+    if (grasps[i].timeUs == chosen.timeUs) answer.grasp = i;
+  showAnswer(answer);
+}
+
+void RecognitionController::touchBegins() {
+  if (answer_.kind == RecognitionAnswer::Kind::kProblem && answer_.of == kHeldNow && !last_)
+    sayHowToAsk();
+}
+
+void RecognitionController::contactEnded() {
+  ++contact_;
+  if (answer_.of != kHeldNow) return;
+  // Why there was no answer yet says nothing of what is gone.
+  if (answer_.kind == RecognitionAnswer::Kind::kProblem && !last_) return sayHowToAsk();
+  if (last_) last_->second = kLastGrasp;
+  answer_.of = kLastGrasp;
+  emit answered(answer_);
+}
+
+void RecognitionController::sayHowToAsk() {
+  RecognitionAnswer answer;
+  answer.text = kHowToAsk;
+  showAnswer(answer);
+}
+
+void RecognitionController::sayTrouble(const QString& text, const QString& of) {
+  ++generation_;
+  RecognitionAnswer answer;
+  answer.kind = RecognitionAnswer::Kind::kProblem;
+  answer.text = text;
+  answer.of = of;
+  last_.reset();
+  showAnswer(answer);
+}
+
+void RecognitionController::showAnswer(RecognitionAnswer answer) {
+  answer_ = std::move(answer);
+  emit answered(answer_);
+}
+
+bool RecognitionController::cancel() {
+  if (!asking_.busy()) return false;
+  ++generation_;
+  asking_.cancel();
+  sayTrouble("Given up.");
+  return true;
+}
+
+void RecognitionController::settle() {
+  while (busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+}
+
+}  // namespace palpate::gui

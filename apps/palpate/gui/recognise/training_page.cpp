@@ -1,0 +1,253 @@
+#include "gui/recognise/training_page.h"
+
+#include <QCompleter>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "gui/appearance/captions.h"
+#include "gui/widgets/figures_table.h"
+
+namespace palpate::gui {
+namespace {
+
+using TeachPageState = TrainingClip::State;
+constexpr int kFewGrasps = 5;  // of an object: blocks can't examine it
+
+std::vector<FigureColumn> teachPageObjectColumns() {
+  return {
+      {"object", {}, 18, true}, {"grasps", "In the folder", 7}, {"", "What is missing", 14, true}};
+}
+
+std::vector<FigureColumn> clipColumns() {
+  return {{"captured as", {}, 13, true},
+          {"s", "Length [s]", 5},
+          {"quality", "0..1: held steadily, whole, not saturated", 7},
+          {"", "Where it is", 14, true}};
+}
+
+QString stateText(const TrainingClip& clip) {
+  switch (clip.state) {
+    case TeachPageState::kWaiting:
+      return "waits: " + clip.problem;
+    case TeachPageState::kSaving:
+      return "being written";
+    case TeachPageState::kAccepted:
+      return "accepted";
+    case TeachPageState::kTakenOut:
+      return "taken out";
+    case TeachPageState::kFailed:
+      break;
+  }
+  return "not written: " + clip.problem;
+}
+
+}  // namespace
+
+TrainingPage::TrainingPage(TrainingController& desk, QWidget* parent)
+    : QWidget(parent), desk_(desk) {
+  setObjectName("teachPage");
+  const auto button = [this](const char* name, const QString& text, const QString& tip) {
+    auto* made = new QPushButton(text, this);
+    made->setObjectName(name);
+    made->setToolTip(tip);
+    return made;
+  };
+  auto* choose = button(
+      "teachFolder", "Folder…", "A folder with a folder of recordings per object (\"golf_ball\")");
+  folder_ = new QLabel(this);
+  folder_->setObjectName("teachFolderName");
+  folder_->setTextFormat(Qt::PlainText);
+  folder_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  objects_ = new FiguresTable(teachPageObjectColumns(), this);
+  objects_->setObjectName("teachObjects");
+  objects_->setSingleLine();
+  object_ = new QLineEdit(this);
+  object_->setObjectName("teachObject");
+  object_->setPlaceholderText("object, as it shall be called");
+  object_->setMaxLength(60);
+  capture_ = button("teachCapture", "Capture", "Each grasp that ends from now on is a clip of it");
+  capture_->setCheckable(true);
+  state_ = new QLabel(this);
+  state_->setObjectName("teachState");
+  state_->setProperty("role", "muted");
+  state_->setWordWrap(true);
+  clips_ = new FiguresTable(clipColumns(), this);
+  clips_->setObjectName("teachClips");
+  clips_->setSingleLine();
+  act_ = button("teachAct", "Undo", "Takes the chosen or newest grasp out of the folder again");
+  train_ = button("teachTrain", "Train", "A model of what the folder holds");
+  train_->setProperty("primary", true);
+
+  auto* top = new QHBoxLayout;
+  top->setSpacing(8);
+  top->addWidget(choose);
+  top->addWidget(folder_, 1);
+  top->addWidget(train_);
+  auto* middle = new QHBoxLayout;
+  middle->setSpacing(8);
+  middle->addWidget(object_, 1);
+  middle->addWidget(capture_);
+  auto* bottom = new QHBoxLayout;
+  bottom->setSpacing(8);
+  bottom->addWidget(state_, 1);
+  bottom->addWidget(act_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(12, 8, 12, 10);
+  column->setSpacing(8);
+  column->addLayout(top);
+  column->addWidget(objects_, 3);
+  column->addWidget(sectionHeading("Capture", this));
+  column->addLayout(middle);
+  column->addWidget(clips_, 2);
+  column->addLayout(bottom);
+
+  connect(choose, &QPushButton::clicked, this, [this] {
+    if (const auto path = askForFolder(); !path.empty()) desk_.setFolder(path);
+  });
+  connect(objects_, &FiguresTable::rowChosen, this, [this](int row) {
+    if (!capturing()) object_->setText(objects_->item(row, 0)->text());
+  });
+  connect(object_, &QLineEdit::textChanged, this, &TrainingPage::showState);
+  connect(capture_, &QPushButton::toggled, this, &TrainingPage::showState);
+  connect(clips_, &QTableWidget::itemSelectionChanged, this, &TrainingPage::showState);
+  connect(act_, &QPushButton::clicked, this, &TrainingPage::actOnClip);
+  connect(train_, &QPushButton::clicked, this, &TrainingPage::train);
+  connect(&desk_, &TrainingController::folderChanged, this, &TrainingPage::showFolder);
+  connect(&desk_, &TrainingController::clipsChanged, this, &TrainingPage::showClips);
+  connect(&desk_.job(), &BackgroundJob::started, this, &TrainingPage::showState);
+  connect(&desk_.job(), &BackgroundJob::finished, this, &TrainingPage::showState);
+  askForFolder = [this] {
+    return std::filesystem::path(
+        QFileDialog::getExistingDirectory(this,
+                                          "A folder with a folder of recordings per object",
+                                          QString::fromStdString(desk_.folder().string()))
+            .toStdString());
+  };
+  askForPlace = [this](const QString& suggestion) {
+    QString path =
+        QFileDialog::getSaveFileName(this, "Save the model", suggestion, "Models (*.json)");
+    if (!path.isEmpty() && !path.endsWith(".json")) path += ".json";
+    return std::filesystem::path(path.toStdString());
+  };
+  showFolder();
+  showClips();
+}
+
+void TrainingPage::setLive(bool live) {
+  if (live == live_) return;
+  live_ = live;
+  if (!live) capture_->setChecked(false);
+  showState();
+}
+
+bool TrainingPage::capturing() const { return capture_->isChecked(); }
+
+QString TrainingPage::object() const { return object_->text().simplified(); }
+
+void TrainingPage::take(const Profile& clip) {
+  if (capturing()) desk_.capture(object(), clip);
+}
+
+void TrainingPage::showFolder() {
+  const auto& folder = desk_.folder();
+  folder_->setText(folder.empty() ? QString("no folder is chosen")
+                                  : QString::fromStdString(folder.filename().string()));
+  folder_->setToolTip(QString::fromStdString(folder.string()));
+  std::vector<std::vector<FigureCell>> rows;
+  QStringList names;
+  for (const auto& [name, count] : desk_.counts()) {
+    names.append(name);
+    rows.push_back({{.text = name},
+                    {.text = QString::number(count)},
+                    {.text = count < kFewGrasps ? QString("more would be better") : QString(),
+                     .tip = "Five grasps at least: blocks of them examine the others",
+                     .warning = count < kFewGrasps}});
+  }
+  objects_->setRows(rows);
+  auto* completer = new QCompleter(names, object_);
+  completer->setCaseSensitivity(Qt::CaseInsensitive);
+  object_->setCompleter(completer);
+  showState();
+}
+
+void TrainingPage::showClips() {
+  std::vector<std::vector<FigureCell>> rows;
+  const auto& clips = desk_.clips();
+  for (auto clip = clips.rbegin(); clip != clips.rend(); ++clip) {
+    const bool odd =
+        clip->state == TeachPageState::kWaiting || clip->state == TeachPageState::kFailed;
+    rows.push_back({{.text = clip->object},
+                    {.text = figure(clip->seconds, 1)},
+                    {.text = figure(clip->quality, 2), .warning = odd},
+                    {.text = stateText(*clip),
+                     .tip = QString::fromStdString(clip->path.string()),
+                     .warning = odd}});
+  }
+  clips_->setRows(rows);
+  showState();
+}
+
+// The newest stand on top. -1: none.
+int TrainingPage::chosenClip() const {
+  const auto count = static_cast<int>(desk_.clips().size());
+  const int row = clips_->chosenRow();
+  if (row >= 0 && row < count) return count - 1 - row;
+  return count - 1;
+}
+
+void TrainingPage::showState() {
+  const bool folder = !desk_.folder().empty();
+  capture_->setEnabled(folder && live_ && (!object().isEmpty() || capturing()));
+  object_->setEnabled(!capturing());
+  train_->setEnabled(folder && !desk_.busy());
+  capture_->setText(capturing() ? "End capture" : "Capture");
+  state_->setText(!folder       ? "Choose a folder first: captured grasps go there."
+                  : capturing() ? "Capturing " + object() + ": grasp it, again and again."
+                  : !desk_.problem().isEmpty() ? desk_.problem()
+                  : !live_                     ? QString("Connect a hand to capture.")
+                  : object().isEmpty()         ? QString("What will be grasped?")
+                                               : QString());
+  const int clip = chosenClip();
+  const TeachPageState state =
+      clip < 0 ? TeachPageState::kSaving : desk_.clips()[static_cast<std::size_t>(clip)].state;
+  act_->setEnabled(state != TeachPageState::kSaving);
+  act_->setText(clip < 0 || state == TeachPageState::kAccepted || state == TeachPageState::kSaving
+                    ? "Undo"
+                : state == TeachPageState::kTakenOut ? "Put back"
+                                                     : "Accept");
+}
+
+void TrainingPage::actOnClip() {
+  const int clip = chosenClip();
+  if (clip < 0) return;
+  const auto index = static_cast<std::size_t>(clip);
+  if (desk_.clips()[index].state == TeachPageState::kAccepted)
+    desk_.takeOut(index);
+  else
+    desk_.accept(index);
+}
+
+bool TrainingPage::undo() {
+  const auto newest = desk_.newestAccepted();
+  if (newest) desk_.takeOut(*newest);
+  return newest.has_value();
+}
+
+void TrainingPage::train() {
+  const auto& folder = desk_.folder();
+  const auto out = askForPlace(
+      QString::fromStdString((folder.parent_path() / folder.filename()).string()) + ".json");
+  if (out.empty()) return;
+  desk_.train(out, zeroNow ? zeroNow() : std::nullopt);
+}
+
+void TrainingPage::setTheme(Theme theme) {
+  objects_->setTheme(theme);
+  clips_->setTheme(theme);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,77 @@
+#include "gui/shell/central_widget.h"
+
+#include <algorithm>
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kViewsKey = "window/views";
+
+QVBoxLayout* centreColumn(QWidget* parent) {
+  auto* column = new QVBoxLayout(parent);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  return column;
+}
+
+}  // namespace
+
+CentralWidget::CentralWidget(QSettings& settings, QWidget* parent)
+    : QWidget(parent), settings_(settings) {
+  lines_ = centreColumn(this);
+  pages_ = new QStackedWidget(this);
+  auto* page = new QWidget(pages_);
+  column_ = centreColumn(page);
+  work_ = new QStackedWidget(page);
+  views_ = new QSplitter(Qt::Horizontal, work_);
+  views_->setObjectName("views");
+  views_->setChildrenCollapsible(false);
+  work_->addWidget(views_);
+  column_->addWidget(work_, 1);
+  pages_->addWidget(page);
+}
+
+void CentralWidget::add(const CentralViewSpec& offer) {
+  switch (offer.where) {
+    case CentralViewSpec::Where::kStart:
+      pages_->insertWidget(0, offer.widget);
+      break;
+    case CentralViewSpec::Where::kBeside:
+      views_->addWidget(offer.widget);
+      views_->setStretchFactor(views_->count() - 1, 1);
+      break;
+    case CentralViewSpec::Where::kInstead:
+      work_->addWidget(offer.widget);
+      break;
+    case CentralViewSpec::Where::kBelow:
+      column_->addWidget(offer.widget);
+      below_.push_back(offer.widget);
+      break;
+  }
+}
+
+void CentralWidget::add(std::vector<BannerSpec> strips) {
+  std::stable_sort(strips.begin(), strips.end(), [](const BannerSpec& a, const BannerSpec& b) {
+    return a.order < b.order;
+  });
+  for (const BannerSpec& strip : strips) lines_->addWidget(strip.widget);
+}
+
+void CentralWidget::begin() {
+  constexpr int kAlike = 1000;
+  lines_->addWidget(pages_, 1);
+  if (!views_->restoreState(settings_.value(kViewsKey).toByteArray()))
+    views_->setSizes(QList<int>(views_->count(), kAlike));
+  setPlace(DisplayedSource::Kind::kNothing);
+}
+
+void CentralWidget::setPlace(DisplayedSource::Kind place) {
+  pages_->setCurrentIndex(place == DisplayedSource::Kind::kNothing ? 0 : 1);
+  for (QWidget* widget : below_) widget->setVisible(place == DisplayedSource::Kind::kRecording);
+}
+
+void CentralWidget::setComparing(bool on) { work_->setCurrentIndex(on ? 1 : 0); }
+
+void CentralWidget::remember() { settings_.setValue(kViewsKey, views_->saveState()); }
+
+}  // namespace palpate::gui

@@ -1,0 +1,55 @@
+#include "gui/shell/run_window.h"
+
+#include <QGuiApplication>
+
+#include "gui/connect/connect_feature.h"
+#include "gui/desktop/application.h"
+#include "gui/desktop/first_paint.h"
+#include "gui/desktop/termination.h"
+#include "gui/hand3d/gl_probe.h"
+#include "gui/hand3d/hand_panel.h"
+#include "gui/hand3d/space_feature.h"
+#include "gui/open/session_storage.h"
+#include "gui/shell/main_window.h"
+
+namespace palpate::gui {
+
+int runWindow(int& argc, char** argv, const WindowOptions& options) {
+  const auto application = makeApplication(argc, argv);
+  MainWindow window({.dataFolder = options.dataFolder,
+                     .settingsPath = settingsPath(),
+                     .clock = nullptr,
+                     .read = {},
+                     .assumedAnglesDeg = options.assumedAnglesDeg,
+                     .recipe = options.recipe,
+                     .offerUnfinished = true});
+  const FirstPaint firstPaint(window);
+  const Termination termination;
+  QObject::connect(&termination, &Termination::asked, &window, &MainWindow::endNow);
+  window.show();
+  HandView& hand = window.feature<SpaceFeature>().panel().view();
+  // A driver that crashes does so in another process; until it has answered the hand is painted.
+  if (options.openGl == OpenGlChoice::kAlways && openGlProblem().isEmpty())
+    hand.useOpenGl();
+  else if (options.openGl == OpenGlChoice::kFast)
+    askForOpenGl(QCoreApplication::applicationFilePath().toStdString(),
+                 &window,
+                 [&hand](const QString& why) {
+                   if (why.isEmpty()) hand.useOpenGl();
+                 });
+  if (options.remote) {
+    QAction* remote = window.state().actions.at("remoteControl");
+    remote->setData(QString::fromStdString(options.remote->string()));
+    remote->setChecked(true);
+  }
+  // The window is on screen before the first file is read.
+  if (options.demo)
+    window.state().connectTo(emulatedBallConnection(true));
+  else if (options.files.empty())
+    restoreSession(window.state());
+  else
+    window.state().open(options.files);
+  return QGuiApplication::exec();
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,107 @@
+#include "gui/slip/slip_indicator.h"
+
+#include <QPainter>
+#include <QPixmap>
+
+namespace palpate::gui {
+namespace {
+
+// Drawn in a square of 16 x 16 units, at twice the size.
+constexpr int kSlipLampUnits = 16;
+constexpr int kScale = 2;
+constexpr QPointF kSlipLampMiddle(8.0, 8.0);
+constexpr double kSlipLampRadius = 6.0;
+
+QPolygonF slipLampPolygon(const QList<QPointF>& points) { return QPolygonF(points); }
+
+}  // namespace
+
+IndicatorLook indicatorOf(const SlipSample* sample) {
+  if (sample == nullptr) return IndicatorLook::kOff;
+  if (sample->slipping || sample->lamp == SlipIndicator::kSlipping) return IndicatorLook::kSlipping;
+  if (sample->lamp == SlipIndicator::kOff) return IndicatorLook::kOff;
+  const bool unsure = sample->lamp == SlipIndicator::kNotComputable ||
+                      sample->state == SlipState::kAmbiguous ||
+                      sample->state == SlipState::kInvalid;
+  return unsure ? IndicatorLook::kUnsure : IndicatorLook::kReady;
+}
+
+QColor colorOf(IndicatorLook look, Theme theme) {
+  const ThemeColors& colors = colorsOf(theme);
+  switch (look) {
+    case IndicatorLook::kOff:
+      break;
+    case IndicatorLook::kReady:
+      return theme == Theme::kDark ? QColor(0x4c, 0xc3, 0x6b) : QColor(0x1a, 0x7f, 0x37);
+    case IndicatorLook::kUnsure:
+      return colors.warning;
+    case IndicatorLook::kSlipping:
+      return colors.danger;
+  }
+  return colors.muted;
+}
+
+QIcon indicatorIcon(IndicatorLook look, Theme theme) {
+  QPixmap pixmap(kSlipLampUnits * kScale, kSlipLampUnits * kScale);
+  pixmap.setDevicePixelRatio(kScale);
+  pixmap.fill(Qt::transparent);
+  QPainter painter(&pixmap);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QColor color = colorOf(look, theme);
+  const QPen inside(colorsOf(theme).panel, 1.8, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(color);
+  switch (look) {
+    case IndicatorLook::kOff:
+      painter.setBrush(Qt::NoBrush);
+      painter.setPen(QPen(color, 1.6));
+      painter.drawEllipse(kSlipLampMiddle, kSlipLampRadius - 1.0, kSlipLampRadius - 1.0);
+      break;
+    case IndicatorLook::kReady:
+      painter.drawEllipse(kSlipLampMiddle, kSlipLampRadius, kSlipLampRadius);
+      painter.setPen(inside);
+      painter.drawPolyline(slipLampPolygon({{5.2, 8.3}, {7.2, 10.3}, {10.9, 5.9}}));
+      break;
+    case IndicatorLook::kUnsure:
+      painter.drawPolygon(slipLampPolygon({{8.0, 1.8}, {14.8, 14.0}, {1.2, 14.0}}));
+      painter.setPen(inside);
+      painter.drawLine(QPointF(8.0, 6.2), QPointF(8.0, 9.4));
+      painter.drawPoint(QPointF(8.0, 12.0));
+      break;
+    case IndicatorLook::kSlipping:
+      painter.drawRoundedRect(QRectF(1.6, 1.6, 12.8, 12.8), 2.0, 2.0);
+      painter.setPen(inside);
+      painter.drawLine(QPointF(8.0, 4.4), QPointF(8.0, 11.4));
+      painter.drawPolyline(slipLampPolygon({{5.0, 8.6}, {8.0, 11.6}, {11.0, 8.6}}));
+      break;
+  }
+  painter.end();
+  return QIcon(pixmap);
+}
+
+QString verdictOf(const SlipSample* sample) {
+  if (sample == nullptr) return "no contact";
+  return QString::fromUtf8(nameOf(sample->state)).replace('_', ' ');
+}
+
+QString meaningOf(const SlipSample* sample) {
+  if (sample == nullptr) return "No taxel of this matrix is active.";
+  switch (sample->state) {
+    case SlipState::kStill:
+      return "Nothing moves that would count.";
+    case SlipState::kLoading:
+      return "It shifts, but no more than contacts do while their load changes so fast.";
+    case SlipState::kLoadShift:
+      return "The load went to another place, the contact stayed.";
+    case SlipState::kAmbiguous:
+      return "The shape doesn't tell motion from a shifting load; or it isn't confirmed yet.";
+    case SlipState::kSlip:
+      return "The contact moves over the matrix.";
+    case SlipState::kInvalid:
+      break;
+  }
+  return "Too little is touched, too shortly yet, or neither motion nor load explains what "
+         "changed.";
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,195 @@
+#include "gui/window_state/active_filters.h"
+
+#include <QSignalBlocker>
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <palpate/core/error.h>
+#include <palpate/live/filter_stage.h>
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kRecipeKey = "filter/recipe";
+constexpr const char* kOnKey = "filter/on";
+constexpr const char* kRecipeKind = "recipe";  // of events
+
+std::optional<Recipe> recipeFrom(const std::string& json) {
+  try {
+    return recipeFromJson(Json::parse(json));
+  } catch (const Error&) {
+    return std::nullopt;  // of a later version, or damaged: as if there were none
+  }
+}
+
+}  // namespace
+
+ActiveFilters::ActiveFilters(DisplayedSource& displayed,
+                             EventController& events,
+                             LiveController& live,
+                             Messages& messages,
+                             QSettings& settings,
+                             QObject* parent)
+    : QObject(parent),
+      displayed_(displayed),
+      events_(events),
+      live_(live),
+      messages_(messages),
+      settings_(settings) {
+  displayed_.filtered = [this](const OpenedRecordingPtr& recording) -> OpenedRecordingPtr {
+    const bool made = on_ && made_ && madeOf_ == recording && madeBy_.sameSteps(recipe());
+    return made && !recipe().empty() ? made_ : nullptr;
+  };
+  connect(&displayed_, &DisplayedSource::changed, this, [this] {
+    if (made_ && madeOf_ != displayed_.behind()) made_ = madeOf_ = nullptr;
+    sourceIsNew_ = true;
+    emit sourceChanged();
+  });
+  connect(&displayed_, &DisplayedSource::shown, this, [this] {
+    if (!std::exchange(sourceIsNew_, false)) return;
+    takeKeptRecipe();
+    apply();
+  });
+  connect(&editor_, &RecipeEditor::changed, this, [this] {
+    settings_.setValue(kRecipeKey, QString::fromStdString(recipeJson(recipe()).text(-1)));
+    emit measured(std::nullopt);
+    apply();
+    noteInLiveRecording();
+  });
+  connect(&live_, &LiveController::recordingStarted, this, &ActiveFilters::noteInLiveRecording);
+  connect(&worker_, &FilterWorker::progressed, this, [this](double fraction) {
+    emit progressed(fraction);
+  });
+  connect(&worker_, &FilterWorker::measured, this, [this](const FilterFigures& figures) {
+    emit measured(figures);
+  });
+  connect(&worker_,
+          &FilterWorker::made,
+          this,
+          [this](const OpenedRecordingPtr& source, const OpenedRecordingPtr& filtered) {
+            emit progressed(std::nullopt);
+            madeOf_ = source;
+            made_ = filtered;
+            madeBy_ = recipe();
+            if (source == displayed_.recorded() && on_) displayed_.setSeen(filtered);
+          });
+  connect(&worker_, &FilterWorker::failed, this, [this](const QString& message) {
+    emit failed(message);
+    displayed_.setSeen(displayed_.recorded());
+  });
+}
+
+void ActiveFilters::restore(const std::optional<Recipe>& recipe) {
+  const auto last =
+      recipe ? recipe : recipeFrom(settings_.value(kRecipeKey).toString().toStdString());
+  const QSignalBlocker quiet(editor_);  // what is given for one day is not remembered for the next
+  if (last) editor_.restore(*last);
+  on_ = recipe || settings_.value(kOnKey, false).toBool();
+}
+
+void ActiveFilters::setOn(bool on) {
+  if (on == on_) return;
+  on_ = on;
+  settings_.setValue(kOnKey, on);
+  apply();
+  emit onChanged(on);
+  messages_.flash(!on                ? QString("as it was recorded")
+                  : recipe().empty() ? QString("no filter is in the chain: Ctrl+Shift+F")
+                                     : "filtered: " + text());
+  noteInLiveRecording();
+}
+
+// What the operator saw belongs to what was recorded.
+void ActiveFilters::noteInLiveRecording() {
+  LiveSource* source = live_.source();
+  if (!source || !live_.recording() || !applied()) return;
+  const std::int64_t us = source->session->nowUs();
+  source->session->note(
+      {us, us, kRecipeKind, std::nullopt, recipeText(recipe()), recipeJson(recipe()).text(-1)});
+}
+
+bool ActiveFilters::applied() const {
+  if (!on_ || recipe().empty()) return false;
+  return displayed_.isLive() ||
+         (displayed_.isRecording() && displayed_.seen() != displayed_.behind());
+}
+
+QString ActiveFilters::text() const {
+  Recipe seen = recipe();
+  std::erase_if(seen.steps, [](const FilterStep& step) { return !step.enabled; });
+  return QString::fromStdString(recipeText(seen));
+}
+
+// A picture says what it is of.
+QString ActiveFilters::caption() const { return applied() ? " · filtered: " + text() : QString(); }
+
+// Brings what is shown in line with the chain and its switch.
+void ActiveFilters::apply() {
+  const Recipe now = on_ ? recipe() : Recipe{};
+  if (LiveSource* source = live_.source()) {
+    try {
+      source->filters->setRecipe(now);
+    } catch (const std::invalid_argument& error) {
+      emit failed(error.what());
+    }
+  }
+  worker_.cancel();
+  emit progressed(std::nullopt);
+  const OpenedRecordingPtr recording = displayed_.recorded();
+  if (!recording) return;
+  if (now.empty())
+    displayed_.setSeen(recording);
+  else if (made_ && madeOf_ == recording && madeBy_.sameSteps(now))
+    displayed_.setSeen(made_);
+  else
+    worker_.start(recording, now);
+}
+
+// The last one that was kept with it, if it isn't the one that is there.
+void ActiveFilters::takeKeptRecipe() {
+  const EventEditor* editor = events_.editor();
+  if (editor == nullptr || keptTaken_ == displayed_.recorded()) return;
+  const auto& all = editor->events();
+  const auto kept = std::find_if(all.rbegin(), all.rend(), [](const RecordingEvent& event) {
+    return event.kind == kRecipeKind;
+  });
+  if (kept == all.rend()) return;
+  keptTaken_ = displayed_.recorded();
+  const auto now = recipeFrom(kept->json);
+  if (!now || now->sameSteps(recipe())) return;
+  editor_.setRecipe(*now);
+  setOn(true);
+  messages_.flash("filters kept with the recording: " + QString::fromStdString(recipeText(*now)));
+}
+
+void ActiveFilters::keepWithRecording() {
+  const OpenedRecordingPtr recording = displayed_.recorded();
+  if (!recording) return;
+  const bool none = recipe().steps.empty();
+  const std::int64_t us =
+      recording->profile.numFrames() > 0 ? recording->profile.frameTimeUs(0) : 0;
+  const RecordingEvent event{
+      us, us, kRecipeKind, std::nullopt, recipeText(recipe()), recipeJson(recipe()).text(-1)};
+  events_.keep(kRecipeKind, none ? std::nullopt : std::optional(event), "the recipe");
+  keptTaken_ = recording;
+  messages_.flash(none ? "no filters are kept with the recording: save with Ctrl+S"
+                       : "the filters are kept with the recording: save with Ctrl+S");
+}
+
+std::optional<FilterFigures> ActiveFilters::liveFigures() {
+  const LiveSource* source = live_.source();
+  if (source == nullptr) return std::nullopt;
+  if (liveFigures_.costsUs.size() != recipe().steps.size() || liveRecipe_ != recipe()) {
+    liveRecipe_ = recipe();
+    liveFigures_ = {};
+    liveFigures_.latency = latencyFrames(recipe());
+    for (const FilterStep& step : recipe().steps)
+      liveFigures_.latencies.push_back(latencyFrames(step));
+  }
+  liveFigures_.costsUs = source->filters->costsUs();
+  liveFigures_.costsUs.resize(recipe().steps.size(), 0.0);
+  return on_ ? std::optional(liveFigures_) : std::nullopt;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,131 @@
+#include "gui/window_state/current_frame.h"
+
+#include <algorithm>
+
+#include <palpate/core/error.h>
+
+#include "gui/appearance/captions.h"
+
+namespace palpate::gui {
+
+CurrentFrame::CurrentFrame(DisplayedSource& displayed,
+                           ActiveFilters& activeFilters,
+                           LiveController& live,
+                           PlaybackController& playback,
+                           QObject* parent)
+    : QObject(parent),
+      displayed_(displayed),
+      activeFilters_(activeFilters),
+      live_(live),
+      playback_(playback) {
+  connect(&displayed_, &DisplayedSource::changed, this, &CurrentFrame::begin);
+  connect(&displayed_, &DisplayedSource::valuesChanged, this, [this] {
+    if (playback_.hasFrames()) showFrame(playback_.frame());
+  });
+  // Its frames are of other taxels from now on.
+  connect(&displayed_, &DisplayedSource::handChanged, this, [this] { frame_ = TactileFrame(); });
+  connect(&playback_, &PlaybackController::frameChanged, this, &CurrentFrame::showFrame);
+  connect(&live_, &LiveController::frameReceived, this, [this](const TactileFrame& frame) {
+    if (!activeFilters_.applied()) takeLive(frame);
+  });
+  connect(&live_, &LiveController::resultsReceived, this, [this](const LiveResults& results) {
+    if (!displayed_.isLive() || held_) return;
+    if (activeFilters_.applied()) takeLive(*results.frame);
+    emit resultsReceived(results);
+  });
+  connect(&live_, &LiveController::staleChanged, this, &CurrentFrame::renewLiveNotice);
+  connect(&live_, &LiveController::refreshed, this, [this] {
+    if (live_.stale()) renewLiveNotice();
+  });
+  connect(&live_, &LiveController::leaving, this, [this] {
+    if (displayed_.isLive()) setStale({"not connected any more"});
+  });
+}
+
+// Another recording, another source, or nothing.
+void CurrentFrame::begin() {
+  frame_ = TactileFrame();
+  angles_.reset();
+  temperatures_.reset();
+  damaged_ = false;
+  hold(false);
+  setStale({});
+  renewLiveNotice();
+}
+
+void CurrentFrame::hold(bool on) {
+  if (on == held_) return;
+  held_ = on;
+  emit heldChanged();
+  renewLiveNotice();
+}
+
+void CurrentFrame::showFrame(std::size_t index) {
+  const OpenedRecordingPtr& seen = displayed_.seen();
+  if (!displayed_.isRecording() || !seen || index >= seen->profile.numFrames()) return;
+  angles_.reset();
+  temperatures_.reset();
+  QString damage;
+  try {
+    seen->profile.readFrame(index, frame_);
+  } catch (const Error& error) {
+    return setStale({error.what()});  // what is seen is of another frame
+  }
+  try {
+    angles_ = seen->profile.anglesAtFrame(index);
+    temperatures_ = seen->profile.temperaturesAtFrame(index);
+  } catch (const Error& error) {
+    damage = error.what();  // a part of it is of another one
+  }
+  damaged_ = !damage.isEmpty();
+  emit frameChanged();
+  setStale({damage});
+}
+
+void CurrentFrame::takeLive(const TactileFrame& frame) {
+  if (!displayed_.isLive() || held_) return;
+  const bool first = !hasFrame();
+  frame_ = frame;
+  emit frameChanged();
+  if (first) emit firstFrameReceived();
+}
+
+void CurrentFrame::renewLiveNotice() {
+  if (!displayed_.isLive()) return;
+  QString notice;
+  if (live_.source() && live_.source()->finished()) {
+    notice = "the replay has ended";
+  } else if (live_.stale()) {
+    const PortStatus& port = live_.health().device.tactile;
+    notice = !live_.hasReceivedFrames() ? QString("waiting for the first frame")
+                                        : "no frame for " + figure(live_.silentS(), 1) + " s";
+    if (!port.message.empty()) notice += ": " + QString::fromStdString(withoutPort(port));
+  }
+  if (held_) notice = notice.isEmpty() ? QString(kHeldText) : kHeldText + ("; " + notice);
+  setStale({notice, held_});
+}
+
+void CurrentFrame::setStale(const StaleNotice& old) {
+  if (old == stale_) return;
+  stale_ = old;
+  emit staleNoticeChanged();
+}
+
+std::ptrdiff_t CurrentFrame::saturated() const {
+  const OpenedRecordingPtr recording = displayed_.recorded();
+  if (!recording) return 0;
+  const float saturation = recording->profile.hand().saturationCounts;
+  const auto count = [saturation](const TactileFrame& frame) {
+    return std::count_if(frame.values.begin(), frame.values.end(), [saturation](float value) {
+      return value >= saturation;
+    });
+  };
+  if (displayed_.seen() == recording) return count(frame_);
+  try {
+    return count(recording->profile.frame(playback_.frame()));
+  } catch (const Error&) {
+    return 0;  // said where the frame would be
+  }
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,129 @@
+#include "gui/window_state/displayed_source.h"
+
+#include <algorithm>
+
+namespace palpate::gui {
+
+DisplayedSource::DisplayedSource(LiveController& live,
+                                 PlaybackController& playback,
+                                 Selection& selection,
+                                 QObject* parent)
+    : QObject(parent), live_(live), playback_(playback), selection_(selection) {
+  connect(&live_, &LiveController::leaving, this, [this] { history_ = nullptr; });
+  connect(&live_, &LiveController::refreshed, this, &DisplayedSource::look);
+  connect(&live_, &LiveController::ended, this, [this] {
+    if (isLive() && live_.state() == LiveController::State::kNone) show(behind_);
+  });
+}
+
+void DisplayedSource::follow() {
+  connect(&live_, &LiveController::sourceOpened, this, &DisplayedSource::showLive);
+}
+
+const HandDescription* DisplayedSource::hand() const {
+  if (isLive()) return hand_ ? &*hand_ : nullptr;
+  return behind_ ? &behind_->profile.hand() : nullptr;
+}
+
+bool DisplayedSource::hasFrames() const { return isRecording() && playback_.hasFrames(); }
+
+void DisplayedSource::show(OpenedRecordingPtr recording) {
+  if (recording && isRecording() && recording == behind_) return;
+  if (!recording && live_.source()) {
+    behind_ = seen_ = nullptr;
+    playback_.setProfile(std::nullopt);
+    if (isLive()) history_ = nullptr;  // to be taken anew by all
+    return showLive();
+  }
+  saveViewPosition();
+  // Until the new one is everywhere nobody asks it for the old one's frame.
+  playback_.setProfile(std::nullopt);
+  behind_ = recording;
+  seen_ = recording;
+  if (recording && filtered)
+    if (const OpenedRecordingPtr made = filtered(recording)) seen_ = made;
+  kind_ = recording ? Kind::kRecording : Kind::kNothing;
+  hand_.reset();
+  history_ = nullptr;
+  const bool frames = recording && recording->profile.numFrames() > 0;
+  selection_.begin(frames ? std::max(recording->durationS(), Selection::kShortestS) : 0.0);
+  emit changed();
+  emit seenChanged();
+  if (recording) {
+    playback_.setProfile(recording->profile, recording->timingNow().gaps);
+    goBack();
+  }
+  emit shown();
+}
+
+void DisplayedSource::showLive() {
+  LiveSource* source = live_.source();
+  if (!source || (isLive() && source->history.get() == history_)) return;
+  playback_.pause();
+  saveViewPosition();
+  kind_ = Kind::kLive;
+  history_ = source->history.get();
+  hand_ = source->session->device().hand();
+  emit changed();
+  emit seenChanged();
+  emit shown();
+}
+
+void DisplayedSource::setSeen(OpenedRecordingPtr seen) {
+  if (!isRecording() || seen == seen_) return;
+  saveViewPosition();
+  seen_ = seen;
+  emit seenChanged();
+  goBack();
+  emit valuesChanged();
+  emit shown();
+}
+
+void DisplayedSource::notifyMoreKnown() {
+  if (!isRecording()) return;
+  playback_.setGaps(behind_->timingNow().gaps);
+  emit moreKnown();
+}
+
+void DisplayedSource::replace(const OpenedRecordingPtr& recording, const OpenedRecordingPtr& now) {
+  leftAt_.erase(recording->path);
+  if (behind_ != recording) return;
+  behind_ = seen_ = isLive() ? now : nullptr;
+}
+
+// Four times a second.
+void DisplayedSource::look() {
+  LiveSource* now = source();
+  if (!now || !hand_) return;
+  const HandDescription hand = now->session->device().hand();
+  if (*hand.layout == *hand_->layout) return;
+  hand_ = hand;
+  emit handChanged();
+}
+
+const ViewPosition* DisplayedSource::viewPosition(const std::filesystem::path& path) const {
+  const auto left = leftAt_.find(path);
+  return left == leftAt_.end() ? nullptr : &left->second;
+}
+
+void DisplayedSource::saveViewPosition() {
+  if (!isRecording() || !behind_) return;
+  constexpr double kWhole = 0.9999;
+  ViewPosition& left = leftAt_[behind_->path];
+  left.frame = playback_.frame();
+  const TimeSpan& seen = selection_.visibleSpan();
+  const bool whole = seen.toS - seen.fromS > selection_.durationS() * kWhole;
+  left.seen = whole ? std::nullopt : std::optional(seen);
+  left.selection = selection_.span();
+}
+
+void DisplayedSource::goBack() {
+  const auto left = leftAt_.find(behind_->path);
+  if (left == leftAt_.end()) return;
+  const ViewPosition at = left->second;
+  playback_.seekFrame(at.frame);
+  if (at.seen) selection_.show(*at.seen);
+  selection_.setSpan(at.selection);
+}
+
+}  // namespace palpate::gui

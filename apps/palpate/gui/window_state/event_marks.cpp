@@ -1,0 +1,226 @@
+#include "gui/window_state/event_marks.h"
+
+#include <QStringList>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <tuple>
+
+#include <palpate/core/json.h>
+#include <palpate/core/time.h>
+#include <palpate/slip/slip_series.h>
+
+#include "gui/appearance/captions.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kNoGraspText = "no grasp";
+
+double eventMarksSecondsOf(const OpenedRecording& recording, std::int64_t us) {
+  return static_cast<double>(us - timeUsOf(recording, 0.0)) / kUsPerS;
+}
+
+QString spanText(double fromS, double toS) {
+  if (toS <= fromS) return "at " + figure(fromS, 2) + " s";
+  return figure(fromS, 2) + " – " + figure(toS, 2) + " s (" + figure(toS - fromS, 2) + " s)";
+}
+
+QString fingersText(const std::vector<int>& fingers) {
+  QStringList words;
+  for (const int finger : fingers) words.append(QString::number(finger));
+  return "fingers " + words.join(", ");
+}
+
+EventLane laneOf(const std::string& kind) {
+  if (kind == kSegmentKind) return EventLane::kGrasps;
+  if (kind == kLabelKind || kind == "mark") return EventLane::kLabels;
+  if (kind == kNoteKind) return EventLane::kNotes;
+  if (kind == "slip") return EventLane::kSlips;  // was seen while it was recorded
+  return kind == "gap" ? EventLane::kGaps : EventLane::kOthers;
+}
+
+EventMark markOf(const OpenedRecording& recording, const RecordingEvent& event, std::size_t index) {
+  EventMark mark;
+  mark.lane = laneOf(event.kind);
+  mark.fromS = eventMarksSecondsOf(recording, event.tUs);
+  mark.toS = std::max(mark.fromS, eventMarksSecondsOf(recording, event.t1Us));
+  mark.text = QString::fromStdString(event.text.empty() ? event.kind : event.text);
+  mark.event = index;
+  mark.editable = mark.lane == EventLane::kGrasps || mark.lane == EventLane::kLabels ||
+                  mark.lane == EventLane::kNotes;
+  mark.detail =
+      QString::fromStdString(event.kind) + ": " + mark.text + "\n" + spanText(mark.fromS, mark.toS);
+  if (!mark.editable && !event.json.empty())
+    mark.detail += "\n" + QString::fromStdString(event.json).left(400);
+  return mark;
+}
+
+void addGaps(const OpenedRecording& recording, std::vector<EventMark>& marks) {
+  for (const Gap& gap : recording.timingNow().gaps) {
+    EventMark mark;
+    mark.lane = EventLane::kGaps;
+    mark.fromS = recording.timeAt(gap.frame);
+    mark.toS = mark.fromS + gap.seconds;
+    mark.text = figure(gap.seconds, 1) + " s";
+    mark.detail = "gap: nothing was recorded\n" + spanText(mark.fromS, mark.toS);
+    marks.push_back(std::move(mark));
+  }
+}
+
+void addGrasps(const OpenedRecording& recording,
+               std::span<const GraspSegment> grasps,
+               std::vector<EventMark>& marks) {
+  for (std::size_t i = 0; i < grasps.size(); ++i) {
+    const GraspSegment& grasp = grasps[i];
+    EventMark mark;
+    mark.lane = EventLane::kGrasps;
+    mark.fromS = recording.timeAt(grasp.begin);
+    mark.toS = recording.timeAt(grasp.end);
+    mark.text = QString::number(i + 1);
+    mark.detail = "grasp " + mark.text + " (found)\n" + spanText(mark.fromS, mark.toS) +
+                  "\nframes " + QString::number(grasp.begin) + " – " + QString::number(grasp.end) +
+                  "\n" + fingersText(grasp.fingers) + ", quality " + figure(grasp.quality, 2);
+    mark.grasp = i;
+    mark.editable = true;
+    marks.push_back(std::move(mark));
+  }
+}
+
+void sortMarks(std::vector<EventMark>& marks) {
+  std::stable_sort(marks.begin(), marks.end(), [](const EventMark& a, const EventMark& b) {
+    return std::tuple(a.lane, a.fromS) < std::tuple(b.lane, b.fromS);
+  });
+}
+
+}  // namespace
+
+QString nameOf(EventLane lane) {
+  switch (lane) {
+    case EventLane::kGrasps:
+      return "grasps";
+    case EventLane::kSteps:
+      return "steps";
+    case EventLane::kSlips:
+      return "slip";
+    case EventLane::kGaps:
+      return "gaps";
+    case EventLane::kLabels:
+      return "labels";
+    case EventLane::kNotes:
+      return "notes";
+    case EventLane::kOthers:
+      break;
+  }
+  return "events";
+}
+
+std::int64_t timeUsOf(const OpenedRecording& recording, double seconds) {
+  const Profile& profile = recording.profile;
+  const std::int64_t origin = profile.numFrames() > 0         ? profile.frameTimeUs(0)
+                              : profile.numAngles() > 0       ? profile.angleTimeUs(0)
+                              : profile.numTemperatures() > 0 ? profile.temperatureTimeUs(0)
+                                                              : 0;
+  return origin + std::llround(seconds * kUsPerS);
+}
+
+RecordingEvent segmentOf(const OpenedRecording& recording, const GraspSegment& grasp) {
+  RecordingEvent event;
+  event.kind = kSegmentKind;
+  event.tUs = recording.profile.frameTimeUs(grasp.begin);
+  event.t1Us = recording.profile.frameTimeUs(grasp.end);
+  event.text = kGraspText;
+  Json fingers = Json::array();
+  for (const int finger : grasp.fingers) fingers.push(finger);
+  event.json = Json::object().set("fingers", fingers).set("quality", grasp.quality).text(-1);
+  return event;
+}
+
+RecordingEvent removedGraspEvent(const OpenedRecording& recording) {
+  RecordingEvent event;
+  event.kind = kSegmentKind;
+  event.tUs = event.t1Us = timeUsOf(recording, 0.0);
+  event.text = kNoGraspText;
+  return event;
+}
+
+bool isRemovedGrasp(const RecordingEvent& event) {
+  return event.kind == kSegmentKind && event.text == kNoGraspText && event.t1Us == event.tUs;
+}
+
+void addSteps(const StepReport& report,
+              const OpenedRecording& recording,
+              std::vector<EventMark>& marks) {
+  for (std::size_t i = 0; i < report.steps.size(); ++i) {
+    const FittedStep& found = report.steps[i];
+    EventMark mark;
+    mark.lane = EventLane::kSteps;
+    mark.fromS = recording.timeAt(found.step.begin);
+    mark.toS = recording.timeAt(found.step.end);
+    mark.text = QString::number(i + 1);
+    mark.detail = "loading step " + mark.text + " of " +
+                  QString::fromStdString(recording.profile.hand().matrixName(report.matrix)) +
+                  " (found)\n" + spanText(mark.fromS, mark.toS);
+    if (found.fit.converged)
+      mark.detail += "\nK " + figure(found.fit.parameters.staticResponseCounts, 1) + " counts" +
+                     (found.usable() ? "" : ", not to be calibrated with");
+    marks.push_back(std::move(mark));
+  }
+  sortMarks(marks);
+}
+
+void addSlips(const SlipSeries& series,
+              const OpenedRecording& recording,
+              std::vector<EventMark>& marks) {
+  const HandDescription& hand = recording.profile.hand();
+  EventMark* last = nullptr;
+  QStringList names;
+  std::vector<EventMark> bars;
+  bars.reserve(series.slips.size());
+  for (const SlipSegment& slip : series.slips) {
+    const double fromS = recording.timeAt(slip.begin), toS = recording.timeAt(slip.end);
+    // Matrices that slip at the same time share a bar.
+    if (last == nullptr || fromS > last->toS) {
+      last = &bars.emplace_back();
+      last->lane = EventLane::kSlips;
+      last->fromS = fromS;
+      names.clear();
+    } else {
+      last->detail += "\n";
+    }
+    last->toS = std::max(last->toS, toS);
+    const QString name = QString::fromStdString(hand.matrices.at(slip.matrix).shortName);
+    if (!names.contains(name)) names.append(name);
+    last->text = names.join(", ");
+    last->detail += "slip of " + QString::fromStdString(hand.matrixName(slip.matrix)) +
+                    " (found)\n" + spanText(fromS, toS) + "\npath " + figure(slip.pathTaxels, 2) +
+                    " taxels, turned " + figure(slip.rotationDeg, 1) + "°, confidence " +
+                    figure(slip.confidence, 2);
+  }
+  std::move(bars.begin(), bars.end(), std::back_inserter(marks));
+  sortMarks(marks);
+}
+
+std::vector<EventMark> marksOf(const OpenedRecording& recording,
+                               std::span<const RecordingEvent> events,
+                               std::span<const GraspSegment> grasps) {
+  std::vector<EventMark> marks;
+  for (std::size_t i = 0; i < events.size(); ++i)
+    // What the stamps say about gaps is exact; the recorder's word for it stands among them.
+    if (events[i].kind != "gap" && !isRemovedGrasp(events[i]))
+      marks.push_back(markOf(recording, events[i], i));
+  const bool corrected = std::any_of(
+      events.begin(), events.end(), [](const auto& event) { return event.kind == kSegmentKind; });
+  if (!corrected) addGrasps(recording, grasps, marks);
+  addGaps(recording, marks);
+  sortMarks(marks);
+  std::size_t number = 0;
+  for (EventMark& mark : marks) {
+    if (mark.lane != EventLane::kGrasps) continue;
+    ++number;
+    if (mark.text == kGraspText) mark.text = QString::number(number);
+  }
+  return marks;
+}
+
+}  // namespace palpate::gui

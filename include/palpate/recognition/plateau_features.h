@@ -1,0 +1,84 @@
+// Eleven features of a grasp that are stable between sessions: contact geometry and force on the
+// load plateau of two opposite finger pads. The phases of contact and release are left out, because
+// they are not repeatable.
+//
+//   size_z           40 ln(1 + D / 40): D is the distance of the pads with the chord corrected
+//                    (kinematics/object_size.h), at the effective fingertip radius, of the mean
+//                    plateau frame's centroids and the plateau's median angles
+//   ln_major         ln(l1 + .15), l1 >= l2: principal second moments of the pressure [taxel^2]
+//   ln_minor         ln(l2 + .15)
+//   share_1, _4, _9  part of the pressure on the strongest 1, 4 and 9 taxels
+//   skew             2 |w| / (u + v + .3), u, v, w: second moments along x, along y, mixed
+//   entropy          - sum p ln p
+//   ln_active        ln(active taxels + 1)
+//   ln_sum           ln(sum of counts)
+//   compression_mm   D at a quarter of the load, less D on the plateau
+//
+// All features except the two that depend on D are means over both pads of the mean plateau frame;
+// a taxel is active above 3 % of the largest value of its pad. Load: sum of both pads [counts], the
+// second multiplied by its gain, moving average over five frames. Plateau: at most 25 frames,
+// evenly selected, with at least 90 % of the largest load. If the two pads do not face each other
+// (three-finger grasp), another pair that does is used (PinchHand::otherPads), over the frames in
+// which both of its pads touch.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <palpate/model/profile.h>
+#include <palpate/recognition/grasp_segments.h>
+#include <palpate/recognition/pinch_hand.h>
+
+namespace palpate {
+
+struct PlateauFeatureOptions {
+  double plateauFraction = 0.9;       // of the largest load, 0..1
+  double startFraction = 0.25;        // of the largest load: where the compression begins, 0..1
+  std::size_t maxPlateauFrames = 25;  // >= 1
+  double activeFraction = 0.03;       // of a pad's largest value, 0..1
+
+  // Throws std::invalid_argument with the field's name.
+  void validate() const;
+};
+
+// D [mm] and size_z [mm]: nearly linear for small things, logarithmic for large ones. sizeOf throws
+// nothing; a D of -40 or less (no hand has it) counts as -39.9.
+double sizeZ(double distanceMm) noexcept;
+double distanceOfSizeZ(double sizeZ) noexcept;
+
+const std::vector<std::string>& plateauFeatureNames();
+// Place of size_z in plateauFeatureNames().
+constexpr std::size_t kSizeZColumn = 0;
+
+// Of one pad on the mean plateau frame.
+struct PlateauPad {
+  double lnMajor = 0.0, lnMinor = 0.0, entropy = 0.0, lnActive = 0.0, lnSum = 0.0;
+  double slant = 0.0;   // as skew, with its sign: > 0 where the contact leans to rising x and y
+  double lnPeak = 0.0;  // ln(largest counts)
+  std::array<double, 3> shares{};  // of the strongest 1, 4, 9 taxels
+  double column = 0.0, row = 0.0;  // centroid [taxels]
+};
+
+struct PlateauFeatures {
+  // why there are none: no joint angles, no contact, too short, pads that don't face each other, ..
+  std::string problem;
+  std::size_t startFrame = 0;    // the first one with a quarter of the load
+  std::size_t plateauFrame = 0;  // first and last one of the plateau
+  std::size_t plateauEndFrame = 0;
+  double distanceMm = 0.0;                // D on the plateau
+  std::vector<double> plateauAnglesDeg;   // median over the plateau
+  std::array<std::size_t, 2> matrices{};  // the two pads that were used
+  std::array<PlateauPad, 2> pads;
+  std::vector<double> values;  // as plateauFeatureNames(); empty with trouble
+};
+
+// Of one grasp. Throws std::out_of_range: frames that aren't there. What the recording lacks is
+// said by `trouble`.
+PlateauFeatures plateauFeatures(const Profile& profile,
+                                const GraspSegment& grasp,
+                                const PinchHand& hand = sdh2PinchHand(),
+                                const PlateauFeatureOptions& options = {});
+
+}  // namespace palpate

@@ -1,0 +1,51 @@
+// What can be saved of a native recording, damaged or unfinished: every block whose checksum is
+// right, also where SQLite can't reach it any more (its own integrity check misses flipped values).
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <palpate/core/progress.h>
+#include <palpate/model/profile.h>
+#include <palpate/recording/recording_event.h>
+
+namespace palpate {
+
+struct PalpateRecovery {
+  std::optional<Profile> profile;  // of the intact blocks; nothing when no block is
+  std::vector<RecordingEvent> events;
+  std::size_t frames = 0;  // saved
+  std::size_t angles = 0;
+  std::size_t temperatures = 0;
+  // Known to be missing before, between and (where the recording tells how many there were) behind
+  // the saved blocks.
+  std::size_t lostFrames = 0;
+  std::size_t lostAngles = 0;
+  std::size_t lostTemperatures = 0;
+  std::size_t damagedBlocks = 0;    // rows that SQLite gave, with a wrong checksum or content
+  std::size_t blocksFromPages = 0;  // found by reading pages only
+  std::size_t damagedRows = 0;  // of meta, matrix, second, event; summaries that don't fit the data
+  bool unfinished = false;      // its writer stopped before the end
+  bool beingWritten = false;    // by another program: everything committed so far
+  bool layoutAssumed = false;   // the layout was lost: that of the SDH-2 fits every saved frame
+  bool layoutLost = false;      // and no layout fits: no frame can be read
+  std::string sqliteError;      // what SQLite said, when it gave up
+  // Whole: nothing is missing or wrong.
+  bool whole() const noexcept {
+    return lostFrames + lostAngles + lostTemperatures + damagedBlocks + blocksFromPages +
+                   damagedRows ==
+               0 &&
+           !layoutAssumed && !layoutLost && sqliteError.empty();
+  }
+};
+
+// Works on a copy in a temporary folder where a rollback journal has to be played back; the file
+// itself is never touched. Throws FileError (can't be read), FormatError (not a native recording at
+// all), Cancelled.
+PalpateRecovery recoverPalpateProfile(const std::filesystem::path& path,
+                                      const Progress& progress = {});
+
+}  // namespace palpate

@@ -1,0 +1,94 @@
+#include "palpate/calibration/calibration_samples.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kPressureGatheringToldEvery = 1024;  // frames
+
+void gatherRow(const PressureTableRow& row,
+               const std::filesystem::path& folder,
+               const OpenSource& open,
+               const CalibrationSampleOptions& options,
+               const Progress& progress,
+               CalibrationSteps& all) {
+  if (!row.problem.empty()) {
+    all.samples.push_back(
+        unusedSample(row, "line " + std::to_string(row.line) + ": " + row.problem));
+    return;
+  }
+  const std::filesystem::path file = row.file.is_absolute() ? row.file : folder / row.file;
+  try {
+    const CalibrationSource source = open(file, progress);
+    const std::size_t numMatrices = source.profile.layout().numMatrices();
+    if (!all.matrix) all.matrix = loadedMatrix(source.profile);
+    if (*all.matrix >= numMatrices)
+      throw Error(file.string() + ": has no matrix " + std::to_string(*all.matrix) + ", only 0.." +
+                  std::to_string(numMatrices - 1));
+    if (all.hand.empty()) all.hand = source.profile.hand().name;
+    all.reports.push_back(reportSteps(source.profile, *all.matrix, options.steps));
+    for (PressureSample& sample : samplesOf(row, all.reports.back(), source.sha256))
+      all.samples.push_back(std::move(sample));
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    all.samples.push_back(unusedSample(row, error.what()));
+  }
+}
+
+}  // namespace
+
+std::size_t loadedMatrix(const Profile& profile, const Progress& progress) {
+  std::vector<double> sums(profile.layout().numMatrices());
+  TactileFrame frame;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    if (progress && i % kPressureGatheringToldEvery == 0 &&
+        !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
+      throw Cancelled();
+    profile.readFrame(i, frame);
+    for (std::size_t m = 0; m < sums.size(); ++m)
+      sums[m] += static_cast<double>(std::as_const(frame).matrix(m).sum());
+  }
+  return static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+}
+
+std::size_t CalibrationSteps::numUnused() const {
+  return static_cast<std::size_t>(std::count_if(
+      samples.begin(), samples.end(), [](const PressureSample& sample) { return !sample.used; }));
+}
+
+CalibrationSteps collectCalibrationSteps(std::span<const PressureTableRow> rows,
+                                         const std::filesystem::path& folder,
+                                         const OpenSource& open,
+                                         const CalibrationSampleOptions& options,
+                                         const Progress& progress) {
+  options.steps.steps.validate();
+  options.steps.fit.validate();
+  CalibrationSteps all;
+  all.matrix = options.matrix;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto done = static_cast<double>(i), count = static_cast<double>(rows.size());
+    const Progress part = [&](double fraction) {
+      return !progress || progress((done + fraction) / count);
+    };
+    if (!part(0.0)) throw Cancelled();
+    gatherRow(rows[i], folder, open, options, part, all);
+  }
+  return all;
+}
+
+Calibration calibrationOf(const CalibrationSteps& gathered, const PressureModelOptions& options) {
+  Calibration calibration;
+  calibration.hand = gathered.hand;
+  calibration.matrix = gathered.matrix.value_or(0);
+  calibration.pressure = fitPressureModel(gathered.samples, options);
+  calibration.pressure.steadyS = medianSteadyS(gathered.reports);
+  calibration.samples = gathered.samples;
+  return calibration;
+}
+
+}  // namespace palpate

@@ -1,0 +1,176 @@
+#include "palpate/capture/capture_queue.h"
+
+#include <algorithm>
+
+#include "palpate/core/json.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::array<const char*, kCaptureStreams> kStreamNames{
+    "tactile", "angles", "temperatures", "events"};
+constexpr std::array<const char*, kCaptureStreams> kItemNames{
+    "frame", "angle sample", "temperature sample", "event"};
+
+// The angles that belong to a frame are the last ones at or before it: they go first.
+bool isEarlier(const CaptureItem& a, const CaptureItem& b) {
+  const std::int64_t atUs = stampOf(a);
+  const std::int64_t btUs = stampOf(b);
+  return atUs != btUs ? atUs < btUs : a.index() > b.index();
+}
+
+CaptureQueueStats::Port statsOf(const BoundedQueue<CaptureItem>& queue, std::size_t capacity) {
+  return {queue.size(), queue.stats().highWater, capacity};
+}
+
+void moveAll(BoundedQueue<CaptureItem>& queue, std::vector<CaptureItem>& out) {
+  for (std::size_t waiting = queue.size(); waiting > 0; --waiting) {
+    std::optional<CaptureItem> item = queue.tryPop();
+    if (!item) return;
+    out.push_back(std::move(*item));
+  }
+}
+
+}  // namespace
+
+CaptureStream streamOf(const CaptureItem& item) noexcept {
+  return static_cast<CaptureStream>(item.index());
+}
+
+std::int64_t stampOf(const CaptureItem& item) noexcept {
+  if (const auto* frame = std::get_if<SharedFrame>(&item)) return (*frame)->hostUs;
+  if (const auto* angles = std::get_if<JointAngles>(&item)) return angles->hostUs;
+  if (const auto* sample = std::get_if<Temperatures>(&item)) return sample->hostUs;
+  return std::get_if<RecordingEvent>(&item)->tUs;
+}
+
+RecordingEvent gapEvent(CaptureStream stream, const CaptureLoss& loss, std::string_view reason) {
+  const auto index = static_cast<std::size_t>(stream);
+  RecordingEvent event;
+  event.tUs = loss.firstUs;
+  event.t1Us = loss.lastUs;
+  event.kind = "gap";
+  event.text = std::to_string(loss.count) + " " + kItemNames.at(index) +
+               (loss.count == 1 ? "" : "s") + " lost: " + std::string(reason);
+  event.json = Json::object()
+                   .set("stream", kStreamNames.at(index))
+                   .set("lost", static_cast<std::int64_t>(loss.count))
+                   .set("reason", reason)
+                   .text(-1);
+  return event;
+}
+
+CaptureQueue::CaptureQueue(std::string consumer, const CaptureQueueOptions& options)
+    : consumer_(std::move(consumer)),
+      options_(options),
+      tactile_(options.tactileItems),
+      motion_(options.motionItems),
+      events_(options.eventItems) {}
+
+BoundedQueue<CaptureItem>& CaptureQueue::queueOf(CaptureStream stream) {
+  switch (stream) {
+    case CaptureStream::kTactile:
+      return tactile_;
+    case CaptureStream::kAngles:
+    case CaptureStream::kTemperatures:
+      return motion_;
+    case CaptureStream::kEvents:
+      break;
+  }
+  return events_;
+}
+
+bool CaptureQueue::put(CaptureItem item) {
+  if (closed()) return false;
+  const CaptureStream stream = streamOf(item);
+  const std::int64_t stampUs = stampOf(item);
+  BoundedQueue<CaptureItem>& queue = queueOf(stream);
+  bool taken = false;
+  if (options_.blockWhenFull) {
+    taken = queue.push(std::move(item));
+  } else {
+    // The lock orders the end of a gap with the item that ends it.
+    const std::lock_guard lock(lossMutex_);
+    taken = queue.tryPush(std::move(item));
+    if (closed()) return taken;
+    const auto index = static_cast<std::size_t>(stream);
+    std::optional<CaptureLoss>& open = open_.at(index);
+    if (!taken) {
+      if (!open) open = CaptureLoss{stampUs, stampUs, 0};
+      open->lastUs = stampUs;
+      ++open->count;
+      ++lost_.at(index);
+    } else if (open) {
+      ended_.emplace_back(gapEvent(stream, *open, consumer_ + " could not keep up"));
+      open.reset();
+    }
+  }
+  if (!taken || queue.size() >= options_.wakeAtItems) wake();
+  return taken;
+}
+
+std::size_t CaptureQueue::take(std::vector<CaptureItem>& out,
+                               std::vector<RecordingEvent>* ownGaps) {
+  const auto before = static_cast<std::ptrdiff_t>(out.size());
+  // Frames first: whoever put angles before a frame finds them taken with it.
+  moveAll(tactile_, out);
+  moveAll(motion_, out);
+  moveAll(events_, out);
+  {
+    const std::lock_guard lock(lossMutex_);
+    if (ownGaps) ownGaps->insert(ownGaps->end(), ended_.begin(), ended_.end());
+    std::move(ended_.begin(), ended_.end(), std::back_inserter(out));
+    ended_.clear();
+  }
+  std::stable_sort(out.begin() + before, out.end(), isEarlier);
+  return out.size() - static_cast<std::size_t>(before);
+}
+
+void CaptureQueue::takeOpenGaps(std::vector<CaptureItem>& out,
+                                std::vector<RecordingEvent>* ownGaps) {
+  const std::lock_guard lock(lossMutex_);
+  for (std::size_t i = 0; i < kCaptureStreams; ++i) {
+    if (!open_.at(i)) continue;
+    RecordingEvent gap =
+        gapEvent(static_cast<CaptureStream>(i), *open_.at(i), consumer_ + " could not keep up");
+    if (ownGaps) ownGaps->push_back(gap);
+    out.emplace_back(std::move(gap));
+    open_.at(i).reset();
+  }
+}
+
+void CaptureQueue::wait(std::chrono::microseconds timeout, const std::stop_token& stop) {
+  const auto enough = [this] {
+    return woken_ || closed() || tactile_.size() >= options_.wakeAtItems ||
+           motion_.size() >= options_.wakeAtItems || events_.size() >= options_.wakeAtItems;
+  };
+  std::unique_lock lock(wakeMutex_);
+  wake_.wait_for(lock, stop, timeout, enough);
+  woken_ = false;
+}
+
+void CaptureQueue::wake() {
+  const std::lock_guard lock(wakeMutex_);
+  woken_ = true;
+  wake_.notify_all();
+}
+
+void CaptureQueue::close() {
+  closed_.store(true);
+  tactile_.close();
+  motion_.close();
+  events_.close();
+  wake();
+}
+
+CaptureQueueStats CaptureQueue::stats() const {
+  CaptureQueueStats stats{statsOf(tactile_, options_.tactileItems),
+                          statsOf(motion_, options_.motionItems),
+                          statsOf(events_, options_.eventItems),
+                          {}};
+  const std::lock_guard lock(lossMutex_);
+  stats.lost = lost_;
+  return stats;
+}
+
+}  // namespace palpate

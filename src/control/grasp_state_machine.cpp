@@ -1,0 +1,545 @@
+#include "palpate/control/grasp_state_machine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/model/preshape.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kAnswerUs = 5'000'000;   // a motion that is not answered
+constexpr std::int64_t kStopAgainUs = 250'000;  // a stop that is not answered is sent again ..
+constexpr int kStops = 20;                      // .. so often, then it is given up and said
+// A motion may take so much longer than announced: fingers slow down at what they press.
+constexpr double kDurationFactor = 3.0;
+constexpr double kDurationMoreS = 5.0;
+// A motion without resistance may take so much longer than announced, or than by its velocity
+// alone.
+constexpr double kStartAndStopS = 0.5;
+// The rubber answers with a lag of 0.16 s: after three of them little comes.
+constexpr std::int64_t kLookOnUs = 500'000;
+constexpr float kRiseCounts = 10.0F;   // less is noise
+constexpr double kFarOverLimit = 1.5;  // times the limit: said
+
+// Axis states of the SDH-2.
+constexpr int kPositioning = 1;
+constexpr int kSpeedMode = 2;
+constexpr int kBlockedClockwise = 4;
+constexpr int kBlockedCounterClockwise = 5;
+
+std::string millisecondsText(std::int64_t us) {
+  return fixedText(static_cast<double>(us) / 1e3, 0);
+}
+
+constexpr double kLooseningDegPerS = 1.0;
+// Opening for friction gives up when so little of the limit is left: better held than known.
+constexpr double kLeastOfLimit = 0.25;
+constexpr double kLongestLooseningS = 20.0;
+
+std::int64_t microsecondsOf(double seconds) { return std::llround(seconds * 1e6); }
+
+}  // namespace
+
+std::string_view nameOf(GraspPhase phase) {
+  switch (phase) {
+    case GraspPhase::kIdle:
+      break;
+    case GraspPhase::kPreshaping:
+      return "preshaping";
+    case GraspPhase::kClosing:
+      return "closing";
+    case GraspPhase::kStopping:
+      return "stopping";
+    case GraspPhase::kSettling:
+      return "settling";
+    case GraspPhase::kHolding:
+      return "holding";
+    case GraspPhase::kLoosening:
+      return "loosening";
+  }
+  return "idle";
+}
+
+void GraspStateMachine::refuse(const std::string& why) const {
+  throw DeviceError(DeviceFault::kRefused, "grasp", why);
+}
+
+std::string GraspStateMachine::placeOf(const TaxelPeak& peak) const {
+  return hand_.matrixName(peak.matrix) + ", x " + std::to_string(peak.column) + ", y " +
+         std::to_string(peak.row) + ": " + numberText(peak.counts) + " counts";
+}
+
+void GraspStateMachine::begin(const GraspRequest& request,
+                              std::int64_t monoUs,
+                              std::int64_t hostUs) {
+  request.validate();
+  if (active()) refuse("refused: the hand is " + std::string(nameOf(phase_)) + "; stop it first");
+  if (request.mode != GraspMode::kPlain) {
+    if (!stream_.alive(monoUs)) {
+      const auto silence = stream_.silenceUs(monoUs);
+      refuse("refused: a " +
+             std::string(request.mode == GraspMode::kSlip ? "slip-aware" : "reactive") +
+             " grasp needs tactile frames, and " +
+             (silence ? "none has come for " + millisecondsText(*silence) + " ms"
+                      : std::string("none has come yet")));
+    }
+    requireMeasurableLimit(request);
+    if (peak_.counts > static_cast<float>(request.limitCounts))
+      refuse("refused: over the limit of " + std::to_string(request.limitCounts) + " already, at " +
+             placeOf(peak_) + "; open the hand, or raise the limit");
+  }
+  GraspReport report;
+  report.request = request;
+  report.beginUs = hostUs;
+  // Both are checked before the first one is sent.
+  if (request.startRatio) motionTo(request, *request.startRatio, hand_);
+  motionTo(request, request.closeRatio, hand_);
+  report_ = report;
+  report_.limitCounts = limit_ = request.limitCounts;
+  stops_ = 0;
+  next_ = Next::kEnd;
+  held_ = frictionTestRunning_ = frictionTested_ = false;
+  endUs_ = 0;
+  notes_.clear();
+  grip_.reset();
+  if (request.startRatio)
+    move(*request.startRatio, GraspPhase::kPreshaping, monoUs);
+  else
+    move(request.closeRatio, GraspPhase::kClosing, monoUs);
+}
+
+// Throws when a matrix that may press can't tell that it does.
+void GraspStateMachine::requireMeasurableLimit(const GraspRequest& request) const {
+  std::string text;
+  for (const UnmeasurableLimit& unfelt : unmeasurableLimits(hand_, settings_, request))
+    text += (text.empty() ? "" : "; ") + unfelt.why;
+  if (!text.empty())
+    refuse("refused: a limit of " + std::to_string(maxLimitOf(request)) +
+           " counts would not be felt: " + text);
+}
+
+bool GraspStateMachine::isOverLimit() const noexcept {
+  // below saturation: see requireMeasurableLimit()
+  return peak_.counts > static_cast<float>(limit_);
+}
+
+// True when the matrices are others than before, or other taxels of them are scanned.
+bool GraspStateMachine::updateLayout(const TactileFrame& frame) {
+  if (!frame.layout || frame.layout == hand_.layout) return false;
+  const bool another = !(*frame.layout == *hand_.layout);
+  if (another) {
+    hand_ = describeHand(*frame.layout, hand_.axes.size(), hand_.temperatureSensors.size());
+    grip_ = GripMonitor(hand_);
+  }
+  hand_.layout = frame.layout;
+  return another;
+}
+
+void GraspStateMachine::move(double closeRatio, GraspPhase phase, std::int64_t monoUs) {
+  send(motionTo(report_.request, closeRatio, hand_), phase, monoUs);
+}
+
+void GraspStateMachine::send(MoveJoints motion, GraspPhase phase, std::int64_t monoUs) {
+  underWay_ = motion;
+  command_ = std::move(motion);
+  phase_ = phase;
+  sentUs_ = monoUs;
+  acknowledged_ = false;
+  announcedUs_ = acknowledgedUs_ = 0;
+  motionTimeoutUs_ = monoUs + kAnswerUs;
+}
+
+void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) {
+  const auto silence = stream_.frame(frame.hostUs, monoUs);
+  const bool anotherLayout = updateLayout(frame);
+  peak_ = taxelPeak(frame);
+  if (anotherLayout && underTactileControl())
+    return fault("the layout of the tactile sensor is another one than at the begin", monoUs);
+  if (active() && isSlipAware()) grip_.onFrame(frame);
+  // From the stop on, until it has come to rest.
+  if (report_.peakAfterStop && (phase_ == GraspPhase::kStopping || phase_ == GraspPhase::kSettling))
+    measurePeakAfterStop();
+  if (observesOvershoot()) return;
+  if (isHolding()) return onHoldingFrame(monoUs);
+  if (!isMoving() || !underTactileControl()) return;
+  if (phase_ == GraspPhase::kLoosening && !silence) return onLooseningFrame(monoUs);
+  if (phase_ != GraspPhase::kLoosening && isOverLimit()) {
+    report_.peak = peak_;
+    report_.peakAfterStop = peak_;
+    if (isSlipAware() && phase_ == GraspPhase::kClosing)
+      return pause(Next::kSettle, "limit reached: " + placeOf(peak_), monoUs);
+    stopWith(GraspOutcome::kLimitReached, "limit reached: " + placeOf(peak_), monoUs);
+  } else if (silence) {
+    stopWith(GraspOutcome::kStreamLost,
+             "stopped: no tactile frames for " + millisecondsText(*silence) + " ms",
+             monoUs);
+  }
+}
+
+void GraspStateMachine::onMoveAcknowledged(double durationS, std::int64_t monoUs) {
+  if (!isMoving() || acknowledged_) return;
+  acknowledged_ = true;
+  acknowledgedUs_ = monoUs;
+  // What is no duration announces nothing.
+  const double seconds = std::isfinite(durationS) ? std::clamp(durationS, 0.0, 1e4) : 0.0;
+  announcedUs_ = monoUs + std::llround(seconds * 1e6);
+  motionTimeoutUs_ = monoUs + std::llround((seconds * kDurationFactor + kDurationMoreS) * 1e6);
+}
+
+void GraspStateMachine::onAxisStates(const std::vector<int>& states, std::int64_t monoUs) {
+  if (!isMoving() || !acknowledged_ || states.empty()) return;
+  bool held = false;
+  for (const int state : states) {
+    if (state == kPositioning || state == kSpeedMode) return;
+    held = held || state == kBlockedClockwise || state == kBlockedCounterClockwise;
+  }
+  // Old firmware says "idle" too early.
+  if (!held && monoUs < announcedUs_) return;
+  motionEnded(states, monoUs);
+}
+
+void GraspStateMachine::motionEnded(const std::vector<int>& states, std::int64_t monoUs) {
+  std::string axes;
+  underWay_.reset();
+  report_.heldAxes.clear();
+  for (std::size_t axis = 0; axis < states.size(); ++axis) {
+    if (states[axis] != kBlockedClockwise && states[axis] != kBlockedCounterClockwise) continue;
+    report_.heldAxes.push_back(static_cast<int>(axis));
+    axes += (axes.empty() ? "" : ", ") +
+            (axis < hand_.axes.size() ? hand_.axes[axis].name : std::to_string(axis));
+  }
+  if (phase_ == GraspPhase::kPreshaping && axes.empty())
+    return move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
+  // A slip-aware grasp goes on with what it got hold of.
+  if (isSlipAware() && phase_ != GraspPhase::kPreshaping && grip_.touches())
+    return pause(Next::kSettle, "closed as far as it goes", monoUs);
+  const std::string text = axes.empty() ? "finished: at its target" : "finished: held: " + axes;
+  // Where it is held the motors go on pushing. Nobody watches the taxels after this, so they must
+  // not.
+  if (!axes.empty() && underTactileControl())
+    return stopWith(GraspOutcome::kFinished, text + "; the limit was not reached", monoUs);
+  end(GraspOutcome::kFinished, text);
+}
+
+void GraspStateMachine::stopWith(GraspOutcome outcome,
+                                 const std::string& text,
+                                 std::int64_t monoUs) {
+  report_.outcome = outcome;
+  phase_ = GraspPhase::kStopping;
+  next_ = Next::kEnd;
+  command_ = StopMotion{};  // instead of a motion that wasn't taken yet
+  sentUs_ = monoUs;
+  ++stops_;
+  report_.text = text;  // last: it may find no memory
+}
+
+void GraspStateMachine::end(GraspOutcome outcome, const std::string& text) {
+  report_.outcome = outcome;
+  report_.text = text;
+  phase_ = GraspPhase::kIdle;
+  command_.reset();
+  ended_ = report_;
+}
+
+void GraspStateMachine::onStopAcknowledged(std::int64_t monoUs) {
+  if (phase_ != GraspPhase::kStopping) return;
+  underWay_.reset();
+  if (next_ == Next::kSettle) return settle(monoUs);
+  if (next_ == Next::kClose) return move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
+  // One that is slip-aware was not closing yet, but on its way to the start: it has nothing to
+  // hold, and must not close.
+  if (report_.outcome == GraspOutcome::kLimitReached && !isSlipAware())
+    return observeOvershoot(monoUs);
+  end(report_.outcome, report_.text);
+}
+
+void GraspStateMachine::observeOvershoot(std::int64_t monoUs) {
+  phase_ = GraspPhase::kSettling;
+  command_.reset();
+  settledUs_ = monoUs + kLookOnUs;
+}
+
+// Only where it was reached.
+void GraspStateMachine::measurePeakAfterStop() {
+  if (peak_.counts > report_.peakAfterStop->counts) report_.peakAfterStop = peak_;
+}
+
+// "; rose to 3222 after the stop, 16 times the limit: close more slowly", or nothing.
+std::string GraspStateMachine::riseText() const {
+  if (!report_.peakAfterStop || report_.peakAfterStop->counts < report_.peak.counts + kRiseCounts)
+    return {};
+  const double times = static_cast<double>(report_.peakAfterStop->counts) / std::max(limit_, 1);
+  std::string text = "; rose to " + numberText(report_.peakAfterStop->counts) + " after the stop";
+  if (times >= kFarOverLimit)
+    text += ", " + fixedText(times, 1) + " times the limit: close more slowly";
+  return text;
+}
+
+void GraspStateMachine::endOvershoot() { end(report_.outcome, report_.text + riseText()); }
+
+void GraspStateMachine::onCommandFailed(const std::string& why, bool sent, std::int64_t monoUs) {
+  if (active() && !sent) return end(GraspOutcome::kRefused, "refused: " + why);
+  // The hand may move all the same: an answer can get lost. A stop is sent again when its time
+  // comes.
+  if (isMoving()) stopWith(GraspOutcome::kFailed, "failed: " + why, monoUs);
+}
+
+// How long the motion that was sent last can go on without anybody [s]; 0: none is under way.
+double GraspStateMachine::remainingMotionS(std::int64_t monoUs) const {
+  if (!underWay_) return 0.0;
+  if (announcedUs_ > acknowledgedUs_)
+    return std::max(0.0, static_cast<double>(announcedUs_ - monoUs) / 1e6 + kStartAndStopS);
+  double seconds = 0.0;
+  for (std::size_t axis = 0; axis < underWay_->targetDeg.size(); ++axis) {
+    const double target = underWay_->targetDeg[axis];
+    // Where no angle has come it may stand anywhere.
+    const double travel =
+        anglesDeg_.size() == underWay_->targetDeg.size()
+            ? std::abs(target - anglesDeg_[axis])
+            : std::max(target - hand_.axes[axis].minimumDeg, hand_.axes[axis].maximumDeg - target);
+    seconds = std::max(seconds, travel / std::max(1e-3, underWay_->velocityDegPerS[axis]));
+  }
+  return seconds + kStartAndStopS;
+}
+
+void GraspStateMachine::onMotionPortGone(const std::string& why, std::int64_t monoUs) {
+  if (!active()) return;
+  if (observesOvershoot()) return endOvershoot();  // it has stopped
+  report_.remainingMotionS = remainingMotionS(monoUs);
+  const std::string gone = "the motion port is gone: " + why;
+  if (underWay_) {
+    const std::string text = gone + "; the hand finishes its motion by itself";
+    return end(GraspOutcome::kPortGone,
+               phase_ == GraspPhase::kStopping ? report_.text + ", but " + text : text);
+  }
+  end(GraspOutcome::kPortGone,
+      phase_ == GraspPhase::kStopping ? report_.text + ", and " + gone
+                                      : gone + "; the hand holds, nobody watches");
+}
+
+void GraspStateMachine::onTactilePortGone(const std::string& why, std::int64_t monoUs) {
+  if (observesOvershoot()) return endOvershoot();
+  if (isMoving() && underTactileControl())
+    stopWith(GraspOutcome::kStreamLost, "stopped: the tactile port is gone: " + why, monoUs);
+  else if (isHolding())
+    end(GraspOutcome::kStreamLost,
+        "the tactile port is gone: " + why + "; the hand holds, nobody watches");
+}
+
+// The text comes last: it may find no memory, and the stop must go out all the same.
+void GraspStateMachine::fault(std::string_view why, std::int64_t monoUs) {
+  if (observesOvershoot()) return endOvershoot();  // it has stopped
+  if (phase_ == GraspPhase::kStopping) {
+    // The stop is on its way; nothing may follow it.
+    if (next_ == Next::kEnd && report_.outcome != GraspOutcome::kNone) return;
+    next_ = Next::kEnd;
+    report_.outcome = GraspOutcome::kFailed;
+    report_.text = "failed: " + std::string(why) + ": stopped";
+    return;
+  }
+  if (!active()) return;
+  const bool held = isHolding();
+  stopWith(GraspOutcome::kFailed, {}, monoUs);
+  report_.text =
+      "failed: " + std::string(why) + (held ? ": the hand holds, nobody watches" : ": stopped");
+}
+
+void GraspStateMachine::stop(std::int64_t monoUs) {
+  if (observesOvershoot()) return endOvershoot();
+  if (isHolding() || (phase_ == GraspPhase::kStopping && next_ != Next::kEnd))
+    return stopWith(
+        GraspOutcome::kStopped, "stopped by the user: the hand holds, nobody watches", monoUs);
+  if (isMoving()) stopWith(GraspOutcome::kStopped, "stopped by the user", monoUs);
+}
+
+void GraspStateMachine::relax() {
+  if (active()) end(GraspOutcome::kRelaxed, "relaxed by the user: the motors are off");
+}
+
+void GraspStateMachine::onTime(std::int64_t monoUs) {
+  if (phase_ == GraspPhase::kStopping) {
+    if (monoUs - sentUs_ < kStopAgainUs) return;
+    if (stops_ >= kStops)
+      return end(GraspOutcome::kFailed, report_.text + "; the hand doesn't answer the stop");
+    command_ = StopMotion{};
+    sentUs_ = monoUs;
+    ++stops_;
+    return;
+  }
+  if (observesOvershoot()) {
+    if (monoUs >= settledUs_) endOvershoot();
+    return;
+  }
+  if (isHolding()) return onHoldingTime(monoUs);
+  if (!isMoving()) return;
+  if (underTactileControl() && monoUs > stream_.deadAtUs())
+    return stopWith(GraspOutcome::kStreamLost,
+                    "stopped: no tactile frames for " +
+                        millisecondsText(stream_.silenceUs(monoUs).value_or(0)) + " ms",
+                    monoUs);
+  if (monoUs > motionTimeoutUs_)
+    stopWith(GraspOutcome::kFailed,
+             acknowledged_ ? "failed: the motion didn't end in time: stopped"
+                           : "failed: the hand didn't answer: stopped",
+             monoUs);
+}
+
+std::optional<std::int64_t> GraspStateMachine::nextUs() const {
+  if (phase_ == GraspPhase::kStopping) return sentUs_ + kStopAgainUs;
+  if (observesOvershoot()) return settledUs_;
+  if (isHolding()) return holdingNextUs();
+  if (!isMoving()) return std::nullopt;
+  return underTactileControl() ? std::min(motionTimeoutUs_, stream_.deadAtUs() + 1)
+                               : motionTimeoutUs_;
+}
+
+std::optional<DeviceCommand> GraspStateMachine::takeCommand() {
+  return std::exchange(command_, std::nullopt);
+}
+
+std::optional<GraspReport> GraspStateMachine::takeReport() {
+  return std::exchange(ended_, std::nullopt);
+}
+
+void GraspStateMachine::note(const char* action,
+                             const std::string& text,
+                             std::optional<std::size_t> matrix) {
+  notes_.push_back({action, text, matrix, limit_});
+}
+
+// Stops the motion, and goes on.
+void GraspStateMachine::pause(Next next, const std::string& text, std::int64_t monoUs) {
+  stops_ = 0;
+  stopWith(GraspOutcome::kNone, text, monoUs);
+  next_ = next;
+}
+
+void GraspStateMachine::settle(std::int64_t monoUs) {
+  phase_ = GraspPhase::kSettling;
+  command_.reset();
+  const HoldingOptions& holding = report_.request.holding;
+  settledUs_ = monoUs + microsecondsOf(held_ ? holding.restS : holding.settleS);
+  if (endUs_ == 0 && holding.holdS > 0.0) endUs_ = settledUs_ + microsecondsOf(holding.holdS);
+}
+
+// "holding: limit 200 counts; rose to 3331 after the stop, above its highest limit of 2200: close
+// more slowly"
+std::string GraspStateMachine::holdingText() const {
+  std::string text = "holding: limit " + std::to_string(limit_) + " counts";
+  const int highest = report_.request.holding.maxLimitCounts;
+  if (!report_.peakAfterStop || report_.peakAfterStop->counts <= static_cast<float>(highest))
+    return text + riseText();
+  return text + "; rose to " + numberText(report_.peakAfterStop->counts) +
+         " after the stop, above its highest limit of " + std::to_string(highest) +
+         ": close more slowly";
+}
+
+void GraspStateMachine::onHoldingFrame(std::int64_t monoUs) {
+  if (phase_ == GraspPhase::kSettling) {
+    if (monoUs < settledUs_) return;
+    grip_.setReference();
+    phase_ = GraspPhase::kHolding;
+    lastSlipUs_ = monoUs;
+    if (!held_) note("holding", holdingText());
+    held_ = report_.held = true;
+    return;
+  }
+  if (!grip_.touches()) return end(GraspOutcome::kFinished, "finished: nothing is held any more");
+  if (const auto slip = grip_.slip()) respondToSlip(*slip, monoUs);
+}
+
+void GraspStateMachine::respondToSlip(const GripSlip& slip, std::int64_t monoUs) {
+  const HoldingOptions& holding = report_.request.holding;
+  ++report_.slips;
+  lastSlipUs_ = monoUs;
+  // Over the limit by what it took to stop: a limit below what is felt would close nothing.
+  const int felt = std::max(limit_, static_cast<int>(peak_.counts));
+  const int raised = std::min(felt + holding.raiseCounts, holding.maxLimitCounts);
+  if (raised <= static_cast<int>(peak_.counts)) {
+    limit_ = std::max(limit_, std::min(felt, holding.maxLimitCounts));
+    note("at_limit", "slips, and the limit can't rise: " + slip.why, slip.matrix);
+    grip_.setReference();
+    return;
+  }
+  limit_ = raised;
+  report_.limitCounts = limit_;
+  note("slip",
+       "slips: " + slip.why + "; closing to " + std::to_string(limit_) + " counts",
+       slip.matrix);
+  // What is loosening must stop first.
+  if (phase_ == GraspPhase::kLoosening) return pause(Next::kClose, "it slips", monoUs);
+  move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
+}
+
+void GraspStateMachine::onHoldingTime(std::int64_t monoUs) {
+  if (monoUs > stream_.deadAtUs())
+    return end(GraspOutcome::kStreamLost,
+               "no tactile frames come any more: the hand holds, nobody watches");
+  if (phase_ != GraspPhase::kHolding) return;
+  const HoldingOptions& holding = report_.request.holding;
+  if (endUs_ != 0 && monoUs >= endUs_)
+    return end(GraspOutcome::kFinished,
+               "finished: held for " + numberText(holding.holdS) + " s, " +
+                   std::to_string(report_.slips) + " slips, limit " + std::to_string(limit_) +
+                   " counts; the hand goes on holding");
+  if (monoUs < lastSlipUs_ + microsecondsOf(holding.noSlipS)) return;
+  lastSlipUs_ = monoUs;
+  if (holding.weightN > 0.0 && !frictionTested_) {
+    frictionTested_ = frictionTestRunning_ = true;
+    return loosen("friction", "opening slowly until it slips, for its friction", monoUs);
+  }
+  if (limit_ <= report_.request.limitCounts) return;
+  limit_ = std::max(limit_ - holding.raiseCounts, report_.request.limitCounts);
+  report_.limitCounts = limit_;
+  note("lower", "nothing slips: limit " + std::to_string(limit_) + " counts");
+  if (holding.loosen && peak_.counts > static_cast<float>(limit_))
+    loosen("loosen", "opening slowly to the lower limit", monoUs);
+}
+
+void GraspStateMachine::loosen(const char* action, const std::string& text, std::int64_t monoUs) {
+  note(action, text);
+  grip_.setReference();
+  MoveJoints open = motionTo(report_.request, 0.0, hand_);
+  for (double& velocity : open.velocityDegPerS) velocity = std::min(velocity, kLooseningDegPerS);
+  send(std::move(open), GraspPhase::kLoosening, monoUs);
+  settledUs_ = monoUs + microsecondsOf(kLongestLooseningS);
+}
+
+void GraspStateMachine::onLooseningFrame(std::int64_t monoUs) {
+  if (const auto slip = grip_.slip()) {
+    if (frictionTestRunning_) reportFriction(*slip);
+    frictionTestRunning_ = false;
+    return respondToSlip(*slip, monoUs);
+  }
+  const double enough = frictionTestRunning_ ? kLeastOfLimit * report_.request.limitCounts : limit_;
+  if (static_cast<double>(peak_.counts) > enough && monoUs < settledUs_) return;
+  if (!frictionTestRunning_) return pause(Next::kSettle, "loose enough", monoUs);
+  frictionTestRunning_ = false;
+  note("friction", "it doesn't slip at " + numberText(peak_.counts) + " counts: closing again");
+  pause(Next::kClose, "loose enough", monoUs);
+}
+
+// What was felt when it began to slip carried the weight: weight = friction times normal force.
+void GraspStateMachine::reportFriction(const GripSlip& slip) {
+  const HoldingOptions& holding = report_.request.holding;
+  report_.countsAtSlip = grip_.sumCounts();
+  std::string text = "slips at " + numberText(grip_.sumCounts()) + " counts in sum";
+  if (holding.newtonsPerCount > 0.0 && grip_.sumCounts() > 0.0) {
+    report_.friction = holding.weightN / (holding.newtonsPerCount * grip_.sumCounts());
+    text += ": friction " + fixedText(*report_.friction, 2);
+  }
+  note("friction", text, slip.matrix);
+}
+
+std::int64_t GraspStateMachine::holdingNextUs() const {
+  std::int64_t nextUs = stream_.deadAtUs() + 1;
+  if (phase_ != GraspPhase::kHolding) return nextUs;
+  if (endUs_ != 0) nextUs = std::min(nextUs, endUs_);
+  return std::min(nextUs, lastSlipUs_ + microsecondsOf(report_.request.holding.noSlipS));
+}
+
+}  // namespace palpate

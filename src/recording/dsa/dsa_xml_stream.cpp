@@ -1,0 +1,133 @@
+#include "recording/dsa/dsa_xml_stream.h"
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "palpate/core/error.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kFirstBytes = 64u << 10;  // read to tell the form
+// Small chunks keep both threads busy within the one block of a small file.
+constexpr std::size_t kChunkBytes = 8u << 10;
+constexpr std::size_t kQueueChunks = 64;
+
+// The first bytes as a person can read them: "\x89PNG".
+std::string shownStart(std::string_view first) {
+  constexpr std::size_t kShown = 8;
+  std::string out = "\"";
+  for (const char c : first.substr(0, kShown)) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code >= ' ' && code < 0x7F) {
+      out += c;
+    } else {
+      out += "\\x";
+      out += "0123456789ABCDEF"[code >> 4];
+      out += "0123456789ABCDEF"[code & 15u];
+    }
+  }
+  return out + (first.size() > kShown ? "..\"" : "\"");
+}
+
+}  // namespace
+
+DsaEncoding dsaEncodingOf(std::string_view first) noexcept {
+  constexpr std::string_view kBzip2 = "BZh";
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (first.size() <= kBzip2.size() && kBzip2.starts_with(first))
+    return DsaEncoding::kBzip2;  // cut short
+  if (first.starts_with(kBzip2) && first[3] >= '1' && first[3] <= '9') return DsaEncoding::kBzip2;
+  if (first.starts_with(kByteOrderMark)) first.remove_prefix(kByteOrderMark.size());
+  const std::size_t begin = first.find_first_not_of(" \t\r\n");
+  return begin != std::string_view::npos && first[begin] == '<' ? DsaEncoding::kXml
+                                                                : DsaEncoding::kOther;
+}
+
+DsaEncoding requireDsaEncoding(std::string_view first, const std::filesystem::path& path) {
+  if (first.empty()) throw FormatError(path, "is empty");
+  const DsaEncoding form = dsaEncodingOf(first);
+  if (form == DsaEncoding::kOther)
+    throw FormatError(path,
+                      "is not a .dsa recording (neither bzip2 nor XML; it starts with " +
+                          shownStart(first) + ")");
+  return form;
+}
+
+DsaXmlStream::DsaXmlStream(ByteSource& source, std::filesystem::path path)
+    : source_(source), path_(std::move(path)), queue_(kQueueChunks) {
+  first_.resize(kFirstBytes);
+  first_.resize(source_.read(first_));
+  if (requireDsaEncoding({first_.data(), first_.size()}, path_) == DsaEncoding::kXml) return;
+  decoder_ = std::make_unique<Bzip2Decoder>(source_, std::move(first_));
+}
+
+DsaXmlStream::~DsaXmlStream() {
+  queue_.close();
+  if (thread_.joinable()) thread_.join();
+}
+
+DsaXmlStream::Chunk DsaXmlStream::decodeChunk() {
+  Chunk chunk;
+  try {
+    chunk.bytes = std::make_unique_for_overwrite<char[]>(kChunkBytes);
+    chunk.size = decoder_->read({chunk.bytes.get(), kChunkBytes});
+  } catch (...) {
+    chunk.size = 0;
+    chunk.failure = std::current_exception();
+  }
+  chunk.bytesTaken = decoder_->bytesTaken();
+  return chunk;
+}
+
+// The caller decodes the first chunk by itself and only then hands the decoder over: nothing could
+// be done meanwhile, and it would wait for two wake-ups, a fifth of the time of a small file.
+void DsaXmlStream::startThread() {
+  try {
+    thread_ = std::thread([this] { decodeAll(); });
+  } catch (const std::system_error&) {
+    // No thread to be had: next() goes on decoding by itself.
+  }
+}
+
+void DsaXmlStream::decodeAll() {
+  for (bool more = true; more;) {
+    Chunk chunk = decodeChunk();
+    more = chunk.size > 0;
+    if (!queue_.push(std::move(chunk))) return;
+  }
+  queue_.close();
+}
+
+std::string_view DsaXmlStream::next() {
+  if (!compressed()) {
+    if (std::exchange(firstTaken_, true)) {
+      first_.resize(kFirstBytes);
+      first_.resize(source_.read(first_));
+    }
+    bytesTaken_ += first_.size();
+    return {first_.data(), first_.size()};
+  }
+  chunk_ = thread_.joinable() ? queue_.pop().value_or(Chunk{}) : decodeChunk();
+  if (!std::exchange(firstTaken_, true) && chunk_.size == kChunkBytes) startThread();
+  bytesTaken_ = chunk_.bytesTaken;
+  if (chunk_.failure) {
+    try {
+      std::rethrow_exception(chunk_.failure);
+    } catch (const FileError&) {
+      throw;
+    } catch (const Error& error) {
+      throw FormatError(path_, error.what());
+    }
+  }
+  return {chunk_.bytes.get(), chunk_.size};
+}
+
+double DsaXmlStream::fraction() const noexcept {
+  const std::uint64_t all = std::max<std::uint64_t>(source_.numBytes(), 1);
+  return std::min(1.0, static_cast<double>(bytesTaken_) / static_cast<double>(all));
+}
+
+}  // namespace palpate

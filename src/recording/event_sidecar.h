@@ -1,0 +1,46 @@
+// Events as JSON, and the sidecar that keeps them beside a .dsa. Private to this module.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "palpate/core/json.h"
+#include "palpate/core/output_file.h"
+#include "palpate/recording/recording_event.h"
+
+namespace palpate {
+
+// NAME.dsa.notes.json
+std::filesystem::path sidecarPathOf(const std::filesystem::path& recording);
+
+Json eventsToJson(std::span<const RecordingEvent> events);
+// JSON text with every character beyond ASCII as \u escapes.
+std::string asciiJson(const std::string& json);
+
+// The events in the sidecar of a recording; none where there is no sidecar. Throws FileError,
+// FormatError.
+EventsReport readEventSidecar(const std::filesystem::path& recording);
+
+// Replaces the events in the sidecar, whole or not at all; what was damaged in it stays. None left:
+// the sidecar goes. Throws FileError, FormatError.
+void replaceEventSidecar(const std::filesystem::path& recording,
+                         std::span<const RecordingEvent> events);
+
+// The sidecar of a recording that is about to be written: prepared before it, published behind it.
+class EventSidecar {
+ public:
+  // Throws FileError where a sidecar exists and may not be replaced, or can't be written.
+  EventSidecar(const std::filesystem::path& recording,
+               std::span<const RecordingEvent> events,
+               Overwrite overwrite);
+  // Without events: removes a sidecar that belonged to what was replaced.
+  void commit() const;
+
+ private:
+  std::filesystem::path path_;
+  std::unique_ptr<OutputFile> file_;
+};
+
+}  // namespace palpate

@@ -1,0 +1,48 @@
+#include "palpate/core/escaped_line.h"
+
+#include "palpate/core/error.h"
+
+#include "testing/testing.h"
+
+namespace palpate::escaped_line_test {
+namespace {
+
+TEST(OneLine, KeepsWhatIsFitForALine) {
+  for (const char* text : {"", "foam ball.dsa", "Größe 3.4 mm²", "手", "\xF0\x9F\x96\x90"})
+    EXPECT_EQ(escapedLine(text), text);
+}
+
+TEST(OneLine, EscapesWhatBreaksOrBendsTheLine) {
+  EXPECT_EQ(escapedLine("a\nb\r\tc"), "a\\nb\\r\\tc");
+  EXPECT_EQ(escapedLine("\x1B[31mred"), "\\x1B[31mred");
+  EXPECT_EQ(escapedLine(std::string_view("\0", 1)), "\\x00");
+  EXPECT_EQ(escapedLine("\xC2\x85"), "\\u{0085}");  // C1: next line
+  EXPECT_EQ(escapedLine("a\xE2\x80\xAE"
+                        "b"),
+            "a\\u{202E}b");                             // right-to-left override
+  EXPECT_EQ(escapedLine("\xE2\x80\xA8"), "\\u{2028}");  // line separator
+}
+
+TEST(OneLine, ShowsBytesThatAreNoUtf8) {
+  EXPECT_EQ(escapedLine("a\xFF"
+                        "b"),
+            "a\\xFFb");
+  EXPECT_EQ(escapedLine("\xC0\x80"), "\\xC0\\x80");           // overlong
+  EXPECT_EQ(escapedLine("\xED\xA0\x80"), "\\xED\\xA0\\x80");  // a surrogate
+  EXPECT_EQ(escapedLine("\xE2\x80"), "\\xE2\\x80");           // cut
+}
+
+TEST(OneLine, BeginningNeverCutsACharacter) {
+  EXPECT_EQ(beginningOf("abc", 5), "abc");
+  EXPECT_EQ(beginningOf("abcdef", 3), "abc");
+  EXPECT_EQ(beginningOf("ab\xC3\xA4", 3), "ab");
+  EXPECT_EQ(beginningOf("\x80\x80\x80", 2), "");
+}
+
+TEST(OneLine, ErrorsAreOneLineWhateverTheyName) {
+  EXPECT_STREQ(FileError("a\nb", "is\nodd").what(), "a\\nb: is\\nodd");
+  EXPECT_STREQ(FormatError("x\ty", "bad", 7).what(), "x\\ty: bad (at byte 7)");
+}
+
+}  // namespace
+}  // namespace palpate::escaped_line_test

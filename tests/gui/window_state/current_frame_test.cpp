@@ -1,0 +1,81 @@
+// The one frame that is seen, and whether it is of now.
+#include "gui/window_state/current_frame.h"
+
+#include <QSignalSpy>
+
+#include <palpate/model/profile_builder.h>
+
+#include "gui/window_state/window_state_fixture.h"
+
+namespace palpate::gui::current_frame_test {
+namespace {
+
+class CurrentFrameTest : public WindowStateTest {
+ protected:
+  CurrentFrameTest() : currentFrame_(windowState_->currentFrame) {}
+  // Sample frames have 10 * (i + 1) counts in this place.
+  float value() const { return currentFrame_.frame().matrix(1)(7, 2); }
+  CurrentFrame& currentFrame_;
+};
+
+TEST_F(CurrentFrameTest, IsTheFrameAtWhichThePlaybackStands) {
+  EXPECT_FALSE(currentFrame_.hasFrame());
+  windowState_->displayed.show(recording("a"));
+  EXPECT_EQ(value(), 10.0F);
+  windowState_->playback.seekFrame(4);
+  EXPECT_EQ(value(), 50.0F);
+  EXPECT_EQ(currentFrame_.index(), 4u);
+  windowState_->displayed.replace(windowState_->displayed.behind(), nullptr);
+  windowState_->displayed.show(nullptr);
+  EXPECT_FALSE(currentFrame_.hasFrame());
+}
+
+TEST_F(CurrentFrameTest, CountsSaturatedTaxelsAsRecordedWhateverTheFiltersMakeOfThem) {
+  ProfileBuilder builder(sdh2().layout);
+  TactileFrame frame = emptyFrame();
+  frame.matrix(1)(7, 2) = static_cast<float>(sdh2().saturationCounts);
+  builder.addFrame(1'000'000, frame.values);
+  const auto full = makeOpenedRecording("full", builder.finish({}));
+  windowState_->displayed.show(full);
+  EXPECT_EQ(currentFrame_.saturated(), 1);
+  windowState_->displayed.setSeen(recording("full, filtered"));
+  EXPECT_EQ(value(), 10.0F);
+  EXPECT_EQ(currentFrame_.saturated(), 1);
+}
+
+TEST_F(CurrentFrameTest, AHeldLivePictureStandsStillAndSaysSo) {
+  connectEmulated();
+  EXPECT_EQ(currentFrame_.old().notice, "");
+  QSignalSpy first(&currentFrame_, &CurrentFrame::firstFrameReceived);
+  currentFrame_.hold(true);
+  EXPECT_TRUE(currentFrame_.old().held);
+  EXPECT_TRUE(currentFrame_.old().notice.contains("held"));
+  QSignalSpy frames(&currentFrame_, &CurrentFrame::frameChanged);
+  QTest::qWait(300);
+  EXPECT_EQ(frames.count(), 0);
+  currentFrame_.hold(false);
+  EXPECT_EQ(currentFrame_.old().notice, "");
+  EXPECT_TRUE(frames.wait(10'000)) << "it goes on";
+  EXPECT_EQ(first.count(), 0) << "it is the same source";
+}
+
+TEST_F(CurrentFrameTest, WhatIsNotConnectedAnyMoreDoesNotLookLikeNow) {
+  connectEmulated();
+  QStringList notices;
+  QObject::connect(&currentFrame_, &CurrentFrame::staleNoticeChanged, [&] {
+    notices.append(currentFrame_.old().notice);
+  });
+  disconnect();
+  EXPECT_TRUE(notices.contains("not connected any more")) << notices.join("; ").toStdString();
+  EXPECT_EQ(currentFrame_.old().notice, "") << "nothing is shown by now";
+}
+
+TEST_F(CurrentFrameTest, HoldingEndsWithItsSource) {
+  connectEmulated();
+  currentFrame_.hold(true);
+  disconnect();
+  EXPECT_FALSE(currentFrame_.held());
+}
+
+}  // namespace
+}  // namespace palpate::gui::current_frame_test

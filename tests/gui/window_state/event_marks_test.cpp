@@ -1,0 +1,87 @@
+#include "gui/window_state/event_marks.h"
+
+#include <gtest/gtest.h>
+
+#include <palpate/recognition/grasp_segments.h>
+
+#include "gui/testing/sample_profiles.h"
+
+namespace palpate::gui::event_marks_test {
+namespace {
+
+constexpr std::int64_t kStartUs = 1'400'000'000'000'000;
+
+RecordingEvent event(const char* kind, double fromS, double toS, const std::string& text) {
+  return {.tUs = kStartUs + static_cast<std::int64_t>(fromS * 1e6),
+          .t1Us = kStartUs + static_cast<std::int64_t>(toS * 1e6),
+          .kind = kind,
+          .matrix = {},
+          .text = text,
+          .json = {}};
+}
+
+const GraspSegment kFound{.begin = 4, .end = 9, .fingers = {0, 2}, .quality = 0.75};
+
+class EventMarksTest : public ::testing::Test {
+ protected:
+  OpenedRecordingPtr recording_ = makeOpenedRecording("x.dsa", twentyFrames());
+};
+
+TEST_F(EventMarksTest, ShowsWhatWasFoundAndWhatIsNoted) {
+  const std::vector<RecordingEvent> events = {event("label", 0.2, 0.2, "touch"),
+                                              event("note", 0.3, 0.5, "slow"),
+                                              event("settings", 0.1, 0.1, "threshold 100"),
+                                              event("gap", 0.1, 0.4, "")};
+  const auto marks = marksOf(*recording_, events, std::vector{kFound});
+  ASSERT_EQ(marks.size(), 4u) << "a gap of the recorder is shown by the stamps alone";
+  EXPECT_EQ(marks[0].lane, EventLane::kGrasps);
+  EXPECT_EQ(marks[0].text, "1");
+  EXPECT_DOUBLE_EQ(marks[0].fromS, 0.2);
+  EXPECT_DOUBLE_EQ(marks[0].toS, 0.45);
+  EXPECT_TRUE(marks[0].detail.contains("0, 2")) << marks[0].detail.toStdString();
+  EXPECT_TRUE(marks[0].detail.contains("0.75"));
+  EXPECT_EQ(marks[1].lane, EventLane::kLabels);
+  EXPECT_EQ(marks[1].event, 0u);
+  EXPECT_TRUE(marks[1].editable);
+  EXPECT_EQ(marks[2].lane, EventLane::kNotes);
+  EXPECT_DOUBLE_EQ(marks[2].toS, 0.5);
+  EXPECT_EQ(marks[3].lane, EventLane::kOthers);
+  EXPECT_FALSE(marks[3].editable) << "what happened is not changed";
+}
+
+TEST_F(EventMarksTest, CorrectedGraspsTakeThePlaceOfThoseFound) {
+  const std::vector<RecordingEvent> events = {event("segment", 0.5, 0.9, "grasp"),
+                                              event("segment", 0.1, 0.3, "pinch")};
+  const auto marks = marksOf(*recording_, events, std::vector{kFound});
+  ASSERT_EQ(marks.size(), 2u);
+  EXPECT_EQ(marks[0].text, "pinch");
+  EXPECT_EQ(marks[1].text, "2") << "numbered by time";
+}
+
+TEST_F(EventMarksTest, ARecordingCanBeSaidToHaveNoGrasp) {
+  const RecordingEvent none = removedGraspEvent(*recording_);
+  EXPECT_TRUE(isRemovedGrasp(none));
+  EXPECT_FALSE(isRemovedGrasp(event("segment", 0.1, 0.3, "grasp")));
+  EXPECT_TRUE(marksOf(*recording_, std::vector{none}, std::vector{kFound}).empty());
+}
+
+TEST_F(EventMarksTest, AFoundGraspAsAnEvent) {
+  const RecordingEvent segment = segmentOf(*recording_, kFound);
+  EXPECT_EQ(segment.kind, "segment");
+  EXPECT_EQ(segment.tUs, kStartUs + 200'000);
+  EXPECT_EQ(segment.t1Us, kStartUs + 450'000);
+  EXPECT_NE(segment.json.find("\"quality\""), std::string::npos);
+}
+
+TEST(EventMarks, GapsAreThoseOfTheStamps) {
+  const auto recording =
+      makeOpenedRecording("x.dsa", profileWithStamps({0, 50, 100, 150, 9'000, 9'050}));
+  const auto marks = marksOf(*recording, {}, {});
+  ASSERT_EQ(marks.size(), 1u);
+  EXPECT_EQ(marks[0].lane, EventLane::kGaps);
+  EXPECT_DOUBLE_EQ(marks[0].fromS, 0.15);
+  EXPECT_DOUBLE_EQ(marks[0].toS, 9.0);
+}
+
+}  // namespace
+}  // namespace palpate::gui::event_marks_test
