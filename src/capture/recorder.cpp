@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 
 #include "capture/recording_parts.h"
@@ -88,7 +89,7 @@ struct Recorder::Impl {
         "clock",
         {},
         "the wall clock moved by " + fixedText(seconds, 3) + " s; time stamps go on without a jump",
-        "{\"wall_offset_us\":" + std::to_string(offsetUs) + "}"};
+        Json::object().set("wall_offset_us", offsetUs).text(-1)};
     notify(event);
     out.emplace_back(event);
   }

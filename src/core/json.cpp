@@ -165,5 +165,8 @@ Json& Json::push(Json value) {
 std::string Json::text(int indent) const {
   return Impl::of(*this).dump(indent, ' ', false, Value::error_handler_t::replace);
 }
+std::string Json::asciiText() const {
+  return Impl::of(*this).dump(-1, ' ', true, Value::error_handler_t::replace);
+}
 
 }  // namespace palpate

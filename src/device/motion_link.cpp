@@ -36,12 +36,6 @@ void checkAxes(const char* what,
                                   numberText(least[axis]) + ".." + numberText(most[axis]));
 }
 
-Json listOf(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double value : values) list.push(value);
-  return list;
-}
-
 bool anyMoves(const std::vector<int>& states) {
   return std::any_of(states.begin(), states.end(), [](int state) {
     return state == kMotionLinkPositioning || state == kMotionLinkSpeedMode;
@@ -271,8 +265,8 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
         session_.motionFromUs,
         {},
         Json::object()
-            .set("target_deg", listOf(move.targetDeg))
-            .set("velocity_deg_per_s", listOf(move.velocityDegPerS))
+            .set("target_deg", jsonList(move.targetDeg))
+            .set("velocity_deg_per_s", jsonList(move.velocityDegPerS))
             .set("duration_s", answer.durationS)
             .text(-1));
   return answer;

@@ -2,7 +2,7 @@
 // distance and by difference of value.
 #include <cmath>
 
-#include "filter/lanes_exp.h"
+#include "filter/lanes.h"
 #include "filter/padded_matrix.h"
 #include "filter/spatial_filter.h"
 
@@ -36,15 +36,14 @@ class BilateralKernel final : public MatrixKernel {
         const float* on = on_.data() + i;
         const Lanes own = load(at);
         Lanes sum = own;
-        Lanes total = all(1.0F);
+        Lanes total = Lanes::Ones();
         for (const Neighbor& neighbor : neighbors_) {
           const Lanes value = load(at + neighbor.step);
           const Lanes difference = value - own;
-          const Lanes weight =
-              load(on + neighbor.step) *
-              expOf(difference * difference * all(valueFactor_) + all(neighbor.exponent));
-          sum = sum + weight * value;
-          total = total + weight;
+          const Lanes weight = load(on + neighbor.step) *
+                               expOf(difference * difference * valueFactor_ + neighbor.exponent);
+          sum += weight * value;
+          total += weight;
         }
         store(out_.data() + i, sum / total);
       }

@@ -1,8 +1,13 @@
-// Eight neighbouring taxels at once: what the kernels of the spatial filters are written in. Two
-// vectors of four, which every machine of interest has.
+// Eight neighbouring taxels at once, of which Eigen makes vector instructions: what the kernels of
+// the spatial filters are written in. The medians are written in vectors of four, with the
+// compiler's own minimum and maximum, since their networks need every register: the median of 3x3x3
+// takes 6.6 us per frame with them, 12.8 us with Eigen's arrays (its target is 10 us); that of 3x3
+// takes 2.9 us, 3.1 us with Eigen's arrays, 3.5 us with std::experimental::simd.
 #pragma once
 
 #include <cstring>
+
+#include <Eigen/Core>
 
 #if defined(__SSE__)
 #include <xmmintrin.h>
@@ -11,6 +16,14 @@
 namespace palpate::detail {
 
 inline constexpr int kLanes = 8;
+using Lanes = Eigen::Array<float, kLanes, 1>;
+
+inline Lanes load(const float* from) { return Eigen::Map<const Lanes>(from); }
+inline void store(float* to, const Lanes& lanes) { Eigen::Map<Lanes>{to} = lanes; }
+// exp() of values at or below 0. Below -87 it stays what it is there: less would be a denormal
+// number, with which the bilateral filter takes nine times as long.
+inline Lanes expOf(const Lanes& x) { return x.max(-87.0F).exp(); }
+
 inline constexpr int kFour = 4;
 typedef float FourLanes __attribute__((vector_size(16)));  // NOLINT: an attribute of GCC and clang
 
@@ -44,23 +57,5 @@ inline FourLanes loadFour(const float* from) {
   return lanes;
 }
 inline void store(float* to, FourLanes lanes) { std::memcpy(to, &lanes, sizeof lanes); }
-
-struct Lanes {
-  FourLanes a{};
-  FourLanes b{};
-};
-
-inline Lanes all(float value) { return {FourLanes{} + value, FourLanes{} + value}; }
-inline Lanes load(const float* from) { return {loadFour(from), loadFour(from + 4)}; }
-inline void store(float* to, const Lanes& lanes) {
-  store(to, lanes.a);
-  store(to + 4, lanes.b);
-}
-inline Lanes operator+(const Lanes& x, const Lanes& y) { return {x.a + y.a, x.b + y.b}; }
-inline Lanes operator-(const Lanes& x, const Lanes& y) { return {x.a - y.a, x.b - y.b}; }
-inline Lanes operator*(const Lanes& x, const Lanes& y) { return {x.a * y.a, x.b * y.b}; }
-inline Lanes operator/(const Lanes& x, const Lanes& y) { return {x.a / y.a, x.b / y.b}; }
-inline Lanes least(const Lanes& x, const Lanes& y) { return {least(x.a, y.a), least(x.b, y.b)}; }
-inline Lanes most(const Lanes& x, const Lanes& y) { return {most(x.a, y.a), most(x.b, y.b)}; }
 
 }  // namespace palpate::detail

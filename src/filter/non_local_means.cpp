@@ -2,7 +2,7 @@
 // h^2), d^2 the mean squared difference of the patches around both.
 #include <cmath>
 
-#include "filter/lanes_exp.h"
+#include "filter/lanes.h"
 #include "filter/padded_matrix.h"
 #include "filter/spatial_filter.h"
 
@@ -34,7 +34,7 @@ class NonLocalMeansKernel final : public MatrixKernel {
       eachBlock([&](int i) {
         const float* other = padded_.data() + i + offset.step;
         const Lanes meanSquare = patchSum(i) * load(offset.perPair.data() + i);
-        const Lanes weight = load(on_.data() + i + offset.step) * expOf(meanSquare * all(factor_));
+        const Lanes weight = load(on_.data() + i + offset.step) * expOf(meanSquare * factor_);
         store(sum_.data() + i, load(sum_.data() + i) + weight * load(other));
         store(total_.data() + i, load(total_.data() + i) + weight);
       });
@@ -68,10 +68,10 @@ class NonLocalMeansKernel final : public MatrixKernel {
     }
   }
   Lanes patchSum(int i) const {
-    Lanes sum{};
+    Lanes sum = Lanes::Zero();
     for (int dy = -patchRadius_; dy <= patchRadius_; ++dy)
       for (int dx = -patchRadius_; dx <= patchRadius_; ++dx)
-        sum = sum + load(squared_.data() + i + dy * padded_.stride() + dx);
+        sum += load(squared_.data() + i + dy * padded_.stride() + dx);
     return sum;
   }
   std::vector<float> perPair(int step) const {

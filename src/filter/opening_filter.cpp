@@ -36,10 +36,10 @@ class OpeningKernel final : public MatrixKernel {
 
   void apply(float* values) override {
     padded_.fill(values, kOpeningFilterInfinity);
-    overElement([](const Lanes& a, const Lanes& b) { return least(a, b); });
+    overElement([](const Lanes& a, const Lanes& b) -> Lanes { return a.min(b); });
     padded_.writeBack(out_, eroded_.data());
     padded_.fill(eroded_.data(), -kOpeningFilterInfinity);
-    overElement([](const Lanes& a, const Lanes& b) { return most(a, b); });
+    overElement([](const Lanes& a, const Lanes& b) -> Lanes { return a.max(b); });
     padded_.writeBack(out_, values);
   }
 

@@ -59,9 +59,9 @@ class SeparableKernel final : public MatrixKernel {
   }
 
   Lanes weighted(const float* from, int step) const {
-    Lanes sum{};
+    Lanes sum = Lanes::Zero();
     for (std::size_t k = 0; k < weights_.size(); ++k)
-      sum = sum + all(weights_[k]) * load(from + static_cast<int>(k) * step);
+      sum += weights_[k] * load(from + static_cast<int>(k) * step);
     return sum;
   }
 

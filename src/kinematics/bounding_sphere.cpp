@@ -1,5 +1,11 @@
 // The one source that knows CGAL: header-only use of its bounding volumes, with own traits, so that
 // neither its kernels nor its flags come along.
+//
+// It computes in doubles and proves what it found, since exact numbers take too long. The sphere of
+// 30 points may take 5 us: it takes 1.2 us in doubles (0.8 us on a grid of 5 x 6), with the same
+// algorithm in CGAL::Lazy_exact_nt<Gmpq> 104 us (99 us), in CGAL::Gmpq 502 us (127 us), and in
+// CGAL::Quotient<MP_Float>, which needs no GMP, 13 s. CGAL's other algorithm, LP_algorithm, takes
+// 623 us (401 us) and 3977 us (534 us) with the first two.
 #include "palpate/kinematics/bounding_sphere.h"
 
 #include <algorithm>

@@ -33,22 +33,6 @@ RecordingEvent eventFrom(const Json& json) {
   return event;
 }
 
-// Code point of the UTF-8 sequence at `at`, which moves behind it. The text is valid UTF-8.
-std::uint32_t codePoint(const std::string& text, std::size_t& at) {
-  const auto lead = static_cast<unsigned char>(text[at++]);
-  const int more = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
-  std::uint32_t point = lead & (0x3Fu >> more);
-  for (int i = 0; i < more && at < text.size(); ++i)
-    point = point << 6 | (static_cast<unsigned char>(text[at++]) & 0x3F);
-  return point;
-}
-
-void appendEscape(std::string& out, std::uint32_t unit) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  out += "\\u";
-  for (int shift = 12; shift >= 0; shift -= 4) out += kDigits[unit >> shift & 0xF];
-}
-
 // Calls back with each item of the list of events in the sidecar of a recording, if it has one.
 void forEachNote(const fs::path& recording, const std::function<void(const Json&)>& take) {
   const fs::path path = sidecarPathOf(recording);
@@ -104,24 +88,6 @@ Json eventsToJson(std::span<const RecordingEvent> events) {
         .set("text", event.text)
         .set("json", event.json);
   });
-}
-
-std::string asciiJson(const std::string& json) {
-  std::string out;
-  for (std::size_t at = 0; at < json.size();) {
-    if (static_cast<unsigned char>(json[at]) < 0x80) {
-      out += json[at++];
-      continue;
-    }
-    const std::uint32_t point = codePoint(json, at);
-    if (point >= 0x10000) {
-      appendEscape(out, 0xD800 + ((point - 0x10000) >> 10));
-      appendEscape(out, 0xDC00 + ((point - 0x10000) & 0x3FF));
-    } else {
-      appendEscape(out, point);
-    }
-  }
-  return out;
 }
 
 EventsReport readEventSidecar(const fs::path& recording) {

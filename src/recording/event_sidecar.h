@@ -16,8 +16,6 @@ namespace palpate {
 std::filesystem::path sidecarPathOf(const std::filesystem::path& recording);
 
 Json eventsToJson(std::span<const RecordingEvent> events);
-// JSON text with every character beyond ASCII as \u escapes.
-std::string asciiJson(const std::string& json);
 
 // The events in the sidecar of a recording; none where there is no sidecar. Throws FileError,
 // FormatError.

@@ -113,6 +113,14 @@ TEST(Json, AListIsMadeOfWhateverHoldsItems) {
   EXPECT_EQ(jsonList(std::set<int>{3, 1}, doubled).text(-1), "[2,6]");
 }
 
+// Escapes as RFC 8259, section 7, has them: U+1D11E as a surrogate pair.
+TEST(Json, ItsTextInAsciiHasEscapesForWhatLiesBeyond) {
+  const Json json = Json::object().set("J\xC3\xB6rg", "\xF0\x9D\x84\x9E \"\n\xE2\x82\xAC\xFF");
+  EXPECT_EQ(json.asciiText(), R"({"J\u00f6rg":"\ud834\udd1e \"\n\u20ac\ufffd"})");
+  EXPECT_EQ(Json::parse(json.asciiText()).at("J\xC3\xB6rg").asString(),
+            "\xF0\x9D\x84\x9E \"\n\xE2\x82\xAC\xEF\xBF\xBD");
+}
+
 // A matrix is read row by row and value by value: no part may cost as much as its whole.
 TEST(Json, ReadingEveryItemOfALargeArrayIsLinear) {
   constexpr std::size_t kRows = 300;

@@ -21,8 +21,18 @@ RecordingDetails sample() {
   return details;
 }
 
+// Of ASCII, and of Ö, the only other letter here.
+std::string folded(std::string_view text) {
+  std::string small(text);
+  for (std::size_t i = 0; i < small.size(); ++i) {
+    if (small[i] >= 'A' && small[i] <= 'Z') small[i] = static_cast<char>(small[i] + 0x20);
+    if (small[i] == '\x96' && i > 0 && small[i - 1] == '\xC3') small[i] = '\xB6';
+  }
+  return small;
+}
+
 bool found(std::string_view text) {
-  return RecordingSearch(text).matches(searchableText(sample(), "/data/today"));
+  return RecordingSearch(text, folded).matches(searchableText(sample(), "/data/today", folded));
 }
 
 TEST(RecordingSearch, everyWordMustBeFoundSomewhere) {
@@ -69,7 +79,8 @@ TEST(RecordingSearch, aKeyLooksInOnePlace) {
   EXPECT_FALSE(found("weight:3"));  // no key: as it stands
   RecordingDetails details = sample();
   details.notes = "weight:3 kg";
-  EXPECT_TRUE(RecordingSearch("weight:3").matches(searchableText(details, "/data")));
+  EXPECT_TRUE(
+      RecordingSearch("weight:3", folded).matches(searchableText(details, "/data", folded)));
 }
 
 TEST(RecordingSearch, theDateIsThatOfThisPlace) {
@@ -85,17 +96,6 @@ TEST(RecordingSearch, theDateIsThatOfThisPlace) {
   else
     unsetenv("TZ");
   tzset();
-}
-
-TEST(RecordingSearch, smallLettersOfSeveralScripts) {
-  EXPECT_EQ(smallLetters("AbZ 09_[`"), "abz 09_[`");
-  // ÀÞ× ŁŹ ΑΩ АЯЁ (Unicode CaseFolding.txt)
-  EXPECT_EQ(smallLetters("\xC3\x80\xC3\x9E\xC3\x97 \xC5\x81\xC5\xB9 \xCE\x91\xCE\xA9 "
-                         "\xD0\x90\xD0\xAF\xD0\x81"),
-            "\xC3\xA0\xC3\xBE\xC3\x97 \xC5\x82\xC5\xBA \xCE\xB1\xCF\x89 "
-            "\xD0\xB0\xD1\x8F\xD1\x91");
-  EXPECT_EQ(smallLetters("\xE2\x82\xAC \xF0\x9F\x98\x80 \xFF\xC3"),
-            "\xE2\x82\xAC \xF0\x9F\x98\x80 \xFF\xC3");  // other characters, and none at all
 }
 
 }  // namespace

@@ -62,6 +62,8 @@ class Json {
 
   // Text with `indent` blanks per level; -1: one line. UTF-8; invalid bytes become U+FFFD.
   std::string text(int indent = 2) const;
+  // The same on one line, with every character beyond ASCII, and delete, as \u escapes.
+  std::string asciiText() const;
 
  private:
   struct Impl;

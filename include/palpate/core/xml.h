@@ -1,5 +1,5 @@
 // Streaming XML: a push parser with hard limits, over expat (plain documents are scanned directly,
-// three times as fast; anything else in them is expat's). Text of any size passes through in
+// which is faster; anything else in them is expat's). Text of any size passes through in
 // constant memory; document types and entities are refused (they can only harm a recording).
 #pragma once
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,28 +35,31 @@ enum class SearchKey : std::size_t {
   kState
 };
 
-// What is searched in, one text in small letters per key, made once per recording.
+// The case folding of UTF-8 text that the caller has (the window: Qt's). Text and words must be
+// folded by the same function, which leaves ASCII in small letters.
+using CaseFolding = std::function<std::string(std::string_view)>;
+
+// What is searched in, one folded text per key, made once per recording.
 using SearchableText = std::array<std::string, kSearchKeys.size()>;
 // `path` counts from `folder` on; `date` is "2014-11-27 10:31" of the start, in the time of this
 // place.
-SearchableText searchableText(const RecordingDetails& details, const std::filesystem::path& folder);
+SearchableText searchableText(const RecordingDetails& details,
+                              const std::filesystem::path& folder,
+                              const CaseFolding& folded);
 
 class RecordingSearch {
  public:
   RecordingSearch() = default;  // matches everything
-  explicit RecordingSearch(std::string_view text);
+  RecordingSearch(std::string_view text, const CaseFolding& folded);
   bool empty() const noexcept { return words_.empty(); }
   bool matches(const SearchableText& text) const;
 
  private:
   struct Word {
-    std::string text;  // small letters
+    std::string text;  // folded
     std::optional<std::size_t> key;
   };
   std::vector<Word> words_;
 };
-
-// Small letters of ASCII, Latin, Greek and Cyrillic in UTF-8; everything else as it is.
-std::string smallLetters(std::string_view text);
 
 }  // namespace palpate

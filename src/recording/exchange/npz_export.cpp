@@ -159,7 +159,7 @@ std::string metaText(const Profile& profile, std::span<const RecordingEvent> eve
       .set("value_type", profile.info().valueType == ValueType::kCounts ? "counts" : "float")
       .set("pitch_mm", pitches)
       .set("events", eventsToJson(events));
-  return asciiJson(meta.text(-1));
+  return meta.asciiText();
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 #include "palpate/recording/tactile_sensor_json.h"
 
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "palpate/core/error.h"
-#include "palpate/core/number_text.h"
+#include "palpate/core/json.h"
 
 namespace palpate {
 namespace {
@@ -19,9 +21,15 @@ std::int64_t wholeCounts(float value) {
   return value >= static_cast<float>(INT16_MAX) ? INT16_MAX : std::lround(value);
 }
 
-void appendKey(std::string& out, const char* key, std::int64_t value) {
-  out += key;
-  appendNumber(out, value);
+Json matrixJson(const TactileFrame& frame, std::size_t m) {
+  const auto values = frame.matrix(m);
+  return Json::object()
+      .set("matrix_id", m)
+      .set("cells_x", frame.layout->matrix(m).columns)
+      .set("cells_y", frame.layout->matrix(m).rows)
+      .set("tactile_array",
+           jsonList(std::span(values.data(), static_cast<std::size_t>(values.size())),
+                    [](float value) { return Json(wholeCounts(value)); }));
 }
 
 }  // namespace
@@ -33,26 +41,14 @@ void appendTactileSensorJson(std::string& out, const TactileFrame& frame, std::u
     --seconds;
     restUs += kSecondUs;
   }
-  appendKey(out, R"({"header":{"seq":)", static_cast<std::int64_t>(sequence));
-  appendKey(out, R"(,"stamp":{"secs":)", seconds);
-  appendKey(out, R"(,"nsecs":)", restUs * kNsPerUs);
-  out += R"(},"frame_id":"sdh"},"tactile_matrix":[)";
-  const SensorLayout& layout = *frame.layout;
-  const float* value = frame.values.data();
-  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
-    const MatrixLayout& matrix = layout.matrix(m);
-    if (m > 0) out += ',';
-    appendKey(out, R"({"matrix_id":)", static_cast<std::int64_t>(m));
-    appendKey(out, R"(,"cells_x":)", matrix.columns);
-    appendKey(out, R"(,"cells_y":)", matrix.rows);
-    out += R"(,"tactile_array":[)";
-    for (std::size_t place = 0; place < matrix.numCells(); ++place) {
-      if (place > 0) out += ',';
-      appendNumber(out, wholeCounts(*value++));
-    }
-    out += "]}";
-  }
-  out += "]}";
+  Json matrices = Json::array();
+  for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) matrices.push(matrixJson(frame, m));
+  const Json stamp = Json::object().set("secs", seconds).set("nsecs", restUs * kNsPerUs);
+  const Json header = Json::object()
+                          .set("seq", static_cast<std::int64_t>(sequence))
+                          .set("stamp", stamp)
+                          .set("frame_id", "sdh");
+  out += Json::object().set("header", header).set("tactile_matrix", std::move(matrices)).text(-1);
 }
 
 void writeTactileSensorLines(const Profile& profile,

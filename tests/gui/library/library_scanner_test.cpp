@@ -95,6 +95,22 @@ TEST_F(LibraryScannerTest, EverythingComesInOrderAndInPortions) {
   EXPECT_LE(largest_, 200u) << "more would stop the window";
 }
 
+TEST(CaseFolding, IsThatOfUnicode) {
+  EXPECT_EQ(caseFolded("AbZ 09_[`"), "abz 09_[`");
+  // ÀÞ× ŁŹ ΑΩ АЯЁ (Unicode CaseFolding.txt)
+  EXPECT_EQ(caseFolded("\xC3\x80\xC3\x9E\xC3\x97 \xC5\x81\xC5\xB9 \xCE\x91\xCE\xA9 "
+                       "\xD0\x90\xD0\xAF\xD0\x81"),
+            "\xC3\xA0\xC3\xBE\xC3\x97 \xC5\x82\xC5\xBA \xCE\xB1\xCF\x89 "
+            "\xD0\xB0\xD1\x8F\xD1\x91");
+  EXPECT_EQ(caseFolded("\xE2\x82\xAC \xF0\x9F\x98\x80"), "\xE2\x82\xAC \xF0\x9F\x98\x80");
+  EXPECT_EQ(caseFolded("\xD4\xB1"), "\xD5\xA1");    // Armenian: beyond the usual scripts too
+  EXPECT_EQ(caseFolded("a\xFF"), "a\xEF\xBF\xBD");  // no UTF-8
+  RecordingDetails recording;
+  recording.operatorName = "J\xC3\x96RG";  // JÖRG
+  EXPECT_TRUE(RecordingSearch("operator:j\xC3\xB6rg", caseFolded)
+                  .matches(searchableText(recording, "/data", caseFolded)));
+}
+
 TEST_F(LibraryScannerTest, WhatIsSearchedInIsMadeBesideTheWindow) {
   LibraryScanner scanner("", catalogOf(1));
   SearchableText text;
@@ -103,7 +119,7 @@ TEST_F(LibraryScannerTest, WhatIsSearchedInIsMadeBesideTheWindow) {
   hear(scanner);
   scanner.scan("/folder");
   ASSERT_TRUE(QTest::qWaitFor([&] { return finished_ > 0; }, 10000));
-  EXPECT_TRUE(RecordingSearch("name:f0.dsa").matches(text));
+  EXPECT_TRUE(RecordingSearch("NAME:F0.dsa", caseFolded).matches(text));
 }
 
 TEST_F(LibraryScannerTest, CancelledOnceAndNothingMoreIsHeard) {

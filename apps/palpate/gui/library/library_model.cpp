@@ -244,7 +244,7 @@ LibraryFilter::LibraryFilter(LibraryModel& model, QObject* parent)
 }
 
 void LibraryFilter::setSearch(const QString& text) {
-  search_ = RecordingSearch(text.toStdString());
+  search_ = RecordingSearch(text.toStdString(), caseFolded);
   invalidateRowsFilter();
 }
 

@@ -23,6 +23,12 @@ constexpr auto kPatience = std::chrono::seconds(2);  // with a thread that shall
 
 }  // namespace
 
+std::string caseFolded(std::string_view text) {
+  return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()))
+      .toCaseFolded()
+      .toStdString();
+}
+
 // What the thread and the object share; outlives either of them.
 struct LibraryScanner::Run {
   std::atomic<bool> cancelled = false;
@@ -94,7 +100,7 @@ void LibraryScanner::work(const std::shared_ptr<Run>& run,
   sink.listed = [&](std::size_t numFiles) { run->tell([&] { run->listed = numFiles; }); };
   sink.take = [&](RecordingDetails&& details) {
     LibraryEntry entry{std::move(details), {}};
-    entry.text = searchableText(entry.details, folder);
+    entry.text = searchableText(entry.details, folder, caseFolded);
     run->tell([&] { run->entries.push_back(std::move(entry)); });
   };
   double told = -1.0;

@@ -8,12 +8,18 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <palpate/recording/recording_catalog.h>
 #include <palpate/recording/recording_search.h>
 
 namespace palpate::gui {
+
+// UTF-8 text as it is compared whatever its case: Unicode's case folding, by Qt. Bytes that are no
+// UTF-8 become U+FFFD.
+std::string caseFolded(std::string_view text);
 
 // A recording as the library has it.
 struct LibraryEntry {
