@@ -574,7 +574,7 @@ SECTIONS = {
             "{filters.median.opencv}, {filters.gaussian} beside {filters.gaussian.opencv}, "
             "{filters.bilateral} beside {filters.bilateral.opencv}; {filters.median3d}; {filters.chain}",
             "filters"),
-        Row("fit of a step of 500 samples (target 0.3 ms), beside Ceres; ten minutes with 30 steps "
+        Row("fit of a step of 500 samples (target 1.5 ms), beside one search of four parameters; ten minutes with 30 steps "
             "(100 ms); calibration of a live frame (2 us)", "{steps.fit} beside {steps.ceres}; "
             "{steps.ten_minutes}; {steps.live}", "steps"),
         Row("slip of six loaded matrices per frame, translation and rotation: centroid (target 3 us), "
@@ -600,7 +600,7 @@ SECTIONS = {
         Row("real recordings, {alarms.contest.slips} slips: false alarms of `contest` per matrix-hour of "
             "settled contact; slips found", "{alarms.contest.per_hour_settled}; "
             "{alarms.contest.found_part}", "alarms", True),
-        Row("NIST StRD by the library's general solver (the step fits have their own), {nist.runs} runs "
+        Row("NIST StRD by the solver of the step fits, {nist.runs} runs "
             "from both starts: digits on average", "{nist.digits}", "nist"),
         Row("{evaluate_best-gauss_S.grasps} grasps, 36 classes, cross-validated (S, 100 splits): `best`; "
             "the study's features with LDA(14) and svm, with qda", "{evaluate_best-gauss_S.mean}; "

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include <Eigen/QR>
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
@@ -16,6 +16,7 @@
 namespace palpate {
 namespace {
 
+// Least singular value beside the greatest, of derivatives whose columns have length 1.
 constexpr double kLeastSquaresDependent = 1e-14;
 // Of a difference, beside the parameter; and the least size of a parameter that it is taken of.
 constexpr double kRelativeWidth = 5e-4;
@@ -66,26 +67,109 @@ bool differences(const LeastSquaresProblem& problem,
   return true;
 }
 
-// One block of all parameters and residuals.
-class WholeProblem final : public ceres::CostFunction {
+// The model at the parameters that Ceres is about to look at: evaluated once, however many
+// residuals are blocks of their own.
+class Evaluation final : public ceres::EvaluationCallback {
  public:
-  WholeProblem(const LeastSquaresProblem& problem, std::size_t numParameters)
-      : problem_(problem), numParameters_(numParameters) {
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(numParameters));
-    set_num_residuals(static_cast<int>(problem.numResiduals));
+  Evaluation(const LeastSquaresProblem& problem, const Eigen::VectorXd& start)
+      : problem_(problem),
+        x_(start),
+        residuals_(problem.numResiduals),
+        jacobian_(problem.numResiduals * sizeOf(start)) {}
+  void PrepareForEvaluation(bool jacobian, bool newPoint) override {
+    const std::span<const double> at(x_.data(), sizeOf(x_));
+    if (newPoint) defined_ = evaluated(problem_, at, residuals_);
+    if (!jacobian || !defined_) return;
+    hasJacobian_ =
+        problem_.jacobian ? problem_.jacobian(at, jacobian_) : differences(problem_, at, jacobian_);
   }
-  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    const std::span<const double> at(x[0], numParameters_);
-    if (!evaluated(problem_, at, {residuals, problem_.numResiduals})) return false;
+  // Residuals [first, first + count) and their rows of the Jacobian.
+  bool copy(std::size_t first, std::size_t count, double* residuals, double** jacobians) const {
+    if (!defined_) return false;
+    std::copy_n(&residuals_[first], count, residuals);
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
-    const std::span<double> jacobian(jacobians[0], problem_.numResiduals * numParameters_);
-    return problem_.jacobian ? problem_.jacobian(at, jacobian)
-                             : differences(problem_, at, jacobian);
+    const std::size_t p = sizeOf(x_);
+    if (hasJacobian_) std::copy_n(&jacobian_[first * p], count * p, jacobians[0]);
+    return hasJacobian_;
   }
+  Eigen::VectorXd& x() noexcept { return x_; }
 
  private:
   const LeastSquaresProblem& problem_;
-  std::size_t numParameters_;
+  Eigen::VectorXd x_;
+  std::vector<double> residuals_, jacobian_;
+  bool defined_ = false, hasJacobian_ = false;
+};
+
+class ResidualRows final : public ceres::CostFunction {
+ public:
+  ResidualRows(const Evaluation& evaluation,
+               std::size_t first,
+               std::size_t count,
+               Eigen::Index numParameters)
+      : evaluation_(evaluation), first_(first), count_(count) {
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(numParameters));
+    set_num_residuals(static_cast<int>(count));
+  }
+  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
+    return evaluation_.copy(first_, count_, residuals, jacobians);
+  }
+
+ private:
+  const Evaluation& evaluation_;
+  std::size_t first_, count_;
+};
+
+std::unique_ptr<ceres::LossFunction> lossOf(const LeastSquaresProblem& problem) {
+  if (problem.loss == LeastSquaresLoss::kHuber)
+    return std::make_unique<ceres::HuberLoss>(problem.lossScale);
+  if (problem.loss == LeastSquaresLoss::kCauchy)
+    return std::make_unique<ceres::CauchyLoss>(problem.lossScale);
+  return nullptr;
+}
+
+std::vector<double> weightsOf(const LeastSquaresProblem& problem,
+                              std::span<const double> residuals) {
+  std::vector<double> weights(residuals.size(), 1.0);
+  const std::unique_ptr<ceres::LossFunction> loss = lossOf(problem);
+  double rho[3];
+  for (std::size_t i = 0; loss && i < weights.size(); ++i) {
+    loss->Evaluate(residuals[i] * residuals[i], rho);
+    weights[i] = rho[1];
+  }
+  return weights;
+}
+
+// Ceres takes the loss of a whole block: one block of all residuals without it, and one of each
+// with it.
+class CeresProblem {
+ public:
+  CeresProblem(const LeastSquaresProblem& problem, const Eigen::VectorXd& start)
+      : evaluation_(problem, start), loss_(lossOf(problem)), ceres_(ceresOptions()) {
+    const std::size_t rows = loss_ ? 1 : problem.numResiduals;
+    double* const x = evaluation_.x().data();
+    for (std::size_t first = 0; first < problem.numResiduals; first += rows)
+      ceres_.AddResidualBlock(
+          new ResidualRows(evaluation_, first, rows, start.size()), loss_.get(), x);
+    for (Eigen::Index j = 0; j < problem.lowerBounds.size(); ++j)
+      ceres_.SetParameterLowerBound(x, static_cast<int>(j), problem.lowerBounds[j]);
+    for (Eigen::Index j = 0; j < problem.upperBounds.size(); ++j)
+      ceres_.SetParameterUpperBound(x, static_cast<int>(j), problem.upperBounds[j]);
+  }
+  ceres::Problem& ceres() noexcept { return ceres_; }
+  Eigen::VectorXd& x() noexcept { return evaluation_.x(); }
+
+ private:
+  ceres::Problem::Options ceresOptions() {
+    ceres::Problem::Options options;
+    options.evaluation_callback = &evaluation_;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    return options;
+  }
+
+  Evaluation evaluation_;
+  std::unique_ptr<ceres::LossFunction> loss_;
+  ceres::Problem ceres_;
 };
 
 void requireLeastSquares(const LeastSquaresProblem& problem,
@@ -99,24 +183,21 @@ void requireLeastSquares(const LeastSquaresProblem& problem,
   if (problem.numResiduals < sizeOf(start))
     refuse(std::to_string(problem.numResiduals) + " residuals don't determine " +
            std::to_string(start.size()) + " parameters");
+  for (const Eigen::VectorXd* bounds : {&problem.lowerBounds, &problem.upperBounds})
+    if (bounds->size() != 0 && bounds->size() != start.size())
+      refuse(std::to_string(bounds->size()) + " bounds of " + std::to_string(start.size()) +
+             " parameters");
+  if (problem.lowerBounds.size() != 0 && (start.array() < problem.lowerBounds.array()).any())
+    refuse("the start is below a bound");
+  if (problem.upperBounds.size() != 0 && (start.array() > problem.upperBounds.array()).any())
+    refuse("the start is above a bound");
+  if (!(problem.lossScale > 0.0)) refuse("lossScale must be above 0");
   if (options.maxIterations < 1) refuse("maxIterations must be at least 1");
+  if (options.firstRadii.empty() ||
+      !std::all_of(
+          options.firstRadii.begin(), options.firstRadii.end(), [](double r) { return r > 0.0; }))
+    refuse("firstRadii must be above 0, one at least");
   if (!(options.tolerance > 0.0)) refuse("tolerance must be above 0");
-}
-
-// (J^T J)^-1 by QR of the column-scaled derivatives.
-Eigen::MatrixXd unitCovariance(Eigen::MatrixXd jacobian) {
-  const Eigen::Index p = jacobian.cols();
-  const Eigen::RowVectorXd size = jacobian.colwise().norm();
-  const Eigen::MatrixXd unknown =
-      Eigen::MatrixXd::Constant(p, p, std::numeric_limits<double>::quiet_NaN());
-  if (!size.allFinite() || !(size.minCoeff() > 0.0)) return unknown;
-  jacobian.array().rowwise() /= size.array();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
-  const Eigen::MatrixXd r = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
-  if (!(r.diagonal().cwiseAbs().minCoeff() > kLeastSquaresDependent)) return unknown;
-  const Eigen::MatrixXd inverse =
-      r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(p, p));
-  return (inverse * inverse.transpose()).cwiseQuotient(size.transpose() * size);
 }
 
 ceres::Solver::Options solverOptions(const LeastSquaresOptions& options, double radius) {
@@ -134,40 +215,50 @@ ceres::Solver::Options solverOptions(const LeastSquaresOptions& options, double 
   return solver;
 }
 
+std::vector<int> parametersAtBounds(const LeastSquaresProblem& problem, const Eigen::VectorXd& x) {
+  std::vector<int> at;
+  for (Eigen::Index j = 0; j < x.size(); ++j)
+    if ((problem.lowerBounds.size() != 0 && x[j] <= problem.lowerBounds[j]) ||
+        (problem.upperBounds.size() != 0 && x[j] >= problem.upperBounds[j]))
+      at.push_back(static_cast<int>(j));
+  return at;
+}
+
 // One descent; how far its first step may go is the radius.
 LeastSquaresReport descend(const LeastSquaresProblem& problem,
                            const Eigen::VectorXd& start,
                            const LeastSquaresOptions& options,
                            double radius) {
-  const std::size_t p = sizeOf(start);
-  LeastSquaresReport report;
-  report.x = start;
-  report.covariance.setConstant(
-      start.size(), start.size(), std::numeric_limits<double>::quiet_NaN());
-  ceres::Problem ceresProblem;
-  ceresProblem.AddResidualBlock(new WholeProblem(problem, p), nullptr, report.x.data());
+  CeresProblem ceresProblem(problem, start);
   ceres::Solver::Summary summary;
-  ceres::Solve(solverOptions(options, radius), &ceresProblem, &summary);
+  ceres::Solve(solverOptions(options, radius), &ceresProblem.ceres(), &summary);
+  // Along a bound Ceres shortens every step and may end early: what came to its bound is held there
+  // for the others.
+  const std::vector<int> held = parametersAtBounds(problem, ceresProblem.x());
+  if (!held.empty() && held.size() < sizeOf(start)) {
+    ceresProblem.ceres().SetManifold(
+        ceresProblem.x().data(), new ceres::SubsetManifold(static_cast<int>(start.size()), held));
+    ceres::Solve(solverOptions(options, radius), &ceresProblem.ceres(), &summary);
+  }
+  LeastSquaresReport report;
+  report.x = ceresProblem.x();
   report.converged = summary.termination_type == ceres::CONVERGENCE;
   report.iterations = static_cast<int>(summary.iterations.size());
   report.message = summary.message.substr(0, summary.message.find('\n'));
+  report.sumOfSquares = 2.0 * summary.final_cost;
 
-  std::vector<double> residuals(problem.numResiduals), jacobian(problem.numResiduals * p);
-  const std::span<const double> at(report.x.data(), p);
-  report.sumOfSquares = report.residualSd = std::numeric_limits<double>::quiet_NaN();
-  if (!evaluated(problem, at, residuals)) return report;
-  report.sumOfSquares = Eigen::Map<const Eigen::VectorXd>(
-                            residuals.data(), static_cast<Eigen::Index>(residuals.size()))
-                            .squaredNorm();
-  const auto dof = static_cast<double>(problem.numResiduals - p);
-  report.residualSd = dof > 0.0 ? std::sqrt(report.sumOfSquares / dof) : 0.0;
-  if (problem.jacobian ? problem.jacobian(at, jacobian) : differences(problem, at, jacobian))
-    report.covariance =
-        report.residualSd * report.residualSd *
-        unitCovariance(
-            Eigen::Map<
-                const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-                jacobian.data(), static_cast<Eigen::Index>(problem.numResiduals), start.size()));
+  report.residualSd = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> residuals(problem.numResiduals);
+  if (evaluated(problem, {report.x.data(), sizeOf(report.x)}, residuals)) {
+    report.weights = weightsOf(problem, residuals);
+    double weighted = 0.0;
+    for (std::size_t i = 0; i < residuals.size(); ++i)
+      weighted += report.weights[i] * residuals[i] * residuals[i];
+    const auto dof = static_cast<double>(problem.numResiduals - sizeOf(start));
+    report.residualSd = dof > 0.0 ? std::sqrt(weighted / dof) : 0.0;
+  }
+  if (options.covariance)
+    report.covariance = report.residualSd * report.residualSd * unitCovariance(problem, report.x);
   return report;
 }
 
@@ -191,12 +282,57 @@ LeastSquaresReport solveLeastSquares(const LeastSquaresProblem& problem,
   // A long first step may end where the model is flat: no minimum, though nothing descends. Then
   // shorter ones.
   LeastSquaresReport best;
-  for (const double radius : {1e4, 1.0, 1e-3}) {
+  for (const double radius : options.firstRadii) {
     const LeastSquaresReport report = descend(problem, start, options, radius);
     if (best.x.size() == 0 || !(report.sumOfSquares >= best.sumOfSquares)) best = report;
     if (best.converged && best.covariance.allFinite()) break;
   }
   return best;
+}
+
+// ceres::Covariance compares the singular values of the Jacobian as it is: its columns are brought
+// to length 1, so that units don't count, and the covariance back.
+Eigen::MatrixXd unitCovariance(const LeastSquaresProblem& problem, const Eigen::VectorXd& x) {
+  silenceCeres();
+  const Eigen::Index p = x.size();
+  const Eigen::MatrixXd unknown =
+      Eigen::MatrixXd::Constant(p, p, std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> residuals(problem.numResiduals);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian(
+      static_cast<Eigen::Index>(problem.numResiduals), p);
+  const std::span<const double> at(x.data(), sizeOf(x));
+  const std::span<double> cells(jacobian.data(), static_cast<std::size_t>(jacobian.size()));
+  if (!evaluated(problem, at, residuals) ||
+      !(problem.jacobian ? problem.jacobian(at, cells) : differences(problem, at, cells)))
+    return unknown;
+  const Eigen::RowVectorXd size = jacobian.colwise().norm();
+  if (!size.allFinite() || !(size.minCoeff() > 0.0)) return unknown;
+  jacobian.array().rowwise() /= size.array();
+
+  LeastSquaresProblem scaled;
+  scaled.numResiduals = problem.numResiduals;
+  scaled.residuals = [&](std::span<const double>, std::span<double> out) {
+    std::copy(residuals.begin(), residuals.end(), out.begin());
+    return true;
+  };
+  scaled.jacobian = [&](std::span<const double>, std::span<double> out) {
+    std::copy(cells.begin(), cells.end(), out.begin());
+    return true;
+  };
+  scaled.loss = problem.loss;
+  scaled.lossScale = problem.lossScale;
+  CeresProblem ceresProblem(scaled, x);
+  const double* const block = ceresProblem.x().data();
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::DENSE_SVD;
+  options.min_reciprocal_condition_number = kLeastSquaresDependent * kLeastSquaresDependent;
+  options.num_threads = 1;
+  ceres::Covariance covariance(options);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> found(p, p);
+  if (!covariance.Compute(std::vector<const double*>{block}, &ceresProblem.ceres()) ||
+      !covariance.GetCovarianceBlock(block, block, found.data()))
+    return unknown;
+  return found.cwiseQuotient(size.transpose() * size);
 }
 
 }  // namespace palpate

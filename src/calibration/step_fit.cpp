@@ -4,12 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
-#include <Eigen/QR>
-
+#include "palpate/calibration/least_squares.h"
 #include "palpate/calibration/student_t.h"
 #include "palpate/core/number_text.h"
 
@@ -20,39 +18,12 @@ namespace {
 
 constexpr double kStepFitNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kFewestSamples = 6;  // four parameters, and something left to judge them by
-constexpr std::array<std::pair<double, double>, 4> kStartsS = {
-    {{0.05, 0.02}, {0.2, 0.02}, {0.5, 0.05}, {1.0, 0.1}}};
-constexpr double kMergedShare = 0.05;
-// Minima on merged samples that are further above the best one than this stay so on all samples.
-constexpr double kWorthRefining = 1.5;
 constexpr double kGainReached = 0.95;
 constexpr double kCritical = 1.001;
 constexpr double kHuberScale = 1.345, kCauchyScale = 2.385;
-constexpr double kSdPerMad = 1.4826;
-constexpr int kMostReweightings = 25;
-constexpr int kMostTurns = 4;
 // An oscillating fit must be so much better to be believed: its two parameters have no reason in
 // the rubber.
 constexpr double kOscillatingGain = 0.98;
-
-StepParameters parametersOf(const StepSearch& found) {
-  const Eigen::Vector2d& at = found.at;
-  const double first = std::exp(at[0]);
-  StepParameters p;
-  if (found.by == StepCoordinates::kDamping)
-    p = {0.0, 0.0, first, at[1]};
-  else
-    p = StepParameters::ofTimes(0.0, 0.0, first * (1.0 + std::exp(at[1])), first);
-  p.staticResponseCounts = found.gain;
-  p.driftCountsPerS = found.drift;
-  return p;
-}
-
-// Of searches by damping; beyond the most of an aperiodic one it goes on by times.
-struct DampingRange {
-  double least, most;
-};
-constexpr DampingRange kAperiodic{1.0, 1.2}, kOscillating{0.02, 1.0};
 
 double shortestInterval(std::span<const double> timeS) {
   double shortest = timeS.back() - timeS.front();
@@ -61,180 +32,95 @@ double shortestInterval(std::span<const double> timeS) {
   return shortest;
 }
 
-class Fitter {
- public:
-  Fitter(StepSamples samples, const StepFitOptions& options)
-      : samples_(std::move(samples)), options_(options) {
-    const double duration = samples_.timeS().back();
-    // Below a hundredth of a frame T2 changes nothing; a time constant of many durations is a ramp.
-    leastLog_ = std::log(1e-2 * shortestInterval(samples_.timeS()));
-    mostLog_ = std::log(10.0 * duration);
-  }
+StepSearchOptions searchOptionsOf(const StepSamples& samples,
+                                  const StepFitOptions& options,
+                                  StepDomain domain) {
+  const double duration = samples.timeS.back();
+  // Below a hundredth of a frame T2 changes nothing; a time constant of many durations is a ramp.
+  return {.domain = domain,
+          .leastT2S = 1e-2 * shortestInterval(samples.timeS),
+          .mostS = 10.0 * duration,
+          .maxIterations = options.maxIterations};
+}
 
-  // Four searches on merged samples, where each costs a fifth; what they find, on all samples.
-  StepSearch best() {
-    const StepSamples merged = samples_.merged(kMergedShare);
-    std::vector<StepSearch> found;
-    for (const auto& [t1, t2] : kStartsS) {
-      StepSearch start;
-      start.at = {std::log(t2), std::log(t1 / t2 - 1.0)};
-      add(found, search(merged, start, kAperiodic, found));
+LeastSquaresLoss leastSquaresLossOf(const StepFitOptions& options) {
+  return options.loss == StepLoss::kHuber    ? LeastSquaresLoss::kHuber
+         : options.loss == StepLoss::kCauchy ? LeastSquaresLoss::kCauchy
+                                             : LeastSquaresLoss::kSquares;
+}
+
+StepMinimum minimumOf(const StepSamples& samples, const StepFitOptions& options) {
+  StepSearchOptions search = searchOptionsOf(samples, options, StepDomain::kAperiodic);
+  StepMinimum best = searchStep(samples, search);
+  if (options.damping == StepDamping::kAny) {
+    const auto swinging = searchOptionsOf(samples, options, StepDomain::kOscillating);
+    StepMinimum other = searchStep(samples, swinging);
+    const int evaluations = best.evaluations + other.evaluations;
+    if (other.parameters.damping < 1.0 &&
+        other.sumOfSquares < kOscillatingGain * best.sumOfSquares) {
+      best = other;
+      search = swinging;
     }
-    StepSearch best = refined(found, kAperiodic);
-    if (options_.damping == StepDamping::kAny) {
-      std::vector<StepSearch> swinging;
-      for (const auto& [t, d] : {std::pair(0.05, 0.7), std::pair(0.2, 0.3), std::pair(0.02, 0.3)}) {
-        StepSearch start;
-        start.by = StepCoordinates::kDamping;
-        start.at = {std::log(t), d};
-        add(swinging, search(merged, start, kOscillating, swinging));
-      }
-      const StepSearch other = refined(swinging, kOscillating);
-      if (other.at[1] < 1.0 && other.sumOfSquares < kOscillatingGain * best.sumOfSquares)
-        best = other;
-    }
-    return best;
+    best.evaluations = evaluations;
   }
+  if (options.loss == StepLoss::kSquares || !std::isfinite(best.sumOfSquares)) return best;
+  const double deviations = options.lossScale > 0.0            ? options.lossScale
+                            : options.loss == StepLoss::kHuber ? kHuberScale
+                                                               : kCauchyScale;
+  return searchRobustStep(samples, search, best, leastSquaresLossOf(options), deviations);
+}
 
-  // Iteratively reweighted squares from the fit without weights.
-  StepSearch robust(StepSearch from, std::vector<double>& weights) {
-    const double k = options_.lossScale > 0.0            ? options_.lossScale
-                     : options_.loss == StepLoss::kHuber ? kHuberScale
-                                                         : kCauchyScale;
-    for (int i = 0; i < kMostReweightings; ++i) {
-      const std::vector<double> residuals = residualsOf(parametersOf(from));
-      std::vector<double> sizes(residuals.size());
-      std::transform(
-          residuals.begin(), residuals.end(), sizes.begin(), [](double r) { return std::abs(r); });
-      std::nth_element(sizes.begin(),
-                       sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2),
-                       sizes.end());
-      const double scale = kSdPerMad * sizes[sizes.size() / 2];
-      if (!(scale > 0.0)) break;  // half of the samples are met exactly
-      weights.resize(residuals.size());
-      for (std::size_t s = 0; s < weights.size(); ++s) {
-        const double u = std::abs(residuals[s]) / (k * scale);
-        weights[s] =
-            options_.loss == StepLoss::kHuber ? (u > 1.0 ? 1.0 / u : 1.0) : 1.0 / (1.0 + u * u);
-      }
-      samples_.setWeights(weights);
-      const bool swings = from.by == StepCoordinates::kDamping && from.at[1] < 1.0;
-      const StepSearch next = search(samples_, from, swings ? kOscillating : kAperiodic);
-      const StepParameters was = parametersOf(from), is = parametersOf(next);
-      const double moved = std::abs(std::log(is.timeConstantS / was.timeConstantS)) +
-                           std::abs(std::log(is.damping / was.damping)) +
-                           std::abs(is.staticResponseCounts / was.staticResponseCounts - 1.0);
-      from = next;
-      if (moved < 1e-7) break;
-    }
-    return from;
-  }
+// d phi / d T1 at fixed T2. derivativeBySecond is (T1 - T2) times it; where they are equal, the
+// limit.
+double byT1(const StepShape& shape, double t, double t1, double t2) {
+  if (t1 - t2 > 1e-6 * t1) return shape.derivativeBySecond / (t1 - t2);
+  const double s = t / t1;
+  return -0.5 * s * s * std::exp(-s) / t1;
+}
 
-  std::vector<double> residualsOf(const StepParameters& p) const {
-    std::vector<double> residuals(samples_.size());
-    for (std::size_t i = 0; i < residuals.size(); ++i)
-      residuals[i] = samples_.values()[i] - stepResponse(p, samples_.timeS()[i]);
-    return residuals;
-  }
-
-  // Of K, m, T1, T2 or K, m, T, d, for unit variance of the residuals; NaN where it is singular.
-  Eigen::Matrix4d unitCovariance(const StepParameters& p) const {
-    const bool oscillating = p.damping < 1.0;
-    const double t1 = p.t1S(), t2 = p.t2S();
-    Eigen::Matrix<double, Eigen::Dynamic, 4> jacobian(static_cast<Eigen::Index>(samples_.size()),
-                                                      4);
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const double t = samples_.timeS()[i];
+// Of K, m, T1, T2 or K, m, T, d, for unit variance of the residuals; NaN where it is singular.
+Eigen::Matrix4d covarianceOf(const StepSamples& samples,
+                             const StepMinimum& minimum,
+                             LeastSquaresLoss loss) {
+  const StepParameters& p = minimum.parameters;
+  const bool oscillating = p.damping < 1.0;
+  const double t1 = p.t1S(), t2 = p.t2S();
+  LeastSquaresProblem problem;
+  problem.numResiduals = samples.timeS.size();
+  problem.residuals = [&](std::span<const double>, std::span<double> out) {
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = samples.values[i] - stepResponse(p, samples.timeS[i]);
+    return true;
+  };
+  problem.jacobian = [&](std::span<const double>, std::span<double> out) {
+    for (std::size_t i = 0; i < samples.timeS.size(); ++i) {
+      const double t = samples.timeS[i];
       const StepShape shape = oscillating ? oscillatingShape(t, p.timeConstantS, p.damping)
                                           : overdampedShape(t, t1, t2);
-      const double root = samples_.weights().empty() ? 1.0 : std::sqrt(samples_.weights()[i]);
       // By T and d; or by T1 and T2: v = log(T1/T2 - 1), u = log T2 keep the other time constant.
       const double third =
           oscillating ? shape.derivativeByFirst / p.timeConstantS : byT1(shape, t, t1, t2);
       const double fourth = oscillating
                                 ? shape.derivativeBySecond
                                 : (shape.derivativeByFirst - t1 * byT1(shape, t, t1, t2)) / t2;
-      jacobian.row(static_cast<Eigen::Index>(i)) =
-          root * Eigen::RowVector4d(
-                     shape.phi, t, p.staticResponseCounts * third, p.staticResponseCounts * fourth);
+      const std::array row{
+          -shape.phi, -t, -p.staticResponseCounts * third, -p.staticResponseCounts * fourth};
+      std::copy(row.begin(), row.end(), &out[4 * i]);
     }
-    const Eigen::RowVector4d size = jacobian.colwise().norm();
-    if (!(size.minCoeff() > 0.0) || !size.allFinite())
-      return Eigen::Matrix4d::Constant(kStepFitNaN);
-    for (int c = 0; c < 4; ++c) jacobian.col(c) /= size[c];
-    const Eigen::HouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 4>> qr(jacobian);
-    const Eigen::Matrix4d r = qr.matrixQR().topRows<4>().triangularView<Eigen::Upper>();
-    if (!(r.diagonal().cwiseAbs().minCoeff() > 1e-12))
-      return Eigen::Matrix4d::Constant(kStepFitNaN);
-    const Eigen::Matrix4d inverse =
-        r.triangularView<Eigen::Upper>().solve(Eigen::Matrix4d::Identity());
-    const Eigen::Matrix4d covariance = inverse * inverse.transpose();
-    return covariance.cwiseQuotient(size.transpose() * size);
+    return true;
+  };
+  if (minimum.lossScale > 0.0) {
+    problem.loss = loss;
+    problem.lossScale = minimum.lossScale;
   }
+  return unitCovariance(problem,
+                        Eigen::Vector4d(p.staticResponseCounts,
+                                        p.driftCountsPerS,
+                                        oscillating ? p.timeConstantS : t1,
+                                        oscillating ? p.damping : t2));
+}
 
-  int evaluations() const noexcept { return evaluations_; }
-  double leastT2S() const { return std::exp(leastLog_); }
-
- private:
-  // d phi / d T1 at fixed T2. derivativeBySecond is (T1 - T2) times it; where they are equal, the
-  // limit.
-  static double byT1(const StepShape& shape, double t, double t1, double t2) {
-    if (t1 - t2 > 1e-6 * t1) return shape.derivativeBySecond / (t1 - t2);
-    const double s = t / t1;
-    return -0.5 * s * s * std::exp(-s) / t1;
-  }
-  void add(std::vector<StepSearch>& found, const StepSearch& search) {
-    if (!search.sameAsKnown) found.push_back(search);
-  }
-  StepSearch refined(const std::vector<StepSearch>& found, DampingRange range) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const StepSearch& one : found) least = std::min(least, one.sumOfSquares);
-    StepSearch best;
-    best.sumOfSquares = std::numeric_limits<double>::infinity();
-    for (const StepSearch& one : found) {
-      if (!(one.sumOfSquares <= kWorthRefining * least)) continue;
-      const StepSearch better = search(samples_, one, range);
-      if (better.sumOfSquares < best.sumOfSquares) best = better;
-    }
-    return best;
-  }
-
-  // Goes on by damping where the search by times comes near d = 1, and back where it leaves again.
-  StepSearch search(const StepSamples& samples,
-                    const StepSearch& start,
-                    DampingRange range,
-                    std::span<const StepSearch> known = {}) {
-    const StepSearchBounds byTimes{{leastLog_, -5.0}, {mostLog_, 16.0}};
-    const StepSearchBounds byDamping{{leastLog_, range.least}, {mostLog_, range.most}};
-    StepSearch found = start;
-    for (int turn = 0; turn < kMostTurns; ++turn) {
-      const bool times = found.by == StepCoordinates::kTimes;
-      found = searchStep(
-          samples, found.by, found.at, times ? byTimes : byDamping, options_.maxIterations, known);
-      evaluations_ += found.evaluations;
-      const bool leaves = !times && range.most > 1.0 && found.at[1] >= range.most;
-      if (found.sameAsKnown || (found.converged && !leaves)) break;
-      const StepParameters p = parametersOf(found);
-      if (times && p.damping < range.most) {
-        found.by = StepCoordinates::kDamping;
-        found.at = {std::log(p.timeConstantS), p.damping};
-      } else if (leaves) {
-        found.by = StepCoordinates::kTimes;
-        found.at = {std::log(p.t2S()), std::log(p.t1S() / p.t2S() - 1.0)};
-      } else {
-        break;
-      }
-    }
-    return found;
-  }
-
-  StepSamples samples_;
-  StepFitOptions options_;
-  double leastLog_ = 0.0, mostLog_ = 0.0;
-  int evaluations_ = 0;
-};
-
-void sayWhatIsMissing(const Fitter& fitter, double durationS, double frameS, StepFit& fit) {
+void sayWhatIsMissing(double leastT2S, double durationS, double frameS, StepFit& fit) {
   const StepParameters& p = fit.parameters;
   const bool oscillating = p.damping < 1.0;
   const double phiAtEnd =
@@ -251,7 +137,7 @@ void sayWhatIsMissing(const Fitter& fitter, double durationS, double frameS, Ste
   const double fourth = oscillating ? p.damping : p.t2S();
   const bool k = fit.sd(0) < 0.5 * std::abs(p.staticResponseCounts);
   const bool slow = fit.sd(2) < 0.5 * third;
-  const bool fast = fit.sd(3) < 0.5 * fourth && (oscillating || fourth > 2.0 * fitter.leastT2S());
+  const bool fast = fit.sd(3) < 0.5 * fourth && (oscillating || fourth > 2.0 * leastT2S);
   fit.identifiable = fit.converged && k && slow && fast;
   if (fit.identifiable || !fit.converged) return;
   if (k && !oscillating && p.damping < kCritical)
@@ -320,31 +206,29 @@ StepFit fitStep(std::span<const double> timeS,
   }
   const double durationS = t.back();
   const double frameS = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
-  Fitter fitter(StepSamples(std::move(t), std::move(y)), options);
-  StepSearch found = fitter.best();
-  std::vector<double> weights;
-  if (options.loss != StepLoss::kSquares && std::isfinite(found.sumOfSquares))
-    found = fitter.robust(found, weights);
-  fit.evaluations = fitter.evaluations();
+  const StepSamples samples{std::move(t), std::move(y)};
+  const StepMinimum found = minimumOf(samples, options);
+  fit.evaluations = found.evaluations;
   fit.converged = found.converged && std::isfinite(found.sumOfSquares);
   if (!std::isfinite(found.sumOfSquares)) {
     fit.notes.push_back("no step response fits these samples");
     return fit;
   }
-  fit.parameters = parametersOf(found);
+  fit.parameters = found.parameters;
   double squares = 0.0, weighted = 0.0;
-  const std::vector<double> residuals = fitter.residualsOf(fit.parameters);
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    const double w = weights.empty() ? 1.0 : weights[i];
-    squares += residuals[i] * residuals[i];
-    weighted += w * residuals[i] * residuals[i];
+  for (std::size_t i = 0; i < samples.timeS.size(); ++i) {
+    const double residual = samples.values[i] - stepResponse(fit.parameters, samples.timeS[i]);
+    const double w = found.weights.empty() ? 1.0 : found.weights[i];
+    squares += residual * residual;
+    weighted += w * residual * residual;
     if (w < 0.5) ++fit.numDownweighted;
   }
-  const auto n = static_cast<double>(residuals.size());
+  const auto n = static_cast<double>(samples.timeS.size());
   fit.rmse = std::sqrt(squares / n);
   fit.residualSd = std::sqrt(weighted / (n - 4.0));
-  fit.covariance = fit.residualSd * fit.residualSd * fitter.unitCovariance(fit.parameters);
-  sayWhatIsMissing(fitter, durationS, frameS, fit);
+  fit.covariance =
+      fit.residualSd * fit.residualSd * covarianceOf(samples, found, leastSquaresLossOf(options));
+  sayWhatIsMissing(1e-2 * shortestInterval(samples.timeS), durationS, frameS, fit);
   return fit;
 }
 

@@ -1,296 +1,355 @@
 #include "calibration/step_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-
-#include <Eigen/LU>
+#include <span>
+#include <utility>
 
 #include "calibration/overdamped_shape.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kStepSearchSettled = 38.0;  // e^-38 is below the rounding of 1
-// a step beyond a factor of e says nothing about the place it leads to
-constexpr double kNear = 1.0;
-// A search that comes so near to a known minimum, and goes on towards it, finds nothing new.
-constexpr double kSame = 0.02;
-// T1/T2 - 1 below which the search by times gives up: towards d = 1 its two logarithms run along a
-// bent valley.
-constexpr double kNearlyCritical = -0.5;
+// phi and t are told apart where phi differs from a straight line by more than this share of its
+// squares.
+constexpr double kLeastStepBend = 1e-13;
+// Of a search of the oscillating ones, which ends at 1; the shape by T and d holds below 2.
+constexpr double kLeastDamping = 0.02, kMostDamping = 1.9;
+// Below it the shape by T and d, which is smooth at d = 1; above it that by T1 and T2.
+constexpr double kStepNearlyCritical = 1.2;
+constexpr double kStepTolerance = 1e-14;
+// A minimum of the grid that is further above the best one than this is none of all shapes.
+constexpr double kWorthSearching = 1.5;
+constexpr int kMostStepStarts = 3;
+// A longer first step leads from a good start onto the plateau where no sample sees the lag.
+constexpr double kFirstRadius = 10.0;
+// Of leastT2S: half a frame.
+constexpr double kShortestStart = 50.0;
+// Of the duration: a lag that is over within it. Minima beyond are drift that is bent.
+constexpr double kLongestStartShare = 0.15;
+constexpr int kGridTimes = 9;
+constexpr std::array kGridSecond{0.03, 0.2, 0.6, 1.0};  // q or d
+constexpr int kMostRescalings = 25;
+constexpr double kSdPerMad = 1.4826;
 
-// Linear part of the fit: K and m from the moments; false where they can't be told apart.
-struct Linear {
-  double gain = 0.0, drift = 0.0, sumOfSquares = std::numeric_limits<double>::infinity();
-};
-
-Linear solveLinear(const StepSamples::Moments& s) {
-  Linear out;
-  const double det = s.pp * s.tt - s.pt * s.pt;
-  if (!(det > 1e-13 * s.pp * s.tt)) return out;
-  out.gain = (s.tt * s.py - s.pt * s.ty) / det;
-  out.drift = (s.pp * s.ty - s.pt * s.py) / det;
-  out.sumOfSquares = std::max(s.yy - out.gain * s.py - out.drift * s.ty, 0.0);
-  return out;
-}
-
-// Kaufman's approximation of variable projection: the derivatives' parts that K and m can't follow.
-struct Normal {
-  Eigen::Matrix2d matrix;
-  Eigen::Vector2d gradient;
-};
-
-Normal normalEquations(const StepSamples::Moments& s, const Linear& linear) {
-  const double det = s.pp * s.tt - s.pt * s.pt;
-  // Inner product of the projected derivatives: <a,b> - <a,P b> with P on span(phi, t).
-  const auto inner = [&](double ab, double ap, double at, double bp, double bt) {
-    return ab - (ap * (s.tt * bp - s.pt * bt) + at * (s.pp * bt - s.pt * bp)) / det;
+// A place of a domain: its shape, and how what the shape is differentiated by changes with the
+// coordinates.
+struct StepPlace {
+  enum class By {
+    kDamping,  // T and d, smooth at d = 1: log T, d
+    kTimes,    // T1 and T2: log T2, log(T1/T2 - 1)
+    kFast,  // the continuation of a T2 far below every sample's time to values that no lag has, q <
+            // 0: T1, T2
   };
-  const double k = linear.gain;
-  Normal normal;
-  normal.matrix(0, 0) = k * k * std::max(inner(s.aa, s.ap, s.at, s.ap, s.at), 0.0);
-  normal.matrix(1, 1) = k * k * std::max(inner(s.bb, s.bp, s.bt, s.bp, s.bt), 0.0);
-  normal.matrix(0, 1) = normal.matrix(1, 0) = k * k * inner(s.ab, s.ap, s.at, s.bp, s.bt);
-  normal.gradient[0] = k * (s.ay - k * s.ap - linear.drift * s.at);
-  normal.gradient[1] = k * (s.by - k * s.bp - linear.drift * s.bt);
-  return normal;
-}
+  StepParameters parameters;
+  By by = By::kDamping;
+  double t1S = 1.0, t2S = 1.0;
+  Eigen::Matrix2d chain = Eigen::Matrix2d::Identity();
+};
 
-// The step of damping `lambda`; a parameter at its bound that wants out stays.
-Eigen::Vector2d dampedStep(const Normal& normal,
-                           double lambda,
-                           const Eigen::Vector2d& at,
-                           const StepSearchBounds& bounds) {
-  Eigen::Matrix2d matrix = normal.matrix;
-  Eigen::Vector2d gradient = normal.gradient;
-  for (int i = 0; i < 2; ++i) {
-    const bool out = (at[i] <= bounds.least[i] && gradient[i] < 0.0) ||
-                     (at[i] >= bounds.most[i] && gradient[i] > 0.0);
-    if (out) {
-      matrix.row(i).setZero();
-      matrix.col(i).setZero();
-      gradient[i] = 0.0;
-    }
-    // Logarithms: a unit step is a factor of e, so that damping may be absolute, too.
-    const double scale = std::max(normal.matrix(i, i), 1e-12 * normal.matrix.trace());
-    matrix(i, i) += lambda * scale + std::numeric_limits<double>::min();
+StepPlace placeAt(double first, double second, const StepSearchOptions& options) {
+  StepPlace place;
+  if (options.domain == StepDomain::kOscillating) {
+    place.parameters = {0.0, 0.0, std::exp(first), second};
+    return place;
   }
-  Eigen::Vector2d step = matrix.inverse() * gradient;
-  if (!step.allFinite()) step.setZero();
-  for (int i = 0; i < 2; ++i) step[i] = std::clamp(step[i], -2.0, 2.0);
-  return step;
+  const double m = std::exp(first), least = options.leastT2S;
+  const double mean = m + least;                                            // (T1 + T2) / 2
+  const double product = m * m * second + 2.0 * m * least + least * least;  // T1 T2
+  const double t = std::sqrt(product), d = mean / t;
+  place.parameters = {0.0, 0.0, t, second <= 1.0 ? std::max(d, 1.0) : d};
+  if (second >= 0.0 && d < kStepNearlyCritical) {
+    const double logTByFirst = m * (m * second + least) / product;
+    const double logTBySecond = 0.5 * m * m / product;
+    place.chain << logTByFirst, logTBySecond, m / t - d * logTByFirst, -d * logTBySecond;
+    return place;
+  }
+  const double root = std::sqrt(1.0 - second);
+  place.t1S = mean + m * root;
+  place.t2S = least + m * second / (1.0 + root);
+  const double t2ByFirst = m * second / (1.0 + root), t2BySecond = 0.5 * m / root;
+  if (second < 0.0) {
+    place.by = StepPlace::By::kFast;
+    place.chain << m * (1.0 + root), -t2BySecond, t2ByFirst, t2BySecond;
+    return place;
+  }
+  place.by = StepPlace::By::kTimes;
+  place.chain << t2ByFirst / place.t2S, t2BySecond / place.t2S, 1.0 - t2ByFirst / place.t2S,
+      -0.5 / (1.0 - second) - t2BySecond / place.t2S;
+  return place;
 }
 
-// What the products of the derivatives leave out of the second derivatives, learnt from how the
-// gradient changed (the structured secant update of NL2SOL): with large residuals the search would
-// only creep without it.
-class SecantPart {
+// The shape at all times; derivatives by the place's own parameters, then by the coordinates.
+class ShapeOfStepPlace {
  public:
-  // `gradient` is minus the derivative of half the sum of squares; `products` at the new place.
-  void learn(const Eigen::Vector2d& step,
-             const Eigen::Vector2d& gradientBefore,
-             const Normal& now) {
-    const Eigen::Vector2d change = gradientBefore - now.gradient;
-    const double curvature = change.dot(step);
-    if (!(curvature > 1e-12 * change.norm() * step.norm())) {
-      part_.setZero();
-      return;
-    }
-    const Eigen::Vector2d wanted = change - now.matrix * step;
-    const double has = std::abs(step.dot(part_ * step));
-    if (has > 0.0) part_ *= std::min(1.0, std::abs(step.dot(wanted)) / has);
-    const Eigen::Vector2d missing = wanted - part_ * step;
-    part_ += (missing * change.transpose() + change * missing.transpose()) / curvature -
-             missing.dot(step) / (curvature * curvature) * change * change.transpose();
-    if (!part_.allFinite()) part_.setZero();
+  explicit ShapeOfStepPlace(const StepPlace& place)
+      : place_(place), overdamped_(place.t1S, place.t2S) {}
+  StepShape at(double tS) const {
+    if (place_.by == StepPlace::By::kTimes) return overdamped_.at(tS);
+    if (place_.by == StepPlace::By::kDamping)
+      return oscillatingShape(tS, place_.parameters.timeConstantS, place_.parameters.damping);
+    if (!(tS > 0.0)) return {};
+    const double t1 = place_.t1S, t2 = place_.t2S, share = 1.0 / (t1 - t2);
+    const double decay = share * std::exp(-tS / t1);
+    return {1.0 - t1 * decay, decay, t2 * share * decay - decay * tS / t1, -t1 * share * decay};
   }
-  void forget() { part_.setZero(); }
-  // The whole second derivative where it has a minimum, else the products alone.
-  Normal completed(const Normal& normal) const {
-    Normal whole = normal;
-    whole.matrix += part_;
-    const double least = kLeastShare * normal.matrix.determinant();
-    return whole.matrix(0, 0) > 0.0 && whole.matrix(1, 1) > 0.0 &&
-                   whole.matrix.determinant() > least
-               ? whole
-               : normal;
+  Eigen::RowVector2d derivatives(const StepShape& shape) const {
+    return Eigen::RowVector2d(shape.derivativeByFirst, shape.derivativeBySecond) * place_.chain;
   }
 
  private:
-  static constexpr double kLeastShare = 0.05;
-  Eigen::Matrix2d part_ = Eigen::Matrix2d::Zero();
+  const StepPlace& place_;
+  OverdampedShape overdamped_;
 };
 
-// T1 + T2 and T1 T2, which change smoothly through d = 1.
-Eigen::Vector2d sumAndProduct(const Eigen::Vector2d& at, StepCoordinates by) {
-  const double first = std::exp(at[0]);
-  if (by == StepCoordinates::kDamping) return {2.0 * at[1] * first, first * first};
-  const double t1 = first * (1.0 + std::exp(at[1]));
-  return {t1 + first, t1 * first};
+// Residuals as a function of the shape alone: of all a = K phi + m t those with the least sum of
+// squares. What is along t is taken off once, from the values and from phi, so that one quotient
+// gives K.
+class ProjectedStep {
+ public:
+  ProjectedStep(const StepSamples& samples, const StepSearchOptions& options)
+      : samples_(samples),
+        options_(options),
+        unitT_(Eigen::Map<const Eigen::VectorXd>(samples.timeS.data(), size()).normalized()),
+        y_(withoutT(Eigen::Map<const Eigen::VectorXd>(samples.values.data(), size()))),
+        phi_(size()) {}
+
+  bool residuals(std::span<const double> x, std::span<double> out) {
+    const bool told = project(x);
+    if (told) Eigen::Map<Eigen::VectorXd>(out.data(), size()) = y_ - gain_ * phi_;
+    return told;
+  }
+  bool jacobian(std::span<const double> x, std::span<double> out) {
+    if (!project(x)) return false;
+    const StepPlace place = placeAt(x[0], x[1], options_);
+    const ShapeOfStepPlace shape(place);
+    Eigen::MatrixX2d derivatives(size(), 2);
+    for (Eigen::Index i = 0; i < size(); ++i)
+      derivatives.row(i) = shape.derivatives(shape.at(samples_.timeS[static_cast<std::size_t>(i)]));
+    const Eigen::VectorXd residual = y_ - gain_ * phi_;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>> all(
+        out.data(), size(), 2);
+    for (int j = 0; j < 2; ++j) {
+      const Eigen::VectorXd one = withoutT(derivatives.col(j));
+      const double gainBy = (one.dot(residual) - gain_ * one.dot(phi_)) / phi_.squaredNorm();
+      all.col(j) = -gain_ * one - gainBy * phi_;
+    }
+    return all.allFinite();
+  }
+  // Infinite where K and m can't be told apart.
+  double sumOfSquares(const Eigen::Vector2d& x) {
+    return project({x.data(), 2}) ? (y_ - gain_ * phi_).squaredNorm()
+                                  : std::numeric_limits<double>::infinity();
+  }
+  StepParameters parametersAt(const Eigen::Vector2d& x) {
+    StepParameters p = placeAt(x[0], x[1], options_).parameters;
+    if (!project({x.data(), 2})) return p;
+    p.staticResponseCounts = gain_;
+    p.driftCountsPerS = drift_;
+    return p;
+  }
+  int evaluations() const noexcept { return evaluations_; }
+
+ private:
+  Eigen::Index size() const { return static_cast<Eigen::Index>(samples_.timeS.size()); }
+  Eigen::VectorXd withoutT(const Eigen::VectorXd& v) const { return v - unitT_.dot(v) * unitT_; }
+  bool project(std::span<const double> x) {
+    ++evaluations_;
+    const StepPlace place = placeAt(x[0], x[1], options_);
+    const ShapeOfStepPlace shape(place);
+    for (Eigen::Index i = 0; i < size(); ++i)
+      phi_[i] = shape.at(samples_.timeS[static_cast<std::size_t>(i)]).phi;
+    const double whole = phi_.squaredNorm(), along = unitT_.dot(phi_);
+    phi_ -= along * unitT_;
+    const double bend = phi_.squaredNorm();
+    if (!(bend > kLeastStepBend * whole)) return false;
+    gain_ = phi_.dot(y_) / bend;
+    const Eigen::Map<const Eigen::VectorXd> t(samples_.timeS.data(), size());
+    const Eigen::Map<const Eigen::VectorXd> y(samples_.values.data(), size());
+    drift_ = (unitT_.dot(y) - gain_ * along) / t.norm();
+    return true;
+  }
+
+  const StepSamples& samples_;
+  const StepSearchOptions& options_;
+  Eigen::VectorXd unitT_, y_, phi_;
+  double gain_ = 0.0, drift_ = 0.0;
+  int evaluations_ = 0;
+};
+
+// The problem with its last parameter at a value.
+LeastSquaresProblem withLastAt(const LeastSquaresProblem& problem, std::size_t size, double value) {
+  LeastSquaresProblem fewer = problem;
+  const auto whole = [size, value](std::span<const double> x) {
+    std::vector<double> all(x.begin(), x.end());
+    all.resize(size, value);
+    return all;
+  };
+  fewer.residuals = [&problem, whole](std::span<const double> x, std::span<double> out) {
+    return problem.residuals(whole(x), out);
+  };
+  fewer.jacobian = [&problem, whole, size](std::span<const double> x, std::span<double> out) {
+    std::vector<double> all(problem.numResiduals * size);
+    if (!problem.jacobian(whole(x), all)) return false;
+    for (std::size_t i = 0; i < problem.numResiduals; ++i)
+      std::copy_n(&all[i * size], size - 1, &out[i * (size - 1)]);
+    return true;
+  };
+  const auto last = static_cast<Eigen::Index>(size - 1);
+  fewer.lowerBounds = Eigen::VectorXd(problem.lowerBounds.head(last));
+  fewer.upperBounds = Eigen::VectorXd(problem.upperBounds.head(last));
+  return fewer;
 }
 
-bool nearKnown(const Eigen::Vector2d& at, StepCoordinates by, std::span<const StepSearch> known) {
-  const Eigen::Vector2d here = sumAndProduct(at, by);
-  return std::any_of(known.begin(), known.end(), [&](const StepSearch& minimum) {
-    const Eigen::Vector2d there = sumAndProduct(minimum.at, minimum.by);
-    return minimum.converged && std::abs(here[0] - there[0]) < kSame * there[0] &&
-           std::abs(here[1] - there[1]) < kSame * there[0] * there[0];
-  });
+// The last two parameters are the coordinates of the domain. The second one may leave the domain,
+// where the shape goes on smoothly: along a bound Ceres would only creep. What ends outside is
+// searched again on the domain's edge.
+LeastSquaresReport solveInDomain(LeastSquaresProblem& problem,
+                                 const Eigen::VectorXd& start,
+                                 const StepSearchOptions& options) {
+  constexpr double kUnbounded = std::numeric_limits<double>::max();
+  const bool oscillating = options.domain == StepDomain::kOscillating;
+  const Eigen::Index last = start.size() - 1;
+  problem.lowerBounds.setConstant(start.size(), -kUnbounded);
+  problem.upperBounds.setConstant(start.size(), kUnbounded);
+  problem.lowerBounds[last - 1] = std::log(options.leastT2S);
+  problem.upperBounds[last - 1] = std::log(options.mostS);
+  if (oscillating) problem.lowerBounds[last] = kLeastDamping;
+  if (oscillating) problem.upperBounds[last] = kMostDamping;
+  const LeastSquaresOptions solver{.maxIterations = options.maxIterations,
+                                   .tolerance = kStepTolerance,
+                                   .firstRadii = {kFirstRadius},
+                                   .covariance = false};
+  LeastSquaresReport report = solveLeastSquares(problem, start, solver);
+  const double edge = std::clamp(report.x[last], oscillating ? kLeastDamping : 0.0, 1.0);
+  if (edge == report.x[last]) return report;
+  const Eigen::VectorXd inside = report.x.head(last);
+  report = solveLeastSquares(
+      withLastAt(problem, static_cast<std::size_t>(start.size()), edge), inside, solver);
+  const Eigen::VectorXd found = report.x;
+  report.x.resize(start.size());
+  report.x << found, edge;
+  return report;
+}
+
+// Places of a grid none of whose neighbours is better, best first.
+std::vector<Eigen::Vector2d> startsOf(ProjectedStep& projected,
+                                      const StepSamples& samples,
+                                      const StepSearchOptions& options) {
+  const double shortest = std::log(kShortestStart * options.leastT2S);
+  const double longest = std::log(kLongestStartShare * samples.timeS.back());
+  const auto placeOf = [&](int i, int j) {
+    return Eigen::Vector2d(shortest + (longest - shortest) * i / (kGridTimes - 1),
+                           kGridSecond[static_cast<std::size_t>(j)]);
+  };
+  constexpr int kRows = static_cast<int>(kGridSecond.size());
+  Eigen::ArrayXXd sums(kGridTimes, kRows);
+  for (int i = 0; i < kGridTimes; ++i)
+    for (int j = 0; j < kRows; ++j) sums(i, j) = projected.sumOfSquares(placeOf(i, j));
+  const double best = sums.minCoeff();
+  std::vector<std::pair<double, Eigen::Vector2d>> found;
+  for (int i = 0; i < kGridTimes; ++i)
+    for (int j = 0; j < kRows; ++j) {
+      const int left = std::max(i - 1, 0), top = std::max(j - 1, 0);
+      const double least =
+          sums.block(left, top, std::min(i + 2, kGridTimes) - left, std::min(j + 2, kRows) - top)
+              .minCoeff();
+      if (std::isfinite(sums(i, j)) && sums(i, j) <= least && sums(i, j) <= kWorthSearching * best)
+        found.emplace_back(sums(i, j), placeOf(i, j));
+    }
+  std::stable_sort(
+      found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (found.size() > kMostStepStarts) found.resize(kMostStepStarts);
+  std::vector<Eigen::Vector2d> starts;
+  for (const auto& one : found) starts.push_back(one.second);
+  return starts;
 }
 
 }  // namespace
 
-StepSamples::StepSamples(std::vector<double> timeS, std::vector<double> values)
-    : t_(std::move(timeS)), y_(std::move(values)) {
-  sumTails();
-}
-
-void StepSamples::setWeights(std::vector<double> weights) {
-  w_ = std::move(weights);
-  sumTails();
-}
-
-StepSamples StepSamples::merged(double shareOfTime) const {
-  std::vector<double> t, y, w;
-  for (std::size_t i = 0; i < t_.size();) {
-    const double until = t_[i] * (1.0 + shareOfTime);
-    double sumT = 0.0, sumY = 0.0, count = 0.0;
-    do {
-      const double weight = w_.empty() ? 1.0 : w_[i];
-      sumT += weight * t_[i];
-      sumY += weight * y_[i];
-      count += weight;
-      ++i;
-    } while (i < t_.size() && t_[i] < until);
-    if (!(count > 0.0)) continue;
-    t.push_back(sumT / count);
-    y.push_back(sumY / count);
-    w.push_back(count);
+StepMinimum searchStep(const StepSamples& samples, const StepSearchOptions& options) {
+  ProjectedStep projected(samples, options);
+  LeastSquaresProblem problem;
+  problem.numResiduals = samples.timeS.size();
+  problem.residuals = [&](auto x, auto out) { return projected.residuals(x, out); };
+  problem.jacobian = [&](auto x, auto out) { return projected.jacobian(x, out); };
+  StepMinimum best;
+  best.sumOfSquares = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector2d& start : startsOf(projected, samples, options)) {
+    const LeastSquaresReport report = solveInDomain(problem, start, options);
+    if (!(report.sumOfSquares < best.sumOfSquares)) continue;
+    best.at = report.x;
+    best.parameters = projected.parametersAt(report.x);
+    best.sumOfSquares = report.sumOfSquares;
+    best.converged = report.converged;
   }
-  StepSamples samples(std::move(t), std::move(y));
-  samples.setWeights(std::move(w));
-  return samples;
+  best.evaluations = projected.evaluations();
+  return best;
 }
 
-void StepSamples::sumTails() {
-  tails_.assign(t_.size() + 1, {});
-  for (std::size_t i = t_.size(); i-- > 0;) {
-    const double w = w_.empty() ? 1.0 : w_[i];
-    Tail sum = tails_[i + 1];
-    sum.one += w;
-    sum.t += w * t_[i];
-    sum.tt += w * t_[i] * t_[i];
-    sum.y += w * y_[i];
-    sum.ty += w * t_[i] * y_[i];
-    sum.yy += w * y_[i] * y_[i];
-    tails_[i] = sum;
-  }
-}
-
-StepSamples::Moments StepSamples::moments(const Eigen::Vector2d& at, StepCoordinates by) const {
-  const double first = std::exp(at[0]);
-  const bool byTimes = by == StepCoordinates::kTimes;
-  const double t1 = byTimes ? first * (1.0 + std::exp(at[1])) : first;
-  const double d = at[1];
-  const double slowest = byTimes   ? t1
-                         : d < 1.0 ? first / std::max(d, 1e-3)
-                                   : first * (d + std::sqrt(d * d - 1.0));
-  const auto settled = static_cast<std::size_t>(
-      std::upper_bound(t_.begin(), t_.end(), kStepSearchSettled * slowest) - t_.begin());
-  Moments s;
-  const auto add = [&s](const StepShape& shape, double t, double y, double w) {
-    const double p = w * shape.phi, a = w * shape.derivativeByFirst,
-                 b = w * shape.derivativeBySecond;
-    s.pp += p * shape.phi;
-    s.pt += p * t;
-    s.py += p * y;
-    s.ap += a * shape.phi;
-    s.at += a * t;
-    s.ay += a * y;
-    s.bp += b * shape.phi;
-    s.bt += b * t;
-    s.by += b * y;
-    s.aa += a * shape.derivativeByFirst;
-    s.ab += a * shape.derivativeBySecond;
-    s.bb += b * shape.derivativeBySecond;
+StepMinimum searchRobustStep(const StepSamples& samples,
+                             const StepSearchOptions& options,
+                             const StepMinimum& start,
+                             LeastSquaresLoss loss,
+                             double deviations) {
+  StepMinimum found = start;
+  // K, m and the two coordinates.
+  LeastSquaresProblem problem;
+  problem.numResiduals = samples.timeS.size();
+  problem.residuals = [&](std::span<const double> x, std::span<double> out) {
+    ++found.evaluations;
+    const StepPlace place = placeAt(x[2], x[3], options);
+    const ShapeOfStepPlace shape(place);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double t = samples.timeS[i];
+      out[i] = samples.values[i] - x[0] * shape.at(t).phi - x[1] * t;
+    }
+    return true;
   };
-  const OverdampedShape overdamped(t1, first);
-  for (std::size_t i = 0; i < settled; ++i)
-    add(byTimes ? overdamped.at(t_[i]) : oscillatingShape(t_[i], first, d),
-        t_[i],
-        y_[i],
-        w_.empty() ? 1.0 : w_[i]);
-  const Tail& tail = tails_[settled];
-  s.pp += tail.one;
-  s.pt += tail.t;
-  s.py += tail.y;
-  s.tt = tails_[0].tt;
-  s.ty = tails_[0].ty;
-  s.yy = tails_[0].yy;
-  return s;
-}
-
-StepSearch searchStep(const StepSamples& samples,
-                      StepCoordinates by,
-                      const Eigen::Vector2d& start,
-                      const StepSearchBounds& bounds,
-                      int maxIterations,
-                      std::span<const StepSearch> known) {
-  StepSearch search;
-  search.by = by;
-  search.at = start.cwiseMax(bounds.least).cwiseMin(bounds.most);
-  StepSamples::Moments moments = samples.moments(search.at, by);
-  ++search.evaluations;
-  Linear linear = solveLinear(moments);
-  double lambda = 1e-3;
-  Normal normal = normalEquations(moments, linear);
-  SecantPart secant;
-  for (int i = 0; i < maxIterations && std::isfinite(linear.sumOfSquares); ++i) {
-    const Eigen::Vector2d step = dampedStep(secant.completed(normal), lambda, search.at, bounds);
-    const Eigen::Vector2d next = (search.at + step).cwiseMax(bounds.least).cwiseMin(bounds.most);
-    const double moved = (next - search.at).cwiseAbs().maxCoeff();
-    // What the linearised model promises: where that is nothing beside the sum itself, here is the
-    // minimum.
-    const double promised = std::abs(normal.gradient.dot(next - search.at));
-    if (moved < 1e-10 || promised <= 1e-12 * linear.sumOfSquares) {
-      search.converged = true;
+  problem.jacobian = [&](std::span<const double> x, std::span<double> out) {
+    ++found.evaluations;
+    const StepPlace place = placeAt(x[2], x[3], options);
+    const ShapeOfStepPlace shape(place);
+    for (std::size_t i = 0; i < samples.timeS.size(); ++i) {
+      const double t = samples.timeS[i];
+      const StepShape at = shape.at(t);
+      const Eigen::RowVector2d by = -x[0] * shape.derivatives(at);
+      const std::array row{-at.phi, -t, by[0], by[1]};
+      std::copy(row.begin(), row.end(), &out[4 * i]);
+    }
+    return true;
+  };
+  problem.loss = loss;
+  Eigen::VectorXd x(4);
+  x << found.parameters.staticResponseCounts, found.parameters.driftCountsPerS, found.at;
+  std::vector<double> sizes(samples.timeS.size());
+  for (int i = 0; i < kMostRescalings; ++i) {
+    problem.residuals({x.data(), 4}, sizes);
+    for (double& size : sizes) size = std::abs(size);
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    if (!(*middle > 0.0)) break;  // half of the samples are met exactly
+    problem.lossScale = deviations * kSdPerMad * *middle;
+    const LeastSquaresReport report = solveInDomain(problem, x, options);
+    found.weights = report.weights;
+    found.lossScale = problem.lossScale;
+    found.converged = report.converged;
+    const StepParameters was = found.parameters;
+    found.at = report.x.tail<2>();
+    found.parameters = placeAt(report.x[2], report.x[3], options).parameters;
+    found.parameters.staticResponseCounts = report.x[0];
+    found.parameters.driftCountsPerS = report.x[1];
+    x = report.x;
+    const StepParameters& is = found.parameters;
+    if (std::abs(std::log(is.timeConstantS / was.timeConstantS)) +
+            std::abs(std::log(is.damping / was.damping)) +
+            std::abs(is.staticResponseCounts / was.staticResponseCounts - 1.0) <
+        1e-7)
       break;
-    }
-    const StepSamples::Moments tried = samples.moments(next, by);
-    ++search.evaluations;
-    const Linear triedLinear = solveLinear(tried);
-    if (triedLinear.sumOfSquares <= linear.sumOfSquares) {
-      const Normal triedNormal = normalEquations(tried, triedLinear);
-      if (moved < kNear)
-        secant.learn(next - search.at, normal.gradient, triedNormal);
-      else
-        secant.forget();
-      search.at = next;
-      moments = tried;
-      linear = triedLinear;
-      normal = triedNormal;
-      lambda = std::max(lambda * 0.1, 1e-12);
-      if (nearKnown(search.at, by, known)) {
-        search.sameAsKnown = true;
-        break;
-      }
-      if (by == StepCoordinates::kTimes && next[1] < kNearlyCritical) break;
-    } else {
-      // No descent left but rounding: the sums carry about 1e-16 of the squares of all values.
-      if (triedLinear.sumOfSquares - linear.sumOfSquares <= 1e-15 * moments.yy && moved < 1e-5) {
-        search.converged = true;
-        break;
-      }
-      secant.forget();
-      lambda = std::max(lambda * 8.0, 1e-6);
-      if (lambda > 1e12) break;
-    }
   }
-  search.gain = linear.gain;
-  search.drift = linear.drift;
-  search.sumOfSquares = linear.sumOfSquares;
-  return search;
+  return found;
 }
 
 }  // namespace palpate

@@ -1,6 +1,7 @@
-// Calibration beside references in the same run: the step fit (variable projection) beside the same
-// model as four parameters through Ceres; a recording of ten minutes with thirty steps; a live
-// frame through a calibration beside the characteristic signals of that frame.
+// Calibration beside references in the same run: the step fit (variable projection, several starts)
+// beside one search of the same model's four parameters by the same solver; a recording of ten
+// minutes with thirty steps; a live frame through a calibration beside the characteristic signals
+// of that frame.
 #include <cmath>
 #include <random>
 

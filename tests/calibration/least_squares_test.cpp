@@ -240,6 +240,58 @@ TEST(LeastSquares, UsesGivenDerivatives) {
   EXPECT_GT(calls, 0);
 }
 
+// The mean of a constant model, robustly: y = 0, 1, 2, 3, 20 and scale 2. Huber: (0 + 1 + 2 + 3 - 4
+// x + 2) = 0 gives x = 2. Cauchy: zero of sum r / (1 + r^2 / 4), by bisection.
+LeastSquaresProblem location(LeastSquaresLoss loss) {
+  LeastSquaresProblem problem;
+  problem.numResiduals = 5;
+  problem.residuals = [](std::span<const double> b, std::span<double> r) {
+    const double y[] = {0.0, 1.0, 2.0, 3.0, 20.0};
+    for (std::size_t i = 0; i < 5; ++i) r[i] = y[i] - b[0];
+    return true;
+  };
+  problem.loss = loss;
+  problem.lossScale = 2.0;
+  return problem;
+}
+
+TEST(LeastSquares, MinimisesRobustLosses) {
+  const Eigen::VectorXd start = Eigen::VectorXd::Constant(1, 1.0);
+  const LeastSquaresReport huber = solveLeastSquares(location(LeastSquaresLoss::kHuber), start);
+  EXPECT_NEAR(huber.x[0], 2.0, 1e-6);
+  // Weights a / |r| beyond a = 2: 1, 1, 1, 1, 2/18; the sum of rho: 4 + 1 + 0 + 1 + (2 2 18 - 4).
+  ASSERT_EQ(huber.weights.size(), 5u);
+  EXPECT_NEAR(huber.weights[4], 1.0 / 9.0, 1e-6);
+  EXPECT_NEAR(huber.sumOfSquares, 74.0, 1e-6);
+  // Of the weighted squares: (4 + 1 + 0 + 1 + 324 / 9) / 4, over the sum of weights.
+  EXPECT_NEAR(huber.residualSd * huber.residualSd, 42.0 / 4.0, 1e-4);
+  EXPECT_NEAR(huber.covariance(0, 0), 42.0 / 4.0 / (4.0 + 1.0 / 9.0), 1e-4);
+
+  const LeastSquaresReport cauchy = solveLeastSquares(location(LeastSquaresLoss::kCauchy), start);
+  const auto slope = [](double x) {
+    double sum = 0.0;
+    for (const double y : {0.0, 1.0, 2.0, 3.0, 20.0})
+      sum += (y - x) / (1.0 + (y - x) * (y - x) / 4.0);
+    return sum;
+  };
+  double low = 0.0, high = 3.0;
+  for (int i = 0; i < 100; ++i) (slope(0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
+  EXPECT_NEAR(cauchy.x[0], low, 1e-6);
+  EXPECT_NEAR(cauchy.weights[4], 1.0 / (1.0 + std::pow((20.0 - low) / 2.0, 2)), 1e-6);
+}
+
+TEST(LeastSquares, StaysWithinBounds) {
+  LeastSquaresProblem bounded = line();
+  bounded.lowerBounds = Eigen::Vector2d(-10.0, -10.0);
+  bounded.upperBounds = Eigen::Vector2d(10.0, 1.5);
+  const LeastSquaresReport report = solveLeastSquares(bounded, Eigen::Vector2d(0.0, 0.0));
+  EXPECT_NEAR(report.x[1], 1.5, 1e-9);
+  EXPECT_NEAR(report.x[0], 5.0 - 1.5 * 2.0, 1e-6) << "the mean of y less the slope times that of x";
+  EXPECT_THROW(solveLeastSquares(bounded, Eigen::Vector2d(0.0, 2.0)), std::invalid_argument);
+  bounded.upperBounds = Eigen::VectorXd::Constant(1, 1.0);
+  EXPECT_THROW(solveLeastSquares(bounded, Eigen::Vector2d(0.0, 0.0)), std::invalid_argument);
+}
+
 TEST(LeastSquares, TellsOfDependentParametersAndOfAModelThatIsNotDefined) {
   LeastSquaresProblem twins = line();
   twins.residuals = [](std::span<const double> b, std::span<double> r) {
@@ -267,6 +319,10 @@ TEST(LeastSquares, RefusesBrokenContracts) {
                std::invalid_argument);
   EXPECT_THROW(solveLeastSquares(line(), start, {.maxIterations = 0}), std::invalid_argument);
   EXPECT_THROW(solveLeastSquares(line(), start, {.tolerance = 0.0}), std::invalid_argument);
+  EXPECT_THROW(solveLeastSquares(line(), start, {.firstRadii = {}}), std::invalid_argument);
+  LeastSquaresProblem flat = line();
+  flat.lossScale = 0.0;
+  EXPECT_THROW(solveLeastSquares(flat, start), std::invalid_argument);
 }
 
 }  // namespace

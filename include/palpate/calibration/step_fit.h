@@ -1,7 +1,7 @@
-// Fits the step response of step_model.h by least squares: K and m are linear and follow from the
-// shape, so only log T2 and log(T1/T2 - 1) are searched (variable projection, Levenberg-Marquardt),
-// from four starts: at or below the residual of a four-parameter search in all measured steps,
-// where that search fails from poor starts.
+// Fits the step response of step_model.h by least_squares.h: K and m are linear and follow from the
+// shape, so only its two parameters are searched (variable projection), from the best places of a
+// grid: at or below the residual of a four-parameter search in all measured steps, where that
+// search fails from poor starts.
 #pragma once
 
 #include <cstddef>
