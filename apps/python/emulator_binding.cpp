@@ -126,11 +126,11 @@ py::dict noisyContacts(std::uint64_t seed,
   result["profile"] = made.profile;
   result["touched"] = grid<bool>(
       made.truth.size(), made.profile.layout().numCells(), [&](std::size_t i, std::size_t place) {
-        return made.truth[i][place] == PlaceTruth::kTouched;
+        return made.truth[i][place] == Touch::kTouched;
       });
   result["nothing"] = grid<bool>(
       made.truth.size(), made.profile.layout().numCells(), [&](std::size_t i, std::size_t place) {
-        return made.truth[i][place] == PlaceTruth::kNothing;
+        return made.truth[i][place] == Touch::kNothing;
       });
   result["contacts"] = list;
   result["threshold_counts"] = made.thresholdCounts;

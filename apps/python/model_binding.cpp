@@ -1,6 +1,4 @@
 // palpate.Model.
-#include <array>
-#include <ctime>
 #include <filesystem>
 #include <string>
 
@@ -9,6 +7,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/utc_stamp.h"
 #include "palpate/recognition/model_evaluation.h"
 
 #include "python/arrays.h"
@@ -19,22 +18,10 @@
 
 namespace palpate::python {
 namespace py = pybind11;
-namespace {
-
-std::string utcNow() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text.data();
-}
-
-}  // namespace
 
 void stampProvenance(TrainedModel& model) {
   model.programVersion = PALPATE_VERSION;
-  model.madeAt = utcNow();
+  model.madeAt = utcStamp();
 }
 
 std::vector<ModelInput> inputsFor(const FeatureTable& table, const Progress& progress) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 
 namespace palpate {
 namespace {
@@ -46,9 +47,7 @@ std::size_t loadedMatrix(const Profile& profile, const Progress& progress) {
   std::vector<double> sums(profile.layout().numMatrices());
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (progress && i % kPressureGatheringToldEvery == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
-      throw Cancelled();
+    reportProgress(progress, i, profile.numFrames(), kPressureGatheringToldEvery);
     profile.readFrame(i, frame);
     for (std::size_t m = 0; m < sums.size(); ++m)
       sums[m] += static_cast<double>(std::as_const(frame).matrix(m).sum());

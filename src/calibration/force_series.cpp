@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/core/time.h"
 
 namespace palpate {
@@ -72,9 +73,7 @@ ForceSeries forceSeries(const Profile& profile,
   std::optional<std::size_t> sample;
   std::vector<double> degC;
   for (std::size_t i = 0; i < numFrames; ++i) {
-    if (progress && i % kForceSeriesToldEvery == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(numFrames)))
-      throw Cancelled();
+    reportProgress(progress, i, numFrames, kForceSeriesToldEvery);
     profile.readFrame(i, frame);
     const auto belongs = profile.temperatureSampleAt(frame.hostUs);
     if (belongs && belongs != sample) degC = profile.temperatures(*belongs).degC;

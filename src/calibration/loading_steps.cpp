@@ -7,6 +7,8 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/progress_steps.h"
+#include "palpate/core/statistics.h"
 #include "palpate/core/time.h"
 #include "palpate/model/timing.h"
 
@@ -24,19 +26,13 @@ std::vector<bool> gapsBehind(const StepSignal& signal) {
   return behind;
 }
 
-double medianOf(std::span<const double> values) {
-  std::vector<double> sorted(values.begin(), values.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
-}
-
 // Last frame before the load is being taken away.
 std::size_t beforeRelease(std::span<const double> values,
                           const LoadingStep& step,
                           double releaseFraction) {
   const std::size_t middle = step.begin + (step.end - step.begin) / 2;
-  const double level = medianOf(values.subspan(middle, step.end - middle + 1));
+  const auto secondHalf = values.subspan(middle, step.end - middle + 1);
+  const double level = upperMedian(std::vector(secondHalf.begin(), secondHalf.end()));
   std::size_t end = step.end;
   while (end > middle && !(values[end] >= releaseFraction * level)) --end;
   return end - std::min(end - middle, kFramesOfRelease);
@@ -75,9 +71,7 @@ StepSignal stepSignal(const Profile& profile,
   out.values.reserve(profile.numFrames());
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (progress && i % kFramesPerReport == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
-      throw Cancelled();
+    reportProgress(progress, i, profile.numFrames(), kFramesPerReport);
     profile.readFrame(i, frame);
     out.timeS.push_back(static_cast<double>(frame.hostUs - profile.frameTimeUs(0)) / kUsPerS);
     const std::span<const float> values = std::span(frame.values).subspan(first, layout.numCells());

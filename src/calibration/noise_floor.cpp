@@ -10,6 +10,7 @@
 #include "palpate/calibration/student_t.h"
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/progress_steps.h"
 
 namespace palpate {
 namespace {
@@ -178,9 +179,7 @@ NoiseFloor fitNoiseFloor(const Profile& profile,
   std::vector<std::vector<double>> degC(layout.numMatrices()), maxima(layout.numMatrices());
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (progress && i % kFramesPerReport == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
-      throw Cancelled();
+    reportProgress(progress, i, profile.numFrames(), kFramesPerReport);
     profile.readFrame(i, frame);
     const auto temperatures = profile.temperaturesAtFrame(i);
     for (std::size_t m = 0; m < layout.numMatrices(); ++m) {

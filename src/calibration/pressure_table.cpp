@@ -7,7 +7,9 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/statistics.h"
 #include "palpate/core/text_file.h"
+#include "palpate/core/trimmed.h"
 
 namespace palpate {
 namespace {
@@ -28,11 +30,7 @@ std::vector<std::string> cellsOf(std::string_view line) {
       cells.back() += c;
     }
   }
-  for (std::string& cell : cells) {
-    const auto first = cell.find_first_not_of(" \t\r");
-    const auto last = cell.find_last_not_of(" \t\r");
-    cell = first == std::string::npos ? "" : cell.substr(first, last - first + 1);
-  }
+  for (std::string& cell : cells) cell = std::string(trimmed(cell, " \t\r"));
   return cells;
 }
 
@@ -147,10 +145,7 @@ double medianSteadyS(const std::vector<StepReport>& reports) {
     for (const FittedStep& step : report.steps)
       if (step.fit.usable() && std::isfinite(step.characteristics.steadyS))
         times.push_back(step.characteristics.steadyS);
-  if (times.empty()) return 0.0;
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  return *middle;
+  return times.empty() ? 0.0 : upperMedian(times);
 }
 
 }  // namespace palpate

@@ -7,6 +7,8 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/progress_steps.h"
+#include "palpate/core/statistics.h"
 #include "palpate/core/time.h"
 
 namespace palpate {
@@ -67,9 +69,7 @@ std::vector<Window> windowsOf(const Profile& profile, double windowS, const Prog
     begin = end + 1;
   };
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (progress && i % kFramesPerReport == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
-      throw Cancelled();
+    reportProgress(progress, i, profile.numFrames(), kFramesPerReport);
     if (i > begin && static_cast<double>(profile.frameTimeUs(i) - profile.frameTimeUs(begin)) >=
                          windowS * kUsPerS)
       close(i - 1);
@@ -115,11 +115,10 @@ MatrixTare tareOf(const std::vector<Window>& windows,
   std::vector<float> means(calm.size());
   for (std::size_t p = 0; p < count; ++p) {
     for (std::size_t w = 0; w < calm.size(); ++w) means[w] = calm[w]->mean[offset + p];
-    const auto middle = means.begin() + static_cast<std::ptrdiff_t>(means.size() / 2);
-    std::nth_element(means.begin(), middle, means.end());
-    zero[offset + p] = *middle;
-    tare.raisedTaxels += *middle > 0.0F ? 1 : 0;
-    tare.largestZero = std::max(tare.largestZero, static_cast<double>(*middle));
+    const float atRest = upperMedian(means);
+    zero[offset + p] = atRest;
+    tare.raisedTaxels += atRest > 0.0F ? 1 : 0;
+    tare.largestZero = std::max(tare.largestZero, static_cast<double>(atRest));
   }
   for (const Window* window : calm) {
     if (!tare.windows.empty() && tare.windows.back().end + 1 == window->frames.begin)

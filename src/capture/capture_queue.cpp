@@ -12,13 +12,6 @@ constexpr std::array<const char*, kCaptureStreams> kStreamNames{
 constexpr std::array<const char*, kCaptureStreams> kItemNames{
     "frame", "angle sample", "temperature sample", "event"};
 
-// The angles that belong to a frame are the last ones at or before it: they go first.
-bool isEarlier(const CaptureItem& a, const CaptureItem& b) {
-  const std::int64_t atUs = stampOf(a);
-  const std::int64_t btUs = stampOf(b);
-  return atUs != btUs ? atUs < btUs : a.index() > b.index();
-}
-
 CaptureQueueStats::Port statsOf(const BoundedQueue<CaptureItem>& queue, std::size_t capacity) {
   return {queue.size(), queue.stats().highWater, capacity};
 }
@@ -35,6 +28,12 @@ void moveAll(BoundedQueue<CaptureItem>& queue, std::vector<CaptureItem>& out) {
 
 CaptureStream streamOf(const CaptureItem& item) noexcept {
   return static_cast<CaptureStream>(item.index());
+}
+
+// The angles that belong to a frame are the last ones at or before it: they go first.
+bool isEarlier(const CaptureItem& a, const CaptureItem& b) noexcept {
+  const std::int64_t aUs = stampOf(a), bUs = stampOf(b);
+  return aUs != bUs ? aUs < bUs : streamOf(a) > streamOf(b);
 }
 
 std::int64_t stampOf(const CaptureItem& item) noexcept {

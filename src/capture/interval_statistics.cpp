@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "palpate/model/gap_detector.h"
+
 namespace palpate {
 
 void IntervalStatistics::add(std::int64_t stampUs) {
@@ -32,7 +34,7 @@ double IntervalStatistics::rateHz() const noexcept { return frames_ < 2 ? 0.0 : 
 
 std::int64_t IntervalStatistics::gaps() const noexcept {
   if (frames_ < 2) return 0;
-  const double gapUs = std::max(1e6, 5.0 * medianUs());
+  const double gapUs = gapThresholdUs(medianUs());
   return std::count_if(longOnes_.begin(), longOnes_.end(), [gapUs](std::int64_t interval) {
     return static_cast<double>(interval) > gapUs;
   });

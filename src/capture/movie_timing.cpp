@@ -30,7 +30,7 @@ MovieTiming movieTiming(std::span<const std::int64_t> stampsUs, const MovieOptio
   if (stampsUs.empty()) return movie;
   const TimingReport timing = timingOf(stampsUs);
   const double usualS = timing.rateHz > 0.0 ? 1.0 / timing.rateHz : 0.0;
-  const double maxDurationS = std::max(kShortestGapS, kGapIntervals * usualS);
+  const double maxDurationS = gapThresholdS(usualS);
   const double picturesPerRecordedS = options.picturesPerS / options.speed;
   // The first picture whose middle isn't before that moment.
   const auto pictureAt = [&](double seconds) {

@@ -12,6 +12,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/trimmed.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -23,13 +24,10 @@ constexpr std::size_t kMostStem = 170;  // before run and time are put in
 constexpr char kRunMark = '\x01';       // stand for what is put in last; no text can hold them
 constexpr char kTimeMark = '\x02';
 
-// Without what a name may not begin or end with.
-std::string trimmed(std::string text) {
-  const auto loose = [](char c) { return c == '.' || c == '-' || c == '_'; };
-  while (!text.empty() && loose(text.back())) text.pop_back();
-  const auto begin = std::find_if_not(text.begin(), text.end(), loose);
-  text.erase(text.begin(), begin);
-  return text;
+// At most `most` bytes, without what a name may not begin or end with.
+std::string nameOfAtMost(std::string_view text, std::size_t most) {
+  constexpr std::string_view kLoose = ".-_";
+  return std::string(trimmed(beginningOf(trimmed(text, kLoose), most), kLoose));
 }
 
 std::string harmless(std::string_view text) {
@@ -93,7 +91,7 @@ std::string markedStem(std::string_view nameTemplate, const RecordingNameFields&
   stem.erase(
       std::unique(stem.begin(), stem.end(), [](char a, char b) { return a == '_' && b == '_'; }),
       stem.end());
-  stem = trimmed(std::string(beginningOf(trimmed(stem), kMostStem)));
+  stem = nameOfAtMost(stem, kMostStem);
   return stem.empty() ? "recording" : stem;
 }
 
@@ -157,9 +155,7 @@ bool taken(const fs::path& path) {
 
 }  // namespace
 
-std::string fileNamePart(std::string_view text) {
-  return trimmed(std::string(beginningOf(trimmed(harmless(text)), kMostPart)));
-}
+std::string fileNamePart(std::string_view text) { return nameOfAtMost(harmless(text), kMostPart); }
 
 std::string recordingFileName(std::string_view nameTemplate,
                               const RecordingNameFields& fields,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/statistics.h"
 #include "palpate/core/time.h"
 
 #include "control/command_answers.h"
@@ -144,10 +145,9 @@ double SensitivityControl::rateHz() const {
   std::vector<std::int64_t> intervals;
   for (std::size_t i = 1; i < stampsUs_.size(); ++i)
     intervals.push_back(stampsUs_[i] - stampsUs_[i - 1]);
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  return *middle > 0 ? kUsPerS / static_cast<double>(*middle)
-                     : std::numeric_limits<double>::quiet_NaN();
+  const std::int64_t medianUs = upperMedian(intervals);
+  return medianUs > 0 ? kUsPerS / static_cast<double>(medianUs)
+                      : std::numeric_limits<double>::quiet_NaN();
 }
 
 void SensitivityControl::onFrame(const TactileFrame& frame) {

@@ -1,6 +1,9 @@
 #include "palpate/control/stream_monitor.h"
 
 #include <algorithm>
+#include <span>
+
+#include "palpate/core/statistics.h"
 
 namespace palpate {
 
@@ -20,9 +23,7 @@ std::optional<std::int64_t> StreamMonitor::frame(std::int64_t stampUs, std::int6
 std::int64_t StreamMonitor::medianPeriodUs() const {
   if (!known()) return 0;
   auto sorted = periods_;
-  const auto size = static_cast<std::ptrdiff_t>(std::min(count_, kKept));
-  std::nth_element(sorted.begin(), sorted.begin() + size / 2, sorted.begin() + size);
-  return sorted[static_cast<std::size_t>(size / 2)];
+  return upperMedian(std::span(sorted).first(std::min(count_, kKept)));
 }
 
 std::int64_t StreamMonitor::silenceLimitUs() const {

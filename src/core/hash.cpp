@@ -3,11 +3,13 @@
 #include <array>
 #include <fstream>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <openssl/evp.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/hex_text.h"
 
 namespace palpate {
 namespace {
@@ -26,13 +28,7 @@ class Sha256 {
     unsigned size = 0;
     if (EVP_DigestFinal_ex(context_.get(), digest.data(), &size) != 1)
       throw Error("SHA-256 failed");
-    constexpr char kDigits[] = "0123456789abcdef";
-    std::string text;
-    for (unsigned i = 0; i < size; ++i) {
-      text += kDigits[digest[i] >> 4];
-      text += kDigits[digest[i] & 15];
-    }
-    return text;
+    return hexDigits(std::as_bytes(std::span(digest).first(size)), HexLetters::kSmall);
   }
 
  private:

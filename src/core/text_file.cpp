@@ -45,4 +45,12 @@ std::string readTextFile(const std::filesystem::path& path, std::uint64_t byteLi
   return text;
 }
 
+std::string beginningOfFile(const std::filesystem::path& path, std::size_t byteLimit) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes(byteLimit, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(byteLimit));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
 }  // namespace palpate

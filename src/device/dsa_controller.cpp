@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "palpate/core/byte_order.h"
+#include "palpate/core/byte_writer.h"
 #include "palpate/core/error.h"
 #include "palpate/core/time.h"
 
@@ -25,7 +28,7 @@ constexpr int kPending = 25;  // a second answer with the final code follows
 constexpr std::size_t kDsaControllerReadBytes = 4096;
 
 unsigned errorWord(const std::vector<std::byte>& payload) {
-  return std::to_integer<unsigned>(payload[0]) | std::to_integer<unsigned>(payload[1]) << 8;
+  return static_cast<unsigned>(littleEndian(std::span(payload).first(2)));
 }
 
 using std::chrono::milliseconds;
@@ -213,7 +216,7 @@ void DsaController::acquisition(bool on, int rate) {
   Bytes payload;
   const unsigned flags = (on ? kAcquire : 0u) | (options_.runLength ? kDsaControllerRunLength : 0u);
   payload.push_back(static_cast<std::byte>(flags));
-  appendU16(payload, static_cast<unsigned>(rate));
+  appendLittleEndian(payload, static_cast<unsigned>(rate), 2);
   request(DsaId::kAcquisition, payload, 2);
 }
 
@@ -234,7 +237,7 @@ bool DsaController::stopStreamOnce(milliseconds limit) {
   streaming_ = false;
   answers_.clear();
   Bytes payload = {static_cast<std::byte>(options_.runLength ? kDsaControllerRunLength : 0u)};
-  appendU16(payload, 0);
+  appendLittleEndian(payload, 0, 2);
   send(DsaId::kAcquisition, payload);
   // leaving: asked to give up already
   const auto isCancelled = std::exchange(options_.isCancelled, nullptr);
@@ -290,7 +293,7 @@ const DsaControllerInfo& DsaController::open() {
   // Stop what an earlier client left running. A controller that boots is deaf: ask again.
   Bytes stop;
   stop.push_back(static_cast<std::byte>(options_.runLength ? kDsaSettingsRunLength : 0u));
-  appendU16(stop, 0);
+  appendLittleEndian(stop, 0, 2);
   const std::int64_t startUs = clock_.monotonicUs();
   bool probed = false;
   while (true) {
@@ -355,10 +358,8 @@ void DsaController::readSettings(std::size_t matrix) {
   const Bytes record = request(DsaId::kGetSensitivity, {number}, kSensitivityRecordBytes);
   facts.sensitivityAdjustable = (std::to_integer<unsigned>(record[2]) & 2u) != 0;
   const auto f32 = [&](std::size_t at) {
-    std::uint32_t bits = 0;
-    for (std::size_t i = 4; i > 0; --i)
-      bits = bits << 8 | std::to_integer<std::uint32_t>(record[at + i - 1]);
-    return static_cast<double>(std::bit_cast<float>(bits));
+    const std::uint64_t bits = littleEndian(std::span(record).subspan(at, 4));
+    return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
   };
   for (const double value : {f32(3), f32(7)})
     if (!(value >= 0.0 && value <= 1.0))
@@ -370,8 +371,7 @@ void DsaController::readSettings(std::size_t matrix) {
   facts.factorySensitivity = f32(7);
   if (!facts_.hasThresholds()) return;
   const Bytes threshold = request(DsaId::kGetThreshold, {number}, kThresholdRecordBytes);
-  facts.thresholdCounts = static_cast<int>(std::to_integer<unsigned>(threshold[2]) |
-                                           std::to_integer<unsigned>(threshold[3]) << 8);
+  facts.thresholdCounts = static_cast<int>(littleEndian(std::span(threshold).subspan(2, 2)));
 }
 
 Mask DsaController::readMask(int type, std::size_t matrix) {
@@ -471,7 +471,7 @@ void DsaController::setThreshold(std::size_t matrix, int counts, bool persistent
   whilePaused([&] {
     Bytes payload = {static_cast<std::byte>(persistent ? kPersistent : 0u),
                      static_cast<std::byte>(matrix)};
-    appendU16(payload, static_cast<unsigned>(counts));
+    appendLittleEndian(payload, static_cast<unsigned>(counts), 2);
     if (persistent)
       send(DsaId::kSetThreshold, payload);
     else

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "palpate/core/byte_order.h"
+#include "palpate/core/byte_writer.h"
 #include "palpate/device/weiss_checksum.h"
 
 namespace palpate {
@@ -19,7 +21,7 @@ constexpr std::size_t kFrameHeaderBytes = 5;  // time stamp, flags
 constexpr std::size_t kLargestAnswer = 258;
 
 std::size_t u16At(std::span<const std::byte> bytes, std::size_t at) {
-  return std::to_integer<std::size_t>(bytes[at]) | std::to_integer<std::size_t>(bytes[at + 1]) << 8;
+  return littleEndian(bytes.subspan(at, 2));
 }
 
 }  // namespace
@@ -129,13 +131,10 @@ std::vector<std::byte> dsaRequest(DsaId id, std::span<const std::byte> payload) 
                                 " bytes is longer than 65535");
   std::vector<std::byte> bytes(kPreambleBytes, kPreamble);
   bytes.push_back(static_cast<std::byte>(id));
-  bytes.push_back(static_cast<std::byte>(payload.size() & 0xFFu));
-  bytes.push_back(static_cast<std::byte>(payload.size() >> 8));
+  appendLittleEndian(bytes, payload.size(), 2);
   bytes.insert(bytes.end(), payload.begin(), payload.end());
   if (payload.empty()) return bytes;
-  const std::uint16_t crc = weissChecksum(std::span(bytes).subspan(kPreambleBytes));
-  bytes.push_back(static_cast<std::byte>(crc & 0xFFu));
-  bytes.push_back(static_cast<std::byte>(crc >> 8));
+  appendLittleEndian(bytes, weissChecksum(std::span(bytes).subspan(kPreambleBytes)), 2);
   return bytes;
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "palpate/core/byte_reader.h"
+#include "palpate/core/byte_writer.h"
+#include "palpate/core/hex_text.h"
 
 namespace palpate {
 namespace {
@@ -81,16 +83,6 @@ void checkPlaces(const std::vector<DsaMatrixInfo>& matrices) {
                                 " at most");
 }
 
-std::string hexDigits(std::span<const std::byte> bytes) {
-  static constexpr char kDigits[] = "0123456789ABCDEF";
-  std::string text;
-  for (const std::byte b : bytes) {
-    text += kDigits[std::to_integer<unsigned>(b) >> 4];
-    text += kDigits[std::to_integer<unsigned>(b) & 0xFu];
-  }
-  return text;
-}
-
 std::size_t maskBytes(std::size_t places) { return (places + 7) / 8; }
 
 Mask unpackMask(std::span<const std::byte> bytes, std::size_t places) {
@@ -107,15 +99,8 @@ std::vector<std::byte> packMask(const Mask& mask) {
   return bytes;
 }
 
-void appendU16(std::vector<std::byte>& bytes, unsigned value) {
-  bytes.push_back(static_cast<std::byte>(value & 0xFFu));
-  bytes.push_back(static_cast<std::byte>(value >> 8 & 0xFFu));
-}
-
 void appendF32(std::vector<std::byte>& bytes, float value) {
-  const auto bits = std::bit_cast<std::uint32_t>(value);
-  appendU16(bytes, bits & 0xFFFFu);
-  appendU16(bytes, bits >> 16);
+  appendLittleEndian(bytes, std::bit_cast<std::uint32_t>(value), 4);
 }
 
 }  // namespace palpate

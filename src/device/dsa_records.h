@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <palpate/device/dsa_controller.h>
@@ -30,10 +29,7 @@ void checkPlaces(const std::vector<DsaMatrixInfo>& matrices);
 std::size_t maskBytes(std::size_t places);
 Mask unpackMask(std::span<const std::byte> bytes, std::size_t places);
 std::vector<std::byte> packMask(const Mask& mask);
-// Two capital hexadecimal digits per byte.
-std::string hexDigits(std::span<const std::byte> bytes);
 
-void appendU16(std::vector<std::byte>& bytes, unsigned value);
 void appendF32(std::vector<std::byte>& bytes, float value);
 
 }  // namespace palpate

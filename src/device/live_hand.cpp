@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "palpate/core/error.h"
+#include "palpate/core/hex_text.h"
 #include "palpate/core/number_text.h"
 #include "palpate/device/port_list.h"
 
@@ -20,13 +21,6 @@ void requireRange(const char* field, double value, double least, double most) {
   if (!(value >= least && value <= most))
     throw std::invalid_argument(std::string("LiveHandOptions: ") + field + " " + numberText(value) +
                                 " is not in " + numberText(least) + ".." + numberText(most));
-}
-
-std::string serialText(std::uint32_t serial) {
-  static constexpr char kDigits[] = "0123456789ABCDEF";
-  std::string text;
-  for (int shift = 28; shift >= 0; shift -= 4) text += kDigits[serial >> shift & 0xFu];
-  return text;
 }
 
 }  // namespace
@@ -84,11 +78,11 @@ DeviceInfo LiveHand::facts() const {
   DeviceInfo facts;
   if (impl_->tactile) {
     if (const auto known = impl_->tactile->facts()) {
-      facts.serial = serialText(known->serial);
+      facts.serial = hexDigits(known->serial, 8);
       facts.firmware = known->firmwareText();
       for (const DsaMatrixInfo& matrix : known->matrices)
         facts.matrices.push_back({matrix.sensitivity, matrix.thresholdCounts.value_or(0)});
-      facts.sensorSerial = serialText(known->sensorSerial);
+      facts.sensorSerial = hexDigits(known->sensorSerial, 8);
       facts.sensorRevision = known->generatedBy;
       facts.sensorHardwareRevision = known->sensorHardwareRevision;
     }

@@ -7,35 +7,11 @@
 #include <libserialport.h>
 #include <unistd.h>
 
+#include "palpate/core/natural_order.h"
+
 namespace palpate {
 namespace fs = std::filesystem;
 namespace {
-
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-
-// "ttyUSB2" before "ttyUSB10".
-bool nameBefore(const std::string& a, const std::string& b) {
-  std::size_t i = 0;
-  std::size_t j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (!isDigit(a[i]) || !isDigit(b[j])) {
-      if (a[i] != b[j]) return a[i] < b[j];
-      ++i;
-      ++j;
-      continue;
-    }
-    const auto number = [](const std::string& text, std::size_t& at) {
-      while (at < text.size() && text[at] == '0') ++at;
-      const std::size_t begin = at;
-      while (at < text.size() && isDigit(text[at])) ++at;
-      return text.substr(begin, at - begin);
-    };
-    const std::string one = number(a, i);
-    const std::string other = number(b, j);
-    if (one != other) return one.size() != other.size() ? one.size() < other.size() : one < other;
-  }
-  return a.size() - i < b.size() - j;
-}
 
 std::string textOf(const char* text) { return text ? text : ""; }
 
@@ -59,7 +35,7 @@ bool portBefore(const PortInfo& a, const PortInfo& b) {
     return port.name.find("/ttyS") == std::string::npos ? 1 : 2;
   };
   if (rank(a) != rank(b)) return rank(a) < rank(b);
-  return nameBefore(a.name, b.name);
+  return naturalOrder(a.name, b.name) < 0;  // "ttyUSB2" before "ttyUSB10"
 }
 
 std::vector<PortInfo> listPorts(const fs::path& byIdFolder) {

@@ -9,6 +9,7 @@
 
 #include "palpate/core/byte_reader.h"
 #include "palpate/core/error.h"
+#include "palpate/core/hex_text.h"
 #include "palpate/core/time.h"
 #include "palpate/device/dsa_controller.h"
 #include "palpate/device/dsa_packet.h"
@@ -25,12 +26,6 @@ constexpr milliseconds kSerialWait{300};
 constexpr milliseconds kStopWait{300};
 constexpr milliseconds kQueryWait{500};
 constexpr std::string_view kBootSign = "\x1B[5n";  // a tactile controller that boots, for 8 s
-
-std::string hexText(std::uint32_t value) {
-  std::string text;
-  for (int shift = 28; shift >= 0; shift -= 4) text += "0123456789ABCDEF"[value >> shift & 0xF];
-  return text;
-}
 
 class Prober {
  public:
@@ -124,7 +119,7 @@ class Prober {
     } else if (tactile_) {
       probe.answer = PortAnswer::kTactile;
       probe.firmware = tactile_->firmwareText();
-      probe.serial = hexText(tactile_->serial);
+      probe.serial = hexDigits(tactile_->serial, 8);
       probe.message = "tactile controller, firmware " + probe.firmware + ", serial " + probe.serial;
     } else if (tactilePackets_ > 0) {
       probe.answer = PortAnswer::kTactile;

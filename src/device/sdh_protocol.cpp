@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "palpate/core/byte_reader.h"
+#include "palpate/core/byte_writer.h"
 #include "palpate/core/number_text.h"
 #include "palpate/device/weiss_checksum.h"
 
@@ -65,9 +66,7 @@ constexpr std::size_t kSdhProtocolHeaderBytes = 3;  // command, size, number of 
 constexpr std::size_t kSdhProtocolChecksumBytes = 2;
 
 void appendChecksum(std::vector<std::byte>& bytes) {
-  const std::uint16_t crc = weissChecksum(bytes);
-  bytes.push_back(static_cast<std::byte>(crc & 0xFF));
-  bytes.push_back(static_cast<std::byte>(crc >> 8));
+  appendLittleEndian(bytes, weissChecksum(bytes), 2);
 }
 
 bool isUpperName(std::string_view name) {
@@ -113,11 +112,8 @@ std::vector<std::byte> sdhRecordRequest(SdhCommand command,
   bytes.push_back(static_cast<std::byte>(command));
   bytes.push_back(static_cast<std::byte>(size));
   bytes.push_back(static_cast<std::byte>(values.size()));
-  for (const double value : values) {
-    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
-    for (unsigned shift = 0; shift < 32; shift += 8)
-      bytes.push_back(static_cast<std::byte>(bits >> shift & 0xFFu));
-  }
+  for (const double value : values)
+    appendLittleEndian(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
   if (checksum) appendChecksum(bytes);
   return bytes;
 }

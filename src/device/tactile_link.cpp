@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "palpate/core/hex_text.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 

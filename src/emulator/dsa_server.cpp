@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "palpate/core/byte_order.h"
 #include "palpate/core/byte_reader.h"
 #include "palpate/core/number_text.h"
 #include "palpate/device/weiss_checksum.h"
@@ -130,7 +131,7 @@ void DsaServer::parse() {
     const auto rest = input.subspan(at);
     if (rest.size() < kDsaHeaderBytes) break;
     const unsigned id = u8At(rest, 3);
-    const std::size_t length = u8At(rest, 4) | u8At(rest, 5) << 8;
+    const std::size_t length = littleEndian(rest.subspan(4, 2));
     if (length > largest) {
       answerError(id, kDsaFormatError);
       at += 3;
@@ -138,8 +139,8 @@ void DsaServer::parse() {
     }
     const std::size_t total = kDsaHeaderBytes + length + (length > 0 ? 2 : 0);
     if (rest.size() < total) break;
-    if (length > 0 && weissChecksum(rest.subspan(3, 3 + length)) !=
-                          (u8At(rest, total - 2) | u8At(rest, total - 1) << 8)) {
+    if (length > 0 &&
+        weissChecksum(rest.subspan(3, 3 + length)) != littleEndian(rest.subspan(total - 2, 2))) {
       answerError(id, kDsaChecksumError);
       at += 3;
       continue;
@@ -164,7 +165,7 @@ void DsaServer::acquire(Payload payload) {
     return answerError(kDsaAcquire, payload.size() < 3 ? kDsaTooFewParameters : kDsaFormatError);
   constexpr unsigned kAcquire = 0x80, kSingleShot = 0x40, kRunLength = 0x01;
   const unsigned flags = u8At(payload, 0);
-  const unsigned rate = u8At(payload, 1) | u8At(payload, 2) << 8;
+  const std::uint64_t rate = littleEndian(payload.subspan(1, 2));
   const bool wasIdle = !wantsFrame();
   const bool oldFirmware = options_.firmware <= 288 && options_.firmware != 269;
   if ((flags & kAcquire) == 0) {

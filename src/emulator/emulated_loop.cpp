@@ -60,8 +60,8 @@ EmulatedHand::Loop::Loop(std::unique_ptr<HandModel> model,
       dsa_(*model_, options_.dsa),
       sdh_(*model_, options_.sdh) {
   planIncidents(options_.faults, 0);
-  wakeUp_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-  if (wakeUp_ < 0)
+  wakeUp_ = FileDescriptor(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+  if (wakeUp_.get() < 0)
     throw DeviceError(DeviceFault::kDisconnected,
                       dsaLane_.port().name(),
                       std::string("no event descriptor to be had: ") + std::strerror(errno));
@@ -72,12 +72,11 @@ EmulatedHand::Loop::~Loop() {
   thread_.request_stop();
   wake();
   if (thread_.joinable()) thread_.join();
-  if (wakeUp_ >= 0) ::close(wakeUp_);
 }
 
 void EmulatedHand::Loop::wake() noexcept {
   const std::uint64_t one = 1;
-  [[maybe_unused]] const ssize_t written = ::write(wakeUp_, &one, sizeof one);
+  [[maybe_unused]] const ssize_t written = ::write(wakeUp_.get(), &one, sizeof one);
 }
 
 void EmulatedHand::Loop::call(std::function<void()> work) {
@@ -330,14 +329,14 @@ std::int64_t EmulatedHand::Loop::waitUs(std::int64_t nowUs) {
 void EmulatedHand::Loop::wait() {
   const std::int64_t us = waitUs(nowUs());
   // While stalled nobody listens: what comes would only end the wait.
-  pollfd polled[3] = {{wakeUp_, POLLIN, 0},
+  pollfd polled[3] = {{wakeUp_.get(), POLLIN, 0},
                       {stalled_ ? -1 : dsaLane_.port().descriptor(), POLLIN, 0},
                       {stalled_ ? -1 : sdhLane_.port().descriptor(), POLLIN, 0}};
   const timespec timeout{static_cast<time_t>(us / 1'000'000), (us % 1'000'000) * 1000};
   ::ppoll(polled, 3, &timeout, nullptr);
   std::uint64_t count = 0;
   if ((polled[0].revents & POLLIN) != 0) [[maybe_unused]]
-    const ssize_t n = ::read(wakeUp_, &count, sizeof count);
+    const ssize_t n = ::read(wakeUp_.get(), &count, sizeof count);
 }
 
 }  // namespace palpate

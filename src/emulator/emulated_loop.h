@@ -9,6 +9,7 @@
 #include <stop_token>
 #include <thread>
 
+#include "palpate/core/file_descriptor.h"
 #include "palpate/core/time.h"
 #include "palpate/emulator/emulated_hand.h"
 
@@ -79,7 +80,7 @@ class EmulatedHand::Loop {
   std::deque<ScannedFrame> onTheLine_;
   EmulatedHandCounts working_;
 
-  int wakeUp_ = -1;  // eventfd
+  FileDescriptor wakeUp_;  // eventfd
   std::mutex callsMutex_;
   std::deque<std::packaged_task<void()>> calls_;
   bool ended_ = false;

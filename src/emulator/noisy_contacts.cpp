@@ -84,7 +84,7 @@ class NoisyContactsGenerator {
 
   NoisyContacts run() {
     ProfileBuilder builder(sdh2().layout);
-    std::vector<std::vector<PlaceTruth>> truth;
+    std::vector<CellTruthMask> truth;
     std::vector<float> values(layout_.numCells());
     for (std::size_t i = 0; i < options_.frames; ++i) {
       load(i);
@@ -187,16 +187,16 @@ class NoisyContactsGenerator {
       }
   }
 
-  std::vector<PlaceTruth> truthNow() {
-    std::vector<PlaceTruth> truth(layout_.numCells(), PlaceTruth::kNothing);
+  CellTruthMask truthNow() {
+    CellTruthMask truth(layout_.numCells(), Touch::kNothing);
     quiet_.scan(degC_, options_.degC, counts_);
     for (std::size_t i = 0; i < truth.size(); ++i) {
       const double kpa = quiet_.responseKpa(i);
       if (counts_[i] > restCounts_[i])
-        truth[i] = PlaceTruth::kTouched;
+        truth[i] = Touch::kTouched;
       else if (kpa > 0.0 &&
                options_.sensitivity * sdh2Sensor().countsAbove(kpa, options_.degC) >= kFaintCounts)
-        truth[i] = PlaceTruth::kFaint;
+        truth[i] = Touch::kFaint;
     }
     return truth;
   }

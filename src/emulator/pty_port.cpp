@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/file_descriptor.h"
 #include "palpate/emulator/port_server.h"
 
 namespace palpate {
@@ -58,18 +59,18 @@ class PtyPort final : public PortServer {
   PtyPort& operator=(const PtyPort&) = delete;
 
   const std::string& name() const noexcept override { return name_; }
-  int descriptor() const noexcept override { return master_; }
-  bool connected() const noexcept override { return master_ >= 0; }
+  int descriptor() const noexcept override { return master_.get(); }
+  bool connected() const noexcept override { return master_.get() >= 0; }
 
   std::size_t read(std::span<std::byte> into) override {
-    if (master_ < 0) return 0;
-    const ssize_t n = ::read(master_, into.data(), into.size());
+    if (master_.get() < 0) return 0;
+    const ssize_t n = ::read(master_.get(), into.data(), into.size());
     return n > 0 ? static_cast<std::size_t>(n) : 0;
   }
 
   std::size_t write(std::span<const std::byte> bytes) override {
-    if (master_ < 0) return 0;
-    const ssize_t n = ::write(master_, bytes.data(), bytes.size());
+    if (master_.get() < 0) return 0;
+    const ssize_t n = ::write(master_.get(), bytes.data(), bytes.size());
     return n > 0 ? static_cast<std::size_t>(n) : 0;
   }
 
@@ -82,13 +83,12 @@ class PtyPort final : public PortServer {
         ::unlink(link_.c_str());
     }
     target_.clear();
-    if (slave_ >= 0) ::close(slave_);
-    if (master_ >= 0) ::close(master_);
-    slave_ = master_ = -1;
+    slave_ = FileDescriptor();
+    master_ = FileDescriptor();
   }
 
   void plug() override {
-    if (master_ >= 0) return;
+    if (master_.get() >= 0) return;
     try {
       open();
     } catch (...) {
@@ -101,10 +101,11 @@ class PtyPort final : public PortServer {
   // holds the lock as well (as ours does), or does without both.
   void releaseStaleLock() noexcept override {
     int exclusive = 0;
-    if (slave_ < 0 || ::ioctl(slave_, TIOCGEXCL, &exclusive) != 0 || exclusive == 0) return;
-    if (::flock(slave_, LOCK_EX | LOCK_NB) != 0) return;
-    ::ioctl(slave_, TIOCNXCL);
-    ::flock(slave_, LOCK_UN);
+    if (slave_.get() < 0 || ::ioctl(slave_.get(), TIOCGEXCL, &exclusive) != 0 || exclusive == 0)
+      return;
+    if (::flock(slave_.get(), LOCK_EX | LOCK_NB) != 0) return;
+    ::ioctl(slave_.get(), TIOCNXCL);
+    ::flock(slave_.get(), LOCK_UN);
   }
 
  private:
@@ -115,21 +116,22 @@ class PtyPort final : public PortServer {
   }
 
   void open() {
-    master_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
-    if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0)
+    master_ = FileDescriptor(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
+    if (master_.get() < 0 || ::grantpt(master_.get()) != 0 || ::unlockpt(master_.get()) != 0)
       fail("no pseudo-terminal to be had");
     std::array<char, 128> path{};
-    if (::ptsname_r(master_, path.data(), path.size()) != 0) fail("a terminal without a name");
+    if (::ptsname_r(master_.get(), path.data(), path.size()) != 0)
+      fail("a terminal without a name");
     // Held open: a client that closes is no hang-up for us, and the settings stay.
-    slave_ = ::open(path.data(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-    if (slave_ < 0) fail("the terminal can't be opened");
+    slave_ = FileDescriptor(::open(path.data(), O_RDWR | O_NOCTTY | O_CLOEXEC));
+    if (slave_.get() < 0) fail("the terminal can't be opened");
     termios raw{};
-    if (::tcgetattr(slave_, &raw) != 0) fail("the terminal has no settings");
+    if (::tcgetattr(slave_.get(), &raw) != 0) fail("the terminal has no settings");
     ::cfmakeraw(&raw);
     ::cfsetspeed(&raw, B115200);
     raw.c_cc[VMIN] = 1;
     raw.c_cc[VTIME] = 0;
-    if (::tcsetattr(slave_, TCSANOW, &raw) != 0) fail("the terminal can't be made raw");
+    if (::tcsetattr(slave_.get(), TCSANOW, &raw) != 0) fail("the terminal can't be made raw");
     if (!link_.empty()) makeLink(path.data(), link_);
     target_ = path.data();
     name_ = link_.empty() ? target_ : link_.string();
@@ -138,8 +140,8 @@ class PtyPort final : public PortServer {
   fs::path link_;
   std::string name_;
   std::string target_;  // what our link points to; empty: there is none of ours
-  int master_ = -1;
-  int slave_ = -1;
+  FileDescriptor master_;
+  FileDescriptor slave_;
 };
 
 }  // namespace

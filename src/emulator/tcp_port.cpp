@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/file_descriptor.h"
 #include "palpate/core/number_text.h"
 #include "palpate/emulator/port_server.h"
 
@@ -25,21 +26,24 @@ class TcpPort final : public PortServer {
 
   const std::string& name() const noexcept override { return name_; }
   bool isNetwork() const noexcept override { return true; }
-  int descriptor() const noexcept override { return client_ >= 0 ? client_ : listener_; }
-  bool connected() const noexcept override { return client_ >= 0; }
+  int descriptor() const noexcept override {
+    return client_.get() >= 0 ? client_.get() : listener_.get();
+  }
+  bool connected() const noexcept override { return client_.get() >= 0; }
 
   std::size_t read(std::span<std::byte> into) override {
-    if (client_ < 0) accept();
-    if (client_ < 0) return 0;
-    const ssize_t n = ::recv(client_, into.data(), into.size(), MSG_DONTWAIT);
+    if (client_.get() < 0) accept();
+    if (client_.get() < 0) return 0;
+    const ssize_t n = ::recv(client_.get(), into.data(), into.size(), MSG_DONTWAIT);
     if (n > 0) return static_cast<std::size_t>(n);
     if (n == 0 || !(errno == EAGAIN || errno == EINTR)) hangUp();
     return 0;
   }
 
   std::size_t write(std::span<const std::byte> bytes) override {
-    if (client_ < 0) return 0;
-    const ssize_t n = ::send(client_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+    if (client_.get() < 0) return 0;
+    const ssize_t n =
+        ::send(client_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
     if (n >= 0) return static_cast<std::size_t>(n);
     if (!(errno == EAGAIN || errno == EINTR)) hangUp();
     return 0;
@@ -47,24 +51,23 @@ class TcpPort final : public PortServer {
 
   void unplug() noexcept override {
     hangUp();
-    if (listener_ >= 0) ::close(listener_);
-    listener_ = -1;
+    listener_ = FileDescriptor();
   }
 
   void plug() override {
-    if (listener_ >= 0) return;
-    listener_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    if (listener_ < 0) fail();
+    if (listener_.get() >= 0) return;
+    listener_ = FileDescriptor(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    if (listener_.get() < 0) fail();
     const int on = 1;
-    ::setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    ::setsockopt(listener_.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(port_);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);  // strangers stay outside
     socklen_t size = sizeof address;
     auto* generic = reinterpret_cast<sockaddr*>(&address);
-    if (::bind(listener_, generic, size) != 0 || ::listen(listener_, 1) != 0 ||
-        ::getsockname(listener_, generic, &size) != 0)
+    if (::bind(listener_.get(), generic, size) != 0 || ::listen(listener_.get(), 1) != 0 ||
+        ::getsockname(listener_.get(), generic, &size) != 0)
       fail();
     port_ = ntohs(address.sin_port);
     name_ = "tcp:127.0.0.1:" + std::to_string(port_);
@@ -80,20 +83,18 @@ class TcpPort final : public PortServer {
   }
 
   void accept() {
-    client_ = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    client_ =
+        FileDescriptor(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
     const int on = 1;
-    if (client_ >= 0) ::setsockopt(client_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    if (client_.get() >= 0) ::setsockopt(client_.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   }
 
-  void hangUp() noexcept {
-    if (client_ >= 0) ::close(client_);
-    client_ = -1;
-  }
+  void hangUp() noexcept { client_ = FileDescriptor(); }
 
   std::uint16_t port_;
   std::string name_;
-  int listener_ = -1;
-  int client_ = -1;
+  FileDescriptor listener_;
+  FileDescriptor client_;
 };
 
 }  // namespace

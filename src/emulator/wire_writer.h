@@ -1,12 +1,14 @@
 // Little-endian bytes of an answer.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include "palpate/core/byte_writer.h"
 
 namespace palpate {
 
@@ -16,10 +18,7 @@ class WireWriter {
   WireWriter& u16(unsigned value) { return little(value, 2); }
   WireWriter& u32(std::uint32_t value) { return little(value, 4); }
   WireWriter& f32(double value) {
-    const auto single = static_cast<float>(value);
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &single, sizeof bits);
-    return u32(bits);
+    return u32(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
   }
   WireWriter& bytes(std::span<const std::byte> more) {
     bytes_.insert(bytes_.end(), more.begin(), more.end());
@@ -32,7 +31,7 @@ class WireWriter {
 
  private:
   WireWriter& little(std::uint32_t value, int count) {
-    for (int i = 0; i < count; ++i) bytes_.push_back(static_cast<std::byte>(value >> (8 * i)));
+    appendLittleEndian(bytes_, value, count);
     return *this;
   }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/filter/filter_chain.h"
 #include "palpate/model/profile_builder.h"
 
@@ -182,9 +183,7 @@ Profile computedWhole(const Profile& source,
   const std::size_t numFrames = source.numFrames();
   // Nothing comes before the stretch is whole: reading is the first half of the work.
   for (std::size_t i = 0; i < numFrames; ++i) {
-    if (progress && i % kFilteredProfileFramesPerReport == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(numFrames)))
-      throw Cancelled();
+    reportProgress(progress, i, numFrames, kFilteredProfileFramesPerReport);
     while (const auto next = cursor.advance(i, i)) builder.addFrame(next->second);
   }
   return builder.finish(source.info());

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/filter/filter_chain.h"
 
 namespace palpate {
@@ -254,9 +255,7 @@ GhostingReport measureGhosting(const Profile& profile,
     outcome.frames().clear();
   };
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (i % kGhostingFramesPerReport == 0 && progress &&
-        !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
-      throw Cancelled();
+    reportProgress(progress, i, profile.numFrames(), kGhostingFramesPerReport);
     profile.readFrame(i, frame);
     if (restart != options.restartsUs.end() && frame.hostUs >= *restart) {
       timed([&] { chain.restart(); });

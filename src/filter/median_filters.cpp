@@ -113,6 +113,7 @@ class AnyMedian final : public MatrixKernel, public FramesMedian {
       window_.clear();
       for (const float* frame : frames)
         for (const std::size_t neighbor : taxel.neighbors) window_.push_back(frame[neighbor]);
+      // Of an even number the smaller of the two in the middle, unlike core/statistics.h.
       const auto middle = window_.begin() + static_cast<std::ptrdiff_t>((window_.size() - 1) / 2);
       std::nth_element(window_.begin(), middle, window_.end());
       values[taxel.place] = *middle;

@@ -8,7 +8,6 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include "palpate/core/error.h"
 
@@ -20,22 +19,20 @@ DatagramSender::DatagramSender(std::uint16_t port) : port_(port) {
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  socket_ = FileDescriptor(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   // Connected, the system tells of datagrams that nobody took.
-  if (socket_ >= 0 &&
-      ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
+  if (socket_.get() >= 0 &&
+      ::connect(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
     return;
   const int error = errno;
-  if (socket_ >= 0) ::close(socket_);
   throw DeviceError(DeviceFault::kDisconnected,
                     "udp:127.0.0.1:" + std::to_string(port),
                     std::string("can't send: ") + std::strerror(error));
 }
 
-DatagramSender::~DatagramSender() { ::close(socket_); }
-
 bool DatagramSender::send(std::string_view bytes) noexcept {
-  const ssize_t taken = ::send(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  const ssize_t taken =
+      ::send(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   stats_.delivered = taken >= 0 && lastTaken_;
   lastTaken_ = taken >= 0;
   ++(taken >= 0 ? stats_.sent : stats_.dropped);

@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
+#include "palpate/core/statistics.h"
 #include "palpate/kinematics/contact_geometry.h"
 #include "palpate/kinematics/joint_range.h"
 
@@ -30,11 +32,6 @@ struct GraspFrame {
   double load = 0.0;
 };
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2.0;
-}
-
 double peakOf(const TactileFrame& frame, std::size_t matrix) {
   double peak = 0.0;
   for (const float value : frame.matrix(matrix).reshaped())
@@ -53,9 +50,7 @@ std::vector<GraspFrame> readFrames(const Profile& profile,
   HandPose pose;
   HandContact contact;
   for (std::size_t i = begin; i <= end; ++i) {
-    if (progress &&
-        !progress(static_cast<double>(i - begin) / static_cast<double>(end - begin + 1)))
-      throw Cancelled();
+    reportProgress(progress, i - begin, end - begin + 1);
     const auto angles = profile.anglesAtFrame(i);
     if (!angles ||
         checkAngles(angles->deg, profile.hand().axes).state == AngleValidity::kUnusable) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/core/time.h"
 
 namespace palpate {
@@ -17,12 +18,6 @@ constexpr std::chrono::milliseconds kLook{100};  // a wait that nothing ends
 constexpr std::size_t kMotionPerFrame = 32;
 constexpr std::size_t kProgressEvery = 256;
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
-
-// At one instant: events, temperatures, angles, then the frame they belong to.
-bool isEarlier(const CaptureItem& a, const CaptureItem& b) {
-  const std::int64_t aUs = stampOf(a), bUs = stampOf(b);
-  return aUs != bUs ? aUs < bUs : streamOf(a) > streamOf(b);
-}
 
 }  // namespace
 
@@ -189,9 +184,7 @@ void ProcessingChain::runOver(const Profile& profile,
     }
   };
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (progress && i % kProgressEvery == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
-      throw Cancelled();
+    reportProgress(progress, i, profile.numFrames(), kProgressEvery);
     bringUpTo(profile.frameTimeUs(i));
     processFrame(std::make_shared<const TactileFrame>(profile.frame(i)));
   }

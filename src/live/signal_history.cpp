@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "palpate/core/statistics.h"
 #include "palpate/core/time.h"
 #include "palpate/model/gap_detector.h"
 
@@ -18,10 +19,7 @@ SignalHistory::SignalHistory(const SignalHistoryOptions& options) : options_(opt
 
 std::int64_t SignalHistory::medianIntervalUs() const {
   if (intervalsUs_.empty()) return 0;
-  std::vector<std::int64_t> sorted(intervalsUs_.begin(), intervalsUs_.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
+  return upperMedian(std::vector(intervalsUs_.begin(), intervalsUs_.end()));
 }
 
 void SignalHistory::add(const LiveResults& results) {
@@ -35,7 +33,7 @@ void SignalHistory::add(const LiveResults& results) {
   if (!samples_.empty()) {
     const std::int64_t intervalUs = sample.hostUs - samples_.back().hostUs;
     if (intervalUs <= 0) return;
-    sample.afterGap = intervalUs > std::max(kShortestGapUs, kGapIntervals * medianIntervalUs());
+    sample.afterGap = intervalUs > gapThresholdUs(medianIntervalUs());
     intervalsUs_.push_back(intervalUs);
     if (intervalsUs_.size() > kIntervals) intervalsUs_.pop_front();
   }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+
+#include "palpate/core/statistics.h"
 
 namespace palpate {
 namespace {
@@ -13,9 +16,7 @@ constexpr std::size_t kIntervals = 15;
 std::int64_t GapDetector::medianIntervalUs() const {
   std::array<std::int64_t, kIntervals> sorted{};
   const auto end = std::copy(intervalsUs_.begin(), intervalsUs_.end(), sorted.begin());
-  const auto middle = sorted.begin() + (end - sorted.begin()) / 2;
-  std::nth_element(sorted.begin(), middle, end);
-  return *middle;
+  return upperMedian(std::span(sorted.begin(), end));
 }
 
 bool GapDetector::afterGap(std::int64_t stampUs) {

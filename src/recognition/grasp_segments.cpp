@@ -6,6 +6,7 @@
 #include <string>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/core/time.h"
 
 namespace palpate {
@@ -205,9 +206,7 @@ std::vector<GraspSegment> findGrasps(const Profile& profile,
   std::vector<MatrixContact> matrices(profile.layout().numMatrices());
   TactileFrame frame;
   for (std::size_t i = 0; i < frames; ++i) {
-    if (progress && i % kFramesPerReport == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(frames)))
-      throw Cancelled();
+    reportProgress(progress, i, frames, kFramesPerReport);
     profile.readFrame(i, frame);
     stampsUs.push_back(frame.hostUs);
     const TactileFrame& values = frame;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "palpate/core/statistics.h"
 #include "palpate/kinematics/object_size.h"
 
 #include "recognition/pinch_frames.h"
@@ -20,11 +21,6 @@ constexpr double kSizeScaleMm = 40.0;
 constexpr double kLeastDistanceMm = -39.9;
 constexpr double kMomentFloor = 0.15;  // [taxel^2]: a single taxel has no extent
 constexpr std::array<std::size_t, 3> kStrongest = {1, 4, 9};
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2.0;
-}
 
 // Five-frame mean of both pads' load, edges replicated [counts of the first pad].
 std::vector<double> smoothLoads(const PinchFrames& frames, const PinchHand& hand) {

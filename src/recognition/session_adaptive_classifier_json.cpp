@@ -6,91 +6,31 @@
 #include "palpate/recognition/session_adaptive_classifier.h"
 #include "palpate/recognition/session_offset.h"
 
+#include "json_numbers.h"
+
 namespace palpate {
 namespace {
 
+namespace js = json_numbers;
+
 constexpr std::int64_t kFormat = 1;
-
-Json dayJsonOf(const Eigen::VectorXd& vector) {
-  Json out = Json::array();
-  for (const double value : vector) out.push(value);
-  return out;
-}
-
-Json dayJsonOf(const Eigen::MatrixXd& matrix) {
-  Json out = Json::array();
-  for (Eigen::Index row = 0; row < matrix.rows(); ++row)
-    out.push(dayJsonOf(Eigen::VectorXd(matrix.row(row).transpose())));
-  return out;
-}
-
-Json dayJsonOf(const std::vector<std::string>& texts) { return jsonList(texts); }
 
 Json dayJsonOf(const StudentTComponent& distribution) {
   return Json::object()
-      .set("mean", dayJsonOf(distribution.mean))
-      .set("scatter", dayJsonOf(distribution.scatter));
+      .set("mean", js::of(distribution.mean))
+      .set("scatter", js::of(distribution.scatter));
 }
 
-Json needed(const Json& json, const char* key) {
-  if (!json.isObject() || !json.contains(key))
-    throw Error(std::string("a damaged model: '") + key + "' is missing");
-  return json.at(key);
-}
-
-double dayModelJsonNumberIn(const Json& json, const char* key) {
-  const Json value = needed(json, key);
-  if (!value.isNumber() || !std::isfinite(value.asDouble()))
-    throw Error(std::string("a damaged model: '") + key + "' is no number");
-  return value.asDouble();
-}
-
-std::size_t countIn(const Json& json, const char* key) {
-  const double value = dayModelJsonNumberIn(json, key);
-  if (!(value >= 0.0 && value <= 1e9 && value == std::floor(value)))
-    throw Error(std::string("a damaged model: '") + key + "' is no number of things");
-  return static_cast<std::size_t>(value);
-}
-
-Eigen::VectorXd vectorIn(const Json& array, const char* key) {
-  if (!array.isArray()) throw Error(std::string("a damaged model: '") + key + "' is no list");
-  Eigen::VectorXd out(static_cast<Eigen::Index>(array.size()));
-  for (std::size_t i = 0; i < array.size(); ++i) {
-    const Json value = array.at(i);
-    if (!value.isNumber())
-      throw Error(std::string("a damaged model: '") + key + "' holds what is no number");
-    out[static_cast<Eigen::Index>(i)] = value.asDouble();
-  }
-  return out;
-}
-
-Eigen::MatrixXd matrixIn(const Json& json, const char* key) {
-  const Json array = needed(json, key);
-  if (!array.isArray() || array.size() == 0)
-    throw Error(std::string("a damaged model: '") + key + "' is no matrix");
-  const auto size = static_cast<Eigen::Index>(array.size());
-  // Before anything is allocated by it: a small file may claim a large matrix.
-  for (std::size_t row = 0; row < array.size(); ++row)
-    if (array.at(row).size() != array.size())
-      throw Error(std::string("a damaged model: '") + key + "' is no square matrix");
-  Eigen::MatrixXd out(size, size);
-  for (Eigen::Index row = 0; row < size; ++row) {
-    const Eigen::VectorXd values = vectorIn(array.at(static_cast<std::size_t>(row)), key);
-    out.row(row) = values.transpose();
-  }
-  return out;
-}
-
-std::vector<std::string> textsIn(const Json& json, const char* key) {
-  const Json array = needed(json, key);
-  if (!array.isArray()) throw Error(std::string("a damaged model: '") + key + "' is no list");
-  std::vector<std::string> out;
-  for (std::size_t i = 0; i < array.size(); ++i) out.push_back(array.at(i).asString());
-  return out;
+Eigen::MatrixXd squareIn(const Json& json, std::string_view key) {
+  const Json rows = js::member(json, key);
+  if (!rows.isArray() || rows.size() == 0)
+    throw Error("model: '" + std::string(key) + "' is no matrix");
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  return js::matrix(json, key, size, size);
 }
 
 StudentTComponent bellIn(const Json& json) {
-  return {vectorIn(needed(json, "mean"), "mean"), matrixIn(json, "scatter")};
+  return {js::vector(json, "mean"), squareIn(json, "scatter")};
 }
 
 }  // namespace
@@ -106,36 +46,36 @@ Json sessionAdaptiveJson(const SessionAdaptiveClassifier& model) {
                    .set("count", component.count));
   Json out = Json::object();
   out.set("format", kFormat);
-  out.set("features", dayJsonOf(data.features)).set("classes", dayJsonOf(data.classes));
+  out.set("features", js::of(data.features)).set("classes", js::of(data.classes));
   if (data.sizeColumn) out.set("size_column", *data.sizeColumn);
   out.set("degrees_of_freedom", data.degreesOfFreedom);
   out.set("new_scatter", data.fewShotScatterScale).set("seen_today", data.seenInSessionLogPrior);
-  out.set("bells", classComponents).set("pooled", dayJsonOf(data.pooled));
+  out.set("bells", classComponents).set("pooled", js::of(data.pooled));
   out.set("background", dayJsonOf(data.background)).set("today", today);
   return out;
 }
 
 SessionAdaptiveClassifier sessionAdaptiveFrom(const Json& json) {
-  if (dayModelJsonNumberIn(json, "format") != static_cast<double>(kFormat))
+  if (js::number(json, "format") != static_cast<double>(kFormat))
     throw Error("a model of another version of the program");
   SessionAdaptiveParameters data;
-  data.features = textsIn(json, "features");
-  data.classes = textsIn(json, "classes");
-  if (json.contains("size_column")) data.sizeColumn = countIn(json, "size_column");
-  data.degreesOfFreedom = dayModelJsonNumberIn(json, "degrees_of_freedom");
-  data.fewShotScatterScale = dayModelJsonNumberIn(json, "new_scatter");
-  data.seenInSessionLogPrior = dayModelJsonNumberIn(json, "seen_today");
-  data.pooled = matrixIn(json, "pooled");
-  data.background = bellIn(needed(json, "background"));
-  const Json classComponents = needed(json, "bells"), today = needed(json, "today");
+  data.features = js::texts(json, "features");
+  data.classes = js::texts(json, "classes");
+  if (json.contains("size_column")) data.sizeColumn = js::count(json, "size_column");
+  data.degreesOfFreedom = js::number(json, "degrees_of_freedom");
+  data.fewShotScatterScale = js::number(json, "new_scatter");
+  data.seenInSessionLogPrior = js::number(json, "seen_today");
+  data.pooled = squareIn(json, "pooled");
+  data.background = bellIn(js::member(json, "background"));
+  const Json classComponents = js::member(json, "bells"), today = js::member(json, "today");
   if (!classComponents.isArray() || !today.isArray())
     throw Error("a damaged model: 'bells' or 'today' is no list");
   for (std::size_t i = 0; i < classComponents.size(); ++i)
     data.classComponents.push_back(bellIn(classComponents.at(i)));
   for (std::size_t i = 0; i < today.size(); ++i) {
     SessionComponent component;
-    component.classIndex = countIn(today.at(i), "class");
-    component.count = countIn(today.at(i), "count");
+    component.classIndex = js::count(today.at(i), "class");
+    component.count = js::count(today.at(i), "count");
     component.distribution = bellIn(today.at(i));
     data.today.push_back(std::move(component));
   }
@@ -155,9 +95,9 @@ Json sessionOffsetJson(const SessionOffset& offset) {
 
 SessionOffset sessionOffsetFrom(const Json& json) {
   SessionOffset out;
-  out.mm = dayModelJsonNumberIn(json, "mm");
-  out.sdMm = dayModelJsonNumberIn(json, "sd_mm");
-  const std::string origin = needed(json, "origin").asString();
+  out.mm = js::number(json, "mm");
+  out.sdMm = js::number(json, "sd_mm");
+  const std::string origin = js::text(json, "origin");
   bool known = false;
   for (const OffsetSource one : {OffsetSource::kNone,
                                  OffsetSource::kUnknown,
@@ -170,11 +110,11 @@ SessionOffset sessionOffsetFrom(const Json& json) {
       known = true;
     }
   if (!known) throw Error("a damaged model: an offset of origin '" + origin + "'");
-  out.grasps = countIn(json, "grasps");
-  out.objects = countIn(json, "objects");
-  out.trusted = needed(json, "trusted").asBool();
-  const Eigen::VectorXd grid = vectorIn(needed(json, "grid_mm"), "grid_mm");
-  const Eigen::VectorXd probability = vectorIn(needed(json, "probability"), "probability");
+  out.grasps = js::count(json, "grasps");
+  out.objects = js::count(json, "objects");
+  out.trusted = js::flag(json, "trusted");
+  const Eigen::VectorXd grid = js::vector(json, "grid_mm");
+  const Eigen::VectorXd probability = js::vector(json, "probability");
   if (grid.size() == 0 || grid.size() != probability.size() || !(probability.minCoeff() >= 0.0) ||
       !(std::abs(probability.sum() - 1.0) < 1e-6))
     throw Error("a damaged model: the distribution of the offset");

@@ -9,6 +9,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/hash.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/recognition/cross_validation.h"
 
 namespace palpate {
@@ -88,8 +89,7 @@ std::vector<ModelInput> inputsOf(const FeatureTable& table, const Progress& prog
     input.lastUs = std::max(input.lastUs, row.timeUs);
   }
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (progress && !progress(static_cast<double>(i) / static_cast<double>(inputs.size())))
-      throw Cancelled();
+    reportProgress(progress, i, inputs.size());
     inputs[i].sha256 = sha256OfFile(inputs[i].file);
   }
   return inputs;

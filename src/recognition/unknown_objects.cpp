@@ -5,6 +5,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/parallel.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/recognition/classification_report.h"
 #include "palpate/recognition/cross_validation.h"
 #include "palpate/recognition/session_offset.h"
@@ -139,8 +140,7 @@ UnknownReport unknownOnAnotherDay(const SampleSet& training,
     strangeness(whole, x, offsetOf(whole, x, offset), known);
   }
   for (std::size_t k = 0; k < strangers.size(); ++k) {
-    if (progress && !progress(static_cast<double>(k) / static_cast<double>(strangers.size())))
-      throw Cancelled();
+    reportProgress(progress, k, strangers.size());
     const auto [session, c] = strangers[k];
     const SampleSet day = later.rows(sessions[session]);
     const SessionAdaptiveClassifier rest = modelOf(c);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/core/hex_text.h"
 #include "palpate/core/number_text.h"
 
 namespace palpate {
@@ -129,7 +130,7 @@ void appendFrameText(std::span<const float> values,
   const auto addToken = [&](float value) {
     if (numTokens % tokensPerLine == 0) out += lineStart;
     const auto bits = std::bit_cast<std::uint32_t>(value);
-    for (int shift = 28; shift >= 0; shift -= 4) out += "0123456789ABCDEF"[bits >> shift & 15u];
+    appendHexDigits(out, bits, kDigitsPerToken);
     if (++numTokens % tokensPerLine == 0) out += lineEnd;
   };
   std::size_t zeros = 0;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/file_ending.h"
 #include "palpate/recording/dsa_reader.h"
 #include "palpate/recording/dsa_recovery.h"
 #include "palpate/recording/dsa_writer.h"

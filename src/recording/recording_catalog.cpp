@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <span>
@@ -18,6 +16,7 @@
 #include "palpate/core/hash.h"
 #include "palpate/core/json.h"
 #include "palpate/core/output_file.h"
+#include "palpate/core/text_file.h"
 #include "palpate/recording/recording_folder.h"
 
 #include "recording/event_sidecar.h"
@@ -117,14 +116,9 @@ std::pair<std::string, Entry> fromJson(const Json& json) {
 
 // Nothing where there is no cache, or one that can't be used.
 Entries readCache(const fs::path& path) {
-  std::error_code failure;
-  const std::uintmax_t size = fs::file_size(path, failure);
-  if (failure || size > kLargestCache) return {};
-  std::ifstream in(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
   Entries entries;
   try {
-    const Json json = Json::parse(text);
+    const Json json = Json::parse(readTextFile(path, kLargestCache));
     if (json.at("format").asString() != kRecordingCatalogFormat ||
         json.at("version").asInteger() != kRecordingCatalogVersion)
       return {};

@@ -1,9 +1,6 @@
 #include "palpate/recording/recording_folder.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <fstream>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -13,6 +10,8 @@
 #include <sys/stat.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/file_ending.h"
+#include "palpate/core/text_file.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -24,17 +23,13 @@ bool beginsAsNativeRecording(const fs::path& file) {
   constexpr std::string_view kSqlite("SQLite format 3\0", 16);
   constexpr std::string_view kPalpate("PALP");
   constexpr std::size_t kIdAt = 68;
-  std::array<char, kIdAt + kPalpate.size()> bytes{};
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream.read(bytes.data(), bytes.size())) return false;
-  const std::string_view start(bytes.data(), bytes.size());
-  return start.starts_with(kSqlite) && start.ends_with(kPalpate);
+  const std::string start = beginningOfFile(file, kIdAt + kPalpate.size());
+  return start.size() == kIdAt + kPalpate.size() && start.starts_with(kSqlite) &&
+         start.ends_with(kPalpate);
 }
 
 bool isNamedAsRecording(const fs::path& file) {
-  std::string ending = file.extension().string();
-  for (char& letter : ending)
-    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  const std::string ending = lowerEndingOf(file);
   return ending == ".dsa" || ending == ".palpate";
 }
 

@@ -1,9 +1,9 @@
 #include "recording/recording_format.h"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
+
+#include "palpate/core/file_ending.h"
 
 #include "recording/dsa/byte_source.h"
 #include "recording/native/palpate_lock.h"
@@ -14,14 +14,6 @@ namespace {
 constexpr std::string_view kSqliteStart{"SQLite format 3\0", 16};
 
 }  // namespace
-
-std::string lowerEndingOf(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
-  return ending;
-}
 
 bool isNativeRecording(const std::filesystem::path& path) {
   // Closing a file that this very process writes would drop SQLite's locks on it.

@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <fstream>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
 
 #include <sys/stat.h>
 
+#include "palpate/core/byte_order.h"
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/text_file.h"
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/native/palpate_connection.h"
@@ -71,20 +73,8 @@ bool sideFilesAreFiles(const fs::path& recording) {
   return true;
 }
 
-std::uint32_t bigEndian(const char* bytes) {
-  std::uint32_t value = 0;
-  for (int i = 0; i < 4; ++i)
-    value = value << 8 | std::uint32_t{static_cast<unsigned char>(bytes[i])};
-  return value;
-}
-
-// What a file begins with, as far as it goes.
-std::string beginning(const fs::path& path, std::size_t numBytes) {
-  std::ifstream in(path, std::ios::binary);
-  std::string bytes(numBytes, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(numBytes));
-  bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount())));
-  return bytes;
+std::uint64_t numberAt(std::string_view bytes, std::size_t at) {
+  return bigEndian(std::as_bytes(std::span(bytes.substr(at, 4))));
 }
 
 // A journal that has to be played back: its writer died inside a commit (the database file format
@@ -92,17 +82,17 @@ std::string beginning(const fs::path& path, std::size_t numBytes) {
 bool diedInCommit(const fs::path& recording) {
   constexpr std::string_view kMagic = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
   constexpr std::size_t kPagesAt = 16;  // pages of the database before
-  const std::string journal = beginning(journalPathOf(recording), kPagesAt + 4);
+  const std::string journal = beginningOfFile(journalPathOf(recording), kPagesAt + 4);
   return journal.size() == kPagesAt + 4 && journal.starts_with(kMagic) &&
-         bigEndian(journal.data() + kPagesAt) > 0;
+         numberAt(journal, kPagesAt) > 0;
 }
 
 // By its header alone, which is the same at any moment of its life (section 1.3).
 bool looksLikeRecording(const fs::path& path) {
   constexpr std::size_t kApplicationIdAt = 68;
-  const std::string header = beginning(path, kApplicationIdAt + 4);
+  const std::string header = beginningOfFile(path, kApplicationIdAt + 4);
   return header.size() == kApplicationIdAt + 4 && header.starts_with("SQLite format 3") &&
-         bigEndian(header.data() + kApplicationIdAt) == std::uint32_t{kPalpateApplicationId};
+         numberAt(header, kApplicationIdAt) == std::uint64_t{kPalpateApplicationId};
 }
 
 // The lock comes first: a recording whose lock is free is never written again, so that nothing here

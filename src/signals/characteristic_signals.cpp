@@ -5,6 +5,7 @@
 #include <string>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/filter/gaussian.h"
 
 namespace palpate {
@@ -168,9 +169,7 @@ SignalTable SignalTable::of(const Profile& profile, const Progress& progress) {
   table.rows_.reserve(table.numFrames_ * table.numMatrices_);
   TactileFrame frame;
   for (std::size_t i = 0; i < table.numFrames_; ++i) {
-    if (progress && i % kFramesPerReport == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(table.numFrames_)))
-      throw Cancelled();
+    reportProgress(progress, i, table.numFrames_, kFramesPerReport);
     profile.readFrame(i, frame);
     for (std::size_t m = 0; m < table.numMatrices_; ++m)
       table.rows_.push_back(characteristicSignals(frame.matrix(m), profile.layout().matrix(m)));

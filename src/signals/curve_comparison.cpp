@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "palpate/core/statistics.h"
 #include "palpate/model/gap_detector.h"
 
 namespace palpate {
@@ -25,9 +26,7 @@ double medianInterval(const Series& series) {
   std::vector<double> intervals(series.timeS.size() - 1);
   for (std::size_t i = 0; i < intervals.size(); ++i)
     intervals[i] = series.timeS[i + 1] - series.timeS[i];
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  return *middle;
+  return upperMedian(intervals);
 }
 
 // Reads a curve at ascending moments.

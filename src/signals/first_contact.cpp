@@ -4,6 +4,7 @@
 #include <string>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 
 namespace palpate {
 namespace {
@@ -78,9 +79,7 @@ std::optional<std::size_t> firstContact(const Profile& profile,
   TactileFrame frame;
   const std::size_t numFrames = profile.numFrames();
   for (std::size_t i = 0; i < numFrames; ++i) {
-    if (progress && i % kFirstContactFramesPerReport == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(numFrames)))
-      throw Cancelled();
+    reportProgress(progress, i, numFrames, kFirstContactFramesPerReport);
     profile.readFrame(i, frame);
     if (row.add(i, numActive(static_cast<const TactileFrame&>(frame)))) return row.begin(i);
   }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/core/time.h"
 
 namespace palpate {
@@ -103,9 +104,7 @@ void readAll(const Profile& profile,
              Sink sink) {
   Reader reader(profile, choice);
   for (std::size_t i = begin; i < end; ++i) {
-    if (progress && (i - begin) % kSamplesPerReport == 0 &&
-        !progress(static_cast<double>(i - begin) / static_cast<double>(end - begin)))
-      throw Cancelled();
+    reportProgress(progress, i - begin, end - begin, kSamplesPerReport);
     const auto [timeS, value] = reader.read(i);
     sink(timeS, value);
   }

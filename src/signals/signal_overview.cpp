@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/core/time.h"
 
 namespace palpate {
@@ -40,9 +41,7 @@ void SignalOverview::compute(const Progress& progress) {
   std::vector<CharacteristicSignals> rows;
   TactileFrame frame;
   for (std::size_t i = 0; i < frames; ++i) {
-    if (progress && i % framesPerReport == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(frames)))
-      throw Cancelled();
+    reportProgress(progress, i, frames, framesPerReport);
     profile_.readFrame(i, frame);
     stampsUs.push_back(frame.hostUs);
     const double timeS = static_cast<double>(frame.hostUs - stampsUs.front()) / kUsPerS;

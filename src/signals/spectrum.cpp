@@ -7,6 +7,7 @@
 #include <string>
 
 #include "palpate/core/error.h"
+#include "palpate/core/statistics.h"
 #include "palpate/model/gap_detector.h"
 
 #include "signals/real_fourier.h"
@@ -18,15 +19,6 @@ constexpr int kLongestWindow = 65'536;
 constexpr std::size_t kSegmentsPerReport = 64;
 // Of an interval: what rounding may take from the grid's last sample.
 constexpr double kRounding = 1e-6;
-
-// Mean of the two middle values where their number is even; 0 of nothing.
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*std::max_element(values.begin(), middle) + *middle);
-}
 
 // The finite samples, and where they lie.
 struct Samples {
@@ -72,7 +64,7 @@ void addStretch(Plan& plan, std::size_t begin, std::size_t end, GridRate gridRat
     } else {
       std::vector<double> intervals;
       for (std::size_t i = begin + 1; i < end; ++i) intervals.push_back(timeS[i] - timeS[i - 1]);
-      stretch.rateHz = 1.0 / median(std::move(intervals));
+      stretch.rateHz = 1.0 / median(intervals);
       stretch.gridSamples =
           static_cast<std::size_t>(std::floor(durationS * stretch.rateHz + kRounding)) + 1;
     }
@@ -124,7 +116,7 @@ Plan planOf(std::span<const double> timeS,
   report.notFinite = values.size() - times.size();
   std::vector<double> intervals;
   for (std::size_t i = 1; i < times.size(); ++i) intervals.push_back(times[i] - times[i - 1]);
-  const double gapS = std::max(kShortestGapS, kGapIntervals * median(intervals));
+  const double gapS = gapThresholdS(intervals.empty() ? 0.0 : median(std::vector(intervals)));
 
   std::size_t begin = 0, within = 0;
   double sum = 0.0, squares = 0.0;

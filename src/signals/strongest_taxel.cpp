@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 
 namespace palpate {
 
@@ -18,8 +19,7 @@ std::optional<TaxelPlace> strongestTaxel(const Profile& profile,
   std::vector<double> sums(layout.numCells(), 0.0);
   TactileFrame frame;
   for (std::size_t i = 0; i < looks; ++i) {
-    if (progress && !progress(static_cast<double>(i) / static_cast<double>(looks)))
-      throw Cancelled();
+    reportProgress(progress, i, looks);
     profile.readFrame(i * numFrames / looks, frame);
     for (std::size_t place = 0; place < sums.size(); ++place)
       sums[place] += static_cast<double>(frame.values[place]);

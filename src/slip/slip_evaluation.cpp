@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
+#include "palpate/core/statistics.h"
 
 namespace palpate {
 namespace {
@@ -62,10 +63,7 @@ double medianIntervalUs(const Profile& profile) {
   std::vector<std::int64_t> intervals;
   for (std::size_t i = 1; i < profile.numFrames(); ++i)
     intervals.push_back(profile.frameTimeUs(i) - profile.frameTimeUs(i - 1));
-  if (intervals.empty()) return 0.0;
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  return static_cast<double>(*middle);
+  return intervals.empty() ? 0.0 : static_cast<double>(upperMedian(intervals));
 }
 
 // A rule without a contest: above a threshold in two frames in a row.
@@ -160,8 +158,7 @@ void SlipEvaluation::add(const Profile& profile, bool slip, const Progress& prog
   TactileFrame frame;
   std::vector<double> jointsDeg;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (progress && !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
-      throw Cancelled();
+    reportProgress(progress, i, profile.numFrames());
     profile.readFrame(i, frame);
     if (const auto sample = profile.angleSampleAt(frame.hostUs))
       jointsDeg = profile.angles(*sample).deg;

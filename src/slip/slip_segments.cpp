@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 
 namespace palpate {
 
@@ -24,8 +25,7 @@ void runSlipDetector(const Profile& profile,
   std::vector<double> jointsDeg;
   std::optional<std::size_t> sample;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (progress && !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
-      throw Cancelled();
+    reportProgress(progress, i, profile.numFrames());
     profile.readFrame(i, frame);
     if (const auto angles = profile.angleSampleAt(frame.hostUs); angles != sample) {
       sample = angles;

@@ -44,5 +44,14 @@ TEST(TextFile, SaysWhyItCanNotBeOpened) {
   EXPECT_EQ(messageOf(folder.path(), 10), folder.path().string() + ": is a folder");
 }
 
+TEST(TextFile, BeginningOfAFileIsAllThatIsThereOfIt) {
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "a", std::string("ab\0cd", 5));
+  EXPECT_EQ(beginningOfFile(folder / "a", 3), std::string("ab\0", 3));
+  EXPECT_EQ(beginningOfFile(folder / "a", 9), std::string("ab\0cd", 5));
+  EXPECT_EQ(beginningOfFile(folder / "none", 9), "");
+  EXPECT_EQ(beginningOfFile(folder.path(), 9), "");
+}
+
 }  // namespace
 }  // namespace palpate::text_file_test

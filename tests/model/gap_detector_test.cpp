@@ -31,5 +31,14 @@ TEST(GapDetector, KnowsNothingAtTheBeginning) {
   EXPECT_FALSE(gaps.afterGap(1'000'000'000));
 }
 
+TEST(GapDetector, ThresholdIsTheLongerOfASecondAndFiveIntervals) {
+  EXPECT_EQ(gapThresholdS(0.0), 1.0);
+  EXPECT_EQ(gapThresholdS(0.2), 1.0);
+  EXPECT_EQ(gapThresholdS(0.25), 1.25);
+  EXPECT_EQ(gapThresholdUs(std::int64_t{200'000}), 1'000'000);
+  EXPECT_EQ(gapThresholdUs(std::int64_t{200'001}), 1'000'005);
+  EXPECT_EQ(gapThresholdUs(200'000.5), 1'000'002.5);
+}
+
 }  // namespace
 }  // namespace palpate::gap_detector_test

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/utc_stamp.h"
 #include "palpate/recognition/trained_model.h"
 
 #include "commands/recognition_work.h"
@@ -93,7 +94,7 @@ int adaptCommand(const Arguments& words) {
   Json classes = Json::array();
   const int code = grasps ? adaptByGrasps(given, zero, model, classes) : kDone;
   model.programVersion = PALPATE_VERSION;
-  model.madeAt = utcNow();
+  model.madeAt = utcStamp();
   saveModel(model, *out, overwrite);
   if (!model.offset.trusted) sayLine("nothing will be sure with it: " + model.offset.text());
   printObject(Json::object()

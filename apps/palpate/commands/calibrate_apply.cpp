@@ -4,6 +4,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/core/time.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
@@ -98,8 +99,7 @@ int calibrateApply(const Arguments& words) {
   TactileFrame frame;
   const Progress report = progress.callback();
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (report && !report(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
-      throw Cancelled();
+    reportProgress(report, i, profile.numFrames());
     profile.readFrame(i, frame);
     const PressureFrame& pressures = frames.of(frame);
     for (std::size_t m = 0; m < pressures.matrices.size(); ++m) {

@@ -3,12 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
-#include <ctime>
 #include <utility>
 
 #include "palpate/calibration/calibration.h"
 #include "palpate/core/error.h"
 #include "palpate/core/output_file.h"
+#include "palpate/core/utc_stamp.h"
 
 #include "commands/calibrate_commands.h"
 #include "commands/filter_options.h"
@@ -84,21 +84,12 @@ StepLoss lossGiven(const CommandLine& given) {
                             : StepLoss::kSquares;
 }
 
-std::string nowText() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text.data();
-}
-
 Json provenance(const std::string& kind) {
   return Json::object()
       .set("kind", "palpate " + kind + " calibration")
       .set("format_version", Calibration::kFormatVersion)
       .set("program_version", PALPATE_VERSION)
-      .set("made_at", nowText());
+      .set("made_at", utcStamp());
 }
 
 void printJson(const CommandLine& given, const Json& json, bool outputWritten) {

@@ -30,8 +30,6 @@ void requireMatrix(const std::filesystem::path& file, std::size_t numMatrices, s
 StepLoss lossGiven(const CommandLine& given);
 // Begins the JSON of one kind: what it is, format version, program version, when.
 Json provenance(const std::string& kind);
-// Now, as UTC in ISO 8601.
-std::string nowText();
 // To standard output, or into the file of -o (unless that was written already).
 void printJson(const CommandLine& given, const Json& json, bool outputWritten = false);
 

@@ -1,7 +1,6 @@
 // palpate calibrate pressure TABLE.csv -o P.json: pressure from gain and temperature.
+#include <cstdint>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "palpate/calibration/calibration.h"
@@ -9,6 +8,8 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/hash.h"
+#include "palpate/core/text_file.h"
+#include "palpate/core/utc_stamp.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/calibrate_commands.h"
@@ -18,12 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string textOf(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::error_code ignored;
-  if (!in || fs::is_directory(path, ignored)) throw FileError(path, "can't be opened");
-  return {(std::istreambuf_iterator<char>(in)), {}};
-}
+constexpr std::uint64_t kLargestNoiseFloor = 64u << 20;  // [bytes]
 
 }  // namespace
 
@@ -65,7 +61,8 @@ int calibratePressure(const Arguments& words) {
   model.study = given.choice("choices", {"default", "study"}) == "study";
   model.indenterAreaMm2 = given.number("area", 0.0, 1e6).value_or(0.0);
   std::optional<NoiseFloor> noise;
-  if (const auto path = given.text("noise")) noise = noiseFloorFrom(Json::parse(textOf(*path)));
+  if (const auto path = given.text("noise"))
+    noise = noiseFloorFrom(Json::parse(readTextFile(*path, kLargestNoiseFloor)));
   CalibrationSampleOptions gather;
   gather.steps = options;
   if (given.has("matrix")) gather.matrix = matrixGiven(given);
@@ -86,7 +83,7 @@ int calibratePressure(const Arguments& words) {
   calibration.sensitivityOffset = given.number("sensitivity-offset", -4095.0, 4095.0);
   calibration.noise = noise;
   calibration.programVersion = PALPATE_VERSION;
-  calibration.madeAt = nowText();
+  calibration.madeAt = utcStamp();
   calibration.options = Json::object()
                             .set("table", table.string())
                             .set("table_sha256", sha256OfFile(table))

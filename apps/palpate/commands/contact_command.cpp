@@ -8,6 +8,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
 #include "palpate/kinematics/contact_geometry.h"
@@ -175,8 +176,7 @@ AngleTroubles writeContact(StandardOutput& out,
   HandContact contact;
   std::string line;
   for (std::size_t i = first; i <= last && last < profile.numFrames(); ++i) {
-    if (!progress(static_cast<double>(i - first) / static_cast<double>(last - first + 1)))
-      throw Cancelled();
+    reportProgress(progress, i - first, last - first + 1);
     profile.readFrame(i, frame);
     const bool posed = poses.posed(frame.hostUs, problems);
     contactOf(frame, poses.pose(), request.options, contact);

@@ -74,19 +74,6 @@ std::vector<double> numbersOf(const CommandLine& given,
   return numbers;
 }
 
-std::vector<CellTruthMask> touchOf(const NoisyContacts& made) {
-  std::vector<CellTruthMask> truth;
-  for (const std::vector<PlaceTruth>& frame : made.truth) {
-    CellTruthMask mask(frame.size(), Touch::kNothing);
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-      if (frame[i] == PlaceTruth::kFaint) mask[i] = Touch::kFaint;
-      if (frame[i] == PlaceTruth::kTouched) mask[i] = Touch::kTouched;
-    }
-    truth.push_back(std::move(mask));
-  }
-  return truth;
-}
-
 int emulated(const CommandLine& given,
              const std::vector<Recipe>& recipes,
              const GhostingOptions& options) {
@@ -104,11 +91,10 @@ int emulated(const CommandLine& given,
       make.degC = degC;
       make.belowCounts = below;
       const NoisyContacts made = makeNoisyContacts(make);
-      const std::vector<CellTruthMask> truth = touchOf(made);
       const GhostSource source{.degC = degC, .belowCounts = below, .contacts = made.contacts};
       for (const Recipe& recipe : recipes) {
         const auto report = measureGhosting(
-            made.profile, recipe, truth, options, partOf(line.callback(), part++, parts));
+            made.profile, recipe, made.truth, options, partOf(line.callback(), part++, parts));
         line.wipe();
         rows.add(recipe, source, report);
       }

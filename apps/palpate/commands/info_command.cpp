@@ -9,6 +9,7 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
 #include "palpate/model/timing.h"
@@ -31,8 +32,7 @@ ValueReport valuesOf(const Profile& profile, const Progress& progress) {
   if (profile.numFrames() > 0) report.maximum = std::numeric_limits<double>::lowest();
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (!progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
-      throw Cancelled();
+    reportProgress(progress, i, profile.numFrames());
     profile.readFrame(i, frame);
     const float largest = *std::max_element(frame.values.begin(), frame.values.end());
     report.maximum = std::max(report.maximum, static_cast<double>(largest));

@@ -12,8 +12,6 @@
 #include "palpate/core/number_text.h"
 #include "palpate/recording/recording.h"
 
-#include "commands/calibrate_commands.h"
-
 namespace palpate::commands {
 
 void sayLine(const std::string& message) {
@@ -131,7 +129,5 @@ void printObject(const Json& json) {
   out.write(json.text() + "\n");
   out.finish();
 }
-
-std::string utcNow() { return nowText(); }
 
 }  // namespace palpate::commands

@@ -57,6 +57,5 @@ std::vector<OptionSpec> pipelineOptionSpecs();
 int codeFor(const FeatureTable& table);
 // To standard output.
 void printObject(const Json& json);
-std::string utcNow();
 
 }  // namespace palpate::commands

@@ -1,11 +1,11 @@
 #include "commands/render_movie.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 
 #include "palpate/core/error.h"
+#include "palpate/core/file_ending.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
 
@@ -42,13 +42,7 @@ void printMovie(const std::string& out, const gui::Movie& movie) {
 
 }  // namespace
 
-bool isMovieName(const std::string& out) {
-  std::string ending = std::filesystem::path(out).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
-  return ending == ".mp4";
-}
+bool isMovieName(const std::string& out) { return lowerEndingOf(out) == ".mp4"; }
 
 void checkMovieUsage(const CommandLine& given) {
   const bool isMovie = isMovieName(given.text("output").value_or(""));

@@ -4,6 +4,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
 #include "palpate/signals/characteristic_signals.h"
@@ -70,8 +71,7 @@ void writeSignals(StandardOutput& out,
   };
   SignalFilter filter(smooth, layout.numMatrices(), write);
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (!progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
-      throw Cancelled();
+    reportProgress(progress, i, profile.numFrames());
     profile.readFrame(i, frame);
     const std::vector<CharacteristicSignals> rows = characteristicSignals(frame);
     if (smooth.empty())

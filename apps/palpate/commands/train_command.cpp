@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/utc_stamp.h"
 #include "palpate/recognition/model_search.h"
 #include "palpate/recognition/trained_model.h"
 
@@ -113,7 +114,7 @@ int trainCommand(const Arguments& words) {
     model.inputs = inputsOf(table, progress);
   });
   model.programVersion = PALPATE_VERSION;
-  model.madeAt = utcNow();
+  model.madeAt = utcStamp();
   model.trainingZero = zero;
   model.options = jsonOf(chosen).set("path", given.words().front());
   if (!found.candidates.empty()) model.options.set("chosen_from", jsonOf(found));

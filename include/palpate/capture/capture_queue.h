@@ -37,6 +37,8 @@ constexpr std::size_t kCaptureStreams = 4;
 
 CaptureStream streamOf(const CaptureItem& item) noexcept;
 std::int64_t stampOf(const CaptureItem& item) noexcept;  // [us since 1970]; of an event its begin
+// By their stamps; at one instant events, temperatures, angles, then the frame they belong to.
+bool isEarlier(const CaptureItem& a, const CaptureItem& b) noexcept;
 
 // Items of one stream that were lost one after the other.
 struct CaptureLoss {

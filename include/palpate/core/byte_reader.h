@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include <palpate/core/byte_order.h>
+
 namespace palpate {
 
 class ByteReader {
@@ -34,9 +36,7 @@ class ByteReader {
       failed_ = true;
       return 0;
     }
-    std::uint64_t value = 0;
-    for (std::size_t i = count; i > 0; --i)
-      value = value << 8 | std::to_integer<std::uint64_t>(bytes_[position_ + i - 1]);
+    const std::uint64_t value = littleEndian(bytes_.subspan(position_, count));
     position_ += count;
     return value;
   }

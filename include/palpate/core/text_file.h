@@ -2,6 +2,7 @@
 // tables.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -12,5 +13,8 @@ namespace palpate {
 // larger is not what it should be. Throws FileError (can't be opened, says why; is a folder; can't
 // be read), FormatError (larger than `byteLimit`).
 std::string readTextFile(const std::filesystem::path& path, std::uint64_t byteLimit);
+
+// What a file begins with, `byteLimit` of it at most; empty where it can't be read.
+std::string beginningOfFile(const std::filesystem::path& path, std::size_t byteLimit);
 
 }  // namespace palpate

@@ -11,6 +11,7 @@
 
 #include <palpate/model/profile.h>
 #include <palpate/model/sensor_characteristics.h>
+#include <palpate/model/touch.h>
 
 namespace palpate {
 
@@ -54,16 +55,9 @@ struct NoisyContact {
   double peakKpa = 0.0;
 };
 
-// What presses on a place, as filter/ghosting.h counts it.
-enum class PlaceTruth : std::uint8_t {
-  kNothing,  // no load (less than half a count of it)
-  kFaint,    // a load that the sensor without noise doesn't report
-  kTouched   // the same sensor without noise reports more than it does at rest
-};
-
 struct NoisyContacts {
-  Profile profile;  // counts, 12 bit, at 1/rateHz; temperatures once a second
-  std::vector<std::vector<PlaceTruth>> truth;  // per frame, one per place
+  Profile profile;                     // counts, 12 bit, at 1/rateHz; temperatures once a second
+  std::vector<CellTruthMask> truth;    // what presses on each place, per frame
   std::vector<NoisyContact> contacts;  // one after the other, sizes in turn, matrices in turn
   std::vector<int> thresholdCounts;    // per matrix
 };

@@ -12,16 +12,9 @@
 #include <palpate/core/progress.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/model/profile.h>
+#include <palpate/model/touch.h>
 
 namespace palpate {
-
-// What is true of a taxel in a frame.
-enum class Touch : std::uint8_t {
-  kNothing,  // nothing presses on it: when it is active, it is a ghost
-  kFaint,    // pressed, but too little to be reported without noise: neither true nor false
-  kTouched   // pressed, and reported without noise
-};
-using CellTruthMask = std::vector<Touch>;  // one per place of the layout
 
 struct GhostingOptions {
   // A contact begins when so many touched taxels of a matrix are active in one frame. > 0

@@ -5,14 +5,15 @@
 #include <cstdint>
 #include <string_view>
 
+#include <palpate/core/file_descriptor.h>
+
 namespace palpate {
 
 struct DatagramStats {
   // Number of datagrams that the operating system accepted. Whether a program received them is
   // unknown, unless the system reports a closed port.
   std::uint64_t sent = 0;
-  // Number of datagrams without a receiver, without buffer space, or too long.
-  std::uint64_t dropped = 0;
+  std::uint64_t dropped = 0;  // nobody listens, no room, or too long
   // Whether the last two datagrams were accepted: the system reports a missing receiver only
   // with the next datagram.
   bool delivered = false;
@@ -25,9 +26,6 @@ class DatagramSender {
 
   // Throws std::invalid_argument (port 0), DeviceError (the system has no socket left).
   explicit DatagramSender(std::uint16_t port);
-  ~DatagramSender();
-  DatagramSender(const DatagramSender&) = delete;
-  DatagramSender& operator=(const DatagramSender&) = delete;
 
   // Whether the system took it. A datagram behind one that nobody heard is tried all the same: a
   // listener may come at any time.
@@ -37,7 +35,7 @@ class DatagramSender {
 
  private:
   std::uint16_t port_;
-  int socket_ = -1;
+  FileDescriptor socket_;
   bool lastTaken_ = false;
   DatagramStats stats_;
 };

@@ -2,6 +2,7 @@
 // recording the same frames give the same answers. (timing.h looks at a whole recording at once.)
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -13,6 +14,15 @@ namespace palpate {
 inline constexpr std::int64_t kShortestGapUs = 1'000'000;  // [us]
 inline constexpr double kShortestGapS = 1.0;               // [s]
 inline constexpr int kGapIntervals = 5;
+
+// The longest interval that is no gap, of the median interval.
+constexpr double gapThresholdS(double medianS) {
+  return std::max(kShortestGapS, kGapIntervals * medianS);
+}
+template <typename Us>
+constexpr Us gapThresholdUs(Us medianUs) {
+  return std::max<Us>(kShortestGapUs, kGapIntervals * medianUs);
+}
 
 class GapDetector {
  public:

@@ -10,6 +10,7 @@
 
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
+#include <palpate/model/time_span.h>
 #include <palpate/model/timing.h>
 #include <palpate/signals/first_contact.h>
 
@@ -47,12 +48,6 @@ std::optional<double> offsetBetween(const TimedProfile& a,
                                     const TimedProfile& b,
                                     Alignment alignment);
 
-struct TimeSpan {
-  double fromS = 0.0;
-  double toS = 0.0;
-  double lengthS() const noexcept { return toS - fromS; }
-  bool operator==(const TimeSpan&) const = default;
-};
 // From the later begin to the earlier end; nothing when they don't meet, or one has no frame.
 std::optional<TimeSpan> commonSpan(const TimedProfile& a, const TimedProfile& b, double offsetS);
 // From the earlier begin to the later end; {0, 0} when neither has a frame.

@@ -7,15 +7,9 @@
 
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
+#include <palpate/model/taxel_place.h>
 
 namespace palpate {
-
-struct TaxelPlace {
-  std::size_t matrix = 0;
-  int y = 0;
-  int x = 0;
-  bool operator==(const TaxelPlace&) const = default;
-};
 
 // The enabled taxel with the largest sum of values over at most `maxFrames` frames, spread evenly
 // (the first of equals); nothing where none feels anything. Throws std::invalid_argument for no

@@ -19,29 +19,26 @@ std::string reason(int error) { return std::generic_category().message(error); }
 
 }  // namespace
 
-FileSource::FileSource(const std::filesystem::path& path) : path_(path) {
-  // Without O_NONBLOCK a named pipe would wait for a writer for ever.
-  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor_ < 0) throw FileError(path_, "can't be opened: " + reason(errno));
+// Without O_NONBLOCK a named pipe would wait for a writer for ever.
+FileSource::FileSource(const std::filesystem::path& path)
+    : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+  if (descriptor_.get() < 0) throw FileError(path_, "can't be opened: " + reason(errno));
   struct stat status {};
-  const int failed = ::fstat(descriptor_, &status);
+  const int failed = ::fstat(descriptor_.get(), &status);
   const int error = errno;
   if (failed == 0 && S_ISREG(status.st_mode)) {
     numBytes_ = static_cast<std::uint64_t>(status.st_size);
     return;
   }
-  ::close(descriptor_);  // the destructor doesn't run
   if (failed != 0) throw FileError(path_, "can't be read: " + reason(error));
   throw FileError(
       path_, S_ISDIR(status.st_mode) ? "is a folder, not a recording" : "is not a regular file");
 }
 
-FileSource::~FileSource() { ::close(descriptor_); }
-
 std::size_t FileSource::read(std::span<char> out) {
   std::size_t size = 0;
   while (size < out.size()) {
-    const ssize_t got = ::read(descriptor_, out.data() + size, out.size() - size);
+    const ssize_t got = ::read(descriptor_.get(), out.data() + size, out.size() - size);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw FileError(path_, "can't be read: " + reason(errno));
     if (got == 0) break;

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <span>
 
+#include "palpate/core/file_descriptor.h"
+
 namespace palpate {
 
 class ByteSource {
@@ -21,15 +23,12 @@ class ByteSource {
 class FileSource final : public ByteSource {
  public:
   explicit FileSource(const std::filesystem::path& path);
-  ~FileSource() override;
-  FileSource(const FileSource&) = delete;
-  FileSource& operator=(const FileSource&) = delete;
   std::size_t read(std::span<char> out) override;
   std::uint64_t numBytes() const noexcept override { return numBytes_; }
 
  private:
   std::filesystem::path path_;
-  int descriptor_ = -1;
+  FileDescriptor descriptor_;
   std::uint64_t numBytes_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/core/xml.h"
 #include "palpate/recording/bzip2_blocks.h"
 
@@ -167,10 +168,7 @@ std::vector<std::byte> readAll(const std::filesystem::path& path) {
 class Reporter {
  public:
   explicit Reporter(const Progress& progress) : progress_(progress) {}
-  void operator()(std::size_t done, std::size_t all) const {
-    if (progress_ && !progress_(static_cast<double>(done) / static_cast<double>(all)))
-      throw Cancelled();
-  }
+  void operator()(std::size_t done, std::size_t all) const { reportProgress(progress_, done, all); }
 
  private:
   const Progress& progress_;

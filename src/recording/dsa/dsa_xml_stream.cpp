@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/hex_text.h"
 
 namespace palpate {
 namespace {
@@ -25,8 +26,7 @@ std::string shownStart(std::string_view first) {
       out += c;
     } else {
       out += "\\x";
-      out += "0123456789ABCDEF"[code >> 4];
-      out += "0123456789ABCDEF"[code & 15u];
+      appendHexDigits(out, code, 2);
     }
   }
   return out + (first.size() > kShown ? "..\"" : "\"");

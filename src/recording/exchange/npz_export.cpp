@@ -29,8 +29,7 @@ std::string npyHead(const std::string& type, const std::vector<std::size_t>& sha
   std::string head = "\x93NUMPY";
   head += '\x01';
   head += '\0';
-  head += static_cast<char>(literal.size() & 0xFF);
-  head += static_cast<char>(literal.size() >> 8);
+  appendLittleEndian(head, literal.size(), 2);
   return head + literal;
 }
 

@@ -1,7 +1,7 @@
 #include "palpate/recording/table_export.h"
 
-#include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/core/time.h"
 
 namespace palpate {
@@ -74,9 +74,7 @@ void writeCsv(const Profile& profile,
   std::string text = "frame,time_ms,matrix,y,x,value\n";
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (progress && i % kFramesPerReport == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
-      throw Cancelled();
+    reportProgress(progress, i, profile.numFrames(), kFramesPerReport);
     profile.readFrame(i, frame);
     for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m) {
       const auto values = frame.matrix(m);

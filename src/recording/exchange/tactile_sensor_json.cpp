@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "palpate/core/error.h"
 #include "palpate/core/json.h"
+#include "palpate/core/progress_steps.h"
 
 namespace palpate {
 namespace {
@@ -59,9 +59,7 @@ void writeTactileSensorLines(const Profile& profile,
   std::string text;
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (progress && i % kFramesPerReport == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
-      throw Cancelled();
+    reportProgress(progress, i, profile.numFrames(), kFramesPerReport);
     profile.readFrame(i, frame);
     appendTactileSensorJson(text, frame, i);
     text += '\n';

@@ -3,7 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdlib>
-#include <fstream>
+#include <string>
 #include <system_error>
 #include <vector>
 
@@ -13,6 +13,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/file_descriptor.h"
+#include "palpate/core/text_file.h"
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/native/palpate_lock.h"
@@ -41,9 +42,8 @@ bool hasHotJournal(const fs::path& recording) {
   if (!fs::exists(status)) return false;
   if (!fs::is_regular_file(status))
     throw FileError(path, "is not a regular file, and has the name of the recording's journal");
-  std::ifstream journal(path, std::ios::binary);
-  char first = 0;
-  return journal.get(first) && first != 0;
+  const std::string first = beginningOfFile(path, 1);
+  return !first.empty() && first[0] != '\0';
 }
 
 // Whether SQLite would read it through a write-ahead log, and make files of its own for that: a
@@ -55,9 +55,8 @@ bool asksForWriteAheadLog(const fs::path& recording) {
   log += "-wal";
   std::error_code ignored;
   if (fs::exists(fs::symlink_status(log, ignored))) return true;
-  std::array<char, kVersionsAt + 2> header{};
-  std::ifstream in(recording, std::ios::binary);
-  return in.read(header.data(), header.size()) &&
+  const std::string header = beginningOfFile(recording, kVersionsAt + 2);
+  return header.size() == kVersionsAt + 2 &&
          (header[kVersionsAt] == kWriteAhead || header[kVersionsAt + 1] == kWriteAhead);
 }
 

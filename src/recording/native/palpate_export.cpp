@@ -2,6 +2,7 @@
 #include <cstdlib>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 #include "palpate/recording/palpate_writer.h"
 
 #include "recording/native/palpate_lock.h"
@@ -73,9 +74,7 @@ void writeAll(const Profile& profile,
   };
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    if (progress && i % kFramesPerReport == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(profile.numFrames())))
-      throw Cancelled();
+    reportProgress(progress, i, profile.numFrames(), kFramesPerReport);
     profile.readFrame(i, frame);
     addBefore(frame.hostUs);
     writer.addFrame(frame);

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <ctime>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -40,13 +41,14 @@ void refuseForeignJournal(const fs::path& recording) {
 
 RecordingLock::RecordingLock(const fs::path& recording) : path_(lockPathOf(recording)) {
   for (;;) {
-    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
-    if (descriptor_ < 0)
+    FileDescriptor opened(
+        ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666));
+    if (opened.get() < 0)
       throw FileError(recording,
                       "can't be written: " + std::generic_category().message(errno) +
                           " (its lock file " + path_.filename().string() + ")");
     int attempt = 0;
-    while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    while (::flock(opened.get(), LOCK_EX | LOCK_NB) != 0) {
       const int reason = errno;
       // isHeld() holds it for an instant; a writer holds it for long.
       constexpr int kAttempts = 20;
@@ -55,8 +57,6 @@ RecordingLock::RecordingLock(const fs::path& recording) : path_(lockPathOf(recor
         ::nanosleep(&pause, nullptr);
         continue;
       }
-      ::close(descriptor_);
-      descriptor_ = -1;
       throw FileError(recording,
                       reason == EWOULDBLOCK
                           ? "is being written by another program"
@@ -66,29 +66,23 @@ RecordingLock::RecordingLock(const fs::path& recording) : path_(lockPathOf(recor
     // lock of a file that nobody else sees.
     struct stat mine {};
     struct stat named {};
-    if (::fstat(descriptor_, &mine) == 0 && ::stat(path_.c_str(), &named) == 0 &&
-        mine.st_ino == named.st_ino && mine.st_dev == named.st_dev)
+    if (::fstat(opened.get(), &mine) == 0 && ::stat(path_.c_str(), &named) == 0 &&
+        mine.st_ino == named.st_ino && mine.st_dev == named.st_dev) {
+      descriptor_ = std::move(opened);
       return;
-    ::close(descriptor_);
+    }
   }
 }
 
-RecordingLock::~RecordingLock() {
-  if (descriptor_ < 0) return;
-  ::unlink(path_.c_str());
-  ::close(descriptor_);
-}
+RecordingLock::~RecordingLock() { ::unlink(path_.c_str()); }
 
 bool RecordingLock::isHeld(const fs::path& recording) {
   // Never waits, whatever has that name; a writer's lock is a file.
-  const int descriptor =
-      ::open(lockPathOf(recording).c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  if (descriptor < 0) return false;
+  const FileDescriptor lock(
+      ::open(lockPathOf(recording).c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   struct stat facts {};
-  const bool held = ::fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode) &&
-                    ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  ::close(descriptor);
-  return held;
+  return lock.get() >= 0 && ::fstat(lock.get(), &facts) == 0 && S_ISREG(facts.st_mode) &&
+         ::flock(lock.get(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
 
 }  // namespace palpate

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include "palpate/core/file_descriptor.h"
+
 namespace palpate {
 
 std::filesystem::path lockPathOf(const std::filesystem::path& recording);
@@ -25,7 +27,7 @@ class RecordingLock {
 
  private:
   std::filesystem::path path_;
-  int descriptor_ = -1;
+  FileDescriptor descriptor_;
 };
 
 }  // namespace palpate

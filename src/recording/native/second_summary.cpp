@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "palpate/core/error.h"
+#include "palpate/core/progress_steps.h"
 
 namespace palpate {
 
@@ -49,9 +49,7 @@ std::vector<SecondSummary> secondsOf(const Profile& profile, const Progress& pro
   TactileFrame frame;
   const std::size_t numFrames = profile.numFrames();
   for (std::size_t i = 0; i < numFrames; ++i) {
-    if (progress && i % kFramesPerReport == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(numFrames)))
-      throw Cancelled();
+    reportProgress(progress, i, numFrames, kFramesPerReport);
     profile.readFrame(i, frame);
     summarizer.add(frame);
   }

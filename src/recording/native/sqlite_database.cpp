@@ -5,6 +5,7 @@
 #include <sqlite3.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/hex_text.h"
 
 namespace palpate {
 namespace {
@@ -17,7 +18,6 @@ constexpr std::int64_t kOpsPerByte = 50;
 
 // SQLite's own switch for reading without locks, which only a URI can carry.
 std::string unlockedUri(const std::filesystem::path& path) {
-  constexpr std::string_view kDigits = "0123456789ABCDEF";
   std::string uri = "file:";
   for (const char letter : std::filesystem::absolute(path).string()) {
     const auto byte = static_cast<unsigned char>(letter);
@@ -25,7 +25,7 @@ std::string unlockedUri(const std::filesystem::path& path) {
         (byte > ' ' && byte < 0x7F && letter != '%' && letter != '?' && letter != '#'))
       uri += letter;
     else
-      uri += std::string("%") + kDigits[byte >> 4] + kDigits[byte & 0xF];
+      uri += "%" + hexDigits(byte, 2);
   }
   return uri + "?immutable=1";
 }

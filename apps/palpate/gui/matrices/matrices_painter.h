@@ -13,6 +13,7 @@
 
 #include <palpate/model/hand_description.h>
 #include <palpate/model/tactile_frame.h>
+#include <palpate/model/taxel_place.h>
 
 #include "gui/appearance/color_map.h"
 #include "gui/appearance/theme.h"
@@ -36,14 +37,6 @@ struct MatricesPictureOptions {
   bool difference = false;  // values are signed: the map of differences, 0 in its middle
   double pixelRatio = 0.0;  // device pixels per pixel: taxels get whole ones; 0: exact (vector)
   QFont font;
-};
-
-// A place of one matrix.
-struct TaxelPlace {
-  std::size_t matrix = 0;
-  int y = 0;
-  int x = 0;
-  bool operator==(const TaxelPlace&) const = default;
 };
 
 // The font of options in pixels, so that it has the same size on every device.

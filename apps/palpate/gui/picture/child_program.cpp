@@ -26,26 +26,12 @@ constexpr int kFirstFree = 10;                 // above all that the program is 
 
 std::string childProgramMessageOf(int error) { return std::generic_category().message(error); }
 
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const noexcept { return number_; }
-  int release() noexcept { return std::exchange(number_, -1); }
-  // Makes its number one that isn't overwritten when it becomes another of the program's.
-  void moveUp() {
-    const int higher = ::fcntl(number_, F_DUPFD_CLOEXEC, kFirstFree);
-    if (higher < 0) throw Error("too many files are open: " + childProgramMessageOf(errno));
-    ::close(std::exchange(number_, higher));
-  }
-
- private:
-  int number_;
-};
+// With a number that isn't overwritten when it becomes another of the program's.
+FileDescriptor movedUp(const FileDescriptor& descriptor) {
+  const int higher = ::fcntl(descriptor.get(), F_DUPFD_CLOEXEC, kFirstFree);
+  if (higher < 0) throw Error("too many files are open: " + childProgramMessageOf(errno));
+  return FileDescriptor(higher);
+}
 
 // What the program inherits; nothing else does, ours are all closed at its start.
 class SpawnPlan {
@@ -88,23 +74,23 @@ ChildProgram::ChildProgram(const std::filesystem::path& program,
   std::array<int, 2> sockets{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0)
     throw Error(program.string() + " can't be started: " + childProgramMessageOf(errno));
-  Descriptor input(sockets[0]);
-  Descriptor theirInput(sockets[1]);
+  FileDescriptor input(sockets[0]);
+  FileDescriptor theirInput(sockets[1]);
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0)
     throw Error(program.string() + " can't be started: " + childProgramMessageOf(errno));
-  Descriptor output(pipe[0]);
-  Descriptor theirOutput(pipe[1]);
-  theirInput.moveUp();
-  theirOutput.moveUp();
-  ::fcntl(output.number(), F_SETFL, O_NONBLOCK);
+  FileDescriptor output(pipe[0]);
+  FileDescriptor theirOutput(pipe[1]);
+  theirInput = movedUp(theirInput);
+  theirOutput = movedUp(theirOutput);
+  ::fcntl(output.get(), F_SETFL, O_NONBLOCK);
   SpawnPlan plan;
-  plan.give(theirInput.number(), STDIN_FILENO);
-  plan.give(theirOutput.number(), STDOUT_FILENO);
-  plan.give(theirOutput.number(), STDERR_FILENO);
+  plan.give(theirInput.get(), STDIN_FILENO);
+  plan.give(theirOutput.get(), STDOUT_FILENO);
+  plan.give(theirOutput.get(), STDERR_FILENO);
   // Last: it may be one of those numbers itself, never one that was just given.
-  Descriptor passed(descriptor < 0 ? -1 : ::fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstFree));
-  if (passed.number() >= 0) plan.give(passed.number(), kPassedAs);
+  FileDescriptor passed(descriptor < 0 ? -1 : ::fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstFree));
+  if (passed.get() >= 0) plan.give(passed.get(), kPassedAs);
 
   std::string name = program.string();
   std::vector<std::string> words = arguments;
@@ -117,19 +103,11 @@ ChildProgram::ChildProgram(const std::filesystem::path& program,
     pid_ = -1;
     throw Error(program.string() + " can't be started: " + childProgramMessageOf(failure));
   }
-  input_ = input.release();
-  output_ = output.release();
+  input_ = std::move(input);
+  output_ = std::move(output);
 }
 
-ChildProgram::~ChildProgram() {
-  kill();
-  closeInput();
-  if (output_ >= 0) ::close(output_);
-}
-
-void ChildProgram::closeInput() {
-  if (input_ >= 0) ::close(std::exchange(input_, -1));
-}
+ChildProgram::~ChildProgram() { kill(); }
 
 void ChildProgram::kill() {
   if (pid_ < 0) return;
@@ -140,29 +118,30 @@ void ChildProgram::kill() {
 }
 
 void ChildProgram::wait(bool toWrite) {
-  std::array<pollfd, 2> polled = {pollfd{output_, POLLIN, 0},
-                                  pollfd{toWrite ? input_ : -1, POLLOUT, 0}};
+  std::array<pollfd, 2> polled = {pollfd{output_.get(), POLLIN, 0},
+                                  pollfd{toWrite ? input_.get() : -1, POLLOUT, 0}};
   if (::poll(polled.data(), polled.size(), kPatienceMs) <= 0 || polled[0].revents == 0) return;
   std::array<char, 4096> piece{};
-  const ssize_t count = ::read(output_, piece.data(), piece.size());
+  const ssize_t count = ::read(output_.get(), piece.data(), piece.size());
   if (count > 0) {
     said_.append(piece.data(), static_cast<std::size_t>(count));
     if (said_.size() > 2 * kMostSaid) said_.erase(0, said_.size() - kMostSaid);
   } else if (count == 0 || (errno != EAGAIN && errno != EINTR)) {
-    ::close(std::exchange(output_, -1));
+    output_ = FileDescriptor();
   }
 }
 
 bool ChildProgram::write(std::span<const std::byte> bytes, const KeepGoing& keepGoing) {
   while (!bytes.empty()) {
-    if (input_ < 0) return false;
-    const ssize_t written = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (input_.get() < 0) return false;
+    const ssize_t written =
+        ::send(input_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (written > 0) {
       bytes = bytes.subspan(static_cast<std::size_t>(written));
       continue;
     }
     if (errno == EPIPE || errno == ECONNRESET) {
-      closeInput();
+      input_ = FileDescriptor();
       return false;
     }
     if (errno != EAGAIN && errno != EINTR)
@@ -174,7 +153,7 @@ bool ChildProgram::write(std::span<const std::byte> bytes, const KeepGoing& keep
 }
 
 int ChildProgram::finish(const KeepGoing& keepGoing) {
-  closeInput();
+  input_ = FileDescriptor();
   int status = 0;
   while (pid_ >= 0) {
     // Not waited for yet: as long as it is a zombie, its number and its group's are nobody else's.
@@ -194,7 +173,7 @@ int ChildProgram::finish(const KeepGoing& keepGoing) {
     }
   }
   // What it said last is in the pipe still.
-  for (std::size_t before = said_.size() + 1; output_ >= 0 && before != said_.size();) {
+  for (std::size_t before = said_.size() + 1; output_.get() >= 0 && before != said_.size();) {
     before = said_.size();
     wait(false);
   }

@@ -11,6 +11,8 @@
 
 #include <sys/types.h>
 
+#include <palpate/core/file_descriptor.h>
+
 namespace palpate::gui {
 
 class ChildProgram {
@@ -43,12 +45,11 @@ class ChildProgram {
  private:
   // Waits until its input takes more or it says something, 50 ms at most.
   void wait(bool toWrite);
-  void closeInput();
   void kill();
 
-  pid_t pid_ = -1;   // -1: ended, and waited for
-  int input_ = -1;   // a socket: writing to it raises no SIGPIPE
-  int output_ = -1;  // -1: it has closed its own
+  pid_t pid_ = -1;         // -1: ended, and waited for
+  FileDescriptor input_;   // a socket: writing to it raises no SIGPIPE
+  FileDescriptor output_;  // none: it has closed its own
   std::string said_;
 };
 

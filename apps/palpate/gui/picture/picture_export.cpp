@@ -6,10 +6,10 @@
 #include <QPdfWriter>
 #include <QPicture>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <palpate/core/error.h>
+#include <palpate/core/file_ending.h>
 
 #include "gui/picture/svg_device.h"
 
@@ -72,10 +72,7 @@ QSize PicturePaper::pixels() const { return (size * scale()).toSize().expandedTo
 QSizeF PicturePaper::sizeMm() const { return size / unitsPerInch * kPictureExportMmPerInch; }
 
 std::optional<ImageFormat> imageFormatOf(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char letter) {
-    return static_cast<char>(std::tolower(letter));
-  });
+  const std::string ending = lowerEndingOf(path);
   if (ending == ".png") return ImageFormat::kPng;
   if (ending == ".svg") return ImageFormat::kSvg;
   if (ending == ".pdf") return ImageFormat::kPdf;

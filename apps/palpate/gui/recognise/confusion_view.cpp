@@ -69,14 +69,18 @@ void ConfusionView::setSide(std::optional<double> side) {
 
 void ConfusionView::showAll() { setSide(kSmallestConfusionSide); }
 
+// Of the matrix that is shown, scrolled as it is.
+ConfusionGrid ConfusionView::gridInSight() const {
+  return confusionGrid(*matrix_,
+                       areaOf(*viewport()),
+                       font(),
+                       side(),
+                       QPointF(horizontalScrollBar()->value(), verticalScrollBar()->value()));
+}
+
 QRectF ConfusionView::rectOf(const Cell& cell) const {
   if (!matrix_) return {};
-  const ConfusionGrid grid =
-      confusionGrid(*matrix_,
-                    areaOf(*viewport()),
-                    font(),
-                    side(),
-                    QPointF(horizontalScrollBar()->value(), verticalScrollBar()->value()));
+  const ConfusionGrid grid = gridInSight();
   return grid.rectOf(cell).intersected(grid.window);
 }
 
@@ -121,12 +125,7 @@ void ConfusionView::paintEvent(QPaintEvent*) {
   QPainter painter(viewport());
   painter.setFont(font());
   const QRectF area = areaOf(*viewport());
-  const ConfusionGrid grid =
-      confusionGrid(*matrix_,
-                    area,
-                    font(),
-                    side(),
-                    QPointF(horizontalScrollBar()->value(), verticalScrollBar()->value()));
+  const ConfusionGrid grid = gridInSight();
   paintConfusion(painter, area, grid, *matrix_, theme_, {chosen_, hovered_ ? hovered_ : chosen_});
 }
 
@@ -136,12 +135,7 @@ void ConfusionView::scrollContentsBy(int, int) { viewport()->update(); }
 
 std::optional<Cell> ConfusionView::cellAt(const QPointF& at) const {
   if (!matrix_) return std::nullopt;
-  const ConfusionGrid grid =
-      confusionGrid(*matrix_,
-                    areaOf(*viewport()),
-                    font(),
-                    side(),
-                    QPointF(horizontalScrollBar()->value(), verticalScrollBar()->value()));
+  const ConfusionGrid grid = gridInSight();
   if (!grid.window.contains(at) || grid.rows == 0) return std::nullopt;
   const int column =
       std::clamp(static_cast<int>((at.x() - grid.origin.x()) / grid.side), 0, grid.columns - 1);

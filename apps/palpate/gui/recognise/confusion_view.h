@@ -53,6 +53,7 @@ class ConfusionView : public QAbstractScrollArea {
   void scrollContentsBy(int dx, int dy) override;
 
  private:
+  ConfusionGrid gridInSight() const;
   std::optional<Cell> cellAt(const QPointF& at) const;
   void layOut();  // scroll bars
   void reveal(const Cell& cell);

@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include <palpate/core/error.h>
+#include <palpate/core/progress_steps.h>
+#include <palpate/core/statistics.h>
 #include <palpate/core/time.h>
+#include <palpate/model/gap_detector.h>
 #include <palpate/recording/recording.h>
 #include <palpate/recording/recording_meta.h>
 #include <palpate/recording/second_summary.h>
@@ -37,15 +40,12 @@ void takeSummary(OpenedRecording& opened, const std::vector<SecondSummary>& seco
         const double gapS =
             static_cast<double>(profile.frameTimeUs(last + 1) - profile.frameTimeUs(last)) /
             kUsPerS;
-        if (gapS > 1.0) opened.timing.gaps.push_back({last, gapS});
+        if (gapS > kShortestGapS) opened.timing.gaps.push_back({last, gapS});
       }
     }
     before = &row;
   }
-  if (counts.empty()) return;
-  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
-  std::nth_element(counts.begin(), middle, counts.end());
-  opened.timing.rateHz = static_cast<double>(*middle);
+  if (!counts.empty()) opened.timing.rateHz = static_cast<double>(upperMedian(counts));
 }
 
 // Of a long one. A native recording holds its summary; of all others, which are read as a whole
@@ -87,9 +87,7 @@ void readThrough(OpenedRecording& opened, const Progress& progress) {
   all.reserve(numFrames * opened.numMatrices());
   TactileFrame frame;
   for (std::size_t i = 0; i < numFrames; ++i) {
-    if (progress && i % kFramesPerReport == 0 &&
-        !progress(static_cast<double>(i) / static_cast<double>(numFrames)))
-      throw Cancelled();
+    reportProgress(progress, i, numFrames, kFramesPerReport);
     opened.profile.readFrame(i, frame);
     allSignals(frame, rows);
     opened.whole.push_back(rows.back());

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "gui/appearance/time_span.h"
+#include <palpate/model/time_span.h>
 
 namespace palpate::gui {
 

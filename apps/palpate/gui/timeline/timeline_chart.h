@@ -8,8 +8,9 @@
 #include <optional>
 #include <vector>
 
+#include <palpate/model/time_span.h>
+
 #include "gui/appearance/theme.h"
-#include "gui/appearance/time_span.h"
 #include "gui/chart/plot.h"
 #include "gui/chart/plotted_curve.h"
 #include "gui/source/opened_recording.h"

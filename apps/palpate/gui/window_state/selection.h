@@ -8,8 +8,7 @@
 #include <vector>
 
 #include <palpate/model/taxel_selection.h>
-
-#include "gui/appearance/time_span.h"
+#include <palpate/model/time_span.h>
 
 namespace palpate::gui {
 
@@ -52,8 +51,8 @@ class Selection : public QObject {
   void spanChanged();
   void visibleSpanChanged();
   void plottedChanged();
-  void visibleSpanRequested(const palpate::gui::TimeSpan& span);
-  void spanRequested(const palpate::gui::TimeSpan& span);
+  void visibleSpanRequested(const palpate::TimeSpan& span);
+  void spanRequested(const palpate::TimeSpan& span);
   void fullRangeRequested();
   void zoomRequested(double seconds, double factor);
 
